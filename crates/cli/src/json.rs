@@ -6,7 +6,8 @@ use sweep::Scalar;
 
 /// Prints `value` as JSON.
 pub fn print(value: &Value) -> std::io::Result<()> {
-    crate::print::print(&format!("{value:#}\n"))
+    // What people would not see is a part of a text for programs.
+    crate::print::print_raw(&format!("{value:#}\n"))
 }
 
 /// The value of a parameter.

@@ -5,11 +5,16 @@ use std::time::Duration;
 
 use results::VerifiedFolder;
 
-/// Prints `text`. A reader that has seen enough and closed the pipe is no error.
+/// Prints `text` for people.
 pub fn print(text: &str) -> io::Result<()> {
+    print_raw(&sweep::visible(text))
+}
+
+/// Prints `text` as it is. A reader that has seen enough and closed the pipe is no error.
+pub fn print_raw(text: &str) -> io::Result<()> {
     let mut stdout = io::stdout().lock();
     // Flushed here, because at the end of the process nobody is left to tell of an error.
-    match stdout.write_all(sweep::visible(text).as_bytes()).and_then(|()| stdout.flush()) {
+    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
         result => result,
     }

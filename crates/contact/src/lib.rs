@@ -1,4 +1,4 @@
-//! Frictionless contact between neighbouring scales: a corner of one on an edge of the other.
+//! Contact between neighbouring scales: a corner of one on an edge of the other.
 //!
 //! Scales are rigid for the kinematics and give way where they touch, by a power law between the force
 //! `λ` on a corner and the approach `δ` of the two bodies (Eq. 5 of Shafiei et al. 2021, doi

@@ -12,7 +12,7 @@ use crate::Solver;
 static MODULE: LazyLock<Mutex<(Solver, Vec<u8>)>> = LazyLock::new(Mutex::default);
 
 fn module() -> MutexGuard<'static, (Solver, Vec<u8>)> {
-    // A module has one thread; what a request that failed has left is an empty buffer and complete calibrations.
+    // A module has one thread; a request that failed leaves its own bytes and complete springs.
     MODULE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 

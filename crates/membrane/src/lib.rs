@@ -6,9 +6,9 @@
 //!
 //! `W = ½ ∫ (EA ε² + EI κ²) ds`
 //!
-//! stationary, where `ε` is the stretch of the axis and `κ` its curvature. Each gap is discretised
-//! by co-rotational Euler–Bernoulli elements, whose deformation is measured in a frame that rotates
-//! with them.
+//! stationary, where `ε` is the stretch of the axis and `κ` its curvature. Each gap is solved as an
+//! elastica, by one spectral element, or by co-rotational Euler–Bernoulli elements, whose
+//! deformation is measured in a frame that rotates with them.
 //!
 //! Lengths are in units of the scale thickness `t` and forces in units of `E_m t²`, so moments are
 //! in units of `E_m t³`; angles are counter-clockwise. Elements take a [`NodePose`] `(x, y, φ)` of each

@@ -22,7 +22,7 @@ use crate::local::Search;
 use crate::margin::has_folded;
 use crate::meter::{SearchMeter, SearchPart};
 use crate::peaks::points_on_peaks;
-use crate::sampled::search::Searches;
+use crate::sampled::search::{SEEDS, Searches};
 use crate::space::SpacePoint;
 use crate::worth::Judgement;
 
@@ -144,24 +144,23 @@ fn find(
 /// The parts of the search for a goal, each with the solutions that it takes: of the goals in `sweeps` within a factor of two.
 fn expected(goal: &DesignGoal) -> Vec<(SearchPart, f64)> {
     let (objectives, variables) = (goal.objectives.len(), goal.space.intervals().len() as f64);
-    let mut parts = vec![(SearchPart::Sample, goal.samples as f64)];
-    let mut answer = |plan: Plan, each: f64| {
-        for _ in 0..objectives {
-            let climbs = (plan.regions + plan.starts) as f64;
-            parts.push((SearchPart::Climb, climbs * 11.0 * variables * each));
-            parts.push((SearchPart::Finish, plan.finalists as f64 * 75.0 * variables * each));
-        }
-        if objectives > 1 {
-            // Half of the points first, then those between them.
-            let points = plan.points as f64 * 80.0 * variables * each;
-            parts.extend([(SearchPart::Front, points), (SearchPart::Front, points)]);
-        }
+    let answer = |plan: Plan, each: f64| {
+        let climbs = (plan.regions + plan.starts) as f64 * 11.0;
+        let finishes = plan.finalists as f64 * 75.0;
+        let each = variables * each;
+        let one = [(SearchPart::Climb, climbs * each), (SearchPart::Finish, finishes * each)];
+        // Half of the points of a front first, then those between them.
+        let halves = if objectives > 1 { 2 } else { 0 };
+        let front = vec![(SearchPart::Front, plan.points as f64 * 80.0 * each); halves];
+        [one.repeat(objectives), front].concat()
     };
-    answer(Plan { points: goal.points, ..Plan::NOMINAL }, 1.0);
+    let mut parts = vec![(SearchPart::Sample, goal.samples as f64)];
+    parts.extend(answer(Plan { points: goal.points, ..Plan::NOMINAL }, 1.0));
     if goal.is_about_samples() {
         // Samples are punctured one by one, but neither differentiated nor bent where no requirement asks for it.
         let each = 0.25 * goal.realisations as f64;
-        answer(Plan { points: goal.points, ..Plan::SAMPLED }, each);
+        parts.push((SearchPart::Samples, (objectives * SEEDS) as f64 * each));
+        parts.extend(answer(Plan { points: goal.points, ..Plan::SAMPLED }, each));
         let best = if objectives > 1 { goal.points } else { 1 } as f64;
         parts.extend([
             (SearchPart::Refine, 230.0 * variables * each),

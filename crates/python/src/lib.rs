@@ -42,7 +42,8 @@ fn parameters() -> Vec<Explained> {
 #[pyfunction]
 fn columns() -> PyResult<Vec<(String, &'static str, &'static str)>> {
     let text = "name = 'x'\nmaterial = { thickness_mm = 1, substrate_modulus_MPa = 1, membrane_modulus_MPa = 1, \
-                scale_density_kg_m3 = 1 }\npuncture.needle = 'guided'\nimperfection.gap_cv = 0.1";
+                scale_density_kg_m3 = 1 }\nimperfection.gap_cv = 0.1\ncontact.friction = 0.1\nflexure.unbend = true\n\
+                puncture = { needle = 'guided', depth_over_t = 1, places = 3, unload = true }";
     let sweep = Sweep::parse(text, "x.toml", &[]);
     let columns = design_columns(&sweep.or_failed("columns")?).into_iter().skip(1);
     Ok(columns.map(|column| (column.name.into_owned(), column.unit, column.meaning)).collect())

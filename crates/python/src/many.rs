@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use results::columns::design_columns;
 use results::{Cell, Column, DesignRow};
 use run::Evaluator;
-use sweep::{Case, PARAMETERS, Parameter, Role, Scalar};
+use sweep::{PARAMETERS, Parameter, Role, Scalar};
 
 use crate::skin::{Skin, evaluator, measures as measures_of};
 use crate::value::{NamedCells, table};
@@ -109,21 +109,15 @@ fn differing(skins: &[Py<Skin>]) -> impl Iterator<Item = &'static Parameter> {
     all().filter(move |parameter| !same.iter().any(|other| other.key == parameter.key))
 }
 
-/// What the columns of a skin depend on.
-type Kind = ([bool; 7], [Option<Scalar>; 2]);
+/// What the columns of a skin depend on: whether its needle is guided and its gaps are random, which parameters are given and which
+/// have another value than that by default, and lists, whose values stand in names.
+type Kind = ([bool; 2], Vec<[bool; 2]>, [Option<Scalar>; 2]);
 
 fn kind(skin: &Skin) -> Kind {
-    let Case { material, critical_tilt, needle_friction, .. } = skin.case();
+    let (sweep, case) = (&skin.sweep, skin.case());
     // Of a single tilt no column has the value in its name.
     let list = |scalar: Scalar| matches!(scalar, Scalar::List(_)).then_some(scalar);
-    let has = [
-        skin.sweep.is_imperfect(),
-        skin.sweep.is_guided(),
-        needle_friction.is_some(),
-        material.thickness_mm.is_some(),
-        material.substrate_modulus_mpa.is_some(),
-        material.membrane_modulus_mpa.is_some(),
-        material.scale_density_kg_m3.is_some(),
-    ];
-    (has, [list(critical_tilt), needle_friction.and_then(list)])
+    let lists = [list(case.critical_tilt), case.needle_friction.and_then(list)];
+    let set = PARAMETERS.iter().map(|p| [sweep.gives(p.key), sweep.sets(p.key)]);
+    ([sweep.is_guided(), sweep.is_imperfect()], set.collect(), lists)
 }

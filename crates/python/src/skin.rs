@@ -130,8 +130,9 @@ impl Skin {
 
     /// Whether it is solved in some milliseconds. Everything else is watched from outside, which costs a thread.
     fn is_quick(&self) -> bool {
-        let Case { imperfection, coupling, flexure, common, .. } = self.case();
+        let Case { imperfection, coupling, flexure, common, puncture, .. } = self.case();
         imperfection.is_none()
+            && puncture.places.is_none()
             && coupling == Coupling::Nearest
             && flexure.method == Method::UnitCell
             && common.solver == Case::default().common.solver
@@ -257,7 +258,9 @@ impl Skin {
 
     fn __hash__(&self) -> u64 {
         let mut hasher = DefaultHasher::new();
-        self.__repr__().hash(&mut hasher);
+        // Equal skins may have been given their parameters in another order.
+        let given = self.given().map(|(of, value)| (of.key, value.to_toml()));
+        given.collect::<BTreeMap<_, _>>().hash(&mut hasher);
         hasher.finish()
     }
 }

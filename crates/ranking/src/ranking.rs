@@ -294,23 +294,9 @@ fn is_as_good(score: f64, best: f64) -> bool {
 
 /// The candidate of the largest fitness, of those that are equal but for round-off the first.
 fn best(candidates: &[Contender], weights: Weights) -> usize {
-    let (mut largest, mut first) = (f64::NEG_INFINITY, (0, f64::NEG_INFINITY));
-    for (i, candidate) in candidates.iter().enumerate() {
-        let score = weights.score(&candidate.terms);
-        if score > largest {
-            largest = score;
-            if !is_as_good(first.1, largest) {
-                first = (i, score);
-            }
-        }
-    }
-    let is_equal = |c: &Contender| is_as_good(weights.score(&c.terms), largest);
-    // What was the first before the largest came may be off by a little less than what counts.
-    if is_as_good(first.1, largest) {
-        first.0
-    } else {
-        candidates.iter().position(is_equal).unwrap_or(0)
-    }
+    let score = |candidate: &Contender| weights.score(&candidate.terms);
+    let largest = candidates.iter().map(score).fold(f64::NEG_INFINITY, f64::max);
+    candidates.iter().position(|candidate| is_as_good(score(candidate), largest)).unwrap_or(0)
 }
 
 /// Writes the tables of `ranking`, with the ranking itself by its weights, and what it goes by, to `folder`; returns the

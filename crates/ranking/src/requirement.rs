@@ -108,6 +108,8 @@ impl Requirement {
         match self.relation {
             // A search aims a little within a strict limit: what it reaches is the limit itself but for round-off.
             Relation::Above | Relation::Below => margin - 10.0 * ROUND_OFF,
+            // Either side of the one value that is asked for is beyond it.
+            Relation::Equal => -margin.abs(),
             _ => margin,
         }
     }
@@ -184,6 +186,14 @@ mod tests {
         assert_eq!(met("a == 2"), [false, true, false]);
         assert_eq!(met("a > 2"), [false, false, true]);
         assert_eq!(met("a < 2"), [true, false, false]);
+    }
+
+    #[test]
+    fn a_margin_is_below_zero_where_a_requirement_is_missed() {
+        let margins = |text: &str| [1.0, 2.0, 3.0].map(|value| requirement(text).margin(value));
+        assert_eq!(margins("a >= 2"), [-0.5, 0.0, 0.5]);
+        assert_eq!(margins("a <= 2"), [0.5, 0.0, -0.5]);
+        assert_eq!(margins("a == 2"), [-0.5, 0.0, -0.5]);
     }
 
     #[test]

@@ -58,6 +58,7 @@ mod tests {
             "snaps",
             "max_stiffness_N_mm",
             "critical_force_p05_N",
+            "friction_work",
         ];
         for column in at_the_end {
             let by = ["needle", "critical_tilt_deg", "needle_friction"];
@@ -69,6 +70,7 @@ mod tests {
             "fold_force",
             "coverage",
             "contact_curvature",
+            "locking_curvature",
         ] {
             assert!(yardsticks(column).is_empty(), "{column}");
         }
@@ -76,6 +78,7 @@ mod tests {
         assert_eq!(yardsticks("membrane_strain_max"), bending);
         assert_eq!(yardsticks("flexural_rigidity_N_mm2"), bending);
         assert_eq!(yardsticks("max_moment_N_mm"), bending);
+        assert!(yardsticks("flexure_friction_work").contains(&bending[2]));
         let unit = ["membrane_thickness_over_t", "membrane_thickness_mm"];
         assert_eq!(yardsticks("initial_compliance"), unit);
     }

@@ -144,6 +144,8 @@ fn changed(sweep: &Sweep, settings: &[Setting]) -> Result<(Sweep, String), Inval
     let (old, new) = (sweep.grid().base(), changed.grid().base());
     // Only what differs is noted: a setting to the value that the sweep has anyway is none.
     let different = PARAMETERS.iter().filter(|p| p.get(old) != p.get(new));
-    let texts: Vec<_> = different.map(|p| format!("{}={}", p.path(), p.get(new))).collect();
+    // A list is written without its spaces, which separate settings.
+    let text = |p: &sweep::Parameter| format!("{}={}", p.path(), p.get(new)).replace(SEPARATOR, "");
+    let texts: Vec<_> = different.map(text).collect();
     Ok((changed, texts.join(&SEPARATOR.to_string())))
 }

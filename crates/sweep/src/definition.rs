@@ -17,7 +17,7 @@ use std::path::Path;
 
 use crate::case::Case;
 use crate::deviation::Deviation;
-use crate::grid::Grid;
+use crate::grid::{Axis, Grid};
 use crate::number;
 use crate::parameter::Scalar;
 use crate::parameter::{PARAMETERS, Parameter, key};
@@ -134,7 +134,8 @@ impl Sweep {
     /// Whether the needle of any design is guided.
     pub fn is_guided(&self) -> bool {
         let base = || self.grid.base().puncture.needle.is_guided();
-        self.grid.axis(key::NEEDLE).map_or_else(base, |_| true)
+        let any = |axis: &Axis| (0..axis.len()).any(|k| axis.value(k) == Scalar::Word("guided"));
+        self.grid.axis(key::NEEDLE).map_or_else(base, any)
     }
 
     /// Whether the designs have a value for the parameter of that name.
@@ -224,11 +225,7 @@ const LONGEST: u64 = 1 << 26;
 /// # Errors
 /// If the file cannot be read or is no TOML.
 pub fn read_entries(path: &Path, settings: &[Setting]) -> Result<KeyValues, InvalidDefinition> {
-    let file = path.display().to_string();
-    match read_text(path) {
-        Ok(text) => entries(&text, &file, settings),
-        Err(reason) => Err(InvalidDefinition::Unreadable { file, reason }),
-    }
+    entries(&read_text(path)?, &path.display().to_string(), settings)
 }
 
 /// The keys and values of the definition `text`, from the file `name`, once `settings` are put in its place.
@@ -247,12 +244,19 @@ pub fn entries(
     Ok(table)
 }
 
-/// The text of the file at `path`, which may be a pipe but not an endless one.
-fn read_text(path: &Path) -> Result<String, String> {
+/// The text of the definition in the file at `path`, which may be a pipe but not an endless one.
+///
+/// # Errors
+/// If the file cannot be read.
+pub fn read_text(path: &Path) -> Result<String, InvalidDefinition> {
     let mut text = String::new();
     let read = File::open(path).and_then(|file| file.take(LONGEST + 1).read_to_string(&mut text));
-    read.map_err(|error| reason(&error))?;
-    if text.len() as u64 > LONGEST { Err("it has more than 64 MB".to_owned()) } else { Ok(text) }
+    let reason = match read {
+        Err(error) => reason(&error),
+        Ok(_) if text.len() as u64 > LONGEST => "it has more than 64 MB".to_owned(),
+        Ok(_) => return Ok(text),
+    };
+    Err(InvalidDefinition::Unreadable { file: path.display().to_string(), reason })
 }
 
 /// A run's own record holds its definition in a table of that name.

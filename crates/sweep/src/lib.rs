@@ -60,7 +60,7 @@ pub use definition::invalid::{InvalidDefinition, Problem, reason, refuse};
 pub use definition::measure::Measure;
 pub use definition::setting::{InvalidSetting, Setting};
 pub use definition::suggestion::{has_part, nearest};
-pub use definition::{Sweep, entries, read_entries};
+pub use definition::{Sweep, entries, read_entries, read_text};
 pub use deviation::{BatchDeviation, Deviation};
 pub use grid::{Axis, DesignNumber, Grid, NoSuchDesign, TooManyDesigns};
 pub use material::Material;

@@ -145,7 +145,7 @@ fn at_least(one: &[f64; 2], other: &[f64; 2]) -> bool {
 }
 
 fn is_sound(design: &MeasuredDesign) -> bool {
-    design.fold_force.is_none() && design.gap_stretch_min.is_none_or(|least| least >= 0.0)
+    design.fold_force.is_none() && design.gap_stretch_min.is_none_or(|least| least > 0.0)
 }
 
 fn sound_rows(study: &Study) -> Vec<usize> {

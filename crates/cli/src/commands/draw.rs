@@ -58,8 +58,8 @@ pub struct Arguments {
 /// Frames of an animation.
 const FRAMES: u32 = 60;
 
-/// Rotations of each end at which a strip is drawn unless told otherwise, degrees.
-const ROTATIONS_DEG: [f64; 4] = [0.0, 45.0, 90.0, 180.0];
+/// Rotations of each end at which a strip is drawn unless told otherwise, besides that at the end of the path, degrees.
+const ROTATIONS_DEG: [f64; 3] = [0.0, 45.0, 90.0];
 
 /// Draws designs.
 pub fn draw(arguments: &Arguments) -> anyhow::Result<u8> {
@@ -178,7 +178,7 @@ impl Drawing<'_> {
         let place = places(
             &self.arguments.at,
             "end-rotation",
-            if last > 0.0 { "0-to-180-deg" } else { "0-to-minus-180-deg" },
+            &format!("0-to-{}-deg", last.to_string().replace('-', "minus-")),
         );
         let file = self.file(&format!("flexure-at-{place}"));
         files.svg(&file, &drawing.svg()?)
@@ -191,9 +191,9 @@ impl Drawing<'_> {
                 (0..=FRAMES).map(|k| last * f64::from(k) / f64::from(FRAMES)).collect()
             }
             [] => {
-                let reached = ROTATIONS_DEG.into_iter().filter(|&size| size <= last.abs());
-                // Adding zero turns −0 into 0, which the name of the file would show.
-                reached.map(|size| size * last.signum() + 0.0).collect()
+                let before = ROTATIONS_DEG.into_iter().filter(|&size| size < last.abs());
+                // Adding zero turns −0 into 0, which the drawing would show.
+                before.map(|size| size * last.signum() + 0.0).chain([last]).collect()
             }
             at => at.to_vec(),
         }

@@ -4,6 +4,7 @@ mod front;
 
 use std::path::PathBuf;
 
+use anyhow::ensure;
 use clap::Args;
 use ranking::{CRITERIA, Preferences, Ranking, Weights};
 use rayon::prelude::*;
@@ -66,6 +67,12 @@ pub fn report(arguments: &Arguments) -> anyhow::Result<u8> {
     let verified = verified_folder(&arguments.results, arguments.partial.completeness())?;
     let results = ResultsFolder::read(&verified, HELD)?;
     let out: PathBuf = arguments.out.clone().unwrap_or_else(|| results.folder.join("report.html"));
+    let ending = out.extension().unwrap_or("html".as_ref());
+    ensure!(
+        ending == "html",
+        "--out {}: not accepted, expected a name that ends in .html, because the page is one for browsers",
+        out.display()
+    );
     require_folder_of("--out", &out)?;
     let front = arguments.front.as_deref().map(|folder| front::front(folder, &results));
     let page = Page { front: front.transpose()?, ..page(&results)? };

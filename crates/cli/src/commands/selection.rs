@@ -7,9 +7,9 @@ use anyhow::{Context as _, bail, ensure};
 use clap::Args;
 use optimisation::{DesignGoal, FRONT, GOAL};
 use results::{Completeness, Results, VerifiedFolder};
-use sweep::{Axis, Case, DesignNumber, Grid, Parameter, Setting, Sweep};
+use sweep::{Axis, Case, DesignNumber, Grid, Parameter, Setting, Sweep, read_text};
 
-use super::source::{Defined, Definition, IS_GOAL, defined, definition_file, settings};
+use super::source::{Defined, Definition, IS_GOAL, defined_by, definition_file, settings};
 
 /// Numbers of designs, or their values.
 #[derive(Debug, Args)]
@@ -54,29 +54,31 @@ pub fn select(
         return of_front(&definition.path, &settings, selection);
     }
     let file = definition_file(&definition.path)?;
+    // Read once: it may be a pipe.
+    let mut text = read_text(&file)?;
     let is_chosen = options(selection).iter().any(|(.., text)| text.is_some());
-    let nominal = match defined(definition)? {
-        Defined::Goal(goal) if is_chosen && selection.numbers.is_empty() => Some(nominal(&goal)),
+    let designs = match defined_by(&text, &file, &settings)? {
+        Defined::Goal(goal) if is_chosen && selection.numbers.is_empty() => {
+            text = nominal(&goal);
+            1
+        }
         Defined::Goal(_) => bail!(
             "{}: {IS_GOAL}; any other is chosen with --gap, --length and --slant",
             file.display()
         ),
-        Defined::Sweep(_) => None,
+        Defined::Sweep(sweep) => sweep.grid().len(),
     };
-    if selection.numbers.is_empty() && !is_chosen {
-        let designs = Sweep::read(&file, &settings)?.grid().len();
-        ensure!(
-            designs == 1,
-            "{}: has {designs} designs; choose with --design, or with --gap, --length and --slant",
-            definition.path.display()
-        );
-        return by_numbers(&file, &settings, &["1".to_owned()]);
+    if is_chosen && selection.numbers.is_empty() {
+        return by_values((&text, &file), settings, selection);
     }
-    if selection.numbers.is_empty() {
-        by_values(&file, nominal.as_deref(), settings, selection)
-    } else {
-        by_numbers(&file, &settings, &selection.numbers)
-    }
+    ensure!(
+        designs == 1 || !selection.numbers.is_empty(),
+        "{}: has {designs} designs; choose with --design, or with --gap, --length and --slant",
+        definition.path.display()
+    );
+    let only = ["1".to_owned()];
+    let numbers = if selection.numbers.is_empty() { only.as_slice() } else { &selection.numbers };
+    by_numbers((&text, &file), &settings, numbers)
 }
 
 /// The designs with these numbers of the Pareto front in the folder of a search.
@@ -119,14 +121,15 @@ fn nominal(goal: &DesignGoal) -> String {
 }
 
 fn by_numbers(
-    file: &Path,
+    (text, file): (&str, &Path),
     settings: &[Setting],
     numbers: &[String],
 ) -> anyhow::Result<Vec<SelectedDesign>> {
-    let sweep = Sweep::read(file, settings)?;
+    let read = |settings: &[Setting]| Sweep::parse(text, &file.display().to_string(), settings);
+    let sweep = read(settings)?;
     let grid = sweep.grid();
     // Settings that change the number of designs leave no design to compare with.
-    let original = Sweep::read(file, &[]).ok().filter(|other| other.grid().len() == grid.len());
+    let original = read(&[]).ok().filter(|other| other.grid().len() == grid.len());
     let selected = |index| SelectedDesign {
         number: Some(grid.number(index)),
         count: grid.len(),
@@ -149,17 +152,13 @@ pub fn ranges(
     numbers.iter().map(range).collect()
 }
 
-/// The designs with values of their own, of the sweep in `file` or, where it is a goal, of its `nominal` design.
+/// The designs with values of their own of the sweep that the text of a file defines.
 fn by_values(
-    file: &Path,
-    nominal: Option<&str>,
+    (text, file): (&str, &Path),
     mut settings: Vec<Setting>,
     selection: &Selection,
 ) -> anyhow::Result<Vec<SelectedDesign>> {
-    let read = |settings: &[Setting]| match nominal {
-        Some(text) => Sweep::parse(text, &file.display().to_string(), settings),
-        None => Sweep::read(file, settings),
-    };
+    let read = |settings: &[Setting]| Sweep::parse(text, &file.display().to_string(), settings);
     let written = read(&settings)?;
     for (option, key, text) in options(selection) {
         let Some(text) = text else { continue };

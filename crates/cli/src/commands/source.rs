@@ -7,7 +7,7 @@ use anyhow::{bail, ensure};
 use clap::Args;
 use optimisation::DesignGoal;
 use results::{Completeness, RunFolder, VerifiedFolder, verify_record};
-use sweep::{InvalidSetting, Setting, Sweep, read_entries};
+use sweep::{InvalidSetting, Setting, Sweep, entries, read_text};
 
 use crate::print::note;
 
@@ -55,11 +55,17 @@ pub enum Defined {
 /// What is said where a sweep is asked for and a goal is given.
 pub const IS_GOAL: &str = "has a [goal]: squama optimise searches for its best design, whose folder has one in optimum.toml";
 
-/// What is defined, with its settings. The file is read once: it may be a pipe.
+/// What is defined, with its settings.
 pub fn defined(definition: &Definition) -> anyhow::Result<Defined> {
+    let settings = settings(&definition.settings)?;
     let file = definition_file(&definition.path)?;
-    let (entries, name) =
-        (read_entries(&file, &settings(&definition.settings)?)?, file.display().to_string());
+    defined_by(&read_text(&file)?, &file, &settings)
+}
+
+/// What the `text` of a file defines.
+pub fn defined_by(text: &str, file: &Path, settings: &[Setting]) -> anyhow::Result<Defined> {
+    let name = file.display().to_string();
+    let entries = entries(text, &name, settings)?;
     if entries.iter().any(|entry| entry.key == "goal") {
         return Ok(Defined::Goal(Box::new(DesignGoal::of_entries(&entries, &name)?)));
     }

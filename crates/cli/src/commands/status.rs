@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::Args;
+use results::Derivation;
 use serde_json::{Value, json};
 use sweep::DesignNumber;
 
@@ -81,6 +82,7 @@ fn as_json(status: &run::RunStatus) -> Value {
     let (archive, header) = (&status.archive, status.archive.header());
     let reason = |((measure, reason), count): (&(&str, &str), &u64)| json!({ "measure": measure, "reason": reason, "designs": count });
     let slow = |(seconds, number): &(f64, DesignNumber)| json!({ "design": number.to_string(), "seconds": seconds });
+    let outdated = |made: &Derivation| json!({ "product": made.product, "command": made.command });
     json!({
         "sweep": archive.sweep().name(),
         "is_running": status.in_use,
@@ -97,6 +99,8 @@ fn as_json(status: &run::RunStatus) -> Value {
         "definition_sha256": header.definition_sha256(),
         "failures": status.reasons.iter().map(reason).collect::<Vec<_>>(),
         "slowest": status.slowest.iter().map(slow).collect::<Vec<_>>(),
+        "problems": status.problems,
+        "out_of_date": status.outdated.iter().map(outdated).collect::<Vec<_>>(),
     })
 }
 

@@ -68,7 +68,7 @@ pub struct Arguments {
 /// Designs that are analysed at a time: each holds some kilobytes until the tables are written.
 const MOST: u64 = 100_000;
 
-/// Says how far what is made may differ from what is drawn, and how much of it meets what is required.
+/// Tells how the measures of a design scatter where its dimensions do, and the share of skins that meets the requirements.
 pub fn tolerance(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let sweep = read(&arguments.definition)?;
     check(arguments, &sweep)?;

@@ -35,6 +35,26 @@ fn a_design_has_all_its_values() {
 }
 
 #[test]
+fn what_people_do_not_see_is_in_a_text_for_programs() {
+    let place = Place::with(FEW);
+    let folder = "a\u{200b}b";
+    place.squama("run x.toml -q --out").arg(folder).assert().code(0);
+    let output = place.squama("design --design 6 --json").arg(folder).output().expect("output");
+    let design: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert_eq!(design["folder"], format!("{folder}/designs/0006"));
+}
+
+#[cfg(unix)]
+#[test]
+fn the_definition_of_a_design_may_come_through_a_pipe() {
+    let place = Place::with(FEW);
+    let mut design = place.squama("design /dev/stdin --design 6 --json --out d");
+    let output = design.write_stdin(FEW).output().expect("output");
+    let design: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert_eq!(design["design"], "0006");
+}
+
+#[test]
 fn a_definition_is_told() {
     let place = Place::with(FEW);
     let definition = place.json("check x.toml --json");

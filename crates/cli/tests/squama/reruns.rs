@@ -54,6 +54,19 @@ fn failed_designs_are_solved_again_and_what_changed_is_told() {
 }
 
 #[test]
+fn a_list_that_was_set_is_one_setting_of_the_command() {
+    let place = Place::with(FEW);
+    place.squama(STOPPED).assert().code(1);
+    let again =
+        "rerun r --design 4 -q --set puncture.scales=31 --set puncture.critical_tilt_deg=[5,10]";
+    place.squama(again).assert().code(1);
+    let table = place.read("r/failures.csv");
+    let row = table.lines().find(|row| row.starts_with("0004,")).expect("a row");
+    let settings = "--set puncture.scales=31 --set 'puncture.critical_tilt_deg=[5,10]'";
+    assert!(row.contains(settings), "{row}");
+}
+
+#[test]
 fn designs_are_chosen_by_number_and_by_value() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --out r").assert().code(0);

@@ -60,10 +60,10 @@ fn rounded(value: f64) -> f64 {
 /// The least and the largest `d/p` of the space: at corners, since gap and length move it one way each. `None` if they are too many.
 fn open_shares(space: &DesignSpace) -> Option<(f64, f64)> {
     let intervals = space.intervals().len();
-    if intervals > CORNERED {
+    if intervals > CORNERED || space.combinations() > 1 << CORNERED {
         return None;
     }
-    let shares = (0..space.combinations().min(1 << CORNERED)).flat_map(|combination| {
+    let shares = (0..space.combinations()).flat_map(|combination| {
         (0..1_usize << intervals).filter_map(move |corner| {
             let share = |j: usize| if corner >> j & 1 == 1 { 1.0 } else { 0.0 };
             let shares = (0..intervals).map(share).collect();

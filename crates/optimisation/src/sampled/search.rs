@@ -18,7 +18,7 @@ use crate::space::SpacePoint;
 const NOMINAL_POINTS: usize = 10;
 
 /// Nominal designs, for each objective, that are sampled at first.
-const SEEDS: usize = 16;
+pub(crate) const SEEDS: usize = 16;
 
 /// Designs, of different regions where there are some, that are looked at with more samples.
 const REFINED: usize = 2;

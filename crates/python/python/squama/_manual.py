@@ -42,7 +42,8 @@ def skin():
             lines += ["", f"[{section}]"]
             last = section
         unit = "" if unit == "-" else f" ({unit})"
-        default = "required" if section == "designs" else "not given" if default is None else f"default {default}"
+        has_default = section != "designs" or key.endswith(("_over_t", "_mm"))
+        default = f"default {default}" if default else "not given" if has_default else "required"
         lines += [f"{key}{unit}", f"    {meaning}: {expected}; {default}"]
     lines += ["", "Measures of a solved skin, with their units:", ""]
     lines += [f"{name} ({unit}): {meaning}" for name, unit, meaning in columns()]

@@ -72,14 +72,14 @@ impl PageFront {
                 width: step - left,
                 height: PANEL,
             };
-            inside.extend(self.panel(grid, pair, area));
+            inside.extend(self.panel(grid, pair, area, pairs.len()));
         }
         let rows = pairs.len().div_ceil(columns) as f64;
         sheet(WIDTH, above + rows * (PANEL + below), "What a search has found", inside)
     }
 
     /// Draws two axes: the designs of the grid, and above them those that were found, joined by a line where they are a front of two.
-    fn panel(&self, grid: &Designs, pair: &[&str; 2], area: Area) -> Vec<Element> {
+    fn panel(&self, grid: &Designs, pair: &[&str; 2], area: Area, panels: usize) -> Vec<Element> {
         let axis = |column: &str| {
             let values = grid.numbers(column).chain(self.designs.numbers(column));
             ChartAxis::fit(&axis_label(column), values)
@@ -93,7 +93,7 @@ impl PageFront {
         let mark = |shape: &str, [x, y]: Spot| {
             Element::new("use").with("href", shape).at("x", x).at("y", y)
         };
-        let of_grid = thinned(grid.count(), self.axes().len()).filter_map(|row| {
+        let of_grid = thinned(grid.count(), panels).filter_map(|row| {
             let mark = mark("#grid-design", spot(grid, row)?).with("color", COLORS[1]);
             Some(mark.with("data-design", grid.text("design", row)))
         });

@@ -218,7 +218,8 @@ impl MeasuredValue {
             _ => false,
         };
         let is_unit = quantity.is_none() && self.unit.contains("E_m I_m");
-        let marks = self.needs.contains(&parameter.key);
+        // What is made is no yardstick: skins that rub are compared with such as do not.
+        let marks = self.needs.contains(&parameter.key) && !parameter.has(Role::Made);
         marks
             || (ends && self.place.depends_on_end())
             || (is_unit && parameter.has(Role::UnitOfBending))

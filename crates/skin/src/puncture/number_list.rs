@@ -28,7 +28,9 @@ impl NumberList {
     /// The list of what a rising function makes of the numbers.
     #[must_use]
     pub fn map(self, f: impl Fn(f64) -> f64) -> Self {
-        Self { numbers: self.numbers.map(f), ..self }
+        let mut list = self;
+        list.numbers[..list.count].iter_mut().for_each(|number| *number = f(*number));
+        list
     }
 
     /// The numbers.

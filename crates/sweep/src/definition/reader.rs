@@ -230,25 +230,36 @@ impl Reader {
     /// Refuses several frictions of a guided needle, which has a path for each, and a friction of 0 of a free one, whose critical tilt
     /// it would be.
     fn check_needle(&self) -> Result<(), InvalidDefinition> {
-        let Some((parameter, place)) =
-            self.shared.iter().find(|(shared, _)| shared.key == key::NEEDLE_FRICTION)
-        else {
-            return Ok(());
+        let axis = |key: &str| self.axes.iter().find(|written| written.axis.parameter().key == key);
+        let values = |axis: &Axis| (0..axis.len()).map(|k| axis.value(k)).collect::<Vec<_>>();
+        let shared = self.shared.iter().find(|(shared, _)| shared.key == key::NEEDLE_FRICTION);
+        let (frictions, path, place) = match (axis(key::NEEDLE_FRICTION), shared) {
+            (Some(written), _) => {
+                (values(&written.axis), format!("designs.{}", key::NEEDLE_FRICTION), &written.place)
+            }
+            (None, Some((parameter, place))) => {
+                (vec![parameter.get(&self.case)], parameter.path(), place)
+            }
+            (None, None) => return Ok(()),
         };
-        let is_axis = self.axes.iter().any(|written| written.axis.parameter().key == key::NEEDLE);
         let is_guided = self.case.puncture.needle.is_guided();
-        let friction = parameter.get(&self.case);
-        let expected = match friction {
-            Scalar::List(_) if is_guided || is_axis => {
-                "a number: a guided needle has a path for each friction, as an axis in [designs]"
-            }
-            Scalar::Number(..1e-10) if !is_guided && !is_axis => {
-                "a number of at least 1e-10: its arctangent is the critical tilt of a free needle"
-            }
-            _ => return Ok(()),
-        };
+        let needles = axis(key::NEEDLE).map(|written| values(&written.axis));
+        let is_free =
+            needles.as_ref().map_or(!is_guided, |all| all.contains(&Scalar::Word("free")));
+        let refused = frictions.into_iter().find_map(|friction| match friction {
+            Scalar::List(_) if is_guided || needles.is_some() => Some((
+                friction,
+                "a number: a guided needle has a path for each friction, as an axis in [designs]",
+            )),
+            Scalar::Number(..1e-10) if is_free => Some((
+                friction,
+                "a number of at least 1e-10: its arctangent is the critical tilt of a free needle",
+            )),
+            _ => None,
+        });
+        let Some((friction, expected)) = refused else { return Ok(()) };
         let wrong = WrongValue::not_accepted(friction.to_toml(), expected);
-        Err(refuse(place, &parameter.path(), wrong))
+        Err(refuse(place, &path, wrong))
     }
 
     /// Refuses a radius of a needle that is not guided.

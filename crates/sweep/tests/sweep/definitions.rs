@@ -122,6 +122,17 @@ fn a_guided_needle_has_a_tilt_and_a_friction() {
     let again = Sweep::parse(&sweep.to_toml(), "again.toml", &[]).unwrap();
     assert_eq!(again.grid().case(0), sweep.grid().case(0));
     assert!(sweep.is_guided() && !read("").unwrap().is_guided());
+    assert!(!read("designs.needle = ['free']").unwrap().is_guided());
+    for frictionless in [
+        "designs.needle_friction = [0, 0.1]",
+        "puncture.needle_friction = 0\ndesigns.needle = ['free', 'guided']",
+    ] {
+        let refused = read(frictionless).unwrap_err().to_string();
+        assert!(
+            refused.contains("0 is not accepted, expected a number of at least 1e-10"),
+            "{refused}"
+        );
+    }
     let smooth = "puncture = { needle_friction = 0, needle = 'guided' }";
     assert_eq!(puncture(smooth, 0).needle, Needle::Guided { friction: 0.0 });
     assert_eq!(puncture(smooth, 0).critical_tilt_deg, 10.0);

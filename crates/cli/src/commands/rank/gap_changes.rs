@@ -45,13 +45,20 @@ fn measured_columns(preferences: &Preferences) -> Vec<&str> {
 
 /// A table of the changes, and a sentence for each design at a cliff and each requirement that is missed.
 pub fn gap_changes_report(changes: &[GapChange], requirements: &[Requirement]) -> String {
-    let Some(first) = changes.first().filter(|first| !first.measures.is_empty()) else {
+    let mut columns: Vec<&str> = Vec::new();
+    for measure in changes.iter().flat_map(|change| &change.measures) {
+        if !columns.contains(&measure.column.as_str()) {
+            columns.push(&measure.column);
+        }
+    }
+    if columns.is_empty() {
         return String::new();
-    };
-    let mut header = vec!["design".to_owned(), "gap_over_t".to_owned()];
-    header.extend(first.measures.iter().map(|measure| measure.column.clone()));
+    }
+    let header = ["design", "gap_over_t"].iter().chain(&columns).map(ToString::to_string).collect();
     let row = |change: &GapChange| {
-        let cells = change.measures.iter().map(cell);
+        // A design that was solved again may lack a measure that others have.
+        let measure = |column: &&str| change.measures.iter().find(|m| m.column == **column);
+        let cells = columns.iter().map(|column| measure(column).map_or_else(String::new, cell));
         [change.design.clone(), change.gap.to_string()].into_iter().chain(cells).collect()
     };
     let rows: Vec<Vec<String>> = std::iter::once(header).chain(changes.iter().map(row)).collect();

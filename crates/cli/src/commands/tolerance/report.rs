@@ -120,7 +120,7 @@ fn list(sweep: &Sweep, requirements: &[Requirement], all: &[DesignTolerance]) ->
     let count = counted(all.len() as u64, "design");
     let mut text = format!("{}: {count} of {}\n", sweep.name(), sweep.grid().len());
     let share = |design: &&DesignTolerance| {
-        let last = design.yields.last().and_then(|of| of.proportion.or(None));
+        let last = design.yields.last().and_then(|of| of.proportion);
         last.map_or(-1.0, Proportion::share)
     };
     let mut designs: Vec<&DesignTolerance> = all.iter().collect();
