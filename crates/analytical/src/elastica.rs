@@ -42,6 +42,7 @@ pub const MATTIASSON: [(f64, Tip); 4] = [
 
 /// Returns the displacement of the tip of an inextensible cantilever under the load `PL²/EI > 0`.
 pub fn tip(load: f64) -> Tip {
+    // Just inside: at the ends of the interval the load is zero and infinite.
     let (mut low, mut high) = (FRAC_1_SQRT_2 * (1.0 + 1e-12), 1.0 - 1e-12);
     // Sixty halvings leave an interval below the resolution of a double.
     for _ in 0..60 {
@@ -66,6 +67,7 @@ pub fn rolled_up(elements: usize, angle: f64) -> Vec<[f64; 3]> {
     let count = elements as f64;
     let mut node = [0.0; 2];
     let place = |k: usize| {
+        // The chord of an arc has the mean direction of its ends.
         let chord = angle * (k as f64 - 0.5) / count;
         node = [node[0] + chord.cos() / count, node[1] + chord.sin() / count];
         [node[0], node[1], angle * k as f64 / count]

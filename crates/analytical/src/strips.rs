@@ -31,6 +31,7 @@ pub fn three_strips(gap: f64, terms: usize) -> Option<Rocking> {
         if i < terms { point(i, 2 * terms) } else { centre + point(i - terms, 2 * terms) }
     };
     let potential = |i: usize, j: usize| {
+        // The left strip is the mirror image of the right one, and bears the opposite.
         let odd = |n: usize, x: f64| log_potential(n, x - centre) - log_potential(n, -x - centre);
         let x = x(i);
         -2.0 / PI * if j < terms { log_potential(2 * j + 1, x) } else { odd(j - terms, x) }

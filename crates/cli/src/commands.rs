@@ -135,6 +135,7 @@ impl Command {
     /// Does what the command asks for, and returns its exit code.
     pub fn run(self, interrupt: &Interrupt) -> anyhow::Result<u8> {
         match self {
+            // A command that takes no interrupt has nothing to finish: the first signal ends it.
             Self::Init(arguments) => init::init(&arguments),
             Self::Run(arguments) => run::run(&arguments, interrupt),
             Self::Rerun(arguments) => rerun::rerun(&arguments, interrupt),

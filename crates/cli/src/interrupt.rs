@@ -64,6 +64,7 @@ mod system {
     pub fn listen(interrupt: Interrupt) -> io::Result<()> {
         // With a handler the signal does not end the process, and the write that was too long fails with an error.
         flag::register(SIGXFSZ, Arc::default())?;
+        // A handler would undo `nohup`, under which a run is to outlive its terminal.
         let asking = [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| !is_ignored(*signal));
         let mut signals = Signals::new(asking)?;
         let attend = move || {

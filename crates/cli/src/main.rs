@@ -28,6 +28,7 @@ const BAD_INPUT: u8 = 2;
 fn main() -> ExitCode {
     let command = match Arguments::try_parse() {
         Ok(arguments) => arguments.command,
+        // Help, also where arguments are missing, keeps its lines; only mistakes are told in one.
         Err(error) if error.use_stderr() && !is_help(&error) => return refuse(&one_line(&error)),
         Err(error) => error.exit(),
     };
@@ -58,6 +59,7 @@ fn one_line(error: &clap::Error) -> anyhow::Error {
     let lines = lines
         .filter(|line| !line.is_empty() && !advice.iter().any(|advice| line.starts_with(advice)));
     let lines: Vec<_> = lines.collect();
+    // What clap lists on lines of their own follows a line that ends in a colon.
     let line = lines.join(", ").replace(":, ", ": ");
     let line = line.trim_start_matches("error: ");
     match error.get(ContextKind::Usage) {
@@ -89,6 +91,7 @@ fn refuse(error: &anyhow::Error) -> ExitCode {
     for line in format!("{error:#}").lines() {
         // With nowhere left to say it, the exit code says it.
         let line = sweep::shortened(line);
+        // Escaped last, because the cut might go through an escape.
         let _ = writeln!(std::io::stderr(), "error: {}", sweep::visible(&line));
     }
     ExitCode::from(BAD_INPUT)

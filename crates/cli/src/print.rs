@@ -7,6 +7,7 @@ use results::VerifiedFolder;
 
 /// Prints `text` for people.
 pub fn print(text: &str) -> io::Result<()> {
+    // A terminal would obey control characters in the name of a folder or in a table of others.
     print_raw(&sweep::visible(text))
 }
 
@@ -81,6 +82,7 @@ pub fn time(duration: Duration) -> String {
     if duration < Duration::from_secs(60) {
         format!("{:.2} s", duration.as_secs_f64())
     } else {
+        // Otherwise `humantime` tells a long time to the nanosecond.
         humantime::format_duration(Duration::from_secs(duration.as_secs())).to_string()
     }
 }

@@ -15,9 +15,11 @@ use crate::interrupt::Interrupt;
 use crate::print::time;
 
 /// How often the bar is drawn, and a signal looked for.
+// Short enough for Ctrl-C to seem answered at once.
 const PAUSE: Duration = Duration::from_millis(100);
 
 /// The parts of the bar.
+// The bar counts whole numbers, and the share of the work is a fraction.
 const PARTS: u64 = 10_000;
 
 /// What is said when the first signal has come, of work that `--resume` continues.
@@ -76,6 +78,7 @@ impl<W: Watched> Display<W> {
 pub fn with_bar<T>(units: usize, work: impl FnOnce(&WorkMeter) -> T) -> T {
     let meter = Arc::<WorkMeter>::default();
     meter.begin(units as u64);
+    // No signal sets this interrupt: such work has nothing to finish, and ends at once.
     let display = Display::new(false, &Interrupt::default(), meter, "");
     work(display.watched())
 }
@@ -83,6 +86,7 @@ pub fn with_bar<T>(units: usize, work: impl FnOnce(&WorkMeter) -> T) -> T {
 impl<W> Drop for Display<W> {
     fn drop(&mut self) {
         if let Some((sender, watcher)) = self.watcher.take() {
+            // The watcher ends when its channel is closed: joined first, it would never end.
             drop(sender);
             // The bar is all that a watcher that has ended badly leaves unfinished.
             let _ = watcher.join();
@@ -137,6 +141,7 @@ impl Counts {
 
 /// Draws the bar until the work has `ended`.
 fn watch(watched: &dyn Watched, interrupt: &Interrupt, ending: &str, ended: &Receiver<()>) {
+    // A file has no bar, but it has the lines about slow designs and about the end.
     let bar = if stderr().is_terminal() { ProgressBar::new(PARTS) } else { ProgressBar::hidden() };
     if let Ok(style) = ProgressStyle::with_template("{wide_bar} {msg}") {
         bar.set_style(style);
@@ -150,6 +155,7 @@ fn watch(watched: &dyn Watched, interrupt: &Interrupt, ending: &str, ended: &Rec
             bar.suspend(|| eprintln!("{ending}"));
         }
         for line in watched.news() {
+            // Written across a bar, a line would be torn.
             bar.suspend(|| eprintln!("{line}"));
         }
         let (share, text) = watched.look(begun.elapsed());
@@ -173,9 +179,11 @@ impl Watched for Counts {
 impl Counts {
     /// How far a run is that has done `share` of its work in `elapsed`.
     fn text(&self, share: f64, elapsed: Duration) -> String {
+        // These counts are shown and not relied on, so that their order does not matter.
         let [designs, before, done, failed] =
             [&self.designs, &self.before, &self.done, &self.failed]
                 .map(|count| count.load(Ordering::Relaxed));
+        // Designs of an earlier session took none of this time.
         let rate = done as f64 / elapsed.as_secs_f64();
         // A rate below one would read 0/s.
         let rate = if rate >= 1.0 { format!("  {rate:.0}/s") } else { String::new() };
@@ -187,6 +195,7 @@ impl Counts {
 /// The time that the rest of the work takes if it goes on as it has begun, in words; nothing before it has begun.
 fn left(share: f64, elapsed: Duration) -> String {
     let left = elapsed.as_secs_f64() * (1.0 - share) / share;
+    // Before anything is done this is infinite or no number, which no duration takes.
     let left = Duration::try_from_secs_f64(left.ceil()).ok();
     left.map_or(String::new(), |left| format!("  {} left", time(left)))
 }

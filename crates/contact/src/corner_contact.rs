@@ -131,6 +131,7 @@ impl CornerContact {
         let [own, partner, flush] = forces;
         match (self, force, acts) {
             (Self::Open, Force::Own, true) => {
+                // An open contact keeps no corner: what faces an edge as it closes counts.
                 to(Self::Edge(corners.facing()?.0), forces, Force::Own)
             }
             (Self::Edge(edge) | Self::Flush(edge), Force::Partner, true) => {
@@ -142,6 +143,7 @@ impl CornerContact {
             (Self::Edge(_), Force::Own, false) => to(Self::Open, forces, Force::Own),
             (Self::Corner(edge), Force::Own, false) => {
                 let [_, other] = corners.together(edge);
+                // What stays is the own force now, and what has vanished that of the partner.
                 to(Self::Edge(other), [partner, own, flush], Force::Partner)
             }
             (Self::Corner(edge), Force::Partner, false) => {

@@ -95,6 +95,7 @@ impl<'a> Corners<'a> {
     /// The corner of [`Self::facing`] and the edge that it faces.
     pub(crate) fn meeting(&self) -> Option<(CornerEdge, Meeting)> {
         let (leaning, on_side) = (self.leaning(), self.level.tip_on_side());
+        // The corner of the left scale comes first: that of the upper level is the tip.
         let edges = match self.level {
             Level::Upper => [on_side, leaning],
             Level::Lower => [leaning, on_side],
@@ -121,6 +122,7 @@ impl<'a> Corners<'a> {
         // A slant turns an edge clockwise.
         let [of_left, of_right] = self.pair.scales();
         let at_rest = of_left.slant() - of_right.slant();
+        // The sine knows no turns: rotations are counted beyond a full one.
         (self.turned() - at_rest).sin().abs() < PARALLEL
     }
 

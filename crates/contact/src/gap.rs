@@ -49,6 +49,7 @@ pub enum CornerEdge {
 
 impl CornerEdge {
     /// The six possible meetings, the tips on a top or a base last.
+    // As the variants are numbered: a pair finds the corner and edge of a contact by that.
     pub const ALL: [Self; 6] = [
         Self::TopRightOnLeftEdge,
         Self::TopLeftOnRightEdge,
@@ -160,6 +161,7 @@ impl Edge {
     }
 
     fn left(scale: &Parallelogram) -> Self {
+        // Turned by half a turn about its middle, a parallelogram is the same.
         let right = Self::right(scale);
         Self { normal: -right.normal, start: scale.corner(Corner::BottomLeft), ..right }
     }

@@ -84,6 +84,7 @@ impl Extents {
 pub fn overlap_polygon(scale: &Parallelogram, offset: f64, left: &Pose, right: &Pose) -> Vec<Vec2> {
     let points = |pose, at| corners(scale, pose, at).map(|v| Vector::new(v.x, v.y));
     let mut polygon = Vec::new();
+    // For pictures alone: of edges that lie on each other this function is not to be trusted.
     convex_polygons_intersection_points(&points(left, 0.0), &points(right, offset), &mut polygon);
     polygon.iter().map(|v| Vec2::new(v.x, v.y)).collect()
 }
@@ -95,6 +96,7 @@ fn depth(scales: [&Parallelogram; 2], offset: f64, poses: [&Pose; 2]) -> Option<
     };
     let first = polygon(scales[0], poses[0], 0.0)?;
     let second = polygon(scales[1], poses[1], offset)?;
+    // The corners are in their places already.
     let here = Placement::IDENTITY;
     let contact = query::contact(&here, &first, &here, &second, 0.0).ok()??;
     (contact.dist < 0.0).then_some(-contact.dist)

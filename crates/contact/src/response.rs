@@ -82,6 +82,7 @@ impl CornerContact {
             }
             Self::Flush(edge) => {
                 let mut response = CornerResponse::edge(edge, corners, law, forces);
+                // There always is one: a tip on a side never comes to lie flush.
                 if let Some(flush) = edge.flush() {
                     response.add_force(Force::Flush, &corners.gap(flush), forces);
                     response.conditions[Force::Flush as usize] =
@@ -227,6 +228,7 @@ impl Together {
         for (i, slope) in condition.by_coordinate.iter_mut().enumerate() {
             *slope = -self.overrun(self.apart_slope(i));
         }
+        // The edge turns with its scale, and so does the direction beyond its end.
         condition.by_coordinate[self.turns[0]] -= self.apart.dot(&quarter(self.beyond));
         condition
     }
@@ -334,6 +336,7 @@ impl Secant {
     pub(crate) fn new(law: &ContactLaw, f: Vec2) -> Self {
         let force = f.norm();
         if force == 0.0 {
+            // In the limit of no force the secant of the law is its tangent.
             return Self { compliance: law.approach(0.0).slope, growth: 0.0 };
         }
         let approach = law.approach(force);

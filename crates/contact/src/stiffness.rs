@@ -62,6 +62,7 @@ impl CornerContact {
             }
         }
         let sum = forces[Force::Own as usize] + forces[Force::Flush as usize];
+        // Flush forces share one approach, that of their sum, so that all entries are the same.
         stiffness.compliance = [[law.approach(sum).slope; 2]; 2];
         stiffness
     }

@@ -42,6 +42,7 @@ pub(crate) fn write(sheet: &Sheet) -> String {
         groups.add(&[(281, "1"), (3, "ACAD_GROUP"), (350, "D")]);
         groups.add(&[(0, "DICTIONARY"), (5, "D"), (330, "C"), (100, "AcDbDictionary"), (281, "1")]);
     });
+    // Written last, though it comes first: it names the next free handle.
     let mut header = Groups { text: String::new(), handle: 0 };
     let [low, high] = sheet.bounds().map(|at| at.map(|length| length.to_string()));
     header.section("HEADER", |header| {

@@ -62,6 +62,7 @@ impl Patch {
             }
         }
         let [along, across] = scales;
+        // Unchecked, two large counts could overflow to a small product.
         match along.checked_mul(across) {
             Some(1..=MOST_SCALES) => {}
             _ => return Err(NoPatch::Scales(along, across)),

@@ -63,6 +63,7 @@ impl Sheet {
             return Err(NoSheet::Kerf(kerf, smallest));
         }
         let [along, across] = patch.gaps();
+        // Holes that are longer than their bases leave less of the gap between them.
         let mut sheet = Self { outlines: Vec::new(), web: (along - lean).min(across) };
         let top = sheet.profiles(patch, kerf);
         let top = if sheet.has_template() { sheet.template(patch, hole, kerf, top) } else { top };
@@ -101,6 +102,7 @@ impl Sheet {
 
     /// One profile for each scale, in as many rows as the patch has; returns where they end.
     fn profiles(&mut self, patch: &Patch, kerf: f64) -> f64 {
+        // The beam burns half of its width on the inside of the line, which belongs to the part.
         let profile = grown(patch.profile(), kerf / 2.0);
         // Parts lean alike, so they stand closer than their lengths: what counts is the distance across their sides.
         let slant = (patch.shift() / patch.thickness()).atan();

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use crate::{Patch, Prism};
 
 /// What stands before the solids: a product in millimetres, which are known to 1e-7 mm. The representation (#20) follows the solids.
+// The date is fixed: that of writing would make files of the same design differ.
 const PRODUCT: &str = "ISO-10303-21;
 HEADER;
 FILE_DESCRIPTION(('skin of scales on a membrane'),'2;1');
@@ -138,6 +139,7 @@ fn triple(values: [f64; 3]) -> String {
 
 /// A number as STEP writes it: with a point always, and a capital E.
 fn real(value: f64) -> String {
+    // The debug form, because the other one leaves the point of whole numbers away.
     let text = format!("{value:?}");
     match text.split_once('e') {
         Some((digits, exponent)) if digits.contains('.') => format!("{digits}E{exponent}"),

@@ -19,6 +19,7 @@ pub(crate) fn write(patch: &Patch) -> Vec<u8> {
             for value in [normal([a, b, c]), a, b, c].concat() {
                 facets.extend(value.to_le_bytes());
             }
+            // The format ends each facet with two bytes of attributes, of which none are defined.
             facets.extend([0, 0]);
             count += 1;
         }

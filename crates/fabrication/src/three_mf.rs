@@ -64,6 +64,7 @@ fn object(id: u32, name: &str, prisms: impl Iterator<Item = Prism>) -> String {
         for [x, y, z] in prism.corners() {
             let _ = writeln!(vertices, r#"    <vertex x="{x}" y="{y}" z="{z}"/>"#);
         }
+        // Each prism has eight corners of its own, and so is a closed mesh by itself.
         for [a, b, c] in triangles().map(|triangle| triangle.map(|k| 8 * n + k)) {
             let _ = writeln!(faces, r#"    <triangle v1="{a}" v2="{b}" v3="{c}"/>"#);
         }

@@ -99,8 +99,10 @@ impl FitDefinition {
             let own = table.own_values()?;
             // Read again with its own values, a specimen is checked like any other definition.
             let specimen = own.iter().map(|(_, setting)| setting);
+            // Behind those of the command: the last value of a key counts, and is the specimen's.
             let specimen: Vec<_> = settings.iter().chain(specimen).cloned().collect();
             let case = one_design(&read_entries(path, &specimen)?, &name)?.grid().case(0);
+            // Asked here, where the line is known: later nobody could say what is missing.
             let missing = measured.test.units(&case).err().filter(|_| measured.is_physical);
             if let Some(missing) = missing {
                 let expected = format!("{missing} beside a file in mm and N");
@@ -247,6 +249,7 @@ impl CurveTable<'_> {
         let kind = self.text("kind", "\"puncture\" or \"bending\"")?;
         let columns = self.texts("columns")?;
         let mut curve = MeasuredCurve::read(&folder.join(file), columns.as_deref())?;
+        // As the definition names it, and not as it was found from the folder.
         file.clone_into(&mut curve.file);
         if kind != curve.test.name() {
             let expected = match curve.test {
@@ -257,6 +260,7 @@ impl CurveTable<'_> {
         }
         let from = self.number("from")?.unwrap_or(f64::NEG_INFINITY) * curve.x_unit;
         let to = self.number("to")?.unwrap_or(f64::INFINITY) * curve.x_unit;
+        // Before means are taken: one across an end would mix in what does not count.
         curve.points.retain(|point| (from..=to).contains(&point[0]));
         if curve.points.is_empty() {
             let key = if self.entry("from").is_some() { "from" } else { "to" };
@@ -299,6 +303,7 @@ impl CurveTable<'_> {
             let axis = axes.iter().position(|(axis, _)| *axis == name);
             let axis = axis.ok_or_else(|| self.wrong("offsets", expected))?;
             let sizes = measured.points.iter().map(|point| point[axis].abs());
+            // Of a curve of zeros, too, the range has a length.
             let to = FARTHEST_OFFSET * sizes.fold(f64::MIN_POSITIVE, f64::max);
             let unit = if measured.is_physical { axes[axis].1 } else { "-" };
             let name = format!("{name} offset of {}", measured.file);

@@ -133,16 +133,19 @@ impl FitDefinition {
         if points <= unknowns {
             return Err(NoFit::TooFew { points, unknowns });
         }
+        // Curves alone are asked of it, and no measure.
         let evaluator = Evaluator::new(&[]);
         let mut residuals = Residuals::new(self, &evaluator, (stop, work));
         let sizes = residuals.noise.clone();
         let mut shares = residuals.best()?;
         for _ in 0..ROUNDS {
+            // In turns: noise weighs the curves, and the unknowns that follow leave another noise.
             let noise = residuals.noise_at(&shares, &sizes)?;
             let changed = noise
                 .iter()
                 .zip(&residuals.noise)
                 .any(|(new, old)| (new / old - 1.0).abs() > SETTLED);
+            // Also when it has settled: residuals of the answer are over the noise that is told.
             residuals.noise = noise;
             // The noise of a single curve is a factor of all residuals, which moves no minimum.
             if !changed || self.curves.len() == 1 {
@@ -191,6 +194,7 @@ impl Residuals<'_> {
                 .map(|at| directions.points[at].powi(2))
                 .sum();
             let squares: f64 = residuals.iter().map(|r| r * r).sum();
+            // A short curve may be taken up whole by its own offset.
             let freedom = (residuals.len() as f64 - taken).max(1.0);
             (squares / freedom).sqrt().max(LEAST_NOISE * size)
         });
@@ -201,11 +205,13 @@ impl Residuals<'_> {
         let definition = self.definition;
         let count = shares.len();
         let Directions { values: sizes, unknowns: directions, points } = self.directions(shares)?;
+        // Above 0: `fit` refuses curves of no more points than unknowns.
         let freedom = (points.nrows() - count) as f64;
         let t = StudentsT::new(0.0, 1.0, freedom).map_or(f64::NAN, |t| t.inverse_cdf(0.975));
         let largest = sizes.iter().copied().fold(0.0, f64::max);
         // A direction of round-off has an interval that is wide, and not infinite.
         let least = (ROUND_OFF * largest).max(ROUND_OFF);
+        // With `t` in it roots are halves of intervals at once; correlations do not mind.
         let spread: Vec<_> = sizes.iter().map(|size| t / size.max(least)).collect();
         let covariance = |i: usize, j: usize| -> f64 {
             (0..count).map(|k| directions[(i, k)] * directions[(j, k)] * spread[k].powi(2)).sum()

@@ -182,6 +182,7 @@ impl Header {
         }
         let candidates = (0..rows.len().min(LONGEST_PREAMBLE)).flat_map(|i| {
             let units = rows.get(i + 1).filter(|row| is_text(row));
+            // With units first: `Force` above `(N)` is in newtons, and alone it has no unit.
             [units.map(|units| (i, Some(units))), Some((i, None))].into_iter().flatten()
         });
         let mut named = candidates.map(|(i, units)| {
@@ -190,6 +191,7 @@ impl Header {
             let names = cells.map(|(k, cell)| spelled(&format!("{cell} {}", unit(k)))).collect();
             Self { names, lines: texts(i), unnamed: false }
         });
+        // If no line names two columns, the first is what the refusal shows.
         named.find(|header| pair(&header.names).is_ok()).unwrap_or_else(|| {
             let first = rows.first().filter(|row| is_text(row)).into_iter().flatten();
             Self { names: first.map(str::to_owned).collect(), lines: texts(0), unnamed: false }
@@ -217,6 +219,7 @@ fn rows(text: &str) -> (Result<Vec<csv::StringRecord>, csv::Error>, char) {
         .delimiter(separator as u8)
         .comment(Some(b'#'))
         .has_headers(false)
+        // What stands before the header has as many cells as it likes.
         .flexible(true)
         .trim(csv::Trim::All)
         .from_reader(text.as_bytes());
@@ -225,6 +228,7 @@ fn rows(text: &str) -> (Result<Vec<csv::StringRecord>, csv::Error>, char) {
 
 /// The number that a cell holds.
 fn number(cell: &str, separator: char) -> Option<f64> {
+    // With a point in it a comma may separate thousands: such a cell is refused, not guessed.
     let is_comma = separator != ',' && !cell.contains('.');
     let cell = if is_comma { cell.replace(',', ".") } else { cell.to_owned() };
     cell.parse().ok().filter(|number: &f64| number.is_finite())
@@ -240,6 +244,7 @@ fn known(names: &[String], axis: usize) -> impl Iterator<Item = (usize, &'static
 fn pair(names: &[String]) -> Result<[(usize, &'static Column); 2], String> {
     let mut pairs = known(names, 0).flat_map(|x| known(names, 1).map(move |y| [x, y]));
     let found = pairs.find(|[(_, x), (_, y)]| x.1 == y.1 && x.3.is_some() == y.3.is_some());
+    // Refused: the first would be taken, and the other may have been meant.
     let twice = found.and_then(|pair| pair.into_iter().find(|(_, c)| count(names, c.0) > 1));
     if let Some((_, column)) = twice {
         return Err(format!(

@@ -76,6 +76,7 @@ impl FitDefinition {
         let sought: Vec<_> = self.unknowns.iter().filter_map(|u| u.of(Some(curve))).collect();
         let measured = curve.measured.points.iter();
         let wanted: Vec<f64> = measured.map(|point| (point[0] - zero[0]) / units[0]).collect();
+        // Those on the curve alone, in their order: each then takes the next that was found.
         let touching: Vec<f64> = wanted.iter().copied().filter(|place| *place > 0.0).collect();
         let found = solve(evaluator, curve.measured.test, &case, &sought, &touching)?;
         let last = last(&touching, &found);
@@ -89,6 +90,7 @@ impl FitDefinition {
         let value = |place: &Place| match place {
             Place::Before => zero[1],
             Place::On(_, point) => zero[1] + units[1] * point.value,
+            // Compared with its last value, and counted: the user is told to leave them out.
             Place::Beyond => zero[1] + units[1] * last,
         };
         let mut model = ModelCurve {
@@ -106,12 +108,14 @@ impl FitDefinition {
                     on_curve(&places, |_, point| -units[1] * point.slope / units[0])
                 }
                 Source::Parameter(parameter) if !curve.own.contains(&parameter) => {
+                    // Points have rates only for what this curve follows, in the order of unknowns.
                     known += 1;
                     let by = By { curve, case: &case, unknown, parameter, value };
                     let own =
                         by.own_rates(evaluator, &places, known - 1, &mut model.differenced)?;
                     by.with_units(units, &places, &own)
                 }
+                // Offsets of other curves, and what this specimen has a value of its own for.
                 _ => vec![0.0; places.len()],
             };
             model.rates.push(rates);
@@ -154,6 +158,7 @@ impl By<'_> {
         let at: Vec<_> = unknown.iter().map(|&i| at[i]).collect();
         let step = SOLVED_STEP * (self.unknown.to - self.unknown.from);
         let ends = [self.value - step, self.value + step];
+        // From one side at an end of the range: a friction below 0 has no skin.
         let ends = ends.map(|end| end.clamp(self.unknown.from, self.unknown.to));
         let [below, above] = ends.map(|end| {
             let moved = self.parameter.put(self.case, Scalar::Number(end));
@@ -161,6 +166,7 @@ impl By<'_> {
         });
         for ((i, below), above) in unknown.into_iter().zip(below?).zip(above?) {
             let rise = below.zip(above).map(|(below, above)| above.value - below.value);
+            // A point to which only one of the two paths comes tells nothing.
             rates[i] = rise.map_or(0.0, |rise| rise / (ends[1] - ends[0]));
         }
         Ok(rates)

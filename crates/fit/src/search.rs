@@ -66,6 +66,7 @@ impl<'a> Residuals<'a> {
         // Of several curves the noise is found in some three more improvements.
         let improved = IMPROVED + if definition.curves.len() > 1 { 3 } else { 0 };
         work.begin((STARTS * count + 1) as u64 + EXPECTED * improved as u64);
+        // Until residuals tell the noise, each curve counts by its size: newtons beside newton mm.
         let noise = definition.curves.iter().map(|curve| {
             let points = &curve.measured.points;
             let squares: f64 = points.iter().map(|point| point[1].powi(2)).sum();
@@ -130,6 +131,7 @@ impl<'a> Residuals<'a> {
 
     /// All residuals over the noise of their curves.
     fn weighted(&self, shares: &[f64]) -> Result<Vec<f64>, Stopped> {
+        // Where one curve has no solution, none counts: the skins of a fit stand together.
         let Some(model) = self.solved(shares)? else {
             let points = self.definition.curves.iter().map(|curve| curve.measured.points.len());
             return Ok(vec![UNSOLVABLE; points.sum()]);
@@ -209,6 +211,7 @@ impl Jacobian for &Residuals<'_> {
         let count = shares.len();
         let columns: Vec<_> = match self.solved(shares)? {
             Some(model) => (0..count).map(|j| self.column(&model, j)).collect(),
+            // Flat, which ends the search: only a start is ever asked here, no step goes there.
             None => vec![vec![0.0; points]; count],
         };
         let rows = (0..points).flat_map(|i| columns.iter().map(move |column| column[i]));

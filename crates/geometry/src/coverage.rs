@@ -35,6 +35,7 @@ pub(crate) fn coverage_rate([shift, base, pitch]: [f64; 3], rates: [f64; 3]) -> 
     let [shifts, bases, pitches] = rates;
     let whole = (shift / pitch).round();
     let at_pitch = (shift - whole * pitch).abs() <= NEAR * pitch;
+    // Where a scale just comes under the line, the side tells whether it is one of the whole ones.
     let whole = match at_pitch {
         true if shifts >= whole * pitches => whole,
         true => whole - 1.0,

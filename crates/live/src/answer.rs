@@ -150,6 +150,7 @@ impl Slope {
         let good = if plain_goal(measure) == Some(Goal::Minimize) { -1.0 } else { 1.0 };
         let [smaller, larger] = [left.map(|slope| -good * slope), right.map(|slope| good * slope)];
         let gain = |side: Option<f64>| side.filter(|gain| *gain > 0.0).unwrap_or(0.0);
+        // At a kink both ways may be better: the steeper one is told.
         let (better, side) = match (gain(smaller), gain(larger)) {
             (smaller, larger) if larger > smaller => (1, larger),
             (0.0, _) => (0, 0.0),

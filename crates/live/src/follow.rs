@@ -78,6 +78,7 @@ pub(crate) fn follow(
             let ahead = look(value_at(middle))?;
             match limit(&good, &ahead, walk) {
                 None => (good, share) = (ahead, middle),
+                // A finer step may meet another limit before the one that the walk had seen.
                 limit => (reason, beyond) = (limit, middle),
             }
         }
@@ -99,6 +100,7 @@ fn limit(here: &Look, ahead: &Look, walk: &Follow) -> Option<String> {
         (Some(here), Some(ahead)) if ahead < here => {
             Some(format!("{} is best here", walk.measure.replace('_', " ")))
         }
+        // Where neither has a value the walk goes on, perhaps to where there is one.
         _ => None,
     }
 }

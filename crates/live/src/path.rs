@@ -66,6 +66,7 @@ impl PuncturedRow {
             |point: &PuncturePoint| if is_guided { point.displacement } else { point.tilt_deg };
         let way = path.path.iter().map(along).fold(0.0, f64::max);
         let at = if is_guided { At::Displacement(drawn * way) } else { At::Tilt(drawn * way) };
+        // At rest nothing is to be drawn, and the path alone is solved for.
         let solved =
             solve(if drawn > 0.0 && way > 0.0 { std::slice::from_ref(&at) } else { &[] }).ok()?;
         let state = solved.at.into_iter().flatten().next();

@@ -73,6 +73,7 @@ impl Request {
 /// `case` with another value of the parameter `key`.
 pub(crate) fn put(case: &Case, key: &str, value: &Setting) -> Result<Case, String> {
     let parameter = Parameter::named(key).ok_or_else(|| format!("{key}: no such parameter"))?;
+    // As text, so that bounds and refusals are those of a definition.
     let written = match value {
         Setting::Number(value) => Value::Number(number::text(*value)),
         Setting::Word(word) => Value::Text(word.clone()),

@@ -64,6 +64,8 @@ impl Solver {
         let evaluator = self.evaluator(request.measures());
         let solved = evaluator.solve(own.grid().number(0), &case);
         let drawn = request.drawn.unwrap_or_default();
+        // Measures come from the steps of the definition, as the command has them; finer steps are
+        // for curves alone.
         let mut smooth = case;
         if request.fine {
             smooth.common.solver.max_step = case.common.solver.max_step.min(CURVE_STEP);
@@ -109,6 +111,7 @@ impl Solver {
 
     /// The sweep that `definition` defines.
     fn sweep(&mut self, definition: &str) -> Result<Sweep, String> {
+        // All requests of one drag have the same definition, which is parsed once.
         if let Some((text, sweep)) = &self.sweep
             && text == definition
         {
@@ -121,6 +124,7 @@ impl Solver {
     }
 
     fn evaluator(&mut self, measures: Vec<Measure>) -> &Evaluator {
+        // There are never more than two: of the hand that moves, and of the one that rests.
         let known = self.evaluators.iter().position(|(others, _)| *others == measures);
         let place = known.unwrap_or_else(|| {
             let evaluator = Evaluator::new(&measures);

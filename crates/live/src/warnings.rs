@@ -25,6 +25,7 @@ pub(crate) fn warnings(
             sentences.push(format!("The path of the {load} ends early: {outcome}."));
         }
     }
+    // A path that has ended early has no critical force, and a sentence of its own above.
     if let (Some(fold), Some(force)) = (number(FOLD_FORCE), number("critical_force")) {
         let share = 100.0 * fold / force;
         sentences.push(format!("From {share:.0} % of the critical force on, the soft surface folds over itself, which no real material can do: do not trust the numbers beyond."));

@@ -101,6 +101,7 @@ impl Elastica {
     /// If the gap is not positive and finite, the half-base negative, or the offset not finite.
     pub fn over(&self, span: Span) -> Result<Self, OutOfRange> {
         check(&span)?;
+        // The rule depends on the order alone, and is shared.
         Ok(Self { span, ..self.clone() })
     }
 
@@ -129,6 +130,7 @@ impl Elastica {
         let [axial, bending] = self.stiffness();
         let mut units = DVector::from_element(self.unknowns(), bending);
         let f = self.order() - 1;
+        // The closure counts in gaps; forces, as of elements, in what moving by `t` makes.
         units.rows_mut(f, 2).fill(axial * self.span.gap);
         units.rows_mut(f + 2, 2).fill(axial / self.span.gap);
         units
@@ -164,6 +166,7 @@ impl Elastica {
             coupling += xi * mixed;
             let mut stretching = hessian.fixed_view_mut::<2, 2>(f, f);
             stretching -= weight * (along * along.transpose());
+            // At both ends the directions are those of the bases, and no unknowns.
             if (1..=f).contains(&i) {
                 gradient[i - 1] += torque;
                 hessian[(i - 1, i - 1)] += stiffness;
@@ -191,6 +194,7 @@ impl Elastica {
         let curvatures = self.curvatures(z);
         let density =
             |(i, section): (usize, Direction)| 0.5 * self.weight(i) * section.strain.powi(2);
+        // The rule integrates this exactly: the square of `θ'` is of degree `2n − 2` (M15).
         let bending = curvatures.component_mul(&curvatures).dot(&self.rule.weights)
             * (0.5 * bending * self.span.gap.powi(2));
         GapEnergies { axial: self.sections(z).map(density).sum(), bending }
@@ -219,6 +223,7 @@ impl Elastica {
         };
         let width = 1.0 / intervals as f64;
         let interval = |k: usize| {
+            // A cosine of a polynomial is none: each interval takes the whole rule.
             let within = self.rule.points.iter().zip(&self.rule.weights);
             within.map(|(xi, w)| *w * width * tangent((k as f64 + xi) * width)).sum::<Vec2>()
         };
@@ -287,6 +292,7 @@ impl Elastica {
     fn sections<'a>(&'a self, z: &'a [f64]) -> impl Iterator<Item = (usize, Direction)> + 'a {
         let State { psi, force, phi, .. } = State::new(z);
         (0..=self.order()).map(move |i| {
+            // A state without `ψ` is one of pure bending, and bends to an arc.
             let deviation = if (1..=psi.len()).contains(&i) { psi[i - 1] } else { 0.0 };
             (i, Direction::new(phi * self.rule.points[i] + deviation, force))
         })

@@ -146,6 +146,7 @@ impl GapMembrane {
         let axial = self.section.axial_stiffness() / self.beam.length();
         let bending = self.section.bending_stiffness() / self.beam.length();
         let unit = |k: usize| if k % 3 == 2 { bending } else { axial };
+        // Without the left scale, which is the frame and has no equations.
         DVector::from_iterator(3 * self.elements, (0..3 * self.elements).map(unit))
     }
 
@@ -165,6 +166,7 @@ impl GapMembrane {
     pub fn largest_strain(&self, u: &DVector<f64>) -> f64 {
         let half_thickness = 0.5 * self.section.thickness();
         let strain = |local: Local| {
+            // Moments are linear along an element, so that the largest stands at one of its ends.
             let curvature = local.moments[0].abs().max(local.moments[1].abs())
                 / self.section.bending_stiffness();
             local.axial_force.abs() / self.section.axial_stiffness() + half_thickness * curvature
@@ -192,6 +194,7 @@ impl GapMembrane {
             let first = self.rest_position(k) + Vec2::new(displacements[0], displacements[1]);
             first + self.element(k).axis_point(&self.bodies(k, &displacements), xi)
         };
+        // Without the beginning of each element, which is the end of the one before it.
         let within = move |k| (1..=intervals).map(move |i| (k, i as f64 / intervals as f64));
         std::iter::once((0, 0.0))
             .chain((0..self.elements).flat_map(within))

@@ -40,6 +40,7 @@ impl Lobatto {
     pub(crate) fn shared(n: usize) -> Arc<Self> {
         // A panic elsewhere leaves the map whole, so a poisoned lock is as good as any.
         let mut rules = SHARED.lock().unwrap_or_else(PoisonError::into_inner);
+        // Made under the lock: whoever asks meanwhile waits instead of making it again.
         Arc::clone(rules.entry(n).or_insert_with(|| Arc::new(Self::new(n))))
     }
 
@@ -56,6 +57,7 @@ impl Lobatto {
             derivative[(i, i)] = -derivative.row(i).sum();
         }
         let mut stiffness = derivative.transpose() * DMatrix::from_diagonal(&weights) * &derivative;
+        // Round-off would leave it unsymmetric in the last digits.
         stiffness.fill_upper_triangle_with_lower_triangle();
         Self { points: x.map(|x| 0.5 * (1.0 + x)), weights, derivative, stiffness, legendre }
     }
@@ -70,6 +72,7 @@ impl Lobatto {
         let (mut above, mut below) = (0.0, 0.0);
         for i in 0..values.len() {
             let distance = xi - self.points[i];
+            // At a point the formula is infinite over infinite.
             if distance == 0.0 {
                 return values[i];
             }
@@ -92,6 +95,7 @@ fn legendre(n: usize, x: f64) -> [f64; 2] {
 /// point of Chebyshev. The points of the right half mirror those of the left one.
 fn point(n: usize, i: usize) -> f64 {
     match (2 * i).cmp(&n) {
+        // The middle exactly: Newton's method would leave it at some 1e-17.
         std::cmp::Ordering::Equal => return 0.0,
         std::cmp::Ordering::Greater => return -point(n, n - i),
         std::cmp::Ordering::Less => {}

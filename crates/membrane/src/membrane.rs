@@ -37,6 +37,7 @@ impl Membrane {
     /// accept one without them.
     pub fn vanishing(&self) -> usize {
         match self {
+            // Nodes between elements turn with the membrane, force or not.
             Self::Elements(_) => 0,
             Self::Elastica(gap) => gap.order() - 1,
         }
@@ -54,6 +55,7 @@ impl Membrane {
     pub fn derivatives(&self, z: &[f64]) -> Derivatives {
         match self {
             Self::Elements(gap) => {
+                // The left scale is the frame: its three coordinates are no entries of the state.
                 let GapResponse { force, tangent, .. } = gap.response(&from_left(z));
                 Derivatives {
                     gradient: force.rows(3, z.len()).into_owned(),

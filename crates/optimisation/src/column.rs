@@ -86,6 +86,7 @@ pub(crate) fn ends_over(
     sweep: &Sweep,
     rows: &[DesignRow],
 ) -> Vec<CriterionEnds> {
+    // As in a ranking, which rescales between designs that cover.
     let covers = |row: &&DesignRow| row.result.coverage.is_none_or(|coverage| coverage > 0.0);
     let ends = goal.criteria.iter().filter_map(|criterion| {
         let given = goal.ends.iter().find(|ends| ends.column == criterion.column);

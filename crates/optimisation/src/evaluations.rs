@@ -147,6 +147,7 @@ impl<'a> Evaluations<'a> {
             return Ok(Arc::clone(known));
         }
         self.go_on()?;
+        // Unlocked meanwhile: two threads may solve one point, and write the same line twice.
         let solve = || evaluator.row(self.number(0), case);
         let mut result = self.meter.slow().told("a design of the search", solve).result;
         // Lengths in mm move others, over the thickness. Where material varies, a sample with another thickness or modulus moves in other parameters, too.

@@ -17,6 +17,7 @@ pub(crate) fn points(space: &DesignSpace, count: usize, seed: u64) -> Vec<SpaceP
         return (0..combinations).map(point).collect();
     }
     let mut points = corners(space, count / 2);
+    // Choices take coordinates, too, or some of their values would get hardly a point.
     let sequence = Sequence::new(space.intervals().len() + space.choices().len(), seed);
     let missing = count.saturating_sub(points.len());
     points.extend((1..=missing).map(|index| split(space, &sequence.point(index))));

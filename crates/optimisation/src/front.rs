@@ -136,6 +136,7 @@ fn improve(
     history: &mut Vec<Candidate>,
     targets: &[Target],
 ) -> Result<(), Halt> {
+    // Each target is a task three times: by itself, and once in either chain.
     search.meter.begin(SearchPart::Front, 3 * targets.len());
     let first = |target: &Target| {
         let mut walk = Vec::new();
@@ -262,6 +263,7 @@ fn targets(search: &Search<'_>, history: &[Candidate], points: usize) -> Vec<Tar
     let values: Vec<Vec<f64>> = history.iter().filter_map(|c| turned(search, c)).collect();
     let count = search.judge.objectives();
     let floors = if count == 2 { even(&values, points) } else { spread(&values, points) };
+    // One objective climbs for all points: floors of the others lead it to any part of a front.
     let target = |floors: Vec<f64>| Target {
         objective: 0,
         floors: floors.into_iter().enumerate().map(|(k, floor)| (k + 1, floor)).collect(),

@@ -62,6 +62,7 @@ impl DesignGoal {
     /// The statistic over samples that a column of this goal stands for; `None` of a column of `designs.csv` or the fitness.
     pub fn statistic(&self, column: &str) -> Option<Statistic> {
         let sweep = self.space.sweep();
+        // With imperfections such names are columns of tables, about the random rows of a design.
         let has_samples = !sweep.deviations().is_empty() && !sweep.is_imperfect();
         Statistic::named(column).filter(|_| has_samples)
     }

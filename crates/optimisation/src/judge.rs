@@ -194,6 +194,7 @@ impl Judge {
         let all = || self.requirements.iter().zip(&required);
         Ok(Worth {
             margins: all().map(margin).collect(),
+            // By values: margins of strict limits are below 0 a little before the limit.
             met: all().all(|(r, value)| r.requirement.is_met(*value)),
             compared: compared.collect(),
             objectives,

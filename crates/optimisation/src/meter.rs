@@ -115,6 +115,7 @@ impl SearchMeter {
     pub(crate) fn begin(&self, part: SearchPart, tasks: usize) {
         let mut parts = self.parts();
         let is_next = |(k, of): (usize, &(SearchPart, f64))| k > parts.at && of.0 == part;
+        // A part that comes more often than foreseen, as refills of fronts may, counts as the last.
         let last = || parts.expected.iter().rposition(|of| of.0 == part);
         let next = parts.expected.iter().enumerate().position(is_next).or_else(last);
         (parts.at, parts.tasks) = (next.unwrap_or(parts.at), tasks);

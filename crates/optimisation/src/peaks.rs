@@ -63,6 +63,7 @@ fn peaks_along(space: &DesignSpace, point: &SpacePoint, interval: usize) -> Vec<
         }
         Some((peak, at(above)))
     };
+    // Empty along an interval that does not move `S/p`, such as a modulus.
     (low.floor() as u32 + 1..=high.floor() as u32).filter_map(on_peak).collect()
 }
 
@@ -70,6 +71,7 @@ fn peaks_along(space: &DesignSpace, point: &SpacePoint, interval: usize) -> Vec<
 /// that no compliance is above `d/p`.
 fn known_shortfall(judge: &Judge, case: &Case, number: DesignNumber) -> f64 {
     let Some(open) = open_share(case) else { return f64::INFINITY };
+    // On a peak coverage is `1 − d/p` itself (O8), and needs no solution.
     let result = DesignResult { coverage: Some(1.0 - open), ..DesignResult::default() };
     let margin = |(requirement, value): (&Requirement, Option<f64>)| {
         let is_compliance = COMPLIANCES.contains(&requirement.column.as_str());

@@ -60,6 +60,7 @@ pub(crate) fn bindings(
     target: &Target,
 ) -> Result<Vec<Binding>, Halt> {
     let limits = binding_limits(search, best, target);
+    // Looked at once more: a polish or a scaling finds its best design without derivatives.
     let (looked, row) = search.look(SearchStage::Gradient, &best.point, true)?;
     let is_whole = matches!(looked.verdict, Judgement::Judged(_));
     let prices = if is_whole { prices(search, &row, target, &limits) } else { None };
@@ -109,6 +110,7 @@ fn prices(
 ) -> Option<Vec<f64>> {
     let judge = search.judge;
     let intervals = search.space.intervals();
+    // A kink along any variable leaves all prices unknown: they balance one gradient together.
     let gradient = |slopes: &dyn Fn(&Parameter) -> Slopes| -> Option<DVector<f64>> {
         let slope = intervals
             .iter()
@@ -155,6 +157,7 @@ fn multipliers(columns: &[DVector<f64>], objective: &DVector<f64>) -> Option<Vec
         } else {
             let scaled: Vec<_> = open.iter().map(|&k| &columns[k] / norms[k]).collect();
             let matrix = DMatrix::from_columns(&scaled);
+            // By singular values: gradients of limits that bind together may depend on each other.
             let solved = matrix.clone().svd(true, true).solve(&-objective, 1e-12).ok()?;
             let least = (0..open.len()).min_by(|&a, &b| solved[a].total_cmp(&solved[b]))?;
             // One at a time: without the limit that pulls most, others may push that pulled with it.

@@ -111,16 +111,19 @@ fn find(
     // Solved before there is a judge: the fitness is rescaled over these.
     let rows = sample_rows(evaluations, &points, meter)?;
     let rescaled = ends(goal, rows);
+    // One set of ends for all three: a fitness between other ends would be another function.
     let judges =
         [&goal.nominal(), goal, &goal.finer()].map(|goal| Judge::rescaling(goal, &rescaled));
     let [nominal, search, finer] =
         judges.each_ref().map(|judge| Search { space: &goal.space, evaluations, judge, meter });
+    // A goal about parameters and mass alone meets no contact and no kink: peaks tell it nothing.
     let on_peaks = if nominal.judge.has_regions() {
         points_on_peaks(&goal.space, nominal.judge, goal.seed)
     } else {
         Vec::new()
     };
     let points = [points, on_peaks].concat();
+    // Points that fill the space are in the journal by now: only those on peaks are solved here.
     let look = |point| Ok(nominal.look(SearchStage::Sample, &point, false)?.0);
     let mut history: Vec<Candidate> = points.into_par_iter().map(look).collect::<Result<_, _>>()?;
     let answer = if goal.is_about_samples() {
@@ -189,6 +192,7 @@ fn sample_rows(
 fn ends(goal: &DesignGoal, mut rows: Vec<DesignRow>) -> Vec<CriterionEnds> {
     let Some(fitness) = &goal.fitness else { return Vec::new() };
     let judge = Judge::rescaling(&goal.nominal(), &fitness.ends);
+    // A design that does not count would stretch the scale to where no search may come.
     rows.retain(|row| judge.is_whole(row));
     ends_over(fitness, goal.space.sweep(), &rows)
 }
@@ -203,6 +207,7 @@ impl LeftOutDesigns {
                     *left_out.missing.entry(column.clone()).or_default() += 1;
                 }
                 Judgement::Folded => left_out.folded += 1,
+                // Folded at the end, it is judged as one that falls short, and counted too.
                 Judgement::Judged(_) | Judgement::Nominal(_) if search.judge.wants_sound() => {
                     let row = search.evaluations.row(0, &candidate.point, &candidate.result);
                     left_out.folded += usize::from(has_folded(&row));
@@ -216,6 +221,7 @@ impl LeftOutDesigns {
 
 /// Refuses a goal with a column in which no design has a number.
 fn check_columns(found: &Found) -> Result<(), OptimisationError> {
+    // A column that only some designs lack is no error: they are left out, and told by its name.
     let is_left_out =
         |c: &Candidate| matches!(c.verdict, Judgement::Failed(_) | Judgement::Missing(_));
     if !found.history.iter().all(is_left_out) {

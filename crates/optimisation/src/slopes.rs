@@ -47,6 +47,7 @@ impl Slopes {
         let (gain_left, gain_right) = (-left, right);
         Some(match (gain_left > 0.0, gain_right > 0.0) {
             _ if left == right => left,
+            // On a ridge no step along this variable gains: the climb moves along the others.
             (false, false) => 0.0,
             _ if gain_left > gain_right => left,
             _ => right,
@@ -55,6 +56,7 @@ impl Slopes {
 
     /// The one slope; `None` at a kink.
     pub fn smooth(self) -> Option<f64> {
+        // At the end of a range one side alone exists, and is the derivative.
         let (left, right) = (self.left.or(self.right)?, self.right.or(self.left)?);
         // Both sides come from differences of their own, and agree to their rounding alone where there is no kink.
         let size = left.abs().max(right.abs());

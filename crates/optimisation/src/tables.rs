@@ -165,6 +165,7 @@ pub fn write_found(
     format: CsvFormat,
 ) -> Result<Vec<String>, OutputError> {
     let mut files = vec![GOAL, HISTORY];
+    // Before any table is written: the claim removes those of an earlier search.
     let mut claim = Claim::take(folder, Maker::Search)?;
     folder.write_text(GOAL, goal.to_toml())?;
     write_rows(folder, HISTORY, format, &history_columns(goal), history(goal, found))?;
@@ -215,6 +216,7 @@ fn write_best(
     let sweep = goal.space.sweep();
     let (words, known) = (Words::new(goal), design_columns(sweep));
     let row = |(index, best): (usize, &BestDesign)| {
+        // By its place in the front: `--design 3` chooses a design of the folder by this number.
         let row = DesignRow { number: sweep.grid().number(index as u64), ..best.row.clone() };
         let mut cells: Cells = known.iter().map(|column| column.cell(&row)).collect();
         cells.extend(

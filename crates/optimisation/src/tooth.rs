@@ -56,6 +56,7 @@ impl Tooth {
         let Some(lengths) = Lengths::of(case) else { return Vec::new() };
         let whole = lengths.place().floor() as u32;
         let sides = |peak| [true, false].map(|rising| Self { peak, rising });
+        // A place is behind one peak and before the next; beside a border both sides are asked.
         let near = [whole, whole + 1].into_iter().flat_map(sides);
         let holds = |tooth: &Self| tooth.borders(lengths).iter().all(|beyond| *beyond <= BORDER);
         near.filter(holds).collect()

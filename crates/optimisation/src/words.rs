@@ -98,6 +98,7 @@ impl<'a> Words<'a> {
             Limit::Lower(j) => wider(j, "less"),
             Limit::Upper(j) => wider(j, "more"),
             Limit::Touch => {
+                // The limit counts as a logarithm: a hundredth of it is 1 % of the end rotation.
                 let costs = amount_of(0.01 * price, objective);
                 format!("1 % more end rotation without contact {} {costs}", verb(objective))
             }

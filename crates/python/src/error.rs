@@ -12,6 +12,7 @@ fn exception<'py>(
     name: &str,
     arguments: impl pyo3::call::PyCallArgs<'py>,
 ) -> PyErr {
+    // Where the class cannot be had, the reason for that is the exception.
     let class = py.import("squama._errors").and_then(|module| module.getattr(name));
     class.and_then(|class| class.call1(arguments)).map_or_else(|error| error, PyErr::from_value)
 }
@@ -64,6 +65,7 @@ pub fn invalid_definition(
             error_of
         }
         InvalidDefinition::Refused { key, problem, .. } => {
+            // Keywords of Python have no sections.
             let key = key.rsplit('.').next().unwrap_or(key);
             let value = given.and_then(|given| given.get_item(key).ok().flatten());
             let (found, expected) = explained(problem);

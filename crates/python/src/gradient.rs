@@ -45,6 +45,7 @@ pub fn gradients(
 fn parameter(skin: &Bound<'_, Skin>, key: &str) -> PyResult<&'static Parameter> {
     let (py, case) = (skin.py(), skin.get().case());
     let parameter = Parameter::named(key).ok_or_else(|| unknown(py, key))?;
+    // Lengths in mm and moduli move nothing but what follows from them, which is continuous.
     let is_smooth = parameter.has(Role::Continuous) || parameter.has(Role::Made);
     if !is_smooth || parameter.size(&case).is_none() {
         let expected = "a parameter that is given as a number and changes continuously";

@@ -72,6 +72,7 @@ fn columns(
     let mut all: Vec<NamedCells> = Vec::new();
     for column in kinds.iter().flat_map(|(_, columns)| columns) {
         if !all.iter().any(|(name, ..)| *name == column.name) {
+            // Name, unit and meaning alone: cells come batch by batch.
             all.extend(table(slice::from_ref(column), &[]));
         }
     }
@@ -102,6 +103,7 @@ fn columns(
 fn differing(skins: &[Py<Skin>]) -> impl Iterator<Item = &'static Parameter> {
     let all = || PARAMETERS.iter().filter(|parameter| !parameter.has(Role::Geometry));
     let mut same: Vec<_> = all().collect();
+    // What no two neighbours differ in is the same for all.
     for pair in skins.windows(2) {
         let (one, next) = (pair[0].get().case(), pair[1].get().case());
         same.retain(|parameter| parameter.get(&one) == parameter.get(&next));

@@ -60,6 +60,7 @@ fn sweep_of(given: &Bound<'_, PyDict>) -> PyResult<Sweep> {
             _ => sections.push(entry(parameter.section, Value::Table(vec![of]))),
         }
     }
+    // Once by a gap and once by a pitch, which stands for one.
     let says_length = keys.iter().filter(|key| **key == key::GAP).count() > 1;
     let is_missing = |p: &&Parameter| {
         let follows = p.key == key::LENGTH && says_length && keys.contains(&key::PITCH);
@@ -82,6 +83,7 @@ fn python(py: Python<'_>, scalar: Scalar) -> PyResult<Bound<'_, PyAny>> {
     Ok(match scalar {
         Scalar::Number(number) => number.into_pyobject(py)?.into_any(),
         Scalar::Count(count) => count.into_pyobject(py)?.into_any(),
+        // A parameter that says whether has the words of booleans, as definitions write them.
         Scalar::Word(word) => match word.parse::<bool>() {
             Ok(whether) => whether.into_pyobject(py)?.to_owned().into_any(),
             Err(_) => word.into_pyobject(py)?.into_any(),
@@ -104,6 +106,7 @@ pub fn measures(of: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<Measure>> {
         }
     };
     let mut measures = names.iter().map(known).collect::<PyResult<Vec<_>>>()?.concat();
+    // Sorted and each once, because evaluators are kept by this list.
     measures.sort();
     measures.dedup();
     Ok(measures)
@@ -206,6 +209,7 @@ impl Skin {
         let no_such = || PyAttributeError::new_err(format!("a Skin has no {name}"));
         let parameter = Parameter::named(name).ok_or_else(no_such)?;
         let case = self.case();
+        // A length has millimetres in whichever unit it was given.
         if parameter.is_in_mm() {
             return Ok(parameter.millimetres(&case).into_pyobject(py)?.into_any());
         }

@@ -95,6 +95,7 @@ pub fn run(
         let told = |progress| watch.tell(progress);
         ::run::run(&sweep, Subset::default(), &place, start, &options, &PROGRAM, told)
     })?;
+    // Designs that fail are results, too: missing are only those that an interrupt has left.
     if finished.or_failed("run")?.missing > 0 { Err(interrupted()) } else { Ok(folder) }
 }
 

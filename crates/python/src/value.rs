@@ -31,6 +31,7 @@ pub fn text(of: &Bound<'_, PyAny>) -> PyResult<String> {
 
 /// A value as a definition would write it. What no definition can hold is kept as text, to be refused by name.
 pub fn value(of: &Bound<'_, PyAny>) -> PyResult<Value> {
+    // Asked first, since in Python a boolean is a whole number, too.
     if of.is_instance_of::<PyBool>() {
         return Ok(Value::Other(text(of)?.to_lowercase()));
     }
@@ -38,6 +39,7 @@ pub fn value(of: &Bound<'_, PyAny>) -> PyResult<Value> {
         return Ok(Value::Text(text(of)?));
     }
     if of.is_instance_of::<PyInt>() {
+        // As text: whole numbers of Python have no bounds.
         return Ok(Value::Number(text(of)?));
     }
     if of.is_instance_of::<PyFloat>() {
@@ -95,6 +97,7 @@ impl Extend<Cell> for Cells {
             && cells.iter().any(is_text)
         {
             let (known, _) = known.as_chunks();
+            // NaN stood for a cell that does not exist, and becomes one again.
             let known = known.iter().map(|of| Cell::from(f64::from_ne_bytes(*of)).number());
             *self = Self::Texts(known.map(|number| Cell::from(number).into()).collect());
         }
@@ -121,6 +124,7 @@ pub fn table<R>(columns: &[Column<R>], rows: &[R]) -> Vec<NamedCells> {
 /// The columns of a table as a stream of Arrow, of one batch, in the capsule by which libraries hand over such streams.
 #[pyfunction]
 pub fn arrow(py: Python<'_>, columns: Vec<(String, ArrowCells)>) -> PyResult<Bound<'_, PyCapsule>> {
+    // A batch of no columns, which `try_from_iter` does not make.
     let mut batch = RecordBatch::from(StructArray::new_empty_fields(0, None));
     if !columns.is_empty() {
         let arrays = columns.into_iter().map(|(name, cells)| (name, cells.array(), true));

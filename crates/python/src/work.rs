@@ -96,6 +96,7 @@ pub fn watched<T: Send + 'static>(
         let waiting = &mut receiver;
         match py.detach(move || waiting.recv_timeout(PAUSE)) {
             Ok(done) => return Ok(done),
+            // The thread has ended without an answer: it panicked.
             Err(RecvTimeoutError::Disconnected) => {
                 return Err(PyRuntimeError::new_err("squama is at fault; please report the call"));
             }

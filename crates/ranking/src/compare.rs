@@ -185,6 +185,7 @@ pub fn compare<'r>(
     let places: Vec<_> = first.header().iter().enumerate().filter_map(place).collect();
     let mut comparison =
         Comparison { first, second, tolerance, matching, places: Vec::new(), columns: Vec::new() };
+    // The matching comes first: the size of a column is that of the designs in both runs.
     comparison.places = places.iter().map(|&places| comparison.compared(places)).collect();
     let places = comparison.places.par_iter();
     comparison.columns = places.map(|&column| comparison.column(column)).collect();
@@ -242,6 +243,7 @@ impl Comparison<'_> {
         for &rows in &self.matching.pairs {
             let cell = self.cell(rows, columns);
             match cell.texts() {
+                // No value in both, as of a design that fails in both, is no difference.
                 ["", ""] => {}
                 [_, ""] => column.only_first += 1,
                 ["", _] => column.only_second += 1,
@@ -260,6 +262,7 @@ impl Comparison<'_> {
 
     /// Every cell that differs.
     fn differences(&self) -> impl Iterator<Item = Difference<'_>> {
+        // One after the other as they are written: two long runs may differ in every cell.
         let cells = move |rows: [usize; 2]| {
             let cell = move |column: &ComparedColumn| {
                 let cell = self.cell(rows, column.places);

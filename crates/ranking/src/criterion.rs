@@ -56,6 +56,7 @@ impl Criterion {
 
     /// The criterion that a column is to be as large, or as small, as can be.
     pub fn new(column: &str, goal: Goal) -> Self {
+        // One of the paper's has its name, too: `are_the_papers` compares whole criteria.
         let known = CRITERIA.iter().find(|known| known.column == column && known.goal == goal);
         let own = || Self {
             name: format!("{} {column}", ["largest", "least"][usize::from(goal == Goal::Minimize)])

@@ -19,6 +19,7 @@ impl<'a> RequirementFilter<'a> {
         results: &'a Results,
         requirements: &'a [Requirement],
     ) -> Result<Self, InvalidResults> {
+        // Found once for the table: every row is asked for them.
         let find =
             |requirement: &'a Requirement| Ok((requirement, results.column(&requirement.column)?));
         let requirements = requirements.iter().map(find).collect::<Result<_, _>>()?;

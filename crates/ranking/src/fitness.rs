@@ -45,6 +45,7 @@ impl CriterionEnds {
     /// The worst and the best of values that make a criterion.
     pub fn of(criterion: &Criterion, values: impl Iterator<Item = f64>) -> Option<Self> {
         let exists = |value: &f64| Scale::Paper.criterion(criterion.goal, *value).is_some();
+        // A value without a criterion, as a penetration of 0, cannot be an end.
         let (low, high) = values
             .filter(exists)
             .map(|value| (value, value))
@@ -62,6 +63,7 @@ impl FitnessGoal {
         ends: &[CriterionEnds],
     ) -> impl Iterator<Item = (&Criterion, RescaledCriterion)> {
         let weighted = self.criteria.iter().zip(self.weights.values());
+        // Without weight a criterion is ignored (R3), also where it has no ends or no value.
         weighted.filter(|(_, weight)| **weight > 0.0).map(|(criterion, &weight)| {
             let goal = criterion.goal;
             let made = |value| Scale::Paper.criterion(goal, value);
@@ -80,12 +82,14 @@ impl RescaledCriterion {
 
     /// Its part `w ln s` in the logarithm of the fitness.
     pub fn part(&self, value: f64) -> Option<f64> {
+        // Beyond the worst end as at it: −∞, so that the fitness is 0 and not undefined (O3).
         Some(self.weight * self.of(value)?.max(0.0).ln())
     }
 
     /// The derivative of that part with respect to the value; 0 where all are equal, so that the criterion does not count.
     pub fn rate(&self, value: f64) -> Option<f64> {
         let (worst, best) = self.ends?;
+        // Not 0: where it is, the fitness is flat, and nobody asks for a rate.
         let rescaled = self.of(value)?;
         // Where small values are good, the criterion is the inverse (R1).
         let made = if self.goal == Goal::Maximize { 1.0 } else { -value.powi(-2) };

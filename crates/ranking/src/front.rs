@@ -108,6 +108,7 @@ fn divide(candidates: &mut [Point], best: &mut PrefixMaxima) {
         return;
     }
     let (earlier, later) = candidates.split_at_mut(candidates.len() / 2);
+    // Beaten points stay, and harm nothing: whom they beat, their victor beats as well.
     divide(earlier, best);
     divide(later, best);
     conquer(earlier, later, best);

@@ -30,6 +30,7 @@ fn texts(values: &[f64]) -> Vec<String> {
 }
 
 fn remedy(parameter: &str) -> &'static str {
+    // In N mm² membranes of different thickness can be compared.
     if Parameter::named(parameter).is_some_and(|parameter| parameter.has(Role::UnitOfBending)) {
         ", e.g. --minimize flexural_rigidity_N_mm2 with a [material]"
     } else {
@@ -84,6 +85,7 @@ pub fn comparable_groups(
         let apart = |group: &Preferences| -> Vec<Preferences> {
             values.iter().map(|value| at(group, *value)).collect()
         };
+        // Every combination, also those that no design has: their rankings are empty.
         groups = groups.iter().flat_map(apart).collect();
     }
     Ok(groups)
@@ -115,6 +117,7 @@ fn values(
     preferences: &Preferences,
     parameter: &str,
 ) -> Result<Vec<f64>, InvalidResults> {
+    // A parameter without a column is the same for all designs.
     let Ok(column) = results.column(parameter) else { return Ok(Vec::new()) };
     let filter = RequirementFilter::new(results, &preferences.requirements)?;
     let mut values: Vec<f64> = Vec::new();

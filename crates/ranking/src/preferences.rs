@@ -90,6 +90,7 @@ impl Preferences {
             return Err(InvalidPreferences::Count(found));
         }
         let is_twice = |(c, criterion): &(usize, &Criterion)| {
+            // By the column alone: one that is to be large and small at once says nothing.
             criteria[..*c].iter().any(|other| other.column == criterion.column)
         };
         if let Some((_, twice)) = criteria.iter().enumerate().find(is_twice) {
@@ -155,6 +156,7 @@ impl Preferences {
                 _ => return Err(unknown(&entry)),
             }
         }
+        // Not the paper's weights: other criteria without weights count the same, however many.
         let Self { requirements, criteria, scale, .. } = found;
         Self::new(requirements, criteria, weights, scale).map_err(|error| InvalidPreferences::Key {
             place,

@@ -131,6 +131,7 @@ impl<'r> Ranking<'r> {
     ) -> Result<Self, InvalidRanking> {
         let (rows, reasons) = contender::sort_out(results, &preferences)?;
         let unmet: usize = reasons.iter().filter(|(why, _)| why.is_unmet()).map(|(_, n)| n).sum();
+        // A design that is left out for another reason meets them: they are not what is in the way.
         if unmet > 0 && unmet == results.len() {
             return Err(InvalidRanking::Unmet(Unmet::of(results, &preferences.requirements)?));
         }
@@ -180,8 +181,10 @@ impl<'r> Ranking<'r> {
         let mut ranked = Vec::with_capacity(order.len());
         let mut rest = order.as_mut_slice();
         while let Some(&(best, _)) = rest.first() {
+            // From the best on, not from one to the next: many small steps would make all equal.
             let equal = rest.partition_point(|(score, _)| is_as_good(*score, best));
             let (equals, others) = rest.split_at_mut(equal);
+            // Within round-off their scores are no order: their numbers are.
             equals.sort_by_key(|(_, candidate)| *candidate);
             let place = ranked.len() + 1;
             let design = |(_, k): &(f64, usize)| self.ranked(&self.candidates[*k], weights, place);
@@ -200,6 +203,7 @@ impl<'r> Ranking<'r> {
     /// the weights of the preferences. `None` also where the table does not tell.
     pub fn best_unfolded(&self) -> Option<RankedDesign<'_>> {
         let fold = self.results.column(FOLD_FORCE).ok()?;
+        // A surface that does not fold has no force at its fold: the cell is empty.
         let is_open = |design: &RankedDesign<'_>| self.results.text(design.row(), fold).is_empty();
         let best = self.winner(self.preferences.weights);
         let others = || self.by_fitness(self.preferences.weights).into_iter().find(is_open);
@@ -224,6 +228,7 @@ impl<'r> Ranking<'r> {
     /// criterion.
     pub fn knee(&self) -> Option<RankedDesign<'_>> {
         let front: Vec<_> = self.candidates.iter().filter(|candidate| candidate.on_front).collect();
+        // Two designs are the ends of a front: no knee lies between them.
         if front.len() < 3 || self.preferences.criteria.len() < 2 {
             return None;
         }
@@ -236,7 +241,9 @@ impl<'r> Ranking<'r> {
     /// The designs that are best for some weights of the grid, the largest share first; none unless there are four criteria.
     pub fn winners(&self) -> Vec<RankedDesign<'_>> {
         let mut winners: Vec<_> = self.candidates.iter().filter(|c| c.nodes > 0).collect();
+        // Stable: of equal shares the design of the smaller number stands first.
         winners.sort_by_key(|candidate| std::cmp::Reverse(candidate.won));
+        // No table of winners or of the front has a place: 0 stands for none.
         winners.into_iter().map(|winner| self.ranked(winner, Weights::BALANCED, 0)).collect()
     }
 
@@ -279,6 +286,7 @@ fn winners(candidates: &mut [Contender], grid: TetrahedralGrid, criteria: usize)
     }
     let nodes: Vec<Steps> = grid.nodes().collect();
     let contest = |&steps: &Steps| best(candidates, Weights::at(grid, steps));
+    // In the order of the nodes, whichever thread is first: `quaternary` counts on it.
     let winners: Vec<usize> = nodes.par_iter().map(contest).collect();
     for (&winner, &steps) in winners.iter().zip(&nodes) {
         candidates[winner].nodes += 1;
@@ -309,6 +317,7 @@ pub fn write_ranking(
     ranking: &Ranking<'_>,
 ) -> Result<Vec<&'static str>, OutputError> {
     let folder = RunFolder::new(folder);
+    // Removes the earlier tables: those for all weights would outlive a change of the criteria.
     let claim = Claim::take(&folder, Maker::Ranking)?;
     let parameters: Vec<_> = ranking.results.parameters().collect();
     let [by_fitness, pareto, winners, quaternary] = RunFolder::RANKING;
@@ -348,6 +357,7 @@ pub fn write_ranking(
 pub fn write_unmet(folder: &Path, preferences: &Preferences) -> Result<&'static str, OutputError> {
     let folder = RunFolder::new(folder);
     let claim = Claim::take(&folder, Maker::Ranking)?;
+    // Kept although no design meets them: the page of the run opens with these requirements.
     folder.write_text(RunFolder::PREFERENCES, &preferences.to_toml())?;
     claim.state(&[RunFolder::PREFERENCES])?;
     Ok(RunFolder::PREFERENCES)

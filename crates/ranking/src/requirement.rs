@@ -41,6 +41,7 @@ impl Relation {
     /// 1 if values are to be above the limit, −1 if they are to be below.
     fn direction(self) -> f64 {
         match self {
+            // No search asks for the direction of an equality, which goals refuse.
             Self::AtLeast | Self::Above | Self::Equal => 1.0,
             Self::AtMost | Self::Below => -1.0,
         }
@@ -129,6 +130,7 @@ impl Requirement {
 
     /// How far a value is from meeting the requirement, relative to `size`; 0 if it does.
     pub(crate) fn shortfall(&self, value: f64, size: f64) -> f64 {
+        // The distance, not the direction: an equality may be missed on either side.
         let missing = (value - self.limit).abs();
         // A strict bound that is met but for equality is missed by the least there is.
         if self.is_met(value) { 0.0 } else { (missing / size).max(f64::MIN_POSITIVE) }
@@ -142,6 +144,7 @@ impl FromStr for Requirement {
         let read = || {
             let cut = |relation: Relation| Some((text.split_once(relation.sign())?, relation));
             let ((column, limit), relation) = Relation::ALL.into_iter().find_map(cut)?;
+            // A bound of `inf` or `nan` would be met by all values or by none.
             let limit = limit.trim().parse().ok().filter(|limit: &f64| limit.is_finite())?;
             let column = column.trim().to_owned();
             // Of `coverage => 0.6` the sign `>` leaves a `=` behind in the name.

@@ -46,6 +46,7 @@ impl Scale {
             (Self::Log, Goal::Maximize) => value.ln(),
             (Self::Log, Goal::Minimize) => -value.ln(),
         };
+        // A number above 0 may have no inverse either: that of 1e-309 is infinite.
         (value > 0.0 && criterion.is_finite()).then_some(criterion)
     }
 

@@ -38,6 +38,7 @@ impl Standard {
         let (name, level) = text.trim().split_once(' ')?;
         let standard = STANDARDS.iter().find(|standard| standard.name == name)?;
         let index = level.trim().parse::<usize>().ok()?.checked_sub(1)?;
+        // The force at which a scale tilts stands for that of the test: see `TILTING_ONLY`.
         let (column, relation) = ("critical_force_N".to_owned(), Relation::AtLeast);
         Some((standard, Requirement { column, relation, limit: *standard.newtons.get(index)? }))
     }

@@ -83,6 +83,7 @@ impl TetrahedralGrid {
 
     /// The whole tetrahedron: `R³/6` cells.
     pub fn whole(self) -> u64 {
+        // `72 R³/6`, as cells count 72 each.
         12 * u64::from(self.resolution).pow(3)
     }
 }

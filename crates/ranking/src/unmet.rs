@@ -54,6 +54,7 @@ impl Unmet {
             requirements.iter().enumerate().map(|(k, r)| size(values, k, r)).collect();
         let shortfalls = |row: &Vec<Option<f64>>| -> Vec<f64> {
             let one = |(k, value): (usize, &Option<f64>)| {
+                // What has no value in a required column is never the nearest.
                 value.map_or(f64::INFINITY, |value| requirements[k].shortfall(value, sizes[k]))
             };
             row.iter().enumerate().map(one).collect()
@@ -62,6 +63,7 @@ impl Unmet {
         let nearest = nearest(&all);
         let report = |(k, requirement): (usize, &Requirement)| UnmetRequirement {
             requirement: requirement.clone(),
+            // Exactly 0: what misses a strict bound by nothing has the least number there is.
             met: all.iter().filter(|row| row[k] == 0.0).count(),
             met_without: all.iter().filter(|row| meets_others(row, k)).count(),
             nearest: nearest.and_then(|row| values[row][k]),
@@ -80,6 +82,7 @@ fn meets_others(shortfalls: &[f64], one: usize) -> bool {
 /// The size that shortfalls are relative to: the limit, or the largest value of the column if the limit is 0.
 fn size(values: &[Vec<Option<f64>>], k: usize, requirement: &Requirement) -> f64 {
     let found = values.iter().filter_map(|row| row[k]);
+    // A limit of 0 has no size, without which shortfalls in other units could not be compared.
     let largest = || found.fold(0.0, |largest: f64, value| largest.max(value.abs()));
     let size = if requirement.limit == 0.0 { largest() } else { requirement.limit.abs() };
     if size > 0.0 { size } else { 1.0 }

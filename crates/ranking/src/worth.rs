@@ -29,6 +29,7 @@ pub fn tightest<'r>(
     bounds: impl Iterator<Item = (&'r Requirement, Option<f64>)>,
 ) -> Option<(usize, f64)> {
     let margins = bounds.map(|(requirement, value)| requirement.counted_margin(value));
+    // `min_by` keeps the first of equal ones.
     margins.enumerate().min_by(|(_, a), (_, b)| a.total_cmp(b))
 }
 

@@ -36,6 +36,7 @@ impl ChartAxis {
         if low > 0.0 && high / low > SPANS_DECADES {
             Self::logarithmic(label, low, high)
         } else {
+            // From zero heights are in proportion, at the cost of less than half of the axis.
             Self::linear(label, if low > 0.0 && low < 0.5 * high { 0.0 } else { low }, high)
         }
     }
@@ -77,6 +78,7 @@ impl ChartAxis {
             AxisScale::Linear => (value - self.low) / (self.high - self.low),
             AxisScale::Log => (value / self.low).ln() / (self.high / self.low).ln(),
         };
+        // Values at the ends are places, too, whatever round-off has made of them.
         (-1e-9..=1.0 + 1e-9).contains(&place).then_some(place)
     }
 
@@ -91,6 +93,7 @@ impl ChartAxis {
     fn linear_ticks(&self, wanted: usize) -> Vec<Tick> {
         let rough = (self.high - self.low) / wanted as f64;
         let unit = 10f64.powf(rough.log10().floor());
+        // A step that is nearly wide enough will do; the next one may have half as many ticks.
         let step = [1.0, 2.0, 5.0, 10.0].into_iter().find(|m| m * unit >= 0.9 * rough);
         let step = step.unwrap_or(10.0) * unit;
         // A small count: the axis has few steps.
@@ -110,10 +113,13 @@ impl ChartAxis {
         let every = ((decades / (1.4 * wanted as f64)).ceil() as i32).max(1);
         let labelled = |decade: i32, digit: i32| match digit {
             1 => decade.rem_euclid(every) == 0,
+            // Powers of ten alone would be two labels on such an axis, or a single one.
             2 | 5 => decades < 2.2 && wanted > 3,
             _ => false,
         };
+        // Beyond that, ticks between the powers of ten would run into each other.
         let digits = if decades > 7.0 { 1 } else { 9 };
+        // Asked of the whole axis, so that all its labels have one notation.
         let decimal = first >= -2 && last <= 4;
         let all = (first..=last).flat_map(|decade| (1..=digits).map(move |digit| (decade, digit)));
         all.map(|(decade, digit)| {

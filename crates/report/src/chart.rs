@@ -206,6 +206,7 @@ impl MarkLook {
                 shape.at("stroke-width", 1.3)
             }
             Self::Folded => {
+                // The line is no part of what is pale: it is to be seen.
                 let pale = filled(shape).at("stroke-width", 0.5).with("opacity", "0.45");
                 let [from, to] = [-1.4, 1.4].map(|s| [s * MARK, -s * MARK]);
                 Element::new("g").containing([pale, line(from, to, RED, 1.3)])
@@ -252,6 +253,7 @@ pub(crate) fn design_mark(
 /// Returns the slants with their marks in one line, and what other looks of marks mean.
 pub(crate) fn mark_legend(palette: &SlantPalette, has_folds: bool, [x, y]: Spot) -> Element {
     let name = label("slant $α$", [x, y + 4.0], 12.0, Anchor::Start).with("fill", INK);
+    // The legend brings the shapes along: whoever draws marks draws a legend.
     let mut legend = Element::group("legend").containing([shapes(palette), name]);
     let mut left = x + 64.0;
     let slants =

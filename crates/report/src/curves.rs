@@ -160,6 +160,7 @@ fn puncture(solved: &DesignCurves) -> Option<CurveValues> {
     let back = puncture.way_back.iter().flat_map(|back| &back.path);
     let points = puncture.path.iter().chain(back).map(|p| [p.displacement, p.force]);
     let crosses = puncture.events.iter().map(|e| [e.point.displacement, e.point.force]);
+    // Counted under a held depth, since what is stable under that a needle can follow.
     let unstable = puncture.instability.iter().map(|instability| instability.depth > 0);
     let fold = puncture.folds.first().map(|fold| [fold.point.displacement, fold.point.force]);
     Some(CurveValues {
@@ -233,6 +234,7 @@ fn one_panel(
     values: ValuesOf,
     measured: Option<&MeasuredCurves>,
 ) -> Option<String> {
+    // Measured curves without units lie over those of the model.
     let is_wanted = measured.is_none_or(|measured| measured.is_physical);
     let units = text.physical(designs).filter(|_| is_wanted);
     let labels = text.axes[usize::from(units.is_some())];
@@ -297,6 +299,7 @@ fn curves_of(designs: &[DesignCurves], values: ValuesOf, units: &[[f64; 2]]) -> 
         let [points, crosses, rings] =
             [points, crosses, rings].map(|points| in_units(points).collect());
         let slant = solved.case.design.slant_deg;
+        // Counted among all designs, drawn or not, so that a design looks the same in every figure.
         let before = designs[..k].iter().filter(|other| other.case.design.slant_deg == slant);
         let before = before.count();
         let color = shaded(&palette.color(slant), SHADES[before % SHADES.len()]);
@@ -325,12 +328,15 @@ fn axes(labels: [&str; 2], points: &[[f64; 2]]) -> (ChartAxis, ChartAxis) {
 fn logarithmic(label: &str, curves: &[Curve]) -> Option<ChartAxis> {
     let ends = curves.iter().map(|curve| curve.points.iter().map(|p| p[1]).fold(0.0, f64::max));
     let (low, high) = crate::axis::ends(ends);
+    // Curves begin at zero, which has no place here: a decade and a half below the lowest end their
+    // feet are left out.
     (low > 0.0 && high > 30.0 * low).then(|| ChartAxis::fit(label, [low / 30.0, high].into_iter()))
 }
 
 impl Curve {
     /// The parts of the line that are alike stable, with their dashes.
     fn parts(&self) -> Vec<(&[[f64; 2]], &'static str)> {
+        // Of the way back nothing is known: it counts as stable.
         let is_unstable = |k: usize| self.unstable.get(k) == Some(&true);
         let mut parts = Vec::new();
         let mut start = 0;
@@ -416,6 +422,7 @@ fn panels(
     let rows = solved.len().div_ceil(columns) as f64;
     let title = format!("{name}: {}", text.title);
     let paper = MARGINS[0] + columns as f64 * (w + 84.0) - 60.0;
+    // One panel alone is narrower than its title.
     let paper = paper.max(width(&title, 15.0) + 60.0);
     Some(sheet(paper, 86.0 + rows * (h + 84.0) - 20.0, &title, inside))
 }

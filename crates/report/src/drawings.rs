@@ -84,6 +84,7 @@ fn contacts_label(contacts: &[Contact]) -> String {
         1 => "1 contact".to_owned(),
         count => format!("{count} contacts"),
     };
+    // Without friction nothing sticks and nothing slips, and nothing is said of it.
     match contacts.iter().filter(|contact| contact.slips == Some(true)).count() {
         _ if contacts.iter().all(|contact| contact.slips.is_none()) => count,
         0 => format!("{count}, all stick"),

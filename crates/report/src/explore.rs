@@ -219,6 +219,7 @@ impl Explorer {
             return None;
         }
         let base = self.sweep.grid().base();
+        // Under a free needle a friction stands for the critical tilt: only one of both acts.
         let friction_is_given = base.needle_friction.is_some()
             || self.sweep.grid().axis(key::NEEDLE_FRICTION).is_some();
         let friction_says_tilt = friction_is_given && !self.sweep.is_guided();
@@ -234,8 +235,10 @@ impl Explorer {
             _ => (None, ControlValue::Number(0.0)),
         };
         let [min, max] = span.unwrap_or(offered.range);
+        // The first design of a grid is one of its corners, and seldom one that protects.
         let middle = min + offered.opens_at * (max - min);
         let number = own.number().filter(|_| span.is_none()).unwrap_or(middle);
+        // A definition may give more than the usual range has.
         let (min, max) = (min.min(number), max.max(number));
         let value = if words.is_some() { value } else { ControlValue::Number(number) };
         Some(Control {

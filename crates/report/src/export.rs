@@ -150,6 +150,7 @@ fn write(
         let sheet = Sheet::new(&mut workbook, &table, &profiles).map_err(failed)?;
         let other = others.iter().find(|other| other.file == file);
         let own = other.map_or(&[][..], |other| &other.columns);
+        // Checked anew, because it is read a second time.
         let file = (path.as_path(), results.file(&file)?);
         let (page, rows) = copy(file, sheet, (&mut guide, own), &failed)?;
         pages.push(page);
@@ -160,6 +161,7 @@ fn write(
     }
     if is_run {
         let facts = SummaryFacts::read(results)?;
+        // The summary comes first, though its best values are known only after the tables.
         workbook.push_worksheet(summary(results, &best, &facts).map_err(failed)?);
     }
     for page in pages {
@@ -240,6 +242,7 @@ fn said(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<String>().map(String::as_str);
     let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
     let text = text.unwrap_or("the writer of workbooks failed");
+    // A panic over an error of the system quotes its message, which alone is of use.
     let message = text.split_once("message: \"").and_then(|(_, rest)| rest.split_once('"'));
     message.map_or(text, |(message, _)| message).lines().collect::<Vec<_>>().join(" ")
 }

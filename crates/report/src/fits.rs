@@ -46,6 +46,7 @@ impl FitPanel<'_> {
         let y = ChartAxis::spanning(&self.axes[1], values);
         self.panel(area, &y, |panel, spots| {
             let mut fitted = self.points.to_vec();
+            // Points may be measured in any order, but a line goes from left to right.
             fitted.sort_by(|a, b| a[0].total_cmp(&b[0]));
             let fitted = spots(&fitted.iter().map(|p| [p[0], p[2]]).collect::<Vec<_>>());
             let fitted = polyline(&fitted).with("stroke", INK).at("stroke-width", 1.6);

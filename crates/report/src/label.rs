@@ -87,6 +87,7 @@ pub(crate) fn label(source: &str, [x, y]: Spot, size: f64, anchor: Anchor) -> El
             span = span.at("font-size", 0.7 * size);
         }
         if target != height {
+            // A shift counts from where the run before stood, not from the line.
             span = span.at("dy", height - target);
             height = target;
         }

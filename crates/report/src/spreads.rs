@@ -32,6 +32,7 @@ impl Histogram<'_> {
     /// Draws the histogram: a bar for each range of values, a red line for each bound, a dark one for the value as drawn.
     pub fn svg(&self) -> String {
         let shown = self.values.iter().copied().chain(self.drawn);
+        // Bounds beyond all samples stay in sight: how far away they are is what is asked.
         let shown: Vec<f64> = shown.chain(self.bounds.iter().map(|(_, at)| *at)).collect();
         let low = shown.iter().copied().fold(f64::INFINITY, f64::min);
         let high = shown.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -46,6 +47,7 @@ impl Histogram<'_> {
         inside.extend(self.drawn.and_then(|at| marked(&panel, "as drawn", at, INK, 0.0)));
         let bounds = self.bounds.iter().enumerate();
         inside.extend(
+            // Each text has a line of its own, since bounds may be close to each other.
             bounds.filter_map(|(k, (text, at))| {
                 marked(&panel, text, *at, RED, 14.0 * (k + 1) as f64)
             }),
@@ -58,6 +60,7 @@ impl Histogram<'_> {
     fn bars(&self) -> Vec<(f64, f64, f64)> {
         let low = self.values.iter().copied().fold(f64::INFINITY, f64::min);
         let high = self.values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        // More bars than the square root of the samples would show chance.
         let count = ((self.values.len() as f64).sqrt() as usize).clamp(BARS[0], BARS[1]);
         let step = (high - low) / count as f64;
         let mut counts = vec![0.0; count];

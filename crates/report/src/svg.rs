@@ -146,6 +146,7 @@ pub fn untitled(svg: &str) -> String {
         let lower = px(height.parse::<f64>().ok()? - TITLE);
         let start =
             start.replacen(&format!("height=\"{height}\""), &format!("height=\"{lower}\""), 1);
+        // The element `title` stays: it is what tells those who cannot see the drawing.
         Some(format!("{start}viewBox=\"0 {TITLE} {width} {lower}\"{}{}", end, after.trim_start()))
     };
     parts().unwrap_or_else(|| svg.to_owned())
@@ -154,6 +155,7 @@ pub fn untitled(svg: &str) -> String {
 /// Returns a drawing that is `width` mm wide on paper, with everything in it in proportion.
 pub fn resized(svg: &str, width: f64) -> String {
     let parts = || {
+        // The root stands first, so that the first width and height are those of the drawing.
         let (start, rest) = svg.split_once(" width=\"")?;
         let (across, rest) = rest.split_once("\" height=\"")?;
         let (down, rest) = rest.split_once('"')?;
@@ -222,6 +224,7 @@ pub(crate) fn arrow(from: Spot, to: Spot, color: &str, width: f64) -> Element {
     let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
     let length = dx.hypot(dy);
     let head = (4.5 * width).min(0.7 * length);
+    // Nobody draws an arrow without a length, which would have no direction.
     let (along, across) = ([dx / length, dy / length], [-dy / length, dx / length]);
     let back = |s: f64, side: f64| {
         [0, 1].map(|k| to[k] - s * head * along[k] + side * 0.42 * head * across[k])

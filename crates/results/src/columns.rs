@@ -89,6 +89,7 @@ pub fn plain_goal(name: &str) -> Option<Goal> {
 /// The names of the values that the table of a page shows at such a place: those of a table together.
 pub fn shown(place: Shown) -> Vec<&'static str> {
     let mut values: Vec<_> = VALUES.iter().filter(|value| value.shown == place).collect();
+    // Stable: within a table values keep the order of `designs.csv`.
     values.sort_by_key(|value| value.first_table());
     values.into_iter().map(|value| value.name).collect()
 }

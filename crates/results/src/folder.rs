@@ -94,6 +94,7 @@ const fn plain(name: &'static str, maker: Maker, role: Role) -> FileEntry {
 
 /// Every file of a fixed name that squama leaves in a folder of results, in the order in which people read them.
 pub static FILES: [FileEntry; 47] = [
+    // A journal grows behind what is stated of it: each of its lines bears a checksum instead.
     plain(RunFolder::JOURNAL, Maker::Run, Role::Journal),
     stated(RunFolder::DESIGNS, Maker::Run, Role::Table),
     stated("coverage.csv", Maker::Run, Role::Table),
@@ -109,6 +110,7 @@ pub static FILES: [FileEntry; 47] = [
     stated(RunFolder::RANKING[1], Maker::Ranking, Role::Table),
     stated(RunFolder::RANKING[2], Maker::Ranking, Role::Table),
     stated(RunFolder::RANKING[3], Maker::Ranking, Role::Table),
+    // Workbook and page read from it what the ranking goes by: a changed one would lie about it.
     stated(RunFolder::PREFERENCES, Maker::Ranking, Role::Record),
     stated(RunFolder::COMPARISON[0], Maker::Comparison, Role::Table),
     stated(RunFolder::COMPARISON[1], Maker::Comparison, Role::Table),
@@ -274,6 +276,7 @@ impl RunFolder {
     /// If there are such files.
     pub fn require_own(&self, maker: Maker, start: Start) -> Result<(), JournalError> {
         let folder = || self.path.clone();
+        // Asked of a link itself: one that leads nowhere would be replaced all the same.
         let is_there = |file: &&FileEntry| fs::symlink_metadata(self.file(file.name)).is_ok();
         let mut journals = FILES.iter().filter(|file| file.role == Role::Journal).filter(is_there);
         if let Some(other) = journals.clone().find(|file| file.maker != maker) {
@@ -292,6 +295,7 @@ impl RunFolder {
 
     /// Removes the tables of an earlier run, but for those named in `files`: a folder describes one run.
     pub fn remove_tables_but(&self, files: &[String]) {
+        // The record of the run and its statement are written anew whenever the tables are.
         let tables = FileEntry::products(Maker::Run).filter(|file| file.role == Role::Table);
         let gone = tables.filter(|file| files.iter().all(|kept| kept != file.name));
         gone.for_each(|file| self.remove(file.name));

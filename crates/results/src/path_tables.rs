@@ -26,6 +26,8 @@ pub struct PathTable {
 
 impl PathTable {
     fn new<R>(file: &'static str, columns: &[Column<R>], rows: &[R]) -> Self {
+        // Rows of these tables are of many types. With their cells made all tables are of one, for
+        // files and for Python.
         let filled = |column: &Column<R>| {
             let cells: Vec<Cell> = rows.iter().map(|row| column.cell(row)).collect();
             let cell = move |&row: &usize| cells[row].clone();
@@ -76,6 +78,7 @@ fn of_puncture(puncture: &Puncture) -> Vec<PathTable> {
         PathTable::new(scales, SCALES, &puncture.scales),
         PathTable::new(steps, STEPS, &puncture.history),
     ];
+    // Which scales a tip touches, and so which columns there are, only the whole path tells.
     tables[0].columns.extend(tip_force_columns(&puncture.tip_forces));
     if let Some(back) = &puncture.way_back {
         // Nothing is known of the stability of a row whose load is taken away.
@@ -93,6 +96,7 @@ fn of_puncture(puncture: &Puncture) -> Vec<PathTable> {
 fn of_flexure(flexure: &Flexure) -> Vec<PathTable> {
     let [path, events, scales, steps] = RunFolder::FLEXURE;
     let columns = flexure_path_columns(flexure.rubs());
+    // A path that never began has no shape, and its table no rows.
     let shape = flexure.shape(flexure.path.len().saturating_sub(1)).unwrap_or_default();
     let shape: Vec<BentScale> = shape.into_iter().enumerate().collect();
     let mut tables = vec![

@@ -64,6 +64,7 @@ impl Quantity {
         match self {
             Self::Length | Self::Radius => "mm",
             Self::Force => "N",
+            // A name has no sign for over and times: the unit beside it tells N/mm from N mm.
             Self::ForcePerWidth | Self::Stiffness | Self::Moment => "N_mm",
             Self::Rigidity => "N_mm2",
         }
@@ -134,6 +135,7 @@ pub fn puncture_units(case: &Case) -> Option<[f64; 3]> {
 /// What the units of the curves of bending are worth: those of curvature, moment and energy in 1/mm, N mm and mJ. `None` if the
 /// material does not say what it needs.
 pub fn bending_units(case: &Case) -> Option<[f64; 3]> {
+    // Energies of bending are over `E_m t³`, moments over `E_m I_m/t`.
     let (length, modulus) =
         (Quantity::Length.physical(1.0, case)?, case.material.membrane_modulus_mpa?);
     Some([length.recip(), Quantity::Moment.physical(1.0, case)?, modulus * length.powi(3)])

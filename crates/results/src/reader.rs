@@ -133,6 +133,7 @@ impl Results {
             }
         }
         let parameters = header.iter().enumerate();
+        // A gap in mm beside `gap_over_t` is no second parameter, but the same one again.
         let parameters = parameters.filter(|(_, name)| tells_apart(name, &header));
         let parameters =
             parameters.filter_map(|(column, name)| Some((parameter_of(name)?, column))).collect();
@@ -251,6 +252,7 @@ impl Results {
         if text.is_empty() {
             return Ok(None);
         }
+        // Rust reads `inf` and `NaN` as numbers, too, but no table of squama has them.
         let number = text.parse().ok().filter(|number: &f64| number.is_finite());
         let error = || InvalidResults::NotANumber {
             file: self.file(),
@@ -280,6 +282,7 @@ fn definition(folder: &VerifiedFolder) -> Result<Option<Sweep>, InvalidFolder> {
 }
 
 fn read_table(mut file: File, most: usize) -> Result<Table, csv::Error> {
+    // Counting reads the whole file once more: only a table that is thinned out needs it.
     let in_table = if most == usize::MAX { 0 } else { count_rows(&file)? };
     file.rewind()?;
     let mut file = BufReader::new(file);
@@ -291,6 +294,7 @@ fn read_table(mut file: File, most: usize) -> Result<Table, csv::Error> {
     let mut count = 0;
     let mut row = csv::StringRecord::new();
     while table.read_record(&mut row)? {
+        // Whoever reads cells from here on finds points in decimals, whatever the file has.
         if format == CsvFormat::ExcelEu {
             row = row.iter().map(|cell| plain(format, cell)).collect();
         }
@@ -309,6 +313,8 @@ fn count_rows(file: &File) -> io::Result<usize> {
         let length = bytes.len();
         lines += bytes.split(|byte| *byte == b'\n').count() - 1;
         if length == 0 {
+            // Without the header. A last line that does not end is missed, which does no harm: the
+            // number only says how many rows to leave out.
             return Ok(lines.saturating_sub(1));
         }
         file.consume(length);

@@ -3,11 +3,13 @@
 /// `text` as one word of a POSIX shell; in quotes only where it needs them.
 pub fn shell_word(text: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./:,+@%=".contains(c);
+    // An empty text would be no word at all without quotes.
     if !text.is_empty() && text.chars().all(plain) { text.to_owned() } else { quoted(text) }
 }
 
 /// `text` in quotes, as one word of a POSIX shell.
 pub fn quoted(text: &str) -> String {
+    // Between single quotes a shell obeys nothing, not even a backslash before a quote.
     format!("'{}'", text.replace('\'', r"'\''"))
 }
 

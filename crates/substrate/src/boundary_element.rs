@@ -90,7 +90,9 @@ pub fn row_reactions_at(
     n: usize,
 ) -> Result<Vec<RowReactions>, Unresolved> {
     let mesh = Mesh::row(footprint, neighbours, n);
+    // What rounding has closed shows in the mesh, before anything is solved.
     let found = mesh.is_resolved().then(|| mesh.reactions(footprint, poisson_ratios));
+    // Factors of a singular matrix are no error, only numbers that are not finite.
     let are_finite = |found: &Vec<RowReactions>| {
         found.iter().flat_map(RowReactions::numbers).all(f64::is_finite)
     };

@@ -49,6 +49,7 @@ impl<T> Generations<T> {
         if let Some(slot) = self.young.get(footprint) {
             return Arc::clone(slot);
         }
+        // Before the old generation is forgotten: what is used again is not to be solved again.
         let slot = self.old.remove(footprint).unwrap_or_default();
         if self.young.len() >= self.limit {
             self.old = mem::take(&mut self.young);

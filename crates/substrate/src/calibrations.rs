@@ -38,6 +38,7 @@ impl Calibrations {
     /// # Errors
     /// As [`RowStiffness::solve`]; the error is remembered like a result.
     pub fn get(&self, footprint: &Footprint) -> Result<Springs, Unresolved> {
+        // Springs are a row with its nearest neighbours: one cache serves both.
         self.row(footprint, Coupling::Nearest).map(|row| (&*row).into())
     }
 

@@ -86,6 +86,7 @@ impl RowStiffness {
     /// of Eq. (1) alone. `None` where there is none, and if nothing decays because the row is not stable (`α ≤ 2 |β|`).
     pub fn far_field(&self, scales: Option<usize>) -> Option<FarField> {
         match self.neighbours.as_slice() {
+            // Without any coupling of directions each of the three is a chain of its own.
             [nearest] if [nearest.cross, nearest.lift, nearest.roll, self.roll] == [0.0; 4] => {
                 self.chain(nearest.direct, scales)
             }

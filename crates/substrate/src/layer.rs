@@ -120,6 +120,7 @@ impl Layer {
         let mut made = MADE.lock().unwrap_or_else(PoisonError::into_inner);
         let known = made.iter().position(|layer| layer.poisson_ratio == poisson_ratio);
         let layer = known.map_or_else(|| Arc::new(Self::new(poisson_ratio)), |at| made.remove(at));
+        // The one that was used last stands first, so that the longest unused falls off.
         made.insert(0, Arc::clone(&layer));
         made.truncate(KEPT);
         layer

@@ -53,6 +53,7 @@ pub fn extrapolated(footprint: &Footprint, cells: [usize; 2]) -> Result<[f64; 6]
     let on = |n| row_reactions(footprint, 1, n).map(|found| found.numbers());
     let [coarse, fine] = [on(cells[0])?, on(cells[1])?];
     let numbers = extrapolation(cells, [&coarse, &fine]);
+    // `β` counts what the neighbour takes over, the reaction on it with the other sign (S6).
     Ok(std::array::from_fn(|i| if i < 3 { numbers[i] } else { -numbers[i] }))
 }
 

@@ -43,6 +43,7 @@ impl StiffnessSlopes {
             None
         };
         let [by_gap, by_width, by_poisson_ratio] = slopes;
+        // Over a base that shrinks all other lengths grow in the same ratio.
         let mut by_size =
             by_gap.clone() * footprint.gap_over_a() + by_width.clone() * footprint.width_over_a();
         if let Some(by_thickness) = &by_thickness {

@@ -143,6 +143,7 @@ impl Reader {
             let place = (value / low).ln() * slope - 1.0;
             (low..=high).contains(&value).then(|| chebyshev(place, slope / value, NEAREST))
         };
+        // No footprint has a ratio outside of the range, 0 to ½: only lengths may leave it.
         let left = 1.0 - footprint.poisson_ratio();
         Some(Self {
             gap: on_log(footprint.gap_over_a(), GAPS)?,

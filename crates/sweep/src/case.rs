@@ -82,6 +82,8 @@ impl Case {
     /// The parameters of the puncture, lengths over the thickness. A load that would stand beyond the middle of a narrow top stands in it,
     /// and one that would stand on the next scale on its left corner.
     pub fn punctured(&self) -> puncture::PunctureParameters {
+        // Only here, for the case keeps what was asked: along axes of gap and length the place
+        // moves.
         let top = 2.0 * self.design.half_base();
         let inside = |inset: f64| (1.0 - inset / top).max(0.5);
         let position = self.puncture.load_position.min(1.0 + self.design.gap / top);

@@ -29,6 +29,7 @@ impl Decimal {
         if digits == 0 {
             return Self { digits, exponent: 0 };
         }
+        // Equal numbers must have equal fields: `0.10` is `0.1`.
         while digits % 10 == 0 {
             digits /= 10;
             exponent += 1;
@@ -68,18 +69,21 @@ fn parse(text: &str) -> Option<Decimal> {
         None => (text, 0_i32),
     };
     let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    // Where nothing stands before the point the sign would pass for that of the number.
     if fraction.starts_with(['+', '-']) {
         return None;
     }
     let digits: i128 = format!("{whole}{fraction}").parse().ok()?;
     let exponent = power.checked_sub(i32::try_from(fraction.len()).ok()?)?;
     let decimal = Decimal::new(digits, exponent);
+    // Asked behind `new`, which counts zeros at the end of the digits as an exponent.
     (decimal.exponent.abs() <= LARGEST_EXPONENT).then_some(decimal)
 }
 
 impl fmt::Display for Decimal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let short = crate::number::text(self.to_f64());
+        // A decimal may have more digits than the `f64` next to it: those are told, too.
         if short.parse() == Ok(*self) {
             f.write_str(&short)
         } else {
@@ -121,6 +125,7 @@ pub(crate) fn range(
     if step.digits <= 0 {
         return Err(InvalidRange::Step { step });
     }
+    // In this unit all three are whole numbers, and steps make no round-off.
     let exponent = from.exponent.min(to.exponent).min(step.exponent);
     let scaled = [from, to, step].map(|decimal| decimal.over(exponent));
     let [Some(first), Some(last), Some(stride)] = scaled else {
@@ -137,6 +142,7 @@ pub(crate) fn range(
         let (to, step) = (to.to_string(), step.to_string());
         return Err(InvalidRange::Missed { to, step, below, above });
     }
+    // Counted before any is made: a slip in a step must not fill the memory.
     let count = length / stride + 1;
     if count > LONGEST {
         return Err(InvalidRange::TooLong { count });

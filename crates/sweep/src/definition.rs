@@ -125,6 +125,7 @@ impl Sweep {
     pub fn is_imperfect(&self) -> bool {
         let largest = |key: &str| {
             let base = || Parameter::named(key).and_then(|p| p.get(self.grid.base()).number());
+            // One design that scatters is enough for the whole table to have the columns.
             let axis = self.grid.axis(key).map(|axis| axis.span().1);
             axis.or_else(base).unwrap_or(0.0)
         };
@@ -168,6 +169,7 @@ impl Sweep {
     /// What is strange about the definition though it is valid: a modulus of soft tissue in the unit of another prefix.
     pub fn question(&self) -> Option<String> {
         let written = |parameter: &Parameter| {
+            // The largest value: one design whose unit is wrong is enough to ask.
             let axis = self.grid.axis(parameter.key).map(|axis| axis.span().1);
             let variable = self.variables.iter().find(|v| v.parameter() == parameter);
             let variable = variable.and_then(|variable| variable.at(1.0).number());
@@ -193,6 +195,7 @@ impl Sweep {
     /// The parameters that all designs share, with their values. The length of a strip is none if its gaps are given, and
     /// the critical tilt none if the friction of the needle is.
     pub fn shared(&self) -> impl Iterator<Item = (&'static Parameter, Scalar)> {
+        // Found once and few: asking every parameter about every other one took long.
         let alone: Vec<_> = PARAMETERS.iter().filter(|other| self.gives_alone(other)).collect();
         let shared = move |parameter: &&Parameter| {
             self.grid.axis(parameter.key).is_none()
@@ -250,6 +253,7 @@ pub fn entries(
 /// If the file cannot be read.
 pub fn read_text(path: &Path) -> Result<String, InvalidDefinition> {
     let mut text = String::new();
+    // One byte more than may be, to tell a file that is too long from one that just fits.
     let read = File::open(path).and_then(|file| file.take(LONGEST + 1).read_to_string(&mut text));
     let reason = match read {
         Err(error) => reason(&error),
@@ -263,6 +267,7 @@ pub fn read_text(path: &Path) -> Result<String, InvalidDefinition> {
 fn definition_of(mut table: KeyValues) -> KeyValues {
     let holds =
         |key: &str, entry: &KeyValue| entry.key == key && matches!(entry.value, Value::Table(_));
+    // A table `definition` without that of a run is no record, and refused as an unknown key.
     if table.iter().any(|entry| holds("run", entry))
         && let Some(position) = table.iter().position(|entry| holds("definition", entry))
         && let Value::Table(definition) = table.swap_remove(position).value

@@ -26,6 +26,7 @@ impl BatchDeviation {
     pub fn standard_deviation(self) -> f64 {
         match self {
             Self::Normal(deviation) => deviation,
+            // The variance of a uniform distribution is a third of its half-width squared.
             Self::Uniform(most) => most / 3.0_f64.sqrt(),
         }
     }
@@ -68,6 +69,7 @@ impl Deviation {
             key::SUBSTRATE_MODULUS => {
                 let (mut moved, modulus) = (*case, case.material.substrate_modulus_mpa?);
                 moved.material.substrate_modulus_mpa = Some(modulus + by);
+                // Without `scale_modulus_MPa` nothing else holds the modulus of the scales.
                 moved.puncture.contact_modulus_over_substrate *= modulus / (modulus + by);
                 Some(moved)
             }

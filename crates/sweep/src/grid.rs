@@ -128,6 +128,7 @@ impl Grid {
     pub fn case(&self, index: u64) -> Case {
         let mut case = self.base;
         let mut rest = index;
+        // The index is a number with a digit for each axis, the last of them that of the fastest.
         for axis in self.axes.iter().rev() {
             axis.parameter.set(&mut case, axis.value(rest % axis.len()));
             rest /= axis.len();

@@ -25,11 +25,13 @@ pub fn rounded(value: f64, digits: usize) -> String {
 /// Those of the writer.
 pub fn write(to: &mut impl Write, value: f64) -> fmt::Result {
     let size = value.abs();
+    // Minus zero, too, which Rust writes as `-0`.
     if size == 0.0 {
         to.write_char('0')
     } else if (1e-5..1e15).contains(&size) {
         write!(to, "{value}")
     } else {
+        // Without an exponent Rust would write all zeros of 1e300.
         write!(to, "{value:e}")
     }
 }

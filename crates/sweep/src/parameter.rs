@@ -40,6 +40,7 @@ pub struct Parameter {
 
 impl PartialEq for Parameter {
     fn eq(&self, other: &Self) -> bool {
+        // Keys are unique over all sections, and functions in a parameter cannot be compared.
         self.key == other.key
     }
 }
@@ -154,6 +155,7 @@ impl Parameter {
 
     /// The value of this parameter in `case`.
     pub fn get(&self, case: &Case) -> Scalar {
+        // One accessor reads and writes each field, so that reading needs a copy to lend.
         let mut case = *case;
         match &self.kind {
             ParameterKind::Number { field, .. } | ParameterKind::SignedNumber { field, .. } => {
@@ -183,6 +185,7 @@ impl Parameter {
 
     /// Sets this parameter in `case` to a value that [`Self::read`] or [`Self::scalar`] gave, and what follows from it.
     pub(crate) fn set(&self, case: &mut Case, value: Scalar) {
+        // Behind each parameter, because axes and sections set them in any order.
         self.assign(case, value);
         length::settle(case);
         modulus::settle(case);
@@ -195,6 +198,7 @@ impl Parameter {
                 ParameterKind::Number { field, .. } | ParameterKind::SignedNumber { field, .. },
                 Scalar::Number(number),
             ) => *field(case) = number,
+            // The word of a number that is not given takes away what the case had.
             (ParameterKind::OptionalNumber { field, .. }, value) => *field(case) = value.number(),
             (ParameterKind::Count { field, .. }, Scalar::Count(count)) => *field(case) = count,
             (ParameterKind::Word { words, set, .. }, Scalar::Word(word)) => {
@@ -206,6 +210,7 @@ impl Parameter {
             }
             (ParameterKind::CountOrWord { set, .. }, Scalar::Word(_)) => set(case, None),
             (ParameterKind::Numbers { set, .. }, value) => set(case, value),
+            // Whoever reads a value checks its kind: any other is a mistake of the program.
             _ => debug_assert!(false, "{} cannot be {value}", self.key),
         }
     }
@@ -243,6 +248,7 @@ impl Parameter {
             _ => None,
         };
         match value {
+            // TOML has `nan` and `inf`, too: no bounds contain them.
             Some(value) if self.contains(value) => Ok(tidy(value)),
             _ => Err(self.wrong(written)),
         }
@@ -310,6 +316,7 @@ impl Parameter {
     fn wrong(&self, written: &Value) -> WrongValue {
         let found = written.to_string();
         let expected = self.expected();
+        // Nobody can say of `nan` that it is out of range: it is not accepted.
         let is_finite = |text: &String| text.parse::<f64>().is_ok_and(f64::is_finite);
         let is_number = matches!(written, Value::Number(text) if is_finite(text));
         if is_number && self.takes_numbers() {
@@ -388,6 +395,7 @@ fn list(items: &[Value]) -> Option<NumberList> {
         _ => None,
     };
     let numbers: Vec<f64> = items.iter().map(number).collect::<Option<_>>()?;
+    // An empty list is how a case says that there is a single tilt.
     NumberList::new(&numbers).filter(|list| !list.is_empty())
 }
 

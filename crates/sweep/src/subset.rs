@@ -138,16 +138,19 @@ impl SubsetDesigns {
         let sampled = |sample: &Vec<u64>| {
             usize::try_from(position).ok().and_then(|position| sample.get(position)).copied()
         };
+        // No grid has this design, so that a wrong position finds none instead of another.
         self.sample.as_ref().map_or(Some(position), sampled).unwrap_or(u64::MAX)
     }
 
     /// The position of the grid's design `index`, if it is one of them.
     pub fn position(&self, index: u64) -> Option<u64> {
         let place = match &self.sample {
+            // The subset ascends, as `draw` makes it.
             Some(sample) => sample.binary_search(&index).ok()? as u64,
             None => index,
         };
         let dealt = place.checked_sub(self.first).filter(|rest| rest % self.step == 0)?;
+        // Without a subset nothing so far says that an index is beyond the grid.
         Some(dealt / self.step).filter(|position| *position < self.len())
     }
 }
@@ -157,6 +160,7 @@ fn draw(designs: u64, sample: RandomSample) -> Result<Vec<u64>, SampleTooLarge> 
     if !(1..=designs).contains(&sample.designs) {
         return Err(SampleTooLarge { asked: sample.designs, designs });
     }
+    // Specified for good: the standard generator of a library may change with its version.
     let mut random = ChaCha8Rng::seed_from_u64(sample.seed);
     let mut chosen = BTreeSet::new();
     for last in designs - sample.designs..designs {

@@ -82,6 +82,7 @@ impl fmt::Display for Value {
 
 /// `text` as a TOML string on one line.
 pub fn quoted(text: &str) -> String {
+    // TOML writes a text of several lines in several lines, and messages have one.
     toml::Value::from(text.replace(['\n', '\r'], " ")).to_string()
 }
 
@@ -113,6 +114,7 @@ pub fn parse(text: &str, name: &str) -> Result<KeyValues, SyntaxError> {
         return Err(SyntaxError(vec![SyntaxMistake { place, line, message }]));
     }
     let (table, mut errors) = DeTable::parse_recoverable(text);
+    // In the order of lines, so that the mistakes of one stand together.
     errors.sort_by_key(|error| error.span().map(|span| span.start));
     let mut mistakes: Vec<_> = errors.iter().map(|error| source.mistake(error)).collect();
     // What follows a mistake on its line is no other mistake.
@@ -155,6 +157,7 @@ impl<'a> Document<'a> {
     }
 
     fn place(&self, offset: Option<usize>) -> Place {
+        // A search by halves: counting lines for each key took the square of the length of a file.
         let line = offset.map(|offset| self.ends.partition_point(|end| *end < offset) + 1);
         Place::File { name: Arc::clone(&self.name), line }
     }
@@ -184,6 +187,7 @@ fn value_of(value: &DeValue<'_>, place: &dyn Fn(usize) -> Place) -> Value {
             Value::Number(number.as_str().to_owned())
         }
         DeValue::Integer(number) => {
+            // Decimals know the base ten alone.
             let parsed = i128::from_str_radix(number.as_str(), number.radix());
             Value::Number(parsed.map_or_else(|_| number.to_string(), |n| n.to_string()))
         }
@@ -205,6 +209,7 @@ pub(crate) fn parse_argument(text: &str, place: &Place) -> Result<Value, String>
     let text = text.trim();
     match DeValue::parse(text) {
         Ok(value) => Ok(value_of(value.get_ref(), &|_| place.clone())),
+        // What opens a list or a text and does not close it is a slip, and no word without quotes.
         Err(_) if !text.is_empty() && !text.starts_with(['[', '{', '"', '\'']) => {
             Ok(Value::Text(text.to_owned()))
         }

@@ -49,6 +49,7 @@ impl Variable {
             VariableValues::Between(from, to) => Scalar::Number(from + share * (to - from)),
             VariableValues::OneOf(values) => {
                 let place = (share * values.len() as f64) as usize;
+                // The end of the way, a share of 1, belongs to the last value.
                 values[place.min(values.len() - 1)]
             }
         }

@@ -10,6 +10,7 @@ const END: usize = 250;
 
 /// `text` with the characters escaped that a terminal or a page would obey instead of showing them.
 pub fn visible(text: &str) -> Cow<'_, str> {
+    // Nearly every text is as it should be, and is not copied.
     if !text.contains(is_hidden) {
         return text.into();
     }
@@ -27,6 +28,7 @@ fn is_hidden(c: char) -> bool {
 
 /// A message of at most a few hundred characters: of a longer one the middle is left out and counted.
 pub fn shortened(message: &str) -> Cow<'_, str> {
+    // Characters, because cutting between the bytes of one would panic.
     let count = message.chars().count();
     if count <= LONGEST {
         return message.into();

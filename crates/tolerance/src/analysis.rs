@@ -79,6 +79,7 @@ pub struct MeasureTolerance {
 impl MeasureTolerance {
     /// How far the linear prediction is off: its spread over that of the samples, less 1.
     pub fn discrepancy(&self) -> Option<f64> {
+        // To samples that do not spread no prediction has a ratio.
         let sampled = self.sampled.as_ref().filter(|sampled| sampled.spread > 0.0)?;
         Some(self.linear.as_ref()?.spread / sampled.spread - 1.0)
     }
@@ -152,6 +153,7 @@ impl<'a> Analysis<'a> {
         let solve =
             |sample: u64| self.sample(nominal, sample).unwrap_or_else(|| vec![None; columns.len()]);
         let number = nominal.row.number.to_string();
+        // Of this design alone: another design of the sweep makes no samples stale.
         let header = header(self.program, &self.sweep.only(nominal.index));
         store.samples((&number, header), columns, self.samples, self.stop, solve)
     }
@@ -183,6 +185,7 @@ impl<'a> Analysis<'a> {
         let mut measures = Vec::new();
         for (place, column) in nominal.measured.iter().enumerate() {
             let has_derivatives = has_derivatives(&column.name, &nominal.row);
+            // Parameters and counts are columns, too: told only where a requirement names them.
             if !has_derivatives && !nominal.required.contains(&place) {
                 continue;
             }

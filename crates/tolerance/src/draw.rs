@@ -31,6 +31,7 @@ pub(crate) fn sample(
             let by = draw(batch, &mut random);
             Some((deviation.made(&made, by)?, by))
         };
+        // From the case as made so far: whether a load can stand depends on what was drawn before.
         let (moved, by) = (0..DRAWS).find_map(possible)?;
         made = moved;
         drawn.push(Some(by));

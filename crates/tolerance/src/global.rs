@@ -99,6 +99,7 @@ impl GlobalAnalysis<'_> {
             let key = variable.parameter().key;
             let from =
                 if point == "B" || point.strip_prefix("A ") == Some(key) { "B" } else { "A" };
+            // By point and key: one variable more changes the points of no other.
             let share = draw::share(base, sample, &format!("{from} {key}"));
             variable.set(&mut case, variable.at(share));
         }
@@ -116,6 +117,7 @@ fn indices(
     let evaluation = |sample: &SolvedSample| {
         let values: Option<Vec<f64>> =
             sample.values.chunks(columns).map(|point| point[k]).collect();
+        // All points of a sample or none: indices compare them with each other.
         let values = values?;
         let [first, second, mixed @ ..] = values.as_slice() else { return None };
         Some(Evaluation { first: *first, second: *second, mixed: mixed.to_vec() })

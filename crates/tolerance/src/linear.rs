@@ -56,6 +56,7 @@ impl Gradients<'_> {
     pub(crate) fn spread(&self, column: &Column<DesignRow>) -> Option<LinearSpread> {
         let mut sources = Vec::new();
         for deviation in self.deviations {
+            // A deviation may be one from scale to scale alone, which stands below.
             let Some(batch) = deviation.batch() else { continue };
             let variance = self.slopes(column, deviation, batch)?.variance(batch);
             let (source, deviation) = (deviation.key(), batch.standard_deviation());
@@ -98,6 +99,7 @@ impl Gradients<'_> {
     fn scatter(&self, column: &Column<DesignRow>, key: &str, sd: f64) -> Option<f64> {
         let measure = measure_name(&column.name);
         let mut derivatives = self.design.result.sensitivity.iter();
+        // Parameters and the mass are those of the design, which single scales leave as they are.
         let Some(known) = derivatives.find(|d| d.measure == measure) else { return Some(0.0) };
         let at = |value: f64| column.cell(&self.design.with_value(measure, value)?).number();
         let step = STEP * known.value.abs().max(f64::MIN_POSITIVE);
@@ -138,6 +140,7 @@ impl LinearSpread {
 
     /// The sources that matter, as "`gap_mm` 83 %, `slant_deg` from scale to scale 12 %".
     pub fn in_words(&self) -> String {
+        // Less would be told as 0 %.
         let matters = self.sources.iter().filter(|source| source.share >= 0.005);
         let text = |source: &SourceShare| {
             let level =

@@ -37,6 +37,7 @@ impl Sampler {
     /// The case of a sample without its scatter from scale to scale; `None` if there is no such sample.
     pub fn even_case(&self, case: &Case, sample: u64) -> Option<Case> {
         let (made, _) = draw::sample(case, &self.deviations, sample)?;
+        // Derivatives are those of even rows: what scatters is left to the values.
         Some(Case { imperfection: case.imperfection, ..made })
     }
 }

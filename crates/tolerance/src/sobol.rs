@@ -60,6 +60,7 @@ pub fn sobol_indices(evaluations: &[Evaluation]) -> Option<Vec<SobolIndices>> {
         .map(|e| 0.5 * (centred(e.first).powi(2) + centred(e.second).powi(2)))
         .collect();
     let variance = squares.iter().sum::<f64>() / n;
+    // Asked so that a variance that is no number is refused, too.
     if evaluations.len() < 2 || !(variance > 0.0 && variance.is_finite()) {
         return None;
     }

@@ -103,6 +103,7 @@ impl SampleStore {
         missing.retain(|number| !lock().records().values.contains_key(number));
         self.work.leave_out((count - missing.len()) as u64);
         missing.into_par_iter().try_for_each(|number| {
+            // No error yet: samples in hand are kept first, and what is missing is counted behind.
             if stop.load(Ordering::Relaxed) {
                 return Ok(());
             }
@@ -112,12 +113,14 @@ impl SampleStore {
         })?;
         let mut journal = lock();
         journal.sync()?;
+        // An analysis of more samples may have been here before: its others are left alone.
         let kept = journal.records().values.range(..=count as u64);
         let samples = kept.map(|(&number, values)| SolvedSample { number, values: values.clone() });
         let samples: Vec<SolvedSample> = samples.collect();
         if samples.len() < count {
             return Err(NoAnalysis::Stopped { done: samples.len(), of: count });
         }
+        // Each time, from the journal: a table that somebody has changed does not stay.
         self.write(&format!("{name}.csv"), columns, &samples)?;
         Ok(samples)
     }

@@ -43,6 +43,7 @@ pub(crate) fn yields(
         requirement: None,
         proportion: of(&|n| every.clone().all(|k| meets(k, n))),
         failed: (0..count).filter(|&n| every.clone().any(|k| values[k][n].is_none())).count(),
+        // Columns of one sample go together: spreads one by one do not tell how often all are met.
         linear: None,
     };
     every.clone().map(one).chain((!requirements.is_empty()).then_some(together)).collect()

@@ -19,6 +19,7 @@ const BOX: &str = "name = \"between\"\nmeasures = [\"coverage\", \"puncture\", \
     [goal]\nsamples = 256\n";
 
 /// The front that is compared with the grid, and the requirement of its goal.
+// Four points are enough to reach every design of the grid.
 const FRONT: &str = "maximize = [\"critical_force\", \"coverage\"]\nrequire = [\"compliance >= 0.2\"]\npoints = 4\n";
 const LEAST_COMPLIANCE: f64 = 0.2;
 
@@ -73,6 +74,7 @@ impl BetweenPoints {
         let weights = alone.chain([(Weights::BALANCED, "all four alike")]);
         let fittest = weights.map(|weights| {
             let winner = ranking.winner(weights.0);
+            // The ranking counts the rows of sound designs alone.
             let on_grid = named(&study.designs[rows[winner.row()]]);
             fittest(weights, &ends, (winner.fitness, on_grid))
         });
@@ -155,6 +157,7 @@ fn sound_rows(study: &Study) -> Vec<usize> {
 /// The worst and the best value of every criterion over the designs of a ranking, as a goal has them.
 fn ends(ranking: &Ranking<'_>) -> String {
     let designs = ranking.by_fitness(Weights::BALANCED);
+    // Values, not criteria: of a penetration the goal itself takes the inverse.
     let ends = CRITERIA.iter().enumerate().map(|(c, criterion)| {
         let better = |a: &&RankedDesign<'_>, b: &&RankedDesign<'_>| {
             a.criteria()[c].total_cmp(&b.criteria()[c])
@@ -178,6 +181,7 @@ fn fittest(
     let weighted = CRITERIA.iter().zip(weights.values());
     let weighted: Vec<_> =
         weighted.map(|(c, weight)| format!("{} = {}", c.column, number::text(*weight))).collect();
+    // The ranking of the grid leaves out what does not cover; the search has to be told.
     let found = search(&format!(
         "{BOX}maximize = \"fitness\"\nrequire = \"coverage > 0\"\nweights = {{ {} }}\nrescale = {ends}\n",
         weighted.join(", ")
@@ -208,6 +212,7 @@ fn search(goal: &str) -> Result<Found, ValidationError> {
     let threads = available_parallelism().map_or(1, usize::from);
     let meter = SearchMeter::default();
     let options = SearchOptions { threads, start: Start::New, stop: &stop, meter: &meter };
+    // The folder is temporary: no later search has to know this one.
     let program = Program { version: env!("CARGO_PKG_VERSION"), revision: "" };
     let found = optimisation::optimise(&goal, folder.path(), &options, &program)?;
     found.ok_or(ValidationError::NoOptimum)

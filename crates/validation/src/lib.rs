@@ -54,6 +54,7 @@ use study::Study;
 pub use under_needle::UnderNeedle;
 
 /// The sweeps on which claims are checked: the paper's 720 designs with either meaning of the length.
+// The text of the paper says 2L, and the coverage and first contacts that it prints follow from L.
 const BASES: [(&str, &str); 2] = [
     ("base L", "name = \"paper\""),
     ("base 2L", "name = \"paper-as-written\"\nscale.base = \"2L\""),
@@ -64,6 +65,7 @@ const MODELS: [(&str, &str); 3] = [
     ("paper sweep", ""),
     ("neo-Hookean substrate", "substrate.law = \"neo-hookean\""),
     (
+        // The needle that docs/needle.md advises.
         "guided needle",
         "puncture.needle = \"guided\"\npuncture.needle_friction = 0.3\npuncture.load_inset_over_t = 0.05",
     ),

@@ -58,6 +58,7 @@ impl ChoiceEffect {
     /// Returns the row of the table in Markdown.
     pub fn row(&self) -> String {
         let [low, median, high] = self.changes.map(|change| match 100.0 * change {
+            // Below what is shown the sign is that of round-off, and a test compares the page.
             percent if percent.abs() < 0.05 => "0 %".to_owned(),
             percent => format!("{percent:+.1} %"),
         });
@@ -102,6 +103,7 @@ impl CheckedClaim {
     /// Returns the rows of the table in Markdown: one for the claim, and one for each statement if there are several.
     pub(crate) fn rows(&self) -> String {
         let Claim { id, place, claim, reason, .. } = &self.claim;
+        // A claim of one statement says it all itself: a second row would repeat the first.
         if let [only] = self.statements.as_slice() {
             return format!("| {id} | {place} | {claim} | {} | {reason} |\n", only.cells());
         }

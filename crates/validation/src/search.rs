@@ -70,6 +70,7 @@ impl SettingSearch {
             let ScoredSetting { setting, headlines, .. } = scored;
             let [reproduced, in_part] =
                 [Verdict::Reproduced, Verdict::InPart].map(|verdict| scored.with(verdict).count());
+            // By their numbers: a claim that no setting reproduces stands in every row.
             let missing: Vec<_> = scored.with(Verdict::NotReproduced).collect();
             let _ = writeln!(
                 text,

@@ -167,17 +167,20 @@ pub(crate) fn sensitivity(
 impl ChoiceEffect {
     fn of(first: &Study, (setting, other): &(String, Study)) -> Vec<Self> {
         let measures: [(&str, DesignValue); 4] = [
+            // From a coverage of 0 there is no relative change.
             ("coverage", |design| design.coverage.filter(|coverage| *coverage > 0.0)),
             ("critical force", |design| design.critical_force),
             ("penetration", |design| design.penetration),
             ("compliance", |design| design.compliance),
         ];
         let effect = |(measure, value): (&'static str, DesignValue)| {
+            // All settings of a sweep have the same geometries in the same order.
             let pairs = first.designs.iter().zip(&other.designs);
             let pairs: Vec<_> = pairs.map(|(a, b)| (value(a), value(b))).collect();
             let change = |pair: &(Option<f64>, Option<f64>)| Some(pair.1? / pair.0? - 1.0);
             let mut changes: Vec<f64> = pairs.iter().filter_map(change).collect();
             changes.sort_by(f64::total_cmp);
+            // Not those that only the other has: the page tells what a choice makes fail.
             let lost = pairs.iter().filter(|(a, b)| a.is_some() && b.is_none()).count();
             let designs = changes.len();
             let at = |place: usize| changes.get(place).copied().unwrap_or(f64::NAN);
@@ -196,6 +199,7 @@ impl Headlines {
         let nothing = || "none".to_owned();
         let best = study.design(0.1, 0.1, 75.0);
         let force = best.and_then(|design| design.critical_force).map_or_else(nothing, digits);
+        // Where nothing can be ranked the row says so: a setting that fails is a result, too.
         let Ok(ranking) = Ranking::new(&study.results, TetrahedralGrid::default()) else {
             return Self {
                 force,

@@ -91,6 +91,7 @@ fn rows(linear: &[Study; 2], neo_hookean: &[Study; 2]) -> Vec<[String; 5]> {
         let what = format!(
             "`F_c*` against linear springs, of designs {what} there: smallest, median, largest"
         );
+        // The columns of linear springs stay empty: the change is counted from them.
         rows.push([what, String::new(), paper, String::new(), as_written]);
     }
     rows
@@ -103,6 +104,7 @@ fn folds(design: &MeasuredDesign) -> bool {
 /// Returns the designs with the largest critical force.
 fn strongest(study: &Study) -> Vec<&MeasuredDesign> {
     let mut designs: Vec<_> = study.designs.iter().collect();
+    // A design without a critical force comes last, and is none of the strongest.
     let force = |design: &MeasuredDesign| design.critical_force.unwrap_or(f64::NEG_INFINITY);
     designs.sort_by(|a, b| force(b).total_cmp(&force(a)));
     designs.truncate(STRONGEST);
@@ -118,10 +120,12 @@ fn largest(study: &Study, value: DesignValue) -> String {
 
 /// Formats how the critical force changes from one study to another, of the designs that fold in the first or of the others.
 fn changes(from: &Study, to: &Study, folded: bool) -> String {
+    // Both studies have the same designs in the same order: only the law differs.
     let pairs = from.designs.iter().zip(&to.designs).filter(|(a, _)| folds(a) == folded);
     let change = |(a, b): (&MeasuredDesign, &MeasuredDesign)| {
         Some(100.0 * (b.critical_force? / a.critical_force? - 1.0))
     };
+    // To add 0 makes 0 of −0, which would be told as -0.0 %.
     spread(pairs.filter_map(change), |percent| format!("{:+.1} %", percent + 0.0))
 }
 
@@ -131,6 +135,7 @@ fn spread(values: impl IntoIterator<Item = f64>, format: impl Fn(f64) -> String)
     values.sort_by(f64::total_cmp);
     let last = values.len().saturating_sub(1);
     let mut places = vec![0, values.len() / 2, last];
+    // Of one value or two the median is one of the ends, and is told once.
     places.dedup();
     let shown = places.into_iter().filter_map(|place| values.get(place).copied().map(&format));
     shown.collect::<Vec<_>>().join(", ")

@@ -75,6 +75,7 @@ impl Study {
 
     /// Returns the study of each setting: of each combination of the values of the axes that are not those of the geometry.
     pub(crate) fn settings(&self) -> Vec<(String, Self)> {
+        // A list and not a map, so that settings keep the order of the sweep.
         let mut settings = Vec::<(String, Vec<usize>)>::new();
         for row in 0..self.results.len() {
             let setting = self.setting(row);
@@ -96,6 +97,7 @@ impl Study {
     }
 
     fn only(&self, rows: &[usize]) -> Self {
+        // What is not geometry is the same in all of these rows: the first stands for them.
         let first = rows.first().map_or(0, |&row| row as u64);
         Self {
             sweep: self.sweep.clone(),

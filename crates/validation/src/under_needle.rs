@@ -15,6 +15,7 @@ pub struct UnderNeedle {
 impl UnderNeedle {
     /// Compares the claims under the paper's load with those under a guided needle.
     pub(crate) fn of(paper: &[CheckedClaim], guided: &[CheckedClaim]) -> Self {
+        // Both come from one table of claims, and so in one order.
         let pairs = paper.iter().zip(guided);
         let turned =
             pairs.flat_map(|(claim, other)| claim.rows_beside(other, CheckedStatement::turns));

@@ -23,6 +23,7 @@ pub fn report(audit: &Audit) -> String {
     let designs = counted(audit.designs, "design");
     let mut text =
         format!("audit: {designs} solved again by a second method; largest relative differences\n");
+    // The largest differences come first, so that a cut hides smaller ones.
     let rows: Vec<_> = audit.differences.iter().take(LISTED).map(row).collect();
     text.push_str(&aligned(&rows));
     let texts =

@@ -48,6 +48,7 @@ pub struct Arguments {
 /// Prints the springs under a row of scales.
 pub fn calibrate(arguments: &Arguments) -> anyhow::Result<u8> {
     let footprint = footprint_of(arguments)?;
+    // The table has the nearest neighbours alone, and the others take much longer.
     let row = RowStiffness::of(&footprint, Coupling::Nearest)?;
     print(&report(&footprint, &row))?;
     Ok(DONE)
@@ -70,8 +71,10 @@ fn footprint_of(arguments: &Arguments) -> anyhow::Result<Footprint> {
     // A sweep of one design: its keys know their bounds, and how to refuse what is beyond.
     let settings: Vec<_> =
         options.into_iter().chain(tissue).map(setting).collect::<Result<_, _>>()?;
+    // A sweep needs a slant, on which no spring depends.
     let sweep =
         Sweep::parse("name = \"calibrate\"\ndesigns.slant_deg = 0", "calibrate", &settings)?;
+    // A list of values makes an axis of an option, as it does in a definition.
     let several = "--gap and --length: several values, expected one of each";
     ensure!(sweep.grid().len() == 1, several);
     let case = sweep.grid().case(0);

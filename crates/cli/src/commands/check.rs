@@ -140,6 +140,7 @@ fn as_json(sweep: &Sweep) -> Value {
 fn contact_moduli(sweep: &Sweep) -> Option<String> {
     let shared = |key: &str| sweep.shared().find(|(p, _)| p.key == key)?.1.number();
     let modulus = |of: &str, ratio: &str| Some(shared(of)? * shared(ratio)?);
+    // Two ratios stand for one modulus of the scales: in MPa it shows whether they agree.
     let puncture = modulus("substrate_modulus_MPa", "contact_modulus_over_substrate");
     let bending = modulus("membrane_modulus_MPa", "contact_modulus_over_membrane");
     let words = |modulus: Option<f64>, of: &str| Some(format!("{} MPa in {of}", digits(modulus?)));
@@ -200,6 +201,7 @@ fn values(axis: &Axis) -> String {
 /// How many footprints the substrate is calibrated for: the combinations of what they depend on.
 fn calibrations(sweep: &Sweep) -> u64 {
     let has_mm = sweep.gives_millimetres();
+    // Springs go by lengths over the thickness, which so moves those that are given in mm.
     let matters =
         |of: &Parameter| of.has(Role::MovesSprings) || (has_mm && of.key == key::THICKNESS);
     let axes = sweep.grid().axes().iter();

@@ -126,6 +126,7 @@ fn columns(comparison: &Comparison<'_>) -> String {
     }
     if !same.is_empty() {
         let names: Vec<_> = same.iter().map(|column| column.name.as_str()).collect();
+        // Where all that is alike is text, there was no size to hold against a tolerance.
         let above = if same.iter().any(|column| column.relative.is_some()) {
             format!(" above {}", number::text(comparison.tolerance()))
         } else {

@@ -17,6 +17,7 @@ pub fn note(
     folder: &Path,
     names: &[impl AsRef<str>],
 ) -> anyhow::Result<()> {
+    // Without a statement of the tables nobody could tell later whether they have changed.
     let Some(mut derivation) = Derivation::of(results, product, command()) else { return Ok(()) };
     let inside = own_place(results.path(), folder);
     for name in names.iter().map(AsRef::as_ref) {
@@ -25,6 +26,8 @@ pub fn note(
             fs::read(&path).with_context(|| format!("{}: cannot be read", path.display()))?;
         derivation.files.insert(key(inside.as_deref(), folder, name), sha256(bytes));
     }
+    // Readers check the tables of a ranking by this one record; one that was written elsewhere is
+    // a product like others.
     let is_ranking = product == RunFolder::RANKING_RECORD && inside.as_deref() == Some("");
     let record = if is_ranking { product.to_owned() } else { record(product, &derivation) };
     let written = derivation.write(&RunFolder::new(results.path()), &record);
@@ -41,6 +44,7 @@ fn command() -> String {
 
 /// The path of `folder` from within the folder `results`, if it is inside of it.
 fn own_place(results: &Path, folder: &Path) -> Option<String> {
+    // Links are resolved, since a folder may be named in one way here and in another there.
     let (results, folder) = (absolute(results).ok()?, absolute(folder).ok()?);
     Some(folder.strip_prefix(results).ok()?.to_string_lossy().into_owned())
 }
@@ -53,6 +57,7 @@ fn absolute(folder: &Path) -> io::Result<PathBuf> {
 /// The name of a file in the record: from within the results, or its whole path.
 fn key(inside: Option<&str>, folder: &Path, name: &str) -> String {
     let path = match inside {
+        // A record without the path of its folder still holds where that is moved to.
         Some(place) => Path::new(place).join(name),
         None => absolute(folder).unwrap_or_else(|_| folder.to_owned()).join(name),
     };

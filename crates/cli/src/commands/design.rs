@@ -63,6 +63,7 @@ pub fn design(arguments: &Arguments) -> anyhow::Result<u8> {
     if arguments.sensitivity {
         design.sweep = design.sweep.with_sensitivity();
     }
+    // Solved before the folder is claimed, since a claim removes the files of the last time.
     let chosen = SolvedChoice::new(design);
     let folder = RunFolder::new(chosen.folder(arguments));
     let claim = Claim::take(&folder, Maker::Design)?;
@@ -154,6 +155,7 @@ impl SolvedChoice {
         };
         let is_weaker = |borne: f64| borne < force;
         let open = puncture.places.iter();
+        // A place that has borne more before its path ended is not the weakest.
         let open = open.filter(|p| p.force.is_none() && p.borne.is_some_and(is_weaker));
         let open: Vec<_> = open.map(|place| rounded(place.position)).collect();
         format!(

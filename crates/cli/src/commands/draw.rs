@@ -82,6 +82,7 @@ pub fn draw(arguments: &Arguments) -> anyhow::Result<u8> {
 
 /// Refuses places that no path of puncture goes through.
 fn check_places(arguments: &Arguments) -> anyhow::Result<()> {
+    // A strip bends both ways, so that its angles may be below zero.
     let displacements = if arguments.flexure { &[] } else { arguments.at.as_slice() };
     check_place("--at", "a displacement u/t", displacements)?;
     check_place("--force", "a force F*", &arguments.force)

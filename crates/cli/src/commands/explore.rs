@@ -55,6 +55,7 @@ pub fn explore(arguments: &Arguments) -> anyhow::Result<u8> {
         key::TISSUE
     );
     requirements.extend(arguments.required.read()?);
+    // On the page they would stand in red and without a value, whatever the skin is.
     let of_samples = requirements.extract_if(.., |of| Statistic::named(&of.column).is_some());
     for requirement in of_samples {
         note(&format!(
@@ -64,6 +65,7 @@ pub fn explore(arguments: &Arguments) -> anyhow::Result<u8> {
     require_folder_of("--out", &arguments.out)?;
     let page = Explorer {
         sweep,
+        // The page has a command to copy, so the path is quoted for a shell.
         file: shell_word(&arguments.definition.path.display().to_string()),
         requirements: requirements.iter().map(ToString::to_string).collect(),
         version: PROGRAM.version.to_owned(),
@@ -94,6 +96,8 @@ fn open(page: &Path) -> bool {
         _ => "xdg-open",
     };
     let mut command = Command::new(program);
+    // Browsers talk to the terminal that has started them.
     command.arg(page).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    // It is not waited for: a browser that opens may go on for hours.
     command.spawn().is_ok()
 }

@@ -43,6 +43,7 @@ pub fn export(arguments: &Arguments) -> anyhow::Result<u8> {
     std::panic::set_hook(Box::new(|_| ()));
     require_folder_of("--xlsx", &arguments.xlsx)?;
     let (path, completeness) = (&arguments.results, arguments.partial.completeness());
+    // Where a run is asked for, such a folder is refused with the advice to export it.
     let is_other = OTHERS.iter().any(|table| path.join(table).is_file());
     let results = if is_other {
         VerifiedFolder::open(path, completeness)?
@@ -82,6 +83,7 @@ fn others(results: &VerifiedFolder) -> anyhow::Result<Vec<OtherTable>> {
     } else {
         [Vec::new(), Vec::new()]
     };
+    // In the order of `OTHERS`; a front has the columns of an optimum.
     let columns = [
         of_best.clone(),
         of_best,

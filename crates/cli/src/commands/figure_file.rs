@@ -120,6 +120,7 @@ fn question_letters(name: &str, svg: &str, width: f64) {
 }
 
 /// The longest list of names in the name of a file.
+// File systems take 255 bytes, of which kind and place of the figure need some, too.
 const LONGEST: usize = 100;
 
 /// `names` with hyphens between, for the name of a file; the first and the last with their number if there are too many
@@ -129,6 +130,7 @@ pub fn joined(names: &[String], things: &str) -> String {
     match names {
         [first, .., last] if all.len() > LONGEST => {
             let ends = format!("{first}-to-{last}-");
+            // Designs off the grid are named by all their values, and two of them may be too long.
             let ends = if ends.len() > LONGEST { String::new() } else { ends };
             format!("{ends}{}-{things}", names.len())
         }

@@ -80,6 +80,7 @@ pub fn fit(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     question(definition.sweep());
     let default = || folder_of(definition.sweep(), None).join("fit");
     let folder = RunFolder::new(arguments.out.clone().unwrap_or_else(default));
+    // A file that is not its own is refused before the fit, and not when it is to be written.
     Claim::check(&folder, Maker::Fit)?;
     interrupt.ask_first();
     let display = Display::<WorkMeter>::new(arguments.quiet, interrupt, Arc::default(), ENDING);
@@ -101,6 +102,7 @@ pub fn fit(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
         let files = FILES.join(" ");
         print(&format!("{}\n{}: {files}\n", text(&fitted), folder.path().display()))?;
     }
+    // A value without an interval is one of many that fit as well.
     let is_told = fitted.estimates.iter().all(|estimate| estimate.interval.is_some());
     Ok(if is_told { DONE } else { INCOMPLETE })
 }

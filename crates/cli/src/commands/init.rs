@@ -14,6 +14,7 @@ use super::source::require_folder_of;
 use crate::print::{counted, print};
 
 /// Definitions to begin with, which the program carries along: names, which are also those of their sweeps, and texts.
+// The first one is taken where a file is given without a template.
 const TEMPLATES: [(&str, &str); 7] = [
     ("paper", include_str!("../../../../sweeps/paper.toml")),
     ("smoke", include_str!("../../../../sweeps/smoke.toml")),
@@ -49,6 +50,7 @@ pub fn init(arguments: &Arguments) -> anyhow::Result<u8> {
     let (template, file) = template_and_file(arguments);
     let shown = file.display().to_string();
     ensure!(
+        // A link that leads nowhere is a file, too: no link is written through.
         file.symlink_metadata().is_err(),
         "{shown}: exists already; give the name of a new file, e.g. squama init {template} mine.toml"
     );
@@ -100,6 +102,7 @@ impl TypedValueParser for TemplateOrFile {
     }
 
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        // Help and completions list templates alone, though the name of a file is taken, too.
         Some(Box::new(TEMPLATES.into_iter().map(|(name, _)| PossibleValue::new(name))))
     }
 }
@@ -108,6 +111,7 @@ impl TypedValueParser for TemplateOrFile {
 fn definition(template: &str, name: &str, file: &str) -> Option<String> {
     let (known, text) = TEMPLATES.iter().find(|(known, _)| *known == template)?;
     let text = text.replace(&format!("name = \"{known}\""), &format!("name = \"{name}\""));
+    // The comments of a template have commands to copy, which are to name the new file.
     let text = text.replace(&format!("results/{known}/"), &format!("results/{name}/"));
     Some(text.replace(&format!("sweeps/{known}.toml"), file))
 }

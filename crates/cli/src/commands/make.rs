@@ -72,6 +72,7 @@ const TEMPLATE_MM: f64 = 0.1;
 
 /// Reads two numbers of scales, as `5x4`.
 fn along_and_across(text: &str) -> Result<[usize; 2], String> {
+    // People type an x, and copy a times sign from the texts about a skin.
     let numbers =
         text.split_once(['x', '×']).map(|(along, across)| (along.parse(), across.parse()));
     match numbers {
@@ -100,6 +101,7 @@ pub fn make(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> 
         note(&missing);
         list = format!("{list}\n{missing}\n");
     }
+    // Before anything is written: without its list, which may fail, there is no file either.
     list.push_str(&tolerances(design, out, interrupt)?);
     let list_file = out.with_extension("parts.txt");
     write_file(out, &format.bytes(&patch, &sheet))?;

@@ -26,6 +26,7 @@ pub struct Arguments {
 pub fn man(arguments: &Arguments) -> anyhow::Result<u8> {
     let folder = &arguments.folder;
     results::make_folder(folder)?;
+    // The command `help` has all others below it, and each would have a second page.
     let mut squama = Squama::command().disable_help_subcommand(true);
     squama.build();
     let pages = pages(&squama, "squama");

@@ -144,6 +144,7 @@ pub fn plot(arguments: &Arguments) -> anyhow::Result<u8> {
 
 fn plot_results(results: &Path, arguments: &Arguments) -> anyhow::Result<u8> {
     check_sizes(&arguments.output)?;
+    // All designs: a figure itself leaves marks out where there are too many.
     let results = ResultsFolder::read(
         &verified_folder(results, arguments.partial.completeness())?,
         usize::MAX,
@@ -204,6 +205,7 @@ fn plot_curves(arguments: &CurvesArguments) -> anyhow::Result<u8> {
             flexure: Some(flexure),
         })
         .collect();
+    // `select` refuses to select none.
     let sweep = &designs[0].sweep;
     let folder = || folder_within(&arguments.definition, sweep, "curves");
     let mut files = FigureFiles::new(&arguments.output, folder)?;
@@ -229,6 +231,7 @@ fn measured(arguments: &CurvesArguments, cases: &[Case]) -> anyhow::Result<Optio
     let read = arguments.measured.iter().map(read).collect::<Result<Vec<_>, _>>()?;
     let Some(first) = read.first() else { return Ok(None) };
     let is_alike = |c: &&MeasuredCurve| (c.test, c.is_physical) == (first.test, first.is_physical);
+    // They are laid over one panel, which has one pair of axes.
     if let Some(other) = read.iter().find(|curve| !is_alike(curve)) {
         bail!("{}: is of another test than {}, or in other units", other.file, first.file);
     }
@@ -238,6 +241,7 @@ fn measured(arguments: &CurvesArguments, cases: &[Case]) -> anyhow::Result<Optio
             anyhow::anyhow!("{definition}: {} is in mm and N, which needs {missing}", first.file)
         })
     };
+    // Columns without a unit lie over dimensionless curves, which every design has.
     cases.iter().filter(|_| first.is_physical).try_for_each(units)?;
     let (bending, is_physical) = (first.test == Test::Bending, first.is_physical);
     let curves = read.into_iter().map(|curve| (curve.file, curve.points)).collect();
@@ -254,12 +258,14 @@ fn solve(case: &Case, to: Option<f64>) -> anyhow::Result<(Puncture, Flexure)> {
     let mut puncture =
         puncture::snapshots(&case.design, &substrate, &common, &case.punctured(), &at)?.puncture;
     let parameters = case.punctured();
+    // The steps of the definition are enough, because a place is shown by its critical force alone.
     puncture.places = puncture::loaded_places(&case.design, &substrate, &case.common, &parameters)?;
     if let Some(to) = to {
         let beyond = puncture.path.iter().position(|point| point.displacement > to);
         // One point beyond, so that the line reaches the end.
         puncture.path.truncate(beyond.map_or(usize::MAX, |beyond| beyond + 1));
         let path = &puncture.path;
+        // A cross beyond the end of the line would stand beside the curve.
         puncture.events.retain(|event| path.contains(&event.point));
         puncture.folds.retain(|fold| fold.point.displacement <= to);
     }

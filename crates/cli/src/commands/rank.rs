@@ -143,6 +143,7 @@ fn none_meets(
     unmet: &Unmet,
 ) -> anyhow::Result<u8> {
     let folder = arguments.out.as_deref().unwrap_or(results.folder());
+    // Preferences alone are kept: an earlier ranking would pass for one by these requirements.
     let file = ranking::write_unmet(folder, preferences)?;
     derived::note(results.verified_folder(), RunFolder::RANKING_RECORD, folder, &[file])?;
     if arguments.json {

@@ -56,6 +56,7 @@ const HELD: usize = 25_000;
 const SOLVED: usize = 120;
 /// Designs of these that are drawn as they are at the critical tilt, at most: the best of all and by each criterion. The page
 /// itself solves and draws any other.
+// Five, because the page of the paper is to stay below 2 MB, of which the solver is a part.
 const DRAWN: usize = 5;
 /// Largest step along the curves of a drawn design, as a fraction of the whole path: close enough for a line.
 const CURVE_STEP: f64 = 0.01;
@@ -107,6 +108,7 @@ fn page(results: &ResultsFolder) -> anyhow::Result<Page> {
         explorer: (!sweep.gives(sweep::key::TISSUE)).then(|| Explorer {
             sweep: sweep.clone(),
             file: shell_word(&results.folder.display().to_string()),
+            // The page of a run has requirements of its own, which the solver asks it for.
             requirements: Vec::new(),
             version: PROGRAM.version.to_owned(),
         }),
@@ -153,6 +155,7 @@ fn solved(results: &ResultsFolder, rankings: &[Ranking<'_>]) -> Vec<PageDesign> 
             })
         });
     }
+    // The last round may have taken one of each group, and so a few too many.
     rows.truncate(SOLVED);
     let rows: Vec<_> = rows.into_iter().enumerate().collect();
     let mut all: Vec<_> = with_bar(rows.len(), |work| {
@@ -177,6 +180,7 @@ fn solved(results: &ResultsFolder, rankings: &[Ranking<'_>]) -> Vec<PageDesign> 
 /// The rows of the designs that are best for all criteria alike, for one alone, or for other weights, and of the next best for all
 /// alike: each once.
 fn leading(ranking: &Ranking<'_>) -> Vec<usize> {
+    // The order decides which designs are drawn, so these five come first.
     let named = std::iter::once(Weights::BALANCED).chain(Weights::alone());
     let named = named.map(|weights| ranking.winner(weights));
     let winners = named.chain(ranking.winners());
@@ -194,6 +198,7 @@ fn solve(results: &ResultsFolder, row: usize, is_drawn: bool) -> Option<PageDesi
     let number = results.designs.text("design", row);
     let grid = results.sweep.grid();
     let mut case = grid.case(grid.parse_number(number).ok()?);
+    // A definition may ask for smaller steps than a drawn curve needs: they hold then.
     case.common.solver.max_step = case.common.solver.max_step.min(CURVE_STEP);
     let substrate = substrate(&case).ok()?;
     let at = [puncture::At::Tilt(case.puncture.critical_tilt_deg)];
@@ -225,6 +230,7 @@ fn gap_factors(results: &ResultsFolder, number: &str) -> Vec<GapFactors> {
     let change = GapChange::of(&results.sweep, number, &columns);
     let measures = change.map_or_else(Vec::new, |change| change.measures);
     let factors = |MeasureChange { column, value, changed }| {
+        // A measure of zero has no factor.
         let factor = |changed: f64| Some(changed / value).filter(|factor| factor.is_finite());
         GapFactors { column, factors: changed.map(|changed| changed.and_then(factor)) }
     };

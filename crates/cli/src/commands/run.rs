@@ -104,6 +104,7 @@ pub fn run(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let sweep = read(&arguments.definition)?;
     let folder = folder(arguments, &sweep);
     note_variables(&sweep);
+    // From here on there are designs to keep; before, a signal ends the command at once.
     interrupt.ask_first();
     let display = ProgressDisplay::new(arguments.work.quiet, interrupt, Arc::default(), RESUMED);
     let options = options(&arguments.work, &arguments.format, interrupt, &display);
@@ -187,6 +188,7 @@ pub(super) fn options<'i>(
 
 pub(super) fn exit_code(finished: &Finished, interrupt: &Interrupt) -> u8 {
     let complete = finished.summary.failed == 0 && finished.missing == 0;
+    // The signal comes first: designs are missing because of it.
     interrupt.exit_code().unwrap_or(if complete { DONE } else { INCOMPLETE })
 }
 

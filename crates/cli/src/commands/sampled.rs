@@ -70,6 +70,7 @@ impl<'a> SampledFolder<'a> {
         let solved = self.arguments.threads.pool()?.install(|| solve(&store));
         drop(display);
         match solved {
+            // Claimed now, and not before the samples: a claim removes the tables of the last time.
             Ok(solved) => Ok(Some((solved, Claim::take(&self.folder, self.maker)?))),
             Err(stopped @ NoAnalysis::Stopped { .. }) => {
                 note(&format!("{stopped}, which are kept; the same command continues from them"));

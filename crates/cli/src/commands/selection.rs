@@ -50,6 +50,7 @@ pub fn select(
     selection: &Selection,
 ) -> anyhow::Result<Vec<SelectedDesign>> {
     let settings = settings(&definition.settings)?;
+    // Before `definition_file`, which refuses a front because it is no single definition.
     if definition.path.join(FRONT).is_file() {
         return of_front(&definition.path, &settings, selection);
     }
@@ -58,6 +59,7 @@ pub fn select(
     let mut text = read_text(&file)?;
     let is_chosen = options(selection).iter().any(|(.., text)| text.is_some());
     let designs = match defined_by(&text, &file, &settings)? {
+        // The space of a goal is no grid: its designs have values, and no numbers.
         Defined::Goal(goal) if is_chosen && selection.numbers.is_empty() => {
             text = nominal(&goal);
             1
@@ -107,6 +109,7 @@ fn of_front(
         let value = |p: &Parameter| format!("{}={}", p.path(), front.parameter(row, p));
         let found = goal.space.parameters().map(|p| Setting::parse(&value(p)));
         let mut all = found.collect::<Result<Vec<_>, _>>()?;
+        // These come last, so that `--set` changes the design that was found.
         all.extend_from_slice(settings);
         let (sweep, number) = (Sweep::parse(&nominal, &name, &all)?, Some(grid.number(row as u64)));
         Ok(SelectedDesign { sweep, number, count: designs as u64, original: None })
@@ -173,6 +176,7 @@ fn by_values(
         settings.push(Setting::from_option(&option, &format!("designs.{key}={values}"))?);
     }
     let sweep = read(&settings)?;
+    // Without `--set`, because a number is that of the design in the definition as it is written.
     let whole = read(&[]).ok();
     let selected = |index| located(sweep.only(index), whole.as_ref());
     Ok((0..sweep.grid().len()).map(selected).collect())

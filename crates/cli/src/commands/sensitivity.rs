@@ -45,6 +45,7 @@ pub struct Arguments {
     _global: bool,
 
     /// Number of samples
+    // One sample has no variance to share out.
     #[arg(long, value_name = "N", default_value_t = 1000, allow_hyphen_values = true, value_parser = whole::<2, 1_000_000>)]
     pub samples: u64,
 
@@ -109,6 +110,7 @@ fn rows(found: &GlobalSensitivity, measure: &MeasureIndices) -> Vec<IndexRow> {
 }
 
 fn report(sweep: &Sweep, found: &GlobalSensitivity, samples: usize) -> String {
+    // Two points that are independent, and for each variable one that mixes them.
     let points = samples * (found.variables.len() + 2);
     let samples = counted(samples as u64, "sample");
     let mut text = format!("{}: {samples}, {points} designs\n", sweep.name());

@@ -28,6 +28,7 @@ pub struct Arguments {
     pub definition: Definition,
 
     /// Number of shards, 1 to 1000: the elements of the job array
+    // Any number is read here, because `check` tells why Slurm takes no more.
     #[arg(long, allow_hyphen_values = true, value_name = "N", value_parser = whole::<0, { u64::MAX }>)]
     pub shards: u64,
 
@@ -59,6 +60,7 @@ pub fn slurm(arguments: &Arguments) -> anyhow::Result<u8> {
         make_executable(&folder.join(name))?;
     }
     write_text(&folder, "sweep.sh", &settings(&sweep, arguments.shards)?)?;
+    // The whole definition, so that `--set` and defaults hold for shards that run later, too.
     write_text(&folder, "sweep.toml", &sweep.to_toml())?;
     print(&format!(
         "{}: sweep.toml sweep.sh submit.sh array.sh merge.sh\n\
@@ -88,6 +90,7 @@ fn check(shards: u64, sweep: &Sweep) -> anyhow::Result<()> {
 
 /// The settings that differ from sweep to sweep.
 fn settings(sweep: &Sweep, shards: u64) -> anyhow::Result<String> {
+    // Nodes may have the program elsewhere, so the environment may name another one.
     let program = std::env::current_exe().context("the path of squama is not known")?;
     Ok(format!(
         "# What the scripts in this folder run: the sweep of sweep.toml. Written by squama slurm.\n\

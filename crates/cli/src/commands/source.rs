@@ -101,6 +101,7 @@ pub fn definition_file(path: &Path) -> anyhow::Result<PathBuf> {
     let record = path.join(RunFolder::RUN_INFO);
     let optimum = path.join("optimum.toml");
     if !record.is_file() && optimum.is_file() {
+        // Opened for the check alone: an optimum that somebody has changed is refused.
         VerifiedFolder::open(path, Completeness::Partial)?.file("optimum.toml")?;
         return Ok(optimum);
     }
@@ -156,6 +157,7 @@ fn refuse_folder_of_runs(path: &Path) -> anyhow::Result<()> {
     let runs = folders.filter(|folder| is_run(folder));
     let mut names: Vec<_> =
         runs.filter_map(|run| Some(run.file_name()?.to_string_lossy().into_owned())).collect();
+    // The disk lists folders in any order.
     names.sort();
     let folder = path.display();
     ensure!(

@@ -119,6 +119,7 @@ fn again(status: &run::RunStatus) -> String {
 fn rate(status: &run::RunStatus) -> Option<String> {
     let rate = status.rate()?;
     let left = (status.running() + status.missing()) as f64 / rate;
+    // At a rate of zero this is infinite, which no duration takes.
     let left = match Duration::try_from_secs_f64(left) {
         Ok(left) if !left.is_zero() => format!(", {} for the rest", time(left)),
         _ => String::new(),

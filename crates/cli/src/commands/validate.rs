@@ -49,6 +49,7 @@ pub fn validate(arguments: &Arguments) -> anyhow::Result<u8> {
         return Ok(DONE);
     }
     let out = &arguments.out;
+    // Asked before half a minute of solving.
     ensure!(
         out.file_name().is_some(),
         "--out {}: not accepted, expected the name of a file",
@@ -63,6 +64,7 @@ pub fn validate(arguments: &Arguments) -> anyhow::Result<u8> {
     for benchmark in &outside {
         print(&format!("outside its band: {}\n", benchmark.row()))?;
     }
+    // Claims are statements of the paper: squama may be right where one is not reproduced.
     Ok(if outside.is_empty() { DONE } else { INCOMPLETE })
 }
 

@@ -57,6 +57,7 @@ pub struct Format {
 #[derive(Clone, Copy, Debug, Args)]
 pub struct Threads {
     /// Number of threads [default: all cores]
+    // `--threads -1` is refused as a number out of range, and not as an unknown option `-1`.
     #[arg(long = "threads", allow_hyphen_values = true, value_name = "N", value_parser = whole::<1, 1024>)]
     number: Option<u64>,
 }

@@ -39,6 +39,7 @@ pub(crate) fn alone(sweep: &Sweep, base: &Case, case: &Case) -> Result<Sweep, St
 
 /// The settings of what is no axis and differs from the definition.
 fn others(sweep: &Sweep, base: &Case, case: &Case) -> impl Iterator<Item = String> {
+    // What follows from another parameter is left out: a definition with both is refused.
     let differs = |one: &&Parameter| {
         let is_axis =
             sweep.grid().axis(one.key).is_some() || OPTIONS.iter().any(|(key, _)| one.key == *key);

@@ -78,6 +78,7 @@ type SamplesKey = (PointKey, u64, usize);
 
 impl PointKey {
     pub fn of(point: &SpacePoint) -> Self {
+        // No tolerance: a search that is done again asks for the very same points.
         let shares = point.shares.iter().map(|share| share.to_bits()).collect();
         Self { shares, chosen: point.chosen.clone() }
     }

@@ -72,6 +72,7 @@ impl DesignGoal {
         let mut refused = Vec::new();
         let mut section = goal_section(entries, &file, &mut refused);
         for (requirement, place) in &mut section.requirements {
+            // Its key may stand in the file: a bound of the command would be blamed on that line.
             if required.contains(requirement) {
                 *place = argument(requirement);
             }
@@ -216,6 +217,7 @@ fn senseless(
         let is_nominal = Statistic::named(named.column).is_none() || known.contains(&named.column);
         unavailable.or_else(|| missing_column(named, &known, sweep).filter(|_| is_nominal))
     });
+    // A requirement compares no designs: the least tilt under a given force is a goal.
     let objectives = named.iter().filter(|named| named.key != "goal.require");
     let incomparable = objectives.flat_map(|Written { column, key, place }| {
         let fails =
@@ -302,6 +304,7 @@ fn out_of_reach<'a>(
 
 /// Keys and values as TOML again.
 fn to_toml(entries: &KeyValues) -> String {
+    // Values first: behind the header of a table TOML would count them as part of it.
     let (tables, values): (Vec<_>, Vec<_>) =
         entries.iter().partition(|entry| matches!(entry.value, Value::Table(_)));
     let mut text = String::new();

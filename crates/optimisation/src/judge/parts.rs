@@ -115,6 +115,7 @@ impl JudgeParts<'_> {
         let mut used: Vec<UsedStatistic> = used.collect();
         let is_plain = |r: &Requirement| goal.statistic(&r.column).is_none();
         let has_bounds = goal.requirements.iter().any(is_plain);
+        // Told besides: the samples are solved anyway, and say how many meet every bound.
         if !used.is_empty() && has_bounds && !used.iter().any(UsedStatistic::is_yield) {
             used.push(self.used(Statistic::YIELD, Statistic::Yield, true));
         }

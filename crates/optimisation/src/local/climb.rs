@@ -80,6 +80,7 @@ impl Gradient for LocalProblem<'_> {
 
     fn gradient(&self, shares: &Vec<f64>) -> Result<Vec<f64>, Halt> {
         let looked = self.look(shares)?;
+        // Without a derivative there is no way to go: SLSQP ends at a number that is not finite.
         let gradient = looked.and_then(|l| self.cost_gradient(shares, &l, Slopes::uphill));
         Ok(gradient.unwrap_or_else(|| vec![f64::NAN; shares.len()]))
     }

@@ -91,6 +91,7 @@ impl<'a> LocalProblem<'a> {
         Some(Self {
             walk,
             stage,
+            // Chosen at the start for the whole search, or costs of two places had no order.
             scale: if value > 0.0 { CostScale::Logarithm } else { CostScale::Linear(value.abs()) },
             stays_open: walk.search.judge.is_about(Measure::Flexure) && is_open(&best.result),
             tooth,
@@ -103,6 +104,7 @@ impl<'a> LocalProblem<'a> {
     /// The design at some shares, with its derivatives.
     pub fn look(&self, shares: &[f64]) -> Result<Option<Looked>, Halt> {
         let (mut candidate, mut row) = self.walk.at(self.stage, shares, true)?;
+        // Of the design as it is: continued beyond a border it may keep limits that it breaks.
         let met = matches!(self.walk.search.merit(&candidate, self.walk.target), Merit::Met(_));
         self.end_if_stalled(shares)?;
         if let Some(tooth) = self.tooth {

@@ -18,6 +18,7 @@ impl LocalSearch<'_> {
         if self.search.judge.is_yield(Use::Objective(self.target.objective)) {
             return Ok(());
         }
+        // In no piece of coverage: borders of pieces are ridges, and this search goes along them.
         let Some(problem) = LocalProblem::new(self, SearchStage::Ridge, None) else {
             return Ok(());
         };

@@ -56,6 +56,7 @@ impl SampledPoint<'_> {
 
     /// The part of a sample in the derivatives of statistic `q`: the sample moves as the design does, with the same deviations.
     fn part(&self, q: usize, of: OrderStatistic, row: &DesignRow, parameter: &Parameter) -> Slopes {
+        // With its scatter, as it was judged: the even row may have another tightest bound.
         let values = &self.samples.0[of.sample as usize - 1];
         let Some((column, factor)) = self.judge.moving(q, values) else { return Slopes::UNKNOWN };
         let nominal = self.space.case(self.point);

@@ -64,6 +64,7 @@ impl Searches<'_> {
             Answer::Optimum(best) => {
                 let is_refined = refine(self, best, history)?;
                 check(
+                    // Fresh samples are those behind all that the search saw: the finer saw more.
                     if is_refined { finer } else { sampled },
                     std::slice::from_mut(best.as_mut()),
                 )?;
@@ -90,12 +91,14 @@ fn refine(
         let start = finer.look(SearchStage::Tolerance, &start.point, false)?.0;
         // The whole way: a yield that falls by a tenth under more samples is seldom mended near by.
         looked.extend(finer.improve(&best.target, &start, Effort::WHOLE)?);
+        // Its walk leaves the start out, which may be the best that more samples know.
         looked.push(start);
         finer.meter.step();
     }
     let is_met = |candidate| matches!(finer.merit(candidate, &best.target), Merit::Met(_));
     let is_refined = looked.iter().any(is_met);
     if is_refined {
+        // Of these alone: the verdicts on all others rest on fewer samples.
         *best = best_design(finer, &looked, best.target.clone())?;
     }
     history.append(&mut looked);

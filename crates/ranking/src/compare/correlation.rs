@@ -16,6 +16,7 @@ pub fn rank_correlation(pairs: &[[f64; 2]]) -> Option<f64> {
 /// The rank of each value, from 1; equal ones share the mean of theirs.
 fn ranks(values: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut sorted: Vec<(f64, usize)> = values.enumerate().map(|(i, value)| (value, i)).collect();
+    // Unstable will do: equal values get one rank, whatever their order.
     sorted.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
     let mut ranks = vec![0.0; sorted.len()];
     let mut before = 0;

@@ -63,6 +63,7 @@ fn common(first: &Results, second: &Results) -> Vec<&'static Parameter> {
 
 /// The key that tells the design of a row from others: its values of `parameters`.
 fn key(run: &Results, parameters: &[&'static Parameter], row: usize) -> String {
+    // Texts, not numbers: every run writes a number with the same digits.
     let mut key = String::new();
     for parameter in parameters {
         match run.parameter(row, parameter) {
@@ -83,6 +84,7 @@ fn keys(
 ) -> Result<HashMap<String, usize>, InvalidComparison> {
     let mut keys = HashMap::with_capacity(run.len());
     for row in 0..run.len() {
+        // Refused: of two designs with one key the second would hide the first.
         if let Some(other) = keys.insert(key(run, parameters, row), row) {
             let [first, second] = [other, row].map(|row| run.design(row).to_owned());
             return Err(InvalidComparison::Ambiguous { file: run.file(), first, second });

@@ -42,6 +42,7 @@ pub fn pareto_columns<'a>(
 ) -> RankedColumns<'a> {
     let mut columns = design(parameters);
     columns.extend(criteria(preferences));
+    // Shares are parts of a tetrahedron, which other numbers of criteria do not have.
     if preferences.criteria.len() == FOUR {
         columns.push(share("part of all weights for which it is the best design"));
     }
@@ -117,6 +118,7 @@ fn criteria<'a>(preferences: &Preferences) -> RankedColumns<'a> {
 
 fn rescaled<'a>(preferences: &Preferences) -> RankedColumns<'a> {
     let column = |(c, criterion): (usize, &Criterion)| {
+        // By its key: where the penetration is the column, it is the resistance that is rescaled.
         let name = format!("{}_rescaled", criterion.key());
         let meaning = "criterion from 0, the worst of all ranked designs, to 1, the best";
         Column::made(name.into(), "-", meaning, move |s: &RankedDesign<'a>| s.rescaled()[c].into())

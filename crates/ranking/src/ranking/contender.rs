@@ -80,6 +80,7 @@ pub(super) fn sort_out(
     let filter = RequirementFilter::new(results, &preferences.requirements)?;
     let columns = preferences.criteria.iter().map(|criterion| results.column(&criterion.column));
     let columns: Vec<usize> = columns.collect::<Result<_, _>>()?;
+    // A tree, so that reasons are told in one order, whichever row is met first.
     let (mut rows, mut left_out) = (Vec::new(), BTreeMap::new());
     for row in 0..results.len() {
         let found = match filter.first_unmet(row)? {
@@ -114,6 +115,7 @@ fn eligible(
     preferences: &Preferences,
 ) -> Result<Eligible, LeftOut> {
     let criteria = &preferences.criteria;
+    // Where coverage is no criterion, exposed designs are ranked like any other.
     let coverage = criteria.iter().position(|criterion| criterion.column == "coverage");
     if coverage.and_then(|c| found[c]).is_some_and(|coverage| coverage <= 0.0) {
         return Err(LeftOut::Exposed);
@@ -133,8 +135,10 @@ fn eligible(
 pub(super) fn contenders(rows: &[Eligible], preferences: &Preferences) -> Vec<Contender> {
     let count = preferences.criteria.len();
     let criteria: Vec<Criteria> = rows.iter().map(|eligible| eligible.criteria).collect();
+    // Of criteria as they are: who beats whom needs neither weights nor rescaling.
     let front = front_of(&criteria, count);
     let criteria_spans = spans(criteria.iter());
+    // Contenders hold these numbers once more: of a million designs they are 64 MB.
     drop(criteria);
     // Values tell whether anything but round-off tells designs apart: a logarithm may be near 0.
     let is_tie =
@@ -152,6 +156,7 @@ pub(super) fn contenders(rows: &[Eligible], preferences: &Preferences) -> Vec<Co
 /// The sum of the criteria of each design of a front, each from 0, the worst of the front, to 1, the best (R9).
 pub(super) fn sums_of_rescaled(front: &[&Contender]) -> Vec<f64> {
     let criteria: Vec<Criteria> = front.iter().map(|contender| contender.criteria).collect();
+    // Over the front alone: a design that is beaten would move the knee.
     let spans = spans(criteria.iter());
     let sum = |criteria: &Criteria| {
         criteria.iter().zip(spans).map(|(value, span)| rescaled(*value, span)).sum::<f64>()

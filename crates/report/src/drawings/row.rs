@@ -96,6 +96,7 @@ impl<'a> RowSheet<'a> {
         let (a, shift, pitch) = (row.scale().half_base(), row.scale().shift(), row.pitch());
         let width = (last - first) as f64 * pitch + 2.0 * a + shift;
         let scale = ((WIDTH - 4.0 * MARGIN) / width).min(LARGEST);
+        // Where a base has tilted, one of its corners is deeper than its middle.
         let deepest = states
             .iter()
             .flat_map(|state| &state.scales)
@@ -111,6 +112,7 @@ impl<'a> RowSheet<'a> {
             let load = load(state);
             state.scales.iter().filter(move |_| load > 0.0).map(move |s| s.reaction / load)
         });
+        // From zero, because the line without a reaction is always drawn.
         let reactions =
             reactions.fold((0.0, 0.0), |(high, low): (f64, f64), r| (high.max(r), low.min(r)));
         Ok(Self {
@@ -177,6 +179,7 @@ impl<'a> RowSheet<'a> {
             self.tilt(state),
             self.reactions(&shown, self.puncture.load(state)),
         ];
+        // Folds are counted in the whole row, also where it is not shown.
         let all: Vec<_> = state.scales.iter().map(|s| (s.scale, pose(s))).collect();
         let caption = self.caption(state) + &surface::folds_label(&self.row, &all);
         lifted(free, self.height, caption, inside)
@@ -296,6 +299,7 @@ impl<'a> RowSheet<'a> {
         let follows = self.set_down(state)?;
         // A guided tip is straight below its place at rest, whatever the scale does.
         let to = self.place(state.tip.unwrap_or(follows.into()));
+        // However small the load is, its arrow tells where it acts.
         let length = (self.force * state.force * self.puncture.case.design.length).max(9.0);
         Some([[to[0], to[1] - length], to])
     }
@@ -332,6 +336,7 @@ impl<'a> RowSheet<'a> {
         let along = (right[0] - left[0]).hypot(right[1] - left[1]);
         let reach = (1.25 * along).max(34.0);
         let tilt = state.tilt_deg.to_radians();
+        // A tilt is clockwise, as angles are on paper, where heights count downwards.
         let at = |angle: f64, r: f64| [left[0] + r * angle.cos(), left[1] + r * angle.sin()];
         let arc: Vec<Spot> =
             (0..=12).map(|k| at(tilt * f64::from(k) / 12.0, 0.8 * reach)).collect();
@@ -345,6 +350,7 @@ impl<'a> RowSheet<'a> {
     /// Returns the upward reactions of the substrate over the load, as bars under the scales.
     fn reactions(&self, shown: &[&ScaleState], load: f64) -> Element {
         let (high, low) = self.reactions;
+        // Without a load there are no reactions to divide by.
         let unit = BARS / (high - low).max(1e-3);
         let zero = self.bars + BARS + unit * low;
         let width = (0.86 * 2.0 * self.row.scale().half_base() * self.view.scale).max(2.0);
@@ -374,12 +380,14 @@ impl<'a> RowSheet<'a> {
     fn coverage_line(&self) -> Option<Element> {
         let (a, shift, pitch) =
             (self.row.scale().half_base(), self.row.scale().shift(), self.row.pitch());
+        // Upright scales cover nothing, and have no such line.
         (shift > 1e-9).then(|| {
             let x = a + shift;
             let mut parts = vec![
                 line(self.place([x, 1.0]), self.place([x, 0.0]), "#b34700", 1.2)
                     .with("stroke-dasharray", "4 3"),
             ];
+            // A base is shorter than a pitch, so that none beyond these reaches the line.
             let neighbours = 1..=(shift / pitch).ceil() as i64 + 1;
             parts.extend(neighbours.filter_map(|k| {
                 let low = ((shift - k as f64 * pitch) / shift).max(0.0);

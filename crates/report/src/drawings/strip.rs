@@ -166,6 +166,7 @@ fn caption(case: &Case, state: &StripSnapshot) -> String {
     };
     format!(
         "{bend},  each end turned by {}°,  {}",
+        // Adding zero turns −0 into 0.
         format!("{:.2}", state.end_rotation_deg + 0.0).replace('-', "−"),
         contacts_label(&state.contacts)
     )
@@ -187,6 +188,7 @@ impl Shape {
             bodies: bodies.collect(),
             membrane: state.membrane.clone(),
             contacts: state.contacts.clone(),
+            // An overlap of a millionth of a thickness is not seen in a whole strip.
             overlaps: Vec::new(),
         };
         let turned = |scale: Option<&[f64; 3]>| scale.map_or(0.0, |scale| scale[2]);
@@ -196,6 +198,7 @@ impl Shape {
     /// Returns the gap right of scale `left` and its two scales.
     fn of_gap(row: &Row, state: &StripSnapshot, left: usize) -> Self {
         let pair: Vec<Pose> = poses(state)[left..left + 2].to_vec();
+        // A pair is measured from its own left scale, the strip from its first one.
         let along = left as f64 * row.pitch();
         let bodies = (0..2).map(|i| corners(row, (left + i) as f64, &pair[i]));
         let shift = |points: Vec<[f64; 2]>| points.iter().map(|p| [p[0] + along, p[1]]).collect();

@@ -20,6 +20,7 @@ impl Explanation {
     /// The meaning of the column `name` of the table `table` (without `.csv`); `None` if this program
     /// writes no such column.
     pub fn of(table: &str, name: &str) -> Option<Self> {
+        // The own meaning comes first: `contacts` of failures are others than those of designs.
         Self::own(table, name).or_else(|| Self::common(name))
     }
 
@@ -28,6 +29,7 @@ impl Explanation {
         match table {
             "failures" => among(&failure_detail_columns(), name),
             "reruns" => among(RERUN_COLUMNS, name),
+            // Columns of other criteria than the paper's are known by the ends of their names.
             "ranking" => among(&ranking_columns(&[], &Preferences::paper()), name),
             "pareto" => among(&pareto_columns(&[], &Preferences::paper()), name),
             "winners" => among(&winner_columns(&[], &Preferences::paper()), name),

@@ -68,6 +68,7 @@ impl MeasureChart {
             axis.varies |= first != cell;
         }
         let apart = self.apart.and_then(|place| cells.get(place)).unwrap_or_default();
+        // One more than a chart takes tells that there are too many: a long table is not kept.
         if self.runs.len() <= SERIES && self.runs.last().is_none_or(|(_, value)| value != apart) {
             self.runs.push((row, apart.to_owned()));
         }
@@ -109,6 +110,7 @@ impl MeasureChart {
         let mut values: Vec<&str> = self.runs.iter().map(|(_, value)| value.as_str()).collect();
         values.sort_unstable();
         values.dedup();
+        // A series is one range of cells: a gap that comes back further down would need two.
         let stand_together = values.len() == self.runs.len() && self.runs.len() <= SERIES;
         if !stand_together || axis.name == APART {
             return vec![("all designs".to_owned(), 1, rows)];

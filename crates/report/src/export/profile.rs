@@ -49,7 +49,9 @@ impl ColumnProfile {
             self.smallest = Some(self.smallest.map_or(size, |smallest| smallest.min(size)));
         }
         self.has_fractions |= number.fract() != 0.0;
+        // Decimals stand behind a comma in tables of the other format.
         let decimals = cell.split(['.', ',']).nth(1).map_or(0, str::len);
+        // Nobody writes a power of ten by hand: the column is measured.
         self.decimals = self.decimals.max(if cell.contains('e') { usize::MAX } else { decimals });
     }
 
@@ -68,6 +70,7 @@ impl ColumnProfile {
     /// round-off. The cells hold all digits.
     pub fn number_format(&self) -> String {
         let decimals = DIGITS - 1 - self.least().log10().floor() as i32;
+        // Spreadsheets keep fifteen digits.
         if !self.has_fractions && self.largest() < 1e15 {
             "0".to_owned()
         } else if self.decimals <= WRITTEN {

@@ -169,6 +169,7 @@ impl Sheet {
         let (last_row, last_column) = (self.rows.max(1), self.columns.len().saturating_sub(1));
         let last_column = ColNum::try_from(last_column).unwrap_or(ColNum::MAX);
         let begins_with_number = self.columns.first().is_some_and(|column| column.is_number);
+        // The number of a design stays in sight while its columns pass.
         self.page.set_freeze_panes(1, ColNum::from(begins_with_number))?;
         self.page.autofilter(0, 0, last_row, last_column)?;
         let [low, middle, high] = SCALE.map(Color::RGB);

@@ -273,12 +273,14 @@ fn leading(folder: &VerifiedFolder) -> Result<Vec<[String; 3]>, ExportError> {
     if !folder.holds(ranking) {
         return Ok(Vec::new());
     }
+    // A table that cannot be read was refused before, when its sheet was made.
     let Ok((format, mut table)) = super::open(folder.file(ranking)?) else { return Ok(Vec::new()) };
     let Ok(header) = table.headers().cloned() else { return Ok(Vec::new()) };
     let places = ["rank", "design", "fitness"].map(|name| header.iter().position(|h| h == name));
     let row = |row: csv::StringRecord| {
         places.map(|place| {
             let cell = place.and_then(|place| row.get(place)).unwrap_or_default();
+            // Fitness alone has decimals: ranks and numbers of designs stay as they are.
             match format.number(cell).filter(|_| cell.contains(['.', ','])) {
                 Some(number) => format!("{number:.6}"),
                 None => cell.to_owned(),

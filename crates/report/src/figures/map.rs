@@ -86,6 +86,7 @@ pub enum InvalidMap {
 pub fn map(name: &str, designs: &Designs, request: &MapRequest) -> Result<Figure, InvalidMap> {
     let known = designs.varied();
     for (option, axis) in [("--x", &request.x), ("--y", &request.y)] {
+        // A parameter of words varies, too, but has no place along an axis.
         let is_axis = known.contains(&axis.as_str()) && designs.has(axis);
         let numeric =
             || known.iter().filter(|axis| designs.has(axis)).map(|axis| (*axis).to_owned());
@@ -96,6 +97,7 @@ pub fn map(name: &str, designs: &Designs, request: &MapRequest) -> Result<Figure
     if request.x == request.y {
         return Err(InvalidMap::Twice(request.y.clone()));
     }
+    // The number of a design reads as a number, and measures nothing.
     if !designs.has(&request.of) || request.of == "design" {
         return Err(InvalidMap::NoNumbers(request.of.clone()));
     }
@@ -105,6 +107,7 @@ pub fn map(name: &str, designs: &Designs, request: &MapRequest) -> Result<Figure
     if parts.len() > MAPS {
         return Err(too_many(&parts));
     }
+    // One scale for all maps: otherwise their colours could not be compared.
     let scale = ChartAxis::fit(&axis_label(of), held.numbers(of));
     let subject = MapSubject { x, y, of, scale };
     let at = request.at.iter().map(|(axis, value)| (axis.as_str(), value.as_str()));
@@ -152,6 +155,7 @@ fn held(designs: &Designs, at: &[(String, String)]) -> Result<Designs, InvalidMa
 }
 
 fn is_at(designs: &Designs, axis: &str, value: &str, row: usize) -> bool {
+    // A value may be written otherwise than in the table, as 0.10 for 0.1.
     let number = || Some(designs.number(axis, row)? == value.parse::<f64>().ok()?);
     designs.text(axis, row) == value || number() == Some(true)
 }
@@ -224,6 +228,7 @@ impl MapSubject<'_> {
         let ticks = self.scale.ticks(6).into_iter().filter(|tick| tick.label.is_some());
         ticks
             .filter_map(|tick| self.scale.place(tick.value))
+            // Nothing lies beyond an end of the scale that a contour could part from the rest.
             .filter(|place| (0.01..0.99).contains(place))
             .collect()
     }
@@ -310,6 +315,7 @@ impl Map<'_> {
     fn contours(&self, at: &HashMap<[usize; 2], usize>) -> Element {
         let value = |i, j| {
             let value = self.designs.number(self.subject.of, *at.get(&[i, j])?)?;
+            // Places along the scale: contours lie where colours change, also between decades.
             self.subject.scale.place(value)
         };
         let [width, height] = self.cell();

@@ -102,6 +102,7 @@ impl PanelSeries<'_> {
             self.rows.iter().filter(own).filter_map(|&row| self.point(panel, row)).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut series = Element::group("series").with("data-slant", slant.to_string());
+        // A line through several designs of one place would go up and down there.
         if points.windows(2).all(|pair| pair[0].0 < pair[1].0) {
             let color = self.palette.color(slant);
             let band = self.quantity.band.as_ref().map(|band| self.band(panel, &points, band));

@@ -72,12 +72,14 @@ struct Point {
 
 /// Returns grey dots for the designs that are beaten, and the front with its line.
 fn front(points: &[Point], designs: &Designs, palette: &SlantPalette) -> Element {
+    // A front is that of four criteria: two that are equal for all decide nothing.
     let criteria: Vec<_> =
         points.iter().map(|&Point { criteria: [a, b], .. }| [a, b, 0.0, 0.0]).collect();
     let on_front = ranking::pareto_front(&criteria);
     let mut front: Vec<&Point> =
         points.iter().zip(&on_front).filter(|(_, on)| **on).map(|(point, _)| point).collect();
     front.sort_by(|a, b| a.criteria[0].total_cmp(&b.criteria[0]));
+    // The front itself has all its marks, however long the table is.
     let beaten = thinned(points.len(), PAIRS.len()).filter(|&k| !on_front[k]).map(|k| {
         let (point, dot) = (&points[k], Element::new("use").with("href", "#dot"));
         let dot = dot.at("x", point.spot[0]).at("y", point.spot[1]).with("color", BEATEN);

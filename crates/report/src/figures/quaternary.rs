@@ -37,6 +37,7 @@ pub(super) fn figure(name: &str, designs: &Designs, ranking: &Ranking<'_>) -> St
     let best: Vec<_> = Weights::alone().map(|alone| ranking.winner(alone).design()).collect();
     let mut inside = weights.drawn(designs, &looks(designs, &regions), &best);
     let colors = colors(designs, &regions);
+    // Only listed regions have a colour, so that the list ends with them.
     inside.extend(regions.iter().zip(&colors).enumerate().map(|(k, (region, color))| {
         entry(designs, region, color, &letter(k), [604.0, 78.0 + 58.0 * k as f64])
     }));

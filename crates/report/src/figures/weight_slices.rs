@@ -66,6 +66,7 @@ impl WeightSlices {
     /// Returns the steps of the weight of coverage at which the tetrahedron is cut, from 0 to its corner.
     fn slices(&self) -> Vec<u32> {
         let mut steps: Vec<u32> = (0..=SLICES).map(|k| k * self.resolution / SLICES).collect();
+        // A coarse grid has fewer steps than there are slices.
         steps.dedup();
         steps
     }
@@ -84,6 +85,7 @@ impl WeightSlices {
         let slices = self.slices();
         let dot = |(weights, row): &([f64; 4], usize)| {
             let is_here = |steps: &u32| (self.weight(*steps) - weights[0]).abs() < 1e-9;
+            // Weightings between two slices are not drawn, however fine the grid is.
             let slice = slices.iter().position(is_here)?;
             Some(Dot { spot: Self::spot(slice, *weights), row: *row, slice, weights: *weights })
         };
@@ -169,6 +171,7 @@ impl WeightSlices {
             let own = dots.iter().filter(|dot| dot.row == look.row);
             let clear = own.map(|dot| (dot.spot, clearance(dots, dot)));
             let (spot, clear) = clear.max_by(|a, b| a.1.total_cmp(&b.1))?;
+            // A letter that would cover dots of others is left out: the list has the colour.
             (clear > LETTER + 0.5 * self.radius()).then(|| letter_at(&look.letter, spot))
         };
         Element::group("letters").containing(looks.iter().filter_map(letter))

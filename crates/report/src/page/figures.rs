@@ -37,6 +37,7 @@ impl PageFigure {
     }
 
     fn to_json(&self) -> Value {
+        // The page has headings of its own, above the figures.
         let svg = untitled(&self.svg);
         // The page keeps room for a figure that it has not unpacked yet.
         let size = svg.split("viewBox=\"").nth(1).and_then(|rest| rest.split('"').next());
@@ -124,6 +125,7 @@ fn worths(designs: &Designs) -> Vec<(usize, [f64; 4])> {
 /// Draws every weighting of four criteria, which the page colours by the design that is best for it.
 fn weights() -> String {
     let grid = TetrahedralGrid::default();
+    // No row of a design: the page looks up itself which one is best for a weighting.
     let winners = grid.nodes().map(|steps| (grid.weights(steps), usize::MAX)).collect();
     let slices = WeightSlices { resolution: grid.resolution(), winners };
     sheet(600.0, 610.0, "weights", slices.drawn(&Designs::default(), &[], &[]))

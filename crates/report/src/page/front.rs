@@ -99,6 +99,7 @@ impl PageFront {
         });
         let mut found: Vec<(usize, Spot)> =
             (0..self.designs.count()).filter_map(|k| Some((k, spot(&self.designs, k)?))).collect();
+        // The line of a front goes from left to right, whatever the order of its table.
         found.sort_by(|a, b| a.1[0].total_cmp(&b.1[0]));
         let joined = if self.objectives.len() == 2 { found.as_slice() } else { &[] };
         let line: Vec<Spot> = joined.iter().map(|(_, spot)| *spot).collect();

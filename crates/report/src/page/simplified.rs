@@ -9,10 +9,12 @@ pub(super) fn simplified(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let Some(last) = points.len().checked_sub(1) else { return Vec::new() };
     let size = [0, 1].map(|k| {
         let (low, high) = crate::axis::ends(points.iter().map(|point| point[k]));
+        // A level curve has no height to divide by.
         (high - low).max(f64::MIN_POSITIVE)
     });
     let mut kept = vec![false; points.len()];
     [kept[0], kept[last]] = [true, true];
+    // A list, because a recursion might go as deep as the curve has points.
     let mut parts = vec![(0, last)];
     while let Some((first, last)) = parts.pop() {
         let line = [points[first], points[last]];

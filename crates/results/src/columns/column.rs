@@ -18,6 +18,7 @@ pub struct Column<R> {
 }
 
 /// The function that makes the cell of a row.
+// A static list holds functions alone: what a closure owns has no place in a constant.
 enum CellSource<R> {
     /// One of a static list of columns.
     Plain(fn(&R) -> Cell),

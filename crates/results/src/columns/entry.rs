@@ -39,6 +39,7 @@ pub(super) const BLANK: MeasuredValue = MeasuredValue {
 type PunctureField = fn(&mut PunctureMeasures) -> &mut Option<f64>;
 type FlexureField = fn(&mut FlexureMeasures) -> &mut Option<f64>;
 
+// Entries are made by constant functions, because the list of all of them is a static.
 pub(super) const fn same(quantity: Quantity) -> Physical {
     Physical { quantity, other: None }
 }
@@ -76,6 +77,7 @@ pub(super) const fn force(
     meaning: &'static str,
     field: PunctureField,
 ) -> MeasuredValue {
+    // A constant of its own: a list that borrows what a call returns would end with this function.
     const IN_NEWTON: &[Physical] = &[same(Quantity::Force)];
     MeasuredValue { physical: IN_NEWTON, ..number(name, "E_s L t/(1-nu^2)", place, meaning, field) }
 }

@@ -64,6 +64,7 @@ fn of_samples(value: &'static MeasuredValue) -> Vec<ValueColumn> {
 /// What the tables are about first, then where a skin gives way, then everything else; statistics and the mass last.
 fn in_physical_units() -> impl Iterator<Item = ValueColumn> {
     let mut values: Vec<_> = VALUES.iter().collect();
+    // Stable, so that each of the three groups has the order of `designs.csv`.
     values.sort_by_key(
         |value| if value.leads() { 0 } else { 2 - usize::from(value.place.is_limit()) },
     );
@@ -134,6 +135,7 @@ impl ValueColumn {
 
     /// What the column is in the unit of the model: of one in physical units the column that it is made from.
     pub(super) fn dimensionless(&self) -> Option<&'static Self> {
+        // All columns of a value refer to the one entry in the list, so that its address tells.
         COLUMNS.iter().find(|column| {
             column.quantity.is_none()
                 && std::ptr::eq(column.value, self.value)

@@ -205,6 +205,7 @@ impl MeasuredValue {
     pub fn measure(&self) -> Option<Measure> {
         let of =
             |(table, measure): &(&str, Measure)| self.tables.contains(table).then_some(*measure);
+        // The mass stands in the table of coverage, but no measure has to be asked for to have it.
         let is_solved = !matches!(self.value, Value::ArealMass);
         MEASURE_TABLES.iter().find_map(of).filter(|_| is_solved)
     }
@@ -217,6 +218,7 @@ impl MeasuredValue {
             Some(Measure::Flexure) => parameter.has(Role::EndsBending),
             _ => false,
         };
+        // In physical units the membrane is part of the number, and any two designs compare.
         let is_unit = quantity.is_none() && self.unit.contains("E_m I_m");
         // What is made is no yardstick: skins that rub are compared with such as do not.
         let marks = self.needs.contains(&parameter.key) && !parameter.has(Role::Made);

@@ -84,6 +84,7 @@ pub fn tip_force_columns(forces: &[TipForces]) -> Vec<Column<usize>> {
     let (Some(first), Some(last)) = (scales().min(), scales().max()) else { return Vec::new() };
     let column = |scale: i64| {
         let on = |of: &TipForces| of.iter().find(|(touched, _)| *touched == scale).map(|of| of.1);
+        // A scale that the tip does not touch bears nothing: that is known, and no empty cell.
         let values: Vec<f64> = forces.iter().map(|of| on(of).unwrap_or(0.0)).collect();
         Column::made(
             format!("tip_force_{scale}").into(),
@@ -108,6 +109,8 @@ pub enum PunctureEvent {
 impl PunctureEvent {
     /// The events of a puncture, in order.
     pub fn all(puncture: &Puncture) -> Vec<Self> {
+        // A path may turn back in force, depth and tilt, so none of them can order the three lists:
+        // each fold and snap knows how many contact events came before it.
         let mut snaps = puncture.snaps.iter().peekable();
         let mut folds = puncture.folds.iter().peekable();
         let mut all = Vec::with_capacity(puncture.events.len());

@@ -35,10 +35,12 @@ pub(super) fn tilt_columns(sweep: &Sweep, table: Option<&str>) -> Vec<Column<Des
 /// The tilts that `sweep` asks for, as parts of names: `5deg`, or `friction_0.1`.
 fn places(sweep: &Sweep) -> Vec<String> {
     let list = |key: &str| match Parameter::named(key)?.get(sweep.grid().base()) {
+        // On an axis the value of the base means nothing.
         Scalar::List(list) if sweep.grid().axis(key).is_none() => Some(list),
         _ => None,
     };
     let text = |&number: &f64| number::text(number);
+    // The tilts follow from the frictions, but columns have the numbers that were asked for.
     if let Some(frictions) = list(key::NEEDLE_FRICTION) {
         let names = frictions.as_slice().iter().map(text);
         return names.map(|friction| format!("friction_{friction}")).collect();

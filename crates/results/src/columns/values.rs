@@ -91,6 +91,7 @@ pub(crate) static VALUES: &[MeasuredValue] = &[
         "displacement of the punctured point when scales first touch",
         |m| &mut m.first_contact_displacement,
     ),
+    // Counts have a place, too, so that nobody compares those at tilts of 5° and 10°.
     other("contacts", BOTH, "closed contacts at the critical tilt", |r| {
             measured(r, |m| m.contacts)
         }).at(Place::End).then(),
@@ -399,6 +400,7 @@ pub(crate) static VALUES: &[MeasuredValue] = &[
             "bend_radius",
             "smallest radius to which the skin bends before scales touch",
         )]).large().then(),
+    // In a perfect strip all gaps close at once, so only imperfect samples have a range.
     BLANK.named("closing_range", "1/t", "").within(COMPLIANCE).sampled("curvature from the first contact to that in the last gap that closes,", |s| s.closing_range),
     failed_samples(
         "flexure_samples_failed",

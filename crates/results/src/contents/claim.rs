@@ -16,6 +16,7 @@ pub struct Claim<'f> {
     folder: &'f RunFolder,
     maker: Maker,
     made: Derivation,
+    // Held as long as the claim: the system gives it back when the file is closed.
     _lock: File,
 }
 
@@ -46,6 +47,7 @@ impl<'f> Claim<'f> {
         // Asked under the lock, although a command may have asked before: somebody may have written since.
         Self::check(folder, maker)?;
         Self::release(folder, maker);
+        // Without a digest until `state`: so what a kill leaves is known as unfinished.
         let names = FileEntry::products(maker).map(|file| (file.name.to_owned(), String::new()));
         let (product, command) = maker.names();
         let (product, command) = (product.to_owned(), command.to_owned());
@@ -61,6 +63,7 @@ impl<'f> Claim<'f> {
     /// If it is a stranger's, or the disk does not take the record.
     pub fn add(&mut self, name: &str) -> Result<(), OutputError> {
         require_none(self.folder, name)?;
+        // Named before it is written: what a kill leaves in between would be a stranger's for ever.
         self.made.files.insert(name.to_owned(), String::new());
         self.made.write(self.folder, self.maker.key())
     }
@@ -95,6 +98,7 @@ impl<'f> Claim<'f> {
 /// Refuses to write the file `name` if there is anything of that name.
 fn require_none(folder: &RunFolder, name: &str) -> Result<(), OutputError> {
     let path = folder.file(name);
+    // No link is followed: one is a stranger's, wherever it leads.
     let is_there = fs::symlink_metadata(&path).is_ok();
     if is_there { Err(OutputError::strange(&path)) } else { Ok(()) }
 }

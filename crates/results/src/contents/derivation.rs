@@ -66,6 +66,7 @@ impl Derivation {
         let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
         let mut records: Vec<_> =
             names.filter_map(|name| name.strip_suffix(".toml").map(str::to_owned)).collect();
+        // A file system lists a folder in an order of its own.
         records.sort();
         records
     }

@@ -134,6 +134,7 @@ impl VerifiedFolder {
     pub fn open(folder: &Path, completeness: Completeness) -> Result<Self, InvalidFolder> {
         let folder = RunFolder::new(folder);
         let contents = read(&folder)?;
+        // Tables that are sound by themselves would hide the designs that are in the journal alone.
         let behind = match &contents {
             Some(contents) => is_behind(&folder, &contents.journal)?,
             None => false,
@@ -207,6 +208,7 @@ impl VerifiedFolder {
         if fs::metadata(&path).is_ok_and(|metadata| !metadata.is_file() && !metadata.is_dir()) {
             return Err(unreadable("it is no regular file".to_owned()));
         }
+        // One handle for checking and reading: a file that is replaced in between is not read.
         let mut file = File::open(&path).map_err(|error| unreadable(reason(&error)))?;
         if let Some(expected) = self.expected(name)? {
             let found = sha256_of(&file).map_err(|error| unreadable(reason(&error)))?;
@@ -235,10 +237,12 @@ impl VerifiedFolder {
     /// The SHA-256 that the file `name` must have, if anybody states it.
     fn expected(&self, name: &str) -> Result<Option<String>, InvalidFolder> {
         let entry = FileEntry::of(name).filter(|file| file.is_stated);
+        // The contents are those of a run: other commands have records of their own.
         if let Some(file) = entry.filter(|file| !matches!(file.maker, Maker::Run | Maker::Ranking))
         {
             return self.claimed(file);
         }
+        // Tables alone are used as they are: nobody states what they have to be.
         let Some(contents) = &self.contents else { return Ok(None) };
         if let Some(digest) = contents.files.get(name) {
             return Ok(Some(digest.clone()));
@@ -258,6 +262,7 @@ impl VerifiedFolder {
         let unrecorded =
             || InvalidFolder::Unrecorded { folder: self.path().to_owned(), file: name.to_owned() };
         let ranking = ranking.ok_or_else(unrecorded)?;
+        // Its tables may be sound, and still rank designs that were solved again since.
         if ranking.from != contents.digest() {
             return Err(refuse("was made from other tables"));
         }
@@ -269,6 +274,8 @@ impl VerifiedFolder {
     /// holds tables alone.
     fn claimed(&self, file: &FileEntry) -> Result<Option<String>, InvalidFolder> {
         let made = Derivation::read(&self.folder, file.maker.key());
+        // A search has its journal from the beginning, and a record only once it writes what it has
+        // found: a journal without a record is that of a search that was ended.
         if made.is_none() && !self.folder.file(RunFolder::EVALUATIONS).exists() {
             return Ok(None);
         }
@@ -280,6 +287,7 @@ impl VerifiedFolder {
 
     fn refusal(&self, file: &FileEntry, problem: &'static str) -> InvalidFolder {
         let again = match file.maker {
+            // Without it a search refuses a folder in which its journal stands.
             Maker::Search => "the same command with --resume",
             _ => "the same command",
         };
@@ -309,6 +317,7 @@ impl VerifiedFolder {
     pub fn outdated(&self) -> Vec<Derivation> {
         let Some(digest) = self.digest() else { return Vec::new() };
         let all = Derivation::all(&self.folder).into_iter();
+        // What was made from a definition does not grow old when tables are written again.
         let is_older = |made: &Derivation| !made.from.is_empty() && made.from != digest;
         all.filter(|made| is_older(made) && made.is_there(&self.folder)).collect()
     }
@@ -320,6 +329,7 @@ impl VerifiedFolder {
 /// If it is.
 pub fn verify_record(path: &Path) -> Result<(), InvalidFolder> {
     let (Some(name), Some(folder)) = (path.file_name(), path.parent()) else { return Ok(()) };
+    // Under another name a copy is a definition of its own, as the message advises.
     let is_record = name == RunFolder::RUN_INFO && path.is_file();
     let stated = is_record.then(|| Contents::stated_in(&RunFolder::new(folder))).flatten();
     let expected = stated.and_then(|contents| contents.files.get(RunFolder::RUN_INFO).cloned());
@@ -358,6 +368,7 @@ fn is_behind(folder: &RunFolder, extent: &JournalExtent) -> Result<bool, Invalid
     if metadata.len() < extent.bytes {
         return Err(refuse(format!("it had {} bytes and has {}", extent.bytes, metadata.len())));
     }
+    // A run that goes on appends to it: only what the tables were written from must not change.
     let found = JournalExtent::of(&path, extent.bytes, extent.lines);
     let found = found.map_err(|error| refuse(reason(&error)))?;
     if found != *extent {

@@ -90,6 +90,7 @@ impl PunctureResult {
     /// The result of a solved puncture; if one of its numbers is not finite, all are left out.
     pub fn new(puncture: &Puncture, calibration_error: f64) -> Self {
         let mut measures = puncture.measures;
+        // How many scales the row has is a count, and sound whatever became of the numbers.
         let few = puncture::PunctureMeasures {
             scales: measures.scales,
             ..puncture::PunctureMeasures::default()
@@ -97,6 +98,7 @@ impl PunctureResult {
         let finite_all = VALUES.iter().all(|value| value.is_finite_in_puncture(&mut measures));
         let (outcome, measures) = finite_or(finite_all, puncture.status.into(), measures, few);
         let weakest = || match puncture::Weakest::of(&puncture.places) {
+            // Measures that were left out lack the weakest place, though the places have one.
             Ok(weakest) if weakest == measures.weakest => Outcome::Complete,
             Ok(_) => Outcome::NotFinite,
             Err(status) => status.into(),
@@ -149,6 +151,7 @@ fn finite_or<M>(finite: bool, outcome: Outcome, measures: M, few: M) -> (Outcome
     match outcome {
         _ if finite => (outcome, measures),
         Outcome::Complete => (Outcome::NotFinite, few),
+        // Why the path stopped says more than what became of its numbers.
         stopped => (stopped, few),
     }
 }

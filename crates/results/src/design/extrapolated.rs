@@ -55,6 +55,8 @@ impl DesignRow {
     }
 
     fn changed(&self, to: &Case, changes: &[MovedParameter<'_>], side: SlopeSide) -> Self {
+        // First whatever the change has a part in is taken away; then what has derivatives comes
+        // back. So no value of the old case stays in the row by oversight.
         let mut row = Self { case: *to, result: self.result.without_dependents(changes), ..*self };
         let derivatives = &self.result.sensitivity;
         for of_measure in derivatives.chunk_by(|one, next| one.measure == next.measure) {
@@ -112,6 +114,7 @@ impl DesignResult {
             changes.iter().any(|change| sections.contains(&change.parameter.section))
         };
         let mut result = Self {
+            // These belong to the design that was solved: nobody knows them of its neighbour.
             samples: SampleStatistics::default(),
             sensitivity: Vec::new(),
             settings: String::new(),
@@ -122,6 +125,7 @@ impl DesignResult {
             result.coverage = None;
         }
         if depends(Measure::Puncture) {
+            // Measures at tilts on the way have no derivatives that could move them.
             result.at_tilts.clear();
             let of_puncture =
                 VALUES.iter().filter(|value| value.measure() == Some(Measure::Puncture));

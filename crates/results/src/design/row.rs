@@ -79,6 +79,7 @@ impl FailureRow {
     pub fn command(&self) -> String {
         let number = self.design.number;
         let mut command =
+            // Relative paths, so that the command still holds where the folder has been moved.
             format!("squama design run.toml --design {number} --out designs/{number}");
         let settings = self.design.result.settings.split(SEPARATOR);
         for setting in settings.filter(|text| !text.is_empty()) {

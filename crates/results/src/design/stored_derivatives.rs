@@ -15,6 +15,7 @@ struct KnownName(&'static str);
 
 impl KnownName {
     fn of(text: &str) -> Option<Self> {
+        // Derivatives borrow their names from the program: one that it does not have is refused.
         let value = VALUES.iter().filter(|value| value.has_derivatives());
         let measure = value.map(|value| value.name).find(|name| *name == text);
         measure.or_else(|| Parameter::named(text).map(|parameter| parameter.key)).map(Self)
@@ -87,6 +88,7 @@ impl Measure {
                 at: *at,
                 value: *value,
                 left,
+                // Away from a kink both sides are the same number, and it is stored once.
                 right: kink.map_or(left, |kink| kink.1),
                 kink: kink.map(|kink| kink.2.clone()),
             }
@@ -101,6 +103,7 @@ pub fn serialize<S: Serializer>(
 ) -> Result<S::Ok, S::Error> {
     let mut matrices: Vec<Matrix> = Vec::new();
     for of_measure in derivatives.chunk_by(|one, next| one.measure == next.measure) {
+        // Measures of one kind follow each other, so that only the last matrix may fit.
         if !matrices.last().is_some_and(|last| last.fits(of_measure)) {
             matrices.push(Matrix::of_parameters(of_measure));
         }

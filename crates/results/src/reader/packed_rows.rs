@@ -28,6 +28,7 @@ impl PackedRows {
     /// A cell; empty if there is none.
     pub fn cell(&self, row: usize, column: usize) -> &str {
         let place = row * self.columns + column;
+        // Beyond the last column would stand the first cell of the next row.
         let Some(end) = self.ends.get(place).filter(|_| column < self.columns) else { return "" };
         let begin = if place > 0 { self.ends[place - 1] } else { 0 };
         &self.text[begin..*end]

@@ -30,7 +30,9 @@ impl Thinning {
             let column = header.iter().position(|column| column == name)?;
             Some(BestRow { column, is_largest: *is_largest, row: None })
         });
+        // A table that is kept whole has its best rows anyway.
         let best = if rows > most { best.collect() } else { Vec::new() };
+        // Of a table without a limit no rows were counted, and every one is kept.
         let every = rows.div_ceil(most.max(1)).max(1);
         Self { every, places: Vec::new(), rows: PackedRows::default(), best }
     }
@@ -55,6 +57,7 @@ impl Thinning {
             self.places.push(place);
             self.rows.push(row.iter());
         }
+        // A row may be the best by several values and stand at one of the distances, too.
         let mut order: Vec<usize> = (0..self.places.len()).collect();
         order.sort_by_key(|k| self.places[*k]);
         order.dedup_by_key(|k| self.places[*k]);
@@ -64,6 +67,7 @@ impl Thinning {
 
 impl BestRow {
     fn visit(&mut self, place: usize, row: &csv::StringRecord) {
+        // A design that failed has an empty cell, and is the best by nothing.
         let cell = row.get(self.column).and_then(|cell| cell.parse::<f64>().ok());
         let Some(value) = cell.map(|cell| if self.is_largest { cell } else { -cell }) else {
             return;

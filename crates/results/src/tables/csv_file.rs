@@ -50,6 +50,7 @@ impl<'c, R> CsvFile<'c, R> {
         &self,
         rows: impl IntoIterator<Item = impl Borrow<R>>,
     ) -> Result<Vec<u8>, OutputError> {
+        // In memory and without changing the table: a run has all its threads make lines of it.
         let mut csv = self.format.writer(Vec::new());
         let mut cell = String::new();
         let written = rows.into_iter().try_for_each(|row| {
@@ -88,6 +89,7 @@ impl<'c, R> CsvFile<'c, R> {
     /// If the disk does not take it.
     pub fn finish(self) -> Result<String, OutputError> {
         let path = self.file.get_ref().path().to_owned();
+        // This writes the last bytes and tells of a full disk; a dropped buffer keeps silent.
         let file = self.file.into_inner();
         file.map_err(|error| OutputError::file(&path, error.error()))?.finish()
     }

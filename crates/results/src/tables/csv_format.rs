@@ -64,6 +64,7 @@ impl CsvFormat {
 
     /// The text of a cell in a file of this format.
     pub fn cell(self, cell: &str) -> Cow<'_, str> {
+        // Texts keep their points: `solver.max_step=0.01` would be no setting with a comma.
         let is_decimal = self == Self::ExcelEu && cell.contains('.') && is_number(cell);
         if is_decimal { cell.replace('.', ",").into() } else { cell.into() }
     }
@@ -74,6 +75,8 @@ impl CsvFormat {
         let start = if beginning.starts_with(MARK) { MARK.len() } else { 0 };
         let header = beginning[start..].split(|byte| matches!(byte, b'\r' | b'\n')).next();
         let header = header.unwrap_or_default();
+        // A header of one cell has no separator; then the mark tells, which squama itself writes in
+        // the format of spreadsheets alone.
         let is_plain = header.contains(&b',') || (start == 0 && !header.contains(&b';'));
         (if is_plain { Self::Plain } else { Self::ExcelEu }, start)
     }

@@ -58,6 +58,7 @@ impl CoupledRow {
         end: impl Fn(usize) -> [f64; 3],
         count: usize,
     ) -> Vec<[f64; 3]> {
+        // The end counts its scales inward, a block from left to right.
         let mut block: Vec<f64> = (0..self.scales).rev().flat_map(end).collect();
         let mut found = Vec::with_capacity(count + self.scales);
         while found.len() < count {

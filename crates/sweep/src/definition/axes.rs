@@ -11,6 +11,7 @@ use crate::toml_source::{self, KeyValue, KeyValues, Value};
 
 /// The axes that every grid has, with the values that they take unless a definition says otherwise:
 /// those of the paper.
+// As text, so that these ranges become the same decimals as those that a person types.
 const PAPER: &str = "
 gap_over_t = { from = 0.1, to = 1, step = 0.1 }
 length_over_t = [0.025, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1]
@@ -18,6 +19,7 @@ slant_deg = { from = 0, to = 75, step = 15 }
 ";
 
 /// The axis that is always the fastest.
+// A slant leaves the base as it is: neighbours share their footprint, and so their springs.
 const FASTEST: &str = "slant_deg";
 
 /// The axis of `parameter` that `value` describes.
@@ -36,6 +38,7 @@ pub(crate) fn read_list(parameter: &Parameter, items: &[Value]) -> Result<Vec<Sc
         return Err(WrongValue::not_accepted("[]", expected).into());
     }
     let mut values = Vec::with_capacity(items.len());
+    // A set of keys: comparing each with all before it took minutes for a long list.
     let mut seen = HashSet::with_capacity(items.len());
     for item in items {
         if let Value::List(_) = item {
@@ -75,6 +78,7 @@ fn read_range(
     }
     let numbers = decimal::range(from, to, step).map_err(|problem| wrong(problem.to_string()))?;
     let values = numbers.into_iter().map(|number| parameter.scalar(number)).collect();
+    // Kept beside the values, so that a record of the run says the range and not a million numbers.
     let range = format!("{{ from = {from}, to = {to}, step = {step} }}");
     Ok(Axis::range(parameter, values, range))
 }

@@ -49,6 +49,7 @@ fn check_one(
     };
     let axes = grid.axes().iter().filter(|axis| matters(axis.parameter()));
     let axes: Vec<_> = axes.map(|axis| (axis.parameter(), ends(axis, variables))).collect();
+    // Any design will do: all that the parameter depends on is put into it.
     let mut corners = vec![grid.case(0)];
     for (parameter, ends) in &axes {
         let at = |case: &Case| ends.iter().map(|end| parameter.put(case, *end)).collect::<Vec<_>>();
@@ -78,6 +79,7 @@ fn ends(axis: &Axis, variables: &[Variable]) -> Vec<Scalar> {
             let (low, high) = axis.span();
             vec![Scalar::Number(low), Scalar::Number(high)]
         }
+        // Words have no order of which the ends would tell.
         None => (0..axis.len()).map(|index| axis.value(index)).collect(),
     }
 }

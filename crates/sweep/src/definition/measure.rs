@@ -78,6 +78,7 @@ impl Measure {
             let expected = "sensitivity together with a measure that has derivatives".to_owned();
             return Err(WrongValue::not_accepted(value, expected).into());
         }
+        // Their order means nothing, and makes no other definition of it for a journal.
         measures.sort();
         Ok(measures)
     }

@@ -105,6 +105,7 @@ impl Reader {
         let key = format!("{}.{}", suggestion::TOLERANCE, entry.key);
         let wrong = |problem| refuse(&entry.place, &key, problem);
         let deviation = deviations::read(entry).map_err(wrong)?;
+        // `gap_mm` and `gap_over_t` are one deviation in two units.
         let other = self.deviations.iter().find(|(d, _)| d.parameter() == deviation.parameter());
         if let Some((other, place)) = other {
             let other = format!("{}.{}", suggestion::TOLERANCE, other.key());
@@ -116,6 +117,7 @@ impl Reader {
 
     fn parameter(&mut self, section: &str, entry: &KeyValue) -> Result<(), InvalidDefinition> {
         let key = format!("{section}.{}", entry.key);
+        // Any parameter may be an axis, whatever its own section.
         let belongs = |p: &&Parameter| section == "designs" || section == p.section;
         let Some(parameter) = Parameter::named(&entry.key).filter(belongs) else {
             return Err(unknown(section, entry));
@@ -152,6 +154,7 @@ impl Reader {
         self.refused.extend(self.check_scale_modulus().err());
         self.refused.extend(steps.err());
         self.refused.extend(self.name.is_none().then(|| missing_name(file)));
+        // What follows looks at designs, which only keys without contradictions make.
         InvalidDefinition::of(std::mem::take(&mut self.refused))?;
         let written: Vec<_> = self.written().map(|(k, p, place)| (k, p, place.clone())).collect();
         let measures = self.measures.unwrap_or_else(|| Measure::USUAL.to_vec());
@@ -176,6 +179,7 @@ impl Reader {
             let parameter = variable.parameter();
             let others = parameter.others_in(&self.case).filter(|other| !self.leaves_open(other));
             let mut all = std::iter::once(parameter).chain(others);
+            // Of two variables that say the same only the later one is refused: once is enough.
             let earlier = |other: &Parameter| {
                 let (_, there) =
                     self.variables[..k].iter().find(|(v, _)| v.parameter() == other)?;
@@ -267,6 +271,7 @@ impl Reader {
         let is_radius = |of: &Parameter| of.is_or_says(key::NEEDLE_RADIUS) && !self.leaves_open(of);
         let radius = self.written().find(|(_, parameter, _)| is_radius(parameter));
         let Some((key, _, place)) = radius else { return Ok(()) };
+        // With both needles in one sweep the free one would have a radius, too.
         let varies = self.axes.iter().any(|written| written.axis.parameter().key == key::NEEDLE);
         if self.case.puncture.needle.is_guided() && !varies {
             return Ok(());
@@ -345,6 +350,7 @@ impl Reader {
         let shared =
             || Parameter::named(key).and_then(|parameter| parameter.get(&self.case).number());
         axis.map_or_else(
+            // No comparison with `NaN` holds, so that nothing is refused for want of a number.
             || shared().map_or((f64::NAN, f64::NAN), |number| (number, number)),
             |written| written.axis.span(),
         )
@@ -417,6 +423,7 @@ fn is_device(name: &str) -> bool {
             let mut digits = rest.chars();
             digits.next().filter(|_| digits.next().is_none())
         });
+        // Windows takes these three superscripts for digits.
         number.is_some_and(|digit| "123456789¹²³".contains(digit))
     };
     ["con", "prn", "aux", "nul"].contains(&stem.as_str()) || numbered("com") || numbered("lpt")

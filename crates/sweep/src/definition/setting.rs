@@ -48,8 +48,10 @@ impl Setting {
     /// # Errors
     /// As [`Self::parse`].
     pub fn from_option(option: &str, text: &str) -> Result<Self, InvalidSetting> {
+        // An argument may have several lines, and each refusal is one.
         let place = Place::Argument(Arc::from(toml_source::one_line(option)));
         let refuse = |problem: String| InvalidSetting { place: place.clone(), problem };
+        // At the first one: a table or a text may have more of them.
         let (key, value) =
             text.split_once('=').ok_or_else(|| refuse("there is no `=`".to_owned()))?;
         let path: Vec<_> = key.split('.').map(|part| part.trim().to_owned()).collect();
@@ -95,6 +97,7 @@ impl Setting {
             Some(KeyValue { value: Value::Table(inner), .. }) if !rest.is_empty() => {
                 self.put(inner, rest);
             }
+            // In its place: the order of the axes is that of the numbers of designs.
             Some(entry) => *entry = self.entry(key, rest),
             None => table.push(self.entry(key, rest)),
         }

@@ -30,6 +30,7 @@ pub(crate) fn is_section(key: &str) -> bool {
 /// The sections, each once, in the order of the parameters.
 pub(crate) fn sections() -> Vec<&'static str> {
     let mut sections: Vec<_> = PARAMETERS.iter().map(|parameter| parameter.section).collect();
+    // The list of parameters keeps those of a section together.
     sections.dedup();
     sections
 }

@@ -54,6 +54,7 @@ impl Sweep {
 
     /// The axes but for those of variables.
     fn fixed_axes(&self) -> impl Iterator<Item = &Axis> {
+        // A variable has an axis of one value, the middle, that nobody has written.
         let is_variable =
             |axis: &Axis| self.variables.iter().any(|v| v.parameter() == axis.parameter());
         self.grid().axes().iter().filter(move |axis| !is_variable(axis))

@@ -11,6 +11,7 @@ impl Parameter {
     /// The value of this parameter in `case`, which is its own: `None` if its alternative is given, from which it follows.
     fn own(&self, case: &Case) -> Option<Scalar> {
         let first = self.instead().map(|first| first.get(case));
+        // A word such as `auto` or `none` leaves the value to this parameter.
         let follows = first.is_some_and(|value| !matches!(value, Scalar::Word(_)));
         (!follows).then(|| self.get(case))
     }

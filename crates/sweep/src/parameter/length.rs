@@ -22,6 +22,7 @@ impl Parameter {
 
     /// Whether it is the parameter of that key, or the same length in mm.
     pub(crate) fn is_or_says(&self, key: &str) -> bool {
+        // Counted as a gap, a pitch would always stand beside one, and so always say a length.
         let is_other_way = self.key != key::PITCH;
         self.key == key || self.over_t().is_some_and(|of| is_other_way && of.key == key)
     }
@@ -40,6 +41,7 @@ impl Parameter {
 
     /// The length of this parameter in mm; `None` if it is no length, or the thickness is not given.
     pub fn millimetres(&self, case: &Case) -> Option<f64> {
+        // As it is given: over the thickness and back its last digits may become others.
         if let Some(given) = self.get(case).number() {
             return Some(given);
         }
@@ -77,6 +79,7 @@ pub(super) fn settle(case: &mut Case) {
         let (pitch, design) = (pitch / thickness, &mut case.design);
         let base = 2.0 * design.half_base();
         if case.in_mm.pitch_says_length {
+            // A factor, because the base is `L` or `2L`.
             design.length *= (pitch - design.gap) / base;
         } else {
             design.gap = pitch - base;
@@ -99,6 +102,7 @@ pub(super) fn keep_in_step(case: &mut Case, changed: &Parameter) {
 /// Has the lengths in mm say what `moved`, a length over the thickness, says now.
 fn restate(case: &mut Case, moved: &Parameter) {
     let Some(thickness) = case.material.thickness_mm else { return };
+    // A pitch that still said the old length would take the move back when it is settled next.
     let moves_pitch = [key::GAP, key::LENGTH].contains(&moved.key);
     for (in_mm, _) in given(case).collect::<Vec<_>>() {
         let length = match in_mm.key {
@@ -117,6 +121,7 @@ fn restate(case: &mut Case, moved: &Parameter) {
 /// The case of another thickness whose lengths stay as long as they are in mm, however they are given.
 pub(crate) fn with_thickness(case: &Case, thickness: f64) -> Option<Case> {
     let factor = case.material.thickness_mm? / thickness;
+    // Those that follow from a length in mm are settled at the end.
     let stays = |p: &&Parameter| p.has(Role::Continuous) && p.unit == "t" && !p.follows(case);
     let mut moved = *case;
     for parameter in PARAMETERS.iter().filter(stays) {

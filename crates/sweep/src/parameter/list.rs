@@ -53,6 +53,7 @@ pub static PARAMETERS: &[Parameter] = &joined::<{ count() }>();
 
 const fn count() -> usize {
     let (mut all, mut part) = (0, 0);
+    // Constant functions have no iterators.
     while part < PARTS.len() {
         all += PARTS[part].len();
         part += 1;
@@ -61,6 +62,7 @@ const fn count() -> usize {
 }
 
 const fn joined<const N: usize>() -> [Parameter; N] {
+    // Any parameter will do to begin with: each place is written over.
     let mut all = [PARTS[0][0]; N];
     let (mut place, mut part) = (0, 0);
     while part < PARTS.len() {

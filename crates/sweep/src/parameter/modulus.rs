@@ -54,6 +54,7 @@ fn ratios(case: &mut Case) -> [(&mut f64, Option<f64>); 2] {
 pub(super) fn settle(case: &mut Case) {
     let Some(scales) = case.material.scale_modulus_mpa else { return };
     for (ratio, below) in ratios(case) {
+        // A sweep of bending alone may leave out the modulus of the substrate.
         *ratio = below.map_or(*ratio, |below| scales / below);
     }
 }

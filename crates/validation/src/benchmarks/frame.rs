@@ -56,6 +56,7 @@ impl PlaneFrame {
         // Residuals are measured by the stiffest beam, held nodes like the others.
         let units = vec![stiffest; 3 * nodes.len() + 1];
         let controls = match drive {
+            // The negative scale turns the path round: `u_y` points up, and the node sinks.
             Drive::Depth(depth) => [control(1, -depth), control(0, depth), control(2, 1.0)],
             Drive::Load(load) => [control(3, load), control(1, -1.0), control(0, 1.0)],
         };
@@ -63,6 +64,7 @@ impl PlaneFrame {
     }
 
     fn unknown(&self, node: usize, k: usize) -> usize {
+        // The load stands behind its node and not at the end, so that the tangent stays a band.
         3 * node + k + usize::from(node > self.loaded)
     }
 

@@ -37,6 +37,7 @@ pub(super) fn benchmarks() -> Result<Vec<Benchmark>, ValidationError> {
 }
 
 fn square() -> Result<Vec<Benchmark>, ValidationError> {
+    // Of width `2a`, as long as the base: the rectangle is a square.
     let [x, y, phi] = springs(ALONE, 2.0)?.direct;
     let square = |name, source, values| Benchmark::new(name, source, values, 1e-4);
     let known = "converged boundary elements";

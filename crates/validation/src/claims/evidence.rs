@@ -142,6 +142,7 @@ impl fmt::Display for BestDesigns {
 impl Evidence {
     /// Returns the design with these parameters.
     pub(crate) fn design(&self, gap: f64, length: f64, slant: f64) -> Option<&MeasuredDesign> {
+        // Exactly: tables have the numbers of the grid with all their digits.
         self.designs.iter().find(|d| (d.gap, d.length, d.slant) == (gap, length, slant))
     }
 

@@ -15,6 +15,7 @@ pub(super) fn strip(evidence: &Evidence, slant: f64) -> Option<&BentStrip> {
 
 pub(super) fn slanted_scales_soften(evidence: &Evidence) -> Option<Measured> {
     let slanted: Vec<_> = evidence.strips.iter().filter(|strip| strip.slant > 0.0).collect();
+    // A path that stops early has no slope at its end, and does not count as one that softens.
     let softens = slanted.iter().filter(|s| s.softening.is_some_and(|ratio| ratio < SOFTENS));
     let value = 100.0 * softens.count() as f64 / slanted.len() as f64;
     let ratio = |strip: &&BentStrip| {

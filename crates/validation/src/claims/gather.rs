@@ -148,6 +148,7 @@ fn loaded_row(snapshot: &RowSnapshot) -> LoadedRow {
 fn two_blocks(study: &Study) -> Option<Puncture> {
     let mut case = case(study, 0.1, 1.0, 0.0);
     case.puncture.scales = RowLength::Scales(2);
+    // Steps that are small and equal, so that their mean slopes tell those at the contact.
     case.common.solver = Settings { first_step: 1e-3, max_step: 1e-3, ..Settings::default() };
     puncture::solve(&case.design, &substrate(&case)?, &case.common, &case.punctured()).ok()
 }
@@ -207,6 +208,7 @@ fn balanced(study: &Study) -> Option<Balanced> {
         best: design(best.row())?,
         fitness: best.fitness,
         share: 100.0 * best.share(),
+        // Who wins no weights is not among the winners, and wins 0 % of them.
         share_of_printed: printed.map_or(0.0, |winner| 100.0 * winner.share()),
     })
 }

@@ -13,6 +13,7 @@ use super::{coverage, critical_force, domino, flexure, named, puncture};
 /// Returns what is measured of a statement, by its number.
 pub(super) fn measurement(id: &str) -> Option<Measurement> {
     Some(match id {
+        // Of the largest coverage: if that is 0, so are all the others.
         "C01" => Number(|e| Some(e.best(|d| d.slant == 0.0, |d| d.coverage)?.value.into())),
         "C02a" => Best(|e| e.best(any, |d| d.coverage)),
         "C02b" => Number(coverage::smallest_gap_largest_length),

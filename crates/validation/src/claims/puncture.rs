@@ -16,6 +16,7 @@ pub(super) fn first_contact(evidence: &Evidence, slant: f64) -> Option<f64> {
 pub(super) fn steep_scales_touch_first(evidence: &Evidence) -> Option<Measured> {
     let [flat, slanted, steep] = [0.0, 45.0, 75.0].map(|slant| first_contact(evidence, slant));
     let (flat, slanted, steep) = (flat?, slanted?, steep?);
+    // Earlier than both: the earlier of the two is the one to beat.
     let value = steep / flat.min(slanted);
     let [of, others] = [steep, flat.min(slanted)].map(digits);
     Some(Measured { value, shown: format!("{}: {of} against {others}", digits(value)) })

@@ -87,6 +87,7 @@ impl fmt::Display for TrendSteps {
 /// all designs that share a value of it (the first-order effect, Sobol 1993).
 pub(crate) fn explained(designs: &[(&MeasuredDesign, f64)], parameter: DesignParameter) -> f64 {
     let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+    // By the bits of a number: values of a grid are equal to the last one, or different.
     let mut groups = BTreeMap::<u64, Vec<f64>>::new();
     for (design, value) in designs {
         groups.entry(parameter(design).to_bits()).or_default().push(*value);

@@ -115,6 +115,7 @@ impl Optimum {
     /// Reads the designs, e.g. `(0.1, 0.1, 75°); in part (0.1 to 0.3, any, 60° to 75°) or among equals`; without ranges behind
     /// `in part` the words are those that are printed.
     pub(crate) fn read(text: &str) -> Option<Self> {
+        // Every best design may be one among equals: limits that do not say so are a mistake.
         let (printed, in_part) = text.split_once("; in part ")?;
         let words = in_part.strip_suffix(" or among equals").unwrap_or(printed);
         Some(Self { printed: DesignRange::read(printed)?, words: DesignRange::read(words)? })

@@ -9,6 +9,7 @@ pub(super) fn in_figures(design: &MeasuredDesign) -> bool {
 
 /// Section 5 leaves out the designs that leave the substrate exposed.
 pub(super) fn covered(design: &MeasuredDesign) -> bool {
+    // `None` is less than any value: a design without a coverage is left out, too.
     design.coverage > Some(0.0)
 }
 

@@ -30,6 +30,7 @@ pub fn elsewhere(goal: &DesignGoal, best: &Candidate) -> Option<String> {
     }
     let places = Setting::parse(&format!("puncture.places={PLACES}")).ok()?;
     let tried = Sweep::parse(&sweep.at(&case).to_toml(), sweep.name(), &[places]).ok()?;
+    // Derivatives would take nearly as long again, and nobody asks for them here.
     let evaluator = Evaluator::new(&tried.plain_measures());
     let grid = tried.grid();
     let row = evaluator.solve(grid.number(0), &grid.case(0)).row;
@@ -43,6 +44,7 @@ pub fn elsewhere(goal: &DesignGoal, best: &Candidate) -> Option<String> {
         let (weakest, unit) = value(&format!("weakest_force{ending}"))?;
         Some((there, weakest, unit))
     };
+    // In newtons where a material tells them, as the goal then has them.
     let (there, weakest, unit) = of("_N").or_else(|| of(""))?;
     let (place, _) = value("weakest_place")?;
     let place = digits(place);

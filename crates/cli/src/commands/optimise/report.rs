@@ -169,6 +169,7 @@ impl SearchReport<'_> {
         let mut rows = vec![header];
         rows.extend(designs.iter().map(|best| {
             let mut row: Vec<String> = named(best).into_iter().map(|[_, value]| value).collect();
+            // A floor is another objective, and its price says what that costs in this one.
             let floors = best
                 .bindings
                 .iter()
@@ -204,6 +205,7 @@ pub fn unmet(goal: &DesignGoal, found: &Found, requirements: &[Requirement]) -> 
     let values = |candidate: &Candidate| match &candidate.verdict {
         Judgement::Judged(worth) => worth.required.iter().copied().map(Some).collect(),
         Judgement::Nominal(worth) => {
+            // A design without samples has values for the other requirements alone, in their order.
             let mut drawn = worth.required.iter().copied();
             let value = |requirement: &Requirement| {
                 let is_drawn = goal.statistic(&requirement.column).is_none();

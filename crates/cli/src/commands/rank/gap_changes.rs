@@ -20,6 +20,7 @@ pub fn gap_changes(results: &Results, ranking: &Ranking<'_>) -> Vec<GapChange> {
     let columns = measured_columns(ranking.preferences());
     let alone = Weights::alone_among(criteria.len()).map(|weights| ranking.winner(weights));
     let best = [Some(ranking.winner(ranking.preferences().weights)), ranking.best_unfolded()];
+    // One design is often the best by several criteria, and each is solved three times.
     let mut numbers: Vec<&str> = Vec::new();
     for number in best.iter().flatten().chain(&alone.collect::<Vec<_>>()).map(RankedDesign::design)
     {
@@ -120,6 +121,7 @@ fn cliffs(change: &GapChange) -> Vec<String> {
 /// A sentence for each requirement that a design misses with another gap.
 fn missed(change: &GapChange, requirements: &[Requirement]) -> Vec<String> {
     let sentence = |requirement: &Requirement, side: &str, changed: Option<f64>| {
+        // A design that has lost its value with another gap keeps no bound.
         let is_missed = changed.is_none_or(|changed| !requirement.is_met(changed));
         is_missed.then(|| {
             format!("  {} misses {requirement} if its gap is 10 % {side}\n", change.design)

@@ -62,6 +62,7 @@ impl RankReport<'_> {
         let rows: Vec<_> =
             left_out.map(|(why, count)| [format!("{count} left out"), why.clone()]).collect();
         text.push_str(&aligned(&rows));
+        // A single design has every criterion in common with all.
         if ranked > 1 {
             for criterion in self.ranking.ties() {
                 let name = &self.preferences().criteria[criterion].name;
@@ -142,6 +143,7 @@ impl RankReport<'_> {
         let mut listed: Vec<_> = front.iter().collect();
         listed.sort_by(|a, b| b.criteria()[0].total_cmp(&a.criteria()[0]));
         listed.truncate(LISTED.max(self.top));
+        // The knee is what several criteria are asked for, so it is listed wherever it stands.
         let hidden = knee.filter(|knee| !listed.iter().any(|s| s.row() == knee.row()));
         let mut rows = vec![self.header("")];
         rows.extend(listed.iter().copied().chain(&hidden).map(|standing| {
@@ -207,6 +209,7 @@ fn shown_cells(results: &Results, preferences: &Preferences, row: usize) -> Vec<
             _ if column == "design" && is_doubtful && is_folded(results, row) => {
                 format!("{text}{FOLDED}")
             }
+            // Parameters stay as they are written: rounded, they would not choose the design again.
             Ok(number) if parameter_of(column).is_none() && column != "design" => digits(number),
             _ => text.to_owned(),
         }

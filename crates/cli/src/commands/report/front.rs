@@ -14,6 +14,7 @@ use crate::commands::results_folder::ResultsFolder;
 /// The designs in a folder of `squama optimise`, to stand beside those of `grid`.
 pub fn front(folder: &Path, grid: &ResultsFolder) -> anyhow::Result<PageFront> {
     let name = folder.display();
+    // A search states no number of designs, of which some could be missing.
     let found = VerifiedFolder::open(folder, Completeness::Partial)?;
     let table = [FRONT, OPTIMUM].into_iter().find(|table| found.holds(table));
     let table = table.with_context(|| {
@@ -25,6 +26,7 @@ pub fn front(folder: &Path, grid: &ResultsFolder) -> anyhow::Result<PageFront> {
     let headers = grid.designs.headers();
     let nominal = goal.nominal();
     let objectives = objectives(&nominal);
+    // Both share the axes of a figure, so that a grid without the column has no place on it.
     for objective in &objectives {
         ensure!(
             headers.iter().any(|header| *header == objective.column),
@@ -57,6 +59,7 @@ fn objectives(nominal: &DesignGoal) -> Vec<Criterion> {
         let goal = if is_upper { Goal::Minimize } else { Goal::Maximize };
         Criterion::new(&requirement.column, goal)
     };
+    // One is enough: the page takes its second axis from other requirements or the variables.
     nominal.requirements.iter().take(1).map(criterion).collect()
 }
 

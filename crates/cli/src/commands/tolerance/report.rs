@@ -124,6 +124,7 @@ fn list(sweep: &Sweep, requirements: &[Requirement], all: &[DesignTolerance]) ->
         last.map_or(-1.0, Proportion::share)
     };
     let mut designs: Vec<&DesignTolerance> = all.iter().collect();
+    // Equal designs keep their order, and so do all where nothing is required.
     designs.sort_by(|one, other| share(other).total_cmp(&share(one)));
     let row = |design: &&DesignTolerance| {
         let yielded = design.yields.last().and_then(|of| of.proportion).map(proportion);

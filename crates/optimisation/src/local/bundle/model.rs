@@ -57,6 +57,7 @@ impl<'c> Model<'c> {
         let slope = gradient.iter().map(|g| g * self.radius).collect();
         let right = match cut {
             Cut::Cost => self.worst - value,
+            // Not below 0: to stay must be allowed, also where the centre stands on a limit.
             Cut::Limit => (-MARGIN - value).max(0.0),
         };
         self.cuts.push((cut, slope, right));
@@ -74,6 +75,7 @@ impl<'c> Model<'c> {
         let step = self.solve(scale)?;
         let dot = |slope: &[f64]| slope.iter().zip(&step).map(|(g, u)| g * u).sum::<f64>();
         let rises = costs().map(|(_, slope, right)| dot(slope) - right);
+        // Not the last coordinate of the program: that is scaled, and as accurate as its solver.
         let gain = -rises.fold(f64::NEG_INFINITY, f64::max);
         let moved =
             self.centre.iter().zip(&step).map(|(x, u)| (x + self.radius * u).clamp(0.0, 1.0));

@@ -34,6 +34,8 @@ pub(super) const PARAMETERS: &[Parameter] = &[
         unit: "-",
         meaning: "place of the load on the top of the punctured scale, 0 its left corner, 1 its right; of a round tip also beyond, at most 1 + gap/base, the left corner of the next scale",
         roles: NUMBER,
+        // How far beyond 1 it may stand depends on gap and tip: `load_can_stand` refuses, and
+        // `punctured` keeps it before the next scale.
         kind: Number { range: Range::closed(0.0, 1e6), field: |c| &mut c.puncture.load_position },
     },
     Parameter {
@@ -105,6 +107,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
             // Below 1e-14 the path to it drowns in round-off.
             range: Range { low: Included(1e-9), high: Excluded(90.0) },
             word: None,
+            // The tilts as they came out: those of a free needle may follow from its friction.
             get: |c| match c.puncture.tilts_deg {
                 tilts if tilts.is_empty() => Scalar::Number(c.puncture.critical_tilt_deg),
                 tilts => Scalar::List(tilts),
@@ -194,6 +197,7 @@ fn set_tilts(case: &mut Case, value: Scalar, tilt: fn(f64) -> f64) {
         Scalar::List(numbers) => numbers.map(tilt),
         Scalar::Count(_) | Scalar::Word(_) => return,
     };
+    // Lists ascend: at the last tilt the path ends, and the others are on its way.
     case.puncture.critical_tilt_deg = tilts.last().unwrap_or(case.puncture.critical_tilt_deg);
     case.puncture.tilts_deg = tilts;
 }
