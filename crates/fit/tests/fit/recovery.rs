@@ -191,7 +191,7 @@ fn curves_without_noise_give_back_what_they_were_made_of() {
 fn campaign() -> (u64, Duration) {
     match std::env::var("SQUAMA_CAMPAIGNS").as_deref() {
         Ok("endless") => (1000, Duration::MAX),
-        Ok("long") => (1000, Duration::from_secs(10)),
+        Ok("long") => (1000, Duration::from_secs(6)),
         _ => (FEW, Duration::MAX),
     }
 }

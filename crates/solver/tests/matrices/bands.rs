@@ -46,7 +46,7 @@ fn reference(matrix: &BandMatrix, kept: &[usize], rhs: &[f64]) -> (Vec<f64>, f64
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 2000, max_global_rejects: 20_000, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 800, max_global_rejects: 20_000, ..ProptestConfig::default() })]
 
     #[test]
     fn solutions_agree_with_a_dense_solver(

@@ -92,7 +92,7 @@ fn assert_close(found: &[f64], expected: &[f64], tolerance: f64) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 1000, max_global_rejects: 20_000, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 400, max_global_rejects: 20_000, ..ProptestConfig::default() })]
 
     #[test]
     fn solutions_agree_with_a_dense_solver(
@@ -229,7 +229,7 @@ impl Row {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 500, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 200, ..ProptestConfig::default() })]
 
     #[test]
     fn rows_of_stiff_contacts_are_solved_as_exactly_as_by_a_dense_solver(
