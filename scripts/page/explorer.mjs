@@ -5,7 +5,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 
 const SIZES = [{ width: 1400, height: 900 }, { width: 390, height: 844 }];
-const STATES = 50;
+const STATES = 25;
 
 /** Waits for what the solver says of a hand that rests. */
 const settled = (page) => page.waitForFunction(() => squama.live.answer?.fine && squama.solver.idle(), null, { timeout: 60_000 });

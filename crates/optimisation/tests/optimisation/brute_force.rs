@@ -14,7 +14,7 @@ use sweep::Measure;
 use crate::searches::{found_in, objectives, optimum};
 
 /// Points along each axis of a grid; `SQUAMA_GRID` says otherwise for that over the whole box.
-const POINTS: usize = 16;
+const POINTS: usize = 12;
 
 /// The half-width of the grid round the optimum, a share of the intervals.
 const NEAR: f64 = 0.001;

@@ -100,7 +100,7 @@ fn compare_designs(count: u64) {
 
 /// Designs that are always compared, and the time in which more are begun.
 const FEW: u64 = 12;
-const LONGEST: Duration = Duration::from_secs(15);
+const LONGEST: Duration = Duration::from_secs(8);
 
 /// Twelve designs; three hundred in a long campaign, or as many as there is time for.
 #[test]

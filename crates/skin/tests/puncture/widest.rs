@@ -55,7 +55,7 @@ fn paths_go_on_from_a_contact_that_gives_way_at_once() {
     }
 }
 
-/// As many designs as a quarter of a minute allows, up to a thousand, in a long campaign alone; how many end for a reason of numbers stands in
+/// As many designs as eight seconds allow, up to a thousand, in a long campaign alone; how many end for a reason of numbers stands in
 /// `docs/reliability.md`.
 #[test]
 fn few_punctures_in_the_widest_ranges_end_for_a_reason_of_numbers() {
@@ -65,7 +65,7 @@ fn few_punctures_in_the_widest_ranges_end_for_a_reason_of_numbers() {
     let begun = Instant::now();
     let solved: Vec<Status> = (0..1000)
         .into_par_iter()
-        .filter(|_| begun.elapsed() < Duration::from_secs(15))
+        .filter(|_| begun.elapsed() < Duration::from_secs(8))
         .map(|seed| {
             let Drawn { design, common, parameters } = draw(seed);
             let springs = springs(&design, &parameters, &Calibrations::default());
