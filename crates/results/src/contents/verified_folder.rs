@@ -33,90 +33,26 @@ pub struct VerifiedFolder {
     behind: bool,
 }
 
-/// A results folder that is not as its run states it. Each message is one line that says what mends it.
+/// A results folder that is not as its run states it, in one line that says what mends it.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum InvalidFolder {
-    /// A journal, and nothing that says what its tables are.
-    #[error("{}: holds a journal but no contents.toml, which a run writes last; {} writes the tables of the designs that are solved", .0.display(), mend(.0))]
-    Unfinished(PathBuf),
-    /// The statement of the contents was damaged.
-    #[error("{}: was changed after squama wrote it ({problem}); {} writes it again", folder.join(RunFolder::CONTENTS).display(), mend(folder))]
-    Contents {
-        /// The folder.
-        folder: PathBuf,
-        /// The fault.
-        problem: String,
-    },
-    /// The journal is not the one that the tables were written from.
-    #[error("{}: is not the journal from which the tables beside it were written ({problem}); {} writes the tables of the designs that it has", folder.join(RunFolder::JOURNAL).display(), mend(folder))]
-    Journal {
-        /// The folder.
-        folder: PathBuf,
-        /// The fault.
-        problem: String,
-    },
-    /// A table is not the one that was written.
-    #[error("{}: was changed after squama wrote it; {} writes it again", folder.join(file).display(), mend(folder))]
-    Changed {
-        /// The folder.
-        folder: PathBuf,
-        /// The name of the table.
-        file: String,
-    },
-    /// The record of a run was changed.
-    #[error("{}: was edited; copy it under another name to use it as a definition; {} writes it again", .0.join(RunFolder::RUN_INFO).display(), mend(.0))]
-    Record(PathBuf),
-    /// A table of a ranking that did not come to its end, or of other tables.
-    #[error("{}: {problem}; squama rank {} writes it again", folder.join(file).display(), shell_word(&folder.display().to_string()))]
-    Ranking {
-        /// The folder.
-        folder: PathBuf,
-        /// The name of the table.
-        file: String,
-        /// The fault.
-        problem: &'static str,
-    },
-    /// A table of a ranking that no record names.
-    #[error("{}: no record in derived says that squama rank wrote it; move it out of the folder", folder.join(file).display())]
-    Unrecorded {
-        /// The folder.
-        folder: PathBuf,
-        /// The name of the table.
-        file: String,
-    },
-    /// A file of a search or an analysis that did not come to its end, or one that was changed.
-    #[error("{}: {problem}; {again} writes it again", folder.join(file).display())]
-    Claimed {
-        /// The folder.
-        folder: PathBuf,
-        /// The name of the file.
-        file: String,
-        /// The fault.
-        problem: &'static str,
-        /// What writes it again.
-        again: &'static str,
-    },
-    /// A file cannot be read.
-    #[error("{}: cannot be read ({reason}), expected the file that squama run writes", file.display())]
-    Unreadable {
-        /// The file.
-        file: PathBuf,
-        /// The message of the system.
-        reason: String,
-    },
-    /// Some designs are not done.
-    #[error("{}: holds {done} of {designs} designs; squama run --resume solves the others, --partial uses those that are there", folder.display())]
-    Incomplete {
-        /// The folder.
-        folder: PathBuf,
-        /// The number of designs that are done.
-        done: u64,
-        /// The number of designs of the run.
-        designs: u64,
-    },
-    /// The journal goes on beyond the tables.
-    #[error("{}: the journal has more designs than the tables, because a run is going on or was ended before it wrote them; {} writes them, --partial uses the designs of the tables", .0.display(), mend(.0))]
-    Behind(PathBuf),
+#[error("{}: {problem}", path.display())]
+pub struct InvalidFolder {
+    /// The folder, or the file in it that is at fault.
+    pub path: PathBuf,
+    /// What is wrong with it, and what mends it.
+    pub problem: String,
+}
+
+impl InvalidFolder {
+    fn new(path: impl Into<PathBuf>, problem: impl Into<String>) -> Self {
+        Self { path: path.into(), problem: problem.into() }
+    }
+
+    fn unreadable(path: &Path, reason: &str) -> Self {
+        let problem =
+            format!("cannot be read ({reason}), expected the file that squama run writes");
+        Self::new(path, problem)
+    }
 }
 
 /// The command that writes tables and contents of a folder again, from its journal.
@@ -149,8 +85,13 @@ impl VerifiedFolder {
     fn require_whole(&self) -> Result<(), InvalidFolder> {
         match &self.contents {
             Some(contents) if !contents.is_whole() => {
-                let Contents { done, designs, .. } = *contents;
-                Err(InvalidFolder::Incomplete { folder: self.path().to_owned(), done, designs })
+                let Contents { done, designs, .. } = contents;
+                Err(InvalidFolder::new(
+                    self.path(),
+                    format!(
+                        "holds {done} of {designs} designs; squama run --resume solves the others, --partial uses those that are there"
+                    ),
+                ))
             }
             _ => self.behind().map_or(Ok(()), Err),
         }
@@ -158,7 +99,13 @@ impl VerifiedFolder {
 
     /// The message if the journal goes on beyond the tables.
     pub fn behind(&self) -> Option<InvalidFolder> {
-        self.behind.then(|| InvalidFolder::Behind(self.path().to_owned()))
+        let problem = || {
+            format!(
+                "the journal has more designs than the tables, because a run is going on or was ended before it wrote them; {} writes them, --partial uses the designs of the tables",
+                mend(self.path())
+            )
+        };
+        self.behind.then(|| InvalidFolder::new(self.path(), problem()))
     }
 
     /// The path of the folder.
@@ -203,19 +150,19 @@ impl VerifiedFolder {
     /// If it cannot be read, or is not as its run has written it.
     pub fn file(&self, name: &str) -> Result<File, InvalidFolder> {
         let path = self.folder.file(name);
-        let unreadable = |reason| InvalidFolder::Unreadable { file: path.clone(), reason };
+        let unreadable = |error| InvalidFolder::unreadable(&path, &reason(&error));
         // A pipe of that name would never come to its end.
         if fs::metadata(&path).is_ok_and(|metadata| !metadata.is_file() && !metadata.is_dir()) {
-            return Err(unreadable("it is no regular file".to_owned()));
+            return Err(InvalidFolder::unreadable(&path, "it is no regular file"));
         }
         // One handle for checking and reading: a file that is replaced in between is not read.
-        let mut file = File::open(&path).map_err(|error| unreadable(reason(&error)))?;
+        let mut file = File::open(&path).map_err(unreadable)?;
         if let Some(expected) = self.expected(name)? {
-            let found = sha256_of(&file).map_err(|error| unreadable(reason(&error)))?;
+            let found = sha256_of(&file).map_err(unreadable)?;
             if found != expected {
                 return Err(self.changed(name));
             }
-            file.rewind().map_err(|error| unreadable(reason(&error)))?;
+            file.rewind().map_err(unreadable)?;
         }
         Ok(file)
     }
@@ -227,10 +174,9 @@ impl VerifiedFolder {
     pub fn text(&self, name: &str) -> Result<String, InvalidFolder> {
         let mut text = String::new();
         let read = self.file(name)?.read_to_string(&mut text);
-        read.map_err(|error| InvalidFolder::Unreadable {
-            file: self.folder.file(name),
-            reason: reason(&error),
-        })?;
+        let unreadable =
+            |error| InvalidFolder::unreadable(&self.folder.file(name), &reason(&error));
+        read.map_err(unreadable)?;
         Ok(text)
     }
 
@@ -248,26 +194,30 @@ impl VerifiedFolder {
             return Ok(Some(digest.clone()));
         }
         match entry.map(|file| file.maker) {
-            None => return Ok(None),
-            Some(Maker::Ranking) => {}
+            None => Ok(None),
+            Some(Maker::Ranking) => self.ranked(name, contents).map(Some),
             // Of a run that was ended before it stated it, or of one that never made it.
-            Some(_) => return Err(self.changed(name)),
+            Some(_) => Err(self.changed(name)),
         }
-        let refuse = |problem| InvalidFolder::Ranking {
-            folder: self.path().to_owned(),
-            file: name.to_owned(),
-            problem,
-        };
+    }
+
+    /// The SHA-256 that a file of the ranking must have.
+    fn ranked(&self, name: &str, contents: &Contents) -> Result<String, InvalidFolder> {
         let ranking = Derivation::read(&self.folder, RunFolder::RANKING_RECORD);
-        let unrecorded =
-            || InvalidFolder::Unrecorded { folder: self.path().to_owned(), file: name.to_owned() };
+        let unrecorded = || {
+            let problem =
+                "no record in derived says that squama rank wrote it; move it out of the folder";
+            InvalidFolder::new(self.folder.file(name), problem)
+        };
         let ranking = ranking.ok_or_else(unrecorded)?;
         // Its tables may be sound, and still rank designs that were solved again since.
         if ranking.from != contents.digest() {
-            return Err(refuse("was made from other tables"));
+            return Err(self.refusal(name, Maker::Ranking, "was made from other tables"));
         }
         let stated = ranking.files.get(name).cloned();
-        stated.map(Some).ok_or_else(|| refuse("is no file of the ranking beside it"))
+        stated.ok_or_else(|| {
+            self.refusal(name, Maker::Ranking, "is no file of the ranking beside it")
+        })
     }
 
     /// The SHA-256 that a file must have that a command has claimed. A folder without a journal of a search and without a record
@@ -282,29 +232,25 @@ impl VerifiedFolder {
         let stated = made.and_then(|made| made.files.get(file.name).cloned());
         // Without a digest the command was ended before it stated what it had written.
         let stated = stated.filter(|digest| !digest.is_empty());
-        stated.map(Some).ok_or_else(|| self.refusal(file, "its command did not come to its end"))
+        let ended = "its command did not come to its end";
+        stated.map(Some).ok_or_else(|| self.refusal(file.name, file.maker, ended))
     }
 
-    fn refusal(&self, file: &FileEntry, problem: &'static str) -> InvalidFolder {
-        let again = match file.maker {
+    /// The error of a file with what its maker would write again.
+    fn refusal(&self, name: &str, maker: Maker, problem: &str) -> InvalidFolder {
+        let again = match maker {
+            Maker::Run => mend(self.path()),
+            Maker::Ranking => format!("squama rank {}", shell_word(&self.path().to_string_lossy())),
             // Without it a search refuses a folder in which its journal stands.
-            Maker::Search => "the same command with --resume",
-            _ => "the same command",
+            Maker::Search => "the same command with --resume".to_owned(),
+            _ => "the same command".to_owned(),
         };
-        let (folder, file) = (self.path().to_owned(), file.name.to_owned());
-        InvalidFolder::Claimed { folder, file, problem, again }
+        InvalidFolder::new(self.folder.file(name), format!("{problem}; {again} writes it again"))
     }
 
     fn changed(&self, name: &str) -> InvalidFolder {
-        let (folder, file) = (self.path().to_owned(), name.to_owned());
-        let problem = "was changed after squama wrote it";
-        match FileEntry::of(name) {
-            Some(entry) if entry.maker == Maker::Ranking => {
-                InvalidFolder::Ranking { folder, file, problem }
-            }
-            Some(entry) if entry.maker != Maker::Run => self.refusal(entry, problem),
-            _ => InvalidFolder::Changed { folder, file },
-        }
+        let maker = FileEntry::of(name).map_or(Maker::Run, |entry| entry.maker);
+        self.refusal(name, maker, "was changed after squama wrote it")
     }
 
     /// The faults of any of the files that the contents name.
@@ -337,42 +283,59 @@ pub fn verify_record(path: &Path) -> Result<(), InvalidFolder> {
     if found == expected {
         return Ok(());
     }
-    Err(InvalidFolder::Record(folder.to_owned()))
+    let mend = mend(folder);
+    let problem = format!(
+        "was edited; copy it under another name to use it as a definition; {mend} writes it again"
+    );
+    Err(InvalidFolder::new(folder.join(RunFolder::RUN_INFO), problem))
 }
 
 /// The contents of `folder`; `None` if it holds tables alone.
 fn read(folder: &RunFolder) -> Result<Option<Contents>, InvalidFolder> {
-    let path = || folder.path().to_owned();
-    match read_text(&folder.file(RunFolder::CONTENTS)) {
-        Ok(text) => match Contents::parse(&text) {
-            Ok(contents) => Ok(Some(contents)),
-            Err(problem) => Err(InvalidFolder::Contents { folder: path(), problem }),
-        },
-        Err(error) if error.kind() == ErrorKind::NotFound => {
-            let unfinished = folder.journal().exists();
-            if unfinished { Err(InvalidFolder::Unfinished(path())) } else { Ok(None) }
+    let mend = mend(folder.path());
+    let path = folder.file(RunFolder::CONTENTS);
+    let parsed = match read_text(&path) {
+        Ok(text) => Contents::parse(&text),
+        Err(error) if error.kind() == ErrorKind::NotFound && folder.journal().exists() => {
+            let problem = format!(
+                "holds a journal but no {}, which a run writes last; {mend} writes the tables of the designs that are solved",
+                RunFolder::CONTENTS
+            );
+            return Err(InvalidFolder::new(folder.path(), problem));
         }
-        Err(error) => Err(InvalidFolder::Contents { folder: path(), problem: reason(&error) }),
-    }
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
+        Err(error) => Err(reason(&error)),
+    };
+    let changed = |problem| {
+        let problem =
+            format!("was changed after squama wrote it ({problem}); {mend} writes it again");
+        InvalidFolder::new(path, problem)
+    };
+    parsed.map(Some).map_err(changed)
 }
 
 /// Whether the journal in `folder` goes on beyond `extent`. Tables may be copied without their journal.
 fn is_behind(folder: &RunFolder, extent: &JournalExtent) -> Result<bool, InvalidFolder> {
     let path = folder.journal();
     let Ok(metadata) = fs::metadata(&path) else { return Ok(false) };
-    let refuse =
-        |problem: String| InvalidFolder::Journal { folder: folder.path().to_owned(), problem };
+    let refuse = |problem: &str| {
+        let problem = format!(
+            "is not the journal from which the tables beside it were written ({problem}); {} writes the tables of the designs that it has",
+            mend(folder.path())
+        );
+        InvalidFolder::new(&path, problem)
+    };
     if !metadata.is_file() {
-        return Err(refuse("it is no regular file".to_owned()));
+        return Err(refuse("it is no regular file"));
     }
     if metadata.len() < extent.bytes {
-        return Err(refuse(format!("it had {} bytes and has {}", extent.bytes, metadata.len())));
+        return Err(refuse(&format!("it had {} bytes and has {}", extent.bytes, metadata.len())));
     }
     // A run that goes on appends to it: only what the tables were written from must not change.
     let found = JournalExtent::of(&path, extent.bytes, extent.lines);
-    let found = found.map_err(|error| refuse(reason(&error)))?;
+    let found = found.map_err(|error| refuse(&reason(&error)))?;
     if found != *extent {
-        return Err(refuse("its beginning has changed".to_owned()));
+        return Err(refuse("its beginning has changed"));
     }
     Ok(metadata.len() > extent.bytes)
 }
