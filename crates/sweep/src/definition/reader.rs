@@ -138,22 +138,8 @@ impl Reader {
     pub fn finish(mut self, file: &Place) -> Result<Sweep, InvalidDefinition> {
         // Beside a gap the pitch says how long a scale is.
         self.case.in_mm.pitch_says_length = self.says(key::PITCH) && self.says(key::GAP);
-        let contradictions: Vec<_> = self.contradictions().collect();
-        // A default in the place of a refused step says nothing about the others.
-        let steps = if self.refused.is_empty() { self.check_steps(file) } else { Ok(()) };
-        self.refused.extend(contradictions);
-        let fixed: Vec<_> = self.fixed_variables().collect();
-        self.refused.extend(fixed);
-        let without_unit: Vec<_> = self.deviations_without_unit().collect();
-        self.refused.extend(without_unit);
-        self.refused.extend(self.check_alternatives().err());
-        self.refused.extend(self.check_needle().err());
-        self.refused.extend(self.check_radius().err());
-        let without_thickness: Vec<_> = self.lengths_without_thickness().collect();
-        self.refused.extend(without_thickness);
-        self.refused.extend(self.check_scale_modulus().err());
-        self.refused.extend(steps.err());
-        self.refused.extend(self.name.is_none().then(|| missing_name(file)));
+        let wrong_together = self.wrong_together(file);
+        self.refused.extend(wrong_together);
         // What follows looks at designs, which only keys without contradictions make.
         InvalidDefinition::of(std::mem::take(&mut self.refused))?;
         let written: Vec<_> = self.written().map(|(k, p, place)| (k, p, place.clone())).collect();
@@ -170,6 +156,23 @@ impl Reader {
             checked.map_err(|problem| refuse(place, key, problem))?;
         }
         Ok(Sweep { name: self.name.unwrap_or_default(), measures, grid, variables, deviations })
+    }
+
+    /// Everything that is wrong with keys together, each of which may be right.
+    fn wrong_together(&self, file: &Place) -> Vec<InvalidDefinition> {
+        let mut wrong: Vec<_> = self.contradictions().collect();
+        wrong.extend(self.fixed_variables());
+        wrong.extend(self.deviations_without_unit());
+        let checked = [self.check_alternatives(), self.check_needle(), self.check_radius()];
+        wrong.extend(checked.into_iter().filter_map(Result::err));
+        wrong.extend(self.lengths_without_thickness());
+        wrong.extend(self.check_scale_modulus().err());
+        // A default in the place of a refused step says nothing about the others.
+        if self.refused.is_empty() {
+            wrong.extend(self.check_steps(file).err());
+        }
+        wrong.extend(self.name.is_none().then(|| missing_name(file)));
+        wrong
     }
 
     /// Every variable that is also given a value, itself or in another way.
