@@ -1,31 +1,26 @@
-//! Output for programs.
+//! Output for programs, or for people.
 
-use results::Cell;
+use std::io;
+use std::path::Path;
+
 use serde_json::Value;
-use sweep::Scalar;
 
 /// Prints `value` as JSON.
-pub fn print(value: &Value) -> std::io::Result<()> {
+pub fn print(value: &Value) -> io::Result<()> {
     // What people would not see is a part of a text for programs.
     crate::print::print_raw(&format!("{value:#}\n"))
 }
 
-/// The value of a parameter.
-pub fn scalar(scalar: Scalar) -> Value {
-    match scalar {
-        Scalar::Number(number) => number.into(),
-        Scalar::Count(count) => count.into(),
-        Scalar::Word(word) => word.into(),
-        Scalar::List(list) => list.as_slice().into(),
+/// Prints an answer: its record for programs, or its text for people with the files in a folder that it was written to.
+pub fn answer(
+    is_json: bool,
+    record: impl FnOnce() -> Value,
+    text: impl FnOnce() -> String,
+    (folder, files): (&Path, &[impl AsRef<str>]),
+) -> io::Result<()> {
+    if is_json {
+        return print(&record());
     }
-}
-
-/// The value of a cell; `null` if there is none.
-pub fn cell(cell: &Cell) -> Value {
-    match cell {
-        Cell::Empty => Value::Null,
-        Cell::Number(number) => (*number).into(),
-        Cell::Count(count) => (*count).into(),
-        Cell::Text(text) => text.as_ref().into(),
-    }
+    let files: Vec<_> = files.iter().map(AsRef::as_ref).collect();
+    crate::print::print(&format!("{}\n{}: {}\n", text(), folder.display(), files.join(" ")))
 }

@@ -1,7 +1,7 @@
 //! A walk along one parameter for the sake of a measure, to where something ends it.
 
 use ranking::Requirement;
-use results::columns::{FOLD_FORCE, Goal, plain_goal};
+use results::columns::{Goal, name, plain_goal};
 use run::Evaluator;
 use serde::Serialize;
 use sweep::{Case, Sweep};
@@ -55,7 +55,7 @@ pub(crate) fn follow(
         let sign = if plain_goal(&walk.measure) == Some(Goal::Minimize) { -1.0 } else { 1.0 };
         Ok(Look {
             worth: Value::number(&values, &walk.measure).map(|value| sign * value),
-            folds: Value::number(&values, FOLD_FORCE).is_some(),
+            folds: Value::number(&values, name::FOLD_FORCE).is_some(),
             required: Required::all(requirements, &values),
         })
     };

@@ -2,7 +2,7 @@
 
 use ranking::Requirement;
 use results::DesignRow;
-use results::columns::design_columns;
+use results::columns::{design_columns, name};
 use run::{Evaluator, GapChange};
 use skin::Imperfection;
 use skin::flexure::{self, Flexure};
@@ -88,7 +88,7 @@ impl Solver {
         let row = &solved.row;
         let values = values(&own, row);
         let change = request.fine.then(|| {
-            GapChange::of(&own, &row.number.to_string(), &["critical_force", "compliance"])
+            GapChange::of(&own, &row.number.to_string(), &[name::CRITICAL_FORCE, name::COMPLIANCE])
         });
         let walk =
             request.follow.as_ref().map(|walk| follow(&own, &case, walk, &requirements, evaluator));

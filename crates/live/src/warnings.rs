@@ -1,6 +1,6 @@
 //! What stands in the way of trusting the numbers of a design, in sentences.
 
-use results::columns::FOLD_FORCE;
+use results::columns::name;
 use results::{DesignRow, Outcome};
 use run::GapChange;
 
@@ -26,14 +26,14 @@ pub(crate) fn warnings(
         }
     }
     // A path that has ended early has no critical force, and a sentence of its own above.
-    if let (Some(fold), Some(force)) = (number(FOLD_FORCE), number("critical_force")) {
+    if let (Some(fold), Some(force)) = (number(name::FOLD_FORCE), number(name::CRITICAL_FORCE)) {
         let share = 100.0 * fold / force;
         sentences.push(format!("From {share:.0} % of the critical force on, the soft surface folds over itself, which no real material can do: do not trust the numbers beyond."));
     }
-    if number("membrane_strain_max").is_some_and(|strain| strain > LARGE_STRAIN) {
+    if number(name::MEMBRANE_STRAIN).is_some_and(|strain| strain > LARGE_STRAIN) {
         sentences.push("The membrane is stretched by more than 20 %, where its law of small strains does not hold.".to_owned());
     }
-    if let Some(tilt) = number("passing_tilt_deg") {
+    if let Some(tilt) = number(name::PASSING_TILT) {
         sentences.push(format!(
             "The needle slips off its scale at a tilt of {tilt:.1}° and goes on to the next."
         ));

@@ -2,7 +2,7 @@
 
 use ranking::{Relation, Requirement, tightest};
 use results::DesignRow;
-use results::columns::GAP_STRETCH_MIN;
+use results::columns::name;
 use sweep::{Measure, Parameter, Sweep};
 
 use crate::column::NumberColumn;
@@ -24,7 +24,7 @@ pub(crate) struct Bounds {
 /// The requirement that the surface of the substrate has not folded, if `sweep` tells: no gap has closed at the critical tilt.
 pub(crate) fn soundness(sweep: &Sweep) -> Option<Requirement> {
     sweep.measures().contains(&Measure::Puncture).then(|| Requirement {
-        column: GAP_STRETCH_MIN.to_owned(),
+        column: name::GAP_STRETCH_MIN.to_owned(),
         // Strict: where a gap has just closed, the surface has folded.
         relation: Relation::Above,
         limit: 0.0,

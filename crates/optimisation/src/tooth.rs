@@ -11,6 +11,7 @@
 //! cent apart, and a search along derivatives stays in the one where it begins.
 
 use results::DesignRow;
+use results::columns::name;
 use sweep::{Case, Parameter};
 
 use crate::slopes::Slopes;
@@ -19,7 +20,7 @@ use crate::slopes::Slopes;
 const BORDER: f64 = 1e-7;
 
 /// Columns that are at most `d/p`: a strip that bends is never less stiff than at rest, where its gaps alone bend.
-pub(crate) const COMPLIANCES: [&str; 2] = ["compliance", "initial_compliance"];
+pub(crate) const COMPLIANCES: [&str; 2] = [name::COMPLIANCE, name::INITIAL_COMPLIANCE];
 
 /// One side of a peak of coverage.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -94,7 +95,7 @@ impl Tooth {
     /// Continues the coverage of a row and its derivatives smoothly beyond the borders.
     pub fn continue_coverage(self, row: &mut DesignRow) {
         row.result.coverage = self.coverage(&row.case);
-        differentiate(row, "coverage", |case| self.coverage(case));
+        differentiate(row, name::COVERAGE, |case| self.coverage(case));
     }
 }
 
@@ -113,7 +114,7 @@ pub(crate) fn continue_compliance(row: &mut DesignRow) {
     if let Some(flexure) = &mut row.result.flexure {
         flexure.measures.compliance = open_share(&row.case);
     }
-    differentiate(row, "compliance", open_share);
+    differentiate(row, name::COMPLIANCE, open_share);
 }
 
 /// Puts a smooth function of the case in the place of a measure with derivatives.

@@ -21,7 +21,7 @@ mod work;
 
 use error::OrFailed as _;
 use pyo3::prelude::*;
-use results::columns::design_columns;
+use results::columns::{design_columns, name};
 use sweep::{PARAMETERS, Parameter, Role, Sweep};
 
 /// Key, section, unit, meaning, values that it takes, and the default as text; geometry has none.
@@ -66,4 +66,15 @@ mod _squama {
     #[expect(non_upper_case_globals, reason = "Python's name")]
     #[pymodule_export]
     const __version__: &str = env!("CARGO_PKG_VERSION");
+
+    #[pymodule_export]
+    const FOLD_FORCE: &str = super::name::FOLD_FORCE;
+
+    #[pymodule_export]
+    const CRITERIA: [&str; 4] = [
+        super::name::COVERAGE,
+        super::name::CRITICAL_FORCE,
+        super::name::PENETRATION,
+        super::name::COMPLIANCE,
+    ];
 }

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use results::columns::design_columns;
 use results::{Cell, Column, DesignRow};
 use run::Evaluator;
-use sweep::{PARAMETERS, Parameter, Role, Scalar};
+use sweep::{PARAMETERS, Parameter, Role, Scalar, key};
 
 use crate::skin::{Skin, evaluator, measures as measures_of};
 use crate::value::{NamedCells, table};
@@ -119,7 +119,8 @@ fn kind(skin: &Skin) -> Kind {
     let (sweep, case) = (&skin.sweep, skin.case());
     // Of a single tilt no column has the value in its name.
     let list = |scalar: Scalar| matches!(scalar, Scalar::List(_)).then_some(scalar);
-    let lists = [list(case.critical_tilt), case.needle_friction.and_then(list)];
+    let lists = [key::CRITICAL_TILT, key::NEEDLE_FRICTION]
+        .map(|key| list(Parameter::named(key)?.get(&case)));
     let set = PARAMETERS.iter().map(|p| [sweep.gives(p.key), sweep.sets(p.key)]);
     ([sweep.is_guided(), sweep.is_imperfect()], set.collect(), lists)
 }

@@ -244,7 +244,7 @@ impl Skin {
             let case = self.case();
             let footprint = case.footprint().or_failed("drawing")?;
             let substrate = RowStiffness::of(&footprint, case.coupling).or_failed("drawing")?;
-            let at = [At::Tilt(case.puncture.critical_tilt_deg)];
+            let at = [At::Tilt(case.punctured().critical_tilt_deg)];
             let solved = snapshots(&case.design, &substrate, &case.common, &case.punctured(), &at);
             let states: Vec<_> = solved.or_failed("drawing")?.at.into_iter().flatten().collect();
             PunctureDrawing { name: NAME, case: &case, states: &states }.svg().or_failed("drawing")

@@ -4,7 +4,8 @@ use std::borrow::Cow;
 use std::fmt;
 use std::str::FromStr;
 
-use results::columns::{Goal, plain_goal};
+use results::columns::{Goal, name, plain_goal};
+use serde::{Serialize, Serializer};
 
 /// A criterion: a column of the tables, and which of its values are good.
 ///
@@ -29,10 +30,10 @@ pub struct Criterion {
 
 /// The criteria of the paper in the order of their weights `m, n, k, l`.
 pub static CRITERIA: [Criterion; 4] = [
-    Criterion::known("coverage", "coverage", Goal::Maximize),
-    Criterion::known("critical force", "critical_force", Goal::Maximize),
-    Criterion::known("penetration resistance", "penetration", Goal::Minimize),
-    Criterion::known("flexural compliance", "compliance", Goal::Maximize),
+    Criterion::known("coverage", name::COVERAGE, Goal::Maximize),
+    Criterion::known("critical force", name::CRITICAL_FORCE, Goal::Maximize),
+    Criterion::known("penetration resistance", name::PENETRATION, Goal::Minimize),
+    Criterion::known("flexural compliance", name::COMPLIANCE, Goal::Maximize),
 ];
 
 /// A text that is no criterion.
@@ -46,7 +47,7 @@ pub struct InvalidCriterion {
 /// The part of a text that may be a column.
 fn column(found: &str) -> &str {
     let column = found.rsplit(':').next().unwrap_or_default();
-    if column.is_empty() { "coverage" } else { column }
+    if column.is_empty() { name::COVERAGE } else { column }
 }
 
 impl Criterion {
@@ -88,6 +89,13 @@ impl FromStr for Criterion {
             }
             _ => Err(InvalidCriterion { found: text.to_owned() }),
         }
+    }
+}
+
+impl Serialize for Criterion {
+    /// As it is written.
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
     }
 }
 

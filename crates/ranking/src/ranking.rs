@@ -6,7 +6,7 @@ mod contender;
 use std::path::Path;
 
 use rayon::prelude::*;
-use results::columns::FOLD_FORCE;
+use results::columns::name;
 use results::round_off::ROUND_OFF;
 use results::{Claim, InvalidResults, Maker, OutputError, Results, RunFolder, write_rows};
 
@@ -202,7 +202,7 @@ impl<'r> Ranking<'r> {
     /// The best of the designs under which the surface of the substrate does not fold over, if it does under the best of all; by
     /// the weights of the preferences. `None` also where the table does not tell.
     pub fn best_unfolded(&self) -> Option<RankedDesign<'_>> {
-        let fold = self.results.column(FOLD_FORCE).ok()?;
+        let fold = self.results.column(name::FOLD_FORCE).ok()?;
         // A surface that does not fold has no force at its fold: the cell is empty.
         let is_open = |design: &RankedDesign<'_>| self.results.text(design.row(), fold).is_empty();
         let best = self.winner(self.preferences.weights);

@@ -4,6 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use results::round_off::{ROUND_OFF, same};
+use serde::{Serialize, Serializer};
 use sweep::number;
 
 use crate::standard::Standard;
@@ -153,6 +154,13 @@ impl FromStr for Requirement {
         };
         let level = Standard::requirement(text).map(|(_, requirement)| requirement);
         level.or_else(read).ok_or_else(|| InvalidRequirement { found: text.trim().to_owned() })
+    }
+}
+
+impl Serialize for Requirement {
+    /// As it is written.
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
     }
 }
 

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use results::Results;
-use results::columns::{FOLD_FORCE, tells_apart};
+use results::columns::{name, tells_apart};
 
 use crate::palette::SlantPalette;
 
@@ -107,7 +107,7 @@ impl Designs {
 
     /// Returns whether the surface of the substrate folds over before the puncture of a design ends.
     pub(crate) fn folded(&self, row: usize) -> bool {
-        !self.text(FOLD_FORCE, row).is_empty()
+        !self.text(name::FOLD_FORCE, row).is_empty()
     }
 
     /// Returns whether the surface folds over under any of the designs.

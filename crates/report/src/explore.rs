@@ -1,5 +1,6 @@
 //! The page that solves: sliders, the skin under the hand, and the solver itself, in one HTML file.
 
+use results::columns::name;
 use serde::Serialize;
 use sweep::{Axis, Parameter, Scalar, Sweep, Variable, key, visible};
 
@@ -119,37 +120,37 @@ struct Shown {
 /// The measures that are shown.
 const SHOWN: [Shown; 6] = [
     Shown {
-        name: "coverage",
+        name: name::COVERAGE,
         label: "Coverage",
         physical: "",
         words: "share of the thickness filled with scales",
     },
     Shown {
-        name: "critical_force",
+        name: name::CRITICAL_FORCE,
         label: "Critical force",
         physical: "critical_force_N",
         words: "the needle tilts a scale too far",
     },
     Shown {
-        name: "penetration",
+        name: name::PENETRATION,
         label: "Penetration",
         physical: "penetration_mm",
         words: "how deep the scales have sunk then",
     },
     Shown {
-        name: "compliance",
+        name: name::COMPLIANCE,
         label: "Flexibility",
         physical: "",
         words: "1: the membrane alone bends as easily",
     },
     Shown {
-        name: "contact_curvature",
+        name: name::CONTACT_CURVATURE,
         label: "Bends freely to",
         physical: "bend_radius_mm",
         words: "radius, or curvature, at which scales touch",
     },
     Shown {
-        name: "sound_force",
+        name: name::SOUND_FORCE,
         label: "Trusted to",
         physical: "sound_force_N",
         words: "before the surface folds over",

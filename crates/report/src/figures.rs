@@ -12,7 +12,7 @@ pub(crate) mod weight_slices;
 
 use ranking::{RankedDesign, Ranking, Weights};
 use results::Quantity::{Force, Length, Moment, Stiffness};
-use results::columns::{measure_of, physical_source};
+use results::columns::{measure_of, name, physical_source};
 use sweep::Measure;
 
 pub(crate) use names::in_words;
@@ -135,8 +135,11 @@ fn file_name(file: &str, values: &[(&str, &str)]) -> String {
 }
 
 /// Measures that have a figure against gap, aspect ratio and slant, each with the column that says which marks are filled.
-pub(crate) const MULTIPLES: [(&str, Option<&str>); 3] =
-    [("critical_force", None), ("penetration", None), ("compliance", Some("flexure_contact"))];
+pub(crate) const MULTIPLES: [(&str, Option<&str>); 3] = [
+    (name::CRITICAL_FORCE, None),
+    (name::PENETRATION, None),
+    (name::COMPLIANCE, Some(name::FLEXURE_CONTACT)),
+];
 
 /// Draws the figures of designs that differ in gap, aspect ratio and slant.
 fn of_part(name: &str, designs: &Designs) -> Vec<(String, String)> {
@@ -146,11 +149,12 @@ fn of_part(name: &str, designs: &Designs) -> Vec<(String, String)> {
         (file, multiples::figure(name, designs, &Quantity::of(designs, measure), filled))
     });
     let mut figures: Vec<_> = multiples.collect();
-    if designs.has("critical_force") {
+    if designs.has(name::CRITICAL_FORCE) {
         figures.push(("stiffness-against-critical-force".into(), stiffness::figure(name, designs)));
     }
-    if designs.has("coverage") {
-        figures.push(("coverage-maps-by-slant".into(), map::by_slant(name, designs, "coverage")));
+    if designs.has(name::COVERAGE) {
+        figures
+            .push(("coverage-maps-by-slant".into(), map::by_slant(name, designs, name::COVERAGE)));
     }
     figures
 }

@@ -6,6 +6,7 @@ mod entry;
 mod failures;
 mod made;
 pub(crate) mod measured_value;
+pub mod name;
 mod path;
 mod reruns;
 mod sensitivity;
@@ -33,10 +34,6 @@ pub use path::{
 };
 pub use reruns::RERUN_COLUMNS;
 pub use sensitivity::DERIVATIVE_COLUMNS;
-pub use values::{
-    AREAL_MASS, FOLD_FORCE, GAP_STRETCH_MAX, GAP_STRETCH_MIN, MAX_STIFFNESS, SECANT_STIFFNESS,
-    SOUND_FORCE,
-};
 
 /// The lengths that every skin of a thickness has in mm.
 const LENGTHS_IN_MM: [&str; 4] = ["gap_mm", "length_mm", "width_mm", key::PITCH];

@@ -6,12 +6,14 @@ use std::path::{Path, PathBuf};
 use store::{AtomicFile, JournalError, OutputError, Start, make_folder, sync_folder, write_text};
 use sweep::Measure;
 
+use crate::columns::name;
+
 /// The tables of one measure, named by the value that they are about.
 pub const MEASURE_TABLES: [(&str, Measure); 4] = [
-    ("coverage", Measure::Coverage),
-    ("critical_force", Measure::Puncture),
-    ("penetration", Measure::Puncture),
-    ("compliance", Measure::Flexure),
+    (name::COVERAGE, Measure::Coverage),
+    (name::CRITICAL_FORCE, Measure::Puncture),
+    (name::PENETRATION, Measure::Puncture),
+    (name::COMPLIANCE, Measure::Flexure),
 ];
 
 /// What makes a file of a results folder.

@@ -1,5 +1,7 @@
 //! Round-off: differences between numbers that say nothing.
 
+use crate::columns::Goal;
+
 /// Two numbers whose difference is at most this part of the larger one are the same but for round-off.
 pub const ROUND_OFF: f64 = 1e-9;
 
@@ -21,12 +23,12 @@ pub struct Leader<T> {
 }
 
 impl<T> Leader<T> {
-    /// Enters a value in a contest, where `is_better` tells which of two values is better.
-    pub fn enter(best: &mut Option<Self>, first: T, value: f64, is_better: fn(&f64, &f64) -> bool) {
+    /// Enters a value in a contest for that goal.
+    pub fn enter(best: &mut Option<Self>, first: T, value: f64, goal: Goal) {
         match best {
             // Asked before which is better: of two that are the same, the later must not win by its last digits.
             Some(best) if same(value, best.value) => best.ties += 1,
-            Some(best) if !is_better(&value, &best.value) => {}
+            Some(best) if !goal.prefers(value, best.value) => {}
             _ => *best = Some(Self { first, value, ties: 0 }),
         }
     }
@@ -42,7 +44,7 @@ mod tests {
         for (design, value) in
             [0.5, 0.8, 0.3, 0.8 + 1e-12, 0.8 - 1e-12, 0.7].into_iter().enumerate()
         {
-            Leader::enter(&mut best, design, value, f64::gt);
+            Leader::enter(&mut best, design, value, Goal::Maximize);
         }
         assert_eq!(best, Some(Leader { first: 1, value: 0.8, ties: 2 }));
     }

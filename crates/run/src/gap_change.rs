@@ -2,6 +2,7 @@
 
 use results::columns::design_columns;
 use results::{Column, DesignRow};
+use serde::{Serialize, Serializer};
 use skin::Imperfection;
 use substrate::Coupling;
 use sweep::{Case, Sweep};
@@ -20,25 +21,33 @@ const CLIFF: f64 = 1.5;
 const MOST_WORK: u64 = 500;
 
 /// The measures of one design where its gap is 10 % smaller and 10 % larger.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GapChange {
     /// The number of the design.
     pub design: String,
     /// The gap over the thickness that was meant.
+    #[serde(rename = "gap_over_t")]
     pub gap: f64,
     /// The measures, in the order of the columns that were asked for.
     pub measures: Vec<MeasureChange>,
 }
 
 /// One measure of a design where its gap is 10 % smaller and 10 % larger.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MeasureChange {
     /// The column of the measure.
     pub column: String,
     /// The measure of the design as it is meant.
     pub value: f64,
     /// The measure with the smaller and with the larger gap; `None` where it has no value.
+    #[serde(flatten, serialize_with = "by_side")]
     pub changed: [Option<f64>; 2],
+}
+
+/// Both sides, each by its name.
+fn by_side<S: Serializer>(changed: &[Option<f64>; 2], serializer: S) -> Result<S::Ok, S::Error> {
+    let names = ["gap_10_percent_smaller", "gap_10_percent_larger"];
+    serializer.collect_map(names.into_iter().zip(changed))
 }
 
 impl MeasureChange {

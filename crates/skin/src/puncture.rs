@@ -87,8 +87,8 @@ pub struct PunctureParameters {
     pub critical_tilt_deg: f64,
     /// How the substrate answers where the surface between two bases is stretched.
     pub substrate_law: SubstrateLaw,
-    /// Tilts at which measures are taken on the way, degrees.
-    pub tilts_deg: NumberList,
+    /// Tilts on the way to the critical one, degrees, at which measures are taken, as at that one; `None`: measures at no tilt are asked for.
+    pub tilts_before_deg: Option<NumberList>,
     /// How the needle is held.
     pub needle: Needle,
     /// Radius of the tip of a guided needle, over `t`; `None` of a sharp one.
@@ -112,7 +112,7 @@ impl Default for PunctureParameters {
             load_position: 1.0,
             critical_tilt_deg: 10.0,
             substrate_law: SubstrateLaw::Linear,
-            tilts_deg: NumberList::default(),
+            tilts_before_deg: None,
             needle: Needle::Free,
             needle_radius: None,
             depth: None,
@@ -129,7 +129,7 @@ pub struct Puncture {
     pub status: Status,
     /// The measures of the puncture.
     pub measures: PunctureMeasures,
-    /// The measures at each of [`PunctureParameters::tilts_deg`]; `None` where the path did not get there.
+    /// The measures at each of [`PunctureParameters::tilts_deg()`]; `None` where the path did not get there.
     pub at_tilts: Vec<Option<TiltMeasures>>,
     /// Every equilibrium of the path, from rest.
     pub path: Vec<PuncturePoint>,
@@ -209,6 +209,12 @@ impl Rows<'_> {
 }
 
 impl PunctureParameters {
+    /// The tilts at which measures are taken, degrees, the critical one last.
+    pub fn tilts_deg(&self) -> impl Iterator<Item = f64> {
+        let before = self.tilts_before_deg.iter().flat_map(NumberList::as_slice).copied();
+        before.chain(self.tilts_before_deg.map(|_| self.critical_tilt_deg))
+    }
+
     fn check(&self) -> Result<(), OutOfRange> {
         let scales = match self.scales {
             RowLength::Auto => 1.0,

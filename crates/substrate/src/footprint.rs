@@ -26,6 +26,33 @@ pub struct Footprint {
     thickness_over_a: f64,
 }
 
+/// The bases of a row and their substrate, with lengths in any unit: what its footprint is made of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bases {
+    /// Half the width `a` of a base along the row.
+    pub half_width: f64,
+    /// The gap `d` between neighbouring bases.
+    pub gap: f64,
+    /// The width `b` out of the plane.
+    pub width: f64,
+    /// Poisson's ratio `ν` of the substrate.
+    pub poisson_ratio: f64,
+    /// The thickness `h` of the substrate; `None` of a half-space.
+    pub thickness: Option<f64>,
+}
+
+impl Bases {
+    /// Returns their footprint.
+    ///
+    /// # Errors
+    /// As [`Footprint::new`] and [`Footprint::on_layer`].
+    pub fn footprint(&self) -> Result<Footprint, OutOfRange> {
+        let a = self.half_width;
+        let footprint = Footprint::new(self.gap / a, self.width / a, self.poisson_ratio)?;
+        self.thickness.map_or(Ok(footprint), |thickness| footprint.on_layer(thickness / a))
+    }
+}
+
 /// The thinnest layer that the cells of a mesh resolve, over `a`.
 const THINNEST: f64 = 0.25;
 

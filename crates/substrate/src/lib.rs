@@ -16,6 +16,7 @@
 //! | Type | Role |
 //! |---|---|
 //! | [`Footprint`] | what the springs depend on: `d/a`, `b/a`, `ν`, valid by construction |
+//! | [`Bases`] | what a footprint is made of, with lengths in any unit |
 //! | [`Springs`] | the six coefficients and their estimated error |
 //! | [`calibrate`] | one footprint to its springs: from a table, elsewhere solved in milliseconds |
 //! | [`RowStiffness`], [`Coupling`], [`Neighbour`] | the same with more neighbours and with force from rotation |
@@ -65,7 +66,7 @@ pub mod table;
 pub use boundary_element::Unresolved;
 pub use calibrations::Calibrations;
 pub use far_field::{FarField, Relief};
-pub use footprint::Footprint;
+pub use footprint::{Bases, Footprint};
 pub use row_stiffness::{Coupling, NEIGHBOURS, Neighbour, RowStiffness};
 pub use springs::{Springs, calibrate, extrapolated};
 pub use stiffness_slopes::StiffnessSlopes;

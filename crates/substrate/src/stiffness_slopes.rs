@@ -1,7 +1,7 @@
 //! How fast the stiffness of a row changes with its footprint.
 
 use crate::row_stiffness::SOLVES;
-use crate::{Coupling, Footprint, RowStiffness, Unresolved, layered, table};
+use crate::{Bases, Coupling, Footprint, RowStiffness, Unresolved, layered, table};
 
 /// The stiffness of a row and its derivatives with respect to the numbers of the footprint.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,6 +50,24 @@ impl StiffnessSlopes {
             by_size = by_size + by_thickness.clone() * footprint.thickness_over_a();
         }
         Ok(Self { stiffness, by_gap, by_width, by_size, by_poisson_ratio, by_thickness })
+    }
+
+    /// Returns the stiffness under bases close to those that it is the stiffness of, on the straight lines of the derivatives.
+    pub fn moved(&self, from: &Bases, to: &Bases) -> RowStiffness {
+        let a = from.half_width;
+        // By lengths, not by their ratios: differences of those would keep fewer digits of a small step.
+        let mut ways = vec![
+            (&self.by_gap, (to.gap - from.gap) / a),
+            (&self.by_width, (to.width - from.width) / a),
+            (&self.by_size, 1.0 - to.half_width / a),
+            (&self.by_poisson_ratio, to.poisson_ratio - from.poisson_ratio),
+        ];
+        if let (Some(by), Some(to), Some(from)) = (&self.by_thickness, to.thickness, from.thickness)
+        {
+            ways.push((by, (to - from) / a));
+        }
+        let ways = ways.into_iter().filter(|(_, by)| *by != 0.0);
+        ways.fold(self.stiffness.clone(), |sum, (slope, by)| sum + slope.clone() * by)
     }
 }
 

@@ -2,9 +2,9 @@
 
 use geometry::OutOfRange;
 use skin::flexure;
-use skin::puncture;
+use skin::puncture::{self, Needle};
 use skin::{Base, Common, Design, Imperfection};
-use substrate::{Coupling, Footprint};
+use substrate::{Bases, Coupling, Footprint};
 
 use crate::material::Material;
 use crate::parameter::Scalar;
@@ -18,9 +18,7 @@ pub struct Case {
     pub common: Common,
     /// The other parameters of the puncture.
     pub puncture: puncture::PunctureParameters,
-    /// The critical tilts that are given, unless the friction of a free needle says them.
-    pub critical_tilt: Scalar,
-    /// The friction between needle and scale: of a free needle the critical tilts follow from it.
+    /// The friction between needle and scale: of a free needle the critical tilts follow from it, instead of those of the puncture.
     pub needle_friction: Option<Scalar>,
     /// How far inside the top right corner the load stands, unless its place is given as a part of the top.
     pub load_inset: Option<f64>,
@@ -79,7 +77,7 @@ pub struct Samples {
 }
 
 impl Case {
-    /// The parameters of the puncture, lengths over the thickness. A load that would stand beyond the middle of a narrow top stands in it,
+    /// The parameters of the puncture as it is solved, lengths over the thickness, with what friction says of needle and tilts. A load that would stand beyond the middle of a narrow top stands in it,
     /// and one that would stand on the next scale on its left corner.
     pub fn punctured(&self) -> puncture::PunctureParameters {
         // Only here, for the case keeps what was asked: along axes of gap and length the place
@@ -87,10 +85,16 @@ impl Case {
         let top = 2.0 * self.design.half_base();
         let inside = |inset: f64| (1.0 - inset / top).max(0.5);
         let position = self.puncture.load_position.min(1.0 + self.design.gap / top);
-        puncture::PunctureParameters {
-            load_position: self.load_inset.map_or(position, inside),
-            ..self.puncture
+        let load_position = self.load_inset.map_or(position, inside);
+        let mut punctured = puncture::PunctureParameters { load_position, ..self.puncture };
+        match (self.needle_friction, &mut punctured.needle) {
+            (Some(Scalar::Number(given)), Needle::Guided { friction }) => *friction = given,
+            (Some(given), Needle::Free) => {
+                set_tilts(&mut punctured, given, |friction| friction.atan().to_degrees());
+            }
+            _ => {}
         }
+        punctured
     }
 
     /// Whether the load stands on a top, or with a round tip that may stand between two.
@@ -98,16 +102,42 @@ impl Case {
         self.puncture.load_position <= 1.0 || self.puncture.needle_radius.is_some()
     }
 
-    /// The ratios and Poisson's ratio that the springs of the substrate depend on.
+    /// The bases and the substrate, on which the springs depend, with lengths over the thickness.
+    pub fn bases(&self) -> Bases {
+        Bases {
+            half_width: self.design.half_base(),
+            gap: self.design.gap,
+            width: self.design.width,
+            poisson_ratio: self.puncture.poisson_ratio,
+            thickness: self.tissue_thickness,
+        }
+    }
+
+    /// The footprint of the bases.
     ///
     /// # Errors
     /// If the lengths of the design are too far apart for their ratios to be an `f64`, or the substrate is too thin for its springs.
     pub fn footprint(&self) -> Result<Footprint, OutOfRange> {
-        let footprint = self.design.footprint(self.puncture.poisson_ratio)?;
-        match self.tissue_thickness {
-            Some(thickness) => footprint.on_layer(thickness / self.design.half_base()),
-            None => Ok(footprint),
+        self.bases().footprint()
+    }
+}
+
+/// Gives a puncture the tilts that are made of a number, or of a list, whose last one is critical and the others on its way.
+pub(crate) fn set_tilts(
+    puncture: &mut puncture::PunctureParameters,
+    given: Scalar,
+    tilt: fn(f64) -> f64,
+) {
+    let tilts = match given {
+        Scalar::Number(number) => Some((tilt(number), None)),
+        // A rising function keeps the order of a list.
+        Scalar::List(numbers) => {
+            numbers.map(tilt).split_last().map(|(last, others)| (last, Some(others)))
         }
+        Scalar::Count(_) | Scalar::Word(_) => None,
+    };
+    if let Some((last, before)) = tilts {
+        (puncture.critical_tilt_deg, puncture.tilts_before_deg) = (last, before);
     }
 }
 
@@ -118,9 +148,6 @@ impl Default for Case {
             design: Design { gap: 0.1, length: 0.025, slant_deg: 0.0, base: Base::L, width: 1.0 },
             common: Common::default(),
             puncture: puncture::PunctureParameters::default(),
-            critical_tilt: Scalar::Number(
-                puncture::PunctureParameters::default().critical_tilt_deg,
-            ),
             needle_friction: None,
             load_inset: None,
             flexure: flexure::FlexureParameters::default(),

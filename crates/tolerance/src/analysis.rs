@@ -4,7 +4,7 @@ use std::sync::atomic::AtomicBool;
 
 use ranking::Requirement;
 use results::DesignRow;
-use results::columns::{AREAL_MASS, measure_name, parameter_of};
+use results::columns::{measure_name, name, parameter_of};
 use run::{Evaluator, JournalHeader, Program};
 use skin::Imperfection;
 use sweep::{Case, Measure, Subset, Sweep};
@@ -228,7 +228,7 @@ impl<'a> Analysis<'a> {
 fn has_derivatives(name: &str, nominal: &DesignRow) -> bool {
     let measure = measure_name(name);
     let mut derivatives = nominal.result.sensitivity.iter();
-    measure == AREAL_MASS || derivatives.any(|d| d.measure == measure)
+    measure == name::AREAL_MASS || derivatives.any(|d| d.measure == measure)
 }
 
 /// The header of the journal of the samples of a sweep.

@@ -1,6 +1,7 @@
 //! The dependence of the main results on the choices that the paper leaves open.
 
 use ranking::{Ranking, TetrahedralGrid, Weights};
+use results::columns::name;
 use sweep::{Axis, Setting, Sweep};
 
 use crate::ValidationError;
@@ -168,10 +169,10 @@ impl ChoiceEffect {
     fn of(first: &Study, (setting, other): &(String, Study)) -> Vec<Self> {
         let measures: [(&str, DesignValue); 4] = [
             // From a coverage of 0 there is no relative change.
-            ("coverage", |design| design.coverage.filter(|coverage| *coverage > 0.0)),
+            (name::COVERAGE, |design| design.coverage.filter(|coverage| *coverage > 0.0)),
             ("critical force", |design| design.critical_force),
-            ("penetration", |design| design.penetration),
-            ("compliance", |design| design.compliance),
+            (name::PENETRATION, |design| design.penetration),
+            (name::COMPLIANCE, |design| design.compliance),
         ];
         let effect = |(measure, value): (&'static str, DesignValue)| {
             // All settings of a sweep have the same geometries in the same order.

@@ -4,7 +4,7 @@ use std::sync::atomic::AtomicBool;
 use std::thread::available_parallelism;
 use std::time::Duration;
 
-use results::columns::{FOLD_FORCE, GAP_STRETCH_MAX, GAP_STRETCH_MIN, MAX_STIFFNESS, SOUND_FORCE};
+use results::columns::name;
 use results::{InvalidResults, Results};
 use run::{Options, Program, Start, WorkMeter};
 use sweep::{Axis, Case, Parameter, Subset, Sweep};
@@ -135,19 +135,19 @@ fn designs(results: &Results) -> Result<Vec<MeasuredDesign>, InvalidResults> {
             gap: parameter("gap_over_t")?,
             length: parameter("length_over_t")?,
             slant: parameter("slant_deg")?,
-            coverage: number(row, "coverage")?,
-            critical_force: number(row, "critical_force")?,
-            penetration: number(row, "penetration")?,
-            compliance: number(row, "compliance")?,
-            initial_compliance: number(row, "initial_compliance")?,
-            bends_to_contact: results.text(row, results.column("flexure_contact")?) == "yes",
-            first_contact: number(row, "first_contact_displacement")?,
-            initial_stiffness: number(row, "initial_stiffness")?,
-            max_stiffness: number(row, MAX_STIFFNESS)?,
-            gap_stretch_min: number(row, GAP_STRETCH_MIN)?,
-            gap_stretch_max: number(row, GAP_STRETCH_MAX)?,
-            fold_force: number(row, FOLD_FORCE)?,
-            sound_force: number(row, SOUND_FORCE)?,
+            coverage: number(row, name::COVERAGE)?,
+            critical_force: number(row, name::CRITICAL_FORCE)?,
+            penetration: number(row, name::PENETRATION)?,
+            compliance: number(row, name::COMPLIANCE)?,
+            initial_compliance: number(row, name::INITIAL_COMPLIANCE)?,
+            bends_to_contact: results.text(row, results.column(name::FLEXURE_CONTACT)?) == "yes",
+            first_contact: number(row, name::FIRST_CONTACT)?,
+            initial_stiffness: number(row, name::INITIAL_STIFFNESS)?,
+            max_stiffness: number(row, name::MAX_STIFFNESS)?,
+            gap_stretch_min: number(row, name::GAP_STRETCH_MIN)?,
+            gap_stretch_max: number(row, name::GAP_STRETCH_MAX)?,
+            fold_force: number(row, name::FOLD_FORCE)?,
+            sound_force: number(row, name::SOUND_FORCE)?,
         })
     };
     (0..results.len()).map(design).collect()

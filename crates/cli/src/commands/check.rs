@@ -81,11 +81,11 @@ fn goal_as_json(goal: &DesignGoal) -> Value {
     let sweep = goal.space.sweep();
     let variables =
         sweep.variables().iter().map(|of| (of.parameter().path(), [of.at(0.0), of.at(1.0)]));
-    let variables = variables.map(|(path, ends)| (path, json!(ends.map(json::scalar))));
+    let variables = variables.map(|(path, ends)| (path, json!(ends)));
     json!({
         "goal": goal.name(),
         "variables": variables.collect::<Map<_, _>>(),
-        "requirements": goal.requirements.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        "requirements": goal.requirements,
         "output": folder_of(sweep, None).to_string_lossy(),
     })
 }
@@ -118,11 +118,11 @@ fn report(sweep: &Sweep, path: &Path) -> String {
 
 fn as_json(sweep: &Sweep) -> Value {
     let axis = |axis: &Axis| {
-        let values = (0..axis.len()).map(|index| json::scalar(axis.value(index)));
+        let values = (0..axis.len()).map(|index| axis.value(index));
         json!({ "key": axis.parameter().key, "values": values.collect::<Vec<_>>() })
     };
     let parameter =
-        |(parameter, value): (&sweep::Parameter, _)| (parameter.path(), json::scalar(value));
+        |(parameter, value): (&sweep::Parameter, sweep::Scalar)| (parameter.path(), json!(value));
     let measures: Vec<_> = sweep.measures().iter().map(|measure| measure.key()).collect();
     json!({
         "sweep": sweep.name(),

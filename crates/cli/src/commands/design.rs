@@ -18,7 +18,7 @@ use super::selection::{SelectedDesign, Selection, select};
 use super::source::{Definition, folder_within};
 use super::{DONE, INCOMPLETE};
 use crate::json;
-use crate::print::{aligned, change, print, rounded};
+use crate::print::{aligned, change, rounded};
 
 /// Arguments of `squama design`.
 #[derive(Debug, Args)]
@@ -72,12 +72,9 @@ pub fn design(arguments: &Arguments) -> anyhow::Result<u8> {
     folder.write_text("design.toml", &chosen.design.sweep.to_toml())?;
     files.push("design.toml");
     claim.state(&files)?;
-    let place = folder.path().display();
-    if arguments.json {
-        json::print(&chosen.json(&place.to_string(), &files))?;
-    } else {
-        print(&format!("{}\n{place}: {}\n", chosen.report(), files.join(" ")))?;
-    }
+    let place = folder.path();
+    let record = || chosen.json(&place.to_string_lossy(), &files);
+    json::answer(arguments.json, record, || chosen.report(), (place, &files))?;
     Ok(if chosen.solved.row.result.failed() { INCOMPLETE } else { DONE })
 }
 
@@ -192,8 +189,8 @@ impl SolvedChoice {
 
     fn json(&self, folder: &str, files: &[&str]) -> Value {
         let case = self.design.case();
-        let parameters = PARAMETERS.iter().map(|p| (p.path(), json::scalar(p.get(&case))));
-        let measures = self.measures().map(|(c, cell)| (c.name.to_string(), json::cell(&cell)));
+        let parameters = PARAMETERS.iter().map(|p| (p.path(), json!(p.get(&case))));
+        let measures = self.measures().map(|(c, cell)| (c.name.to_string(), json!(cell)));
         let units = self.measures().map(|(c, _)| (c.name.to_string(), c.unit.into()));
         json!({
             "sweep": self.design.sweep.name(),

@@ -113,7 +113,7 @@ impl Drawing<'_> {
 
     fn puncture(&self, files: &mut FigureFiles<'_>) -> anyhow::Result<()> {
         let case = &self.case;
-        let critical = case.puncture.critical_tilt_deg;
+        let critical = case.punctured().critical_tilt_deg;
         let at: Vec<_> = match self.arguments.at.as_slice() {
             [] if self.arguments.animate => self.frames()?,
             [] if self.arguments.force.is_empty() => vec![puncture::At::Tilt(critical)],
@@ -138,7 +138,7 @@ impl Drawing<'_> {
 
     /// Displacements at equal steps, up to the critical tilt.
     fn frames(&self) -> anyhow::Result<Vec<puncture::At>> {
-        let critical = puncture::At::Tilt(self.case.puncture.critical_tilt_deg);
+        let critical = puncture::At::Tilt(self.case.punctured().critical_tilt_deg);
         // Solved twice, because only the end of the path tells how far apart the frames are.
         let end = self.puncture_states(&[critical])?;
         let last = end.first().map_or(0.0, |state| state.displacement);

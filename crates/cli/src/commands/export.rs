@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use optimisation::{DesignGoal, FRONT, GOAL, HISTORY, OPTIMUM, history_columns, optimum_columns};
 use report::OtherTable;
-use results::{Column, VerifiedFolder};
+use results::{Column, FileEntry, Maker, VerifiedFolder};
 use tolerance::{INDEX_COLUMNS, SOURCE_COLUMNS, TOLERANCE_COLUMNS, YIELD_COLUMNS};
 
 use super::fit::{ESTIMATES, FILES, POINTS};
@@ -44,7 +44,8 @@ pub fn export(arguments: &Arguments) -> anyhow::Result<u8> {
     require_folder_of("--xlsx", &arguments.xlsx)?;
     let (path, completeness) = (&arguments.results, arguments.partial.completeness());
     // Where a run is asked for, such a folder is refused with the advice to export it.
-    let is_other = OTHERS.iter().any(|table| path.join(table).is_file());
+    let mut others_of = results::FILES.iter().filter(|file| is_other(file));
+    let is_other = others_of.any(|file| path.join(file.name).is_file());
     let results = if is_other {
         VerifiedFolder::open(path, completeness)?
     } else {
@@ -61,20 +62,14 @@ pub fn export(arguments: &Arguments) -> anyhow::Result<u8> {
     Ok(DONE)
 }
 
-/// The tables of what is no run.
-const OTHERS: [&str; 9] = [
-    OPTIMUM,
-    FRONT,
-    HISTORY,
-    "tolerance.csv",
-    "tolerance_sources.csv",
-    "yield.csv",
-    "sobol.csv",
-    FILES[0],
-    FILES[1],
-];
+/// Whether a file is a table of what is no run: of a search or an analysis.
+fn is_other(file: &FileEntry) -> bool {
+    let makers = [Maker::Search, Maker::Tolerance, Maker::Sensitivity, Maker::Fit];
+    makers.contains(&file.maker)
+        && Path::new(file.name).extension().is_some_and(|kind| kind == "csv")
+}
 
-/// The same with their columns. Those of a search follow from its goal.
+/// Such tables with their columns. Those of a search follow from its goal.
 fn others(results: &VerifiedFolder) -> anyhow::Result<Vec<OtherTable>> {
     let [of_best, of_history] = if results.holds(GOAL) {
         let name = results.path().join(GOAL).display().to_string();
@@ -83,23 +78,18 @@ fn others(results: &VerifiedFolder) -> anyhow::Result<Vec<OtherTable>> {
     } else {
         [Vec::new(), Vec::new()]
     };
-    // In the order of `OTHERS`; a front has the columns of an optimum.
-    let columns = [
-        of_best.clone(),
-        of_best,
-        of_history,
-        explained(TOLERANCE_COLUMNS),
-        explained(SOURCE_COLUMNS),
-        explained(YIELD_COLUMNS),
-        explained(INDEX_COLUMNS),
-        explained(ESTIMATES),
-        explained(POINTS),
+    let tables = [
+        (OPTIMUM, of_best.clone()),
+        (FRONT, of_best),
+        (HISTORY, of_history),
+        ("tolerance.csv", explained(TOLERANCE_COLUMNS)),
+        ("tolerance_sources.csv", explained(SOURCE_COLUMNS)),
+        ("yield.csv", explained(YIELD_COLUMNS)),
+        ("sobol.csv", explained(INDEX_COLUMNS)),
+        (FILES[0], explained(ESTIMATES)),
+        (FILES[1], explained(POINTS)),
     ];
-    Ok(OTHERS
-        .into_iter()
-        .zip(columns)
-        .map(|(file, columns)| OtherTable { file, columns })
-        .collect())
+    Ok(tables.into_iter().map(|(file, columns)| OtherTable { file, columns }).collect())
 }
 
 fn explained<R>(columns: &[Column<R>]) -> Vec<(String, &'static str, &'static str)> {

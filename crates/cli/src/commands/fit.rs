@@ -13,11 +13,11 @@ use run::WorkMeter;
 use serde_json::{Value, json};
 
 use super::source::{folder_of, question, settings};
-use super::work::Threads;
+use super::work::Solving;
 use super::{DONE, INCOMPLETE};
 use crate::interrupt::Interrupt;
 use crate::json;
-use crate::print::{aligned, counted, digits, note, print};
+use crate::print::{aligned, counted, digits, note};
 use crate::progress::Display;
 
 /// Arguments of `squama fit`.
@@ -53,15 +53,7 @@ pub struct Arguments {
     pub out: Option<PathBuf>,
 
     #[command(flatten)]
-    pub threads: Threads,
-
-    /// Show no progress bar
-    #[arg(long, short)]
-    pub quiet: bool,
-
-    /// Print JSON instead of text
-    #[arg(long)]
-    pub json: bool,
+    pub solving: Solving,
 }
 
 /// Files that it writes.
@@ -83,9 +75,10 @@ pub fn fit(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     // A file that is not its own is refused before the fit, and not when it is to be written.
     Claim::check(&folder, Maker::Fit)?;
     interrupt.ask_first();
-    let display = Display::<WorkMeter>::new(arguments.quiet, interrupt, Arc::default(), ENDING);
+    let display =
+        Display::<WorkMeter>::new(arguments.solving.quiet, interrupt, Arc::default(), ENDING);
     let fit = || definition.fit(interrupt.stop(), display.watched());
-    let fitted = arguments.threads.pool()?.install(fit);
+    let fitted = arguments.solving.threads.pool()?.install(fit);
     // The bar goes before anything is printed.
     drop(display);
     let fitted = match fitted {
@@ -96,12 +89,8 @@ pub fn fit(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
         fitted => fitted.with_context(|| path.to_string())?,
     };
     write(&folder, &fitted)?;
-    if arguments.json {
-        json::print(&record(&fitted))?;
-    } else {
-        let files = FILES.join(" ");
-        print(&format!("{}\n{}: {files}\n", text(&fitted), folder.path().display()))?;
-    }
+    let (record, text) = (|| record(&fitted), || text(&fitted));
+    json::answer(arguments.solving.json, record, text, (folder.path(), &FILES))?;
     // A value without an interval is one of many that fit as well.
     let is_told = fitted.estimates.iter().all(|estimate| estimate.interval.is_some());
     Ok(if is_told { DONE } else { INCOMPLETE })

@@ -6,7 +6,7 @@ use anyhow::{Context as _, bail, ensure};
 use clap::Args;
 use fabrication::{Format, Patch, Sheet};
 use ranking::CRITERIA;
-use results::columns::measure_name;
+use results::columns::{measure_name, name};
 use sweep::Case;
 use tolerance::{Analysis, SampleStore};
 
@@ -222,5 +222,5 @@ fn tolerances(
 fn is_for_a_maker(measure: &str) -> bool {
     let is_criterion =
         || CRITERIA.iter().any(|criterion| criterion.column == measure_name(measure));
-    is_criterion() || ["bend_radius_mm", "areal_mass_kg_m2"].contains(&measure)
+    is_criterion() || ["bend_radius_mm", name::AREAL_MASS].contains(&measure)
 }

@@ -18,11 +18,11 @@ use results::RunFolder;
 
 use super::required::Required;
 use super::source::{folder_of, question, settings};
-use super::work::{Earlier, Format, Threads};
+use super::work::{Earlier, Format, Solving};
 use super::{DONE, INCOMPLETE, PROGRAM};
 use crate::interrupt::Interrupt;
 use crate::json;
-use crate::print::{note, print};
+use crate::print::note;
 use crate::progress::{Display, RESUMED};
 use figures::figures;
 use record::record;
@@ -79,15 +79,7 @@ pub struct Arguments {
     pub earlier: Earlier,
 
     #[command(flatten)]
-    pub threads: Threads,
-
-    /// Show no progress bar
-    #[arg(long, short)]
-    pub quiet: bool,
-
-    /// Print JSON instead of text
-    #[arg(long)]
-    pub json: bool,
+    pub solving: Solving,
 
     #[command(flatten)]
     pub format: Format,
@@ -104,7 +96,7 @@ pub fn optimise(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<
     let folder = folder_of(goal.space.sweep(), arguments.out.as_deref());
     interrupt.ask_first();
     let begun = Instant::now();
-    let display = Display::new(arguments.quiet, interrupt, Arc::default(), RESUMED);
+    let display = Display::new(arguments.solving.quiet, interrupt, Arc::default(), RESUMED);
     let options = options(arguments, interrupt, &display);
     let found = optimisation::optimise(&goal, &folder, &options, &PROGRAM)?;
     // The bar goes before anything is printed.
@@ -122,12 +114,8 @@ pub fn optimise(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<
     let figures = figures.into_iter().map(|Figure { name, svg }| (format!("{name}.svg"), svg));
     let files = write_found(&written, &goal, &found, &figures.collect::<Vec<_>>(), format)?;
     let report = SearchReport { goal: &goal, found: &found };
-    if arguments.json {
-        json::print(&record(&goal, &found))?;
-    } else {
-        let text = report.text(begun.elapsed(), arguments.threads.count());
-        print(&format!("{text}\n{}: {}\n", folder.display(), files.join(" ")))?;
-    }
+    let text = || report.text(begun.elapsed(), arguments.solving.threads.count());
+    json::answer(arguments.solving.json, || record(&goal, &found), text, (&folder, &files))?;
     Ok(exit_code(&found))
 }
 
@@ -137,7 +125,7 @@ fn options<'i>(
     display: &'i Display<SearchMeter>,
 ) -> SearchOptions<'i> {
     SearchOptions {
-        threads: arguments.threads.count(),
+        threads: arguments.solving.threads.count(),
         start: arguments.earlier.start(),
         stop: interrupt.stop(),
         meter: display.watched(),

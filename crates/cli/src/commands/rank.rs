@@ -10,16 +10,16 @@ use ranking::{
     CRITERIA, Criterion, Goal, InvalidRanking, Preferences, Ranking, Scale, TetrahedralGrid, Unmet,
     Weights, check_comparable,
 };
-use results::columns::SOUND_FORCE;
+use results::columns::name;
 use results::{Results, RunFolder};
+use serde_json::json;
 
 use super::required::Required;
 use super::source::{Partial, verified_folder};
 use super::work::whole;
 use super::{DONE, INCOMPLETE, derived};
 use crate::json;
-use crate::print::print;
-use gap_changes::{gap_changes, gap_changes_record};
+use gap_changes::gap_changes;
 use record::{ranking_record, unmet_record};
 use report::{RankReport, unmet_report};
 
@@ -124,15 +124,14 @@ fn ranked(arguments: &Arguments, results: &Results, ranking: &Ranking<'_>) -> an
     let files = ranking::write_ranking(folder, ranking)?;
     derived::note(results.verified_folder(), RunFolder::RANKING_RECORD, folder, &files)?;
     let changes = gap_changes(results, ranking);
-    if arguments.json {
-        let mut record = ranking_record(results, ranking, arguments.top as usize);
-        record["gap_changes"] = gap_changes_record(&changes).into();
-        json::print(&record)?;
-    } else {
-        let text =
-            RankReport { results, ranking, top: arguments.top as usize, changes: &changes }.text();
-        print(&format!("{text}\n{}: {}\n", folder.display(), files.join(" ")))?;
-    }
+    let top = arguments.top as usize;
+    let record = || {
+        let mut record = ranking_record(results, ranking, top);
+        record["gap_changes"] = json!(changes);
+        record
+    };
+    let report = RankReport { results, ranking, top, changes: &changes };
+    json::answer(arguments.json, record, || report.text(), (folder, &files))?;
     Ok(DONE)
 }
 
@@ -146,12 +145,9 @@ fn none_meets(
     // Preferences alone are kept: an earlier ranking would pass for one by these requirements.
     let file = ranking::write_unmet(folder, preferences)?;
     derived::note(results.verified_folder(), RunFolder::RANKING_RECORD, folder, &[file])?;
-    if arguments.json {
-        json::print(&unmet_record(results, unmet))?;
-    } else {
-        let text = unmet_report(results, preferences, unmet);
-        print(&format!("{text}\n{}: {file}\n", folder.display()))?;
-    }
+    let (record, text) =
+        (|| unmet_record(results, unmet), || unmet_report(results, preferences, unmet));
+    json::answer(arguments.json, record, text, (folder, &[file]))?;
     Ok(INCOMPLETE)
 }
 
@@ -184,9 +180,9 @@ fn criteria(arguments: &Arguments) -> anyhow::Result<Vec<Criterion>> {
         None => own,
     };
     if arguments.sound {
-        let force = criteria.iter_mut().find(|criterion| criterion.column == "critical_force");
+        let force = criteria.iter_mut().find(|criterion| criterion.column == name::CRITICAL_FORCE);
         let force = force.context("--sound has no effect: critical_force is no criterion")?;
-        *force = Criterion::new(SOUND_FORCE, force.goal);
+        *force = Criterion::new(name::SOUND_FORCE, force.goal);
     }
     Ok(criteria)
 }

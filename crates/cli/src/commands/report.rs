@@ -201,7 +201,7 @@ fn solve(results: &ResultsFolder, row: usize, is_drawn: bool) -> Option<PageDesi
     // A definition may ask for smaller steps than a drawn curve needs: they hold then.
     case.common.solver.max_step = case.common.solver.max_step.min(CURVE_STEP);
     let substrate = substrate(&case).ok()?;
-    let at = [puncture::At::Tilt(case.puncture.critical_tilt_deg)];
+    let at = [puncture::At::Tilt(case.punctured().critical_tilt_deg)];
     let solved =
         puncture::snapshots(&case.design, &substrate, &case.common, &case.punctured(), &at).ok()?;
     let states: Vec<_> = solved.at.into_iter().flatten().collect();

@@ -2,12 +2,11 @@
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
-use std::str::FromStr;
 use std::sync::Arc;
 use std::time::Duration;
 
 use clap::Args;
-use results::columns::{FOLD_FORCE, SOUND_FORCE};
+use results::columns::name::{FOLD_FORCE, SOUND_FORCE};
 use results::{Completeness, VerifiedFolder};
 use run::{Best, Finished, Options};
 use sweep::{RandomSample, Subset, Sweep};
@@ -19,19 +18,10 @@ use crate::interrupt::Interrupt;
 use crate::print::{aligned, counted, note, print, time};
 use crate::progress::{ProgressDisplay, RESUMED};
 
-/// A part of the designs.
-#[derive(Clone, Copy, Debug)]
-pub struct Share(pub f64);
-
-impl FromStr for Share {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let share = text.parse().ok().filter(|share| *share > 0.0 && *share <= 1.0);
-        share.map(Self).ok_or_else(|| {
-            format!("{text} is out of range, expected a number above 0 and at most 1")
-        })
-    }
+/// Reads a part of the designs.
+fn share(text: &str) -> Result<f64, String> {
+    let share = text.parse().ok().filter(|share| *share > 0.0 && *share <= 1.0);
+    share.ok_or_else(|| format!("{text} is out of range, expected a number above 0 and at most 1"))
 }
 
 /// Arguments of `squama run`.
@@ -86,8 +76,8 @@ pub struct Arguments {
     ///
     /// The second method takes steps a tenth as large, and solves a strip as a chain of all its gaps. A relative difference
     /// above 1e-6, or a different status, gives exit code 1.
-    #[arg(long, value_name = "SHARE")]
-    pub audit: Option<Share>,
+    #[arg(long, value_name = "SHARE", value_parser = share)]
+    pub audit: Option<f64>,
 
     #[command(flatten)]
     pub work: Work,
@@ -115,7 +105,7 @@ pub fn run(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let finished = finished?;
     // Whoever ends a run does not wait for its audit.
     let audited = arguments.audit.filter(|_| interrupt.exit_code().is_none());
-    let audited = audited.map(|share| run::Audit::of(&folder, share.0, &options)).transpose()?;
+    let audited = audited.map(|share| run::Audit::of(&folder, share, &options)).transpose()?;
     drop(display);
     conclude(&folder, &finished);
     if !arguments.work.quiet {

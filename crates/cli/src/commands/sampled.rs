@@ -9,7 +9,7 @@ use sweep::Sweep;
 use tolerance::{NoAnalysis, SampleStore};
 
 use super::source::{Definition, folder_within};
-use super::work::Threads;
+use super::work::Solving;
 use crate::interrupt::Interrupt;
 use crate::print::note;
 use crate::progress::Display;
@@ -17,20 +17,12 @@ use crate::progress::Display;
 /// How samples are solved, and where they are kept.
 #[derive(Debug, Args)]
 pub struct Sampled {
-    #[command(flatten)]
-    pub threads: Threads,
-
     /// Folder for the tables [default: one of the command's name in the results of the sweep]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 
-    /// Show no progress bar
-    #[arg(long, short)]
-    pub quiet: bool,
-
-    /// Print JSON instead of text
-    #[arg(long)]
-    pub json: bool,
+    #[command(flatten)]
+    pub solving: Solving,
 }
 
 /// What is said when the first signal has come.
@@ -66,8 +58,9 @@ impl<'a> SampledFolder<'a> {
         let store = SampleStore::new(&self.folder.file("samples"));
         interrupt.ask_first();
         store.work().begin(samples);
-        let display = Display::new(self.arguments.quiet, interrupt, store.work().clone(), ENDING);
-        let solved = self.arguments.threads.pool()?.install(|| solve(&store));
+        let display =
+            Display::new(self.arguments.solving.quiet, interrupt, store.work().clone(), ENDING);
+        let solved = self.arguments.solving.threads.pool()?.install(|| solve(&store));
         drop(display);
         match solved {
             // Claimed now, and not before the samples: a claim removes the tables of the last time.

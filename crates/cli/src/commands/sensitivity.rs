@@ -19,7 +19,7 @@ use super::work::whole;
 use super::{DONE, INCOMPLETE, PROGRAM};
 use crate::interrupt::Interrupt;
 use crate::json;
-use crate::print::{aligned, counted, print};
+use crate::print::{aligned, counted};
 
 /// Arguments of `squama sensitivity`.
 #[derive(Debug, Args)]
@@ -72,12 +72,9 @@ pub fn sensitivity(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Resu
     let rows = found.measures.iter().flat_map(|measure| rows(&found, measure));
     write_rows(folder, TABLE, CsvFormat::Plain, INDEX_COLUMNS, rows)?;
     claim.state(&[TABLE])?;
-    let place = folder.path();
-    if arguments.sampled.json {
-        json::print(&record(&sweep, &found, place))?;
-    } else {
-        print(&format!("{}\n{}: {TABLE}\n", report(&sweep, &found, samples), place.display()))?;
-    }
+    let record = || record(&sweep, &found, folder.path());
+    let report = || report(&sweep, &found, samples);
+    json::answer(arguments.sampled.solving.json, record, report, (folder.path(), &[TABLE]))?;
     Ok(DONE)
 }
 

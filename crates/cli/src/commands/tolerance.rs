@@ -25,7 +25,6 @@ use super::work::whole;
 use super::{DONE, INCOMPLETE, PROGRAM};
 use crate::interrupt::Interrupt;
 use crate::json;
-use crate::print::print;
 
 /// Arguments of `squama tolerance`.
 #[derive(Debug, Args)]
@@ -94,13 +93,9 @@ pub fn tolerance(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result
         }
     }
     claim.state(&files)?;
-    let place = folder.path();
-    if arguments.sampled.json {
-        json::print(&record::record(&sweep, &all, place, &files))?;
-    } else {
-        let text = report::report(&sweep, &requirements, &all);
-        print(&format!("{text}\n{}: {}\n", place.display(), files.join(" ")))?;
-    }
+    let record = || record::record(&sweep, &all, folder.path(), &files);
+    let report = || report::report(&sweep, &requirements, &all);
+    json::answer(arguments.sampled.solving.json, record, report, (folder.path(), &files))?;
     let failed = all.iter().any(|design| design.nominal.result.failed());
     Ok(if failed { INCOMPLETE } else { DONE })
 }

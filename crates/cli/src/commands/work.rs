@@ -44,6 +44,21 @@ pub struct Work {
     pub quiet: bool,
 }
 
+/// How the work of an answer is done, and as what it is printed.
+#[derive(Debug, Args)]
+pub struct Solving {
+    #[command(flatten)]
+    pub threads: Threads,
+
+    /// Show no progress bar
+    #[arg(long, short)]
+    pub quiet: bool,
+
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub json: bool,
+}
+
 /// The format of the tables.
 #[derive(Debug, Args)]
 pub struct Format {

@@ -3,6 +3,7 @@
 //! Scales take the part `1 − d/p` of the pitch and bending has the rest: coverage is at most `1 − d/p`, compliance at most `d/p` (O8).
 
 use ranking::Requirement;
+use results::columns::name;
 use sweep::InvalidDefinition;
 use sweep::number;
 
@@ -21,7 +22,7 @@ pub(super) fn out_of_bounds(goal: &GoalSection, space: &DesignSpace) -> Vec<Inva
     let asked = |r: &Requirement, columns: &[&str]| {
         columns.contains(&r.column.as_str()) && r.direction() > 0.0
     };
-    let covering = |r: &Requirement| asked(r, &["coverage"]);
+    let covering = |r: &Requirement| asked(r, &[name::COVERAGE]);
     let bending = |r: &Requirement| asked(r, &COMPLIANCES);
     for (requirement, place) in &goal.requirements {
         let (bound, why) = if covering(requirement) {

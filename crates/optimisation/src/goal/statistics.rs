@@ -1,7 +1,7 @@
 //! What a goal may say of samples: quantiles and yields, which need deviations.
 
 use ranking::{Goal, Relation};
-use results::columns::{Cell, design_columns, measure_of};
+use results::columns::{Cell, design_columns, measure_of, name};
 use results::{Column, DesignResult, DesignRow, FlexureResult, Outcome, PunctureResult, QUANTILES};
 use sweep::{InvalidDefinition, Sweep};
 
@@ -36,15 +36,16 @@ fn not_of_numbers(column: &str, sweep: &Sweep) -> Option<String> {
         let is_asked =
             |name: &&&str| measure_of(name).is_some_and(|m| sweep.measures().contains(&m));
         let asked = names.iter().find(is_asked).copied();
-        let near = sweep::nearest(column, &names).or(asked).unwrap_or("coverage");
+        let near = sweep::nearest(column, &names).or(asked).unwrap_or(name::COVERAGE);
         return Some(format!("a quantile of a column of designs.csv, e.g. {}", quantiles(near)));
     };
     let is_measured = measure_of(column).is_none_or(|m| sweep.measures().contains(&m));
     if !is_measured {
         return Some("a quantile of a column of what `measures` asks for".to_owned());
     }
-    holds_text(known, sweep)
-        .then(|| format!("a quantile of a column of numbers, e.g. {}", quantiles("critical_force")))
+    holds_text(known, sweep).then(|| {
+        format!("a quantile of a column of numbers, e.g. {}", quantiles(name::CRITICAL_FORCE))
+    })
 }
 
 /// The quantiles of a column, by their names.

@@ -1,6 +1,7 @@
 //! What a search has found, put to the test with other samples than those that it saw.
 
 use ranking::Requirement;
+use serde::Serialize;
 use tolerance::{Proportion, SampledQuantile};
 
 use crate::evaluations::Halt;
@@ -14,7 +15,7 @@ use crate::statistic::Statistic;
 const FRESH: usize = 1000;
 
 /// The statistics over the samples of a best design: what the search saw, and what other samples say.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Confirmation {
     /// Samples that the search saw of each design.
     pub seen: usize,
@@ -27,9 +28,10 @@ pub struct Confirmation {
 }
 
 /// A statistic over the samples of a best design.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Estimate {
     /// The name of the statistic.
+    #[serde(rename = "quantity")]
     pub name: String,
     /// The value that the search saw.
     pub seen: Option<f64>,

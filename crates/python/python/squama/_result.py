@@ -3,6 +3,7 @@
 from functools import cached_property
 from html import escape
 
+from . import _squama
 from ._errors import Failed
 from ._table import Table, find
 
@@ -57,8 +58,8 @@ class Result:
 
     @property
     def warnings(self):
-        fold = self.get("fold_force")
-        folded = f"the surface folds over at fold_force {fold}: beyond it the model does not hold, sound_force is up to there"
+        fold = self.get(_squama.FOLD_FORCE)
+        folded = f"the surface folds over at {_squama.FOLD_FORCE} {fold}: beyond it the model does not hold, sound_force is up to there"
         return [f"{measure}: {meaning}" for measure, _, meaning in self._failures] + [folded] * (fold == fold)
 
     @property
@@ -102,9 +103,8 @@ class Result:
         return {**self.__dict__, "_solved": None}
 
     def __repr__(self):
-        names = ("coverage", "critical_force", "penetration", "compliance")
         values = self.values
-        known = ", ".join(f"{name}={values[name]:.6g}" for name in names if values[name] is not None)
+        known = ", ".join(f"{name}={values[name]:.6g}" for name in _squama.CRITERIA if values[name] is not None)
         return f"<Result of {self.skin}: {self.status}; {known}>"
 
     def _repr_html_(self):

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use results::columns::name;
 use results::round_off::same;
 use results::{InvalidResults, Results};
 
@@ -116,7 +117,7 @@ fn eligible(
 ) -> Result<Eligible, LeftOut> {
     let criteria = &preferences.criteria;
     // Where coverage is no criterion, exposed designs are ranked like any other.
-    let coverage = criteria.iter().position(|criterion| criterion.column == "coverage");
+    let coverage = criteria.iter().position(|criterion| criterion.column == name::COVERAGE);
     if coverage.and_then(|c| found[c]).is_some_and(|coverage| coverage <= 0.0) {
         return Err(LeftOut::Exposed);
     }

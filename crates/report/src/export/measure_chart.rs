@@ -3,6 +3,7 @@
 use csv::StringRecord;
 use rust_xlsxwriter::{Chart, ChartMarker, ChartMarkerType, ColNum, RowNum, Worksheet, XlsxError};
 
+use results::columns::name;
 use results::{CsvFormat, MEASURE_TABLES};
 
 use crate::figures::physical_of;
@@ -97,7 +98,7 @@ impl MeasureChart {
         chart.title().set_name(table.replace('_', " ").as_str());
         chart.x_axis().set_name(axis.name);
         chart.y_axis().set_name(&self.name);
-        if self.is_positive && table != "coverage" {
+        if self.is_positive && table != name::COVERAGE {
             chart.y_axis().set_log_base(10);
         }
         chart.set_width(SIZE.0).set_height(SIZE.1);

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use ranking::{CRITERIA, Criterion, Goal, Preferences};
-use results::columns::measure_of;
+use results::columns::{measure_of, name};
 use results::round_off::Leader;
 use results::{CsvFormat, RunFolder, VerifiedFolder, incomparable_by};
 use rust_xlsxwriter::{Format, FormatAlign, Worksheet, XlsxError};
@@ -54,7 +54,7 @@ impl BestColumn {
 impl BestValues {
     /// The best values of a table with this header.
     pub fn new(header: &csv::StringRecord) -> Self {
-        let fold = header.iter().position(|name| name == "fold_force");
+        let fold = header.iter().position(|name| name == name::FOLD_FORCE);
         let columns = CRITERIA.iter().filter_map(|criterion| BestColumn::of(criterion, header));
         Self { fold, columns: columns.collect(), ..Self::default() }
     }
@@ -74,9 +74,8 @@ impl BestValues {
         }
         for (column, best) in self.columns.iter().zip(&mut self.best) {
             let value = row.get(column.place).and_then(|cell| format.number(cell));
-            let is_better = if column.goal == Goal::Maximize { f64::gt } else { f64::lt };
             if let Some(value) = value {
-                Leader::enter(best, design.to_owned(), value, is_better);
+                Leader::enter(best, design.to_owned(), value, column.goal);
             }
         }
     }

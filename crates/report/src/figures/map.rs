@@ -2,6 +2,8 @@
 
 use std::collections::HashMap;
 
+use results::columns::name;
+
 use super::contours::contours;
 use super::names::{axis_label, in_short, in_words, with_value};
 use super::{Figure, columns, is_touched_by_folds, sheet};
@@ -25,7 +27,7 @@ const MAPS: usize = 24;
 const STEPS: u32 = 60;
 
 /// The column whose scale goes from none to all, and that no fold touches.
-const COVERAGE: &str = "coverage";
+const COVERAGE: &str = name::COVERAGE;
 
 /// A map that is asked for: a column over two parameters.
 #[derive(Clone, Debug, PartialEq)]

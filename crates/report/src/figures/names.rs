@@ -1,15 +1,15 @@
 //! The names of columns in titles, at axes and in legends. `$` begins and ends italics, as in labels.
 
-use results::columns::explain_value;
+use results::columns::{explain_value, name};
 
 /// Columns that have a symbol: the words, the symbol, and what the symbol stands for where there is room to say it.
 const NAMED: [(&str, &str, &str, &str); 13] = [
-    ("coverage", "coverage", "$λ$", ""),
-    ("critical_force", "critical force", "$F_c^*$", " = $F_c$(1 − $ν$^2)/($E_s L t$)"),
-    ("penetration", "penetration", "$u_{max}/t$", ""),
-    ("compliance", "flexural compliance", "$C_f^*$", " = $C_f E_m I_m/t$"),
-    ("max_stiffness", "largest stiffness", "$K_{max}^*$", " = $K_{max}$/($E_s t$)"),
-    ("secant_stiffness", "secant stiffness", "$K_{sec}^*$", " = $K_{sec}$/($E_s t$)"),
+    (name::COVERAGE, "coverage", "$λ$", ""),
+    (name::CRITICAL_FORCE, "critical force", "$F_c^*$", " = $F_c$(1 − $ν$^2)/($E_s L t$)"),
+    (name::PENETRATION, "penetration", "$u_{max}/t$", ""),
+    (name::COMPLIANCE, "flexural compliance", "$C_f^*$", " = $C_f E_m I_m/t$"),
+    (name::MAX_STIFFNESS, "largest stiffness", "$K_{max}^*$", " = $K_{max}$/($E_s t$)"),
+    (name::SECANT_STIFFNESS, "secant stiffness", "$K_{sec}^*$", " = $K_{sec}$/($E_s t$)"),
     ("gap_over_t", "gap", "$d/t$", ""),
     ("length_over_t", "aspect ratio", "$L/t$", ""),
     ("width_over_t", "width", "$b/t$", ""),

@@ -1,5 +1,7 @@
 //! The Pareto fronts of the four criteria, two at a time.
 
+use results::columns::name;
+
 use super::{of_perfect, sheet, thinned};
 use crate::axis::ChartAxis;
 use crate::chart::{Area, ChartPanel, MarkLook, design_mark, mark_legend};
@@ -17,10 +19,10 @@ const PANEL: [f64; 2] = [244.0, 240.0];
 
 /// The criteria, each the larger the better, with their columns; all labels fit along a panel.
 const CRITERIA: [(&str, &str); 4] = [
-    ("coverage", "coverage $λ$, dimensionless"),
-    ("critical_force", "critical force $F_c^*$, dimensionless"),
-    ("penetration", "resistance $t/u_{max}$, dimensionless"),
-    ("compliance", "compliance $C_f^*$, dimensionless"),
+    (name::COVERAGE, "coverage $λ$, dimensionless"),
+    (name::CRITICAL_FORCE, "critical force $F_c^*$, dimensionless"),
+    (name::PENETRATION, "resistance $t/u_{max}$, dimensionless"),
+    (name::COMPLIANCE, "compliance $C_f^*$, dimensionless"),
 ];
 const PAIRS: [(usize, usize); 6] = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)];
 /// Colour of designs that others beat.

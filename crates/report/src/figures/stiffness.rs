@@ -1,6 +1,6 @@
 //! Stiffness against critical force (Fig. 8).
 
-use results::columns::{MAX_STIFFNESS, SECANT_STIFFNESS};
+use results::columns::name;
 
 use super::names::axis_label;
 use super::{of_perfect, physical, sheet, thinned};
@@ -13,8 +13,8 @@ const HEIGHT: f64 = 520.0;
 
 /// The stiffnesses that a puncture has, and what each is.
 const STIFFNESSES: [(&str, &str); 2] = [
-    (MAX_STIFFNESS, "largest slope of the path"),
-    (SECANT_STIFFNESS, "secant at the critical tilt"),
+    (name::MAX_STIFFNESS, "largest slope of the path"),
+    (name::SECANT_STIFFNESS, "secant at the critical tilt"),
 ];
 
 pub(crate) fn figure(name: &str, designs: &Designs) -> String {
@@ -22,7 +22,7 @@ pub(crate) fn figure(name: &str, designs: &Designs) -> String {
     let mut inside = vec![mark_legend(&palette, designs.any_folded(), [78.0, 50.0])];
     // Samples have no stiffness of their own: both axes are those of the perfect design.
     let physical = |measure: &str| physical(designs, measure).unwrap_or(measure.to_owned());
-    let force = physical("critical_force");
+    let force = physical(name::CRITICAL_FORCE);
     let x = ChartAxis::fit(&axis_label(&force), designs.numbers(&force));
     let width = 0.5 * (WIDTH - 2.0 * 78.0 - 20.0);
     for (k, (measure, title)) in STIFFNESSES.into_iter().enumerate() {

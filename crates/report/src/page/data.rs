@@ -1,6 +1,7 @@
 //! The data of a page, as its scripts read them.
 
-use results::columns::{FOLD_FORCE, GAP_STRETCH_MIN, Goal, Shown, plain_goal, shown};
+use ranking::{CRITERIA, Criterion};
+use results::columns::{Goal, Shown, name, plain_goal, shown};
 use results::shell_word;
 use results::yardsticks;
 use serde_json::{Value, json};
@@ -20,6 +21,8 @@ pub(super) fn of(page: &Page) -> Value {
         yardsticks(name).into_iter().filter(|parameter| varied.contains(parameter)).collect()
     };
     let column = |(name, (unit, meaning)): (&String, &(String, String))| json!({"name": name, "unit": unit, "meaning": meaning, "goal": plain_goal(name).map(Goal::key), "measuredBy": measured_by(name)});
+    let criterion =
+        |of: &Criterion| json!({"column": of.column, "goal": of.goal.key(), "name": of.name});
     let fact = |(name, value): &Fact| json!({"name": name, "value": value});
     let shared = |[key, value, meaning]: &[String; 3]| json!({"key": key, "value": value, "meaning": meaning});
     let last = [shown(Shown::Then), shown(Shown::Last)].concat();
@@ -28,8 +31,12 @@ pub(super) fn of(page: &Page) -> Value {
         "folder": shell_word(&page.folder),
         "opening": page.opening,
         "axes": page.axes,
-        "fold": FOLD_FORCE,
-        "tightest": GAP_STRETCH_MIN,
+        "paper": CRITERIA.each_ref().map(criterion),
+        "fold": name::FOLD_FORCE,
+        "tightest": name::GAP_STRETCH_MIN,
+        "strain": name::MEMBRANE_STRAIN,
+        "stiffnesses": [name::MAX_STIFFNESS, name::SECANT_STIFFNESS],
+        "mass": name::AREAL_MASS,
         "shown": {"first": shown(Shown::First), "last": last},
         "numeric": headers.iter().filter(|header| page.designs.has(header)).collect::<Vec<_>>(),
         "columns": columns.map(column).collect::<Vec<_>>(),

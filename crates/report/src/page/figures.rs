@@ -7,7 +7,7 @@ use base64::prelude::BASE64_STANDARD;
 use flate2::Compression;
 use flate2::write::DeflateEncoder;
 use ranking::TetrahedralGrid;
-use results::columns::parameter_of;
+use results::columns::{name, parameter_of};
 use serde_json::{Map, Value, json};
 
 use super::data::cell;
@@ -81,15 +81,15 @@ fn of_part((values, designs): &(AxisValues<'_>, Designs), measures: &[String]) -
     let mut figures = Vec::new();
     for (measure, filled) in MULTIPLES.into_iter().filter(|(measure, _)| designs.has(measure)) {
         let quantity = Quantity::of(designs, measure);
-        let kind = if measure == "critical_force" { "critical-force" } else { measure };
+        let kind = if measure == name::CRITICAL_FORCE { "critical-force" } else { measure };
         figures.push(figure(kind, "", multiples::figure("", designs, &quantity, filled)));
         figures.push(figure("map", measure, map::by_slant("", designs, &quantity.column)));
     }
-    if designs.has("critical_force") && designs.has("max_stiffness") {
+    if designs.has(name::CRITICAL_FORCE) && designs.has(name::MAX_STIFFNESS) {
         figures.push(figure("stiffness", "", stiffness::figure("", designs)));
     }
-    if designs.has("coverage") {
-        figures.push(figure("coverage", "", map::by_slant("", designs, "coverage")));
+    if designs.has(name::COVERAGE) {
+        figures.push(figure("coverage", "", map::by_slant("", designs, name::COVERAGE)));
     }
     for measure in measures.iter().filter(|measure| designs.has(measure)) {
         let quantity = Quantity { column: measure.clone(), band: None };
@@ -102,7 +102,7 @@ fn of_part((values, designs): &(AxisValues<'_>, Designs), measures: &[String]) -
 fn measures(designs: &Designs) -> Vec<String> {
     let is_shown = |header: &&String| {
         let is_papers = MULTIPLES.iter().any(|(measure, _)| header == measure);
-        let is_other = ["design", "coverage"].contains(&header.as_str());
+        let is_other = ["design", name::COVERAGE].contains(&header.as_str());
         !is_papers
             && !is_other
             && parameter_of(header).is_none()
@@ -116,8 +116,8 @@ fn measures(designs: &Designs) -> Vec<String> {
 fn worths(designs: &Designs) -> Vec<(usize, [f64; 4])> {
     let worth = |row| {
         let value = |column: &str| designs.number(column, row).filter(|value| *value > 0.0);
-        let [coverage, force] = [value("coverage")?, value("critical_force")?];
-        Some((row, [coverage, force, 1.0 / value("penetration")?, value("compliance")?]))
+        let [coverage, force] = [value(name::COVERAGE)?, value(name::CRITICAL_FORCE)?];
+        Some((row, [coverage, force, 1.0 / value(name::PENETRATION)?, value(name::COMPLIANCE)?]))
     };
     (0..designs.count()).filter_map(worth).collect()
 }

@@ -3,12 +3,14 @@
 use std::borrow::Cow;
 use std::fmt;
 
+use serde::Serialize;
 use sweep::{Scalar, number};
 
 use crate::design::failure::finite;
 
 /// One cell of a table, not yet text, so that each format writes it in its own way.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
 pub enum Cell {
     /// A value that does not exist.
     Empty,

@@ -7,17 +7,18 @@ use super::cell::Cell;
 use super::measured_value::{
     Goal, MeasuredValue, Physical, Place, SampledValue, Shown, TiltValue, Value,
 };
+use super::name;
 use crate::design::design_result::DesignResult;
 use crate::design::sample_statistics::{SampleStatistics, Statistics};
 use crate::quantity::Quantity;
 
 // The tables in which values stand besides `designs.csv`.
 pub(super) const NONE: &[&str] = &[];
-pub(super) const COVERAGE: &[&str] = &["coverage"];
-pub(super) const FORCE: &[&str] = &["critical_force"];
-pub(super) const DEPTH: &[&str] = &["penetration"];
-pub(super) const BOTH: &[&str] = &["critical_force", "penetration"];
-pub(super) const COMPLIANCE: &[&str] = &["compliance"];
+pub(super) const COVERAGE: &[&str] = &[name::COVERAGE];
+pub(super) const FORCE: &[&str] = &[name::CRITICAL_FORCE];
+pub(super) const DEPTH: &[&str] = &[name::PENETRATION];
+pub(super) const BOTH: &[&str] = &[name::CRITICAL_FORCE, name::PENETRATION];
+pub(super) const COMPLIANCE: &[&str] = &[name::COMPLIANCE];
 
 /// A value of which nothing is known yet.
 pub(super) const BLANK: MeasuredValue = MeasuredValue {

@@ -1,6 +1,7 @@
 //! The columns of `failures.csv` that say what has no value, and why.
 
 use super::column::Column;
+use super::name;
 use crate::design::row::FailureRow;
 
 /// The columns of `failures.csv` after those that say which design it is.
@@ -10,7 +11,7 @@ pub fn failure_detail_columns() -> Vec<Column<FailureRow>> {
         Column::new("reason", "-", "why, one of the statuses", |f| f.failure.outcome.text().into()),
     ];
     columns.extend(path_end_columns());
-    columns.push(Column::new("settings", "-", "settings that are not the sweep's own", |f| {
+    columns.push(Column::new(name::SETTINGS, "-", "settings that are not the sweep's own", |f| {
         f.design.result.settings.clone().into()
     }));
     columns.push(Column::new(
@@ -42,7 +43,7 @@ fn path_end_columns() -> [Column<FailureRow>; 7] {
             "displacement of the punctured point, or curvature, at the last equilibrium",
             |f| f.failure.end.displacement.into(),
         ),
-        Column::new("contacts", "-", "closed contacts at the last equilibrium", |f| {
+        Column::new(name::CONTACTS, "-", "closed contacts at the last equilibrium", |f| {
             f.failure.end.contacts.into()
         }),
         Column::new("step", "-", "step of the path at which it ended", |f| {

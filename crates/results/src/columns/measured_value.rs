@@ -11,6 +11,7 @@ use crate::folder::MEASURE_TABLES;
 use crate::quantity::Quantity;
 
 /// A measured value: all that tables, rankings, derivatives and pages have to know of it.
+#[derive(Debug)]
 pub struct MeasuredValue {
     /// The header of its column.
     pub name: &'static str,
@@ -27,7 +28,7 @@ pub struct MeasuredValue {
     /// What it is in physical units; the statistics of samples are written in the first of these.
     pub(super) physical: &'static [Physical],
     /// Which of its values are good, where that is plain.
-    pub(super) good: Option<Goal>,
+    pub good: Option<Goal>,
     /// Its statistics over imperfect samples.
     pub(super) samples: Option<SampledValue>,
     /// Its value where the tilt is one of several.
@@ -41,6 +42,7 @@ pub struct MeasuredValue {
 }
 
 /// The value of a measure in a result.
+#[derive(Debug)]
 pub(super) enum Value {
     /// The coverage.
     Coverage,
@@ -94,6 +96,7 @@ impl Place {
 }
 
 /// A measured value in physical units.
+#[derive(Debug)]
 pub(super) struct Physical {
     pub(super) quantity: Quantity,
     /// Name without the unit, and meaning, of another thing than the dimensionless value.
@@ -101,6 +104,7 @@ pub(super) struct Physical {
 }
 
 /// The statistics of a value over imperfect samples.
+#[derive(Debug)]
 pub(super) struct SampledValue {
     /// The value in words.
     pub(super) noun: &'static str,
@@ -108,6 +112,7 @@ pub(super) struct SampledValue {
 }
 
 /// The value where the tilt is one of several.
+#[derive(Debug)]
 pub(super) struct TiltValue {
     pub(super) meaning: &'static str,
     pub(super) value: fn(&TiltMeasures) -> f64,
@@ -144,6 +149,14 @@ impl Goal {
         }
     }
 
+    /// Whether one value is better than another.
+    pub fn prefers(self, value: f64, other: f64) -> bool {
+        match self {
+            Self::Maximize => value > other,
+            Self::Minimize => value < other,
+        }
+    }
+
     /// The goal of an inverse.
     pub(super) fn inverse(self) -> Self {
         match self {
@@ -169,6 +182,11 @@ impl MeasuredValue {
             Value::Samples(count) => count(&result.samples).into(),
             Value::SamplesAlone | Value::ArealMass => Cell::Empty,
         }
+    }
+
+    /// The number in a result, if it has one.
+    pub fn number(&self, result: &DesignResult) -> Option<f64> {
+        self.cell(result).number()
     }
 
     /// The number in a result, to be changed; `None` if it has no derivatives, or was not asked for.

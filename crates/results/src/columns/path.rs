@@ -8,7 +8,7 @@ use skin::puncture::{
 use skin::{ContactEvent, Iteration};
 
 use super::column::Column;
-use super::values::{GAP_STRETCH_MAX, GAP_STRETCH_MIN};
+use super::name;
 use crate::design::outcome::Outcome;
 
 /// An equilibrium of a puncture and its instability.
@@ -27,7 +27,7 @@ pub fn path_columns(is_guided: bool, rubs: bool) -> Vec<Column<StabilityPoint>> 
         Column::new("tilt_deg", "deg", "clockwise tilt of the punctured scale", |(p, _)| {
             p.tilt_deg.into()
         }),
-        Column::new("contacts", "-", "closed contacts", |(p, _)| p.contacts.into()),
+        Column::new(name::CONTACTS, "-", "closed contacts", |(p, _)| p.contacts.into()),
         Column::new(
             "unstable_under_load",
             "-",
@@ -47,13 +47,13 @@ pub fn path_columns(is_guided: bool, rubs: bool) -> Vec<Column<StabilityPoint>> 
             |(_, i)| i.tilt.into(),
         ),
         Column::new(
-            GAP_STRETCH_MIN,
+            name::GAP_STRETCH_MIN,
             "-",
             "width of the tightest gap between bases over that at rest",
             |(p, _)| p.gap_stretch.map(|stretch| stretch.min).into(),
         ),
         Column::new(
-            GAP_STRETCH_MAX,
+            name::GAP_STRETCH_MAX,
             "-",
             "width of the widest gap between bases over that at rest",
             |(p, _)| p.gap_stretch.map(|stretch| stretch.max).into(),
@@ -69,7 +69,7 @@ pub fn path_columns(is_guided: bool, rubs: bool) -> Vec<Column<StabilityPoint>> 
     }
     if rubs {
         columns.push(Column::new(
-            "friction_work",
+            name::FRICTION_WORK,
             "E* t^3",
             "work that friction between scales has taken up to here",
             |(p, _)| p.friction_work.into(),
@@ -236,18 +236,18 @@ pub static LOADED_PLACES: &[Column<LoadedPlace>] = &[
         |p| p.position.into(),
     ),
     Column::new(
-        "critical_force",
+        name::CRITICAL_FORCE,
         "E_s L t/(1-nu^2)",
         "puncture force at which the scale is critically tilted, either way, or a guided needle is through",
         |p| p.force.into(),
     ),
-    Column::new("critical_displacement", "t", "downward displacement of the load there", |p| {
+    Column::new(name::CRITICAL_DISPLACEMENT, "t", "downward displacement of the load there", |p| {
         p.displacement.into()
     }),
     Column::new("tilt_deg", "deg", "clockwise tilt of the punctured scale there", |p| {
         p.tilt_deg.into()
     }),
-    Column::new("critical_event", "-", "which of the two it was, under a guided needle", |p| {
+    Column::new(name::CRITICAL_EVENT, "-", "which of the two it was, under a guided needle", |p| {
         p.critical_event.map(CriticalEvent::name).into()
     }),
     Column::new(
@@ -292,16 +292,19 @@ pub fn flexure_path_columns(rubs: bool) -> Vec<Column<flexure::FlexurePoint>> {
         Column::new("contact_energy", "E_m t^3", "energy of the contacts", |p| {
             p.contact_energy.into()
         }),
-        Column::new("contacts", "-", "closed contacts of the strip, rounded to whole gaps", |p| {
-            p.contacts.into()
-        }),
+        Column::new(
+            name::CONTACTS,
+            "-",
+            "closed contacts of the strip, rounded to whole gaps",
+            |p| p.contacts.into(),
+        ),
         Column::new("membrane_strain", "-", "largest strain at the surface of the membrane", |p| {
             p.membrane_strain.into()
         }),
     ];
     if rubs {
         columns.push(Column::new(
-            "friction_work",
+            name::FRICTION_WORK,
             "E_m t^3",
             "work that friction between scales has taken up to here, of the whole strip",
             |p| p.friction_work.into(),

@@ -2,6 +2,7 @@
 
 use super::cell::Cell;
 use super::column::Column;
+use super::name;
 use crate::design::rerun_change::RerunChange;
 
 /// The columns of `reruns.csv`.
@@ -12,7 +13,7 @@ pub static RERUN_COLUMNS: &[Column<RerunChange>] = &[
     Column::new("rerun", "-", "which re-run of the design it was, from 1", |c| {
         c.rerun.to_string().into()
     }),
-    Column::new("settings", "-", "settings of the re-run that are not the sweep's own", |c| {
+    Column::new(name::SETTINGS, "-", "settings of the re-run that are not the sweep's own", |c| {
         c.settings[1].clone().into()
     }),
     Column::new("old_settings", "-", "settings before", |c| c.settings[0].clone().into()),

@@ -11,24 +11,10 @@ use super::entry::{
     number, other, other_thing, same, stiffness,
 };
 use super::measured_value::{MeasuredValue, Place, Value};
+use super::name;
 use crate::design::design_result::{DesignResult, PunctureResult};
 use crate::design::outcome::Outcome;
 use crate::quantity::Quantity;
-
-/// The force at which the surface first folds over.
-pub const FOLD_FORCE: &str = "fold_force";
-/// The stretch of the tightest gap, not above 0 where the surface is folded over.
-pub const GAP_STRETCH_MIN: &str = "gap_stretch_min";
-/// The stretch of the widest gap.
-pub const GAP_STRETCH_MAX: &str = "gap_stretch_max";
-/// The largest stiffness on the path.
-pub const MAX_STIFFNESS: &str = "max_stiffness";
-/// The stiffness of the secant.
-pub const SECANT_STIFFNESS: &str = "secant_stiffness";
-/// The force that the model can answer for.
-pub const SOUND_FORCE: &str = "sound_force";
-/// The column of the mass of the scales, which needs no solution.
-pub const AREAL_MASS: &str = "areal_mass_kg_m2";
 
 /// The parameter that asks for the weakest place of the load.
 const PLACES: &[&str] = &[key::PLACES];
@@ -37,12 +23,12 @@ const PLACES: &[&str] = &[key::PLACES];
 pub(crate) static VALUES: &[MeasuredValue] = &[
 
     other(
-            "coverage",
+            name::COVERAGE,
             COVERAGE,
             "share of the thickness that scales fill along a vertical line down from the top right corner of a scale; 0 for upright scales",
             |_| Cell::Empty,
         ).valued(Value::Coverage).large().first(),
-    force("critical_force", Place::End, "puncture force at the critical tilt", |m| {
+    force(name::CRITICAL_FORCE, Place::End, "puncture force at the critical tilt", |m| {
             &mut m.critical_force
         }).physical(&[
             same(Quantity::Force),
@@ -53,7 +39,7 @@ pub(crate) static VALUES: &[MeasuredValue] = &[
             ),
         ]).large().sampled("critical force", |s| s.critical_force).at_tilts("puncture force where the tilt, or its tangent the friction, first is that of the name", |m| m.force).first(),
     depth(
-            "penetration",
+            name::PENETRATION,
             Place::End,
             "depth of the deepest base corner of any scale at the critical tilt",
             |m| &mut m.penetration,
@@ -74,7 +60,7 @@ pub(crate) static VALUES: &[MeasuredValue] = &[
             |m| &mut m.peak_force,
         ).large().then(),
     depth(
-            "critical_displacement",
+            name::CRITICAL_DISPLACEMENT,
             Place::End,
             "downward displacement of the punctured point at the critical tilt",
             |m| &mut m.critical_displacement,
@@ -86,13 +72,13 @@ pub(crate) static VALUES: &[MeasuredValue] = &[
             |m| &mut m.sink,
         ).within(DEPTH).small(),
     depth(
-        "first_contact_displacement",
+        name::FIRST_CONTACT,
         Place::Contact,
         "displacement of the punctured point when scales first touch",
         |m| &mut m.first_contact_displacement,
     ),
     // Counts have a place, too, so that nobody compares those at tilts of 5° and 10°.
-    other("contacts", BOTH, "closed contacts at the critical tilt", |r| {
+    other(name::CONTACTS, BOTH, "closed contacts at the critical tilt", |r| {
             measured(r, |m| m.contacts)
         }).at(Place::End).then(),
     other(
@@ -102,7 +88,7 @@ pub(crate) static VALUES: &[MeasuredValue] = &[
             |r| measured(r, |m| m.engaged_scales),
         ).at(Place::End).large(),
     other(
-        "critical_event",
+        name::CRITICAL_EVENT,
         BOTH,
         "what ended the path of a guided needle: tilt, a scale that it touches is critically tilted; through, it has come to the soft surface",
         |r| measured(r, |m| m.passage.critical_event.map(CriticalEvent::name)),
@@ -120,7 +106,7 @@ pub(crate) static VALUES: &[MeasuredValue] = &[
         |m| &mut m.passage.passing_displacement,
     ).within(BOTH).guided(),
     number(
-        "passing_tilt_deg",
+        name::PASSING_TILT,
         "deg",
         Place::Anywhere,
         "tilt of the punctured scale where a guided needle first left its face",
@@ -135,14 +121,14 @@ pub(crate) static VALUES: &[MeasuredValue] = &[
     other("scales", BOTH, "scales in the row that was solved", |r| {
         measured(r, |m| (m.scales > 0).then_some(m.scales))
     }),
-    stiffness("initial_stiffness", Place::Rest, "puncture stiffness at rest", |m| {
+    stiffness(name::INITIAL_STIFFNESS, Place::Rest, "puncture stiffness at rest", |m| {
         &mut m.initial_stiffness
     }),
-    stiffness(MAX_STIFFNESS, Place::Anywhere, "largest puncture stiffness on the path", |m| {
+    stiffness(name::MAX_STIFFNESS, Place::Anywhere, "largest puncture stiffness on the path", |m| {
             &mut m.max_stiffness
         }).then(),
     stiffness(
-        SECANT_STIFFNESS,
+        name::SECANT_STIFFNESS,
         Place::End,
         "puncture force over displacement at the critical tilt",
         |m| &mut m.secant_stiffness,
@@ -160,7 +146,7 @@ pub(crate) static VALUES: &[MeasuredValue] = &[
         |r| punctured(r, |p| p.calibration_error),
     ),
     bending(
-            "compliance",
+            name::COMPLIANCE,
             "1/(E_m I_m)",
             Place::Anywhere,
             "flexural compliance: 1 over the largest slope of the moment against the curvature",
@@ -174,7 +160,7 @@ pub(crate) static VALUES: &[MeasuredValue] = &[
             r.flexure.map(|f| f.outcome.text()).into()
         }).last(),
     bending(
-            "initial_compliance",
+            name::INITIAL_COMPLIANCE,
             "1/(E_m I_m)",
             Place::Rest,
             "flexural compliance at rest",
@@ -185,7 +171,7 @@ pub(crate) static VALUES: &[MeasuredValue] = &[
             "flexural rigidity at rest",
         )]).large(),
     other(
-            "flexure_contact",
+            name::FLEXURE_CONTACT,
             COMPLIANCE,
             "yes or no: whether bending brings scales into contact",
             |r| bent(r, |m| m.contact.map(yes_or_no)),
@@ -217,7 +203,7 @@ pub(crate) static VALUES: &[MeasuredValue] = &[
         r.flexure.map(|f| f.iterations).into()
     }),
     other(
-        "settings",
+        name::SETTINGS,
         NONE,
         "settings of a design that was solved again with others than the sweep's own",
         |r| r.settings.clone().into(),
@@ -229,7 +215,7 @@ pub(crate) static VALUES: &[MeasuredValue] = &[
         |r| bent(r, |m| m.error),
     ),
     bending(
-            "membrane_strain_max",
+            name::MEMBRANE_STRAIN,
             "-",
             Place::Anywhere,
             "largest strain at the surface of the membrane; above 0.2 its law of small strains is outside its range",
@@ -279,21 +265,21 @@ pub(crate) static VALUES: &[MeasuredValue] = &[
             |r| punctured(r, |p| p.measures.snaps),
         ).at(Place::Anywhere),
     number(
-            GAP_STRETCH_MIN,
+            name::GAP_STRETCH_MIN,
             "-",
             Place::End,
             "width of the tightest gap between bases at the critical tilt over that at rest; not above 0 where the surface is folded over",
             |m| &mut m.gap_stretch_min,
         ).large().then(),
     number(
-            GAP_STRETCH_MAX,
+            name::GAP_STRETCH_MAX,
             "-",
             Place::End,
             "width of the widest gap between bases at the critical tilt over that at rest",
             |m| &mut m.gap_stretch_max,
         ).small().then(),
     force(
-            FOLD_FORCE,
+            name::FOLD_FORCE,
             Place::Fold,
             "puncture force at which the surface first folds over; empty if it does not",
             |m| &mut m.fold_force,
@@ -312,7 +298,7 @@ pub(crate) static VALUES: &[MeasuredValue] = &[
         |m| &mut m.fold_tilt_deg,
     ),
     force(
-            SOUND_FORCE,
+            name::SOUND_FORCE,
             Place::FoldOrEnd,
             "puncture force at the critical tilt or at the first fold, whichever comes first: the largest that the model can answer for",
             |m| &mut m.sound_force,
@@ -324,13 +310,13 @@ pub(crate) static VALUES: &[MeasuredValue] = &[
         |m| &mut m.force_at_depth,
     ).large().first().needing(&[key::DEPTH, key::DEPTH_MM]),
     force(
-        "weakest_force",
+        name::WEAKEST_FORCE,
         Place::Anywhere,
         "smallest puncture force, over the places of the load that are tried, at which the scale is critically tilted or a guided needle is through",
         |m| &mut m.weakest.force,
     ).large().first().needing(PLACES),
     other(
-        "weakest_place",
+        name::WEAKEST_PLACE,
         FORCE,
         "place of the load with that force: 0 the left corner of the top, 1 the right",
         |r| measured(r, |m| m.weakest.place),
@@ -342,7 +328,7 @@ pub(crate) static VALUES: &[MeasuredValue] = &[
         |r| punctured(r, |p| p.weakest.map(Outcome::text)),
     ).last().needing(PLACES),
     other(
-        "friction_work",
+        name::FRICTION_WORK,
         BOTH,
         "work that friction between scales has taken up to the critical tilt",
         |r| measured(r, |m| m.friction_work),
@@ -390,7 +376,7 @@ pub(crate) static VALUES: &[MeasuredValue] = &[
         |r| bent(r, |m| m.locking_curvature),
     ).in_unit("1/t").needing(&[key::FRICTION]),
     bending(
-            "contact_curvature",
+            name::CONTACT_CURVATURE,
             "1/t",
             Place::Contact,
             "curvature at which scales touch, wherever the bending ends; empty for a gap that cannot close",
@@ -408,7 +394,7 @@ pub(crate) static VALUES: &[MeasuredValue] = &[
         "imperfect samples whose bending has no values, left out of mean and quantiles",
         |s| s.flexure_failed,
     ),
-    BLANK.named(AREAL_MASS, "kg/m^2", "mass of the scales over the area of the skin").within(COVERAGE).valued(Value::ArealMass).small(),
+    BLANK.named(name::AREAL_MASS, "kg/m^2", "mass of the scales over the area of the skin").within(COVERAGE).valued(Value::ArealMass).small(),
 ];
 
 fn measured<T: Into<Cell>>(

@@ -1,10 +1,8 @@
 //! A long table thinned out: every so many rows, and those that are best by one value.
 
 use super::packed_rows::PackedRows;
-
-/// Values by which the best row is kept, and whether the largest is the best.
-const BEST: [(&str, bool); 4] =
-    [("coverage", true), ("critical_force", true), ("penetration", false), ("compliance", true)];
+use crate::columns::{Goal, plain_goal};
+use crate::folder::MEASURE_TABLES;
 
 /// Rows of a table that are kept, with their places.
 #[derive(Debug)]
@@ -19,16 +17,16 @@ pub(super) struct Thinning {
 #[derive(Debug)]
 struct BestRow {
     column: usize,
-    is_largest: bool,
+    goal: Goal,
     row: Option<(f64, usize, csv::StringRecord)>,
 }
 
 impl Thinning {
     /// Of a table with these columns and so many rows, about `most`.
     pub fn new(header: &[String], rows: usize, most: usize) -> Self {
-        let best = BEST.iter().filter_map(|(name, is_largest)| {
+        let best = MEASURE_TABLES.iter().filter_map(|(name, _)| {
             let column = header.iter().position(|column| column == name)?;
-            Some(BestRow { column, is_largest: *is_largest, row: None })
+            Some(BestRow { column, goal: plain_goal(name)?, row: None })
         });
         // A table that is kept whole has its best rows anyway.
         let best = if rows > most { best.collect() } else { Vec::new() };
@@ -69,10 +67,8 @@ impl BestRow {
     fn visit(&mut self, place: usize, row: &csv::StringRecord) {
         // A design that failed has an empty cell, and is the best by nothing.
         let cell = row.get(self.column).and_then(|cell| cell.parse::<f64>().ok());
-        let Some(value) = cell.map(|cell| if self.is_largest { cell } else { -cell }) else {
-            return;
-        };
-        if self.row.as_ref().is_none_or(|(best, ..)| value > *best) {
+        let Some(value) = cell else { return };
+        if self.row.as_ref().is_none_or(|(best, ..)| self.goal.prefers(value, *best)) {
             self.row = Some((value, place, row.clone()));
         }
     }

@@ -3,7 +3,7 @@
 use std::fs::File;
 use std::io::{BufRead as _, BufReader};
 
-use results::columns::design_columns;
+use results::columns::{design_columns, name};
 use results::{Contents, CsvFormat, JournalExtent, RunFolder};
 use store::{JournalError, sha256_of};
 
@@ -21,7 +21,7 @@ pub(super) fn refuse(archive: &Archive, folder: &RunFolder) -> Result<(), Journa
     }
     let Some((format, table)) = table(folder, &contents) else { return Ok(()) };
     let (columns, grid) = (design_columns(archive.sweep()), archive.sweep().grid());
-    let settings = columns.iter().position(|column| column.name == "settings");
+    let settings = columns.iter().position(|column| column.name == name::SETTINGS);
     let is_whole = archive.lost_lines(folder).is_none();
     let mut entries = archive.entries()?;
     for record in table.into_records().filter_map(Result::ok) {

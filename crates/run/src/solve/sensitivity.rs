@@ -2,6 +2,7 @@
 
 use geometry::{OutOfRange, RowChange};
 use results::ParameterDerivative;
+use results::columns::name;
 use skin::flexure::{self, Flexure, FlexureInput};
 use skin::puncture::{self, Puncture, PunctureInput};
 use skin::{Derivative, Neighbours};
@@ -95,7 +96,7 @@ pub(super) fn coverage(case: &Case) -> Vec<ParameterDerivative> {
         // Rounding alone makes the rates of both sides differ by some 1e-15; a scale that enters or leaves, by far more.
         let smooth = (left - right).abs() <= 1e-9;
         Derivative {
-            measure: "coverage",
+            measure: name::COVERAGE,
             parameter,
             value: row.coverage(),
             left: Some(left),
@@ -158,25 +159,8 @@ impl Varied<'_> {
     }
 
     /// The stiffness of a case close by, on the straight lines of its derivatives.
-    // Read from the lengths that have moved, not from the parameter's name: a length in mm moves them, and so may a thickness in mm.
-    // What moves the footprint by none of these fields needs a way of its own here.
     fn stiffness(&self, moved: &Case) -> Option<RowStiffness> {
-        let (slopes, case) = (self.slopes?, self.case);
-        let (from, to) = (&case.design, &moved.design);
-        let a = from.half_base();
-        // A longer scale has a footprint of smaller ratios.
-        let mut ways = vec![
-            (&slopes.by_gap, (to.gap - from.gap) / a),
-            (&slopes.by_width, (to.width - from.width) / a),
-            (&slopes.by_size, 1.0 - to.length / from.length),
-            (&slopes.by_poisson_ratio, moved.puncture.poisson_ratio - case.puncture.poisson_ratio),
-        ];
-        if let (Some(by), Some(to), Some(from)) =
-            (&slopes.by_thickness, moved.tissue_thickness, case.tissue_thickness)
-        {
-            ways.push((by, (to - from) / a));
-        }
-        let ways = ways.into_iter().filter(|(_, by)| *by != 0.0);
-        Some(ways.fold(slopes.stiffness.clone(), |sum, (slope, by)| sum + slope.clone() * by))
+        // From the bases that have moved, not from the parameter's name: a length in mm moves them, and so may a thickness in mm.
+        Some(self.slopes?.moved(&self.case.bases(), &moved.bases()))
     }
 }

@@ -1,6 +1,6 @@
 //! The table of what reruns have changed.
 
-use results::columns::design_columns;
+use results::columns::{design_columns, name};
 use results::{Cell, Column, CsvFile, CsvFormat, DesignRow, RERUN_COLUMNS, RerunChange, RunFolder};
 use store::JournalError;
 
@@ -38,7 +38,7 @@ fn changes(columns: &[Column<DesignRow>], rerun: u64, rows: &[DesignRow; 2]) -> 
         values,
     };
     // The settings have columns of their own.
-    let columns = columns.iter().filter(|column| column.name != "settings");
+    let columns = columns.iter().filter(|column| column.name != name::SETTINGS);
     let values =
         columns.map(|column| (column.name.clone(), rows.each_ref().map(|row| column.cell(row))));
     let changed = values.filter(|(_, [old, new])| old != new);

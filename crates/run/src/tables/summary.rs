@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use results::columns::SOUND_FORCE;
+use results::columns::{MeasuredValue, measured_value, name};
 use results::round_off::Leader;
-use results::{DesignResult, DesignRow, Outcome, incomparable_by};
+use results::{DesignRow, Outcome, incomparable_by};
 use sweep::{DesignNumber, Measure, Sweep};
 
 /// Counts and best values of the designs of a run.
@@ -18,9 +18,7 @@ pub struct Summary {
     pub statuses: BTreeMap<Measure, BTreeMap<&'static str, u64>>,
     /// Designs on whose path the surface of the substrate folds over.
     pub folded: u64,
-    best: [Option<Leader<DesignNumber>>; 5],
-    /// For each of these, the parameter that says how it is measured and in which the designs differ.
-    apart: [Option<&'static str>; 5],
+    contests: Vec<Contest>,
 }
 
 /// The best value of its kind, and the first design that has it.
@@ -35,55 +33,31 @@ pub struct Best {
 }
 
 /// A value of which the best is told.
+#[derive(Clone, Copy, Debug)]
 struct Contest {
     what: &'static str,
-    column: &'static str,
-    is_better: fn(&f64, &f64) -> bool,
-    value: fn(&DesignResult) -> Option<f64>,
+    value: &'static MeasuredValue,
+    best: Option<Leader<DesignNumber>>,
+    apart: Option<&'static str>,
 }
 
-/// The value that is told only if designs have folded: of all others it is the critical force.
-const SOUND: &str = "largest force before a fold";
-
-/// The values of which the best is told.
-static CONTESTS: [Contest; 5] = [
-    Contest {
-        what: "best coverage",
-        column: "coverage",
-        is_better: f64::gt,
-        value: |r| r.coverage,
-    },
-    Contest {
-        what: "largest critical force",
-        column: "critical_force",
-        is_better: f64::gt,
-        value: |r| r.puncture?.measures.critical_force,
-    },
-    Contest {
-        what: "least penetration",
-        column: "penetration",
-        is_better: f64::lt,
-        value: |r| r.puncture?.measures.penetration,
-    },
-    Contest {
-        what: "largest compliance",
-        column: "compliance",
-        is_better: f64::gt,
-        value: |r| r.flexure?.measures.compliance,
-    },
-    Contest {
-        what: SOUND,
-        column: SOUND_FORCE,
-        is_better: f64::gt,
-        value: |r| r.puncture?.measures.sound_force,
-    },
+/// The values of which the best is told, in words and by their names.
+const TOLD: [(&str, &str); 5] = [
+    ("best coverage", name::COVERAGE),
+    ("largest critical force", name::CRITICAL_FORCE),
+    ("least penetration", name::PENETRATION),
+    ("largest compliance", name::COMPLIANCE),
+    ("largest force before a fold", name::SOUND_FORCE),
 ];
 
 impl Summary {
     /// The summary of no design of a sweep.
     pub(crate) fn new(sweep: &Sweep) -> Self {
-        let apart = CONTESTS.each_ref().map(|contest| incomparable_by(sweep, contest.column));
-        Self { apart, ..Self::default() }
+        let contest = |(what, name)| {
+            let (value, apart) = (measured_value(name)?, incomparable_by(sweep, name));
+            Some(Contest { what, value, best: None, apart })
+        };
+        Self { contests: TOLD.into_iter().filter_map(contest).collect(), ..Self::default() }
     }
 
     /// Counts a design. Designs must come in their order, because of equal ones the first is the best.
@@ -96,8 +70,10 @@ impl Summary {
             .into_iter()
             .chain(flexure)
             .for_each(|(measure, outcome)| self.count(measure, outcome));
-        for (best, contest) in self.best.iter_mut().zip(&CONTESTS) {
-            contest.enter(row, best);
+        for Contest { value, best, .. } in &mut self.contests {
+            if let Some((number, goal)) = value.number(&row.result).zip(value.good) {
+                Leader::enter(best, row.number, number, goal);
+            }
         }
         // Folded designs have measures too; that their surface folds is why the largest of them may mean nothing.
         let fold = row.result.puncture.and_then(|puncture| puncture.measures.fold_force);
@@ -110,27 +86,18 @@ impl Summary {
 
     /// The best values, those that exist.
     pub fn best(&self) -> impl Iterator<Item = Best> {
-        // Where nothing folds it would repeat the largest critical force.
-        let is_told = |contest: &Contest| contest.what != SOUND || self.folded > 0;
-        let contests = CONTESTS.iter().zip(self.best).zip(self.apart);
-        contests.filter(move |((contest, _), _)| is_told(contest)).filter_map(
-            |((contest, leader), apart)| Some(Best { what: contest.what, leader: leader?, apart }),
-        )
-    }
-}
-
-impl Contest {
-    /// Enters the value of a design.
-    fn enter(&self, row: &DesignRow, best: &mut Option<Leader<DesignNumber>>) {
-        if let Some(value) = (self.value)(&row.result) {
-            Leader::enter(best, row.number, value, self.is_better);
-        }
+        // Of all designs that do not fold the sound force is the critical force, and would repeat it.
+        let is_told =
+            |contest: &&Contest| contest.value.name != name::SOUND_FORCE || self.folded > 0;
+        self.contests.iter().filter(is_told).filter_map(|&Contest { what, best, apart, .. }| {
+            Some(Best { what, leader: best?, apart })
+        })
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use results::PunctureResult;
+    use results::{DesignResult, PunctureResult};
     use sweep::Sweep;
 
     use super::*;
@@ -138,7 +105,9 @@ mod tests {
     #[test]
     fn counts_and_best_values() {
         let sweep = Sweep::parse("name = 'x'", "x.toml", &[]).expect("a valid sweep");
-        let mut summary = Summary::new(&sweep);
+        let text = "name = 'x'\ndesigns.critical_tilt_deg = [5, 10]";
+        let tilts = Sweep::parse(text, "x.toml", &[]).expect("a valid sweep");
+        let [mut summary, mut of_tilts] = [&sweep, &tilts].map(Summary::new);
         for (index, penetration) in [(0, Some(0.5)), (1, None), (2, Some(0.25))] {
             let outcome = penetration.map_or(Outcome::RowLimit, |_| Outcome::Complete);
             let mut puncture = PunctureResult::without_path(outcome);
@@ -148,7 +117,9 @@ mod tests {
             puncture.measures.fold_force = penetration.filter(|_| index == 2);
             let result = DesignResult { puncture: Some(puncture), ..DesignResult::default() };
             let (number, case) = (sweep.grid().number(index), sweep.grid().case(index));
-            summary.add(&DesignRow { number, case, result });
+            let row = DesignRow { number, case, result };
+            summary.add(&row);
+            of_tilts.add(&row);
         }
         assert_eq!((summary.designs, summary.folded), (3, 1));
         let counts = &summary.statuses[&Measure::Puncture];
@@ -161,9 +132,7 @@ mod tests {
             ("largest force before a fold", "0001", 0),
         ];
         assert_eq!(best, expected.map(|(what, design, ties)| (what, design.to_owned(), ties)));
-        let text = "name = 'x'\ndesigns.critical_tilt_deg = [5, 10]";
-        let tilts = Sweep::parse(text, "x.toml", &[]).expect("a valid sweep");
-        let apart = Summary { best: summary.best, ..Summary::new(&tilts) }.best().next();
+        let apart = of_tilts.best().next();
         assert_eq!(apart.and_then(|best| best.apart), Some("critical_tilt_deg"));
     }
 }

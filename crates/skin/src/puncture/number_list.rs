@@ -1,5 +1,7 @@
 //! A short list of numbers that is copied as a value.
 
+use serde::{Serialize, Serializer};
+
 /// Numbers that a [`NumberList`] holds at most.
 pub const MOST_NUMBERS: usize = 8;
 
@@ -8,6 +10,12 @@ pub const MOST_NUMBERS: usize = 8;
 pub struct NumberList {
     numbers: [f64; MOST_NUMBERS],
     count: usize,
+}
+
+impl Serialize for NumberList {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.as_slice().serialize(serializer)
+    }
 }
 
 impl NumberList {
@@ -38,9 +46,10 @@ impl NumberList {
         &self.numbers[..self.count]
     }
 
-    /// The largest number; `None` of an empty list.
-    pub fn last(&self) -> Option<f64> {
-        self.as_slice().last().copied()
+    /// The largest number, and the others; `None` of an empty list.
+    pub fn split_last(self) -> Option<(f64, Self)> {
+        let last = *self.as_slice().last()?;
+        Some((last, Self { count: self.count - 1, ..self }))
     }
 
     /// How many numbers there are.

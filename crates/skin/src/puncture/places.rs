@@ -7,8 +7,7 @@ use solver::{Neighbours, Stop};
 use substrate::RowStiffness;
 
 use super::needle::CriticalEvent;
-use super::number_list::NumberList;
-use super::sensitivity::PunctureInput;
+use super::sensitivity::{CRITICAL_FORCE, PunctureInput};
 use super::{At, Problem, Puncture, PunctureParameters, Rows};
 use crate::record::Skin;
 use crate::sensitivity::Derivative;
@@ -101,7 +100,7 @@ impl PunctureParameters {
                 Sense::CounterClockwise => -tilt,
             },
             // Only the force at the end is compared, and a place has no places of its own.
-            tilts_deg: NumberList::default(),
+            tilts_before_deg: None,
             places: None,
             depth: None,
             unload: false,
@@ -231,7 +230,7 @@ impl Problem<'_> {
         };
         let variations: Result<Vec<_>, _> = variations.iter().map(|v| v.map(moved)).collect();
         let (_, derivatives) = self.with(&parameters).differentiated(&variations?)?;
-        let of_force = derivatives.into_iter().filter(|of| of.measure == "critical_force");
+        let of_force = derivatives.into_iter().filter(|of| of.measure == CRITICAL_FORCE);
         Ok(of_force.map(|of| Derivative { measure: "weakest_force", ..of }).collect())
     }
 }

@@ -37,6 +37,9 @@ pub struct PunctureInput {
 const FOLLOWED: [PathFunction<Chain>; 1] = [|chain, state, _| chain.force(state)];
 const LOAD: usize = 0;
 
+/// The force at the critical tilt, of which the weakest place has one of its own.
+pub(super) const CRITICAL_FORCE: &str = "critical_force";
+
 /// Follows a puncture as [`solve`](super::solve) does, and returns the derivatives of its measures with respect to the parameter
 /// of each variation as well. There are none where the path did not come to its end.
 ///
@@ -307,7 +310,7 @@ fn critical() -> Vec<MeasuredQuantity<Chain>> {
     // Beyond the last gap there are those that are not solved for, as one.
     let scales = |chain: &Chain| chain.layout.scales();
     vec![
-        force("critical_force"),
+        force(CRITICAL_FORCE),
         depth("critical_displacement"),
         MeasuredQuantity {
             extreme: Extreme::Largest(scales),

@@ -33,8 +33,7 @@ impl PathWatch {
         functions: &[PathFunction<Chain>],
         places: &[At],
     ) -> Self {
-        let tilts = parameters.tilts_deg;
-        let tilts = tilts.as_slice().iter().map(|&tilt| At::Tilt(tilt).crossing());
+        let tilts = parameters.tilts_deg().map(|tilt| At::Tilt(tilt).crossing());
         let depth = parameters.depth.map(|depth| At::Displacement(depth).crossing());
         Self {
             record: Record::new(path, functions),

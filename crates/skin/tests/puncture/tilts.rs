@@ -14,7 +14,7 @@ fn one_path_has_the_measures_of_paths_that_end_at_each_tilt() {
     let tilts = [3.0, 5.0, 10.0, 15.0];
     let parameters = PunctureParameters {
         critical_tilt_deg: 15.0,
-        tilts_deg: NumberList::new(&tilts).unwrap(),
+        tilts_before_deg: NumberList::new(&tilts[..3]),
         ..PunctureParameters::default()
     };
     let mut compared = 0;
@@ -44,10 +44,10 @@ fn one_path_has_the_measures_of_paths_that_end_at_each_tilt() {
 #[test]
 fn tilts_on_the_way_leave_the_path_as_it_is() {
     let known = Calibrations::default();
-    let tilts_deg = NumberList::new(&[2.5, 10.0]).unwrap();
+    let tilts_before_deg = NumberList::new(&[2.5]);
     for design in spread() {
         let plain = solve_with(&known, &design, &PunctureParameters::default());
-        let parameters = PunctureParameters { tilts_deg, ..PunctureParameters::default() };
+        let parameters = PunctureParameters { tilts_before_deg, ..PunctureParameters::default() };
         let with = solve_with(&known, &design, &parameters);
         assert_eq!((&plain.path, plain.measures), (&with.path, with.measures));
         assert_eq!(with.at_tilts[1].map(|at| at.force), with.measures.critical_force);

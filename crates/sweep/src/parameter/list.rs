@@ -2,7 +2,7 @@
 
 use crate::parameter::Bound::{Excluded, Included};
 use crate::parameter::Role::{Continuous, Made};
-use crate::parameter::{Parameter, Range, Role};
+use crate::parameter::{Parameter, ParameterKind, Range, Role};
 
 // Beyond these ranges differences of lengths and of stiffnesses are round-off, and what a path does is that of its digits.
 const LENGTH: Range = Range::closed(1e-3, 1e3);
@@ -19,12 +19,18 @@ const AUTO: &str = "auto";
 /// The roles of a number that describes the skin and its load, and no more.
 const NUMBER: &[Role] = &[Continuous, Made];
 
+/// What a parameter of a section is unless its entry says otherwise: without a unit, and with no role.
+const fn of(section: &'static str) -> Parameter {
+    // Every entry has a key and values of its own.
+    let kind = ParameterKind::Word { words: &[], get: |_| 0, set: |_, _| {} };
+    Parameter { key: "", section, unit: "-", meaning: "", roles: &[], kind }
+}
+
 /// A length in mm beside the same over the thickness, which follows from it.
 macro_rules! in_mm {
-    ($stem:literal, $what:literal, $section:literal, $range:expr, $roles:expr, $field:expr) => {
+    ($stem:literal, $what:literal, $section:expr, $range:expr, $roles:expr, $field:expr) => {
         Parameter {
             key: concat!($stem, "_mm"),
-            section: $section,
             unit: "mm",
             meaning: concat!(
                 $what,
@@ -34,6 +40,7 @@ macro_rules! in_mm {
             ),
             roles: $roles,
             kind: OptionalNumber { range: $range, field: $field },
+            ..$section
         }
     };
 }

@@ -2,12 +2,14 @@
 
 use std::fmt;
 
+use serde::Serialize;
 use skin::puncture::NumberList;
 
 use crate::number;
 
 /// The value of one parameter.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
 pub enum Scalar {
     /// A real number.
     Number(f64),

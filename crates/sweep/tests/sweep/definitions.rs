@@ -114,7 +114,7 @@ fn a_place_and_a_depth_in_two_ways() {
 fn a_guided_needle_has_a_tilt_and_a_friction() {
     use skin::puncture::Needle;
     let read = |text: &str| Sweep::parse(&format!("name = 'x'\n{text}"), "x.toml", &[]);
-    let puncture = |text: &str, index| read(text).unwrap().grid().case(index).puncture;
+    let puncture = |text: &str, index| read(text).unwrap().grid().case(index).punctured();
     let guided = "puncture = { needle_friction = 0.3, critical_tilt_deg = 8, needle = 'guided' }";
     assert_eq!(puncture(guided, 0).needle, Needle::Guided { friction: 0.3 });
     assert_eq!(puncture(guided, 0).critical_tilt_deg, 8.0);
@@ -206,21 +206,22 @@ fn a_load_between_two_scales_has_a_radius() {
 #[test]
 fn critical_tilts_are_given_in_degrees_or_by_friction() {
     let read = |text: &str| Sweep::parse(&format!("name = 'x'\n{text}"), "x.toml", &[]).unwrap();
-    let puncture = |sweep: &Sweep, index| sweep.grid().case(index).puncture;
+    let puncture = |sweep: &Sweep, index| sweep.grid().case(index).punctured();
+    let all = |sweep: &Sweep| puncture(sweep, 0).tilts_deg().collect::<Vec<_>>();
     let sweep = read("puncture.critical_tilt_deg = [5, 10, 15]");
     assert_eq!(puncture(&sweep, 0).critical_tilt_deg, 15.0);
-    assert_eq!(puncture(&sweep, 0).tilts_deg.as_slice(), [5.0, 10.0, 15.0]);
+    assert_eq!(all(&sweep), [5.0, 10.0, 15.0]);
     assert!(
         sweep.to_toml().contains("\ncritical_tilt_deg = [5, 10, 15]\nneedle_friction = \"none\"\n")
     );
     let by_friction = read("puncture.needle_friction = [0.1, 0.2]");
     let tilts = [0.1_f64, 0.2].map(|friction| friction.atan().to_degrees());
-    assert_eq!(puncture(&by_friction, 0).tilts_deg.as_slice(), tilts);
+    assert_eq!(all(&by_friction), tilts);
     assert_eq!(puncture(&by_friction, 0).critical_tilt_deg, tilts[1]);
     assert!(!by_friction.to_toml().contains("critical_tilt_deg"));
     let alone = read("puncture.needle_friction = 0.2");
     assert_eq!(puncture(&alone, 0).critical_tilt_deg, tilts[1]);
-    assert!(puncture(&alone, 0).tilts_deg.is_empty());
+    assert!(all(&alone).is_empty());
     let axis = read("designs.needle_friction = [0.1, 0.2]");
     let last = axis.grid().len() - 1;
     assert_eq!([0, last].map(|index| puncture(&axis, index).critical_tilt_deg), tilts);

@@ -2,14 +2,11 @@
 
 use optimisation::{Candidate, DesignGoal};
 use results::Cell;
-use results::columns::design_columns;
+use results::columns::{design_columns, name};
 use run::Evaluator;
 use sweep::{Setting, Sweep};
 
 use crate::print::digits;
-
-/// What is asked of one place.
-const CRITICAL_FORCE: &str = "critical_force";
 
 /// Places of the top at which the needle is tried.
 const PLACES: usize = 11;
@@ -24,7 +21,7 @@ pub fn elsewhere(goal: &DesignGoal, best: &Candidate) -> Option<String> {
     let case = goal.space.case(&best.point);
     let columns = goal.objectives.iter().map(|objective| &*objective.column);
     let mut columns = columns.chain(goal.requirements.iter().map(|r| &*r.column));
-    let is_asked = columns.any(|column| column.starts_with(CRITICAL_FORCE));
+    let is_asked = columns.any(|column| column.starts_with(name::CRITICAL_FORCE));
     if !is_asked || !case.puncture.needle.is_guided() || case.puncture.places.is_some() {
         return None;
     }
@@ -40,13 +37,13 @@ pub fn elsewhere(goal: &DesignGoal, best: &Candidate) -> Option<String> {
         if let Cell::Number(value) = column.cell(&row) { Some((value, column.unit)) } else { None }
     };
     let of = |ending: &str| {
-        let there = value(&format!("{CRITICAL_FORCE}{ending}"))?.0;
-        let (weakest, unit) = value(&format!("weakest_force{ending}"))?;
+        let there = value(&[name::CRITICAL_FORCE, ending].concat())?.0;
+        let (weakest, unit) = value(&[name::WEAKEST_FORCE, ending].concat())?;
         Some((there, weakest, unit))
     };
     // In newtons where a material tells them, as the goal then has them.
     let (there, weakest, unit) = of("_N").or_else(|| of(""))?;
-    let (place, _) = value("weakest_place")?;
+    let (place, _) = value(name::WEAKEST_PLACE)?;
     let place = digits(place);
     (weakest < WEAKER * there).then(|| {
         format!(

@@ -6,8 +6,6 @@ use results::columns::design_columns;
 use serde_json::{Map, Value, json};
 
 use super::report::unmet;
-use super::skins;
-use crate::json;
 
 /// The answer of a search to its goal.
 pub fn record(goal: &DesignGoal, found: &Found) -> Value {
@@ -41,13 +39,13 @@ pub fn record(goal: &DesignGoal, found: &Found) -> Value {
 fn variables(goal: &DesignGoal, candidate: &Candidate) -> Map<String, Value> {
     let case = goal.space.case(&candidate.point);
     let variables = goal.space.parameters();
-    variables.map(|p| (p.key.to_owned(), json::scalar(p.get(&case)))).collect()
+    variables.map(|p| (p.key.to_owned(), json!(p.get(&case)))).collect()
 }
 
 fn design(goal: &DesignGoal, words: &Words<'_>, best: &BestDesign) -> Value {
     let columns = design_columns(goal.space.sweep());
     let measures = columns.iter().filter(|column| column.name != "design");
-    let measures = measures.map(|c| (c.name.to_string(), json::cell(&c.cell(&best.row))));
+    let measures = measures.map(|c| (c.name.to_string(), json!(c.cell(&best.row))));
     let binding = |binding: &optimisation::Binding| {
         json!({
             "limit": words.limit(&binding.limit, &best.target),
@@ -63,7 +61,7 @@ fn design(goal: &DesignGoal, words: &Words<'_>, best: &BestDesign) -> Value {
         "binding": best.bindings.iter().map(binding).collect::<Vec<_>>(),
     });
     if let Some(made) = &best.confirmation {
-        design["made"] = skins::record(made);
+        design["made"] = json!(made);
     }
     design
 }

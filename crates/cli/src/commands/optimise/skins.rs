@@ -1,10 +1,9 @@
-//! What is made of the designs that a search has found, for people and for programs.
+//! What is made of the designs that a search has found.
 
 use std::fmt::Write as _;
 
 use optimisation::{BestDesign, Confirmation, Estimate};
 use ranking::{Requirement, Unmet};
-use serde_json::{Value, json};
 
 use super::super::rank::distance;
 use crate::print::{aligned, counted, digits};
@@ -76,17 +75,6 @@ pub fn of_all(designs: &[BestDesign]) -> String {
         );
     }
     text
-}
-
-/// What is made of a best design, for programs.
-pub fn record(made: &Confirmation) -> Value {
-    let estimate = |of: &Estimate| json!({"quantity": of.name, "seen": of.seen, "value": of.value, "interval": of.interval});
-    json!({
-        "seen": made.seen,
-        "fresh": made.fresh,
-        "estimates": made.estimates.iter().map(estimate).collect::<Vec<_>>(),
-        "broken": made.broken.iter().map(ToString::to_string).collect::<Vec<_>>(),
-    })
 }
 
 fn value(value: Option<f64>) -> String {

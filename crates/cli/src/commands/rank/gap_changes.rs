@@ -1,11 +1,10 @@
-//! How far the measures of the best designs move with their gaps, for people and for programs.
+//! How far the measures of the best designs move with their gaps, for people.
 
 use ranking::{Preferences, RankedDesign, Ranking, Requirement, Weights};
 use rayon::prelude::*;
 use results::Results;
 use results::columns::parameter_of;
 use run::{GapChange, MeasureChange};
-use serde_json::{Value, json};
 
 use crate::print::aligned;
 
@@ -67,19 +66,6 @@ pub fn gap_changes_report(changes: &[GapChange], requirements: &[Requirement]) -
     let missed: String = changes.iter().flat_map(|change| missed(change, requirements)).collect();
     let title = "Change if the gap is 10 % smaller / 10 % larger";
     format!("\n{title}\n{}{cliffs}{missed}", aligned(&rows))
-}
-
-/// The changes for programs.
-pub fn gap_changes_record(changes: &[GapChange]) -> Vec<Value> {
-    let measure = |measure: &MeasureChange| {
-        let [smaller, larger] = measure.changed;
-        json!({ "column": measure.column, "value": measure.value, "gap_10_percent_smaller": smaller, "gap_10_percent_larger": larger })
-    };
-    let change = |change: &GapChange| {
-        let measures: Vec<_> = change.measures.iter().map(measure).collect();
-        json!({ "design": change.design, "gap_over_t": change.gap, "measures": measures })
-    };
-    changes.iter().map(change).collect()
 }
 
 /// Both changes of a measure.

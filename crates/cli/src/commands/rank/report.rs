@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use ranking::{Preferences, RankedDesign, Ranking, Scale, Unmet, UnmetRequirement, Weights};
 use results::Results;
-use results::columns::parameter_of;
+use results::columns::{name, parameter_of};
 use run::GapChange;
 
 use super::gap_changes::gap_changes_report;
@@ -196,13 +196,13 @@ fn shown_columns(results: &Results, preferences: &Preferences) -> Vec<String> {
 
 /// Whether the surface of the substrate folds over before the puncture of a design ends.
 fn is_folded(results: &Results, row: usize) -> bool {
-    results.column("fold_force").is_ok_and(|fold| !results.text(row, fold).is_empty())
+    results.column(name::FOLD_FORCE).is_ok_and(|fold| !results.text(row, fold).is_empty())
 }
 
 fn shown_cells(results: &Results, preferences: &Preferences, row: usize) -> Vec<String> {
     let columns = shown_columns(results, preferences);
     // A force up to the fold can be trusted.
-    let is_doubtful = columns.iter().any(|column| column.starts_with("critical_force"));
+    let is_doubtful = columns.iter().any(|column| column.starts_with(name::CRITICAL_FORCE));
     let cell = |column: &String| {
         let text = results.column(column).map_or("", |column| results.text(row, column));
         match text.parse::<f64>() {

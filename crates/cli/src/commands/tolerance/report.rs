@@ -4,7 +4,8 @@ use std::fmt::Write as _;
 
 use ranking::Requirement;
 use results::MEASURE_TABLES;
-use results::columns::{AREAL_MASS, FOLD_FORCE, GAP_STRETCH_MIN, measure_name};
+use results::columns::measure_name;
+use results::columns::name::{AREAL_MASS, FOLD_FORCE, GAP_STRETCH_MIN};
 use sweep::Sweep;
 use tolerance::{
     DesignTolerance, MeasureTolerance, Proportion, RequirementYield, Sampled, SolvedSample,

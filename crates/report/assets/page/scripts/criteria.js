@@ -24,8 +24,8 @@
 
   /** A criterion in words; resistance to penetration is another thing than penetration. */
   squama.criterionName = ({ column, goal }) => {
-    const paper = isPaper() && { penetration: "penetration resistance", compliance: "flexural compliance" }[column];
-    return paper || `${isPaper() ? "" : goal === "max" ? "large " : "small "}${squama.label(column)}`;
+    if (isPaper()) return squama.paper.find((one) => one.column === column)?.name ?? squama.label(column);
+    return `${goal === "max" ? "large " : "small "}${squama.label(column)}`;
   };
 
   const fieldset = squama.at("weights"), rows = squama.element("div");

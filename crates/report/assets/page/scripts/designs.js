@@ -3,6 +3,9 @@
 
 const squama = JSON.parse(document.getElementById("data").textContent);
 
+/** Columns of the criteria of the paper. */
+[squama.coverage, squama.criticalForce, squama.penetration, squama.compliance] = squama.paper.map(({ column }) => column);
+
 /** Number of designs. */
 squama.count = squama.values[0]?.length ?? 0;
 
@@ -95,23 +98,12 @@ squama.unitOf = (name) => {
 /** Whether a column has a physical unit; angles have none. */
 squama.physical = (name) => (squama.unitOf(name)?.[0] ?? "deg") !== "deg";
 
-// Names and symbols in a small part of TeX's notation.
-const SYMBOLS = {
-  gap_over_t: ["gap d/t", "gap $d/t$"],
-  length_over_t: ["length L/t", "aspect ratio $L/t$"],
-  width_over_t: ["width b/t", "width $b/t$"],
-  slant_deg: ["slant α", "slant $α$"],
-  coverage: ["coverage", "coverage $λ$"],
-  critical_force: ["critical force", "critical force $F_c^*$"],
-  penetration: ["penetration", "penetration $u_{max}/t$"],
-  compliance: ["compliance", "flexural compliance $C_f^*$"],
-  max_stiffness: ["max stiffness", "largest stiffness $K_{max}^*$"],
-  secant_stiffness: ["secant stiffness", "secant stiffness $K_{sec}^*$"],
-};
+// Parameters that are called by their symbols.
+const SYMBOLS = { gap_over_t: "gap d/t", length_over_t: "length L/t", width_over_t: "width b/t", slant_deg: "slant α" };
 
 /** A column as people call it. */
 squama.label = (name) => {
-  if (SYMBOLS[name]) return SYMBOLS[name][0];
+  if (SYMBOLS[name]) return SYMBOLS[name];
   const unit = squama.unitOf(name);
   const plain = unit ? name.slice(0, -unit[0].length - 1) : name;
   return plain.replaceAll("_over_t", "/t").replaceAll("_", " ") + (unit ? ` (${unit[1]})` : "");

@@ -161,12 +161,11 @@ squama.unpacked = (text) => new Response(new Blob([Uint8Array.from(atob(text), (
     seen.observe(chart.area);
   };
 
-  const criteria = ["coverage", "critical_force", "penetration", "compliance"];
-  const goalOf = (column) => ({ column, goal: column === "penetration" ? "min" : "max" });
+  const goalOf = (column) => squama.paper.find((one) => one.column === column);
 
   /** The fronts of the designs that meet the requirements, each of designs that can be compared: in colour and on a line. */
   const fronts = ({ svg }) => {
-    const { rows } = squama.ranking.contest(squama, squama.rows.filter((row) => squama.passes[row]), criteria.map(goalOf), "paper");
+    const { rows } = squama.ranking.contest(squama, squama.rows.filter((row) => squama.passes[row]), squama.paper, "paper");
     for (const panel of svg.querySelectorAll("[data-criteria]")) {
       const pair = panel.dataset.criteria.split(" ").map(goalOf);
       const best = squama.comparable.groups(rows, pair).map((group) => [...squama.ranking.front(squama.ranking.contest(squama, group, pair, "linear"))]);
@@ -183,13 +182,13 @@ squama.unpacked = (text) => new Response(new Blob([Uint8Array.from(atob(text), (
   };
 
   const add = (id, title, description, ...columns) => squama.addChart({ id, title, description, columns: () => columns });
-  add("critical-force", "Critical force", "Critical force for each slant.", "critical_force");
-  add("stiffness", "Stiffness against critical force", "Puncture stiffness, the largest and that of the secant, against the critical force.", "critical_force", "max_stiffness", "secant_stiffness");
-  add("penetration", "Penetration", "Penetration at the critical tilt for each slant.", "penetration");
-  add("compliance", "Flexural compliance", "Flexural compliance for each slant; open marks: no contact in bending. Without contact the slant does not matter, so that its marks coincide.", "compliance");
-  add("coverage", "Coverage", "Coverage by gap, aspect ratio and slant, with contours; white: none.", "coverage");
+  add("critical-force", "Critical force", "Critical force for each slant.", squama.criticalForce);
+  add("stiffness", "Stiffness against critical force", "Puncture stiffness, the largest and that of the secant, against the critical force.", squama.criticalForce, ...squama.stiffnesses);
+  add("penetration", "Penetration", "Penetration at the critical tilt for each slant.", squama.penetration);
+  add("compliance", "Flexural compliance", "Flexural compliance for each slant; open marks: no contact in bending. Without contact the slant does not matter, so that its marks coincide.", squama.compliance);
+  add("coverage", "Coverage", "Coverage by gap, aspect ratio and slant, with contours; white: none.", squama.coverage);
   add("map", "Map: ", "Colours and contours; where contours crowd, a small change of a parameter changes much: a cliff. Struck through: the surface folds.");
-  squama.addChart({ id: "pareto", title: "Pareto fronts of two criteria", description: "In colour, on a line: designs that no other beats in both criteria, of those that meet the requirements.", columns: () => criteria, restyle: fronts });
+  squama.addChart({ id: "pareto", title: "Pareto fronts of two criteria", description: "In colour, on a line: designs that no other beats in both criteria, of those that meet the requirements.", columns: () => squama.paper.map(({ column }) => column), restyle: fronts });
   add("measure", "Any column: ", "The column of your choice for each slant.");
   unpackNext();
 })();

@@ -6,7 +6,8 @@ squama.ranking = (() => {
   const ROUND_OFF = 1e-9;
   const SIGNS = [">=", "<=", "==", ">", "<"];
   const SCALES = ["paper", "linear", "log"];
-  const PAPER = ["max:coverage", "max:critical_force", "min:penetration", "max:compliance"];
+  const PAPER = squama.paper.map(({ column, goal }) => `${goal}:${column}`);
+  const [COVERAGE] = squama.paper.map(({ column }) => column);
   const MOST_CRITERIA = 8;
 
   /** Whether two numbers are the same but for round-off. */
@@ -92,7 +93,7 @@ squama.ranking = (() => {
    */
   const contest = (table, rows, criteria, scale) => {
     const all = criteria.map(({ column, goal }) => table.numbers(column).map((value) => worth(scale, goal, value)));
-    const covered = criteria.some(({ column }) => column === "coverage") ? table.numbers("coverage") : null;
+    const covered = criteria.some(({ column }) => column === COVERAGE) ? table.numbers(COVERAGE) : null;
     const ranked = rows.filter((row) => !(covered && covered[row] <= 0) && all.every((values) => !Number.isNaN(values[row])));
     const worths = all.map((values) => picked(values, ranked));
     // Values tell whether anything but round-off tells designs apart: a logarithm may be near 0.

@@ -68,7 +68,7 @@
     squama.at("sound").checked = state.sound;
   };
 
-  const first = ["coverage", "critical_force_N", "critical_force", ...squama.numeric].filter((name) => squama.numeric.includes(name) && name !== "design");
+  const first = [squama.coverage, `${squama.criticalForce}_N`, squama.criticalForce, ...squama.numeric].filter((name) => squama.numeric.includes(name) && name !== "design");
   adder.addEventListener("click", () => {
     const column = first.find((name) => !state.requirements.some((one) => one.column === name)) ?? first[0];
     const sign = ranking.plainGoal(squama, column) === "min" ? "<=" : ">=";

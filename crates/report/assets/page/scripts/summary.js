@@ -15,7 +15,7 @@
     const first = leader(rows);
     if (first === null) return [];
     const ties = rows.filter((row) => squama.ranking.same(numbers[row], numbers[first])).length - 1;
-    const sound = squama.folded(first) && column.startsWith("critical_force") ? leader(rows.filter((row) => !squama.folded(row))) : null;
+    const sound = squama.folded(first) && column.startsWith(squama.criticalForce) ? leader(rows.filter((row) => !squama.folded(row))) : null;
     return [[name, `${squama.short(numbers[first])}  `, button(first), ties > 0 ? ` and ${ties} ${ties > 1 ? "others" : "other"} as good` : "",
       ...(sound === null ? [] : [squama.element("br"), `without a fold: ${squama.short(numbers[sound])}  `, button(sound)])]];
   };
@@ -31,16 +31,16 @@
   };
 
   const folds = () => (squama.has(squama.fold) ? [["can be trusted", `${squama.count - squama.foldedRows.length} designs; of ${squama.foldedRows.length}, marked ⚠, the surface folds over before the critical tilt, so that their critical force is not to be trusted`]] : []);
-  const physical = () => [["critical_force_N", "largest critical force, N", "max"], ["bend_radius_mm", "smallest bend radius, mm", "min"], ["areal_mass_kg_m2", "least areal mass, kg/m²", "min"]]
+  const physical = () => [[`${squama.criticalForce}_N`, "largest critical force, N", "max"], ["bend_radius_mm", "smallest bend radius, mm", "min"], [squama.mass, "least areal mass, kg/m²", "min"]]
     .filter(([column]) => squama.numeric.includes(column)).flatMap(([column, name, goal]) => best(name, column, goal));
 
   facts("summary-list", [
-    ...best("best coverage", "coverage", "max"),
-    ...best("largest critical force", "critical_force", "max"),
-    ...best("least penetration", "penetration", "min"),
-    ...best("largest compliance", "compliance", "max"),
+    ...best("best coverage", squama.coverage, "max"),
+    ...best("largest critical force", squama.criticalForce, "max"),
+    ...best("least penetration", squama.penetration, "min"),
+    ...best("largest compliance", squama.compliance, "max"),
     ...physical(),
-    ["covered designs", String(squama.numbers("coverage").filter((value) => value > 0).length)],
+    ["covered designs", String(squama.numbers(squama.coverage).filter((value) => value > 0).length)],
     ["on the Pareto front", squama.element("span", { id: "front-count" }, "…")],
     ...folds(),
   ]);

@@ -2,45 +2,43 @@
 
 use skin::flexure::{MembraneMesh, Method};
 
-use super::{ANY, AUTO, LENGTH, NUMBER, POSITIVE, STIFF};
+use super::{ANY, AUTO, LENGTH, NUMBER, POSITIVE, STIFF, of};
 use crate::parameter::Bound::{Excluded, Included};
 use crate::parameter::ParameterKind::{CountOrWord, Number, OptionalNumber, SignedNumber, Word};
 use crate::parameter::Role::{Continuous, EndsBending, InMm, InsteadOf, Made, UnitOfBending};
 use crate::parameter::{CountRange, Parameter, Range, key};
 
+const FLEXURE: Parameter = of("flexure");
+
 pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         key: "method",
-        section: "flexure",
-        unit: "-",
         meaning: "what is bent: one gap, since all deform alike, or the chain of all",
-        roles: &[],
         kind: Word {
             words: &["unit-cell", "chain"],
             get: |c| usize::from(c.flexure.method == Method::Chain),
             set: |c, word| c.flexure.method = [Method::UnitCell, Method::Chain][word],
         },
+        ..FLEXURE
     },
     Parameter {
         key: key::MEMBRANE_LENGTH,
-        section: "flexure",
         unit: "t",
         meaning: "length of the membrane; a chain and imperfect strips round it to whole gaps",
         roles: &[Continuous, Made, EndsBending],
         kind: Number { range: LENGTH, field: |c| &mut c.flexure.membrane_length },
+        ..FLEXURE
     },
     in_mm!(
         "membrane_length",
         "length of the membrane",
-        "flexure",
+        FLEXURE,
         POSITIVE,
         &[InMm(key::MEMBRANE_LENGTH), Made, EndsBending],
         |c| &mut c.in_mm.membrane_length
     ),
     Parameter {
         key: "gaps",
-        section: "flexure",
-        unit: "-",
         meaning: "gaps of the strip, the same number for every design, instead of a length",
         roles: &[InsteadOf(key::MEMBRANE_LENGTH)],
         kind: CountOrWord {
@@ -49,26 +47,26 @@ pub(super) const PARAMETERS: &[Parameter] = &[
             get: |c| c.flexure.gaps,
             set: |c, count| c.flexure.gaps = count,
         },
+        ..FLEXURE
     },
     Parameter {
         key: key::MEMBRANE_THICKNESS,
-        section: "flexure",
         unit: "t",
         meaning: "thickness h of the membrane",
         roles: &[Continuous, Made, UnitOfBending],
         kind: Number { range: LENGTH, field: |c| &mut c.flexure.membrane_thickness },
+        ..FLEXURE
     },
     in_mm!(
         "membrane_thickness",
         "thickness of the membrane",
-        "flexure",
+        FLEXURE,
         POSITIVE,
         &[InMm(key::MEMBRANE_THICKNESS), Made, UnitOfBending],
         |c| &mut c.in_mm.membrane_thickness
     ),
     Parameter {
         key: key::MEMBRANE_AXIS,
-        section: "flexure",
         unit: "t",
         meaning: "depth of the axis of the membrane below the bases of the scales",
         roles: NUMBER,
@@ -76,21 +74,19 @@ pub(super) const PARAMETERS: &[Parameter] = &[
             range: Range::closed(-1e3, 1e3),
             field: |c| &mut c.flexure.membrane_axis_offset,
         },
+        ..FLEXURE
     },
     in_mm!(
         "membrane_axis_offset",
         "depth of the axis of the membrane below the bases",
-        "flexure",
+        FLEXURE,
         ANY,
         &[InMm(key::MEMBRANE_AXIS), Made],
         |c| &mut c.in_mm.membrane_axis_offset
     ),
     Parameter {
         key: "elements_per_gap",
-        section: "flexure",
-        unit: "-",
         meaning: "beam elements of the membrane between two scales, or as fine as the measures need",
-        roles: &[],
         kind: CountOrWord {
             word: AUTO,
             range: CountRange { low: 1, high: 1000 },
@@ -103,22 +99,20 @@ pub(super) const PARAMETERS: &[Parameter] = &[
                     count.map_or(MembraneMesh::Auto, MembraneMesh::Elements);
             },
         },
+        ..FLEXURE
     },
     Parameter {
         key: key::UNBEND,
-        section: "flexure",
-        unit: "-",
         meaning: "whether the moment is taken away again at the end of bending",
-        roles: &[],
         kind: Word {
             words: &["false", "true"],
             get: |c| usize::from(c.flexure.unload),
             set: |c, word| c.flexure.unload = word == 1,
         },
+        ..FLEXURE
     },
     Parameter {
         key: "max_end_rotation_deg",
-        section: "flexure",
         unit: "deg",
         meaning: "rotation of each end at which bending ends; below zero, bending the other way, scales outside",
         roles: &[Continuous, Made, EndsBending],
@@ -126,13 +120,13 @@ pub(super) const PARAMETERS: &[Parameter] = &[
             size: Range { low: Excluded(0.0), high: Included(180.0) },
             field: |c| &mut c.flexure.max_end_rotation_deg,
         },
+        ..FLEXURE
     },
     Parameter {
         key: key::CONTACT_OVER_MEMBRANE,
-        section: "flexure",
-        unit: "-",
         meaning: "modulus of the scales in contact, E_ct, over that of the membrane, E_m",
         roles: NUMBER,
         kind: Number { range: STIFF, field: |c| &mut c.flexure.contact_modulus_over_membrane },
+        ..FLEXURE
     },
 ];
