@@ -1,18 +1,16 @@
 //! `squama rerun`.
 
 use std::path::PathBuf;
-use std::sync::Arc;
 
 use clap::Args;
 use run::{Filter, Rerun};
 
-use super::run::{conclude, exit_code, options, summary};
+use super::run::{behind_bar, conclude, exit_code, summary};
 use super::source::{results_folder, settings};
 use super::work::{Format, Work};
 use super::{DONE, PROGRAM};
 use crate::interrupt::Interrupt;
 use crate::print::{counted, print};
-use crate::progress::{ProgressDisplay, RESUMED};
 
 /// Arguments of `squama rerun`.
 #[derive(Debug, Args)]
@@ -77,16 +75,11 @@ pub fn rerun(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8>
         print(&plan(&rerun))?;
         return Ok(DONE);
     }
-    interrupt.ask_first();
-    let display = ProgressDisplay::new(arguments.work.quiet, interrupt, Arc::default(), RESUMED);
-    let options = options(&arguments.work, &arguments.format, interrupt, &display);
-    let progress = |progress| display.watched().show(progress);
-    let finished = rerun.run(&options, &PROGRAM, progress);
-    let threads = options.threads;
-    drop(display);
-    let finished = finished?;
+    let how = (&arguments.work, &arguments.format);
+    let finished = behind_bar(how, interrupt, |options, show| rerun.run(options, &PROGRAM, show))?;
     conclude(&folder, &finished);
     if !arguments.work.quiet {
+        let threads = arguments.work.threads.count();
         let results = summary("all results", &folder, threads, &finished);
         print(&format!("{}{results}", plan(&rerun)))?;
     }

@@ -8,7 +8,7 @@ use std::time::Duration;
 use clap::Args;
 use results::columns::name::{FOLD_FORCE, SOUND_FORCE};
 use results::{Completeness, VerifiedFolder};
-use run::{Best, Finished, Options};
+use run::{Best, Finished, Options, Progress};
 use sweep::{RandomSample, Subset, Sweep};
 
 use super::source::{Definition, folder_of, read};
@@ -94,21 +94,18 @@ pub fn run(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let sweep = read(&arguments.definition)?;
     let folder = folder(arguments, &sweep);
     note_variables(&sweep);
-    // From here on there are designs to keep; before, a signal ends the command at once.
-    interrupt.ask_first();
-    let display = ProgressDisplay::new(arguments.work.quiet, interrupt, Arc::default(), RESUMED);
-    let options = options(&arguments.work, &arguments.format, interrupt, &display);
-    let progress = |progress| display.watched().show(progress);
     let (subset, start) = (subset(arguments), arguments.earlier.start());
-    let finished = run::run(&sweep, subset, &folder, start, &options, &PROGRAM, progress);
-    let threads = options.threads;
-    let finished = finished?;
-    // Whoever ends a run does not wait for its audit.
-    let audited = arguments.audit.filter(|_| interrupt.exit_code().is_none());
-    let audited = audited.map(|share| run::Audit::of(&folder, share, &options)).transpose()?;
-    drop(display);
+    let how = (&arguments.work, &arguments.format);
+    let (finished, audited) = behind_bar(how, interrupt, |options, show| {
+        let finished = run::run(&sweep, subset, &folder, start, options, &PROGRAM, show)?;
+        // Whoever ends a run does not wait for its audit.
+        let share = arguments.audit.filter(|_| interrupt.exit_code().is_none());
+        let audited = share.map(|share| run::Audit::of(&folder, share, options)).transpose()?;
+        anyhow::Ok((finished, audited))
+    })?;
     conclude(&folder, &finished);
     if !arguments.work.quiet {
+        let threads = arguments.work.threads.count();
         print(&summary(sweep.name(), &folder, threads, &finished))?;
     }
     let code = exit_code(&finished, interrupt);
@@ -159,21 +156,24 @@ fn subset(arguments: &Arguments) -> Subset {
     Subset { sample, shard: arguments.shard }
 }
 
-/// How designs are solved, as the arguments have it.
-pub(super) fn options<'i>(
-    work: &Work,
-    format: &Format,
-    interrupt: &'i Interrupt,
-    display: &'i ProgressDisplay,
-) -> Options<'i> {
-    Options {
+/// Solves designs as the arguments have it, behind a bar that is told of each.
+pub(super) fn behind_bar<T>(
+    (work, format): (&Work, &Format),
+    interrupt: &Interrupt,
+    solve: impl FnOnce(&Options<'_>, &dyn Fn(Progress)) -> T,
+) -> T {
+    // From here on there are designs to keep; before, a signal ends the command at once.
+    interrupt.ask_first();
+    let display = ProgressDisplay::new(work.quiet, interrupt, Arc::default(), RESUMED);
+    let options = Options {
         threads: work.threads.count(),
         format: format.csv,
         fail_fast: work.fail_fast,
         tables_every: TABLES_EVERY,
         stop: interrupt.stop(),
         work: display.watched().work(),
-    }
+    };
+    solve(&options, &|progress| display.watched().show(progress))
 }
 
 pub(super) fn exit_code(finished: &Finished, interrupt: &Interrupt) -> u8 {
