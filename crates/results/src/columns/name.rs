@@ -59,7 +59,7 @@ mod tests {
     use crate::columns::values::VALUES;
 
     /// Names that are also words for other things: parameters, charts, groups of a drawing, what a sweep measures.
-    const WORDS: [&str; 4] = ["coverage", "gaps", "penetration", "scales"];
+    const WORDS: [&str; 5] = ["compliance", "coverage", "gaps", "penetration", "scales"];
 
     /// The files below `folder` that the program is made of.
     fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
