@@ -5,6 +5,7 @@ mod calibrate;
 mod check;
 mod compare;
 mod completions;
+mod couplings;
 mod derived;
 mod design;
 mod draw;

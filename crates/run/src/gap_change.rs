@@ -4,7 +4,6 @@ use results::columns::design_columns;
 use results::{Column, DesignRow};
 use serde::{Serialize, Serializer};
 use skin::Imperfection;
-use substrate::Coupling;
 use sweep::{Case, Sweep};
 
 use crate::solve::evaluator::Evaluator;
@@ -65,20 +64,9 @@ impl GapChange {
     /// The changes of the measures in `columns` of design `number` of `sweep`; columns without a number are left out. `None` if
     /// there is no such design, or solving it again would take long. Samples of imperfect rows are not solved.
     pub fn of(sweep: &Sweep, number: &str, columns: &[&str]) -> Option<Self> {
-        let grid = sweep.grid();
-        let index = grid.parse_number(number).ok()?;
-        let mut case = grid.case(index);
-        // Random samples take hundreds of paths, and hide the cliff of the design itself.
-        case.imperfection = Imperfection::default();
-        // A ranking asks this of its best designs while somebody waits.
-        is_quick(sweep, &case).then_some(())?;
+        let gaps = [1.0, PARTS[0], PARTS[1]];
+        let (case, solved) = again(sweep, number, gaps, |case, part| case.design.gap *= part)?;
         let meant = case.design.gap;
-        let evaluator = Evaluator::new(&sweep.plain_measures());
-        let solved = [1.0, PARTS[0], PARTS[1]].map(|part| {
-            let mut case = case;
-            case.design.gap = part * meant;
-            evaluator.row(grid.number(index), &case)
-        });
         let known = design_columns(sweep);
         let column = |name: &&str| known.iter().find(|column| column.name == **name);
         let measures = columns.iter().filter_map(column).filter_map(|one| measure(one, &solved));
@@ -95,7 +83,31 @@ fn measure(column: &Column<DesignRow>, solved: &[DesignRow; 3]) -> Option<Measur
     })
 }
 
-/// Whether a design is solved in milliseconds: full coupling calibrates its substrate for much longer.
+/// Design `number` of `sweep`, and what it becomes with each of the `changes`. `None` if there is no such design, or solving it again
+/// would take long. Samples of imperfect rows are not solved.
+pub(crate) fn again<T: Copy, const N: usize>(
+    sweep: &Sweep,
+    number: &str,
+    changes: [T; N],
+    change: impl Fn(&mut Case, T),
+) -> Option<(Case, [DesignRow; N])> {
+    let grid = sweep.grid();
+    let index = grid.parse_number(number).ok()?;
+    let mut case = grid.case(index);
+    // Random samples take hundreds of paths, and hide the cliff of the design itself.
+    case.imperfection = Imperfection::default();
+    // A ranking asks this of its best designs while somebody waits.
+    is_quick(sweep, &case).then_some(())?;
+    let evaluator = Evaluator::new(&sweep.plain_measures());
+    let solved = changes.map(|own| {
+        let mut case = case;
+        change(&mut case, own);
+        evaluator.row(grid.number(index), &case)
+    });
+    Some((case, solved))
+}
+
+/// Whether a design is solved in milliseconds: boundary elements of a layer take longer.
 fn is_quick(sweep: &Sweep, case: &Case) -> bool {
-    case.coupling == Coupling::Nearest && work_of(case, sweep.measures()) <= MOST_WORK
+    case.tissue_thickness.is_none() && work_of(case, sweep.measures()) <= MOST_WORK
 }

@@ -25,6 +25,7 @@
 //! | [`Audit`], [`LargestDifference`], [`SecondWay`] | a share of the designs solved again by another way |
 //! | [`Summary`], [`Best`] | counts and best values |
 //! | [`GapChange`], [`MeasureChange`] | the measures of a design where its gap comes out 10 % smaller and larger |
+//! | [`CouplingChange`], [`CoupledMeasure`] | the measures of a design with the whole substrate coupled |
 //!
 //! ```
 //! use std::sync::atomic::AtomicBool;
@@ -55,6 +56,7 @@
 //! ```
 
 mod audit;
+mod coupling_change;
 mod estimate;
 mod filter;
 mod gap_change;
@@ -69,6 +71,7 @@ mod status;
 mod tables;
 
 pub use audit::{Audit, LargestDifference, SecondWay};
+pub use coupling_change::{CoupledMeasure, CouplingChange};
 pub use estimate::Estimate;
 pub use filter::{ColumnFilter, Filter, InvalidColumnFilter, InvalidFilter};
 pub use gap_change::{GapChange, MeasureChange};

@@ -19,7 +19,7 @@ use super::source::{Partial, verified_folder};
 use super::work::whole;
 use super::{DONE, INCOMPLETE, derived};
 use crate::json;
-use gap_changes::gap_changes;
+use gap_changes::{couplings, gap_changes};
 use record::{ranking_record, unmet_record};
 use report::{RankReport, unmet_report};
 
@@ -124,13 +124,15 @@ fn ranked(arguments: &Arguments, results: &Results, ranking: &Ranking<'_>) -> an
     let files = ranking::write_ranking(folder, ranking)?;
     derived::note(results.verified_folder(), RunFolder::RANKING_RECORD, folder, &files)?;
     let changes = gap_changes(results, ranking);
+    let couplings = couplings(results, ranking);
     let top = arguments.top as usize;
     let record = || {
         let mut record = ranking_record(results, ranking, top);
         record["gap_changes"] = json!(changes);
+        record["full_coupling"] = json!(couplings);
         record
     };
-    let report = RankReport { results, ranking, top, changes: &changes };
+    let report = RankReport { results, ranking, top, changes: &changes, couplings: &couplings };
     json::answer(arguments.json, record, || report.text(), (folder, &files))?;
     Ok(DONE)
 }

@@ -7,7 +7,9 @@ use optimisation::{Answer, BestDesign, Candidate, DesignGoal, Found, Front, Judg
 use ranking::{Requirement, Unmet};
 use results::Outcome;
 use results::columns::{Cell, design_columns};
+use run::CouplingChange;
 
+use super::super::couplings::{couplings_report, measured};
 use super::super::rank::obstacle;
 use super::elsewhere::elsewhere;
 use super::skins;
@@ -88,7 +90,22 @@ impl SearchReport<'_> {
             );
         }
         text += &elsewhere(self.goal, &best.candidate).unwrap_or_default();
+        text += &self.coupled(&best.candidate);
         text + &best.confirmation.as_ref().map(skins::text).unwrap_or_default()
+    }
+
+    /// What the best design is with the whole substrate coupled, in the columns that the goal asks for.
+    fn coupled(&self, best: &Candidate) -> String {
+        let DesignGoal { space, objectives, requirements, .. } = self.goal;
+        let asked = objectives.iter().map(|objective| &*objective.column);
+        let required = requirements.iter().map(|requirement| &*requirement.column);
+        let columns = measured(asked.chain(required));
+        let alone = space.sweep().at(&space.case(&best.point));
+        let number = alone.grid().number(0).to_string();
+        let change = CouplingChange::of(&alone, &number, &columns);
+        let named =
+            change.map(|change| CouplingChange { design: "the best design".to_owned(), ..change });
+        couplings_report(named.as_slice(), requirements)
     }
 
     /// Where the search looked: from so many starts, in so many regions.

@@ -3,9 +3,9 @@
 use ranking::{Preferences, RankedDesign, Ranking, Requirement, Weights};
 use rayon::prelude::*;
 use results::Results;
-use results::columns::parameter_of;
-use run::{GapChange, MeasureChange};
+use run::{CouplingChange, GapChange, MeasureChange};
 
+use super::super::couplings::measured;
 use crate::print::aligned;
 
 /// Changes by this factor, or its inverse, are told as factors.
@@ -30,17 +30,18 @@ pub fn gap_changes(results: &Results, ranking: &Ranking<'_>) -> Vec<GapChange> {
     numbers.par_iter().filter_map(|number| GapChange::of(sweep, number, &columns)).collect()
 }
 
-/// The columns of the criteria and of the requirements that are measured, each once.
+/// The best design by the weights, and the best of those that are not folded, with the whole substrate coupled.
+pub fn couplings(results: &Results, ranking: &Ranking<'_>) -> Vec<CouplingChange> {
+    let Some(sweep) = results.definition() else { return Vec::new() };
+    let columns = measured_columns(ranking.preferences());
+    let best = [Some(ranking.winner(ranking.preferences().weights)), ranking.best_unfolded()];
+    best.iter().flatten().filter_map(|d| CouplingChange::of(sweep, d.design(), &columns)).collect()
+}
+
+/// The columns of the criteria and of the requirements that are measured.
 fn measured_columns(preferences: &Preferences) -> Vec<&str> {
     let criteria = preferences.criteria.iter().map(|criterion| criterion.column.as_ref());
-    let required = preferences.requirements.iter().map(|requirement| requirement.column.as_str());
-    let mut columns: Vec<&str> = Vec::new();
-    for column in criteria.chain(required) {
-        if parameter_of(column).is_none() && !columns.contains(&column) {
-            columns.push(column);
-        }
-    }
-    columns
+    measured(criteria.chain(preferences.requirements.iter().map(|r| r.column.as_str())))
 }
 
 /// A table of the changes, and a sentence for each design at a cliff and each requirement that is missed.

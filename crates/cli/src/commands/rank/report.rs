@@ -5,8 +5,9 @@ use std::fmt::Write as _;
 use ranking::{Preferences, RankedDesign, Ranking, Scale, Unmet, UnmetRequirement, Weights};
 use results::Results;
 use results::columns::{name, parameter_of};
-use run::GapChange;
+use run::{CouplingChange, GapChange};
 
+use super::super::couplings::couplings_report;
 use super::gap_changes::gap_changes_report;
 use crate::print::{aligned, counted, digits, shortfall};
 
@@ -24,6 +25,8 @@ pub struct RankReport<'a> {
     pub top: usize,
     /// How far the measures of the best designs move with their gaps.
     pub changes: &'a [GapChange],
+    /// The best designs with the whole substrate coupled.
+    pub couplings: &'a [CouplingChange],
 }
 
 impl RankReport<'_> {
@@ -34,7 +37,9 @@ impl RankReport<'_> {
         if self.preferences().criteria.len() > 1 {
             let _ = write!(text, "\nBest by one criterion alone\n{}", self.corners());
         }
-        text.push_str(&gap_changes_report(self.changes, &self.preferences().requirements));
+        let requirements = &self.preferences().requirements;
+        text.push_str(&gap_changes_report(self.changes, requirements));
+        text.push_str(&couplings_report(self.couplings, requirements));
         if !self.ranking.winners().is_empty() {
             let _ = write!(text, "\n{}", self.winners());
         }
