@@ -27,7 +27,7 @@ pub fn couplings_report(changes: &[CouplingChange], requirements: &[Requirement]
     }
     let lines: String = changes.iter().map(|change| line(change, requirements)).collect();
     format!(
-        "\nScales push on their nearest neighbours alone through the tissue. With all of it coupled (substrate.coupling = \"full\")\n{lines}"
+        "\nScales push on their nearest neighbours alone through the tissue. With all of it coupled (substrate.coupling = \"full\"):\n{lines}"
     )
 }
 

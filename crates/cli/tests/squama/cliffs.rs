@@ -53,6 +53,34 @@ fn a_cliff_is_told_in_words() {
 }
 
 #[test]
+fn the_best_design_is_solved_again_with_the_whole_tissue_coupled() {
+    let (place, printed) = ranked(FEW, "--require 'penetration < 0.2' --json");
+    let ranking: Value = serde_json::from_str(&printed).expect("JSON");
+    let [change] = ranking["full_coupling"].as_array().expect("changes").as_slice() else {
+        panic!("one design is the best: {printed}")
+    };
+    let number = change["design"].as_str().expect("a number");
+    let full = "--set substrate.coupling=full --json --out y";
+    let solved = place.prints(&format!("design x.toml --design {number} {full}"));
+    let solved: Value = serde_json::from_str(&solved).expect("JSON");
+    let measures = change["measures"].as_array().expect("measures");
+    assert_eq!(measures.len(), 4);
+    for measure in measures {
+        let column = measure["column"].as_str().expect("a column");
+        assert_eq!(measure["full"], solved["measures"][column], "{column}");
+    }
+    let moved = |column: &str| {
+        let measure = measures.iter().find(|measure| measure["column"] == column).expect(column);
+        measure["full"] != measure["nearest"]
+    };
+    assert!(moved("penetration") && !moved("coverage"), "{printed}");
+    // Of a sweep that has it coupled already nothing is told.
+    let (_, printed) = ranked(&format!("substrate.coupling = 'full'\n{FEW}"), "--json");
+    let ranking: Value = serde_json::from_str(&printed).expect("JSON");
+    assert_eq!(ranking["full_coupling"], Value::Array(Vec::new()));
+}
+
+#[test]
 fn without_a_definition_nothing_is_said_of_gaps() {
     let (place, _) = ranked(FEW, "");
     std::fs::create_dir(place.path("alone")).expect("a folder");
