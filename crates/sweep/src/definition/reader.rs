@@ -14,7 +14,7 @@ use crate::grid::{Axis, Grid};
 use crate::number;
 use crate::parameter::{Parameter, Scalar, WrongValue, key};
 use crate::toml_source::{KeyValue, KeyValues, Place, Value};
-use crate::variable::Variable;
+use crate::variable::{Variable, VariableValues};
 
 /// Keys that are refused before the rest is left unread: nobody corrects more at a time.
 const MOST: usize = 50;
@@ -237,36 +237,46 @@ impl Reader {
     /// Refuses several frictions of a guided needle, which has a path for each, and a friction of 0 of a free one, whose critical tilt
     /// it would be.
     fn check_needle(&self) -> Result<(), InvalidDefinition> {
-        let axis = |key: &str| self.axes.iter().find(|written| written.axis.parameter().key == key);
-        let values = |axis: &Axis| (0..axis.len()).map(|k| axis.value(k)).collect::<Vec<_>>();
-        let shared = self.shared.iter().find(|(shared, _)| shared.key == key::NEEDLE_FRICTION);
-        let (frictions, path, place) = match (axis(key::NEEDLE_FRICTION), shared) {
-            (Some(written), _) => {
-                (values(&written.axis), format!("designs.{}", key::NEEDLE_FRICTION), &written.place)
-            }
-            (None, Some((parameter, place))) => {
-                (vec![parameter.get(&self.case)], parameter.path(), place)
-            }
-            (None, None) => return Ok(()),
+        let Some((frictions, path, place)) = self.values(key::NEEDLE_FRICTION) else {
+            return Ok(());
         };
-        let is_guided = self.case.puncture.needle.is_guided();
-        let needles = axis(key::NEEDLE).map(|written| values(&written.axis));
-        let is_free =
-            needles.as_ref().map_or(!is_guided, |all| all.contains(&Scalar::Word("free")));
-        let refused = frictions.into_iter().find_map(|friction| match friction {
-            Scalar::List(_) if is_guided || needles.is_some() => Some((
-                friction,
-                "a number: a guided needle has a path for each friction, as an axis in [designs]",
-            )),
-            Scalar::Number(..1e-10) if is_free => Some((
-                friction,
-                "a number of at least 1e-10: its arctangent is the critical tilt of a free needle",
-            )),
-            _ => None,
+        let needles = self.values(key::NEEDLE).map(|(needles, ..)| needles);
+        let needles = needles.unwrap_or_else(|| vec![Scalar::Word("free")]);
+        let may_be = |needle| needles.contains(&Scalar::Word(needle));
+        let refused = frictions.into_iter().find_map(|friction| {
+            // Lists ascend.
+            let (is_list, least) = match friction {
+                Scalar::List(all) => (true, all.as_slice().first().copied()),
+                single => (false, single.number()),
+            };
+            let expected = if is_list && may_be("guided") {
+                "a number: a guided needle has a path for each friction, as an axis in [designs]"
+            } else if may_be("free") && least.is_some_and(|friction| friction < 1e-10) {
+                "a number of at least 1e-10: its arctangent is the critical tilt of a free needle"
+            } else {
+                return None;
+            };
+            Some((friction, expected))
         });
         let Some((friction, expected)) = refused else { return Ok(()) };
         let wrong = WrongValue::not_accepted(friction.to_toml(), expected);
         Err(refuse(place, &path, wrong))
+    }
+
+    /// The values that designs have for a parameter, of a range its ends, with the dotted key and the place where they are written.
+    fn values(&self, key: &str) -> Option<(Vec<Scalar>, String, &Place)> {
+        let (path, parameter, place) = self.written().find(|(_, p, _)| p.key == key)?;
+        let axis = self.axes.iter().find(|written| written.axis.parameter() == parameter);
+        let variable = self.variables.iter().find(|(v, _)| v.parameter() == parameter);
+        let values = match (axis, variable.map(|(variable, _)| variable.values())) {
+            (Some(WrittenAxis { axis, .. }), _) => (0..axis.len()).map(|k| axis.value(k)).collect(),
+            (None, Some(VariableValues::OneOf(values))) => values.clone(),
+            (None, Some(VariableValues::Between(from, to))) => {
+                vec![Scalar::Number(*from), Scalar::Number(*to)]
+            }
+            (None, None) => vec![parameter.get(&self.case)],
+        };
+        Some((values, path, place))
     }
 
     /// Refuses a radius of a needle that is not guided.

@@ -133,6 +133,13 @@ fn a_guided_needle_has_a_tilt_and_a_friction() {
             "{refused}"
         );
     }
+    // The ends of a range are values of a variable, too, and a search begins at them.
+    let varied = "variables.needle_friction = { from = 0, to = 0.5 }";
+    insta::assert_snapshot!(read(varied).unwrap_err(), @"x.toml:2: variables.needle_friction: 0 is not accepted, expected a number of at least 1e-10: its arctangent is the critical tilt of a free needle");
+    for needle in ["puncture.needle = 'guided'", "variables.needle = ['free', 'guided']"] {
+        let read = read(&format!("{varied}\n{needle}"));
+        assert_eq!(read.is_ok(), needle.starts_with("puncture"), "{needle}");
+    }
     let smooth = "puncture = { needle_friction = 0, needle = 'guided' }";
     assert_eq!(puncture(smooth, 0).needle, Needle::Guided { friction: 0.0 });
     assert_eq!(puncture(smooth, 0).critical_tilt_deg, 10.0);
@@ -145,7 +152,7 @@ fn a_guided_needle_has_a_tilt_and_a_friction() {
     let several = "puncture = { needle_friction = [0.1, 0.2], needle = 'guided' }";
     let refused = read(several).unwrap_err().to_string();
     assert!(refused.contains("as an axis in [designs]"), "{refused}");
-    for friction in ["0", "1e-30"] {
+    for friction in ["0", "1e-30", "[0, 0.1]"] {
         let refused = read(&format!("puncture.needle_friction = {friction}")).unwrap_err();
         assert!(refused.to_string().contains("a number of at least 1e-10"), "{refused}");
     }
