@@ -2,10 +2,9 @@
 
 use results::columns::{Cell, design_columns};
 use results::{
-    Claim, Column, CsvFormat, DesignRow, Maker, OutputError, RunFolder, finite, write_rows,
-    write_text,
+    Claim, Column, CsvFormat, DesignRow, Maker, RunFolder, WrittenTable, finite, write_rows,
 };
-use sweep::Case;
+use store::JournalError;
 
 use crate::answer::Answer;
 use crate::best::BestDesign;
@@ -156,36 +155,34 @@ fn cells(
 /// the names of the files.
 ///
 /// # Errors
-/// If the folder or the disk does not take them.
+/// If the search found something else before in the same journal, or the folder or the disk does not take them.
 pub fn write_found(
     folder: &RunFolder,
     goal: &DesignGoal,
     found: &Found,
     figures: &[(String, String)],
     format: CsvFormat,
-) -> Result<Vec<String>, OutputError> {
-    let mut files = vec![GOAL, HISTORY];
+) -> Result<Vec<String>, JournalError> {
+    let tables = found_tables(goal, found);
+    refuse_edited(folder, &tables)?;
+    let mut files = vec![GOAL];
     // Before any table is written: the claim removes those of an earlier search.
     let mut claim = Claim::take(folder, Maker::Search)?;
     folder.write_text(GOAL, goal.to_toml())?;
-    write_rows(folder, HISTORY, format, &history_columns(goal), history(goal, found))?;
-    match &found.answer {
-        Answer::Optimum(best) => {
-            write_best(folder, OPTIMUM, goal, std::slice::from_ref(best.as_ref()), format)?;
-            write_definition(folder, OPTIMUM_DEFINITION, goal, &best.row.case)?;
-            files.extend([OPTIMUM, OPTIMUM_DEFINITION]);
-        }
-        Answer::Front(front) => {
-            write_best(folder, FRONT, goal, &front.designs, format)?;
-            files.push(FRONT);
-        }
-        Answer::Infeasible(nearest) => {
-            if let Some(nearest) = nearest.and_then(|index| found.history.get(index)) {
-                let case = goal.space.case(&nearest.point);
-                write_definition(folder, NEAREST_DEFINITION, goal, &case)?;
-                files.push(NEAREST_DEFINITION);
-            }
-        }
+    for FoundTable { name, columns, rows } in &tables {
+        write_rows(folder, name, format, columns, rows)?;
+        files.push(name);
+    }
+    let definition = match &found.answer {
+        Answer::Optimum(best) => Some((OPTIMUM_DEFINITION, best.row.case)),
+        Answer::Front(_) => None,
+        Answer::Infeasible(nearest) => nearest
+            .and_then(|index| found.history.get(index))
+            .map(|nearest| (NEAREST_DEFINITION, goal.space.case(&nearest.point))),
+    };
+    if let Some((name, case)) = definition {
+        folder.write_text(name, &goal.space.sweep().at(&case).to_toml())?;
+        files.push(name);
     }
     let mut files: Vec<String> = files.into_iter().map(str::to_owned).collect();
     for (name, svg) in figures {
@@ -197,22 +194,54 @@ pub fn write_found(
     Ok(files)
 }
 
-fn write_definition(
-    folder: &RunFolder,
-    file: &str,
-    goal: &DesignGoal,
-    case: &Case,
-) -> Result<(), OutputError> {
-    write_text(folder.path(), file, &goal.space.sweep().at(case).to_toml()).map(|_| ())
+/// A table of what was found.
+struct FoundTable {
+    name: &'static str,
+    columns: Vec<Column<Cells>>,
+    rows: Vec<Cells>,
 }
 
-fn write_best(
-    folder: &RunFolder,
-    file: &str,
-    goal: &DesignGoal,
-    designs: &[BestDesign],
-    format: CsvFormat,
-) -> Result<(), OutputError> {
+/// The history, and the best designs if there are any.
+fn found_tables(goal: &DesignGoal, found: &Found) -> Vec<FoundTable> {
+    let rows = history(goal, found).collect();
+    let history = FoundTable { name: HISTORY, columns: history_columns(goal), rows };
+    let (name, best) = match &found.answer {
+        Answer::Optimum(best) => (OPTIMUM, std::slice::from_ref(best.as_ref())),
+        Answer::Front(front) => (FRONT, front.designs.as_slice()),
+        Answer::Infeasible(_) => return vec![history],
+    };
+    let (columns, rows) = (optimum_columns(goal), best_rows(goal, best));
+    vec![history, FoundTable { name, columns, rows }]
+}
+
+/// Refuses tables that say something else than those of the same search in `folder` that are as they were written: it finds the same
+/// again in a journal that is as it was.
+fn refuse_edited(folder: &RunFolder, tables: &[FoundTable]) -> Result<(), JournalError> {
+    let Some(stated) = Claim::stated(folder, Maker::Search) else { return Ok(()) };
+    for FoundTable { name, columns, rows } in tables {
+        let Some(table) = WrittenTable::as_stated(folder, name, &stated) else { continue };
+        let mut rows = rows.iter();
+        // A row that is not there any more is empty now.
+        let row = |_: &_| {
+            let row = rows.next().cloned();
+            Ok(Some(row.unwrap_or_else(|| vec![Cell::Empty; columns.len()])))
+        };
+        let changed: Result<Vec<String>, JournalError> = table.changed(columns, row);
+        let first = changed?.into_iter().next();
+        if let Some(line) = first.or_else(|| rows.next().map(|row| row[0].to_string())) {
+            return Err(JournalError::Edited {
+                path: folder.file(RunFolder::EVALUATIONS),
+                line: format!("{} {line}", columns[0].name),
+                table: (*name).to_owned(),
+                again: "with --fresh",
+            });
+        }
+    }
+    Ok(())
+}
+
+/// The rows of `optimum.csv` or `front.csv`.
+fn best_rows(goal: &DesignGoal, designs: &[BestDesign]) -> Vec<Cells> {
     let sweep = goal.space.sweep();
     let (words, known) = (Words::new(goal), design_columns(sweep));
     let row = |(index, best): (usize, &BestDesign)| {
@@ -227,8 +256,7 @@ fn write_best(
         cells.extend(statistic_cells(goal, best));
         cells
     };
-    let rows = designs.iter().enumerate().map(row);
-    write_rows(folder, file, format, &optimum_columns(goal), rows).map(|_| ())
+    designs.iter().enumerate().map(row).collect()
 }
 
 /// The rows of `history.csv`.

@@ -88,4 +88,5 @@ pub use store::{
 };
 pub use tables::csv_file::{CsvFile, write_rows};
 pub use tables::csv_format::{CsvFormat, UnknownCsvFormat};
+pub use tables::written_table::WrittenTable;
 pub use yardstick::{incomparable_by, yardsticks};

@@ -2,3 +2,4 @@
 
 pub mod csv_file;
 pub mod csv_format;
+pub mod written_table;

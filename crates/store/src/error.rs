@@ -37,12 +37,16 @@ pub enum JournalError {
     #[error("{}: is not a regular file, expected a journal that squama writes", .0.display())]
     NoFile(PathBuf),
     /// A line was changed and sealed again.
-    #[error("{}: design {design} is not what the tables beside it say, though its line is sealed: somebody has changed it; put back the journal as it was, or solve everything again with --fresh", path.display())]
+    #[error("{}: {line} is not what {table} says, which was written from it: somebody has changed one of its lines; put back the journal as it was, or solve everything again {again}", path.display())]
     Edited {
         /// The path of the journal.
         path: PathBuf,
-        /// The number of the first such design.
-        design: String,
+        /// What the first such line is of.
+        line: String,
+        /// The table.
+        table: String,
+        /// How to solve everything again.
+        again: &'static str,
     },
     /// Lines at the end of the journal are missing.
     #[error("{}: {lost}; restore them from a copy of the journal, or solve them again with squama run --resume", path.display())]

@@ -1,14 +1,15 @@
 //! Samples that were solved, kept so that none is solved twice.
 
 use std::collections::BTreeMap;
+use std::convert::Infallible;
 use std::ops::Range;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use rayon::prelude::*;
-use results::{Cell, Column, CsvFormat, OutputError, RunFolder, write_rows};
-use run::{JournalHeader, Start, WorkMeter};
+use results::{Cell, Column, CsvFormat, RunFolder, WrittenTable, write_rows};
+use run::{JournalError, JournalHeader, Start, WorkMeter};
 use serde::{Deserialize, Serialize};
 use store::{Journal, Records};
 
@@ -84,7 +85,7 @@ impl SampleStore {
     pub(crate) fn samples(
         &self,
         (label, header): (&str, JournalHeader),
-        columns: &[String],
+        names: &[String],
         count: usize,
         stop: &AtomicBool,
         solve: impl Fn(u64) -> Vec<Option<f64>> + Sync,
@@ -99,6 +100,15 @@ impl SampleStore {
         let path = self.folder.file(&format!("{name}.jsonl"));
         let journal = Mutex::new(Journal::<KeptSamples>::begin(&path, header, Start::Resume)?);
         let lock = || journal.lock().unwrap_or_else(PoisonError::into_inner);
+        let columns = columns(names);
+        let table = format!("{name}.csv");
+        for number in self.differing(&table, &columns, &lock().records().values) {
+            // Samples are drawn by their numbers: solved again, one tells which of the two was changed.
+            if !stop.load(Ordering::Relaxed) && solve(number) != lock().records().values[&number] {
+                let (line, again) = (format!("sample {number}"), "by removing the journal");
+                return Err(JournalError::Edited { path, line, table, again }.into());
+            }
+        }
         let mut missing: Vec<u64> = (1..=count as u64).collect();
         missing.retain(|number| !lock().records().values.contains_key(number));
         self.work.leave_out((count - missing.len()) as u64);
@@ -121,26 +131,38 @@ impl SampleStore {
             return Err(NoAnalysis::Stopped { done: samples.len(), of: count });
         }
         // Each time, from the journal: a table that somebody has changed does not stay.
-        self.write(&format!("{name}.csv"), columns, &samples)?;
+        write_rows(&self.folder, &table, CsvFormat::Plain, &columns, &samples)?;
         Ok(samples)
     }
 
-    /// Writes the table of samples called `name`.
-    fn write(
+    /// The numbers of the samples that the table `name` has with other values than those that are kept.
+    fn differing(
         &self,
         name: &str,
-        columns: &[String],
-        samples: &[SolvedSample],
-    ) -> Result<(), OutputError> {
-        let number = Column::new("sample", "-", "number of the sample", |sample: &SolvedSample| {
-            Cell::Count(sample.number as i64)
+        columns: &[Column<SolvedSample>],
+        kept: &BTreeMap<u64, Vec<Option<f64>>>,
+    ) -> Vec<u64> {
+        let Some(table) = WrittenTable::open(&self.folder, name) else { return Vec::new() };
+        let number = |cell: &str| cell.parse::<u64>().ok();
+        let changed = table.changed(columns, |record| {
+            let number = number(&record[0]);
+            let values = number.and_then(|number| kept.get(&number)).cloned();
+            let sample = number.zip(values).map(|(number, values)| SolvedSample { number, values });
+            Ok::<_, Infallible>(sample)
         });
-        let others = columns.iter().enumerate().map(|(index, name)| {
-            Column::made(name.clone().into(), "", "", move |sample: &SolvedSample| {
-                sample.values[index].into()
-            })
-        });
-        let columns: Vec<_> = std::iter::once(number).chain(others).collect();
-        write_rows(&self.folder, name, CsvFormat::Plain, &columns, samples).map(|_| ())
+        changed.into_iter().flatten().filter_map(|cell| number(&cell)).collect()
     }
+}
+
+/// The columns of a table of samples.
+fn columns(names: &[String]) -> Vec<Column<SolvedSample>> {
+    let number = Column::new("sample", "-", "number of the sample", |sample: &SolvedSample| {
+        Cell::Count(sample.number as i64)
+    });
+    let others = names.iter().enumerate().map(|(index, name)| {
+        Column::made(name.clone().into(), "", "", move |sample: &SolvedSample| {
+            sample.values[index].into()
+        })
+    });
+    std::iter::once(number).chain(others).collect()
 }

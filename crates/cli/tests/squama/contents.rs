@@ -141,28 +141,39 @@ fn the_derivatives_belong_to_the_run_like_any_table() {
     assert_eq!(place.read("strange/sensitivity.csv"), "mine");
 }
 
+/// Changes the lines of a journal behind the first, which names its header by `key`, and seals them again.
+fn reseal(place: &Place, journal: &str, key: &str, change: impl Fn(&mut serde_json::Value)) {
+    let text = place.read(journal);
+    let (first, rest) = text.split_once('\n').expect("lines");
+    let header: serde_json::Value = serde_json::from_str(first).expect("JSON");
+    let words = ["definition_sha256", "version", "revision"];
+    let words = words.map(|word| header[key][word].as_str().expect("text"));
+    let mut bytes = format!("{first}\n").into_bytes();
+    for line in rest.lines() {
+        let mut line: serde_json::Value = serde_json::from_str(line).expect("JSON");
+        line.as_object_mut().expect("an object").remove("crc");
+        change(&mut line);
+        bytes.extend(store::Seal::over(&words).seal(&line));
+    }
+    fs::write(place.path(journal), bytes).expect("writable");
+}
+
 #[test]
 fn a_journal_that_was_changed_and_sealed_again_is_not_believed() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --out r").assert().code(0);
     let sound = place.read("r/journal.jsonl");
-    let mut lines = sound.lines().map(str::to_owned).collect::<Vec<_>>();
-    let header: serde_json::Value = serde_json::from_str(&lines[0]).expect("JSON");
-    let words = ["definition_sha256", "version", "revision"];
-    let words = words.map(|key| header["journal"][key].as_str().expect("text").to_owned());
-    let texts = words.each_ref().map(String::as_str);
     // Another coverage of the third design.
-    let content = lines.iter().position(|line| line.contains("\"design\":3,")).expect("a design");
-    let mut line: serde_json::Value = serde_json::from_str(&lines[content]).expect("JSON");
-    line["design"]["result"]["coverage"] = 0.875.into();
-    let design = serde_json::json!({ "design": line["design"] });
-    lines[content] =
-        String::from_utf8(store::Seal::over(&texts).seal(&design)).expect("text").trim().to_owned();
-    fs::write(place.path("r/journal.jsonl"), lines.join("\n") + "\n").expect("writable");
+    reseal(&place, "r/journal.jsonl", "journal", |line| {
+        let design = &mut line["design"];
+        if design["design"] == 3 {
+            design["result"]["coverage"] = 0.875.into();
+        }
+    });
     assert!(place.refused("rank r").contains("is not the journal from which the tables beside it"));
     for command in ["merge r --out r", "run x.toml --resume --out r", "rerun r --design 1"] {
         let message = place.refused(command);
-        assert!(message.contains("design 0003 is not what the tables beside it say"), "{message}");
+        assert!(message.contains("design 0003 is not what designs.csv says"), "{message}");
     }
     fs::write(place.path("r/journal.jsonl"), &sound).expect("writable");
     place.prints("rank r");
@@ -172,6 +183,71 @@ fn a_journal_that_was_changed_and_sealed_again_is_not_believed() {
     fs::write(place.path("r/journal.jsonl"), swapped.join("\n") + "\n").expect("writable");
     place.squama("merge r --out r").assert().code(0);
     place.prints("rank r");
+}
+
+#[test]
+fn evaluations_that_were_changed_and_sealed_again_are_not_believed() {
+    let goal = "name = 'goal'\nmeasures = ['coverage', 'flexure']\n[variables]\nslant_deg = { from = 0, to = 60 }\n\
+        [designs]\ngap_over_t = 0.3\nlength_over_t = 1\n[goal]\nmaximize = 'coverage'\nsamples = 16\n";
+    let place = Place::with(goal);
+    place.prints("optimise x.toml --out found --csv excel-eu");
+    let (journal, sound) = ("found/evaluations.jsonl", place.read("found/evaluations.jsonl"));
+    let tables = ["history.csv", "optimum.csv"];
+    let tables = tables.map(|file| (file, place.read(&format!("found/{file}"))));
+    // A column of the goal leads the search elsewhere; of another the best design alone tells.
+    let better = |line: &mut serde_json::Value| {
+        let coverage = &mut line["solved"]["result"]["coverage"];
+        if coverage.as_f64().is_some_and(|coverage| coverage > 0.76) {
+            *coverage = 0.9.into();
+        }
+    };
+    let stiffer = |line: &mut serde_json::Value| {
+        line["solved"]["result"]["flexure"]["measures"]["initial_compliance"] = 0.5.into();
+    };
+    let changes: [&dyn Fn(&mut serde_json::Value); 2] = [&better, &stiffer];
+    for (change, (file, table)) in changes.iter().zip(&tables) {
+        reseal(&place, journal, "optimisation", change);
+        let message = place.refused("optimise x.toml --out found --resume");
+        assert!(message.starts_with(&format!("error: {journal}: ")), "{message}");
+        assert!(message.contains(&format!("is not what {file} says")), "{message}");
+        assert_eq!(place.read(&format!("found/{file}")), *table);
+        fs::write(place.path(journal), &sound).expect("writable");
+    }
+    // What is lost is found again, in whatever order lines stand.
+    let mut lines: Vec<&str> = sound.lines().collect();
+    lines.swap(3, 5);
+    fs::write(place.path(journal), lines[..lines.len() / 2].join("\n") + "\n").expect("writable");
+    place.prints("optimise x.toml --out found --resume --csv excel-eu");
+    for (file, table) in &tables {
+        assert_eq!(place.read(&format!("found/{file}")), *table);
+    }
+}
+
+#[test]
+fn samples_that_were_changed_and_sealed_again_are_not_believed() {
+    let place = Place::with(
+        "name = 'x'\nmeasures = 'coverage'\n[designs]\ngap_over_t = 0.3\nlength_over_t = 1\nslant_deg = 45\n\
+         [tolerance]\ngap_over_t = { batch_sd = 0.01 }\n",
+    );
+    let command = "tolerance x.toml --samples 4 --out made";
+    place.prints(command);
+    let listed = place.list("made/samples");
+    let name = listed.split_whitespace().find(|name| name.ends_with(".jsonl")).expect("a journal");
+    let (journal, table) = (format!("made/samples/{name}"), name.replace("jsonl", "csv"));
+    let sound = [&journal, &format!("made/samples/{table}")].map(|file| place.read(file));
+    reseal(&place, &journal, "samples", |line| {
+        if line["number"] == 3 {
+            line["values"][1] = 0.5.into();
+        }
+    });
+    let message = place.refused(command);
+    assert!(message.contains(&format!("sample 3 is not what {table} says")), "{message}");
+    assert_eq!(place.read(&format!("made/samples/{table}")), sound[1]);
+    fs::write(place.path(&journal), &sound[0]).expect("writable");
+    // Where it is the table that was changed, the sample itself tells.
+    change(&place, &format!("made/samples/{table}"), "0.", "1.");
+    place.prints(command);
+    assert_eq!(place.read(&format!("made/samples/{table}")), sound[1]);
 }
 
 #[test]

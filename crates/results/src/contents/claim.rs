@@ -3,6 +3,7 @@
 //! A record in `derived/` names them before the first of them is written, and their SHA-256 after the last: so what a kill leaves
 //! is known for what it is, a changed file is noticed, and no file is written over that squama has not written.
 
+use std::collections::BTreeMap;
 use std::fs::{self, File};
 
 use store::{OutputError, lock_folder, sha256_of};
@@ -26,14 +27,20 @@ impl<'f> Claim<'f> {
     /// # Errors
     /// If there is one.
     pub fn check(folder: &RunFolder, maker: Maker) -> Result<(), OutputError> {
-        let made = Derivation::read(folder, maker.key());
+        let stated = Self::stated(folder, maker);
         // A record that was damaged tells no names, but that there were some.
-        if made.is_none() && folder.holds(&format!("{}/{}.toml", RunFolder::DERIVED, maker.key())) {
+        if stated.is_none() && folder.holds(&format!("{}/{}.toml", RunFolder::DERIVED, maker.key()))
+        {
             return Ok(());
         }
-        let known = made.map(|made| made.files).unwrap_or_default();
+        let known = stated.unwrap_or_default();
         let mut strange = FileEntry::products(maker).filter(|file| !known.contains_key(file.name));
         strange.try_for_each(|file| require_none(folder, file.name))
+    }
+
+    /// SHA-256 of the files that `maker` states in `folder`, by their names; `None` if it states nothing.
+    pub fn stated(folder: &RunFolder, maker: Maker) -> Option<BTreeMap<String, String>> {
+        Derivation::read(folder, maker.key()).map(|made| made.files)
     }
 
     /// The claim of `maker` to its files in `folder`. Those of an earlier time are removed, unless somebody has changed them: no
