@@ -102,9 +102,12 @@ impl SampleStore {
         let lock = || journal.lock().unwrap_or_else(PoisonError::into_inner);
         let columns = columns(names);
         let table = format!("{name}.csv");
-        for number in self.differing(&table, &columns, &lock().records().values) {
+        // By itself: the lock would be held as long as the loop, which takes it again.
+        let differing = self.differing(&table, &columns, &lock().records().values);
+        for number in differing {
             // Samples are drawn by their numbers: solved again, one tells which of the two was changed.
-            if !stop.load(Ordering::Relaxed) && solve(number) != lock().records().values[&number] {
+            let kept = lock().records().values[&number].clone();
+            if !stop.load(Ordering::Relaxed) && solve(number) != kept {
                 let (line, again) = (format!("sample {number}"), "by removing the journal");
                 return Err(JournalError::Edited { path, line, table, again }.into());
             }
