@@ -112,7 +112,7 @@ pub fn read(folder: PathBuf) -> PyResult<Vec<(String, Vec<String>)>> {
     let file = files.into_iter().find(|file| folder.join(file).is_file());
     let results = results(&folder, file.unwrap_or(RunFolder::DESIGNS))?;
     let cells =
-        |column| (0..results.len()).map(|row| results.text(row, column).to_owned()).collect();
+        |column| (0..results.len()).map(|row| results.text(row, column).into_owned()).collect();
     Ok(results.header().iter().cloned().enumerate().map(|(k, name)| (name, cells(k))).collect())
 }
 
@@ -142,7 +142,8 @@ pub fn rank(
     let ranking = ranking.or_failed("rank")?;
     let parameters: Vec<_> = results.parameters().collect();
     let columns = ranking_columns(&parameters, ranking.preferences());
-    Ok(table(&columns, &ranking.by_fitness(ranking.preferences().weights)))
+    let ranked: Vec<_> = ranking.by_fitness(ranking.preferences().weights).collect();
+    Ok(table(&columns, &ranked))
 }
 
 fn requirements(texts: &[String]) -> PyResult<Vec<Requirement>> {

@@ -4,12 +4,13 @@ mod columns;
 mod correlation;
 mod matching;
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::Path;
 
 use rayon::prelude::*;
 use results::columns::parameter_of;
-use results::{Claim, InvalidResults, Maker, OutputError, Results, RunFolder, write_rows};
+use results::{Claim, InvalidResults, Maker, OutputError, Results, RunFolder, Table, write_rows};
 use sweep::Parameter;
 
 use matching::Matching;
@@ -122,7 +123,7 @@ impl<'a> Difference<'a> {
     }
 
     /// The value of a parameter in the first run.
-    pub fn parameter(&self, parameter: &Parameter) -> &'a str {
+    pub fn parameter(&self, parameter: &Parameter) -> Cow<'a, str> {
         self.first.parameter(self.rows[0], parameter)
     }
 
@@ -131,23 +132,30 @@ impl<'a> Difference<'a> {
         self.first.header().get(self.columns[0]).map_or("", String::as_str)
     }
 
+    /// Each cell as the table that it is in, its row and its column.
+    fn cells(&self) -> [(&'a Table, usize, usize); 2] {
+        let ([row, other_row], [column, other_column]) = (self.rows, self.columns);
+        [(self.first.table(), row, column), (self.second.table(), other_row, other_column)]
+    }
+
     /// The cells.
-    pub fn texts(&self) -> [&'a str; 2] {
-        let [first, second] = self.rows;
-        [self.first.text(first, self.columns[0]), self.second.text(second, self.columns[1])]
+    pub fn texts(&self) -> [Cow<'a, str>; 2] {
+        self.cells().map(|(table, row, column)| table.text(row, column))
     }
 
     /// The cells as numbers, if both are.
     pub fn numbers(&self) -> Option<[f64; 2]> {
-        let [first, second] = self.texts().map(|text| text.parse::<f64>().ok());
+        let [first, second] = self.cells().map(|(table, row, column)| table.number(row, column));
         Some([first?, second?])
     }
 
     fn is_within(&self, tolerance: f64, noise: f64) -> bool {
-        let [first, second] = self.texts();
         let is_small = |pair| relative(pair) <= tolerance || absolute(pair) <= noise;
-        // As texts first: words are compared here too.
-        first == second || self.numbers().is_some_and(is_small)
+        // As texts where they are no numbers: words are compared here too.
+        self.numbers().is_some_and(is_small) || {
+            let [first, second] = self.texts();
+            first == second
+        }
     }
 }
 
@@ -242,12 +250,12 @@ impl Comparison<'_> {
         let mut numbers = Vec::new();
         for &rows in &self.matching.pairs {
             let cell = self.cell(rows, columns);
-            match cell.texts() {
+            match cell.cells().map(|(table, row, column)| table.is_empty(row, column)) {
                 // No value in both, as of a design that fails in both, is no difference.
-                ["", ""] => {}
-                [_, ""] => column.only_first += 1,
-                ["", _] => column.only_second += 1,
-                _ => {
+                [true, true] => {}
+                [false, true] => column.only_first += 1,
+                [true, false] => column.only_second += 1,
+                [false, false] => {
                     column.compared += 1;
                     column.differing +=
                         usize::from(!cell.is_within(self.tolerance, compared.noise));
@@ -296,7 +304,7 @@ impl ColumnDifference {
     /// Takes a cell that both runs have into account.
     fn add(&mut self, cell: &Difference<'_>) {
         let Some(pair) = cell.numbers() else {
-            let [first, second] = cell.texts().map(str::to_owned);
+            let [first, second] = cell.texts().map(Cow::into_owned);
             if first != second {
                 *self.changes.entry((first, second)).or_default() += 1;
             }

@@ -2,30 +2,29 @@
 
 use std::cmp::Ordering;
 
-use crate::weights::Criteria;
-
 /// A point of four coordinates, larger being better.
 type Quadruple = [f64; 4];
 
-/// Marks which of `points`, each with `count` criteria, no other dominates.
-pub(crate) fn front_of(points: &[Criteria], count: usize) -> Vec<bool> {
+/// Marks which of some points, each with `count` criteria one after the other, no other dominates.
+pub(crate) fn front_of(criteria: &[f64], count: usize) -> Vec<bool> {
+    let points = criteria.chunks_exact(count);
     // The sweep below has room for four coordinates.
     if count > 4 {
-        return sifted(points);
+        return sifted(&points.collect::<Vec<_>>());
     }
     // Criteria beyond the last are 0 for all and tell nothing apart.
-    let four = |point: &Criteria| [point[0], point[1], point[2], point[3]];
-    pareto_front(&points.iter().map(four).collect::<Vec<_>>())
+    let four = |point: &[f64]| std::array::from_fn(|c| point.get(c).copied().unwrap_or(0.0));
+    pareto_front(&points.map(four).collect::<Vec<_>>())
 }
 
 /// Marks which of `points` no other dominates, whatever their dimension: each is compared with those before it, in
 /// the order in which they may dominate each other, that are on the front themselves.
-fn sifted(points: &[Criteria]) -> Vec<bool> {
+fn sifted(points: &[&[f64]]) -> Vec<bool> {
     let mut order: Vec<usize> = (0..points.len()).collect();
-    order.sort_by(|&a, &b| compare(&points[b], &points[a]));
+    order.sort_by(|&a, &b| compare(points[b], points[a]));
     let mut front: Vec<usize> = Vec::new();
     for point in order {
-        if !front.iter().any(|&other| dominates(&points[other], &points[point])) {
+        if !front.iter().any(|&other| dominates(points[other], points[point])) {
             front.push(point);
         }
     }
@@ -207,11 +206,11 @@ mod tests {
             points in prop::collection::vec(prop::array::uniform8(-1_i32..3), 0..60),
             count in 5_usize..9,
         ) {
-            let cut = |p: &[i32; 8]| std::array::from_fn(|c| if c < count { f64::from(p[c]) } else { 0.0 });
-            let points: Vec<Criteria> = points.iter().map(cut).collect();
-            let beaten = |q: &Criteria| points.iter().any(|p| dominates(p, q));
-            let expected: Vec<bool> = points.iter().map(|q| !beaten(q)).collect();
-            prop_assert_eq!(front_of(&points, count), expected);
+            let cut = |p: &[i32; 8]| p.map(f64::from)[..count].to_vec();
+            let points: Vec<f64> = points.iter().flat_map(cut).collect();
+            let points = || points.chunks_exact(count);
+            let expected: Vec<bool> = points().map(|q| !points().any(|p| dominates(p, q))).collect();
+            prop_assert_eq!(front_of(&points().collect::<Vec<_>>().concat(), count), expected);
         }
     }
 }

@@ -1,14 +1,17 @@
 //! The ranking of designs: by weighted fitness, for all weights, and without any.
 
 mod columns;
-mod contender;
+mod contenders;
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use rayon::prelude::*;
-use results::columns::name;
+use results::columns::{name, parameter_of};
 use results::round_off::ROUND_OFF;
-use results::{Claim, InvalidResults, Maker, OutputError, Results, RunFolder, write_rows};
+use results::{
+    Claim, InvalidResults, Maker, OutputError, Results, RunFolder, VerifiedFolder, write_rows,
+};
 
 use crate::criterion::Criterion;
 use crate::incomparable::Incomparable;
@@ -17,7 +20,7 @@ use crate::tetrahedral_grid::{Steps, TetrahedralGrid};
 use crate::unmet::Unmet;
 use crate::weights::Weights;
 pub use columns::{pareto_columns, quaternary_columns, ranking_columns, winner_columns};
-use contender::{Contender, LeftOut};
+use contenders::{Contenders, LeftOut};
 
 /// The number of criteria whose weights fill a tetrahedron.
 const FOUR: usize = 4;
@@ -28,10 +31,18 @@ pub struct Ranking<'r> {
     results: &'r Results,
     preferences: Preferences,
     grid: TetrahedralGrid,
-    candidates: Vec<Contender>,
-    /// The candidate that is best at each node of the grid; none unless there are four criteria.
+    contenders: Contenders,
+    /// The contender that is best at each node of the grid; none unless there are four criteria.
     winners: Vec<usize>,
+    wins: BTreeMap<usize, Wins>,
     left_out: Vec<(String, usize)>,
+}
+
+/// The nodes of the grid of weights at which a design is the best, and their part of the tetrahedron.
+#[derive(Clone, Copy, Debug, Default)]
+struct Wins {
+    nodes: usize,
+    cells: u64,
 }
 
 /// Results that hold no design to rank.
@@ -61,10 +72,8 @@ pub enum InvalidRanking {
 /// A design at some weights: a row of the tables.
 #[derive(Clone, Copy, Debug)]
 pub struct RankedDesign<'a> {
-    results: &'a Results,
-    candidate: &'a Contender,
-    count: usize,
-    whole: u64,
+    ranking: &'a Ranking<'a>,
+    contender: usize,
     /// The weights.
     pub weights: Weights,
     /// The fitness `f` (R3, R8).
@@ -76,37 +85,43 @@ pub struct RankedDesign<'a> {
 impl<'a> RankedDesign<'a> {
     /// The row of the design in the results.
     pub fn row(&self) -> usize {
-        self.candidate.row
+        self.ranking.contenders.rows[self.contender]
     }
 
     /// The number of the design.
     pub fn design(&self) -> &'a str {
-        self.results.design(self.candidate.row)
+        self.ranking.results.design(self.row())
     }
 
-    /// The values that its criteria are made from, in the order of the criteria.
-    pub fn values(&self) -> &'a [f64] {
-        &self.candidate.values[..self.count]
+    /// The value that a criterion, named by its place, is made from.
+    pub fn value(&self, criterion: usize) -> f64 {
+        let column = self.ranking.contenders.columns[criterion];
+        // A cell that is no number has ended the ranking before.
+        self.ranking.results.table().number(self.row(), column).unwrap_or(f64::NAN)
     }
 
-    /// The criteria of the design, larger being better (R1).
-    pub fn criteria(&self) -> &'a [f64] {
-        &self.candidate.criteria[..self.count]
+    /// A criterion of the design, named by its place, larger being better (R1).
+    pub fn criterion(&self, criterion: usize) -> f64 {
+        contenders::criterion(&self.ranking.preferences, criterion, self.value(criterion))
+    }
+
+    /// A criterion of the design, named by its place, from 0, the worst of the designs that are ranked, to 1, the best.
+    pub fn rescaled(&self, criterion: usize) -> f64 {
+        self.ranking.contenders.rescaled(criterion, self.criterion(criterion))
     }
 
     /// The part of the tetrahedron of weights in which the design is the best.
     pub fn share(&self) -> f64 {
-        self.candidate.won as f64 / self.whole as f64
+        self.wins().cells as f64 / self.ranking.grid.whole() as f64
+    }
+
+    fn wins(&self) -> Wins {
+        self.ranking.wins.get(&self.contender).copied().unwrap_or_default()
     }
 
     /// Whether no other design beats it in every criterion.
     pub fn on_front(&self) -> bool {
-        self.candidate.on_front
-    }
-
-    /// The criteria of the design from 0, the worst of the designs that are ranked, to 1, the best.
-    pub fn rescaled(&self) -> &'a [f64] {
-        &self.candidate.rescaled[..self.count]
+        self.ranking.contenders.on_front[self.contender]
     }
 }
 
@@ -129,7 +144,7 @@ impl<'r> Ranking<'r> {
         preferences: Preferences,
         grid: TetrahedralGrid,
     ) -> Result<Self, InvalidRanking> {
-        let (rows, reasons) = contender::sort_out(results, &preferences)?;
+        let (contenders, reasons) = contenders::sort_out(results, &preferences)?;
         let unmet: usize = reasons.iter().filter(|(why, _)| why.is_unmet()).map(|(_, n)| n).sum();
         // A design that is left out for another reason meets them: they are not what is in the way.
         if unmet > 0 && unmet == results.len() {
@@ -137,12 +152,34 @@ impl<'r> Ranking<'r> {
         }
         let words = |(why, count): (LeftOut, usize)| (why.in_words(&preferences), count);
         let left_out: Vec<_> = reasons.into_iter().map(words).collect();
-        if rows.is_empty() {
+        if contenders.rows.is_empty() {
             return Err(nothing(results, &preferences, &left_out));
         }
-        let mut candidates = contender::contenders(&rows, &preferences);
-        let winners = winners(&mut candidates, grid, preferences.criteria.len());
-        Ok(Self { results, preferences, grid, candidates, winners, left_out })
+        let winners = winners(&contenders, grid);
+        let mut wins: BTreeMap<usize, Wins> = BTreeMap::new();
+        for (&winner, steps) in winners.iter().zip(grid.nodes()) {
+            let own = wins.entry(winner).or_default();
+            own.nodes += 1;
+            own.cells += TetrahedralGrid::cell(steps);
+        }
+        Ok(Self { results, preferences, grid, contenders, winners, wins, left_out })
+    }
+
+    /// The results in `folder`, as far as a ranking by `preferences` reads them.
+    ///
+    /// # Errors
+    /// As [`Results::read_from`].
+    pub fn results(
+        folder: &VerifiedFolder,
+        preferences: &Preferences,
+    ) -> Result<Results, InvalidResults> {
+        let is_criterion = |name: &str| preferences.criteria.iter().any(|c| c.column == name);
+        let is_required = |name: &str| preferences.requirements.iter().any(|r| r.column == name);
+        Results::with_columns(folder, |name| {
+            // Parameters are printed, and tell what is measured alike.
+            let is_always = name == FOLD_FORCE || parameter_of(name).is_some();
+            is_always || is_criterion(name) || is_required(name)
+        })
     }
 
     /// The preferences that the ranking goes by.
@@ -153,7 +190,7 @@ impl<'r> Ranking<'r> {
     /// The number of designs that are ranked.
     #[expect(clippy::len_without_is_empty, reason = "a ranking is never empty")]
     pub fn len(&self) -> usize {
-        self.candidates.len()
+        self.contenders.rows.len()
     }
 
     /// The grid of weights.
@@ -168,35 +205,34 @@ impl<'r> Ranking<'r> {
 
     /// Criteria, by their places, in which all designs are equal but for round-off, so that they do not tell them apart.
     pub fn ties(&self) -> Vec<usize> {
-        let equal = |c: &usize| self.candidates.iter().all(|other| other.rescaled[*c] == 1.0);
-        (0..self.preferences.criteria.len()).filter(equal).collect()
+        let spans = self.contenders.spans.iter().enumerate();
+        spans.filter(|(_, span)| span.is_none()).map(|(c, _)| c).collect()
     }
 
     /// All designs by fitness, the best first; those that are equal but for round-off in the order of their numbers.
-    pub fn by_fitness(&self, weights: Weights) -> Vec<RankedDesign<'_>> {
-        let scored = self.candidates.iter().enumerate();
-        let mut order: Vec<_> = scored.map(|(k, c)| (weights.score(&c.terms), k)).collect();
-        // Stable, and candidates stand in the order of their numbers.
+    pub fn by_fitness(&self, weights: Weights) -> impl ExactSizeIterator<Item = RankedDesign<'_>> {
+        let scored = self.contenders.terms().enumerate();
+        let mut order: Vec<_> = scored.map(|(k, terms)| (weights.score(terms), k)).collect();
+        // Stable, and contenders stand in the order of their numbers.
         order.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let mut ranked = Vec::with_capacity(order.len());
+        let mut ranks = Vec::with_capacity(order.len());
         let mut rest = order.as_mut_slice();
         while let Some(&(best, _)) = rest.first() {
             // From the best on, not from one to the next: many small steps would make all equal.
             let equal = rest.partition_point(|(score, _)| is_as_good(*score, best));
             let (equals, others) = rest.split_at_mut(equal);
             // Within round-off their scores are no order: their numbers are.
-            equals.sort_by_key(|(_, candidate)| *candidate);
-            let place = ranked.len() + 1;
-            let design = |(_, k): &(f64, usize)| self.ranked(&self.candidates[*k], weights, place);
-            ranked.extend(equals.iter().map(design));
+            equals.sort_by_key(|(_, contender)| *contender);
+            let rank = ranks.len() + 1;
+            ranks.extend(equals.iter().map(|(_, contender)| (rank, *contender)));
             rest = others;
         }
-        ranked
+        ranks.into_iter().map(move |(rank, contender)| self.ranked(contender, weights, rank))
     }
 
     /// The best design by `weights`.
     pub fn winner(&self, weights: Weights) -> RankedDesign<'_> {
-        self.ranked(&self.candidates[best(&self.candidates, weights)], weights, 1)
+        self.ranked(best(&self.contenders, weights), weights, 1)
     }
 
     /// The best of the designs under which the surface of the substrate does not fold over, if it does under the best of all; by
@@ -204,66 +240,61 @@ impl<'r> Ranking<'r> {
     pub fn best_unfolded(&self) -> Option<RankedDesign<'_>> {
         let fold = self.results.column(name::FOLD_FORCE).ok()?;
         // A surface that does not fold has no force at its fold: the cell is empty.
-        let is_open = |design: &RankedDesign<'_>| self.results.text(design.row(), fold).is_empty();
+        let is_open = |design: &RankedDesign<'_>| self.results.table().is_empty(design.row(), fold);
         let best = self.winner(self.preferences.weights);
-        let others = || self.by_fitness(self.preferences.weights).into_iter().find(is_open);
+        let others = || self.by_fitness(self.preferences.weights).find(is_open);
         if is_open(&best) { None } else { others() }
     }
 
     /// The number of other designs that are as good as the best one by `weights`, but for round-off.
     pub fn equals(&self, weights: Weights) -> usize {
-        let scores = || self.candidates.iter().map(|candidate| weights.score(&candidate.terms));
+        let scores = || self.contenders.terms().map(|terms| weights.score(terms));
         let largest = scores().fold(f64::NEG_INFINITY, f64::max);
         scores().filter(|score| is_as_good(*score, largest)).count() - 1
     }
 
     /// The designs that no other beats in every criterion, in the order of their numbers.
     pub fn front(&self) -> Vec<RankedDesign<'_>> {
-        let front = self.candidates.iter().filter(|candidate| candidate.on_front);
-        front.map(|candidate| self.ranked(candidate, self.preferences.weights, 0)).collect()
+        let all = (0..self.len()).map(|k| self.ranked(k, self.preferences.weights, 0));
+        all.filter(RankedDesign::on_front).collect()
     }
 
     /// The knee of the front: of its designs the one whose criteria, each rescaled from 0, the worst of the front, to 1, the
     /// best, have the largest sum (R9), the first of equal ones. `None` for a front of fewer than three designs, or of one
     /// criterion.
     pub fn knee(&self) -> Option<RankedDesign<'_>> {
-        let front: Vec<_> = self.candidates.iter().filter(|candidate| candidate.on_front).collect();
+        let (front, count) = (self.front(), self.preferences.criteria.len());
         // Two designs are the ends of a front: no knee lies between them.
-        if front.len() < 3 || self.preferences.criteria.len() < 2 {
+        if front.len() < 3 || count < 2 {
             return None;
         }
-        let sums = contender::sums_of_rescaled(&front);
+        let criteria = front.iter().flat_map(|design| (0..count).map(|c| design.criterion(c)));
+        let sums = contenders::sums_of_rescaled(&criteria.collect::<Vec<_>>(), count);
         let largest = sums.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let knee = sums.iter().position(|sum| is_as_good(*sum, largest))?;
-        Some(self.ranked(front[knee], self.preferences.weights, 0))
+        sums.iter().position(|sum| is_as_good(*sum, largest)).map(|knee| front[knee])
     }
 
     /// The designs that are best for some weights of the grid, the largest share first; none unless there are four criteria.
     pub fn winners(&self) -> Vec<RankedDesign<'_>> {
-        let mut winners: Vec<_> = self.candidates.iter().filter(|c| c.nodes > 0).collect();
+        let mut winners: Vec<_> = self.wins.iter().collect();
         // Stable: of equal shares the design of the smaller number stands first.
-        winners.sort_by_key(|candidate| std::cmp::Reverse(candidate.won));
+        winners.sort_by_key(|(_, wins)| std::cmp::Reverse(wins.cells));
         // No table of winners or of the front has a place: 0 stands for none.
-        winners.into_iter().map(|winner| self.ranked(winner, Weights::BALANCED, 0)).collect()
+        winners.into_iter().map(|(&winner, _)| self.ranked(winner, Weights::BALANCED, 0)).collect()
     }
 
     /// The best design at every node of the grid of weights; none unless there are four criteria.
     pub fn quaternary(&self) -> Vec<RankedDesign<'_>> {
         let at = |(steps, &winner): (Steps, &usize)| {
-            self.ranked(&self.candidates[winner], Weights::at(self.grid, steps), 1)
+            self.ranked(winner, Weights::at(self.grid, steps), 1)
         };
         self.grid.nodes().zip(&self.winners).map(at).collect()
     }
 
-    fn ranked<'a>(
-        &'a self,
-        candidate: &'a Contender,
-        weights: Weights,
-        rank: usize,
-    ) -> RankedDesign<'a> {
-        let fitness = self.preferences.scale.fitness(weights.score(&candidate.terms));
-        let (whole, count) = (self.grid.whole(), self.preferences.criteria.len());
-        RankedDesign { results: self.results, candidate, count, whole, weights, fitness, rank }
+    fn ranked(&self, contender: usize, weights: Weights, rank: usize) -> RankedDesign<'_> {
+        let score = weights.score(self.contenders.terms().nth(contender).unwrap_or_default());
+        let fitness = self.preferences.scale.fitness(score);
+        RankedDesign { ranking: self, contender, weights, fitness, rank }
     }
 }
 
@@ -279,20 +310,15 @@ fn nothing(
     InvalidRanking::Nothing { file: results.file(), reasons, columns }
 }
 
-/// The candidate that is best at each node of the grid, once each knows how much it wins.
-fn winners(candidates: &mut [Contender], grid: TetrahedralGrid, criteria: usize) -> Vec<usize> {
-    if criteria != FOUR {
+/// The contender that is best at each node of the grid; none unless there are four criteria.
+fn winners(contenders: &Contenders, grid: TetrahedralGrid) -> Vec<usize> {
+    if contenders.columns.len() != FOUR {
         return Vec::new();
     }
     let nodes: Vec<Steps> = grid.nodes().collect();
-    let contest = |&steps: &Steps| best(candidates, Weights::at(grid, steps));
+    let contest = |&steps: &Steps| best(contenders, Weights::at(grid, steps));
     // In the order of the nodes, whichever thread is first: `quaternary` counts on it.
-    let winners: Vec<usize> = nodes.par_iter().map(contest).collect();
-    for (&winner, &steps) in winners.iter().zip(&nodes) {
-        candidates[winner].nodes += 1;
-        candidates[winner].won += TetrahedralGrid::cell(steps);
-    }
-    winners
+    nodes.par_iter().map(contest).collect()
 }
 
 /// Whether a score is as good as the best one, but for round-off. Scores are logarithms, or parts of 1.
@@ -300,11 +326,11 @@ fn is_as_good(score: f64, best: f64) -> bool {
     score >= best - ROUND_OFF
 }
 
-/// The candidate of the largest fitness, of those that are equal but for round-off the first.
-fn best(candidates: &[Contender], weights: Weights) -> usize {
-    let score = |candidate: &Contender| weights.score(&candidate.terms);
-    let largest = candidates.iter().map(score).fold(f64::NEG_INFINITY, f64::max);
-    candidates.iter().position(|candidate| is_as_good(score(candidate), largest)).unwrap_or(0)
+/// The contender of the largest fitness, of those that are equal but for round-off the first.
+fn best(contenders: &Contenders, weights: Weights) -> usize {
+    let scores = || contenders.terms().map(|terms| weights.score(terms));
+    let largest = scores().fold(f64::NEG_INFINITY, f64::max);
+    scores().position(|score| is_as_good(score, largest)).unwrap_or(0)
 }
 
 /// Writes the tables of `ranking`, with the ranking itself by its weights, and what it goes by, to `folder`; returns the

@@ -10,13 +10,10 @@ use crate::tetrahedral_grid::{Steps, TetrahedralGrid};
 /// Criteria that a ranking may have, at most.
 pub const MOST_CRITERIA: usize = 8;
 
-/// A number for each criterion; those beyond the last criterion are 0.
-pub(crate) type Criteria = [f64; MOST_CRITERIA];
-
 /// Weights of the criteria: none negative, their sum 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weights {
-    values: Criteria,
+    values: [f64; MOST_CRITERIA],
     count: usize,
 }
 
@@ -113,7 +110,7 @@ impl Weights {
     /// ```text
     /// ln f = Σ w_c ln s_c,   0⁰ = 1                                                    (R3)
     /// ```
-    pub(crate) fn score(&self, terms: &Criteria) -> f64 {
+    pub(crate) fn score(&self, terms: &[f64]) -> f64 {
         let mut sum = 0.0;
         for (weight, term) in self.values().iter().zip(terms) {
             // 0 times −∞ would be no number.

@@ -247,7 +247,7 @@ pub(crate) fn design_mark(
     look: MarkLook,
 ) -> Option<Element> {
     let mark = mark(palette, designs.number("slant_deg", row)?, at, look);
-    Some(mark.with("data-design", designs.text("design", row)))
+    Some(mark.with("data-design", designs.design(row)))
 }
 
 /// Returns the slants with their marks in one line, and what other looks of marks mean.

@@ -1,9 +1,11 @@
 //! The table of a sweep, column by column.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::borrow::Cow;
+use std::collections::BTreeSet;
+use std::sync::Arc;
 
-use results::Results;
 use results::columns::{name, tells_apart};
+use results::{Results, Table};
 
 use crate::palette::SlantPalette;
 
@@ -11,69 +13,64 @@ use crate::palette::SlantPalette;
 const GEOMETRY: [&str; 3] = ["gap_over_t", "length_over_t", "slant_deg"];
 
 /// Parameters, as their columns, and their values.
-pub(crate) type AxisValues<'a> = Vec<(&'a str, &'a str)>;
+pub(crate) type AxisValues<'a> = Vec<(&'a str, Cow<'a, str>)>;
 
 /// The designs of a sweep as `designs.csv` has them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Designs {
-    headers: Vec<String>,
-    /// Cells by column.
-    cells: BTreeMap<String, Vec<String>>,
-    count: usize,
+    table: Arc<Table>,
 }
 
 impl Designs {
-    /// Creates the designs with these columns, each a header and its cells from the top.
-    pub fn new(columns: impl IntoIterator<Item = (String, Vec<String>)>) -> Self {
-        let columns: Vec<_> = columns.into_iter().collect();
-        let count = columns.first().map_or(0, |(_, cells)| cells.len());
-        let headers = columns.iter().map(|(header, _)| header.clone()).collect();
-        Self { headers, cells: columns.into_iter().collect(), count }
-    }
-
     /// Returns the designs of a run.
     pub fn of(results: &Results) -> Self {
-        let column = |(k, header): (usize, &String)| {
-            let cells = (0..results.len()).map(|row| results.text(row, k).to_owned()).collect();
-            (header.clone(), cells)
-        };
-        Self::new(results.header().iter().enumerate().map(column))
+        Self { table: Arc::clone(results.table()) }
     }
 
     /// Returns the headers, from the left.
     pub fn headers(&self) -> &[String] {
-        &self.headers
+        self.table.header()
     }
 
     /// Returns the number of designs.
     pub fn count(&self) -> usize {
-        self.count
+        self.table.length()
+    }
+
+    /// Returns the number of a design, as it is written.
+    pub fn design(&self, row: usize) -> &str {
+        self.table.name(row)
     }
 
     /// Returns a cell; empty if there is none.
-    pub fn text(&self, column: &str, row: usize) -> &str {
-        self.cells.get(column).and_then(|cells| cells.get(row)).map_or("", String::as_str)
+    pub fn text(&self, column: &str, row: usize) -> Cow<'_, str> {
+        self.table.column(column).map_or_else(Cow::default, |column| self.table.text(row, column))
     }
 
     /// Returns a cell as a number.
     pub fn number(&self, column: &str, row: usize) -> Option<f64> {
-        self.text(column, row).parse().ok()
+        self.table.number(row, self.table.column(column)?)
+    }
+
+    /// Returns a column as numbers, NaN where a cell is empty; `None` if it has texts.
+    pub(crate) fn only_numbers(&self, column: &str) -> Option<&[f64]> {
+        self.table.numbers(self.table.column(column)?)
     }
 
     /// Returns whether any design has a number in a column.
     pub(crate) fn has(&self, column: &str) -> bool {
-        (0..self.count).any(|row| self.number(column, row).is_some())
+        (0..self.count()).any(|row| self.number(column, row).is_some())
     }
 
     /// Returns the numbers of a column, where there are any.
     pub(crate) fn numbers(&self, column: &str) -> impl Iterator<Item = f64> {
-        (0..self.count).filter_map(move |row| self.number(column, row))
+        (0..self.count()).filter_map(move |row| self.number(column, row))
     }
 
     /// Returns the varied parameters, as their columns.
     pub(crate) fn varied(&self) -> Vec<&str> {
-        let headers = self.headers.iter().map(String::as_str);
-        let parameters = headers.filter(|name| tells_apart(name, &self.headers));
+        let headers = self.headers().iter().map(String::as_str);
+        let parameters = headers.filter(|name| tells_apart(name, self.headers()));
         parameters.filter(|name| self.texts(name).len() > 1).collect()
     }
 
@@ -95,7 +92,7 @@ impl Designs {
             self.varied().into_iter().filter(|name| !axes.contains(name)).collect();
         let values = |row| others.iter().map(|axis| (*axis, self.text(axis, row))).collect();
         let mut parts: Vec<(AxisValues<'_>, Vec<usize>)> = Vec::new();
-        for row in 0..self.count {
+        for row in 0..self.count() {
             let own: AxisValues<'_> = values(row);
             match parts.iter_mut().find(|(other, _)| *other == own) {
                 Some((_, rows)) => rows.push(row),
@@ -107,26 +104,23 @@ impl Designs {
 
     /// Returns whether the surface of the substrate folds over before the puncture of a design ends.
     pub(crate) fn folded(&self, row: usize) -> bool {
-        !self.text(name::FOLD_FORCE, row).is_empty()
+        let fold = self.table.column(name::FOLD_FORCE);
+        fold.is_some_and(|fold| !self.table.is_empty(row, fold))
     }
 
     /// Returns whether the surface folds over under any of the designs.
     pub(crate) fn any_folded(&self) -> bool {
-        (0..self.count).any(|row| self.folded(row))
+        (0..self.count()).any(|row| self.folded(row))
     }
 
     /// Returns the designs in some rows.
     pub(crate) fn only(&self, rows: &[usize]) -> Self {
-        let column = |header: &String| {
-            let cells = rows.iter().map(|&row| self.text(header, row).to_owned());
-            (header.clone(), cells.collect())
-        };
-        Self::new(self.headers.iter().map(column))
+        Self { table: Arc::new(self.table.only(rows)) }
     }
 
     /// Returns the different texts of a column.
-    pub(crate) fn texts(&self, column: &str) -> BTreeSet<&str> {
-        (0..self.count).map(|row| self.text(column, row)).collect()
+    pub(crate) fn texts(&self, column: &str) -> BTreeSet<Cow<'_, str>> {
+        (0..self.count()).map(|row| self.text(column, row)).collect()
     }
 
     /// Returns the colours and marks of the slants.

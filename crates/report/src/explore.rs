@@ -1,10 +1,13 @@
 //! The page that solves: sliders, the skin under the hand, and the solver itself, in one HTML file.
 
+use std::io::{self, Write};
+
 use results::columns::name;
 use serde::Serialize;
 use sweep::{Axis, Parameter, Scalar, Sweep, Variable, key, visible};
 
-use crate::page::{escaped, filled};
+use crate::packed::in_sevens;
+use crate::page::{ELEMENTS, fill, fill_head, fill_json};
 
 const PAGE: &str = concat!(
     include_str!("../assets/page/head.html"),
@@ -16,7 +19,6 @@ const SECTION: &str = include_str!("../assets/explore/explorer.html");
 pub(crate) const STYLE: &str = include_str!("../assets/explore/explore.css");
 const STYLES: [&str; 2] =
     [include_str!("../assets/page/styles/theme.css"), include_str!("../assets/explore/page.css")];
-const ELEMENTS: &str = include_str!("../assets/page/scripts/elements.js");
 /// The scripts of the page, in the order in which they run.
 pub(crate) const SCRIPTS: [&str; 7] = [
     include_str!("../assets/explore/solver.js"),
@@ -171,22 +173,21 @@ struct Data<'a> {
 }
 
 impl Explorer {
-    /// Returns a page as HTML that needs no other file.
-    pub fn html(&self) -> String {
-        let scripts =
-            [ELEMENTS].iter().chain(&SCRIPTS).map(|script| format!("<script>\n{script}</script>"));
-        let parts = [
-            ("{{title}}", escaped(&visible(self.sweep.name()))),
-            ("{{version}}", escaped(&self.version)),
-            ("{{style}}", STYLES.concat() + STYLE),
-            ("{{explorer}}", self.section()),
-            ("{{scripts}}", scripts.collect::<Vec<_>>().join("\n")),
-        ];
-        filled(PAGE, &parts)
+    /// Writes a page as HTML that needs no other file.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
+        fill(out, PAGE, |out, place| match place {
+            "style" => write!(out, "{}{STYLE}", STYLES.concat()),
+            "explorer" => self.write_section(out),
+            "scripts" => write!(out, "{ELEMENTS}{}", SCRIPTS.concat()),
+            _ => fill_head(out, place, self.sweep.name(), &self.version),
+        })
     }
 
-    /// Returns the section of a page that solves, with the solver.
-    pub(crate) fn section(&self) -> String {
+    /// Writes the section of a page that solves, with the solver.
+    pub(crate) fn write_section(&self, out: &mut impl Write) -> io::Result<()> {
         let base = self.sweep.grid().base();
         let data = Data {
             definition: self.sweep.to_toml(),
@@ -198,14 +199,11 @@ impl Explorer {
             measures: &SHOWN,
             requirements: &self.requirements,
         };
-        // Neither `</script` nor `<!--` may end or bend the script that holds the data.
-        let data = serde_json::to_string(&data).unwrap_or_default().replace('<', "\\u003c");
-        let parts = [
-            ("{{module}}", in_sevens(MODULE)),
-            ("{{worker}}", WORKER.to_owned()),
-            ("{{live}}", data),
-        ];
-        filled(SECTION, &parts)
+        fill(out, SECTION, |out, place| match place {
+            "module" => out.write_all(in_sevens(MODULE).as_bytes()),
+            "worker" => out.write_all(WORKER.as_bytes()),
+            _ => fill_json(out, &data),
+        })
     }
 
     /// The control of a parameter: over the values of its axis or variable where there are several, over a range of its own elsewhere.
@@ -269,39 +267,4 @@ fn interval(variable: &Variable, key: &str) -> Option<[f64; 2]> {
     let ends = [0.0, 1.0].map(|share| variable.at(share).number());
     let [Some(low), Some(high)] = ends else { return None };
     (variable.parameter().key == key).then_some([low, high])
-}
-
-/// Bytes as text, seven bits to a letter, the last filled up with zeros: 17 % more bytes than there are, where base 64 takes a third more.
-fn in_sevens(bytes: &[u8]) -> String {
-    let bit = |place: usize| {
-        bytes.get(place / 8).map_or(0, |byte| u32::from(byte >> (7 - place % 8) & 1))
-    };
-    let letter = |start: usize| {
-        let seven = (start..start + 7).fold(0, |held, place| held << 1 | bit(place));
-        // What HTML reads as another letter, or as the end of a script, stands 256 places higher.
-        char::from_u32(if [0, 13, 60].contains(&seven) { seven + 256 } else { seven })
-    };
-    (0..8 * bytes.len()).step_by(7).filter_map(letter).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn bytes_come_back_from_letters_that_html_leaves_alone() {
-        for length in 0..40_u32 {
-            let bytes: Vec<u8> = (0..length).map(|k| (k * k * 37 % 251) as u8).collect();
-            let text = in_sevens(&bytes);
-            assert!(!text.contains(['\0', '\r', '<']));
-            let bits = text
-                .chars()
-                .flat_map(|letter| (0..7).rev().map(move |k| (u32::from(letter) >> k & 1) as u8));
-            let bits: Vec<u8> = bits.collect();
-            let bytes_of =
-                bits.chunks_exact(8).map(|eight| eight.iter().fold(0, |held, bit| held << 1 | bit));
-            let back: Vec<u8> = bytes_of.collect();
-            assert_eq!(back, bytes);
-        }
-    }
 }

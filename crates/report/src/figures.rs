@@ -10,6 +10,8 @@ mod search;
 pub(crate) mod stiffness;
 pub(crate) mod weight_slices;
 
+use std::borrow::Cow;
+
 use ranking::{RankedDesign, Ranking, Weights};
 use results::Quantity::{Force, Length, Moment, Stiffness};
 use results::columns::{measure_of, name, physical_source};
@@ -105,13 +107,12 @@ pub fn figures(name: &str, designs: &Designs, ranking: Option<&Ranking<'_>>) -> 
     };
     let mut figures: Vec<Figure> = parts.iter().take(PARTS).flat_map(part).collect();
     if let Some(ranking) = ranking {
-        let worth = |design: &RankedDesign<'_>| {
-            (design.row(), std::array::from_fn(|k| design.criteria()[k]))
-        };
+        let worth =
+            |design: RankedDesign<'_>| (design.row(), std::array::from_fn(|k| design.criterion(k)));
         // Other criteria than the paper's have other axes, or fewer.
         let is_drawn = ranking.preferences().are_the_papers();
-        let ranked = if is_drawn { ranking.by_fitness(Weights::BALANCED) } else { Vec::new() };
-        let mut worths: Vec<_> = ranked.iter().map(worth).collect();
+        let ranked = is_drawn.then(|| ranking.by_fitness(Weights::BALANCED));
+        let mut worths: Vec<_> = ranked.into_iter().flatten().map(worth).collect();
         // In the order of the table, as the page has them.
         worths.sort_by_key(|(row, _)| *row);
         let fronts = pareto::figure(name, designs, &worths);
@@ -123,13 +124,13 @@ pub fn figures(name: &str, designs: &Designs, ranking: Option<&Ranking<'_>>) -> 
 }
 
 /// Returns the title of the figures of a part.
-fn title(name: &str, values: &[(&str, &str)]) -> String {
+fn title(name: &str, values: &[(&str, Cow<'_, str>)]) -> String {
     let words = values.iter().map(with_value);
     std::iter::once(name.to_owned()).chain(words).collect::<Vec<_>>().join(", ")
 }
 
 /// Returns the name of a figure of a part.
-fn file_name(file: &str, values: &[(&str, &str)]) -> String {
+fn file_name(file: &str, values: &[(&str, Cow<'_, str>)]) -> String {
     let part = values.iter().map(|(axis, value)| format!("{}-{value}", axis.replace('_', "-")));
     std::iter::once(file.to_owned()).chain(part).collect::<Vec<_>>().join("-")
 }

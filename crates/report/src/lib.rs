@@ -52,6 +52,7 @@ mod facts;
 mod figures;
 mod fits;
 mod label;
+mod packed;
 mod page;
 mod palette;
 #[cfg(feature = "png")]

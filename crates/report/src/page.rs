@@ -9,6 +9,9 @@ mod figures;
 mod front;
 mod simplified;
 
+use std::io::{self, Write};
+
+use serde::Serialize;
 use sweep::visible;
 
 use crate::designs::Designs;
@@ -25,10 +28,13 @@ const STYLES: [&str; 5] = [
     include_str!("../assets/page/styles/table.css"),
     include_str!("../assets/page/styles/media.css"),
 ];
-/// The scripts of the page, in the order in which they run.
-const SCRIPTS: [&str; 21] = [
+/// The script of what elements need, on every page.
+pub(crate) const ELEMENTS: &str = include_str!("../assets/page/scripts/elements.js");
+/// The script that unpacks the table.
+const UNPACKING: &str = include_str!("../assets/page/scripts/table-data.js");
+/// The scripts that need the table, in the order in which they run.
+const SCRIPTS: [&str; 20] = [
     include_str!("../assets/page/scripts/designs.js"),
-    include_str!("../assets/page/scripts/elements.js"),
     include_str!("../assets/page/scripts/ranking.js"),
     include_str!("../assets/page/scripts/weightings.js"),
     include_str!("../assets/page/scripts/state.js"),
@@ -109,50 +115,72 @@ pub struct PageDesign {
 }
 
 impl Page {
-    /// Returns the page as HTML that needs no other file.
-    pub fn html(&self) -> String {
-        let (section, style, solving) =
-            self.explorer.as_ref().map_or_else(Default::default, |explorer| {
-                (explorer.section(), explore::STYLE, &explore::SCRIPTS[..])
-            });
-        let scripts =
-            SCRIPTS.iter().chain(solving).map(|script| format!("<script>\n{script}</script>"));
-        // Neither `</script` nor `<!--` may end or bend the script that holds the data.
-        let data = data::of(self).to_string().replace('<', "\\u003c");
-        let parts = [
-            ("{{title}}", escaped(&visible(&self.name))),
-            ("{{version}}", escaped(&self.version)),
-            ("{{style}}", STYLES.concat() + style),
-            ("{{explorer}}", section),
-            ("{{scripts}}", scripts.collect::<Vec<_>>().join("\n")),
-            ("{{data}}", data),
-        ];
-        filled(PAGE, &parts)
+    /// Writes the page as HTML that needs no other file. One figure after the other is drawn, packed and written: all of them
+    /// at once would take 100 MB.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
+        let solver = self.explorer.as_ref();
+        let mut figures = Vec::new();
+        fill(out, PAGE, |out, place| match place {
+            "style" => {
+                let style = solver.map_or("", |_| explore::STYLE);
+                write!(out, "{}{style}", STYLES.concat())
+            }
+            "explorer" => solver.map_or(Ok(()), |explorer| explorer.write_section(out)),
+            "packed" => {
+                data::write_packed_cells(out, &self.designs)?;
+                figures = figures::write(out, self)?;
+                data::write_drawings(out, self)
+            }
+            "data" => fill_json(out, &data::of(self, &figures)),
+            "scripts" => {
+                let solving = solver.map_or_else(String::new, |_| explore::SCRIPTS.concat());
+                let waiting = SCRIPTS.concat();
+                write!(
+                    out,
+                    "{ELEMENTS}{UNPACKING}squama.unpack().then(() => {{\n{waiting}{solving}}});"
+                )
+            }
+            _ => fill_head(out, place, &self.name, &self.version),
+        })
     }
 }
 
-/// Returns `template` with each place filled; text that is filled in is not searched again.
-pub(crate) fn filled(template: &str, parts: &[(&str, String)]) -> String {
-    let mut page = String::new();
-    let mut rest = template;
-    while let Some((start, place, text)) = first_place(rest, parts) {
-        page.push_str(&rest[..start]);
-        page.push_str(text);
-        rest = &rest[start + place.len()..];
+/// Writes `template`, each `{{place}}` of which `filled` writes.
+pub(crate) fn fill<W: Write>(
+    out: &mut W,
+    template: &str,
+    mut filled: impl FnMut(&mut W, &str) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut parts = template.split("{{");
+    out.write_all(parts.next().unwrap_or_default().as_bytes())?;
+    for part in parts {
+        let (place, text) = part.split_once("}}").unwrap_or((part, ""));
+        filled(out, place)?;
+        out.write_all(text.as_bytes())?;
     }
-    page.push_str(rest);
-    page
+    Ok(())
 }
 
-fn first_place<'a>(
-    text: &str,
-    parts: &'a [(&'a str, String)],
-) -> Option<(usize, &'a str, &'a String)> {
-    let found = parts.iter().filter_map(|(place, part)| Some((text.find(place)?, *place, part)));
-    found.min_by_key(|(start, ..)| *start)
+/// Writes what stands in the head and the foot of a page.
+pub(crate) fn fill_head(
+    out: &mut impl Write,
+    place: &str,
+    title: &str,
+    version: &str,
+) -> io::Result<()> {
+    let text = if place == "title" { escaped(&visible(title)) } else { escaped(version) };
+    out.write_all(text.as_bytes())
 }
 
-pub(crate) fn escaped(text: &str) -> String {
+/// Writes data as JSON. Neither `</script` nor `<!--` may end or bend the script that holds it.
+pub(crate) fn fill_json(out: &mut impl Write, data: &impl Serialize) -> io::Result<()> {
+    out.write_all(serde_json::to_string(data)?.replace('<', "\\u003c").as_bytes())
+}
+
+fn escaped(text: &str) -> String {
     let text = text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
     text.replace('"', "&quot;").replace('\'', "&#39;")
 }

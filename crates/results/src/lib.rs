@@ -22,7 +22,7 @@
 //! | [`write_measures`] | writes the measures of one design, a row each |
 //! | [`path_tables()`], [`PathTable`], [`write_path_tables`] | the paths, events, scales and iterations of one design, in memory and as files |
 //! | [`round_off`] | which numbers are the same but for round-off, and which of them is the best |
-//! | [`Results`] | the designs of a run read back |
+//! | [`Results`], [`Table`] | the designs of a run read back, and their cells |
 //! | [`Contents`], [`VerifiedFolder`], [`Completeness`] | what a run states of its folder, and the folder once that is checked |
 //! | [`Derivation`], [`Claim`] | what was made from the tables, and from which; the right of a command to write its files |
 //!
@@ -80,6 +80,7 @@ pub use folder::{FILES, FileEntry, MEASURE_TABLES, Maker, Role, RunFolder};
 pub use measure_table::{DesignMeasure, MEASURE_COLUMNS, write_measures};
 pub use path_tables::{PathTable, path_tables, write_path_tables};
 pub use quantity::{Quantity, areal_mass, bending_units, puncture_units};
+pub use reader::table::Table;
 pub use reader::{InvalidResults, Results, words};
 pub use shell::{quoted, shell_word};
 pub use store::{

@@ -1,11 +1,13 @@
-//! The folder of a run read back: one row per design, as text.
+//! The folder of a run read back: one row per design.
 
-mod packed_rows;
+pub(crate) mod table;
 mod thinning;
 
+use std::borrow::Cow;
 use std::fs::File;
 use std::io::{self, BufRead as _, BufReader, Seek as _};
 use std::path::Path;
+use std::sync::Arc;
 
 use crate::columns::{parameter_of, physical_source, tells_apart};
 use sweep::{Parameter, Sweep, has_part, nearest, number, reason};
@@ -13,7 +15,7 @@ use sweep::{Parameter, Sweep, has_part, nearest, number, reason};
 use crate::contents::verified_folder::{Completeness, InvalidFolder, VerifiedFolder};
 use crate::folder::RunFolder;
 use crate::tables::csv_format::CsvFormat;
-use packed_rows::PackedRows;
+use table::Table;
 use thinning::Thinning;
 
 /// The first column of that table.
@@ -25,8 +27,7 @@ pub struct Results {
     folder: VerifiedFolder,
     file: &'static str,
     format: CsvFormat,
-    header: Vec<String>,
-    rows: PackedRows,
+    table: Arc<Table>,
     /// The number of rows of the table, of which some may have been left out.
     in_table: usize,
     parameters: Vec<(&'static Parameter, usize)>,
@@ -103,7 +104,19 @@ impl Results {
     /// # Errors
     /// As [`Results::read_from`].
     pub fn thinned(folder: &VerifiedFolder, most: usize) -> Result<Self, InvalidResults> {
-        Self::of_table(folder, RunFolder::DESIGNS, most)
+        Self::of_table(folder, RunFolder::DESIGNS, most, |_| true)
+    }
+
+    /// The results in `folder`, of whose columns those are read that `is_read` names: of a million designs all columns take
+    /// 400 MB. The others are as good as empty.
+    ///
+    /// # Errors
+    /// As [`Results::read_from`].
+    pub fn with_columns(
+        folder: &VerifiedFolder,
+        is_read: impl Fn(&str) -> bool,
+    ) -> Result<Self, InvalidResults> {
+        Self::of_table(folder, RunFolder::DESIGNS, usize::MAX, is_read)
     }
 
     /// The designs of another table of designs in `folder`, such as those that a search has found.
@@ -111,19 +124,22 @@ impl Results {
     /// # Errors
     /// As [`Results::read_from`].
     pub fn of_file(folder: &VerifiedFolder, table: &'static str) -> Result<Self, InvalidResults> {
-        Self::of_table(folder, table, usize::MAX)
+        Self::of_table(folder, table, usize::MAX, |_| true)
     }
 
     fn of_table(
         folder: &VerifiedFolder,
         file: &'static str,
         most: usize,
+        is_read: impl Fn(&str) -> bool,
     ) -> Result<Self, InvalidResults> {
         let path = folder.path().join(file);
-        let table = read_table(folder.file(file).map_err(InvalidResults::Folder)?, most);
-        let Table { format, header, rows, length } = table.map_err(|error| {
-            InvalidResults::Unreadable { file: path.display().to_string(), reason: words(error) }
+        let read = read_table(folder.file(file).map_err(InvalidResults::Folder)?, most, is_read);
+        let (format, table, in_table) = read.map_err(|error| InvalidResults::Unreadable {
+            file: path.display().to_string(),
+            reason: words(error),
         })?;
+        let header = table.header();
         match header.first() {
             Some(first) if first == NUMBER => {}
             first => {
@@ -134,7 +150,7 @@ impl Results {
         }
         let parameters = header.iter().enumerate();
         // A gap in mm beside `gap_over_t` is no second parameter, but the same one again.
-        let parameters = parameters.filter(|(_, name)| tells_apart(name, &header));
+        let parameters = parameters.filter(|(_, name)| tells_apart(name, header));
         let parameters =
             parameters.filter_map(|(column, name)| Some((parameter_of(name)?, column))).collect();
         Ok(Self {
@@ -142,9 +158,8 @@ impl Results {
             file,
             format,
             parameters,
-            header,
-            rows,
-            in_table: length,
+            table: Arc::new(table),
+            in_table,
             // A table without the record of its run is still a table.
             definition: definition(folder).map_err(InvalidResults::Folder)?,
         })
@@ -153,7 +168,7 @@ impl Results {
     /// Some of the designs, by their rows.
     #[must_use]
     pub fn only(&self, rows: &[usize]) -> Self {
-        Self { rows: self.rows.only(rows.iter().copied()), ..self.clone() }
+        Self { table: Arc::new(self.table.only(rows)), ..self.clone() }
     }
 
     /// The folder of the results.
@@ -184,7 +199,7 @@ impl Results {
     /// The number of designs.
     #[expect(clippy::len_without_is_empty, reason = "a grid is never empty")]
     pub fn len(&self) -> usize {
-        self.rows.len()
+        self.table.length()
     }
 
     /// The number of designs in the table, of which [`Results::thinned`] leaves some out.
@@ -194,7 +209,12 @@ impl Results {
 
     /// Names of the columns.
     pub fn header(&self) -> &[String] {
-        &self.header
+        self.table.header()
+    }
+
+    /// The cells of the table.
+    pub fn table(&self) -> &Arc<Table> {
+        &self.table
     }
 
     /// The parameters that have a column.
@@ -207,12 +227,11 @@ impl Results {
     /// # Errors
     /// If there is no such column.
     pub fn column(&self, name: &str) -> Result<usize, InvalidResults> {
-        let found = self.header.iter().position(|column| column == name);
-        found.ok_or_else(|| self.no_column(name))
+        self.table.column(name).ok_or_else(|| self.no_column(name))
     }
 
     fn no_column(&self, name: &str) -> InvalidResults {
-        let known: Vec<&str> = self.header.iter().map(String::as_str).collect();
+        let known: Vec<&str> = self.header().iter().map(String::as_str).collect();
         let near = nearest(name, &known).map(|near| format!("did you mean {near}?"));
         let alike: Vec<_> = known.iter().copied().filter(|known| has_part(known, name)).collect();
         // No one of several forces is the one that was meant.
@@ -229,18 +248,18 @@ impl Results {
 
     /// The number of a design, as it is written.
     pub fn design(&self, row: usize) -> &str {
-        self.text(row, 0)
+        self.table.name(row)
     }
 
     /// The value of a parameter, as it is written; empty if it has no column.
-    pub fn parameter(&self, row: usize, parameter: &Parameter) -> &str {
+    pub fn parameter(&self, row: usize, parameter: &Parameter) -> Cow<'_, str> {
         let column = self.parameters.iter().find(|(other, _)| other.key == parameter.key);
-        column.map_or("", |(_, column)| self.text(row, *column))
+        column.map_or(Cow::default(), |(_, column)| self.text(row, *column))
     }
 
     /// A cell as it is written.
-    pub fn text(&self, row: usize, column: usize) -> &str {
-        self.rows.cell(row, column)
+    pub fn text(&self, row: usize, column: usize) -> Cow<'_, str> {
+        self.table.text(row, column)
     }
 
     /// The number in a cell, if there is one.
@@ -248,28 +267,17 @@ impl Results {
     /// # Errors
     /// If there is something else.
     pub fn number(&self, row: usize, column: usize) -> Result<Option<f64>, InvalidResults> {
-        let text = self.text(row, column);
-        if text.is_empty() {
-            return Ok(None);
+        let number = self.table.number(row, column);
+        if number.is_some() || self.table.is_empty(row, column) {
+            return Ok(number);
         }
-        // Rust reads `inf` and `NaN` as numbers, too, but no table of squama has them.
-        let number = text.parse().ok().filter(|number: &f64| number.is_finite());
-        let error = || InvalidResults::NotANumber {
+        Err(InvalidResults::NotANumber {
             file: self.file(),
             design: self.design(row).to_owned(),
-            column: self.header.get(column).cloned().unwrap_or_default(),
-            found: format!("\"{text}\""),
-        };
-        number.map(Some).ok_or_else(error)
+            column: self.header()[column].clone(),
+            found: format!("\"{}\"", self.text(row, column)),
+        })
     }
-}
-
-/// A table: how it is written, its header, its rows or some of them, and how many it has.
-struct Table {
-    format: CsvFormat,
-    header: Vec<String>,
-    rows: PackedRows,
-    length: usize,
 }
 
 /// The sweep, if there is a record of the run.
@@ -281,19 +289,24 @@ fn definition(folder: &VerifiedFolder) -> Result<Option<Sweep>, InvalidFolder> {
     Ok(Sweep::parse(&text, RunFolder::RUN_INFO, &[]).ok())
 }
 
-fn read_table(mut file: File, most: usize) -> Result<Table, csv::Error> {
+/// Reads a table, or some of its rows and columns: how it is written, its cells, and the number of rows that it has.
+fn read_table(
+    mut file: File,
+    most: usize,
+    is_read: impl Fn(&str) -> bool,
+) -> Result<(CsvFormat, Table, usize), csv::Error> {
     // Counting reads the whole file once more: only a table that is thinned out needs it.
     let in_table = if most == usize::MAX { 0 } else { count_rows(&file)? };
     file.rewind()?;
     let mut file = BufReader::new(file);
     let (format, start) = CsvFormat::of(file.fill_buf()?);
     file.consume(start);
-    let mut table = format.reader(file);
-    let header: Vec<_> = table.headers()?.iter().map(str::to_owned).collect();
-    let mut kept = Thinning::new(&header, in_table, most);
+    let mut csv = format.reader(file);
+    let header: Vec<_> = csv.headers()?.iter().map(str::to_owned).collect();
+    let mut kept = Thinning::new(Table::new(header, is_read), in_table, most);
     let mut count = 0;
     let mut row = csv::StringRecord::new();
-    while table.read_record(&mut row)? {
+    while csv.read_record(&mut row)? {
         // Whoever reads cells from here on finds points in decimals, whatever the file has.
         if format == CsvFormat::ExcelEu {
             row = row.iter().map(|cell| plain(format, cell)).collect();
@@ -301,7 +314,7 @@ fn read_table(mut file: File, most: usize) -> Result<Table, csv::Error> {
         kept.visit(count, &row);
         count += 1;
     }
-    Ok(Table { format, header, rows: kept.finish(), length: count })
+    Ok((format, kept.finish(), count))
 }
 
 /// The number of rows of a table, whose cells have no line ends in them.

@@ -156,14 +156,14 @@ fn sound_rows(study: &Study) -> Vec<usize> {
 
 /// The worst and the best value of every criterion over the designs of a ranking, as a goal has them.
 fn ends(ranking: &Ranking<'_>) -> String {
-    let designs = ranking.by_fitness(Weights::BALANCED);
+    let designs: Vec<_> = ranking.by_fitness(Weights::BALANCED).collect();
     // Values, not criteria: of a penetration the goal itself takes the inverse.
     let ends = CRITERIA.iter().enumerate().map(|(c, criterion)| {
         let better = |a: &&RankedDesign<'_>, b: &&RankedDesign<'_>| {
-            a.criteria()[c].total_cmp(&b.criteria()[c])
+            a.criterion(c).total_cmp(&b.criterion(c))
         };
         let value = |design: Option<&RankedDesign<'_>>| {
-            number::text(design.map_or(f64::NAN, |design| design.values()[c]))
+            number::text(design.map_or(f64::NAN, |design| design.value(c)))
         };
         let (worst, best) = (designs.iter().min_by(better), designs.iter().max_by(better));
         format!("{} = [{}, {}]", criterion.column, value(worst), value(best))

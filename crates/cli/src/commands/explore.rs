@@ -70,7 +70,9 @@ pub fn explore(arguments: &Arguments) -> anyhow::Result<u8> {
         requirements: requirements.iter().map(ToString::to_string).collect(),
         version: PROGRAM.version.to_owned(),
     };
-    write_file(&arguments.out, page.html().as_bytes())?;
+    let mut html = Vec::new();
+    page.write(&mut html)?;
+    write_file(&arguments.out, &html)?;
     print(&format!("{}\n", arguments.out.display()))?;
     // A script that writes pages shall open none.
     let is_watched = std::io::stdout().is_terminal();

@@ -1,7 +1,7 @@
 //! Files of drawings and figures.
 
 use std::borrow::Cow;
-use std::io::{self, Write as _};
+use std::io::{self, BufWriter, Write as _};
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
@@ -91,7 +91,7 @@ impl<'a> FigureFiles<'a> {
     }
 
     fn write(&mut self, name: String, bytes: &[u8]) -> anyhow::Result<()> {
-        write(&self.folder, &name, bytes)?;
+        write(&self.folder, &name, |file| file.write_all(bytes))?;
         self.names.push(name);
         Ok(())
     }
@@ -173,11 +173,15 @@ fn image(_: &str, _: f64) -> anyhow::Result<Vec<u8>> {
 }
 
 /// Writes a file, whole or not at all.
-pub fn write(folder: &Path, name: &str, bytes: &[u8]) -> anyhow::Result<()> {
-    let mut file = AtomicFile::create(folder, name)?;
-    let written = file.write_all(bytes);
-    written.with_context(|| format!("{}: cannot be written", file.path().display()))?;
-    file.finish()?;
+pub fn write(
+    folder: &Path,
+    name: &str,
+    written: impl FnOnce(&mut BufWriter<AtomicFile>) -> io::Result<()>,
+) -> anyhow::Result<()> {
+    let mut file = BufWriter::new(AtomicFile::create(folder, name)?);
+    let written = written(&mut file).and_then(|()| file.flush());
+    written.with_context(|| format!("{}: cannot be written", file.get_ref().path().display()))?;
+    file.into_inner()?.finish()?;
     Ok(())
 }
 
@@ -185,7 +189,8 @@ pub fn write(folder: &Path, name: &str, bytes: &[u8]) -> anyhow::Result<()> {
 pub fn write_file(file: &Path, bytes: &[u8]) -> anyhow::Result<()> {
     let folder = file.parent().unwrap_or(Path::new(""));
     results::make_folder(folder)?;
-    write(folder, &file.file_name().unwrap_or_default().to_string_lossy(), bytes)
+    let name = file.file_name().unwrap_or_default().to_string_lossy();
+    write(folder, &name, |file| file.write_all(bytes))
 }
 
 #[cfg(test)]

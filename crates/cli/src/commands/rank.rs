@@ -109,7 +109,7 @@ pub fn rank(arguments: &Arguments) -> anyhow::Result<u8> {
     let preferences = preferences(arguments)?;
     let grid: TetrahedralGrid = option("--resolution", &arguments.resolution)?;
     let verified = verified_folder(&arguments.results, arguments.partial.completeness())?;
-    let results = Results::read_from(&verified)?;
+    let results = Ranking::results(&verified, &preferences)?;
     // Refused before anything is ranked: values that were measured in different ways have no order.
     check_comparable(&results, &preferences)?;
     match Ranking::by(&results, preferences.clone(), grid) {

@@ -82,7 +82,7 @@ pub fn report(arguments: &Arguments) -> anyhow::Result<u8> {
     let name = name.file_name().unwrap_or_default().to_string_lossy();
     // A page of some megabytes that a kill has left half-written goes with the next one.
     results::make_folder(&folder)?;
-    write(&folder, &name, page.html().as_bytes())?;
+    write(&folder, &name, |file| page.write(file))?;
     derived::note(results.verified(), "page", &folder, &[&name])?;
     print(&format!("{}\n", folder.join(&*name).display()))?;
     Ok(DONE)
@@ -195,7 +195,7 @@ fn leading(ranking: &Ranking<'_>) -> Vec<usize> {
 
 /// A design with curves, and a drawing if it `is_drawn`, or none if it cannot be solved: its row in the table says why.
 fn solve(results: &ResultsFolder, row: usize, is_drawn: bool) -> Option<PageDesign> {
-    let number = results.designs.text("design", row);
+    let number = results.designs.design(row);
     let grid = results.sweep.grid();
     let mut case = grid.case(grid.parse_number(number).ok()?);
     // A definition may ask for smaller steps than a drawn curve needs: they hold then.

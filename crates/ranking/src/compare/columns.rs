@@ -65,7 +65,9 @@ pub fn comparison_columns() -> &'static [Column<ColumnDifference>] {
 /// The columns of `differences.csv` for designs with these parameters.
 pub fn difference_columns<'a>(parameters: &[&'static Parameter]) -> Vec<Column<Difference<'a>>> {
     let parameter = |parameter: &&'static Parameter| {
-        Column::parameter(parameter, |d: &Difference<'a>| d.parameter(parameter).to_owned().into())
+        Column::parameter(parameter, |d: &Difference<'a>| {
+            d.parameter(parameter).into_owned().into()
+        })
     };
     let mut columns = vec![
         number(|d: &Difference<'a>| d.designs()[0].to_owned().into()),
@@ -78,8 +80,8 @@ pub fn difference_columns<'a>(parameters: &[&'static Parameter]) -> Vec<Column<D
         Column::new("column", "-", "column of designs.csv", |d: &Difference<'a>| {
             d.column().to_owned().into()
         }),
-        Column::new("first", "-", "value in the first run", |d| d.texts()[0].to_owned().into()),
-        Column::new("second", "-", "value in the second run", |d| d.texts()[1].to_owned().into()),
+        Column::new("first", "-", "value in the first run", |d| d.texts()[0].to_string().into()),
+        Column::new("second", "-", "value in the second run", |d| d.texts()[1].to_string().into()),
         Column::new("absolute", "-", "their difference", |d| d.numbers().map(absolute).into()),
         Column::new("relative", "-", "the same over the larger of the two", |d| {
             d.numbers().map(relative).into()

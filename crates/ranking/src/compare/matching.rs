@@ -66,7 +66,7 @@ fn key(run: &Results, parameters: &[&'static Parameter], row: usize) -> String {
     // Texts, not numbers: every run writes a number with the same digits.
     let mut key = String::new();
     for parameter in parameters {
-        match run.parameter(row, parameter) {
+        match run.parameter(row, parameter).as_ref() {
             // A table without that column: its run gives one value to all designs.
             "" => key.extend(shared(run, parameter).map(|value| value.to_string())),
             value => key.push_str(value),

@@ -1,7 +1,7 @@
 //! The columns of the tables of a ranking.
 
 use results::Column;
-use results::columns::{Cell, explain_value, number};
+use results::columns::{explain_value, number};
 use sweep::Parameter;
 
 use super::{FOUR, RankedDesign};
@@ -57,7 +57,7 @@ pub fn winner_columns<'a>(
     let mut columns = design(parameters);
     columns.push(share("part of all weights for which it is the best design"));
     columns.push(Column::new("nodes", "-", "nodes of the grid of weights that it wins", |s| {
-        Cell::Count(i64::try_from(s.candidate.nodes).unwrap_or(i64::MAX))
+        s.wins().nodes.into()
     }));
     columns.extend(criteria(preferences));
     columns.extend(rescaled(preferences));
@@ -88,7 +88,7 @@ fn design<'a>(parameters: &[&'static Parameter]) -> RankedColumns<'a> {
     let mut columns = vec![number(|s: &RankedDesign<'a>| s.design().to_owned().into())];
     let parameter = |parameter: &&'static Parameter| {
         Column::parameter(parameter, |s: &RankedDesign<'a>| {
-            s.results.parameter(s.row(), parameter).to_owned().into()
+            s.ranking.results.parameter(s.row(), parameter).into_owned().into()
         })
     };
     columns.extend(parameters.iter().map(parameter));
@@ -111,7 +111,7 @@ fn criteria<'a>(preferences: &Preferences) -> RankedColumns<'a> {
     let column = |(c, criterion): (usize, &Criterion)| {
         let (unit, meaning) = explain_value(&criterion.column).unwrap_or(("-", ""));
         let name = criterion.column.clone().into_owned();
-        Column::made(name.into(), unit, meaning, move |s: &RankedDesign<'a>| s.values()[c].into())
+        Column::made(name.into(), unit, meaning, move |s: &RankedDesign<'a>| s.value(c).into())
     };
     preferences.criteria.iter().enumerate().filter(is_measured).map(column).collect()
 }
@@ -121,7 +121,7 @@ fn rescaled<'a>(preferences: &Preferences) -> RankedColumns<'a> {
         // By its key: where the penetration is the column, it is the resistance that is rescaled.
         let name = format!("{}_rescaled", criterion.key());
         let meaning = "criterion from 0, the worst of all ranked designs, to 1, the best";
-        Column::made(name.into(), "-", meaning, move |s: &RankedDesign<'a>| s.rescaled()[c].into())
+        Column::made(name.into(), "-", meaning, move |s: &RankedDesign<'a>| s.rescaled(c).into())
     };
     preferences.criteria.iter().enumerate().map(column).collect()
 }

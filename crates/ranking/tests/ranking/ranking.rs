@@ -32,14 +32,14 @@ fn weights(text: &str) -> Weights {
 
 fn order(ranking: &Ranking<'_>, by: &str) -> String {
     let standings = ranking.by_fitness(weights(by));
-    standings.iter().map(RankedDesign::design).collect::<Vec<_>>().join(" ")
+    standings.map(|standing| standing.design()).collect::<Vec<_>>().join(" ")
 }
 
 #[test]
 fn fitness_is_the_product_of_rescaled_criteria() {
     let results = results(&["0.2,1,0.5,10", "0.6,5,0.25,20", "1,3,0.2,40"]);
     let ranking = Ranking::new(&results, grid("4")).expect("a ranking");
-    let second = ranking.by_fitness(weights("0.4,0.3,0.2,0.1"))[1];
+    let second = ranking.by_fitness(weights("0.4,0.3,0.2,0.1")).nth(1).expect("two");
     // Rescaled: 0.5, 1, (4 - 2)/(5 - 2), (20 - 10)/(40 - 10).
     assert_eq!(second.design(), "0002");
     let expected = 0.5_f64.powf(0.4) * (2.0_f64 / 3.0).powf(0.2) * (1.0_f64 / 3.0).powf(0.1);
@@ -143,7 +143,7 @@ fn whoever_wins_at_some_weights_is_first_in_the_ranking_by_them() {
     let results = Results::read(folder.path()).expect("results");
     let ranking = Ranking::new(&results, grid("6")).expect("a ranking");
     for winner in ranking.quaternary() {
-        let first = ranking.by_fitness(winner.weights)[0];
+        let first = ranking.by_fitness(winner.weights).next().expect("a design");
         assert_eq!(
             (winner.design(), winner.fitness.to_bits()),
             (first.design(), first.fitness.to_bits())
@@ -163,7 +163,7 @@ fn only_designs_that_meet_every_requirement_are_ranked() {
     let text = "requirements = ['coverage >= 0.6', 'critical_force < 4']";
     let ranking = by(&results, text).expect("a ranking");
     let order = ranking.by_fitness(Weights::BALANCED);
-    assert_eq!(order.iter().map(RankedDesign::design).collect::<Vec<_>>(), ["0003"]);
+    assert_eq!(order.map(|design| design.design()).collect::<Vec<_>>(), ["0003"]);
     let left_out: Vec<_> = ranking.left_out().iter().map(|(why, n)| format!("{n} {why}")).collect();
     // A value that does not exist meets nothing.
     assert_eq!(left_out, ["1 not coverage >= 0.6", "2 not critical_force < 4"]);
@@ -199,7 +199,7 @@ fn columns_of_ones_own_are_criteria() {
     assert_eq!(ranking.len(), 4);
     let winner = ranking.winner(ranking.preferences().weights);
     // Rescaled: (1 - 1)/8, 1; (5 - 1)/8, (1/2 - 1/4)/(1 - 1/4); ...
-    assert_eq!((winner.design(), winner.rescaled()[0]), ("0002", 0.5));
+    assert_eq!((winner.design(), winner.rescaled(0)), ("0002", 0.5));
     assert!((winner.fitness - 0.5_f64.powf(0.75) * (1.0_f64 / 3.0).powf(0.25)).abs() < 1e-12);
     assert!(ranking.winners().is_empty(), "two criteria fill no tetrahedron");
     let front: Vec<_> = ranking.front().iter().map(RankedDesign::design).collect();
@@ -223,7 +223,7 @@ fn a_weighted_mean_ruins_nobody() {
     let criteria = "criteria = ['coverage', 'critical_force']\nscale = ";
     let fitness = |scale: &str| {
         let ranking = by(&results, &format!("{criteria}'{scale}'")).expect("a ranking");
-        let mut ranked = ranking.by_fitness(ranking.preferences().weights);
+        let mut ranked: Vec<_> = ranking.by_fitness(ranking.preferences().weights).collect();
         ranked.sort_by_key(RankedDesign::row);
         ranked.iter().map(|design| design.fitness).collect::<Vec<_>>()
     };
@@ -240,7 +240,7 @@ fn equal_designs_share_their_place_and_round_off_makes_none_better() {
         results(&["0.5,1,1,0.7999999999", "0.5,1,1,0.8", "0.5,1,1,0.5", "0.5,1,1,0.80000000001"]);
     let ranking = by(&results, "criteria = ['compliance']").expect("a ranking");
     let ranks = ranking.by_fitness(Weights::equal(1));
-    let ranks: Vec<_> = ranks.iter().map(|design| (design.rank, design.design())).collect();
+    let ranks: Vec<_> = ranks.map(|design| (design.rank, design.design())).collect();
     assert_eq!(ranks, [(1, "0001"), (1, "0002"), (1, "0004"), (4, "0003")]);
     assert_eq!(ranking.winner(Weights::equal(1)).design(), "0001");
     assert_eq!(ranking.equals(Weights::equal(1)), 2);

@@ -1,4 +1,3 @@
-"use strict";
 // Sliders: one for each parameter, with a field to type in and an arrow that says which way is better.
 
 (() => {

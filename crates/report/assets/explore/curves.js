@@ -1,4 +1,3 @@
-"use strict";
 // Force over depth and moment over curvature, each with a mark that a hand or a key moves along the path.
 
 (() => {

@@ -1,4 +1,3 @@
-"use strict";
 // What the buttons do, and what is shown first.
 
 (() => {

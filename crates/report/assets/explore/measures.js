@@ -1,4 +1,3 @@
-"use strict";
 // What the skin does: its measures, what is required of it, and what stands in the way of trusting the numbers.
 
 (() => {

@@ -1,4 +1,3 @@
-"use strict";
 // The skin to scale: at rest with the handles that a hand may drag, under the needle, and bent.
 
 (() => {

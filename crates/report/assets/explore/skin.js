@@ -1,4 +1,3 @@
-"use strict";
 // The skin under the hand: its parameters, what is pinned, what the solver said last; and how it stands in the address.
 
 squama.live = (() => {

@@ -1,4 +1,3 @@
-"use strict";
 // What the page asks of the solver: the latest question alone, coarse while the hand moves and fine when it rests.
 
 squama.solver = (() => {
@@ -7,16 +6,6 @@ squama.solver = (() => {
   // So long a question that nobody waits for any more may go on, ms: a new thread starts in less than a slow question takes.
   const GRACE = 60;
   let module, worker, listen, ready = false, asked = null, waiting = null, resting, giving = null, id = 0;
-
-  /** The module: seven bits stand in each letter of its text; the last are filled up. */
-  const bytes = () => {
-    const text = squama.at("live-module").textContent, packed = new Uint8Array(Math.floor((text.length * 7) / 8));
-    for (let held = 0, count = 0, at = 0, k = 0; at < packed.length; k++) {
-      [held, count] = [((held << 7) | (text.charCodeAt(k) & 127)) & 0x7fff, count + 7];
-      if (count >= 8) packed[at++] = held >> (count -= 8);
-    }
-    return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
-  };
 
   const start = () => {
     worker?.terminate();
@@ -59,7 +48,7 @@ squama.solver = (() => {
       // What stands on the page is drawn first, and answers to the hand meanwhile.
       await new Promise((drawn) => { requestAnimationFrame(() => setTimeout(drawn)); });
       try {
-        module = await WebAssembly.compile(await bytes());
+        module = await WebAssembly.compile(await squama.unpacked("live-module", "gzip").arrayBuffer());
         start();
       } catch (error) {
         listen({ error: `This browser cannot run the solver: ${error.message}` });

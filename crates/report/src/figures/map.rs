@@ -112,7 +112,7 @@ pub fn map(name: &str, designs: &Designs, request: &MapRequest) -> Result<Figure
     // One scale for all maps: otherwise their colours could not be compared.
     let scale = ChartAxis::fit(&axis_label(of), held.numbers(of));
     let subject = MapSubject { x, y, of, scale };
-    let at = request.at.iter().map(|(axis, value)| (axis.as_str(), value.as_str()));
+    let at = request.at.iter().map(|(axis, value)| (axis.as_str(), value.as_str().into()));
     let at: AxisValues<'_> = at.collect();
     let title = super::title(
         &format!("{name}: {} over {} and {}", in_words(of), in_short(x), in_short(y)),
@@ -163,7 +163,7 @@ fn is_at(designs: &Designs, axis: &str, value: &str, row: usize) -> bool {
 }
 
 fn too_many(parts: &[(AxisValues<'_>, Designs)]) -> InvalidMap {
-    let first: &[(&str, &str)] = parts.first().map_or(&[], |(values, _)| values);
+    let first: &[(&str, _)] = parts.first().map_or(&[], |(values, _)| values);
     let axes = first.iter().map(|(axis, _)| (*axis).to_owned()).collect();
     let example = first.first().map_or_else(String::new, |(axis, value)| format!("{axis}={value}"));
     InvalidMap::TooMany { count: parts.len(), axes, example }
@@ -304,7 +304,7 @@ impl Map<'_> {
             map.add(
                 rect([left, top], [width + 0.3, height + 0.3])
                     .with("fill", color)
-                    .with("data-design", self.designs.text("design", row)),
+                    .with("data-design", self.designs.design(row)),
             );
             if self.subject.marks_folds() && self.designs.folded(row) {
                 map.add(line([left, top + height], [left + width, top], RED, 1.4));

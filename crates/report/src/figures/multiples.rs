@@ -157,7 +157,7 @@ impl PanelSeries<'_> {
     }
 
     fn is_filled(&self, row: usize) -> bool {
-        self.filled.is_none_or(|column| is_true(self.designs.text(column, row)))
+        self.filled.is_none_or(|column| is_true(&self.designs.text(column, row)))
     }
 }
 

@@ -72,7 +72,8 @@ pub(crate) fn in_short(parameter: &str) -> String {
 }
 
 /// Returns a parameter with its value, as titles and panels have it.
-pub(crate) fn with_value((parameter, value): &(&str, &str)) -> String {
+pub(crate) fn with_value((parameter, value): &(&str, impl AsRef<str>)) -> String {
+    let value = value.as_ref();
     let unit = without_unit(parameter).1;
     let space = if ["", "°"].contains(&unit.as_str()) { "" } else { " " };
     format!("{} = {value}{space}{unit}", in_short(parameter))

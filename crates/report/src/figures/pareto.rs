@@ -85,7 +85,7 @@ fn front(points: &[Point], designs: &Designs, palette: &SlantPalette) -> Element
     let beaten = thinned(points.len(), PAIRS.len()).filter(|&k| !on_front[k]).map(|k| {
         let (point, dot) = (&points[k], Element::new("use").with("href", "#dot"));
         let dot = dot.at("x", point.spot[0]).at("y", point.spot[1]).with("color", BEATEN);
-        dot.with("data-design", designs.text("design", point.row))
+        dot.with("data-design", designs.design(point.row))
     });
     let spots: Vec<Spot> = front.iter().map(|point| point.spot).collect();
     let line = polyline(&spots).with("stroke", FAINT).at("stroke-width", 1.2);

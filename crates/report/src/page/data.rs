@@ -1,19 +1,50 @@
 //! The data of a page, as its scripts read them.
 
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+
 use ranking::{CRITERIA, Criterion};
 use results::columns::{Goal, Shown, name, plain_goal, shown};
-use results::shell_word;
-use results::yardsticks;
+use results::{shell_word, yardsticks};
 use serde_json::{Value, json};
 use sweep::visible;
 
-use super::figures::{self, packed};
 use super::{Fact, GapFactors, Page, PageDesign, PageFront};
 use crate::designs::Designs;
+use crate::packed::write_packed;
 use crate::palette::SlantPalette;
 
-/// Returns the data of a page.
-pub(super) fn of(page: &Page) -> Value {
+/// Writes the cells of the table: its columns of numbers, and those that have texts. Of the numbers of a column the first bytes
+/// stand first, then the second ones: so those that are alike stand together, and half is left of them.
+pub(super) fn write_packed_cells(out: &mut impl Write, designs: &Designs) -> io::Result<()> {
+    let (mut numbers, mut texts) = (Vec::new(), BTreeMap::new());
+    for header in designs.headers() {
+        match designs.only_numbers(header) {
+            Some(column) => {
+                for byte in 0..size_of::<f64>() {
+                    numbers.extend(column.iter().map(|number| number.to_le_bytes()[byte]));
+                }
+            }
+            None => _ = texts.insert(header, cells(designs, header)),
+        }
+    }
+    write_packed(out, "cells", &numbers)?;
+    write_packed(out, "texts", serde_json::to_string(&texts)?.as_bytes())
+}
+
+/// Writes the drawings of the designs that were solved again.
+pub(super) fn write_drawings(out: &mut impl Write, page: &Page) -> io::Result<()> {
+    let mut drawn = page.solved.iter().filter(|design| !design.svg.is_empty());
+    drawn.try_for_each(|design| write_packed(out, &drawing_id(design), design.svg.as_bytes()))
+}
+
+/// Returns the id of the element that holds a drawing.
+fn drawing_id(design: &PageDesign) -> String {
+    format!("solved-{}", design.number)
+}
+
+/// Returns the data of a page, whose figures are written already.
+pub(super) fn of(page: &Page, figures: &[Value]) -> Value {
     let headers = page.designs.headers();
     let columns = headers.iter().zip(&page.columns);
     let varied = page.designs.varied();
@@ -40,12 +71,12 @@ pub(super) fn of(page: &Page) -> Value {
         "shown": {"first": shown(Shown::First), "last": last},
         "numeric": headers.iter().filter(|header| page.designs.has(header)).collect::<Vec<_>>(),
         "columns": columns.map(column).collect::<Vec<_>>(),
-        "values": headers.iter().map(|header| cells(&page.designs, header)).collect::<Vec<_>>(),
+        "count": page.designs.count(),
         "slants": slants(page.designs.values("slant_deg")),
         "run": page.run.iter().map(fact).collect::<Vec<_>>(),
         "shared": page.shared.iter().map(shared).collect::<Vec<_>>(),
         "drawings": page.solved.iter().map(solved).collect::<Vec<_>>(),
-        "figures": figures::of(page),
+        "figures": figures,
         "found": page.front.as_ref().map(PageFront::to_json),
     })
 }
@@ -61,7 +92,7 @@ pub(super) fn cell(designs: &Designs, header: &str, row: usize) -> Value {
     match designs.number(header, row) {
         _ if text.is_empty() => Value::Null,
         Some(number) if header != "design" => json!(number),
-        _ => json!(visible(text)),
+        _ => json!(visible(&text)),
     }
 }
 
@@ -83,6 +114,6 @@ fn solved(design: &PageDesign) -> Value {
         |GapFactors { column, factors }: &GapFactors| json!({"column": column, "factors": factors});
     let changes: Vec<_> = design.gap_factors.iter().map(change).collect();
     let has_curves = design.puncture.len() > 1 || design.flexure.len() > 1;
-    let svg = if design.svg.is_empty() { String::new() } else { packed(&design.svg) };
+    let svg = if design.svg.is_empty() { String::new() } else { drawing_id(design) };
     json!({"design": design.number, "svg": svg, "curves": has_curves, "gapFactors": changes})
 }

@@ -1,11 +1,7 @@
 //! The figures of a page: as the crate draws them, packed. The page unpacks those in sight, and marks and hides what they hold.
 
-use std::io::Write as _;
+use std::io::{self, Write};
 
-use base64::Engine as _;
-use base64::prelude::BASE64_STANDARD;
-use flate2::Compression;
-use flate2::write::DeflateEncoder;
 use ranking::TetrahedralGrid;
 use results::columns::{name, parameter_of};
 use serde_json::{Map, Value, json};
@@ -15,6 +11,7 @@ use super::{Page, curves};
 use crate::designs::{AxisValues, Designs};
 use crate::figures::weight_slices::WeightSlices;
 use crate::figures::{MULTIPLES, PARTS, Quantity, map, multiples, pareto, sheet, stiffness};
+use crate::packed::write_packed;
 use crate::svg::untitled;
 
 /// Measures beyond those of the paper that have a figure, at most.
@@ -22,80 +19,85 @@ const MEASURES: usize = 24;
 /// Marks of all their figures, about, at most.
 const MARKS: usize = 60_000;
 
-/// A figure that the page may show: which kind it is, what of it was chosen, the further parameters that it holds.
-struct PageFigure {
-    kind: &'static str,
-    choice: String,
-    part: Map<String, Value>,
-    svg: String,
+/// The figures of a page on their way into its file.
+struct FigureWriter<'w, W> {
+    out: &'w mut W,
+    /// Those that are written, as the scripts of the page read them.
+    written: Vec<Value>,
 }
 
-impl PageFigure {
-    /// Creates a figure of which there is one.
-    fn only(kind: &'static str, choice: &str, svg: String) -> Self {
-        Self { kind, choice: choice.to_owned(), part: Map::new(), svg }
-    }
-
-    fn to_json(&self) -> Value {
+impl<W: Write> FigureWriter<'_, W> {
+    /// Writes a figure: its kind, what of it was chosen, the further parameters that it holds.
+    fn add(
+        &mut self,
+        kind: &str,
+        choice: &str,
+        part: &Map<String, Value>,
+        svg: &str,
+    ) -> io::Result<()> {
         // The page has headings of its own, above the figures.
-        let svg = untitled(&self.svg);
+        let svg = untitled(svg);
         // The page keeps room for a figure that it has not unpacked yet.
         let size = svg.split("viewBox=\"").nth(1).and_then(|rest| rest.split('"').next());
-        json!({"kind": self.kind, "choice": self.choice, "part": self.part, "size": size, "svg": packed(&svg)})
+        let id = format!("drawn-{}", self.written.len());
+        write_packed(self.out, &id, svg.as_bytes())?;
+        self.written
+            .push(json!({"kind": kind, "choice": choice, "part": part, "size": size, "svg": id}));
+        Ok(())
+    }
+
+    /// Writes a figure of which there is one, if there is any.
+    fn only(&mut self, kind: &str, choice: &str, svg: Option<String>) -> io::Result<()> {
+        svg.map_or(Ok(()), |svg| self.add(kind, choice, &Map::new(), &svg))
+    }
+
+    /// Draws designs that differ in gap, aspect ratio and slant.
+    fn part(
+        &mut self,
+        (values, designs): &(AxisValues<'_>, Designs),
+        measures: &[String],
+    ) -> io::Result<()> {
+        let part: Map<_, _> =
+            values.iter().map(|(axis, _)| ((*axis).to_owned(), cell(designs, axis, 0))).collect();
+        let is_there = |(measure, _): &(&str, _)| designs.has(measure);
+        for (measure, filled) in MULTIPLES.into_iter().filter(is_there) {
+            let quantity = Quantity::of(designs, measure);
+            let kind = if measure == name::CRITICAL_FORCE { "critical-force" } else { measure };
+            self.add(kind, "", &part, &multiples::figure("", designs, &quantity, filled))?;
+            self.add("map", measure, &part, &map::by_slant("", designs, &quantity.column))?;
+        }
+        if designs.has(name::CRITICAL_FORCE) && designs.has(name::MAX_STIFFNESS) {
+            self.add("stiffness", "", &part, &stiffness::figure("", designs))?;
+        }
+        if designs.has(name::COVERAGE) {
+            self.add("coverage", "", &part, &map::by_slant("", designs, name::COVERAGE))?;
+        }
+        for measure in measures.iter().filter(|measure| designs.has(measure)) {
+            let quantity = Quantity { column: measure.clone(), band: None };
+            let svg = multiples::figure("", designs, &quantity, None);
+            self.add("measure", measure, &part, &svg)?;
+        }
+        Ok(())
     }
 }
 
-/// Returns the figures of a page, as its scripts read them.
-pub(super) fn of(page: &Page) -> Vec<Value> {
+/// Writes the figures of a page; returns them as its scripts read them.
+pub(super) fn write(out: &mut impl Write, page: &Page) -> io::Result<Vec<Value>> {
     let designs = &page.designs;
     let mut parts = designs.parts();
     // Of many parts those that hold the best designs, which are the ones that were solved again.
     let is_solved = |number: &str| page.solved.iter().any(|design| design.number == number);
-    parts
-        .sort_by_key(|(_, part)| !(0..part.count()).any(|row| is_solved(part.text("design", row))));
+    parts.sort_by_key(|(_, part)| !(0..part.count()).any(|row| is_solved(part.design(row))));
     let measures = measures(designs);
-    let mut figures: Vec<PageFigure> =
-        parts.iter().take(PARTS).flat_map(|part| of_part(part, &measures)).collect();
-    let pareto = pareto::figure("", designs, &worths(designs));
-    figures.extend(pareto.map(|svg| PageFigure::only("pareto", "", svg)));
-    figures.push(PageFigure::only("weights", "", weights()));
+    let mut figures = FigureWriter { out, written: Vec::new() };
+    parts.iter().take(PARTS).try_for_each(|part| figures.part(part, &measures))?;
+    figures.only("pareto", "", pareto::figure("", designs, &worths(designs)))?;
+    figures.only("weights", "", Some(weights()))?;
     for (choice, is_log) in [("linear", false), ("log", true)] {
-        let drawn = curves::figure(page, is_log);
-        figures.extend(drawn.map(|svg| PageFigure::only("curves", choice, svg)));
+        figures.only("curves", choice, curves::figure(page, is_log))?;
     }
-    let front = page.front.as_ref().map(|front| front.figure(designs));
-    figures.extend(front.map(|svg| PageFigure::only("front", "", svg)));
-    figures.iter().map(PageFigure::to_json).collect()
-}
-
-/// Draws designs that differ in gap, aspect ratio and slant.
-fn of_part((values, designs): &(AxisValues<'_>, Designs), measures: &[String]) -> Vec<PageFigure> {
-    let part: Map<_, _> =
-        values.iter().map(|(axis, _)| ((*axis).to_owned(), cell(designs, axis, 0))).collect();
-    let figure = |kind, choice: &str, svg| PageFigure {
-        kind,
-        choice: choice.to_owned(),
-        part: part.clone(),
-        svg,
-    };
-    let mut figures = Vec::new();
-    for (measure, filled) in MULTIPLES.into_iter().filter(|(measure, _)| designs.has(measure)) {
-        let quantity = Quantity::of(designs, measure);
-        let kind = if measure == name::CRITICAL_FORCE { "critical-force" } else { measure };
-        figures.push(figure(kind, "", multiples::figure("", designs, &quantity, filled)));
-        figures.push(figure("map", measure, map::by_slant("", designs, &quantity.column)));
-    }
-    if designs.has(name::CRITICAL_FORCE) && designs.has(name::MAX_STIFFNESS) {
-        figures.push(figure("stiffness", "", stiffness::figure("", designs)));
-    }
-    if designs.has(name::COVERAGE) {
-        figures.push(figure("coverage", "", map::by_slant("", designs, name::COVERAGE)));
-    }
-    for measure in measures.iter().filter(|measure| designs.has(measure)) {
-        let quantity = Quantity { column: measure.clone(), band: None };
-        figures.push(figure("measure", measure, multiples::figure("", designs, &quantity, None)));
-    }
-    figures
+    figures.only("front", "", page.front.as_ref().map(|front| front.figure(designs)))?;
+    Ok(figures.written)
 }
 
 /// Returns the measures that have a figure besides those of the paper: of large tables fewer.
@@ -129,12 +131,4 @@ fn weights() -> String {
     let winners = grid.nodes().map(|steps| (grid.weights(steps), usize::MAX)).collect();
     let slices = WeightSlices { resolution: grid.resolution(), winners };
     sheet(600.0, 610.0, "weights", slices.drawn(&Designs::default(), &[], &[]))
-}
-
-/// Returns a drawing as base64 of its deflated text: drawings repeat themselves, so that a tenth is left of them.
-pub(super) fn packed(svg: &str) -> String {
-    let mut encoder = DeflateEncoder::new(Vec::new(), Compression::default());
-    // A vector takes whatever is written.
-    let written = encoder.write_all(svg.as_bytes()).and_then(|()| encoder.finish());
-    written.map(|bytes| BASE64_STANDARD.encode(bytes)).unwrap_or_default()
 }

@@ -95,7 +95,7 @@ impl PageFront {
         };
         let of_grid = thinned(grid.count(), panels).filter_map(|row| {
             let mark = mark("#grid-design", spot(grid, row)?).with("color", COLORS[1]);
-            Some(mark.with("data-design", grid.text("design", row)))
+            Some(mark.with("data-design", grid.design(row)))
         });
         let mut found: Vec<(usize, Spot)> =
             (0..self.designs.count()).filter_map(|k| Some((k, spot(&self.designs, k)?))).collect();

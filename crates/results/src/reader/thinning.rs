@@ -1,6 +1,6 @@
 //! A long table thinned out: every so many rows, and those that are best by one value.
 
-use super::packed_rows::PackedRows;
+use super::table::Table;
 use crate::columns::{Goal, plain_goal};
 use crate::folder::MEASURE_TABLES;
 
@@ -9,7 +9,7 @@ use crate::folder::MEASURE_TABLES;
 pub(super) struct Thinning {
     every: usize,
     places: Vec<usize>,
-    rows: PackedRows,
+    table: Table,
     best: Vec<BestRow>,
 }
 
@@ -22,17 +22,17 @@ struct BestRow {
 }
 
 impl Thinning {
-    /// Of a table with these columns and so many rows, about `most`.
-    pub fn new(header: &[String], rows: usize, most: usize) -> Self {
+    /// Of a table like `table`, which is empty, with so many rows, about `most`.
+    pub fn new(table: Table, rows: usize, most: usize) -> Self {
         let best = MEASURE_TABLES.iter().filter_map(|(name, _)| {
-            let column = header.iter().position(|column| column == name)?;
+            let column = table.column(name)?;
             Some(BestRow { column, goal: plain_goal(name)?, row: None })
         });
         // A table that is kept whole has its best rows anyway.
         let best = if rows > most { best.collect() } else { Vec::new() };
         // Of a table without a limit no rows were counted, and every one is kept.
         let every = rows.div_ceil(most.max(1)).max(1);
-        Self { every, places: Vec::new(), rows: PackedRows::default(), best }
+        Self { every, places: Vec::new(), table, best }
     }
 
     /// Takes the row at `place` into account.
@@ -42,24 +42,24 @@ impl Thinning {
         }
         if place.is_multiple_of(self.every) {
             self.places.push(place);
-            self.rows.push(row.iter());
+            self.table.push(row);
         }
     }
 
     /// The rows that are kept, in their order.
-    pub fn finish(mut self) -> PackedRows {
+    pub fn finish(mut self) -> Table {
         if self.best.is_empty() {
-            return self.rows;
+            return self.table;
         }
         for (_, place, row) in self.best.into_iter().filter_map(|best| best.row) {
             self.places.push(place);
-            self.rows.push(row.iter());
+            self.table.push(&row);
         }
         // A row may be the best by several values and stand at one of the distances, too.
         let mut order: Vec<usize> = (0..self.places.len()).collect();
         order.sort_by_key(|k| self.places[*k]);
         order.dedup_by_key(|k| self.places[*k]);
-        self.rows.only(order.into_iter())
+        self.table.only(&order)
     }
 }
 
@@ -80,14 +80,15 @@ mod tests {
 
     fn thinned(rows: usize, most: usize) -> Vec<String> {
         let header = ["design", "penetration"].map(str::to_owned);
-        let mut thinning = Thinning::new(&header, rows, most);
+        let table = Table::new(header.to_vec(), |_| true);
+        let mut thinning = Thinning::new(table, rows, most);
         for place in 0..rows {
             let penetration = (place as f64 - 7.0).abs();
             let row = [place.to_string(), penetration.to_string()];
             thinning.visit(place, &csv::StringRecord::from(row.to_vec()));
         }
-        let rows = thinning.finish();
-        (0..rows.len()).map(|row| rows.cell(row, 0).to_owned()).collect()
+        let table = thinning.finish();
+        (0..table.length()).map(|row| table.name(row).to_owned()).collect()
     }
 
     #[test]

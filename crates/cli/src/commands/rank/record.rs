@@ -10,7 +10,7 @@ pub fn ranking_record(results: &Results, ranking: &Ranking<'_>, top: usize) -> V
     let criteria = &preferences.criteria;
     let left_out = ranking.left_out().iter();
     let left_out = left_out.map(|(why, count)| json!({ "why": why, "designs": count }));
-    let best = ranking.by_fitness(preferences.weights);
+    let best: Vec<_> = ranking.by_fitness(preferences.weights).take(top).collect();
     let alone = criteria.iter().zip(Weights::alone_among(criteria.len()));
     let alone = alone.map(|(criterion, weights)| {
         let mut winner = design(ranking, &ranking.winner(weights));
@@ -30,7 +30,7 @@ pub fn ranking_record(results: &Results, ranking: &Ranking<'_>, top: usize) -> V
         "criteria": criteria,
         "weights": preferences.weights.values(),
         "scale": preferences.scale.to_string(),
-        "best": designs(&best[..best.len().min(top)]),
+        "best": designs(&best),
         "as_good_as_the_best": ranking.equals(preferences.weights),
         "best_by_one_criterion": alone.collect::<Vec<_>>(),
         "best_for_some_weights": designs(&ranking.winners()),
@@ -41,8 +41,8 @@ pub fn ranking_record(results: &Results, ranking: &Ranking<'_>, top: usize) -> V
 
 /// A design with its standing and its criteria.
 fn design(ranking: &Ranking<'_>, standing: &RankedDesign<'_>) -> Value {
-    let columns = ranking.preferences().criteria.iter().map(|c| c.column.to_string());
-    let values = columns.zip(standing.values().iter().map(|value| Value::from(*value)));
+    let criteria = ranking.preferences().criteria.iter().enumerate();
+    let values = criteria.map(|(c, own)| (own.column.to_string(), standing.value(c).into()));
     json!({
         "design": standing.design(),
         "fitness": standing.fitness,

@@ -81,7 +81,7 @@ impl RankReport<'_> {
     fn best(&self) -> String {
         let preferences = self.preferences();
         let best = self.ranking.by_fitness(preferences.weights);
-        let listed: Vec<_> = best.iter().take(self.top).collect();
+        let listed: Vec<_> = best.take(self.top).collect();
         let mut text = match preferences.criteria.as_slice() {
             [alone] => format!("Best by {}", alone.name),
             _ => format!("Best by {}", preferences.in_words()),
@@ -101,7 +101,7 @@ impl RankReport<'_> {
     fn unfolded(&self) -> String {
         let Some(best) = self.ranking.best_unfolded() else { return String::new() };
         let title = "The surface of the substrate folds under the best design. The best design without a fold";
-        format!("\n{title}\n{}", self.table(&[&best], "fitness", fitness))
+        format!("\n{title}\n{}", self.table(&[best], "fitness", fitness))
     }
 
     /// The best design by each criterion.
@@ -125,8 +125,8 @@ impl RankReport<'_> {
     fn winners(&self) -> String {
         let winners = self.ranking.winners();
         let count = winners.len();
-        let listed: Vec<_> = winners.iter().take(LISTED).collect();
-        let table = self.table(&listed, "share", |s| format!("{:.2} %", 100.0 * s.share()));
+        let listed = &winners[..count.min(LISTED)];
+        let table = self.table(listed, "share", |s| format!("{:.2} %", 100.0 * s.share()));
         let title = "Best for some choice of weights";
         format!(
             "{title}: {}, with their share of all choices\n{table}{}",
@@ -146,7 +146,7 @@ impl RankReport<'_> {
         let knee = self.ranking.knee();
         let is_knee = |s: &RankedDesign<'_>| knee.is_some_and(|knee| knee.row() == s.row());
         let mut listed: Vec<_> = front.iter().collect();
-        listed.sort_by(|a, b| b.criteria()[0].total_cmp(&a.criteria()[0]));
+        listed.sort_by(|a, b| b.criterion(0).total_cmp(&a.criterion(0)));
         listed.truncate(LISTED.max(self.top));
         // The knee is what several criteria are asked for, so it is listed wherever it stands.
         let hidden = knee.filter(|knee| !listed.iter().any(|s| s.row() == knee.row()));
@@ -162,7 +162,7 @@ impl RankReport<'_> {
 
     fn table(
         &self,
-        standings: &[&RankedDesign<'_>],
+        standings: &[RankedDesign<'_>],
         first: &str,
         cell: fn(&RankedDesign<'_>) -> String,
     ) -> String {
@@ -201,7 +201,7 @@ fn shown_columns(results: &Results, preferences: &Preferences) -> Vec<String> {
 
 /// Whether the surface of the substrate folds over before the puncture of a design ends.
 fn is_folded(results: &Results, row: usize) -> bool {
-    results.column(name::FOLD_FORCE).is_ok_and(|fold| !results.text(row, fold).is_empty())
+    results.column(name::FOLD_FORCE).is_ok_and(|fold| !results.table().is_empty(row, fold))
 }
 
 fn shown_cells(results: &Results, preferences: &Preferences, row: usize) -> Vec<String> {
@@ -209,14 +209,14 @@ fn shown_cells(results: &Results, preferences: &Preferences, row: usize) -> Vec<
     // A force up to the fold can be trusted.
     let is_doubtful = columns.iter().any(|column| column.starts_with(name::CRITICAL_FORCE));
     let cell = |column: &String| {
-        let text = results.column(column).map_or("", |column| results.text(row, column));
+        let text = results.column(column).map_or_else(|_| "".into(), |of| results.text(row, of));
         match text.parse::<f64>() {
             _ if column == "design" && is_doubtful && is_folded(results, row) => {
                 format!("{text}{FOLDED}")
             }
             // Parameters stay as they are written: rounded, they would not choose the design again.
             Ok(number) if parameter_of(column).is_none() && column != "design" => digits(number),
-            _ => text.to_owned(),
+            _ => text.into_owned(),
         }
     };
     columns.iter().map(cell).collect()

@@ -1,4 +1,3 @@
-"use strict";
 // The state in the address: `#require=coverage >= 0.6&weights=40,30,20,10&design=0123`. What is as at first is left out.
 
 (() => {

@@ -1,4 +1,3 @@
-"use strict";
 // Which designs can be compared: a criterion says nothing between designs that are not measured alike. By which parameters
 // a column is measured comes from the program; `squama rank` refuses where they differ.
 

@@ -1,4 +1,3 @@
-"use strict";
 // The pinned design beside the chosen one: drawings, curves, numbers.
 
 (() => {
@@ -47,7 +46,7 @@
       squama.command(`squama plot curves ${squama.folder}/run.toml --design ${[...new Set(rows.map(squama.number))].join(",")}`));
     const figure = squama.figures.find(({ kind, choice }) => kind === "curves" && (choice === "log") === state.log);
     if (!figure) return;
-    drawing.innerHTML = await squama.unpacked(figure.svg);
+    drawing.innerHTML = await squama.unpacked(figure.svg).text();
     drawing.dataset.log = state.log;
     drawing.querySelectorAll(".panel").forEach(fit(rows));
   };

@@ -1,4 +1,3 @@
-"use strict";
 // Criteria and their weights: sliders, the best designs, and the command that does the same.
 
 (() => {

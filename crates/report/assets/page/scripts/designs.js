@@ -1,13 +1,7 @@
-"use strict";
 // The table of the sweep: columns, cells, and how people call them.
-
-const squama = JSON.parse(document.getElementById("data").textContent);
 
 /** Columns of the criteria of the paper. */
 [squama.coverage, squama.criticalForce, squama.penetration, squama.compliance] = squama.paper.map(({ column }) => column);
-
-/** Number of designs. */
-squama.count = squama.values[0]?.length ?? 0;
 
 /** All rows, from the top. */
 squama.rows = Array.from({ length: squama.count }, (_, row) => row);
@@ -23,19 +17,19 @@ squama.has = (name) => squama.place.has(name);
 /** Which values of a column are good, "max" or "min"; null where that is not plain. */
 squama.goal = (name) => squama.columns[squama.place.get(name)]?.goal ?? null;
 
-/** Cells of a column, from the top: numbers, texts, or null. */
-squama.cells = (name) => squama.values[squama.place.get(name)] ?? [];
-
 /** Cell of a row: a number, a text, or null. */
-squama.cell = (row, name) => squama.cells(name)[row] ?? null;
+squama.cell = (row, name) => {
+  const value = squama.values[squama.place.get(name)]?.[row] ?? null;
+  return Number.isNaN(value) ? null : value;
+};
+
+/** Cells of a column, from the top. */
+squama.cells = (name) => (squama.has(name) ? squama.rows.map((row) => squama.cell(row, name)) : []);
 
 /** Numbers of a column, from the top; where a cell is none, NaN. */
 squama.numbers = (() => {
   const known = new Map();
-  const made = (name) => Float64Array.from(squama.rows, (row) => {
-    const value = squama.cell(row, name);
-    return typeof value === "number" ? value : NaN;
-  });
+  const made = (name) => Float64Array.from(squama.cells(name), (value) => (typeof value === "number" ? value : NaN));
   return (name) => {
     if (!known.has(name)) known.set(name, made(name));
     return known.get(name);

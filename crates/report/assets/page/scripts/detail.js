@@ -1,4 +1,3 @@
-"use strict";
 // The chosen design: parameters, values, drawing, commands.
 
 (() => {
@@ -22,7 +21,7 @@
   squama.solvedDrawing = (row) => {
     const number = squama.number(row), solved = squama.solved(row);
     if (!solved?.svg) return [];
-    const drawn = squama.unpacked(solved.svg);
+    const drawn = squama.unpacked(solved.svg).text();
     const button = squama.element("button", { type: "button", class: "solved", "aria-label": `Enlarge the drawing of design ${number}`, onclick: () => enlarge(drawn) });
     drawn.then((svg) => { button.innerHTML = svg; });
     return [button, squama.element("p", { class: "note" }, "At rest and at the critical tilt; a click enlarges it.")];

@@ -1,4 +1,3 @@
-"use strict";
 // The row of a design at rest, to scale, with the line that measures its coverage.
 
 /** Draws a row; `span` is the width that the drawing takes, in units of `t`. */

@@ -1,4 +1,3 @@
-"use strict";
 // Elements of the page.
 
 /** Sets attributes; a function named `on…` listens, and what is null or false is left out. */
@@ -26,6 +25,16 @@ squama.svg = (name, attributes = {}, ...children) => {
 
 /** The element of an id. */
 squama.at = (id) => document.getElementById(id);
+
+/** What the element of an id holds packed: seven bits stand in each letter of its text; the last are filled up. */
+squama.unpacked = (id, format = "deflate-raw") => {
+  const text = squama.at(id).textContent, packed = new Uint8Array(Math.floor((text.length * 7) / 8));
+  for (let held = 0, count = 0, at = 0, k = 0; at < packed.length; k++) {
+    [held, count] = [((held << 7) | (text.charCodeAt(k) & 127)) & 0x7fff, count + 7];
+    if (count >= 8) packed[at++] = held >> (count -= 8);
+  }
+  return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream(format)));
+};
 
 /** A choice among options, each `[value, text]`. */
 squama.dropdown = (attributes, options, chosen) => squama.element("select", attributes,

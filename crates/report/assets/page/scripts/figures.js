@@ -1,11 +1,7 @@
-"use strict";
 // The figures, as the program has drawn them: those in sight are unpacked; their marks are pointed at, chosen, and hidden by
 // requirements. Nothing is drawn here.
 
 squama.charts = [];
-
-/** Unpacks a drawing: base64 of deflated text. */
-squama.unpacked = (text) => new Response(new Blob([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))]).stream().pipeThrough(new DecompressionStream("deflate-raw"))).text();
 
 (() => {
   const REACH = 14;
@@ -80,7 +76,7 @@ squama.unpacked = (text) => new Response(new Blob([Uint8Array.from(atob(text), (
   const unpackNext = async () => {
     const next = squama.charts.filter(({ seen: own }) => own).map(wanted).find((figure) => figure && figure.text === undefined) ?? squama.figures.find(({ text }) => text === undefined);
     if (!next) return;
-    next.text = await squama.unpacked(next.svg);
+    next.text = await squama.unpacked(next.svg).text();
     later();
     unpackNext();
   };

@@ -1,4 +1,3 @@
-"use strict";
 // Filters under the headers of the table: another way to write requirements, `>0.5`, `0.1..0.5` or a part of a text.
 
 squama.filters = (() => {

@@ -1,4 +1,3 @@
-"use strict";
 // The designs that a search has found between those of the grid: a front over the grid's designs, and a table.
 
 (() => {

@@ -1,4 +1,3 @@
-"use strict";
 // How far the measures of a design move with its gap: known of designs that were solved again with a gap 10 % smaller and larger.
 
 squama.gap = (() => {

@@ -1,4 +1,3 @@
-"use strict";
 // Theme, printing, links; and what is shown first.
 
 (() => {

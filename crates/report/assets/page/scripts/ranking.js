@@ -1,4 +1,3 @@
-"use strict";
 // How designs are chosen: requirements, criteria, fitness, fronts. Nothing here knows the page; `squama rank` does the
 // same, in the same order of operations, and scripts/check-page holds both together.
 

@@ -1,4 +1,3 @@
-"use strict";
 // Requirements: bounds that a design must keep. They act on ranking, tetrahedron, figures and table alike.
 
 (() => {

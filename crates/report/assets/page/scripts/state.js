@@ -1,4 +1,3 @@
-"use strict";
 // What the reader has chosen, who wants to know, and how it stands in the address, so that it can be sent.
 
 squama.listeners = new Map();

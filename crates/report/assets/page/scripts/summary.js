@@ -1,4 +1,3 @@
-"use strict";
 // Summary and failures.
 
 (() => {

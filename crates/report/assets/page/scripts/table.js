@@ -1,4 +1,3 @@
-"use strict";
 // The table of designs: sorted by its headers, filtered by its second line. Of many rows only those in sight exist.
 
 (() => {

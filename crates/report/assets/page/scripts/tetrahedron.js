@@ -1,4 +1,3 @@
-"use strict";
 // The best design for every weighting of four criteria: the dots of the tetrahedron, cut into slices, in the colours of designs.
 
 (() => {
@@ -63,7 +62,7 @@
   });
   squama.listen("weights", ring);
   const figure = squama.figures.find(({ kind }) => kind === "weights");
-  squama.unpacked(figure.svg).then((svg) => {
+  squama.unpacked(figure.svg).text().then((svg) => {
     drawing.innerHTML = svg;
     if (squama.contest) show();
   });

@@ -1,4 +1,3 @@
-"use strict";
 // The further parameters: those beside gap, aspect ratio and slant, of which the figures show one value each.
 
 squama.view = (() => {

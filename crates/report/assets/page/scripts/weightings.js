@@ -1,4 +1,3 @@
-"use strict";
 // All ways to share a weight among four criteria, and the design that is best for each.
 
 squama.weightings = (() => {

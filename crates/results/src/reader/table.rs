@@ -1,0 +1,205 @@
+//! The cells of a table, column by column: numbers as numbers, which take a third of the room of their texts.
+
+use std::borrow::Cow;
+
+use sweep::number;
+
+/// The cells of a table below its header. What was written can be read again to the letter, whether a column is kept as
+/// numbers or as texts.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Table {
+    header: Vec<String>,
+    columns: Vec<Column>,
+    length: usize,
+}
+
+/// The cells of one column, from the top.
+#[derive(Clone, Debug, PartialEq)]
+enum Column {
+    /// Nobody asks for it.
+    Unread,
+    /// Numbers, each written as [`number::text`] writes it; NaN for an empty cell.
+    Numbers(Vec<f64>),
+    /// Anything else.
+    Texts(Texts),
+}
+
+/// Texts, one behind the other.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Texts {
+    all: String,
+    /// The end of each.
+    ends: Vec<usize>,
+}
+
+impl Texts {
+    fn push(&mut self, text: &str) {
+        self.all.push_str(text);
+        self.ends.push(self.all.len());
+    }
+
+    fn get(&self, row: usize) -> &str {
+        let begin = row.checked_sub(1).map_or(0, |before| self.ends[before]);
+        &self.all[begin..self.ends[row]]
+    }
+}
+
+impl Column {
+    fn push(&mut self, cell: &str) {
+        match self {
+            Self::Unread => {}
+            Self::Texts(texts) => texts.push(cell),
+            Self::Numbers(numbers) => match number_of(cell) {
+                Some(number) => numbers.push(number),
+                // A word, or a number that a person has written: its digits are to stay.
+                None => {
+                    let mut texts = Texts::default();
+                    numbers.iter().for_each(|number| texts.push(&text_of(*number)));
+                    texts.push(cell);
+                    *self = Self::Texts(texts);
+                }
+            },
+        }
+    }
+
+    fn text(&self, row: usize) -> Cow<'_, str> {
+        match self {
+            Self::Unread => Cow::default(),
+            Self::Numbers(numbers) => text_of(numbers[row]).into(),
+            Self::Texts(texts) => texts.get(row).into(),
+        }
+    }
+
+    fn only(&self, rows: &[usize]) -> Self {
+        match self {
+            Self::Unread => Self::Unread,
+            Self::Numbers(numbers) => Self::Numbers(rows.iter().map(|row| numbers[*row]).collect()),
+            Self::Texts(texts) => {
+                let mut kept = Texts::default();
+                rows.iter().for_each(|row| kept.push(texts.get(*row)));
+                Self::Texts(kept)
+            }
+        }
+    }
+}
+
+/// The number in a cell whose text can be made from it again.
+fn number_of(cell: &str) -> Option<f64> {
+    if cell.is_empty() {
+        return Some(f64::NAN);
+    }
+    let number = cell.parse().ok().filter(|number: &f64| number.is_finite())?;
+    (number::text(number) == cell).then_some(number)
+}
+
+fn text_of(number: f64) -> String {
+    if number.is_nan() { String::new() } else { number::text(number) }
+}
+
+impl Table {
+    /// A table without rows, of whose columns those are kept that `is_read` names. The first has the names of the rows.
+    pub fn new(header: Vec<String>, is_read: impl Fn(&str) -> bool) -> Self {
+        let column = |(place, name): (usize, &String)| match place {
+            // `7` and `007` are names of two rows.
+            0 => Column::Texts(Texts::default()),
+            _ if is_read(name) => Column::Numbers(Vec::new()),
+            _ => Column::Unread,
+        };
+        let columns = header.iter().enumerate().map(column).collect();
+        Self { header, columns, length: 0 }
+    }
+
+    /// Adds a row at the end, with a cell for each column.
+    pub fn push<'c>(&mut self, cells: impl IntoIterator<Item = &'c str>) {
+        self.columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
+        self.length += 1;
+    }
+
+    /// The rows at these places.
+    #[must_use]
+    pub fn only(&self, rows: &[usize]) -> Self {
+        let columns = self.columns.iter().map(|column| column.only(rows)).collect();
+        Self { header: self.header.clone(), columns, length: rows.len() }
+    }
+
+    /// Names of the columns.
+    pub fn header(&self) -> &[String] {
+        &self.header
+    }
+
+    /// The place of a column.
+    pub fn column(&self, name: &str) -> Option<usize> {
+        self.header.iter().position(|column| column == name)
+    }
+
+    /// The number of rows.
+    pub fn length(&self) -> usize {
+        self.length
+    }
+
+    /// The name of a row: its first cell.
+    pub fn name(&self, row: usize) -> &str {
+        match self.columns.first() {
+            Some(Column::Texts(texts)) => texts.get(row),
+            _ => "",
+        }
+    }
+
+    /// A cell as it is written.
+    pub fn text(&self, row: usize, column: usize) -> Cow<'_, str> {
+        self.columns[column].text(row)
+    }
+
+    /// Whether a cell is empty.
+    pub fn is_empty(&self, row: usize, column: usize) -> bool {
+        // The text of an empty cell takes nothing to make, and whoever has a number is not empty.
+        self.number(row, column).is_none() && self.text(row, column).is_empty()
+    }
+
+    /// The number in a cell, if there is one.
+    pub fn number(&self, row: usize, column: usize) -> Option<f64> {
+        let number = match &self.columns[column] {
+            Column::Unread => return None,
+            Column::Numbers(numbers) => numbers[row],
+            // Rust reads `inf` and `NaN` as numbers, too, but no table of squama has them.
+            Column::Texts(texts) => texts.get(row).parse().ok()?,
+        };
+        number.is_finite().then_some(number)
+    }
+
+    /// The numbers of a column, NaN for empty cells; `None` if it has texts.
+    pub fn numbers(&self, column: usize) -> Option<&[f64]> {
+        match &self.columns[column] {
+            Column::Numbers(numbers) => Some(numbers),
+            _ => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_are_read_again_to_the_letter() {
+        let rows =
+            [["1", "", "1e-7", "0.5"], ["02", "", "0.30000000000000004", "-0"], ["3", "", "", "x"]];
+        let mut table = Table::new(["n", "a", "b", "c"].map(str::to_owned).to_vec(), |_| true);
+        rows.iter().for_each(|row| table.push(*row));
+        for (k, row) in rows.iter().enumerate() {
+            assert_eq!([0, 1, 2, 3].map(|column| table.text(k, column)), *row);
+            assert_eq!((table.name(k), table.is_empty(k, 1)), (row[0], true));
+        }
+        assert!(table.numbers(2).is_some() && table.numbers(3).is_none());
+        assert_eq!([0, 1, 2].map(|row| table.number(row, 3)), [Some(0.5), Some(-0.0), None]);
+        let some = table.only(&[2, 0]);
+        assert_eq!((some.length(), some.text(1, 2).as_ref(), some.name(0)), (2, "1e-7", "3"));
+    }
+
+    #[test]
+    fn a_column_that_nobody_reads_takes_no_room() {
+        let mut table = Table::new(["n", "a"].map(str::to_owned).to_vec(), |name| name != "a");
+        table.push(["1", "2"]);
+        assert_eq!((table.length(), table.number(0, 1)), (1, None));
+    }
+}
