@@ -85,6 +85,16 @@ export default ({ open, run, folders }) => ({
     assert.ok(await nothing.locator("#best tbody tr").count() > 5);
     assert.ok(await nothing.locator("#failure-list tbody tr").count() >= 12);
     assert.ok((await spots(nothing, "coverage")).length >= 12);
+    // Bases are twice as long as scales here: the thick parts of the line across the drawing are the coverage.
+    const covered = await nothing.evaluate(() => {
+      const length = (line) => Math.abs(line.getAttribute("y1") - line.getAttribute("y2"));
+      return squama.rows.filter((row) => squama.cell(row, "coverage") > 0).map((row) => {
+        const [whole, ...thick] = [...squama.drawing(row).querySelectorAll("line")].map(length);
+        return [thick.reduce((a, b) => a + b, 0) / whole, squama.cell(row, "coverage")];
+      });
+    });
+    assert.ok(covered.length > 0);
+    for (const [drawn, told] of covered) assert.ok(Math.abs(drawn - told) < 1e-3, `${drawn} ${told}`);
     await nothing.evaluate(() => squama.require([{ column: "coverage", sign: ">", limit: 2 }]));
     assert.equal(await nothing.locator("#best tbody tr").count(), 0);
     await nothing.waitForTimeout(200);

@@ -91,7 +91,7 @@ pub struct Page {
 }
 
 /// The factors by which a column of a design changes where its gap is 10 % smaller and 10 % larger.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GapFactors {
     /// The column.
     pub column: String,

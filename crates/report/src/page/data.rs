@@ -9,7 +9,7 @@ use results::{shell_word, yardsticks};
 use serde_json::{Value, json};
 use sweep::visible;
 
-use super::{Fact, GapFactors, Page, PageDesign, PageFront};
+use super::{Page, PageDesign, PageFront};
 use crate::designs::Designs;
 use crate::packed::write_packed;
 use crate::palette::SlantPalette;
@@ -54,8 +54,6 @@ pub(super) fn of(page: &Page, figures: &[Value]) -> Value {
     let column = |(name, (unit, meaning)): (&String, &(String, String))| json!({"name": name, "unit": unit, "meaning": meaning, "goal": plain_goal(name).map(Goal::key), "measuredBy": measured_by(name)});
     let criterion =
         |of: &Criterion| json!({"column": of.column, "goal": of.goal.key(), "name": of.name});
-    let fact = |(name, value): &Fact| json!({"name": name, "value": value});
-    let shared = |[key, value, meaning]: &[String; 3]| json!({"key": key, "value": value, "meaning": meaning});
     let last = [shown(Shown::Then), shown(Shown::Last)].concat();
     json!({
         "name": visible(&page.name),
@@ -73,8 +71,8 @@ pub(super) fn of(page: &Page, figures: &[Value]) -> Value {
         "columns": columns.map(column).collect::<Vec<_>>(),
         "count": page.designs.count(),
         "slants": slants(page.designs.values("slant_deg")),
-        "run": page.run.iter().map(fact).collect::<Vec<_>>(),
-        "shared": page.shared.iter().map(shared).collect::<Vec<_>>(),
+        "run": page.run,
+        "shared": page.shared,
         "drawings": page.solved.iter().map(solved).collect::<Vec<_>>(),
         "figures": figures,
         "found": page.front.as_ref().map(PageFront::to_json),
@@ -110,10 +108,7 @@ fn slants(values: Vec<f64>) -> Vec<Value> {
 }
 
 fn solved(design: &PageDesign) -> Value {
-    let change =
-        |GapFactors { column, factors }: &GapFactors| json!({"column": column, "factors": factors});
-    let changes: Vec<_> = design.gap_factors.iter().map(change).collect();
     let has_curves = design.puncture.len() > 1 || design.flexure.len() > 1;
     let svg = if design.svg.is_empty() { String::new() } else { drawing_id(design) };
-    json!({"design": design.number, "svg": svg, "curves": has_curves, "gapFactors": changes})
+    json!({"design": design.number, "svg": svg, "curves": has_curves, "gapFactors": design.gap_factors})
 }

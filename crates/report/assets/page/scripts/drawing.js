@@ -5,7 +5,7 @@ squama.drawing = (() => {
   const WIDE = 350;
 
   const geometry = (row) => {
-    const base = squama.cell(row, "base") ?? squama.shared.find(({ key }) => key === "base")?.value ?? "L";
+    const base = squama.cell(row, "base") ?? squama.shared.find(([key]) => key === "scale.base")?.[1] ?? "L";
     const length = squama.cell(row, "length_over_t"), gap = squama.cell(row, "gap_over_t");
     const half = base === "2L" ? length : length / 2;
     return { half, shift: Math.tan((squama.cell(row, "slant_deg") * Math.PI) / 180), pitch: 2 * half + gap };

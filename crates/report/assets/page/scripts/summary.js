@@ -43,8 +43,8 @@
     ["on the Pareto front", squama.element("span", { id: "front-count" }, "…")],
     ...folds(),
   ]);
-  facts("run-list", squama.run.map(({ name, value }) => [name, value]));
-  facts("shared-list", squama.shared.map(({ key, value, meaning }) => [`${meaning} (${key})`, value]));
+  facts("run-list", squama.run);
+  facts("shared-list", squama.shared.map(([key, value, meaning]) => [`${meaning} (${key})`, value]));
 
   let timer = null;
   squama.listen("selection", () => {
