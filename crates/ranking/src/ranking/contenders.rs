@@ -76,22 +76,18 @@ pub(super) fn sort_out(
     // A tree, so that reasons are told in one order, whichever row is met first.
     let (mut rows, mut values, mut left_out) = (Vec::new(), Vec::new(), BTreeMap::new());
     for row in 0..results.len() {
+        let unmet = filter.first_unmet(row)?.map(LeftOut::Unmet);
         let mut found = [None; MOST_CRITERIA];
-        let why = match filter.first_unmet(row)? {
-            Some(place) => Some(LeftOut::Unmet(place)),
-            None => {
-                for (value, &column) in found.iter_mut().zip(&columns) {
-                    *value = results.number(row, column)?;
-                }
-                obstacle(&found, preferences)
+        if unmet.is_none() {
+            for (value, &column) in found.iter_mut().zip(&columns) {
+                *value = results.number(row, column)?;
             }
-        };
-        match why {
-            Some(why) => *left_out.entry(why).or_insert(0) += 1,
-            None => {
-                rows.push(row);
-                values.extend(found.iter().flatten());
-            }
+        }
+        if let Some(why) = unmet.or_else(|| obstacle(&found, preferences)) {
+            *left_out.entry(why).or_insert(0) += 1;
+        } else {
+            rows.push(row);
+            values.extend(found.iter().flatten());
         }
     }
     Ok((Contenders::new(rows, columns, values, preferences), left_out))

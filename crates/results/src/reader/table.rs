@@ -44,21 +44,30 @@ impl Texts {
     }
 }
 
+impl<T: AsRef<str>> FromIterator<T> for Texts {
+    fn from_iter<I: IntoIterator<Item = T>>(all: I) -> Self {
+        let mut texts = Self::default();
+        for text in all {
+            texts.push(text.as_ref());
+        }
+        texts
+    }
+}
+
 impl Column {
     fn push(&mut self, cell: &str) {
         match self {
             Self::Unread => {}
             Self::Texts(texts) => texts.push(cell),
-            Self::Numbers(numbers) => match number_of(cell) {
-                Some(number) => numbers.push(number),
-                // A word, or a number that a person has written: its digits are to stay.
-                None => {
-                    let mut texts = Texts::default();
-                    numbers.iter().for_each(|number| texts.push(&text_of(*number)));
-                    texts.push(cell);
-                    *self = Self::Texts(texts);
+            Self::Numbers(numbers) => {
+                if let Some(number) = number_of(cell) {
+                    numbers.push(number);
+                } else {
+                    // A word, or a number that a person has written: its digits are to stay.
+                    *self = Self::Texts(numbers.iter().map(|number| text_of(*number)).collect());
+                    self.push(cell);
                 }
-            },
+            }
         }
     }
 
@@ -74,11 +83,7 @@ impl Column {
         match self {
             Self::Unread => Self::Unread,
             Self::Numbers(numbers) => Self::Numbers(rows.iter().map(|row| numbers[*row]).collect()),
-            Self::Texts(texts) => {
-                let mut kept = Texts::default();
-                rows.iter().for_each(|row| kept.push(texts.get(*row)));
-                Self::Texts(kept)
-            }
+            Self::Texts(texts) => Self::Texts(rows.iter().map(|row| texts.get(*row)).collect()),
         }
     }
 }
@@ -111,7 +116,9 @@ impl Table {
 
     /// Adds a row at the end, with a cell for each column.
     pub fn push<'c>(&mut self, cells: impl IntoIterator<Item = &'c str>) {
-        self.columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
+        for (column, cell) in self.columns.iter_mut().zip(cells) {
+            column.push(cell);
+        }
         self.length += 1;
     }
 
@@ -185,7 +192,9 @@ mod tests {
         let rows =
             [["1", "", "1e-7", "0.5"], ["02", "", "0.30000000000000004", "-0"], ["3", "", "", "x"]];
         let mut table = Table::new(["n", "a", "b", "c"].map(str::to_owned).to_vec(), |_| true);
-        rows.iter().for_each(|row| table.push(*row));
+        for row in &rows {
+            table.push(*row);
+        }
         for (k, row) in rows.iter().enumerate() {
             assert_eq!([0, 1, 2, 3].map(|column| table.text(k, column)), *row);
             assert_eq!((table.name(k), table.is_empty(k, 1)), (row[0], true));
