@@ -173,12 +173,12 @@ impl<'r> Ranking<'r> {
         folder: &VerifiedFolder,
         preferences: &Preferences,
     ) -> Result<Results, InvalidResults> {
-        let is_criterion = |name: &str| preferences.criteria.iter().any(|c| c.column == name);
-        let is_required = |name: &str| preferences.requirements.iter().any(|r| r.column == name);
-        Results::with_columns(folder, |name| {
+        let is_criterion = |column: &str| preferences.criteria.iter().any(|c| c.column == column);
+        let is_required = |own: &str| preferences.requirements.iter().any(|r| r.column == own);
+        Results::with_columns(folder, |column| {
             // Parameters are printed, and tell what is measured alike.
-            let is_always = name == FOLD_FORCE || parameter_of(name).is_some();
-            is_always || is_criterion(name) || is_required(name)
+            let is_always = column == name::FOLD_FORCE || parameter_of(column).is_some();
+            is_always || is_criterion(column) || is_required(column)
         })
     }
 

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use results::columns::name;
 use serde::Serialize;
-use sweep::{Axis, Parameter, Scalar, Sweep, Variable, key, visible};
+use sweep::{Axis, Parameter, Scalar, Sweep, Variable, key};
 
 use crate::packed::in_sevens;
 use crate::page::{ELEMENTS, fill, fill_head, fill_json};
