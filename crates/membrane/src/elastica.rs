@@ -150,7 +150,7 @@ impl Elastica {
         let mut gradient = DVector::zeros(z.len());
         gradient.rows_mut(0, f).gemv(bending, &stiffness, &psi, 0.0);
         let mut hessian = DMatrix::zeros(z.len(), z.len());
-        hessian.view_mut((0, 0), (f, f)).copy_from(&(bending * stiffness));
+        hessian.view_mut((0, 0), (f, f)).zip_apply(&stiffness, |entry, k| *entry = bending * k);
         let mut moment = bending * phi + axial * force.dot(&quarter_turn(lever));
         let mut turning = bending - axial * force.dot(&lever);
         let (mut closure, mut coupling) = (self.base_to_base(z), axial * quarter_turn(lever));

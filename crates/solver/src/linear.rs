@@ -126,6 +126,17 @@ impl Tangent for BandMatrix {
         let [first, end] = self.used[row];
         self.used[row] = [first.min(place), end.max(place + 1)];
     }
+
+    fn add_row(&mut self, row: usize, column: usize, values: impl ExactSizeIterator<Item = f64>) {
+        let Some(others) = values.len().checked_sub(1) else { return };
+        let (place, last) = (self.place(row, column), self.place(row, column + others));
+        let start = row * self.width();
+        for (entry, value) in self.rows[start + place..=start + last].iter_mut().zip(values) {
+            *entry += value;
+        }
+        let [first, end] = self.used[row];
+        self.used[row] = [first.min(place), end.max(last + 1)];
+    }
 }
 
 /// LU factors of a [`BandMatrix`], with rows scaled to equal size and exchanged for the largest
@@ -295,11 +306,17 @@ impl BandLu {
         let (before, entries) = places.split_at_mut(first + self.half - i);
         before.fill(0.0);
         let written = matrix.row(row);
-        let mut largest = 0.0_f64;
-        for (entry, &column) in entries.iter_mut().zip(&self.kept[first..end]) {
-            *entry = written[column + self.half - row];
-            largest = if entry.abs() > largest { entry.abs() } else { largest };
+        let columns = &self.kept[first..end];
+        if columns.last().is_some_and(|last| last - columns[0] == columns.len() - 1) {
+            entries.copy_from_slice(&written[columns[0] + self.half - row..][..columns.len()]);
+        } else {
+            for (entry, &column) in entries.iter_mut().zip(columns) {
+                *entry = written[column + self.half - row];
+            }
         }
+        let larger =
+            |largest: f64, entry: &f64| if entry.abs() > largest { entry.abs() } else { largest };
+        let largest = entries.iter().fold(0.0, larger);
         // Equations of forces and of gaps differ by the ratio of the moduli: unscaled, pivots would be chosen by units.
         let scale = 1.0 / largest;
         if !(scale.is_finite() && scale > 0.0) {

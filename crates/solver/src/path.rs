@@ -221,8 +221,18 @@ impl<S: System> Path<S> {
         let mut condition = self.condition(from);
         let distance = fraction * (condition.of(&to.state.z) - condition.value);
         condition.value += distance;
+        self.solved(Self::towards(near, &condition), &condition)
+    }
+
+    /// The equilibrium near `state`, with its active set and mode, at which a condition holds. `None` where Newton's method does not
+    /// get there.
+    pub fn solved(
+        &mut self,
+        state: State<S::Mode>,
+        condition: &Condition,
+    ) -> Option<Point<S::Mode>> {
         let iterations = self.newton.history.len();
-        let found = self.trial_at(near, &condition);
+        let found = self.correct(state, condition);
         // What is looked at between points belongs to no step, and the record of iterations is one of steps.
         self.newton.history.truncate(iterations);
         let Candidate { state, direction, .. } = found.ok()?;
@@ -309,9 +319,14 @@ impl<S: System> Path<S> {
         near: &Point<S::Mode>,
         condition: &Condition,
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
+        self.correct(Self::towards(near, condition), condition)
+    }
+
+    /// The state that satisfies `condition` in the direction in which the path leaves `near`.
+    fn towards(near: &Point<S::Mode>, condition: &Condition) -> State<S::Mode> {
         let distance = condition.value - condition.of(&near.state.z);
         let factor = distance / condition.of(&near.leaving);
-        self.correct(near.state.moved(factor, &near.leaving), condition)
+        near.state.moved(factor, &near.leaving)
     }
 
     pub(crate) fn correct(

@@ -8,6 +8,13 @@ pub trait Tangent {
     /// Adds `value` to the entry at (`row`, `column`).
     fn add(&mut self, row: usize, column: usize, value: f64);
 
+    /// Adds `values` to the entries of a row from `column` on.
+    fn add_row(&mut self, row: usize, column: usize, values: impl ExactSizeIterator<Item = f64>) {
+        for (k, value) in values.enumerate() {
+            self.add(row, column + k, value);
+        }
+    }
+
     /// Adds `values` to the entries from the one at (`row`, `column`) down the diagonal, of which no unknown is that of an inactive
     /// constraint.
     fn add_diagonal(&mut self, row: usize, column: usize, values: &[f64]) {
