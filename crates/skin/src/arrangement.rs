@@ -1,7 +1,7 @@
 //! The scales of a row at rest.
 
 use contact::Pair;
-use geometry::{Parallelogram, Row, UnevenRow, clearance};
+use geometry::{OutOfRange, Parallelogram, Row, UnevenRow, clearance};
 
 /// Scales that are alike at a constant gap, however many, or each with a slant and a gap of its own.
 #[derive(Clone, Debug)]
@@ -32,6 +32,15 @@ impl Arrangement {
             Self::Even(row) => row.pitch(),
             Self::Uneven(row) => row.pitch(i),
         }
+    }
+
+    /// The scales `i` and `i + 1` alone.
+    ///
+    /// # Errors
+    /// None: they stood clear of each other in the row.
+    pub(crate) fn pair(&self, i: usize) -> Result<Self, OutOfRange> {
+        let scales = vec![self.scale(i), self.scale(i + 1)];
+        UnevenRow::new(scales, vec![self.gap(i)]).map(Self::Uneven)
     }
 
     /// Distance of the node of scale `i` from that of the first.

@@ -3,6 +3,7 @@
 mod accuracy;
 mod first_touch;
 mod frame;
+mod gap_curve;
 mod measures;
 mod mesh;
 mod point;
@@ -12,6 +13,7 @@ mod snapshot;
 mod strip;
 #[cfg(test)]
 mod tests;
+mod uneven;
 
 use std::collections::HashSet;
 
@@ -29,11 +31,12 @@ pub use mesh::MembraneMesh;
 pub use point::FlexurePoint;
 pub use sensitivity::{FlexureInput, differentiate, moment_curve};
 pub use snapshot::{StripSnapshot, snapshots};
+pub use uneven::BentSample;
 
 /// The part of a strip that is solved for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
-    /// One gap: in pure bending every gap deforms alike.
+    /// One gap: in pure bending every gap deforms alike. Of gaps that differ each by itself, under the moment that all share.
     UnitCell,
     /// Every gap of the strip, assembled.
     Chain,
@@ -157,13 +160,30 @@ pub fn solve(
     FlexureProblem::even(design, common, parameters)?.solve()
 }
 
-/// Bends an imperfect strip as [`solve`] does: gaps and slants are those of `sample`. Its gaps deform each in
-/// its own way, so the chain of all is solved, whatever [`FlexureParameters::method`] says. There are as many
-/// gaps as in the chain of the design, and the curvature counts over the length that they
-/// have.
+/// Bends an imperfect strip as [`solve`] does: gaps and slants are those of `sample`. There are as many gaps as in the chain of the
+/// design, and the curvature counts over the length that they have. By [`Method::UnitCell`] each gap is solved by itself; where that does
+/// not do, because moments fall or are taken away again, the chain of all is.
 ///
 /// # Errors
 /// As [`solve`], or if the scales cannot be made to stand clear of each other.
+pub fn bend_sample(
+    design: &Design,
+    common: &Common,
+    parameters: &FlexureParameters,
+    sample: &Sample,
+) -> Result<BentSample, OutOfRange> {
+    let problem = FlexureProblem::sample(design, common, parameters, sample)?;
+    let is_apart = parameters.method == Method::UnitCell && !parameters.unload;
+    if let Some(bent) = is_apart.then(|| uneven::solve(&problem)).transpose()?.flatten() {
+        return Ok(bent);
+    }
+    Ok(BentSample::from(&problem.solve()?))
+}
+
+/// The chain of all gaps of an imperfect strip, bent as [`bend_sample`] does, with its path.
+///
+/// # Errors
+/// As [`bend_sample`].
 pub fn solve_sample(
     design: &Design,
     common: &Common,

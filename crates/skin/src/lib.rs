@@ -29,7 +29,7 @@
 //! | [`puncture::differentiate`], [`flexure::differentiate`] | the same with the derivatives of all measures |
 //! | [`puncture::PunctureInput`], [`flexure::FlexureInput`], [`Neighbours`], [`Derivative`] | all that a path depends on, near a value of a parameter, and what comes of it |
 //! | [`Imperfection`], [`Sample`] | random gaps and slants, and one row that has them |
-//! | [`puncture::solve_sample`], [`flexure::solve_sample`] | puncture and bending of an imperfect row |
+//! | [`puncture::solve_sample`], [`flexure::bend_sample`] | puncture and bending of an imperfect row |
 //! | [`Status`], [`Iteration`] | how a path ended; one Newton iteration of it |
 //! | [`ContactEvent`], [`ContactChange`], [`Contact`] | a change of a contact along the path; a contact of a state |
 //!

@@ -1,7 +1,8 @@
 //! The result of a design: everything that is known of it once it is solved.
 
 use serde::{Deserialize, Serialize};
-use skin::flexure::{self, Flexure};
+use skin::Status;
+use skin::flexure::{self, BentSample, Flexure};
 use skin::puncture::{self, Puncture, TiltMeasures};
 
 use super::failure::{Failure, finite};
@@ -136,12 +137,26 @@ impl FlexureResult {
 
     /// The result of a solved bending; if one of its numbers is not finite, all are left out.
     pub fn new(flexure: &Flexure) -> Self {
-        let mut measures = flexure.measures;
+        let Flexure { status, measures, path, history, .. } = flexure;
+        Self::checked(*status, *measures, path.len(), history.len())
+    }
+
+    /// The result of an imperfect strip, as [`Self::new`].
+    pub fn of_sample(bent: &BentSample) -> Self {
+        let BentSample { status, measures, points, iterations, .. } = *bent;
+        Self::checked(status, measures, points, iterations)
+    }
+
+    fn checked(
+        status: Status,
+        mut measures: flexure::FlexureMeasures,
+        points: usize,
+        iterations: usize,
+    ) -> Self {
         let few =
             flexure::FlexureMeasures { gaps: measures.gaps, ..flexure::FlexureMeasures::default() };
         let finite_all = VALUES.iter().all(|value| value.is_finite_in_flexure(&mut measures));
-        let (outcome, measures) = finite_or(finite_all, flexure.status.into(), measures, few);
-        let (points, iterations) = (flexure.path.len(), flexure.history.len());
+        let (outcome, measures) = finite_or(finite_all, status.into(), measures, few);
         Self { outcome, measures, points, iterations }
     }
 }
@@ -158,7 +173,6 @@ fn finite_or<M>(finite: bool, outcome: Outcome, measures: M, few: M) -> (Outcome
 
 #[cfg(test)]
 mod tests {
-    use skin::Status;
     use skin::puncture::PunctureMeasures;
 
     use super::*;

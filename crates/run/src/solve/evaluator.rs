@@ -243,7 +243,7 @@ fn bent_sample(case: &Case, sample: u64) -> Result<FlexureResult, Outcome> {
     chain_fits(case)?;
     let bent = || samples::common(case, sample).and_then(|row| samples::bent(case, &row));
     let bent = guarded(bent)?.ok_or(Outcome::Internal)?;
-    Ok(FlexureResult::new(&bent))
+    Ok(FlexureResult::of_sample(&bent))
 }
 
 /// The result and the path of what was asked for, the path only if it ran.

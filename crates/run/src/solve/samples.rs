@@ -2,7 +2,7 @@
 
 use results::{FlexureResult, PunctureResult, SampleStatistics, Statistics};
 use skin::Sample;
-use skin::flexure::{self, Flexure};
+use skin::flexure::{self, BentSample};
 use skin::puncture;
 use substrate::RowStiffness;
 use sweep::Case;
@@ -38,10 +38,10 @@ pub(super) fn flexure(case: &Case, statistics: &mut SampleStatistics, work: &Des
         let flexure = own(case, number).and_then(|row| bent(case, &row));
         work.strip_done();
         let Some(flexure) = flexure else { continue };
-        if let Some(value) = FlexureResult::new(&flexure).measures.compliance {
+        if let Some(value) = FlexureResult::of_sample(&flexure).measures.compliance {
             compliance.push(value);
             // The closing range is told of those samples alone that have a compliance, so both are of one batch.
-            closing_range.extend(flexure.closing_range());
+            closing_range.extend(flexure.closing_range);
         }
     }
     statistics.closing_range = Statistics::of(closing_range);
@@ -72,6 +72,6 @@ pub(super) fn punctured(
 }
 
 /// The bending of an imperfect strip of `case`; `None` if scales would stand within each other.
-pub(super) fn bent(case: &Case, row: &Sample) -> Option<Flexure> {
-    flexure::solve_sample(&case.design, &case.common, &case.flexure, row).ok()
+pub(super) fn bent(case: &Case, row: &Sample) -> Option<BentSample> {
+    flexure::bend_sample(&case.design, &case.common, &case.flexure, row).ok()
 }

@@ -11,11 +11,11 @@ use crate::record::Skin;
 const NEGLIGIBLE: f64 = 1e-9;
 
 /// Quantities of a state of a strip that a finer membrane may change.
-struct Quantities {
-    moment: f64,
-    stiffness: f64,
-    axial_energy_share: f64,
-    strain: f64,
+pub(super) struct Quantities {
+    pub(super) moment: f64,
+    pub(super) stiffness: f64,
+    pub(super) axial_energy_share: f64,
+    pub(super) strain: f64,
 }
 
 impl Quantities {
@@ -36,6 +36,14 @@ impl Quantities {
     fn values(&self) -> [f64; 4] {
         [self.moment, self.stiffness, self.axial_energy_share, self.strain]
     }
+
+    /// The largest relative change of any to those of a finer membrane. `None` if one of them is not finite.
+    pub(super) fn change_to(&self, finer: &Self) -> Option<f64> {
+        let relative =
+            |(ours, theirs): (f64, f64)| (ours - theirs).abs() / theirs.abs().max(NEGLIGIBLE);
+        let changes = self.values().into_iter().zip(finer.values()).map(relative);
+        changes.reduce(f64::max).filter(|largest| largest.is_finite())
+    }
 }
 
 /// Returns the largest relative change of moment, slope of the moment, axial share of the energy and strain when the state
@@ -49,8 +57,5 @@ pub(crate) fn change(
     // Both are solved in the same way, so that both slopes belong to the contacts of the state.
     let ours = Quantities::at(strip, state.clone(), settings)?;
     let theirs = Quantities::at(finer, strip.transferred(state, finer)?, settings)?;
-    let relative =
-        |(ours, theirs): (f64, f64)| (ours - theirs).abs() / theirs.abs().max(NEGLIGIBLE);
-    let changes = ours.values().into_iter().zip(theirs.values()).map(relative);
-    changes.reduce(f64::max).filter(|largest| largest.is_finite())
+    ours.change_to(&theirs)
 }

@@ -2,7 +2,7 @@
 
 use contact::ContactLaw;
 use geometry::{OutOfRange, Row};
-use membrane::{Section, Span};
+use membrane::{Membrane, Section, Span};
 use solver::{Path, Stop};
 
 use super::accuracy::change;
@@ -18,7 +18,7 @@ use crate::record::{PathFunction, Record};
 use crate::{Common, Design, Sample, Status, WayBack};
 
 /// Largest relative change of any measure between two resolutions at which the coarser one suffices.
-const TOLERANCE: f64 = 1e-4;
+pub(super) const TOLERANCE: f64 = 1e-4;
 
 /// A strip that was bent to the end of its path.
 pub(crate) struct Bent {
@@ -50,7 +50,7 @@ pub(crate) struct FlexureProblem<'a> {
     /// Gaps `n` of the whole strip.
     pub(crate) gaps: f64,
     /// Gaps that are solved for.
-    solved: usize,
+    pub(super) solved: usize,
     /// The curvature of first contact of a design whose measures are asked for.
     pub(super) contact_curvature: Option<f64>,
 }
@@ -120,8 +120,23 @@ impl<'a> FlexureProblem<'a> {
 
     /// The mean curvature at the end of bending.
     pub(super) fn end_curvature(&self) -> f64 {
-        let whole = 2.0 * self.parameters.max_end_rotation_deg.to_radians();
-        whole / (self.gaps * self.row.mean_pitch())
+        self.end_rotation() / self.length()
+    }
+
+    /// Length of the strip, from the node of the first scale to that of the last.
+    pub(super) fn length(&self) -> f64 {
+        self.gaps * self.row.mean_pitch()
+    }
+
+    /// The rotation of the ends against each other at the end of bending, radians.
+    pub(super) fn end_rotation(&self) -> f64 {
+        // The parameter is the rotation of each end.
+        2.0 * self.parameters.max_end_rotation_deg.to_radians()
+    }
+
+    /// `E_m I_m`, over `E_m t⁴`.
+    pub(super) fn bending_stiffness(&self) -> f64 {
+        self.section.bending_stiffness()
     }
 
     /// The strip with this resolution.
@@ -131,22 +146,38 @@ impl<'a> FlexureProblem<'a> {
             Arrangement::Even(_) => 1,
             Arrangement::Uneven(_) => self.solved,
         };
-        let membrane = |gap: usize| {
-            let (half_base, axis_offset) = (self.half_base, self.parameters.membrane_axis_offset);
-            let span = Span { half_base, gap: self.row.gap(gap), axis_offset };
-            resolution.membrane(self.section, span)
-        };
+        let membrane = |gap| self.membrane(gap, resolution);
         let membranes = (0..unlike).map(membrane).collect::<Result<_, _>>()?;
-        // The parameter is the rotation of each end, the control that of one against the other.
-        let whole = 2.0 * self.parameters.max_end_rotation_deg.to_radians();
         let repeats = self.gaps / self.solved as f64;
-        let extent = StripExtent { gaps: self.solved, repeats, rotation: whole / repeats };
+        let rotation = self.end_rotation() / repeats;
+        let extent = StripExtent { gaps: self.solved, repeats, rotation, farthest: 1.0 };
         Ok(Strip::new(self.row.clone(), membranes, self.law, self.section, extent))
+    }
+
+    /// One of the gaps of a strip in which they differ, with its two scales.
+    pub(super) fn gap(&self, gap: usize, resolution: Resolution) -> Result<Strip, OutOfRange> {
+        let membranes = vec![self.membrane(gap, resolution)?];
+        // Without contact every gap turns in proportion to its length.
+        let free_length = self.row.share_of_gaps() * self.length();
+        let share = self.row.gap(gap) / free_length;
+        let rotation = share * self.end_rotation();
+        let extent = StripExtent { gaps: 1, repeats: 1.0, rotation, farthest: share.recip() };
+        Ok(Strip::new(self.row.pair(gap)?, membranes, self.law, self.section, extent))
+    }
+
+    fn membrane(&self, gap: usize, resolution: Resolution) -> Result<Membrane, OutOfRange> {
+        let (half_base, axis_offset) = (self.half_base, self.parameters.membrane_axis_offset);
+        resolution.membrane(self.section, Span { half_base, gap: self.row.gap(gap), axis_offset })
     }
 
     /// Bends the strip, with finer and finer resolution until it suffices.
     pub(crate) fn solve(&self) -> Result<Flexure, OutOfRange> {
         Ok(self.flexure(self.resolved(&[], &[])?.0))
+    }
+
+    /// The resolution to begin with.
+    pub(super) fn coarsest(&self) -> Resolution {
+        self.parameters.elements_per_gap.coarsest()
     }
 
     /// The strip bent with the resolution that suffices, the largest values of some functions followed, with the equilibria at some
@@ -156,7 +187,7 @@ impl<'a> FlexureProblem<'a> {
         functions: &[PathFunction<Strip>],
         end_rotations: &[f64],
     ) -> Result<(Bent, Resolution), OutOfRange> {
-        let mut resolution = self.parameters.elements_per_gap.coarsest();
+        let mut resolution = self.coarsest();
         loop {
             let bent = self.bend(resolution, functions, end_rotations)?;
             // A path that stopped early has no error, and no finer membrane is tried for it.

@@ -7,7 +7,7 @@ use solver::{Blocks, Change, Condition, Control, NoTangent, Residual, System, Ta
 
 use super::frame::Step;
 use crate::arrangement::Arrangement;
-use crate::contacts::{Contacts, Part, SkinMode, SkinState, pair_constraints};
+use crate::contacts::{Contacts, SkinMode, SkinState, pair_constraints};
 
 /// The order of the unknowns of a strip of `n` gaps. The first scale is held.
 ///
@@ -78,6 +78,8 @@ pub(crate) struct StripExtent {
     pub(crate) repeats: f64,
     /// Rotation (radians) of the ends of what is solved for against each other at which the bending ends.
     pub(crate) rotation: f64,
+    /// That rotation times this is where the path ends: 1, but for one of several unlike gaps, which may turn by more than its share.
+    pub(crate) farthest: f64,
 }
 
 /// A strip of gaps in pure bending, the first scale held, a moment on the last.
@@ -98,6 +100,7 @@ pub(crate) struct Strip {
     /// `E_m I_m`, over `E_m t⁴`.
     bending_stiffness: f64,
     controls: [Control; 3],
+    farthest: f64,
     blocks: Option<Blocks>,
     units: Vec<f64>,
 }
@@ -110,7 +113,7 @@ impl Strip {
         membranes: Vec<Membrane>,
         law: ContactLaw,
         section: Section,
-        StripExtent { gaps, repeats, rotation }: StripExtent,
+        StripExtent { gaps, repeats, rotation, farthest }: StripExtent,
     ) -> Self {
         let layout =
             Layout { gaps, interior: membranes[0].interior(), pair: pair_constraints(&law) };
@@ -137,6 +140,7 @@ impl Strip {
             blocks: layout.blocks(),
             // The rotation comes first, because it is what the bending has to reach.
             controls: [control(2, rotation), control(0, pitch), control(1, pitch)],
+            farthest,
             units,
         }
     }
@@ -230,6 +234,16 @@ impl Strip {
         Condition::through(vec![(self.controls[0].index, 1.0)], &state.z)
     }
 
+    /// The condition that a moment of this size acts, which turns the ends in the direction of bending.
+    pub(crate) fn under_moment(&self, size: f64) -> Condition {
+        Condition::new(vec![(self.layout.moment(), self.direction())], size)
+    }
+
+    /// 1, or −1 where the strip bends to the outside.
+    pub(crate) fn direction(&self) -> f64 {
+        self.controls[0].scale.signum()
+    }
+
     fn membrane(&self, gap: usize) -> &Membrane {
         match self.membranes.as_slice() {
             [membrane] => membrane,
@@ -257,16 +271,6 @@ impl Strip {
         seen
     }
 
-    /// The parts that the entries of [`Self::acting`] are made of: unknowns of the gap and, in the rotation of its right scale, that of
-    /// the left one.
-    fn parts(&self, active: &[bool], gap: usize) -> impl Iterator<Item = Part> + Clone + use<> {
-        let start = self.layout.membrane(gap) + self.straight(active, gap);
-        let count = self.layout.membrane(gap) + self.layout.interior + 3 - start;
-        let frame = self.layout.rotation(gap);
-        let of_frame = frame.map(|frame| Part::new(frame, count - 1).opposite());
-        (0..count).map(move |k| Part::new(start + k, k)).chain(of_frame)
-    }
-
     /// Adds the equations of a gap's membrane, and their derivatives.
     fn add_membrane(
         &self,
@@ -275,14 +279,19 @@ impl Strip {
         residual: &mut Residual,
         matrix: &mut impl Tangent,
     ) {
-        let Derivatives { gradient, hessian } =
-            self.membrane(gap).derivatives(&self.acting(state, gap));
-        let parts = self.parts(&state.active, gap);
-        for row in parts.clone() {
-            residual.add(row.unknown, row.sign * gradient[row.coordinate]);
-            for column in parts.clone() {
-                let value = hessian[(row.coordinate, column.coordinate)];
-                matrix.add(row.unknown, column.unknown, row.sign * column.sign * value);
+        let acting = self.acting(state, gap);
+        let Derivatives { gradient, hessian } = self.membrane(gap).derivatives(&acting);
+        let last = acting.len() - 1;
+        let first = self.layout.membrane(gap) + self.layout.interior + 2 - last;
+        // The rotation that acts is that of the right scale less that of the left one, the frame.
+        let frame = self.layout.rotation(gap).map(|frame| (frame, last, -1.0));
+        let own = (0..=last).map(|k| (first + k, k, 1.0));
+        for (unknown, row, sign) in own.chain(frame) {
+            residual.add(unknown, sign * gradient[row]);
+            let entries = hessian.row(row);
+            matrix.add_row(unknown, first, entries.iter().map(|entry| sign * entry));
+            if let Some((frame, ..)) = frame {
+                matrix.add(unknown, frame, -sign * entries[last]);
             }
         }
     }
@@ -306,6 +315,10 @@ impl System for Strip {
 
     fn load(&self) -> usize {
         self.layout.moment()
+    }
+
+    fn target(&self) -> f64 {
+        self.farthest
     }
 
     fn controls(&self) -> &[Control] {

@@ -6,6 +6,7 @@
 //! | `elastica` | strips of an extensible elastica, solved by another method |
 //! | `first_touch` | the curvature of first contact in closed form, and bending to the outside |
 //! | `chain` | the assembled chain against the unit cell |
+//! | `uneven` | strips whose gaps differ, gap by gap against the chain of all |
 //! | `locking` | strips that rub, beside the lock of plates on torsional roots |
 //! | `steps` | the same path with steps a tenth as long, and with a tolerance at round-off |
 //! | `robustness` | the 720 designs of the reference study; strips that end early, and why |
@@ -19,3 +20,4 @@ mod robustness;
 #[path = "../samples/mod.rs"]
 mod samples;
 mod steps;
+mod uneven;

@@ -4,7 +4,7 @@ use approx::assert_relative_eq;
 use geometry::{Parallelogram, UnevenRow};
 
 use super::super::problem::FlexureProblem;
-use super::super::{Flexure, FlexureParameters, MembraneMesh, Method};
+use super::super::{BentSample, Flexure, FlexureParameters, MembraneMesh, Method, uneven};
 use crate::arrangement::Arrangement;
 use crate::{Base, Common, ContactChange, Design, Status};
 
@@ -29,6 +29,11 @@ fn design(slant_deg: f64) -> Design {
 }
 
 fn bent(gaps: &[f64], slants_deg: &[f64]) -> Flexure {
+    both(gaps, slants_deg).0
+}
+
+/// As a chain, and gap by gap.
+fn both(gaps: &[f64], slants_deg: &[f64]) -> (Flexure, BentSample) {
     let scales = slants_deg.iter().map(|&slant| Parallelogram::leaning(0.5, slant).unwrap());
     let row = UnevenRow::new(scales.collect(), gaps.to_vec()).unwrap();
     let row = Arrangement::Uneven(row);
@@ -38,7 +43,11 @@ fn bent(gaps: &[f64], slants_deg: &[f64]) -> Flexure {
         FlexureProblem::new(&design, &common, &parameters, row, gaps as f64, gaps).unwrap();
     let flexure = problem.solve().unwrap();
     assert_eq!(flexure.status, Status::Complete);
-    flexure
+    (flexure, uneven::solve(&problem).unwrap().expect("gaps that are solved apart"))
+}
+
+fn close(a: Option<f64>, b: Option<f64>, max_relative: f64) {
+    assert_relative_eq!(a.unwrap(), b.unwrap(), max_relative = max_relative);
 }
 
 /// Between upright scales the membrane is an arc of radius `1/M*` whatever its length: their tops
@@ -70,14 +79,31 @@ fn the_mirror_image_of_a_strip_bends_alike() {
     let mirrored = bent(&gaps, &mirrored);
     assert!(flexure.measures.contact == Some(true));
     let (ours, theirs) = (flexure.measures, mirrored.measures);
-    let close = |a: Option<f64>, b: Option<f64>| {
-        assert_relative_eq!(a.unwrap(), b.unwrap(), max_relative = 1e-7);
-    };
-    close(ours.compliance, theirs.compliance);
-    close(ours.first_contact_curvature, theirs.first_contact_curvature);
-    close(ours.max_moment, theirs.max_moment);
-    close(flexure.closing_range(), mirrored.closing_range());
+    close(ours.compliance, theirs.compliance, 1e-7);
+    close(ours.first_contact_curvature, theirs.first_contact_curvature, 1e-7);
+    close(ours.max_moment, theirs.max_moment, 1e-7);
+    close(flexure.closing_range(), mirrored.closing_range(), 1e-7);
     assert!(flexure.closing_range() > Some(1e-3));
+}
+
+#[test]
+fn gaps_by_themselves_and_their_mirror_image_are_the_chain() {
+    let slants = [60.0, 59.8, 60.1, 59.9, 60.2, 60.05, 59.95];
+    let (mut gaps, mut mirrored) = (GAPS, slants.map(|slant| -slant));
+    gaps.reverse();
+    mirrored.reverse();
+    let (chain, ours) = both(&GAPS, &slants);
+    let (_, image) = both(&gaps, &mirrored);
+    for bent in [&ours, &image] {
+        let (bent, of_chain) = (bent.measures, chain.measures);
+        close(bent.compliance, of_chain.compliance, 1e-9);
+        close(bent.first_contact_curvature, of_chain.first_contact_curvature, 1e-9);
+        close(bent.max_moment, of_chain.max_moment, 1e-9);
+        close(bent.axial_energy_share, of_chain.axial_energy_share, 1e-9);
+        close(bent.membrane_strain_max, of_chain.membrane_strain_max, 1e-9);
+    }
+    close(ours.closing_range, chain.closing_range(), 1e-7);
+    close(image.closing_range, ours.closing_range, 1e-7);
 }
 
 #[test]

@@ -1,0 +1,249 @@
+//! The rotation of one gap over its moment, solved for as far as it is asked for.
+
+use solver::{Event, Newton, Path, Settings};
+
+use super::strip::Strip;
+use crate::ContactChange;
+use crate::contacts::{SkinPoint, SkinState};
+use crate::record::{Skin, Work};
+
+/// By how much a moment may fall from one equilibrium to the next, relative to it: that is round-off.
+const ROUND_OFF: f64 = 1e-12;
+
+/// Newton's method ends here for a state of another resolution, whose distance is only estimated. It doubles its digits once more.
+const ESTIMATED: f64 = 1e-6;
+
+/// Which side of a moment, where the curve has a kink.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Side {
+    Before,
+    Behind,
+}
+
+/// An equilibrium of a gap. Moment and rotation are counted in the direction of bending.
+#[derive(Debug)]
+pub(super) struct Knot {
+    pub(super) point: SkinPoint,
+    pub(super) moment: f64,
+    pub(super) rotation: f64,
+    /// `dθ/dM` of the path that arrives, and of the path that goes on.
+    compliances: [f64; 2],
+}
+
+impl Knot {
+    fn new(strip: &Strip, point: SkinPoint) -> Self {
+        let direction = strip.direction();
+        let compliance = |along: &[f64]| strip.rotation(along) / strip.moment(along);
+        Self {
+            moment: direction * strip.moment(&point.state.z),
+            rotation: direction * strip.rotation(&point.state.z),
+            compliances: [compliance(&point.arriving), compliance(&point.leaving)],
+            point,
+        }
+    }
+
+    /// `dθ/dM` of the path that goes on.
+    pub(super) fn compliance(&self) -> f64 {
+        self.compliances[1]
+    }
+
+    /// Whether a contact changes here.
+    pub(super) fn is_event(&self) -> bool {
+        matches!(self.point.event, Some(Event::Changed(_)))
+    }
+}
+
+/// The curve of a gap: the equilibria of its path, and those that were solved for between them, by their moments.
+///
+/// Between two of them, with the rotations `θ`, the compliances `c = dθ/dM` and the secant `s = Δθ/ΔM`, the rotation is about
+///
+/// ```text
+/// θ₁ + Δθ [s x² + c₁ x (1 − x)]/[s + (c₁ + c₂ − 2s) x (1 − x)],    x = (M − M₁)/ΔM           (F8)
+/// ```
+///
+/// which rises from end to end however much stiffer the gap becomes (Gregory & Delbourgo 1982, doi 10.1093/imanum/2.2.123). It
+/// tells where to solve, and is no part of any result.
+#[derive(Debug)]
+pub(super) struct GapCurve {
+    path: Path<Strip>,
+    knots: Vec<Knot>,
+    pub(super) iterations: usize,
+}
+
+impl GapCurve {
+    /// The curve at rest.
+    pub(super) fn new(strip: Strip, settings: Settings) -> Self {
+        let rest = SkinState::at_rest(&strip);
+        let path = Path::new(strip, rest, settings);
+        let knots = vec![Knot::new(path.system(), path.point().clone())];
+        Self { path, knots, iterations: 0 }
+    }
+
+    pub(super) fn strip(&self) -> &Strip {
+        self.path.system()
+    }
+
+    /// Follows the path until the gap bears a moment. `None` where it does not come to it, or moment or rotation fall before: then the
+    /// moment alone does not tell how the gap stands.
+    pub(super) fn bear(&mut self, moment: f64) -> Option<()> {
+        loop {
+            let last = self.knots.last()?;
+            if last.moment >= moment {
+                return Some(());
+            }
+            let point = self.path.next()?;
+            self.iterations += self.path.take_history().len();
+            let knot = Knot::new(self.path.system(), point);
+            let rises = |now: f64, before: f64| now >= before - ROUND_OFF * before;
+            let yields = |compliance: &f64| *compliance > 0.0 && compliance.is_finite();
+            let is_regular = rises(knot.moment, last.moment)
+                && rises(knot.rotation, last.rotation)
+                && knot.compliances.iter().all(yields);
+            if !is_regular {
+                return None;
+            }
+            let moment = knot.moment.max(last.moment);
+            self.knots.push(Knot { moment, ..knot });
+        }
+    }
+
+    /// Solves for the equilibrium under a moment that the gap has borne. `None` where Newton's method does not get there.
+    pub(super) fn solve_at(&mut self, moment: f64) -> Option<()> {
+        let next = self.knots.partition_point(|knot| knot.moment < moment);
+        let [from, to] = [self.knots.get(next.checked_sub(1)?)?, self.knots.get(next)?];
+        if to.moment == moment {
+            return Some(());
+        }
+        let segment = Segment { from, to };
+        let (guess, range) = (segment.state(self.strip(), moment), from.rotation..=to.rotation);
+        let condition = self.strip().under_moment(moment);
+        let point = self.path.solved(guess, &condition)?;
+        let knot = Knot { moment, ..Knot::new(self.path.system(), point) };
+        // Newton's method may come to a state of another branch.
+        range.contains(&knot.rotation).then(|| self.knots.insert(next, knot))
+    }
+
+    /// The equilibria up to a moment.
+    pub(super) fn knots_to(&self, moment: f64) -> &[Knot] {
+        &self.knots[..self.knots.partition_point(|knot| knot.moment <= moment)]
+    }
+
+    /// The equilibrium under a moment that was solved for, as the path goes on from there.
+    pub(super) fn knot(&self, moment: f64) -> Option<&Knot> {
+        self.knots_to(moment).last().filter(|knot| knot.moment == moment)
+    }
+
+    /// The moment at which the gap first closes.
+    pub(super) fn first_closing(&self) -> Option<f64> {
+        let contacts = self.strip().contacts();
+        let closes = |knot: &&Knot| match &knot.point.event {
+            Some(Event::Changed(changes)) => changes.iter().any(|&change| {
+                ContactChange::of(contacts, &knot.point.state, change) == ContactChange::Closed
+            }),
+            _ => false,
+        };
+        self.knots.iter().find(closes).map(|knot| knot.moment)
+    }
+
+    /// The rotation under a moment, about (F8), or as solved.
+    pub(super) fn rotation(&self, moment: f64) -> f64 {
+        match self.place(moment) {
+            Ok([knot, _]) => knot.rotation,
+            Err(segment) => segment.rotation(moment),
+        }
+    }
+
+    /// `dθ/dM` at a moment, by (F8), or as solved.
+    pub(super) fn compliance(&self, moment: f64, side: Side) -> f64 {
+        match (self.place(moment), side) {
+            (Ok([knot, _]), Side::Before) => knot.compliances[0],
+            (Ok([_, knot]), Side::Behind) => knot.compliances[1],
+            (Err(segment), _) => segment.compliance(moment),
+        }
+    }
+
+    /// The first and the last equilibrium at a moment, or the segment around it.
+    fn place(&self, moment: f64) -> Result<[&Knot; 2], Segment<'_>> {
+        let next = self.knots.partition_point(|knot| knot.moment < moment);
+        let here = self.knots[next..].partition_point(|knot| knot.moment <= moment);
+        match here {
+            0 => Err(Segment { from: &self.knots[next - 1], to: &self.knots[next] }),
+            _ => Ok([next, next + here - 1].map(|number| &self.knots[number])),
+        }
+    }
+
+    /// What friction has taken up to a moment that was solved for.
+    pub(super) fn friction_work(&self, moment: f64) -> f64 {
+        let mut work = Work::default();
+        for pair in self.knots_to(moment).windows(2) {
+            work.add(&self.path, &pair[0].point, &pair[1].point);
+        }
+        work.taken()
+    }
+
+    /// The largest strain of the membrane up to a moment.
+    pub(super) fn largest_strain(&self, moment: f64) -> f64 {
+        let knots = self.knots_to(moment).iter();
+        knots.map(|knot| self.strip().largest_strain(&knot.point.state)).fold(0.0, f64::max)
+    }
+
+    /// The equilibrium under a moment that was solved for, as a strip of a finer resolution has it. `None` if it has none.
+    pub(super) fn resolved(&self, moment: f64, finer: &Strip, newton: &mut Newton) -> Option<Knot> {
+        let mut state = self.strip().transferred(&self.knot(moment)?.point.state, finer)?;
+        let condition = finer.under_moment(moment);
+        let settings = Settings { tolerance: ESTIMATED, ..Settings::default() };
+        let arriving = newton.solve(finer, &mut state, &condition, &settings).ok()?;
+        let leaving = arriving.clone();
+        Some(Knot::new(finer, SkinPoint { state, arriving, leaving, event: None }))
+    }
+}
+
+/// A part of a curve between two equilibria.
+struct Segment<'a> {
+    from: &'a Knot,
+    to: &'a Knot,
+}
+
+impl Segment<'_> {
+    /// `ΔM`, `Δθ`, and the place `x` of a moment.
+    fn place(&self, moment: f64) -> [f64; 3] {
+        let width = self.to.moment - self.from.moment;
+        [width, self.to.rotation - self.from.rotation, (moment - self.from.moment) / width]
+    }
+
+    /// `s`, `c₁`, `c₂` and the denominator of (F8).
+    fn terms(&self, [width, turn, x]: [f64; 3]) -> [f64; 4] {
+        let [secant, start, end] = [turn / width, self.from.compliances[1], self.to.compliances[0]];
+        [secant, start, end, secant + (start + end - 2.0 * secant) * x * (1.0 - x)]
+    }
+
+    fn rotation(&self, moment: f64) -> f64 {
+        let place @ [_, turn, x] = self.place(moment);
+        let [secant, start, _, below] = self.terms(place);
+        self.from.rotation + turn * (secant * x * x + start * x * (1.0 - x)) / below
+    }
+
+    fn compliance(&self, moment: f64) -> f64 {
+        let place @ [_, _, x] = self.place(moment);
+        let [secant, start, end, below] = self.terms(place);
+        let y = 1.0 - x;
+        (secant / below).powi(2) * (end * x * x + 2.0 * secant * x * y + start * y * y)
+    }
+
+    /// About the state under a moment: a cubic of the rotation in each unknown, in which curves that stiffen are smooth.
+    fn state(&self, strip: &Strip, moment: f64) -> SkinState {
+        let Self { from, to } = self;
+        let turn = to.rotation - from.rotation;
+        let x = (self.rotation(moment) - from.rotation) / turn;
+        let rate = |along: &[f64]| turn * strip.direction() / strip.rotation(along);
+        let [start, end] = [rate(&from.point.leaving), rate(&to.point.arriving)];
+        let mut state = from.point.state.clone();
+        for (k, z) in state.z.iter_mut().enumerate() {
+            let rise = to.point.state.z[k] - *z;
+            let [begin, finish] =
+                [start * from.point.leaving[k] - rise, end * to.point.arriving[k] - rise];
+            *z += x * (rise + (1.0 - x) * (begin * (1.0 - x) - finish * x));
+        }
+        state
+    }
+}

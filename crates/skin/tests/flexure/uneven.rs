@@ -1,0 +1,150 @@
+//! Strips whose gaps differ, gap by gap, against the chain of all gaps.
+
+use contact::Law;
+use skin::flexure::{self, BentSample, FlexureParameters, MembraneMesh};
+use skin::{Base, Common, Design, Imperfection, Status};
+
+/// A design, what differs from the default parameters, and by how much its gaps and slants scatter.
+#[derive(Clone, Copy)]
+struct Uneven {
+    design: Design,
+    common: Common,
+    parameters: FlexureParameters,
+    imperfection: Imperfection,
+}
+
+/// Scales as long as they are thick, at a tenth of that, of which nine gaps are bent until all of them touch.
+fn slanted() -> Uneven {
+    let design = Design { gap: 0.1, length: 1.0, slant_deg: 60.0, base: Base::L, width: 1.0 };
+    let parameters = FlexureParameters {
+        gaps: Some(9),
+        max_end_rotation_deg: 18.0,
+        ..FlexureParameters::default()
+    };
+    let imperfection = Imperfection { gap_cv: 0.05, slant_sd_deg: 0.3 };
+    Uneven { design, common: Common::default(), parameters, imperfection }
+}
+
+impl Uneven {
+    /// Gap by gap, and as a chain.
+    fn bent(&self, seed: u64) -> [BentSample; 2] {
+        let Self { design, common, parameters, imperfection } = self;
+        let sample = imperfection.sample(design, seed, 1).unwrap();
+        let gaps = flexure::bend_sample(design, common, parameters, &sample).unwrap();
+        let chain = flexure::solve_sample(design, common, parameters, &sample).unwrap();
+        [gaps, BentSample::from(&chain)]
+    }
+}
+
+/// The largest difference of any measure, relative to it, but for the work of friction.
+fn difference([gaps, chain]: [&BentSample; 2]) -> f64 {
+    let values = |bent: &BentSample| {
+        let m = bent.measures;
+        let last_closing = m.first_contact_curvature.zip(bent.closing_range);
+        [
+            m.compliance,
+            m.initial_compliance,
+            m.first_contact_curvature,
+            last_closing.map(|(first, range)| first.abs() + range),
+            m.max_moment,
+            m.axial_energy_share,
+            m.membrane_strain_max,
+            m.locking_curvature,
+        ]
+    };
+    let differences = values(gaps).into_iter().zip(values(chain)).map(|(ours, theirs)| {
+        assert_eq!(ours.is_some(), theirs.is_some(), "{gaps:?} {chain:?}");
+        ours.zip(theirs)
+            .map_or(0.0, |(ours, theirs)| (ours - theirs).abs() / theirs.abs().max(1e-9))
+    });
+    differences.fold(0.0, f64::max)
+}
+
+/// With seeds that nothing was tuned by.
+#[test]
+fn gaps_by_themselves_are_the_chain_of_all() {
+    let slanted = slanted();
+    let Uneven { design, parameters, .. } = slanted;
+    let scattered = |gap_cv, slant_sd_deg| Imperfection { gap_cv, slant_sd_deg };
+    let steep = Design { gap: 0.1, length: 0.1, slant_deg: 75.0, ..design };
+    let cases = [
+        Uneven { imperfection: scattered(0.2, 0.0), ..slanted },
+        Uneven { imperfection: scattered(0.0, 0.5), ..slanted },
+        // All gaps close at one moment.
+        Uneven { design: Design { slant_deg: 0.0, ..design }, ..slanted },
+        // Corners pass into one another.
+        Uneven {
+            design: steep,
+            parameters: FlexureParameters { max_end_rotation_deg: 30.0, ..parameters },
+            ..slanted
+        },
+        Uneven {
+            parameters: FlexureParameters { membrane_axis_offset: 0.06, ..parameters },
+            ..slanted
+        },
+        Uneven {
+            parameters: FlexureParameters {
+                elements_per_gap: MembraneMesh::Elements(2),
+                ..parameters
+            },
+            ..slanted
+        },
+        // To the outside nothing touches.
+        Uneven {
+            parameters: FlexureParameters { max_end_rotation_deg: -18.0, ..parameters },
+            ..slanted
+        },
+    ];
+    for (number, case) in cases.iter().enumerate() {
+        for seed in [3, 71] {
+            let [gaps, chain] = case.bent(seed);
+            assert_eq!([gaps.status, chain.status], [Status::Complete; 2], "{number} {seed}");
+            // Not the chain itself, which gaps fall back on that cannot be solved apart.
+            assert_ne!(gaps.points, chain.points, "{number} {seed}");
+            let difference = difference([&gaps, &chain]);
+            assert!(difference < 1e-8, "{number} {seed}: {difference:e}");
+        }
+    }
+}
+
+/// What friction takes, and where contacts begin to slip and stick, is the same as far as steps resolve it.
+#[test]
+fn gaps_that_rub_by_themselves_are_the_chain_of_all() {
+    let slanted = slanted();
+    let solver = solver::Settings { first_step: 0.02, max_step: 0.02, ..slanted.common.solver };
+    for friction in [0.1, 0.25] {
+        let case = Uneven { common: Common { friction, solver, ..slanted.common }, ..slanted };
+        let [gaps, chain] = case.bent(5);
+        assert_eq!([gaps.status, chain.status], [Status::Complete; 2], "{friction}");
+        assert_ne!(gaps.points, chain.points, "{friction}");
+        let off = difference([&gaps, &chain]);
+        assert!(off < 1e-7, "{friction}: {off:e}");
+        let works = [&gaps, &chain].map(|bent| bent.measures.friction_work.unwrap());
+        // The larger one lets nothing slip: what is taken is nothing.
+        assert!((works[0] - works[1]).abs() <= 1e-5 * works[1], "{friction}: {works:?}");
+        assert!(gaps.measures.locking_curvature.is_some());
+    }
+}
+
+/// A strip whose gaps cannot be solved apart is the chain of all, whatever becomes of it.
+#[test]
+fn gaps_that_act_on_each_other_are_solved_as_a_chain() {
+    let slanted = slanted();
+    let way_back = FlexureParameters { unload: true, ..slanted.parameters };
+    let [gaps, chain] = Uneven { parameters: way_back, ..slanted }.bent(3);
+    assert_eq!(gaps.measures, chain.measures);
+    assert!(gaps.measures.remains.loop_work.is_some());
+    // Forces that begin soft, and are stiff soon after: the strip is stiffest between events. Steep scales slide off each other, and
+    // the moment falls.
+    let steep = Design { gap: 0.2, length: 0.5, slant_deg: 80.0, ..slanted.design };
+    let far = FlexureParameters { max_end_rotation_deg: 80.0, ..slanted.parameters };
+    let soft = Common { law: Law::EXCHANGED, ..slanted.common };
+    let cases = [
+        Uneven { common: soft, ..slanted },
+        Uneven { design: steep, common: soft, parameters: far, ..slanted },
+    ];
+    for case in cases {
+        let [gaps, chain] = case.bent(2);
+        assert_eq!((gaps.status, gaps.measures), (chain.status, chain.measures));
+    }
+}
