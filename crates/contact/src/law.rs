@@ -29,7 +29,7 @@ impl Law {
 /// the force as a function of the approach is of no use to Newton's method; the approach as a
 /// function of the force is smooth, with zero slope at zero. For `C₂ > 1` the compliance is
 /// infinite at first touch, but only just: a force of `10⁻¹²` of `λ₀` leaves a slope that is finite and
-/// moderate.
+/// moderate. Below it a parabola takes the place of the law, with the same value and slope there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactLaw {
     /// `λ₀`: the force at `δ = L`.
@@ -41,7 +41,7 @@ pub struct ContactLaw {
     friction: f64,
 }
 
-/// Part of `λ₀` below which the slope of the law is taken at this force: it may be infinite at zero.
+/// Part of `λ₀` below which the law has a finite slope: it may be infinite at zero.
 const SMALLEST_FORCE: f64 = 1e-12;
 
 /// The approach of two scales under a contact force.
@@ -95,6 +95,9 @@ impl ContactLaw {
     pub fn approach(&self, force: f64) -> Approach {
         let n = self.exponent.recip();
         let ratio = force / self.force;
+        if n < 1.0 && ratio.abs() < SMALLEST_FORCE {
+            return self.first_approach(n, ratio / SMALLEST_FORCE);
+        }
         let value = self.length * ratio.abs().powf(n).copysign(ratio);
         // From the value, so that one power is taken instead of two.
         let slope = if ratio.abs() > SMALLEST_FORCE {
@@ -103,6 +106,16 @@ impl ContactLaw {
             n * self.length / self.force * SMALLEST_FORCE.powf(n - 1.0)
         };
         Approach { value, slope }
+    }
+
+    /// The parabola `(2 − n) x − (1 − n) x |x|` that goes over into `xⁿ` at `x = 1`, `x` a part of the smallest force. Value and slope
+    /// belong together: as a contact opens the path turns within these forces, and Newton's method turns with it.
+    fn first_approach(&self, n: f64, x: f64) -> Approach {
+        let unit = self.length * SMALLEST_FORCE.powf(n);
+        Approach {
+            value: unit * x * (2.0 - n - (1.0 - n) * x.abs()),
+            slope: unit * (2.0 - n - 2.0 * (1.0 - n) * x.abs()) / (SMALLEST_FORCE * self.force),
+        }
     }
 
     /// Elastic energy `∫ λ dδ = λ δ / (1 + C₂)` of a contact under a force.
@@ -142,6 +155,19 @@ mod tests {
                 let slope = contact.approach(force).slope;
                 assert_relative_eq!(slope, difference / (2.0 * h), max_relative = 1e-7);
             }
+        }
+    }
+
+    /// Also where the law is steeper than any slope: its parabola goes over into it without a step.
+    #[test]
+    fn slope_is_the_derivative_at_first_touch() {
+        let (law, contact) = laws()[1];
+        let smallest = 1e-12 * law.c1 * 0.4 * 1.5 * 7000.0;
+        for part in [-0.9, -0.1, 0.1, 0.5, 0.9, 1.0, 1.1, 2.0] {
+            let (force, h) = (part * smallest, 1e-4 * smallest);
+            let [below, above] = [-h, h].map(|h| contact.approach(force + h).value);
+            let difference = (above - below) / (2.0 * h);
+            assert_relative_eq!(contact.approach(force).slope, difference, max_relative = 1e-4);
         }
     }
 

@@ -16,7 +16,7 @@ const FARTHER: f64 = 1.5;
 const TOGETHER: f64 = 1e-10;
 
 /// A guard that changes more slowly than this does not change to first order: rates are near 1, and round-off of them near 1e-11.
-const NO_RATE: f64 = 1e-6;
+pub(crate) const NO_RATE: f64 = 1e-6;
 
 /// The place of a load extremum is known to this part of its bracket, after at most so many rounds.
 const CLOSE: f64 = 1e-9;
@@ -202,6 +202,11 @@ impl<S: System> Path<S> {
         let located = self.locate_from(from, state, constraint)?;
         let span = condition.of(&beyond.state.z) - condition.value;
         let reached = condition.of(&located.state.z) - condition.value;
+        // A guard that is below zero by round-off already, and falls, has had its zero here, however slowly it changes.
+        if reached < -BACKWARD && self.guards[constraint] <= 0.0 && self.slopes[constraint] < 0.0 {
+            let (state, direction) = (from.state.clone(), from.leaving.clone());
+            return Ok(Candidate { state, direction, event: None, is_positive: self.is_positive });
+        }
         // A zero outside of the step belongs to another part of the path: the step was too long for its guard.
         if !(-BACKWARD..=span + BACKWARD).contains(&reached) {
             return Err(NewtonFailure::TooManyIterations);
@@ -232,7 +237,10 @@ impl<S: System> Path<S> {
     ) -> Candidate<S::Mode> {
         let Candidate { state, direction, is_positive, .. } = located;
         let closing = |c: usize| {
-            guards[c].abs() <= TOGETHER && guard_slope(&self.system, &state, c, &direction) < 0.0
+            // Near zero is not enough: a guard that falls slowly there may have its event far ahead.
+            let falls_to = |rate: f64| rate < 0.0 && guards[c] <= -rate * BACKWARD;
+            guards[c].abs() <= TOGETHER
+                && falls_to(guard_slope(&self.system, &state, c, &direction))
         };
         // A guard that is zero and rises has just changed sides, and stays.
         // Together, or a long chain would take a step of no length for each of its gaps.

@@ -4,7 +4,7 @@ mod direction;
 
 use std::sync::Arc;
 
-use self::direction::HIDDEN;
+use self::direction::{HIDDEN, SHORT};
 use crate::event::Event;
 use crate::newton::{Condition, FLOOR, Newton, NewtonFailure};
 use crate::step::Settings;
@@ -284,17 +284,23 @@ impl<S: System> Path<S> {
         let control = self.control_parameter();
         let drive = self.progress(&point.leaving);
         let is_hidden = self.is_hidden(&point.leaving);
+        // Next to where a contact gives way all controls may turn back together, within the shortest steps: in all coordinates the path goes
+        // straight on there.
+        let is_arc = is_hidden || self.step < SHORT;
         let row = if drive.abs() >= DRIVES && !is_hidden {
             vec![(control.index, drive.signum() / control.scale)]
         } else {
             let controls = self.system.controls();
             controls.iter().map(|c| (c.index, point.leaving[c.index] / c.scale.powi(2))).collect()
         };
-        if !is_hidden {
+        if !is_arc || self.coordinates.is_empty() {
             return Condition::through(row, &point.state.z);
         }
         let all = self.coordinates.iter();
-        let arc = all.map(|&index| (index, point.leaving[index] / HIDDEN.powi(2))).collect();
+        let length = all.clone().map(|&index| point.leaving[index].powi(2)).sum::<f64>();
+        // A path that is hidden has this length.
+        let unit = if is_hidden { HIDDEN.powi(2) } else { length };
+        let arc = all.map(|&index| (index, point.leaving[index] / unit)).collect();
         Condition { stand_in: Some(row), ..Condition::through(arc, &point.state.z) }
     }
 

@@ -1,6 +1,6 @@
 //! The rate complementarity problem: which way the path goes on where constraints change sides.
 
-use crate::event::Change;
+use crate::event::{Change, NO_RATE};
 use crate::newton::{Condition, FLOOR, Newton, guard, guard_slope};
 use crate::path::{Path, Point};
 use crate::stop::Stop;
@@ -9,6 +9,10 @@ use crate::system::{State, System};
 /// Events at least this far apart happen one after the other: where edges are nearly parallel forces
 /// change by 10⁵ over a unit of the path, and not even a short way may be skipped.
 const APART: f64 = 1e-10;
+
+/// Where the guard of what has just changed sides is off zero by more than this, and by more than it changes over such a distance, the
+/// equilibrium that was restored is another one.
+const ELSEWHERE: f64 = 1e-4;
 
 /// Directions whose cosine differs from 1 by less are one way on.
 const SAME_WAY: f64 = 1e-6;
@@ -154,12 +158,19 @@ impl<S: System> Path<S> {
         change: Change,
     ) -> Result<Vec<f64>, Stop> {
         // No complementarity problem is left to solve: a rate of zero satisfies both sides.
-        self.pivot(state, change).ok_or(Stop::Singular)?;
+        let valid = self.pivot(state, change).ok_or(Stop::Singular)?;
         let controls = self.system.controls();
         let row = controls.iter().map(|c| (c.index, arriving[c.index] / c.scale.powi(2))).collect();
         let condition = Condition::through(row, &state.z);
         let direction = self.newton.solve(&self.system, state, &condition, &self.settings)?;
-        Ok(self.normalised(direction))
+        let direction = self.normalised(direction);
+        if guard_slope(&self.system, state, valid, &direction) >= -NO_RATE {
+            return Ok(direction);
+        }
+        // All controls turn back with it, as if at a kink, and do not tell which way the path goes.
+        let direction = opposite(direction);
+        self.is_positive = self.newton.is_positive(&condition, &direction);
+        Ok(direction)
     }
 
     /// State and direction after all of `changes`. `None` if the direction violates one of them.
@@ -174,6 +185,12 @@ impl<S: System> Path<S> {
             changes.iter().map(|&change| self.pivot(&mut next, change)).collect();
         let valid = valid?;
         let leaving = self.direction(&mut next, arriving, valid.first().copied()).ok()?;
+        // All of them happen here, so that each has to hold from here on. Two corners that come to the ends of their edges within round-off
+        // hold each other by stiff contacts, if both change: what was round-off of a place is a force, which falls.
+        let falls = |&c: &usize| guard_slope(&self.system, &next, c, &leaving) < -FLOOR;
+        if valid.iter().any(falls) {
+            return None;
+        }
         let meeting = self.meeting(valid);
         self.violated(&next, &leaving, &meeting).is_empty().then_some((next, leaving))
     }
@@ -217,6 +234,7 @@ impl<S: System> Path<S> {
         let mut tried = Vec::new();
         let has_companions =
             (0..self.guards.len()).any(|other| self.system.companions(other).len() > 1);
+        let mut failure = if has_companions { Stop::Jumps } else { Stop::Cycling };
         while let Some((from, change)) = waiting.pop() {
             if tried.len() >= self.most_changes(has_companions) {
                 break;
@@ -240,11 +258,19 @@ impl<S: System> Path<S> {
                 Ok(way) => way,
                 // Without companions there is one way to go on, and it has failed.
                 Err(stop) if is_single && !has_companions => return Err(stop),
+                Err(Stop::NoConvergence) => {
+                    failure = Stop::NoConvergence;
+                    continue;
+                }
                 Err(_) => continue,
             };
             let violated = self.violated(&at.state, &leaving, &at.meeting);
             if violated.is_empty() {
                 let (along, is_positive) = (self.cosine(arriving, &leaving), self.is_positive);
+                // Where all changes are undone the way back is none on.
+                if at.made.is_empty() && along < 0.0 && change.is_some() {
+                    continue;
+                }
                 let Pivoted { state, made: changes, .. } = at;
                 return Ok(Resolved { state, leaving, changes, is_positive, along });
             }
@@ -254,7 +280,7 @@ impl<S: System> Path<S> {
             // The one that is violated fastest is tried next.
             waiting.extend(next.rev().map(|change| (at.clone(), Some(change))));
         }
-        Err(if has_companions { Stop::Jumps } else { Stop::Cycling })
+        Err(failure)
     }
 
     /// What one change more makes of a set of changes.
@@ -300,6 +326,7 @@ impl<S: System> Path<S> {
         arriving: &[f64],
         valid: Option<usize>,
     ) -> Result<Vec<f64>, Stop> {
+        let mut failure = Stop::Singular;
         // A corner that closes may turn the path so far that it goes on at right angles to the direction in which it
         // came; then one of the controls alone still grows.
         for condition in self.measures(state, arriving) {
@@ -313,15 +340,22 @@ impl<S: System> Path<S> {
             if slope == 0.0 || !direction.iter().all(|x| x.is_finite()) {
                 continue;
             }
+            let vanishes = |valid: usize| {
+                guard(&self.system, &trial, valid).abs() <= ELSEWHERE * (1.0 + slope.abs())
+            };
+            if !valid.is_none_or(vanishes) {
+                failure = Stop::NoConvergence;
+                continue;
+            }
             if slope < 0.0 {
-                direction = direction.into_iter().map(|x| -x).collect();
+                direction = opposite(direction);
             }
             // Here alone the sign of (N7) may be another: the equations behind the event are others.
             self.is_positive = self.newton.is_positive(&condition, &direction);
             *state = trial;
             return Ok(direction);
         }
-        Err(Stop::Singular)
+        Err(failure)
     }
 
     /// Ways to measure distance along the path, the likeliest to increase first.
@@ -390,6 +424,10 @@ struct Resolved<M> {
     is_positive: bool,
     /// Cosine of the angle by which the path turns.
     along: f64,
+}
+
+fn opposite(direction: Vec<f64>) -> Vec<f64> {
+    direction.into_iter().map(|x| -x).collect()
 }
 
 /// Adds a change to those made, or takes away the one that it undoes.

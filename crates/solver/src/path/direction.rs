@@ -22,7 +22,7 @@ pub(super) const HIDDEN: f64 = 100.0;
 
 /// Below this distance, in scales of the controls, the angle of a step is round-off. Where a contact is a thousand times as stiff at first
 /// as soon after, the path turns by a right angle within 1e-8 of where it closes, and goes on from there.
-const SHORT: f64 = 1e-7;
+pub(super) const SHORT: f64 = 1e-7;
 
 impl<S: System> Path<S> {
     /// A direction of unit length in the controls; of less where they hide the path.
@@ -92,7 +92,8 @@ impl<S: System> Path<S> {
         let cosine = |a: usize, b: usize| products[a][b] / (lengths[a] * lengths[b]);
         let (turn, along) = (cosine(0, 1), cosine(0, 2) + cosine(1, 2));
         let off_mean = along < SYMMETRIC * (2.0 + 2.0 * turn).sqrt();
-        lengths[2] > SHORT && (turn < STRAIGHT_IN_ALL || off_mean)
+        // Where the controls hide the path it is longer than they show.
+        lengths[2] > SHORT * lengths[0].max(1.0) && (turn < STRAIGHT_IN_ALL || off_mean)
     }
 
     /// Cosine of the angle between two directions in all coordinates, or in the controls of a system that tells of none.
