@@ -1,6 +1,16 @@
-//! Elimination in block-tridiagonal matrices, pivots within the blocks.
+//! Elimination in matrices of blocks, pivots within the blocks.
+#![expect(
+    clippy::inline_always,
+    reason = "only what is compiled into its caller may use wide registers"
+)]
 
-use crate::block_matrix::{BlockMatrix, LINK};
+use pulp::{Arch, NullaryFnOnce};
+
+use crate::block_matrix::{BlockMatrix, FARTHEST_LINK, LINK};
+
+/// Columns of the inner links of a block that is coupled with the next one alone, and of one that reaches as far as any.
+const NARROW: usize = LINK;
+const WIDE: usize = LINK * FARTHEST_LINK;
 
 /// A pivot below this part of the largest entry of its column is too small: digits are lost that rows of other
 /// blocks might save.
@@ -23,23 +33,15 @@ pub struct UnsafeBlock {
 
 /// Factors of a [`BlockMatrix`]: every block is eliminated into its inner neighbour, from both ends to the root.
 ///
-/// With the matrix `D` of a block after elimination of its outer neighbour, `C` its columns of the inner link and `B` the rows
-/// of that link, the elimination takes `B D⁻¹ C`, 3 by 3, from the inner block (Golub & Van Loan, *Matrix Computations*,
+/// With the matrix `D` of a block after elimination of its outer neighbours, `C` its columns of the inner links and `B` the rows
+/// of those links, the elimination takes `B D⁻¹ C`, 3 by 3 for one link, from the inner blocks (Golub & Van Loan, *Matrix Computations*,
 /// 4th ed. 2013, §4.5.1, isbn 978-1-4214-0794-4). Rows are exchanged within a block only, which is as good
 /// as partial pivoting as long as a block is regular with its inner neighbours held. Where one is not,
 /// its pivot is found too small.
 #[derive(Clone, Debug, Default)]
 pub struct BlockElimination {
-    root: usize,
-    /// Place of the first unknown of each block, and the number of places.
-    starts: Vec<usize>,
-    links: Vec<usize>,
-    kept: Vec<usize>,
-    /// The place of each unknown, beyond all places where it is left out.
-    places: Vec<usize>,
-    /// The first number of each block among the values: the factors of `D` row by row, then rows of `D⁻¹ C` and of `Bᵀ` in turn.
-    at: Vec<usize>,
-    values: Vec<f64>,
+    /// The matrix, to be filled; its factors, once it is factorised: in the place of `D` those of `D`, in that of `C` the rows of `D⁻¹ C`.
+    pub matrix: BlockMatrix,
     /// By place: the row that was exchanged for this one, within its block.
     exchanges: Vec<usize>,
     /// Whether the determinant of each `D` is negative.
@@ -48,162 +50,192 @@ pub struct BlockElimination {
     work: Vec<f64>,
 }
 
-/// The matrix that elimination of a block takes from the link of its inner neighbour.
-type Taken = [[f64; LINK]; LINK];
+/// The matrix that elimination takes from the links of the inner neighbours.
+type Taken<const W: usize> = [[f64; W]; W];
 
-/// Calls a method with the size of a block as a constant.
+/// Calls a method with the size of a block as a constant, and the columns of its inner links `W`.
 macro_rules! with_size {
     ($size:expr, $self:ident . $method:ident ( $($argument:expr),* ) , $refused:expr) => {
         match $size {
-            1 => $self.$method::<1>($($argument),*),
-            2 => $self.$method::<2>($($argument),*),
-            3 => $self.$method::<3>($($argument),*),
-            4 => $self.$method::<4>($($argument),*),
-            5 => $self.$method::<5>($($argument),*),
-            6 => $self.$method::<6>($($argument),*),
-            7 => $self.$method::<7>($($argument),*),
-            8 => $self.$method::<8>($($argument),*),
-            9 => $self.$method::<9>($($argument),*),
-            10 => $self.$method::<10>($($argument),*),
+            1 => $self.$method::<1, W>($($argument),*),
+            2 => $self.$method::<2, W>($($argument),*),
+            3 => $self.$method::<3, W>($($argument),*),
+            4 => $self.$method::<4, W>($($argument),*),
+            5 => $self.$method::<5, W>($($argument),*),
+            6 => $self.$method::<6, W>($($argument),*),
+            7 => $self.$method::<7, W>($($argument),*),
+            8 => $self.$method::<8, W>($($argument),*),
+            9 => $self.$method::<9, W>($($argument),*),
+            10 => $self.$method::<10, W>($($argument),*),
             _ => $refused,
         }
     };
 }
 
+/// Passes over blocks that reach far, to be compiled for the widest registers of the processor.
+struct WideFactorisation<'a>(&'a mut BlockElimination);
+struct WideSubstitution<'a>(&'a mut BlockElimination, [usize; 2]);
+
+impl NullaryFnOnce for WideFactorisation<'_> {
+    type Output = Result<(), UnsafeBlock>;
+
+    #[inline(always)]
+    fn call(self) -> Self::Output {
+        self.0.factorise_all::<WIDE>()
+    }
+}
+
+impl NullaryFnOnce for WideSubstitution<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        self.0.substitute::<WIDE>(self.1);
+    }
+}
+
 impl BlockElimination {
-    /// Factorises `matrix`, forgetting the factors held before.
+    /// Replaces the matrix by its factors.
     ///
     /// # Errors
     /// If a block has no pivot that is large enough, or is too large.
-    pub fn factorise(&mut self, matrix: &BlockMatrix) -> Result<(), UnsafeBlock> {
-        self.reshape(matrix);
-        let (root, blocks) = (self.root, matrix.blocks());
+    pub fn factorise(&mut self) -> Result<(), UnsafeBlock> {
+        let (blocks, places) = (self.matrix.blocks(), self.matrix.kept.len());
+        self.exchanges.resize(places, 0);
+        self.work.resize(places, 0.0);
+        self.negative.clear();
+        self.negative.resize(blocks, false);
+        if self.matrix.reach == 1 {
+            self.factorise_all::<NARROW>()
+        } else {
+            Arch::new().dispatch(WideFactorisation(self))
+        }
+    }
+
+    #[inline(always)]
+    fn factorise_all<const W: usize>(&mut self) -> Result<(), UnsafeBlock> {
+        let (root, blocks) = (self.matrix.root, self.matrix.blocks());
         // From both ends inwards: the load acts in the root, and a right-hand side that is zero elsewhere need not be
         // carried there.
-        let mut taken = [Taken::default(); 2];
+        let mut taken = [[0.0; W]; W];
         for block in 0..root {
-            self.eliminate(matrix, block, &mut taken[0])?;
+            self.eliminate(block, &mut taken)?;
         }
-        for block in (root + 1..blocks).rev() {
-            self.eliminate(matrix, block, &mut taken[1])?;
-        }
-        let [mut from_both, from_right] = taken;
-        for (sum, right) in from_both.iter_mut().flatten().zip(from_right.iter().flatten()) {
-            *sum += right;
-        }
-        self.eliminate(matrix, root, &mut from_both)
-    }
-
-    fn reshape(&mut self, matrix: &BlockMatrix) {
-        self.root = matrix.root;
-        self.starts.clone_from(&matrix.starts);
-        self.links.clone_from(&matrix.links);
-        self.kept.clone_from(&matrix.kept);
-        self.places.clone_from(&matrix.places);
-        self.at.clone_from(&matrix.at);
-        // Old numbers may stay: all of them are overwritten block by block.
-        self.values.resize(matrix.values.len(), 0.0);
-        self.exchanges.resize(self.kept.len(), 0);
-        self.work.resize(self.kept.len(), 0.0);
-        self.negative.clear();
-        self.negative.resize(matrix.blocks(), false);
-    }
-
-    fn size(&self, block: usize) -> usize {
-        self.starts[block + 1] - self.starts[block]
-    }
-
-    fn eliminate(
-        &mut self,
-        matrix: &BlockMatrix,
-        block: usize,
-        taken: &mut Taken,
-    ) -> Result<(), UnsafeBlock> {
-        let size = self.size(block);
-        let refused = UnsafeBlock { block, size };
-        with_size!(size, self.eliminate_block(matrix, block, taken), None).ok_or(refused)
-    }
-
-    /// Factorises a block from whose link something is `taken`, and replaces that by what it takes from the link of the inner one.
-    fn eliminate_block<const N: usize>(
-        &mut self,
-        matrix: &BlockMatrix,
-        block: usize,
-        taken: &mut Taken,
-    ) -> Option<()> {
-        let (start, at) = (self.starts[block], self.at[block]);
-        let link = self.links[block] - start;
-        let stored = &matrix.values[at..at + N * (N + 2 * LINK)];
-        let (entries, coupling) = stored.split_at(N * N);
-        let (mut d, mut c, mut b) = ([[0.0; N]; N], [[0.0; LINK]; N], [[0.0; LINK]; N]);
-        d.as_flattened_mut().copy_from_slice(entries);
-        for ((c, b), coupled) in c.iter_mut().zip(&mut b).zip(coupling.chunks_exact(2 * LINK)) {
-            c.copy_from_slice(&coupled[..LINK]);
-            b.copy_from_slice(&coupled[LINK..]);
-        }
-        // Measured before the neighbour's share is taken: what cancels there is what must be noticed.
-        let least = least_pivots(&d);
-        for (row, taken) in d[link..link + LINK].iter_mut().zip(taken.iter()) {
-            for (entry, taken) in row[link..link + LINK].iter_mut().zip(taken) {
-                *entry -= taken;
+        if root + 1 < blocks {
+            let mut from_right = [[0.0; W]; W];
+            for block in (root + 1..blocks).rev() {
+                self.eliminate(block, &mut from_right)?;
+            }
+            for (sum, right) in taken.iter_mut().flatten().zip(from_right.iter().flatten()) {
+                *sum += right;
             }
         }
-        let exchanges = &mut self.exchanges[start..start + N];
-        self.negative[block] = factorise(&mut d, &mut c, exchanges, &least)?;
-        let (factors, coupling) = self.values[at..at + stored.len()].split_at_mut(N * N);
-        factors.copy_from_slice(d.as_flattened());
+        self.eliminate(root, &mut taken)
+    }
+
+    #[inline(always)]
+    fn eliminate<const W: usize>(
+        &mut self,
+        block: usize,
+        taken: &mut Taken<W>,
+    ) -> Result<(), UnsafeBlock> {
+        let size = self.matrix.size_of(block);
+        let refused = UnsafeBlock { block, size };
+        with_size!(size, self.eliminate_block(block, taken), None).ok_or(refused)
+    }
+
+    /// Factorises a block from whose link, and from those of the blocks behind it, something is `taken`, and replaces that by what is
+    /// taken from the links of the inner ones.
+    #[inline(always)]
+    fn eliminate_block<const N: usize, const W: usize>(
+        &mut self,
+        block: usize,
+        taken: &mut Taken<W>,
+    ) -> Option<()> {
+        let (start, is_root) = (self.matrix.starts[block], block == self.matrix.root);
+        let link = self.matrix.links[block] - start;
+        let (d, c, b) = self.matrix.parts_mut::<N, W>(block)?;
+        // Measured before the neighbour's share is taken: what cancels there is what must be noticed.
+        let least = least_pivots(d);
+        for i in 0..LINK {
+            for j in 0..LINK {
+                d[link + i][link + j] -= taken[i][j];
+            }
+            for j in LINK..W {
+                c[link + i][j - LINK] -= taken[i][j];
+                b[link + i][j - LINK] -= taken[j][i];
+            }
+        }
+        self.negative[block] = factorise(d, c, &mut self.exchanges[start..start + N], &least)?;
         // The root has nothing inward of it to be eliminated into.
-        if block == self.root {
-            return Some(());
+        if !is_root {
+            substitute_back(d, c);
+            take(taken, b, c);
         }
-        substitute_back(&d, &mut c);
-        for (coupled, (c, b)) in coupling.chunks_exact_mut(2 * LINK).zip(c.iter().zip(&b)) {
-            coupled[..LINK].copy_from_slice(c);
-            coupled[LINK..].copy_from_slice(b);
-        }
-        *taken = product(&b, &c);
         Some(())
     }
 
     /// Solves in place: `x` holds the right-hand side, then the solution, of all unknowns. Where an unknown was left out, the
     /// right-hand side does not count and the solution is zero.
     pub fn solve(&mut self, x: &mut [f64]) {
-        for (work, &kept) in self.work.iter_mut().zip(&self.kept) {
+        for (work, &kept) in self.work.iter_mut().zip(&self.matrix.kept) {
             *work = x[kept];
         }
-        let (root, blocks) = (self.root, self.at.len());
-        for block in 0..root {
-            self.forward(block, Some(block + 1));
-        }
-        for block in (root + 1..blocks).rev() {
-            self.forward(block, Some(block - 1));
-        }
-        self.forward(root, None);
-        self.outwards();
+        self.inwards([0, self.matrix.blocks() - 1]);
         for (x, solution) in x.iter_mut().zip(self.solution()) {
             *x = solution;
         }
     }
 
-    /// The solution for a right-hand side of which one entry alone is not zero: that of `unknown`, which is kept and in the root
-    /// block, is 1.
+    /// The solution for a right-hand side of which one entry alone is not zero: that of `unknown`, which is kept, and in the root
+    /// block or before it, is 1.
     pub fn solve_unit(&mut self, unknown: usize) -> Vec<f64> {
         self.work.fill(0.0);
-        self.work[self.places[unknown]] = 1.0;
-        self.forward(self.root, None);
-        self.outwards();
+        let place = self.matrix.places[unknown];
+        self.work[place] = 1.0;
+        let block = self.matrix.starts.partition_point(|&start| start <= place) - 1;
+        self.inwards([block, self.matrix.root]);
         self.solution().collect()
     }
 
-    fn forward(&mut self, block: usize, inner: Option<usize>) {
-        with_size!(self.size(block), self.forward_block(block, inner), ());
+    /// From the right-hand side, which is zero outside of the blocks between two, inwards to the root, and outwards to the solution.
+    fn inwards(&mut self, between: [usize; 2]) {
+        if self.matrix.reach == 1 {
+            self.substitute::<NARROW>(between);
+        } else {
+            Arch::new().dispatch(WideSubstitution(self, between));
+        }
     }
 
-    /// `y ← D⁻¹ y` in a block, and what that takes from the right-hand side of the inner one.
-    fn forward_block<const N: usize>(&mut self, block: usize, inner: Option<usize>) {
-        let (start, at) = (self.starts[block], self.at[block]);
-        let values = &self.values[at..at + N * (N + 2 * LINK)];
-        let (factors, _) = values[..N * N].as_chunks::<N>();
+    #[inline(always)]
+    fn substitute<const W: usize>(&mut self, [first, last]: [usize; 2]) {
+        let (root, blocks) = (self.matrix.root, self.matrix.blocks());
+        let inwards = (first..root).chain((root + 1..=last).rev());
+        for block in inwards.chain([root]) {
+            with_size!(self.matrix.size_of(block), self.forward(block), ());
+        }
+        for block in (0..root).rev().chain(root + 1..blocks) {
+            self.backward::<W>(block);
+        }
+    }
+
+    /// How many inner neighbours a block has that it is coupled with.
+    fn inner_blocks(&self, block: usize) -> usize {
+        self.matrix.reach.min(block.abs_diff(self.matrix.root))
+    }
+
+    /// First place of the link of an inner neighbour, so many blocks away.
+    fn inner_link(&self, block: usize, away: usize) -> usize {
+        let inner = if block < self.matrix.root { block + away } else { block - away };
+        self.matrix.links[inner]
+    }
+
+    /// `y ← D⁻¹ y` in a block, and what that takes from the right-hand side of the inner ones.
+    #[inline(always)]
+    fn forward<const N: usize, const W: usize>(&mut self, block: usize) {
+        let start = self.matrix.starts[block];
+        let (factors, [_, b]) = self.matrix.parts::<W>(block);
+        let (factors, _) = factors.as_chunks::<N>();
         let mut y = [[0.0; 1]; N];
         y.as_flattened_mut().copy_from_slice(&self.work[start..start + N]);
         for (k, &exchanged) in self.exchanges[start..start + N].iter().enumerate() {
@@ -217,43 +249,49 @@ impl BlockElimination {
         }
         substitute_back(factors, &mut y);
         self.work[start..start + N].copy_from_slice(y.as_flattened());
-        if let Some(inner) = inner {
-            let inner = self.links[inner];
-            let mut taken = [0.0; LINK];
-            for (y, coupled) in y.iter().zip(values[N * N..].chunks_exact(2 * LINK)) {
-                for (taken, b) in taken.iter_mut().zip(&coupled[LINK..]) {
-                    *taken += b * y[0];
-                }
+        if block == self.matrix.root {
+            return;
+        }
+        let mut taken = [0.0; W];
+        for (y, b) in y.iter().zip(b) {
+            for (taken, b) in taken.iter_mut().zip(b) {
+                *taken += b * y[0];
             }
+        }
+        for away in 1..=self.inner_blocks(block) {
+            let inner = self.inner_link(block, away);
+            let taken = &taken[LINK * (away - 1)..][..LINK];
             for (work, taken) in self.work[inner..inner + LINK].iter_mut().zip(taken) {
                 *work -= taken;
             }
         }
     }
 
-    /// From the solution of the root to that of its neighbours and on.
-    fn outwards(&mut self) {
-        for block in (0..self.root).rev() {
-            self.backward(block, self.links[block + 1]);
-        }
-        for block in self.root + 1..self.at.len() {
-            self.backward(block, self.links[block - 1]);
-        }
-    }
-
     /// The solution of each unknown: zero where it is left out.
     fn solution(&self) -> impl Iterator<Item = f64> {
-        self.places.iter().map(|&place| self.work.get(place).copied().unwrap_or(0.0))
+        self.matrix.places.iter().map(|&place| self.work.get(place).copied().unwrap_or(0.0))
     }
 
     /// `x = y − (D⁻¹ C) x_inner`.
-    fn backward(&mut self, block: usize, inner: usize) {
-        let size = self.size(block);
-        let coupling = &self.values[self.at[block] + size * size..][..size * 2 * LINK];
-        let link = [self.work[inner], self.work[inner + 1], self.work[inner + 2]];
-        let (rows, _) = coupling.as_chunks::<{ 2 * LINK }>();
-        for (work, c) in self.work[self.starts[block]..].iter_mut().zip(rows) {
-            *work -= c[0] * link[0] + c[1] * link[1] + c[2] * link[2];
+    #[inline(always)]
+    fn backward<const W: usize>(&mut self, block: usize) {
+        let mut links = [0.0; W];
+        for away in 1..=self.inner_blocks(block) {
+            let inner = self.inner_link(block, away);
+            links[LINK * (away - 1)..][..LINK].copy_from_slice(&self.work[inner..inner + LINK]);
+        }
+        let (_, [c, _]) = self.matrix.parts::<W>(block);
+        for (work, c) in self.work[self.matrix.starts[block]..].iter_mut().zip(c) {
+            let mut terms: [f64; W] = std::array::from_fn(|k| c[k] * links[k]);
+            // The farther half of the links is added to the nearer one, as wide registers do it, until one is left.
+            let mut half = W;
+            while half > LINK {
+                half /= 2;
+                for k in 0..half {
+                    terms[k] += terms[k + half];
+                }
+            }
+            *work -= terms[0] + terms[1] + terms[2];
         }
     }
 
@@ -268,20 +306,30 @@ impl BlockElimination {
     }
 }
 
-/// `B C`, by the columns of `B`.
-fn product<const N: usize>(b: &[[f64; LINK]; N], c: &[[f64; LINK]; N]) -> Taken {
-    let mut product = Taken::default();
-    for (b, c) in b.iter().zip(c) {
-        for (row, b) in product.iter_mut().zip(b) {
+/// Replaces what is taken from the links of a block and of those behind it by what is taken from the latter, `B C` by the columns of `B`
+/// included.
+#[inline(always)]
+fn take<const N: usize, const W: usize>(
+    taken: &mut Taken<W>,
+    b: &[[f64; W]; N],
+    c: &[[f64; W]; N],
+) {
+    for i in 0..W {
+        let mut row = [0.0; W];
+        if i + LINK < W {
+            row[..W - LINK].copy_from_slice(&taken[i + LINK][LINK..]);
+        }
+        for (b, c) in b.iter().zip(c) {
             for (sum, c) in row.iter_mut().zip(c) {
-                *sum += b * c;
+                *sum += b[i] * c;
             }
         }
+        taken[i] = row;
     }
-    product
 }
 
 /// The least pivots that will do, column by column.
+#[inline(always)]
 fn least_pivots<const N: usize>(d: &[[f64; N]; N]) -> [f64; N] {
     let mut least = [0.0_f64; N];
     for row in d {
@@ -294,6 +342,7 @@ fn least_pivots<const N: usize>(d: &[[f64; N]; N]) -> [f64; N] {
 
 /// LU factors in place with partial pivoting, inverses on the diagonal of the upper one, and the right-hand sides `c` with rows
 /// exchanged and eliminated alike. Returns whether the determinant is negative; `None` if a pivot is not above the `least`.
+#[inline(always)]
 fn factorise<const N: usize, const M: usize>(
     d: &mut [[f64; N]; N],
     c: &mut [[f64; M]; N],
@@ -337,6 +386,7 @@ fn factorise<const N: usize, const M: usize>(
 }
 
 /// Back substitution of several right-hand sides in place.
+#[inline(always)]
 fn substitute_back<const N: usize, const M: usize>(factors: &[[f64; N]], x: &mut [[f64; M]; N]) {
     for k in (0..N).rev() {
         let (head, tail) = x.split_at_mut(k + 1);
@@ -351,6 +401,7 @@ fn substitute_back<const N: usize, const M: usize>(factors: &[[f64; N]], x: &mut
 }
 
 /// `x ← x − factor y`.
+#[inline(always)]
 fn subtract<const M: usize>(x: &mut [f64; M], factor: f64, y: &[f64; M]) {
     for (x, y) in x.iter_mut().zip(y) {
         *x -= factor * y;

@@ -2,8 +2,11 @@
 
 use crate::tangent::Tangent;
 
-/// Unknowns of a block that its outer neighbour is coupled with.
+/// Unknowns of a block that its outer neighbours are coupled with.
 pub const LINK: usize = 3;
+
+/// Inner neighbours that a block may be coupled with at most.
+pub const FARTHEST_LINK: usize = 8;
 
 /// Place of an unknown that is not solved for.
 const LEFT_OUT: usize = usize::MAX;
@@ -16,7 +19,8 @@ const LEFT_OUT: usize = usize::MAX;
 ///
 /// Unknowns are coupled within their block and with the neighbouring blocks. Of two neighbours the one
 /// nearer to the root is the *inner* one, the other the *outer* one. All unknowns of the outer block may be coupled with
-/// the *link* of the inner one, which is [`LINK`] unknowns in succession, and with no other unknown of it.
+/// the *link* of the inner one, which is [`LINK`] unknowns in succession, and with no other unknown of it. Where blocks reach farther
+/// than to the next one, they do so across the root too, so the root is then the last block.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Blocks {
     /// First unknown of each block, in ascending order, from 0.
@@ -25,17 +29,21 @@ pub struct Blocks {
     pub links: Vec<usize>,
     /// Number of the block at which elimination from both ends meets.
     pub root: usize,
+    /// How many inner neighbours a block is coupled with: 1, or up to [`FARTHEST_LINK`].
+    pub reach: usize,
 }
 
-/// A block-tridiagonal matrix, of which the rows and columns of some unknowns are left out.
+/// A matrix that is block-tridiagonal, or reaches farther, of which the rows and columns of some unknowns are left out.
 ///
 /// Rows and columns are named by the numbers of their unknowns. A block of `n` unknowns that are kept stores its own `n × n` entries
-/// and then, for each of its unknowns, the three entries of its row in the columns of the inner link, and the three of its
-/// column in the rows of that link: together, and in the order in which they are eliminated.
+/// `D`, then the entries `C` of its rows in the columns of the inner links, three of each, and then those of its columns in the rows of
+/// these links, `Bᵀ`: together, and in the order in which they are eliminated.
 #[derive(Clone, Debug, Default)]
 pub struct BlockMatrix {
     /// Number of the root block.
     pub(crate) root: usize,
+    /// Inner neighbours that there is room for.
+    pub(crate) reach: usize,
     /// Place of the first unknown of each block among those that are kept, and the number of places.
     pub(crate) starts: Vec<usize>,
     /// Place of the first unknown of each link.
@@ -47,10 +55,12 @@ pub struct BlockMatrix {
     pub(crate) places: Vec<usize>,
     /// The first of the values of each block.
     pub(crate) at: Vec<usize>,
-    /// Where, by places, an entry of a row within its block stands, and one that couples with the inner link: behind these by the
-    /// place of the column, or of the unknown of the link.
+    /// Where, by places, an entry of a row within its block stands, and one that couples with an inner link: behind these by the
+    /// place of the column, or by the number of the unknown of the link among those of all links.
     within: Vec<usize>,
     coupling: Vec<usize>,
+    /// By places, the number of an unknown among those of all links; no number beside the links.
+    in_links: Vec<usize>,
     pub(crate) values: Vec<f64>,
 }
 
@@ -72,6 +82,10 @@ impl BlockMatrix {
     /// Every entry is zero afterwards.
     pub fn reshape(&mut self, blocks: &Blocks, size: usize, left_out: &[usize]) {
         self.root = blocks.root;
+        // One of two widths, so that elimination knows it as a constant.
+        self.reach = if blocks.reach > 1 { FARTHEST_LINK } else { 1 };
+        debug_assert!(blocks.reach <= FARTHEST_LINK);
+        debug_assert!(blocks.reach <= 1 || blocks.root + 1 == blocks.starts.len());
         let lists = [&mut self.kept, &mut self.blocks, &mut self.starts, &mut self.places];
         lists.into_iter().for_each(Vec::clear);
         self.places.resize(size, LEFT_OUT);
@@ -94,20 +108,22 @@ impl BlockMatrix {
     }
 
     fn lay_out(&mut self) {
-        let lists = [&mut self.at, &mut self.within, &mut self.coupling];
+        let lists = [&mut self.at, &mut self.within, &mut self.coupling, &mut self.in_links];
         lists.into_iter().for_each(Vec::clear);
-        let mut stored = 0;
+        let (mut stored, width) = (0, self.width());
         for block in 0..self.starts.len() - 1 {
             let (start, size) = (self.starts[block], self.starts[block + 1] - self.starts[block]);
-            let link = self.inner(block).map_or(0, |inner| self.links[inner]);
+            let link = LINK * self.inner(block).unwrap_or(0);
             self.at.push(stored);
             for row in 0..size {
                 // What comes before the first column cancels when a column is added: it may well be below zero.
                 self.within.push((stored + size * row).wrapping_sub(start));
-                let coupled = stored + size * size + 2 * LINK * row;
+                let coupled = stored + size * size + width * row;
                 self.coupling.push(coupled.wrapping_sub(link));
+                let in_link = (start + row).wrapping_sub(self.links[block]);
+                self.in_links.push(if in_link < LINK { LINK * block + in_link } else { LEFT_OUT });
             }
-            stored += size * (size + 2 * LINK);
+            stored += size * (size + 2 * width);
         }
         self.values.clear();
         self.values.resize(stored, 0.0);
@@ -120,6 +136,42 @@ impl BlockMatrix {
             std::cmp::Ordering::Equal => None,
             std::cmp::Ordering::Greater => Some(block - 1),
         }
+    }
+
+    /// Entries of a row in the columns of the inner links.
+    fn width(&self) -> usize {
+        LINK * self.reach
+    }
+
+    /// Number of unknowns of a block that are kept.
+    pub(crate) fn size_of(&self, block: usize) -> usize {
+        self.starts[block + 1] - self.starts[block]
+    }
+
+    /// Where the entries of a column of a block in rows of inner links stand behind those of the row of the same unknown.
+    fn behind(&self, place: usize) -> usize {
+        self.width() * self.size_of(self.blocks[place])
+    }
+
+    /// `D` row by row, and the rows of `C` and of `Bᵀ`, of a block that is coupled with `W` unknowns of inner links.
+    #[inline(always)]
+    pub(crate) fn parts<const W: usize>(&self, block: usize) -> (&[f64], [&[[f64; W]]; 2]) {
+        let size = self.size_of(block);
+        let values = &self.values[self.at[block]..][..size * (size + 2 * W)];
+        let (d, coupling) = values.split_at(size * size);
+        (d, coupling.as_chunks().0.split_at(size).into())
+    }
+
+    /// The same of a block of `N` unknowns, to be changed.
+    #[inline(always)]
+    pub(crate) fn parts_mut<const N: usize, const W: usize>(
+        &mut self,
+        block: usize,
+    ) -> Option<(&mut [[f64; N]; N], &mut [[f64; W]; N], &mut [[f64; W]; N])> {
+        let values = &mut self.values[self.at[block]..][..N * (N + 2 * W)];
+        let (d, coupling) = values.split_at_mut(N * N);
+        let (c, b) = coupling.as_chunks_mut().0.split_at_mut(N);
+        Some((d.as_chunks_mut().0.try_into().ok()?, c.try_into().ok()?, b.try_into().ok()?))
     }
 
     /// Number of blocks.
@@ -149,9 +201,9 @@ impl BlockMatrix {
     /// Whether unknowns may be coupled; by their places.
     fn is_coupled(&self, row: usize, column: usize) -> bool {
         let behind = |outer: usize, inner: usize| {
-            let block = self.blocks[inner];
-            let link = self.links[block]..self.links[block] + LINK;
-            self.inner(self.blocks[outer]) == Some(block) && link.contains(&inner)
+            let (from, to) = (self.blocks[outer], self.blocks[inner]);
+            let is_inward = if from < to { to <= self.root } else { to >= self.root };
+            is_inward && from.abs_diff(to) <= self.reach && self.in_links[inner] != LEFT_OUT
         };
         self.blocks[row] == self.blocks[column] || behind(row, column) || behind(column, row)
     }
@@ -178,8 +230,10 @@ impl BlockMatrix {
     fn index(&self, row: usize, column: usize) -> usize {
         match self.part(row, column) {
             Part::Within => self.within[row].wrapping_add(column),
-            Part::Columns => self.coupling[row].wrapping_add(column),
-            Part::Rows => self.coupling[column].wrapping_add(LINK + row),
+            Part::Columns => self.coupling[row].wrapping_add(self.in_links[column]),
+            Part::Rows => {
+                self.coupling[column].wrapping_add(self.behind(column) + self.in_links[row])
+            }
         }
     }
 }
@@ -188,7 +242,8 @@ impl Tangent for BlockMatrix {
     fn clear_row(&mut self, row: usize) {
         let place = self.places[row];
         let block = self.blocks[place];
-        let neighbours = block.saturating_sub(1)..(block + 2).min(self.blocks());
+        let first = block.saturating_sub(self.reach);
+        let neighbours = first..(block + self.reach + 1).min(self.blocks());
         for column in self.starts[neighbours.start]..self.starts[neighbours.end] {
             if self.is_coupled(place, column) {
                 let index = self.index(place, column);
@@ -229,12 +284,13 @@ impl Tangent for BlockMatrix {
         values: &[[f64; C]; R],
     ) {
         let (row, column) = (self.places[row], self.places[column]);
-        let starts = match self.part(row, column) {
-            Part::Within => &self.within[row..row + R],
-            Part::Columns => &self.coupling[row..row + R],
+        let (starts, first) = match self.part(row, column) {
+            Part::Within => (&self.within[row..row + R], column),
+            Part::Columns => (&self.coupling[row..row + R], self.in_links[column]),
             Part::Rows => {
+                let first = self.behind(column) + self.in_links[row];
                 for (j, start) in self.coupling[column..column + C].iter().enumerate() {
-                    let start = start.wrapping_add(LINK + row);
+                    let start = start.wrapping_add(first);
                     for (entry, values) in self.values[start..start + R].iter_mut().zip(values) {
                         *entry += values[j];
                     }
@@ -243,7 +299,7 @@ impl Tangent for BlockMatrix {
             }
         };
         for (start, values) in starts.iter().zip(values) {
-            let start = start.wrapping_add(column);
+            let start = start.wrapping_add(first);
             for (entry, value) in self.values[start..start + C].iter_mut().zip(values) {
                 *entry += value;
             }

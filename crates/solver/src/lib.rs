@@ -84,7 +84,7 @@ mod tangent_solver;
 mod watch;
 
 pub use block_elimination::{BlockElimination, LARGEST_BLOCK, UnsafeBlock};
-pub use block_matrix::{BlockMatrix, Blocks, LINK};
+pub use block_matrix::{BlockMatrix, Blocks, FARTHEST_LINK, LINK};
 pub use bracket::Bracket;
 pub use check::{WrongDerivative, check_tangent};
 pub use event::{Change, Event, dip};

@@ -3,6 +3,10 @@
 //! Unknowns are numbered so that every equation couples unknowns a few places apart. One factorisation then costs time
 //! proportional to their number. A general sparse LU needs more than twice as long on such matrices
 //! (`benches/linear.rs` compares them).
+#![expect(
+    clippy::inline_always,
+    reason = "only what is compiled into its caller may use wide registers"
+)]
 
 use std::ops::Range;
 
@@ -182,10 +186,6 @@ struct Factorisation<'a> {
 impl WithSimd for Factorisation<'_> {
     type Output = Result<(), SingularMatrix>;
 
-    #[expect(
-        clippy::inline_always,
-        reason = "only what is compiled into its caller may use wide registers"
-    )]
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
         let Self { lu, matrix } = self;
@@ -378,10 +378,6 @@ impl BandLu {
     }
 
     /// Subtracts multiples of row `k` from the rows below that reach its column.
-    #[expect(
-        clippy::inline_always,
-        reason = "only what is compiled into its caller may use wide registers"
-    )]
     #[inline(always)]
     fn eliminate<S: Simd>(&mut self, simd: S, k: usize) {
         let (below, count) = (self.reach[k] - k, self.ends[k] - k);
@@ -426,10 +422,6 @@ impl BandLu {
 }
 
 /// `x ← x − factor y`.
-#[expect(
-    clippy::inline_always,
-    reason = "only what is compiled into its caller may use wide registers"
-)]
 #[inline(always)]
 fn subtract<S: Simd>(simd: S, x: &mut [f64], factor: f64, y: &[f64]) {
     let (wide, rest) = S::as_mut_simd_f64s(x);

@@ -38,7 +38,7 @@ pub trait System {
     /// Half-bandwidth of the tangent.
     fn half_bandwidth(&self) -> usize;
 
-    /// The blocks of the tangent, if it is block-tridiagonal and the controls and the load are in the root block. The tangent is
+    /// The blocks of the tangent, if it has some and the controls and the load are in one of them, the root or one before it. The tangent is
     /// then eliminated block by block, and as a band matrix only where that is not safe.
     fn blocks(&self) -> Option<&Blocks> {
         None
@@ -242,6 +242,22 @@ impl Residual {
             let term = factors[k] * others[k];
             value[k] += term;
             size[k] += term.abs();
+        }
+    }
+
+    /// Adds the product of a block with the first of `others` to the equations from `row` on.
+    #[inline]
+    pub fn add_block_products<const R: usize, const C: usize>(
+        &mut self,
+        row: usize,
+        block: &[[f64; C]; R],
+        others: &[f64],
+    ) {
+        let others = &others[..C];
+        for (i, factors) in block.iter().enumerate() {
+            let terms: [f64; C] = std::array::from_fn(|j| factors[j] * others[j]);
+            self.value[row + i] += terms.iter().sum::<f64>();
+            self.size[row + i] += terms.iter().map(|term| term.abs()).sum::<f64>();
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Factors of the tangent of a system: block by block where that is possible, of a band matrix elsewhere.
 
 use crate::block_elimination::BlockElimination;
-use crate::block_matrix::{BlockMatrix, BlockValues, Blocks};
+use crate::block_matrix::{BlockValues, Blocks};
 use crate::linear::{BandLu, BandMatrix, SingularMatrix};
 use crate::system::{Residual, State, System, inactive};
 use crate::tangent::Tangent;
@@ -19,7 +19,6 @@ pub(crate) struct TangentSolver {
 
 #[derive(Clone, Debug, Default)]
 struct InBlocks {
-    matrix: BlockMatrix,
     elimination: BlockElimination,
     /// The unknowns that the matrix leaves out.
     left_out: Option<Vec<usize>>,
@@ -67,9 +66,9 @@ impl TangentSolver {
         let blocks = system.blocks().filter(|_| system.is_in_blocks(state));
         if let (Some(in_blocks), Some(blocks)) = (&mut self.blocks, blocks) {
             in_blocks.begin(system, blocks, &self.inactive);
-            assemble(system, state, condition, residual, &mut in_blocks.matrix);
+            assemble(system, state, condition, residual, &mut in_blocks.elimination.matrix);
             // A pivot that is too small is no failure yet: the band may exchange rows across blocks.
-            self.is_in_blocks = in_blocks.elimination.factorise(&in_blocks.matrix).is_ok();
+            self.is_in_blocks = in_blocks.elimination.factorise().is_ok();
         }
         if self.is_in_blocks {
             return Ok(());
@@ -133,12 +132,13 @@ impl InBlocks {
     /// Gives the matrix its constant part alone, without the unknowns that are `inactive`.
     fn begin(&mut self, system: &impl System, blocks: &Blocks, inactive: &[usize]) {
         // Between events the shape stays, and the constant part is one copy instead of an assembly.
+        let matrix = &mut self.elimination.matrix;
         if self.left_out.as_deref() == Some(inactive) {
-            self.matrix.set(&self.constant);
+            matrix.set(&self.constant);
         } else {
-            self.matrix.reshape(blocks, system.size(), inactive);
-            system.constant_tangent(&mut self.matrix);
-            self.matrix.keep(&mut self.constant);
+            matrix.reshape(blocks, system.size(), inactive);
+            system.constant_tangent(matrix);
+            matrix.keep(&mut self.constant);
             let left_out = self.left_out.get_or_insert_default();
             left_out.clear();
             left_out.extend_from_slice(inactive);

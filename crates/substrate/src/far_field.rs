@@ -28,20 +28,20 @@ use crate::RowStiffness;
 /// Scales are counted from the end, from 0 on; beyond it lies what is to the right.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FarField {
-    /// By how much the row takes the stiffness of the scales at the end down, entry by entry.
+    /// By how much the row takes the stiffness of the scales at the end down.
     pub relief: Vec<Relief>,
     motion: FreeMotion,
 }
 
-/// An entry of the stiffness that free scales take from those at whose end they stand; in the units of [`RowStiffness`].
+/// A part of the stiffness that free scales take from those at whose end they stand; in the units of [`RowStiffness`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Relief {
-    /// Scale on which the force acts, and its direction: 0 along `x`, 1 along `y`, 2 the moment.
-    pub force: [usize; 2],
-    /// Scale that is displaced, and the direction.
-    pub displacement: [usize; 2],
-    /// By how much the entry is smaller.
-    pub value: f64,
+    /// Scale on which the force acts.
+    pub force: usize,
+    /// Scale that is displaced.
+    pub displacement: usize,
+    /// By how much force along `x`, force along `y` and moment are smaller, each for the three displacements.
+    pub by: [[f64; 3]; 3],
 }
 
 /// How the scales beyond follow those at the end.
@@ -87,7 +87,7 @@ impl RowStiffness {
     pub fn far_field(&self, scales: Option<usize>) -> Option<FarField> {
         match self.neighbours.as_slice() {
             // Without any coupling of directions each of the three is a chain of its own.
-            [nearest] if [nearest.cross, nearest.lift, nearest.roll, self.roll] == [0.0; 4] => {
+            [nearest] if nearest.is_diagonal() && self.roll == 0.0 => {
                 self.chain(nearest.direct, scales)
             }
             _ => scales.is_none().then(|| self.coupled())?,
@@ -105,12 +105,12 @@ impl RowStiffness {
             // The smaller root of β r² − α r + β = 0, without cancellation.
             twice / (alpha + ((alpha - twice) * (alpha + twice)).sqrt())
         });
-        let relief = (0..3).map(|k| Relief {
-            force: [0, k],
-            displacement: [0, k],
-            value: beta[k] * decayed(decay[k], scales, 1),
-        });
-        Some(FarField { relief: relief.collect(), motion: FreeMotion::Chain(decay, scales) })
+        let mut by = [[0.0; 3]; 3];
+        for k in 0..3 {
+            by[k][k] = beta[k] * decayed(decay[k], scales, 1);
+        }
+        let relief = vec![Relief { force: 0, displacement: 0, by }];
+        Some(FarField { relief, motion: FreeMotion::Chain(decay, scales) })
     }
 
     /// The far field of an endless row in which scales feel several neighbours.

@@ -69,6 +69,19 @@ pub struct Neighbour {
     pub roll: f64,
 }
 
+impl Neighbour {
+    /// Whether each force comes from the displacement in its own direction alone.
+    pub fn is_diagonal(&self) -> bool {
+        [self.cross, self.lift, self.roll] == [0.0; 3]
+    }
+
+    /// Forces on the left scale for unit displacements of the right one (S9), (S21). Those on the right scale are its transpose.
+    pub fn on_left(&self) -> [[f64; 3]; 3] {
+        let ([x, y, rotation], Self { cross, lift, roll, .. }) = (self.direct, *self);
+        [[x, lift, roll], [-lift, y, -cross], [roll, cross, rotation]]
+    }
+}
+
 /// Whether boundary elements are compiled: without them there is the table alone.
 pub(crate) const SOLVES: bool = cfg!(feature = "boundary-elements");
 

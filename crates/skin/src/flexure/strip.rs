@@ -61,7 +61,7 @@ impl Layout {
         let links: Vec<_> = (1..=self.gaps).filter_map(|scale| self.scale(scale)).collect();
         let starts = [0].into_iter().chain(links.iter().copied().skip(1)).collect();
         // The moment acts on the last scale, and the block of load and controls has to be the root.
-        (self.interior == 0).then_some(Blocks { starts, links, root: self.gaps - 1 })
+        (self.interior == 0).then_some(Blocks { starts, links, root: self.gaps - 1, reach: 1 })
     }
 
     fn moment(self) -> usize {

@@ -1,7 +1,9 @@
 //! The row beyond the ends of the part that is solved for.
 
+use std::array;
+
 use geometry::{Corner, OutOfRange, Vec2};
-use substrate::{FarField, SurfaceStrip};
+use substrate::{FarField, Relief, SurfaceStrip};
 
 use super::Rows;
 use super::system::{Chain, Layout};
@@ -42,8 +44,8 @@ pub(super) struct Beyond {
 pub(crate) struct Surroundings {
     /// Beyond the left and the right end.
     sides: [Option<Side>; 2],
-    /// By how much the row beyond takes down the stiffness of the substrate: row and column of the tangent, and value.
-    pub(super) relief: Vec<(usize, usize, f64)>,
+    /// What the row beyond adds to the stiffness of the substrate, which it takes down: row and column of the tangent, and entries.
+    pub(super) relief: Vec<(usize, usize, [[f64; 3]; 3])>,
     /// Distance of the farthest corner of a scale from its node.
     arm: f64,
 }
@@ -108,20 +110,19 @@ impl Surroundings {
 }
 
 /// The relief of both ends in the unknowns of a row.
-fn relief(layout: Layout, sides: &[Option<Side>; 2]) -> Vec<(usize, usize, f64)> {
+fn relief(layout: Layout, sides: &[Option<Side>; 2]) -> Vec<(usize, usize, [[f64; 3]; 3])> {
     let last = layout.scales() - 1;
     let of_side = |(number, side): (usize, &Option<Side>)| {
-        let entries = side.as_ref().map_or(&[][..], |side| &side.beyond.far.relief);
-        let unknown = move |[scale, direction]: [usize; 2]| {
-            layout.scale(if number == 0 { scale } else { last - scale }) + direction
+        let parts = side.as_ref().map_or(&[][..], |side| &side.beyond.far.relief);
+        let unknown =
+            move |scale: usize| layout.scale(if number == 0 { scale } else { last - scale });
+        // On the left entries that couple the vertical direction with another turn their sign.
+        let signs = mirrored([1.0; 3], number);
+        let part = move |Relief { force, displacement, by }: &Relief| {
+            let by = array::from_fn(|k| array::from_fn(|l| -signs[k] * signs[l] * by[k][l]));
+            (unknown(*force), unknown(*displacement), by)
         };
-        let sign = move |direction: usize| mirrored([1.0; 3], number)[direction];
-        let entry = move |entry: &substrate::Relief| {
-            let sign = sign(entry.force[1]) * sign(entry.displacement[1]);
-            // On the left entries that couple the vertical direction with another turn their sign.
-            (unknown(entry.force), unknown(entry.displacement), sign * entry.value)
-        };
-        entries.iter().map(entry).collect::<Vec<_>>()
+        parts.iter().map(part).collect::<Vec<_>>()
     };
     sides.iter().enumerate().flat_map(of_side).collect()
 }

@@ -1,8 +1,10 @@
 //! A row of scales on springs under a dead load, as a mixed complementarity system.
 
+use std::array;
+
 use contact::ContactLaw;
 use geometry::{Corner, Vec2};
-use solver::{Blocks, Change, Control, NoTangent, Residual, System, Tangent};
+use solver::{Blocks, Change, Control, FARTHEST_LINK, NoTangent, Residual, System, Tangent};
 use substrate::{Neighbour, RowStiffness, SubstrateLaw};
 
 use super::PunctureParameters;
@@ -76,20 +78,19 @@ impl Layout {
         self.block() * self.left + 3
     }
 
-    /// A block for each scale, with the forces of its contacts with the neighbour on the side of the punctured one.
-    fn blocks(self) -> Blocks {
+    /// A block for each scale, with the forces of its contacts with the neighbour on the side of the root: of the punctured scale, or,
+    /// where scales feel as many as `reach` on each side, of the last one.
+    fn blocks(self, reach: usize) -> Blocks {
         let scales = 0..self.scales();
+        let root = if reach == 1 { self.left } else { self.left + self.right };
         let start = |scale: usize| {
-            if scale <= self.left {
-                self.scale(scale)
-            } else {
-                self.force(self.contacts * (scale - 1))
-            }
+            if scale <= root { self.scale(scale) } else { self.force(self.contacts * (scale - 1)) }
         };
         Blocks {
             starts: scales.clone().map(start).collect(),
             links: scales.map(|scale| self.scale(scale)).collect(),
-            root: self.left,
+            root,
+            reach,
         }
     }
 
@@ -152,9 +153,16 @@ pub(crate) struct Chain {
     pub(super) controls: Vec<Control>,
     /// [`Common::whole_path`](crate::Common::whole_path).
     pub(super) whole_path: bool,
-    /// Blocks of the tangent, where scales feel their nearest neighbours alone.
+    /// Blocks of the tangent; `None` where scales are coupled across them.
     blocks: Option<Blocks>,
     units: Vec<f64>,
+}
+
+/// A part of the stiffness of the substrate: entries that follow each other down a diagonal, or all those of two scales.
+#[derive(Clone, Copy)]
+enum Part<'a> {
+    Diagonal(&'a [f64]),
+    Block(&'a [[f64; 3]; 3]),
 }
 
 impl Chain {
@@ -204,10 +212,11 @@ impl Chain {
         let contacts = Contacts::new(arrangement, law, scales, forces);
         let of_needle = needle.iter().flat_map(|needle| needle.growing.iter().copied());
         let growing = contacts.growing().iter().copied().chain(of_needle).collect();
-        // Coupling beyond the neighbours fills the matrix, and so does a round tip that touches several scales: the band elimination
-        // takes it.
-        let is_narrow = neighbours.len().max(contacts.reach()) == 1;
-        let blocks = is_narrow && parameters.needle_radius.is_none();
+        // A round tip that touches several scales couples them across the blocks, and contacts may reach farther than the substrate: the
+        // band elimination takes both.
+        let reach = neighbours.len().max(1);
+        let has_blocks = contacts.reach() <= reach && reach <= FARTHEST_LINK;
+        let has_blocks = has_blocks && parameters.needle_radius.is_none();
         let mut chain = Self {
             layout,
             contacts,
@@ -217,7 +226,7 @@ impl Chain {
             half_base: a,
             direct,
             roll,
-            blocks: blocks.then(|| layout.blocks()),
+            blocks: has_blocks.then(|| layout.blocks(reach)),
             neighbours,
             bars,
             surroundings,
@@ -288,50 +297,51 @@ impl Chain {
 
     /// Every entry of the stiffness of the substrate: row and column of the tangent, and value.
     pub(crate) fn for_springs(&self, mut entry: impl FnMut(usize, usize, f64)) {
-        self.for_spring_diagonals(|row, column, values| {
-            for (k, &value) in values.iter().enumerate() {
-                entry(row + k, column + k, value);
+        self.for_spring_parts(|row, column, part| match part {
+            Part::Diagonal(values) => {
+                for (k, &value) in values.iter().enumerate() {
+                    entry(row + k, column + k, value);
+                }
+            }
+            Part::Block(values) => {
+                for (k, values) in values.iter().enumerate() {
+                    for (l, &value) in values.iter().enumerate() {
+                        entry(row + k, column + l, value);
+                    }
+                }
             }
         });
     }
 
-    /// The same, entries that follow each other down a diagonal together: the row and the column of the first, and the values.
-    fn for_spring_diagonals(&self, mut diagonal: impl FnMut(usize, usize, &[f64])) {
+    /// The same, part by part: the row and the column of its first entry, and the part.
+    fn for_spring_parts(&self, mut part: impl FnMut(usize, usize, Part)) {
         for i in 0..self.layout.scales() {
             let at = self.layout.scale(i);
-            diagonal(at, at, &self.direct);
+            part(at, at, Part::Diagonal(&self.direct));
             // A half-space has no such entry, and rows on it are not to pay for zeros.
             if self.roll != 0.0 {
-                diagonal(at, at + 2, &[self.roll]);
-                diagonal(at + 2, at, &[self.roll]);
+                part(at, at + 2, Part::Diagonal(&[self.roll]));
+                part(at + 2, at, Part::Diagonal(&[self.roll]));
             }
-            // Each pair is met once, from its right scale, which writes both triangles.
-            for (before, neighbour) in self.neighbours.iter().enumerate().take(i) {
-                let other = self.layout.scale(i - 1 - before);
-                diagonal(at, other, &neighbour.direct);
-                diagonal(other, at, &neighbour.direct);
-                let cross = neighbour.cross;
-                if cross != 0.0 {
-                    diagonal(at + 1, other + 2, &[cross]);
-                    diagonal(other + 2, at + 1, &[cross]);
-                    // Towards the left is the mirror image, which turns the sign (S9).
-                    diagonal(other + 1, at + 2, &[-cross]);
-                    diagonal(at + 2, other + 1, &[-cross]);
-                }
-                let Neighbour { lift, roll, .. } = *neighbour;
-                if [lift, roll] != [0.0; 2] {
-                    for (force, displaced, value) in
-                        [(0, 1, -lift), (1, 0, lift), (0, 2, roll), (2, 0, roll)]
-                    {
-                        diagonal(at + force, other + displaced, &[value]);
-                        diagonal(other + displaced, at + force, &[value]);
-                    }
-                }
+        }
+        for (before, neighbour) in self.neighbours.iter().enumerate() {
+            let (on_left, is_diagonal) = (neighbour.on_left(), neighbour.is_diagonal());
+            let on_right = array::from_fn(|k| on_left.map(|row| row[k]));
+            // Each pair is met once, and writes both triangles.
+            for i in before + 1..self.layout.scales() {
+                let (left, right) = (self.layout.scale(i - 1 - before), self.layout.scale(i));
+                let parts = if is_diagonal {
+                    [Part::Diagonal(&neighbour.direct); 2]
+                } else {
+                    [Part::Block(&on_right), Part::Block(&on_left)]
+                };
+                part(right, left, parts[0]);
+                part(left, right, parts[1]);
             }
         }
         // Scales beyond an end give way, and take so much stiffness from those at it.
-        for &(row, column, value) in &self.surroundings.relief {
-            diagonal(row, column, &[-value]);
+        for (row, column, values) in &self.surroundings.relief {
+            part(*row, *column, Part::Block(values));
         }
     }
 
@@ -440,15 +450,19 @@ impl System for Chain {
     }
 
     fn constant_tangent(&self, matrix: &mut impl Tangent) {
-        self.for_spring_diagonals(|row, column, values| matrix.add_diagonal(row, column, values));
+        self.for_spring_parts(|row, column, part| match part {
+            Part::Diagonal(values) => matrix.add_diagonal(row, column, values),
+            Part::Block(values) => matrix.add_block(row, column, values),
+        });
     }
 
     fn linearise(&self, state: &SkinState, residual: &mut Residual, matrix: &mut impl Tangent) {
         let (z, load) = (&state.z, self.layout.load());
         residual.clear(&self.units);
         // The tangent of the springs is the constant part, which the matrix holds already.
-        self.for_spring_diagonals(|row, column, values| {
-            residual.add_products(row, values, &z[column..]);
+        self.for_spring_parts(|row, column, part| match part {
+            Part::Diagonal(values) => residual.add_products(row, values, &z[column..]),
+            Part::Block(values) => residual.add_block_products(row, values, &z[column..]),
         });
         self.for_bars(z, |places, bar| bar.linearise(places, residual, matrix));
         if let Some(needle) = &self.needle {

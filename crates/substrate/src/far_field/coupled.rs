@@ -3,8 +3,8 @@
 use faer::Mat;
 
 use super::Relief;
+use crate::RowStiffness;
 use crate::dense_lu::DenseLu;
-use crate::{Neighbour, RowStiffness};
 
 /// Blocks after which a row counts as one in which nothing decays.
 const BLOCKS: usize = 400;
@@ -42,8 +42,8 @@ impl CoupledRow {
             let before = std::mem::replace(&mut relief, &next * &follows);
             let change = (&relief - &before).norm_max();
             if change <= least {
-                let entries = entries(&relief, scales);
-                return Some((Self { scales, transfer: -follows }, entries));
+                let parts = parts(&relief, scales);
+                return Some((Self { scales, transfer: -follows }, parts));
             }
             if !change.is_finite() {
                 break;
@@ -93,35 +93,21 @@ fn block(stiffness: &RowStiffness, farther: usize) -> Mat<f64> {
             0 if k == l => stiffness.direct[k],
             0 if k + l == 2 => stiffness.roll,
             0 => 0.0,
-            distance => stiffness.neighbours.get(distance - 1).map_or(0.0, |n| n.on_left(k, l)),
+            distance => stiffness.neighbours.get(distance - 1).map_or(0.0, |n| n.on_left()[k][l]),
         }
     })
 }
 
-impl Neighbour {
-    /// Force `k` on the left scale for a unit displacement `l` of the right one (S9).
-    fn on_left(&self, k: usize, l: usize) -> f64 {
-        match (k, l) {
-            (1, 2) => -self.cross,
-            (2, 1) => self.cross,
-            (0, 1) => self.lift,
-            (1, 0) => -self.lift,
-            (0, 2) | (2, 0) => self.roll,
-            _ if k == l => self.direct[k],
-            _ => 0.0,
-        }
-    }
-}
-
-/// The entries of a relief that are not zero, by the scales from the end. Those that mirror each other are made equal.
-fn entries(relief: &Mat<f64>, scales: usize) -> Vec<Relief> {
-    let place = |i: usize| [scales - 1 - i / 3, i % 3];
-    let size = 3 * scales;
-    let all = (0..size).flat_map(|i| (0..size).map(move |j| (i, j)));
-    let entry = |(i, j)| Relief {
-        force: place(i),
-        displacement: place(j),
-        value: f64::midpoint(relief[(i, j)], relief[(j, i)]),
+/// The parts of a relief, by the scales from the end. Entries that mirror each other are made equal.
+fn parts(relief: &Mat<f64>, scales: usize) -> Vec<Relief> {
+    let entry = |i, j| f64::midpoint(relief[(i, j)], relief[(j, i)]);
+    let part = |force, displacement| {
+        let [row, column] = [force, displacement].map(|scale| 3 * (scales - 1 - scale));
+        let by = std::array::from_fn(|k| std::array::from_fn(|l| entry(row + k, column + l)));
+        Relief { force, displacement, by }
     };
-    all.map(entry).filter(|entry| entry.value != 0.0).collect()
+    (0..scales)
+        .flat_map(|force| (0..scales).map(move |displaced| (force, displaced)))
+        .map(|(force, displaced)| part(force, displaced))
+        .collect()
 }

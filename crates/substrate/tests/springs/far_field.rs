@@ -30,9 +30,8 @@ fn finite_row(stiffness: &RowStiffness, k: usize, scales: usize) -> (Vec<f64>, f
 
 /// What the far field leaves of the stiffness of a scale in one direction.
 fn held(stiffness: &RowStiffness, far: &FarField, k: usize) -> f64 {
-    let own = [0, k];
-    let relief = far.relief.iter().find(|r| r.force == own && r.displacement == own);
-    stiffness.direct[k] - relief.unwrap().value
+    let relief = far.relief.iter().find(|r| [r.force, r.displacement] == [0, 0]);
+    stiffness.direct[k] - relief.unwrap().by[k][k]
 }
 
 #[test]
@@ -139,10 +138,14 @@ fn a_row_with_far_couplings_is_condensed_to_its_last_scales() {
         let inner = matrix.submatrix(last, last, all - last, all - last);
         let follows = inner.partial_piv_lu().solve(matrix.submatrix(last, 0, all - last, last));
         let relief = matrix.submatrix(0, last, last, all - last) * &follows;
-        let place = |[scale, direction]: [usize; 2]| 3 * (neighbours - 1 - scale) + direction;
+        let place = |scale: usize| 3 * (neighbours - 1 - scale);
         let mut condensed = Mat::<f64>::zeros(last, last);
-        for entry in &far.relief {
-            condensed[(place(entry.force), place(entry.displacement))] = entry.value;
+        for part in &far.relief {
+            for (k, by) in part.by.iter().enumerate() {
+                for (l, &by) in by.iter().enumerate() {
+                    condensed[(place(part.force) + k, place(part.displacement) + l)] = by;
+                }
+            }
         }
         assert!((&relief - &condensed).norm_max() < 1e-13 * stiffness.direct[0]);
         let end = |k: usize| [0.3 + k as f64, (k as f64).cos(), (3.0 * k as f64).sin()];
