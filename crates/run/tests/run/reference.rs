@@ -23,7 +23,7 @@ fn differences(ours: &[(&str, String)], reference: &Results, row: usize) -> Vec<
         let theirs = reference.text(row, column);
         let same = match (ours.parse::<f64>(), theirs.parse::<f64>()) {
             (Ok(a), Ok(b)) => (a - b).abs() <= 1e-9 * a.abs().max(b.abs()),
-            _ => ours == theirs,
+            _ => *ours == theirs,
         };
         // How the path was followed may differ in the last step; what it found may not.
         let path = name.ends_with("_points") || name.ends_with("_iterations");

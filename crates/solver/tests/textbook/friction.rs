@@ -18,7 +18,7 @@ struct Block {
 }
 
 fn block(in_blocks: bool) -> Block {
-    let blocks = Blocks { starts: vec![0], links: vec![0], root: 0 };
+    let blocks = Blocks { starts: vec![0], links: vec![0], root: 0, reach: 1 };
     Block { controls: [Control { index: 4, scale: 1.0 }], blocks: in_blocks.then_some(blocks) }
 }
 
