@@ -77,6 +77,10 @@ enum Part {
     Rows,
 }
 
+/// `D`, `C` and the rows of `Bᵀ` of a block of `N` unknowns that is coupled with `W` unknowns of inner links.
+pub(crate) type PartsMut<'a, const N: usize, const W: usize> =
+    (&'a mut [[f64; N]; N], &'a mut [[f64; W]; N], &'a mut [[f64; W]; N]);
+
 impl BlockMatrix {
     /// Gives the matrix a shape: that of `blocks` over `size` unknowns, without those that are `left_out`, in ascending order.
     /// Every entry is zero afterwards.
@@ -154,7 +158,7 @@ impl BlockMatrix {
     }
 
     /// `D` row by row, and the rows of `C` and of `Bᵀ`, of a block that is coupled with `W` unknowns of inner links.
-    #[inline(always)]
+    #[inline]
     pub(crate) fn parts<const W: usize>(&self, block: usize) -> (&[f64], [&[[f64; W]]; 2]) {
         let size = self.size_of(block);
         let values = &self.values[self.at[block]..][..size * (size + 2 * W)];
@@ -163,11 +167,11 @@ impl BlockMatrix {
     }
 
     /// The same of a block of `N` unknowns, to be changed.
-    #[inline(always)]
+    #[inline]
     pub(crate) fn parts_mut<const N: usize, const W: usize>(
         &mut self,
         block: usize,
-    ) -> Option<(&mut [[f64; N]; N], &mut [[f64; W]; N], &mut [[f64; W]; N])> {
+    ) -> Option<PartsMut<'_, N, W>> {
         let values = &mut self.values[self.at[block]..][..N * (N + 2 * W)];
         let (d, coupling) = values.split_at_mut(N * N);
         let (c, b) = coupling.as_chunks_mut().0.split_at_mut(N);
