@@ -64,15 +64,19 @@ impl PuncturedRow {
         let is_guided = case.puncture.needle.is_guided();
         let along =
             |point: &PuncturePoint| if is_guided { point.displacement } else { point.tilt_deg };
-        let way = path.path.iter().map(along).fold(0.0, f64::max);
-        let at = if is_guided { At::Displacement(drawn * way) } else { At::Tilt(drawn * way) };
-        // At rest nothing is to be drawn, and the path alone is solved for.
-        let solved =
-            solve(if drawn > 0.0 && way > 0.0 { std::slice::from_ref(&at) } else { &[] }).ok()?;
-        let state = solved.at.into_iter().flatten().next();
+        let way = |path: &[PuncturePoint]| path.last().map_or(0.0, along);
+        let place = drawn * way(&path.path);
+        let place = if is_guided { At::Displacement(place) } else { At::Tilt(place) };
+        let is_between = drawn > 0.0 && drawn < 1.0;
+        let solved = solve(if is_between { std::slice::from_ref(&place) } else { &[] }).ok()?;
+        // Other steps come to another last digit, so that the end is not looked for by its place.
+        let state = solved.at.into_iter().flatten().next().unwrap_or(solved.end);
+        // At rest nothing is drawn but the path.
+        let state = (drawn > 0.0).then_some(state);
         let Puncture { path, events, folds, .. } = solved.puncture;
         let place = |point: &PuncturePoint| [point.displacement, point.force];
         let radius = case.puncture.needle_radius.unwrap_or(0.0);
+        let way = way(&path);
         let shares =
             path.iter().map(|point| [point.displacement, point.force, share(along(point), way)]);
         Some(Self {

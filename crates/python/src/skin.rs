@@ -14,7 +14,7 @@ use report::drawings::PunctureDrawing;
 use results::columns::measure_of;
 use run::Evaluator;
 use skin::flexure::Method;
-use skin::puncture::{At, snapshots};
+use skin::puncture::{Snapshots, snapshots};
 use substrate::{Coupling, RowStiffness};
 use sweep::toml_source::{KeyValue, Value};
 use sweep::{Axis, Case, Measure, PARAMETERS, Parameter, Role, Scalar, Sweep, key, nearest};
@@ -244,10 +244,10 @@ impl Skin {
             let case = self.case();
             let footprint = case.footprint().or_failed("drawing")?;
             let substrate = RowStiffness::of(&footprint, case.coupling).or_failed("drawing")?;
-            let at = [At::Tilt(case.punctured().critical_tilt_deg)];
-            let solved = snapshots(&case.design, &substrate, &case.common, &case.punctured(), &at);
-            let states: Vec<_> = solved.or_failed("drawing")?.at.into_iter().flatten().collect();
-            PunctureDrawing { name: NAME, case: &case, states: &states }.svg().or_failed("drawing")
+            let solved = snapshots(&case.design, &substrate, &case.common, &case.punctured(), &[]);
+            let Snapshots { end, is_critical, .. } = solved.or_failed("drawing")?;
+            let states = if is_critical { std::slice::from_ref(&end) } else { &[] };
+            PunctureDrawing { name: NAME, case: &case, states }.svg().or_failed("drawing")
         })
     }
 

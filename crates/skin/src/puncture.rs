@@ -48,7 +48,7 @@ pub use places::{LoadedPlace, Weakest, loaded_places};
 pub use point::{PuncturePoint, ScaleState};
 pub use sensitivity::{PunctureInput, differentiate, force_curve};
 pub use snap::Snap;
-pub use snapshot::{At, RowSnapshot, Snapshots, snapshots};
+pub use snapshot::{At, RowSnapshot, Snapshots, snapshots, snapshots_to_end};
 pub use stability::Instability;
 pub use tilts::TiltMeasures;
 

@@ -3,7 +3,8 @@
 use anyhow::{Context as _, bail, ensure};
 use clap::Args;
 use report::drawings;
-use skin::{flexure, puncture};
+use skin::flexure;
+use skin::puncture::{self, Snapshots};
 use substrate::RowStiffness;
 use sweep::Case;
 
@@ -25,7 +26,7 @@ Examples:
   squama draw results/paper --gap 0.1 --length 1 --slant 15..60
 
 Draws the row at rest and at the critical tilt, or at the displacements u/t of --at. Contacts are red,
-arrows are forces between scales, bars are reactions of the substrate. A guided needle stands straight below
+arrows are forces between scales, bars are reactions of the substrate. A guided needle is a body straight below
 its place at rest; a ring is the place on the scale on which it was set down. With --flexure, draws the strip
 with its ends rotated by the angles of --at, in degrees.")]
 pub struct Arguments {
@@ -113,14 +114,14 @@ impl Drawing<'_> {
 
     fn puncture(&self, files: &mut FigureFiles<'_>) -> anyhow::Result<()> {
         let case = &self.case;
-        let critical = case.punctured().critical_tilt_deg;
-        let at: Vec<_> = match self.arguments.at.as_slice() {
-            [] if self.arguments.animate => self.frames()?,
-            [] if self.arguments.force.is_empty() => vec![puncture::At::Tilt(critical)],
-            [] => self.arguments.force.iter().map(|&f| puncture::At::Force(f)).collect(),
-            at => at.iter().map(|&u| puncture::At::Displacement(u)).collect(),
+        let Arguments { at, force, .. } = self.arguments;
+        let states = if at.is_empty() && force.is_empty() {
+            self.states_to_end()?
+        } else {
+            let depths = at.iter().copied().map(puncture::At::Displacement);
+            let at: Vec<_> = depths.chain(force.iter().copied().map(puncture::At::Force)).collect();
+            self.puncture_states(&at)?
         };
-        let states = self.puncture_states(&at)?;
         let name = self.design.title();
         let drawing = drawings::PunctureDrawing { name: &name, case, states: &states };
         if self.arguments.animate {
@@ -136,21 +137,33 @@ impl Drawing<'_> {
         files.svg(&file, &drawing.svg()?)
     }
 
-    /// Displacements at equal steps, up to the critical tilt.
-    fn frames(&self) -> anyhow::Result<Vec<puncture::At>> {
-        let critical = puncture::At::Tilt(self.case.punctured().critical_tilt_deg);
+    /// The end of the path, and of an animation the states at equal steps of the displacement before it.
+    fn states_to_end(&self) -> anyhow::Result<Vec<puncture::RowSnapshot>> {
+        let Snapshots { end, is_critical, .. } = self.solve(&[])?;
+        ensure!(
+            is_critical,
+            "design {}: the path does not reach the critical tilt",
+            self.design.label()
+        );
+        if !self.arguments.animate {
+            return Ok(vec![end]);
+        }
         // Solved twice, because only the end of the path tells how far apart the frames are.
-        let end = self.puncture_states(&[critical])?;
-        let last = end.first().map_or(0.0, |state| state.displacement);
-        let frame = |k| puncture::At::Displacement(last * f64::from(k) / f64::from(FRAMES));
-        Ok((0..FRAMES).map(frame).chain([critical]).collect())
+        let step = end.displacement / f64::from(FRAMES);
+        let frame = |k| puncture::At::Displacement(step * f64::from(k));
+        let mut states = self.puncture_states(&(0..FRAMES).map(frame).collect::<Vec<_>>())?;
+        states.push(end);
+        Ok(states)
+    }
+
+    fn solve(&self, at: &[puncture::At]) -> anyhow::Result<Snapshots> {
+        let case = &self.case;
+        let substrate = substrate(case)?;
+        Ok(puncture::snapshots(&case.design, &substrate, &case.common, &case.punctured(), at)?)
     }
 
     fn puncture_states(&self, at: &[puncture::At]) -> anyhow::Result<Vec<puncture::RowSnapshot>> {
-        let case = &self.case;
-        let substrate = substrate(case)?;
-        let solved =
-            puncture::snapshots(&case.design, &substrate, &case.common, &case.punctured(), at)?;
+        let solved = self.solve(at)?;
         let reached = |(at, state): (&puncture::At, Option<puncture::RowSnapshot>)| match state {
             Some(state) => Ok(state),
             None => bail!("design {}: the path does not reach {}", self.design.label(), place(*at)),

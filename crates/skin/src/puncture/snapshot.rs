@@ -1,13 +1,14 @@
 //! A row of scales as it stands at chosen places of its path.
 
 use geometry::OutOfRange;
+use solver::Stop;
 
 use super::system::Chain;
 use super::{
     Problem, Puncture, PunctureParameters, PuncturePoint, RowStiffness, Rows, ScaleState, Status,
     scales,
 };
-use crate::contacts::{Contact, SkinPoint, SkinState};
+use crate::contacts::{Contact, SkinState};
 use crate::crossing::Crossing;
 use crate::record::Skin;
 use crate::{Common, Design};
@@ -63,6 +64,10 @@ pub struct Snapshots {
     pub puncture: Puncture,
     /// A snapshot for each place; `None` where the path does not get there.
     pub at: Vec<Option<RowSnapshot>>,
+    /// The last state of the path.
+    pub end: RowSnapshot,
+    /// Whether the path comes to its end, the critical state, whatever the audit finds there.
+    pub is_critical: bool,
 }
 
 /// Solves the puncture of `design` at the places `at`: each is an equilibrium of its own, not
@@ -80,21 +85,38 @@ pub fn snapshots(
     let stiffness = substrate.into();
     let mut parameters = *parameters;
     loop {
-        let row = design.row()?;
-        let rows = Rows::Even(row);
-        let problem = Problem::new(rows, design, stiffness.clone(), common, &parameters)?;
-        let mut followed = problem.follow(&[], at)?;
-        let found = std::mem::take(&mut followed.watch.places.found);
-        let chain = followed.path.system();
-        let snapshot = |point: Option<SkinPoint>| Some(snapshot(chain, row.pitch(), &point?.state));
-        let at_places = found.into_iter().map(snapshot).collect();
-        let puncture = followed.puncture(false);
-        if !reaches_short(&puncture, at) || parameters.critical_tilt_deg >= STEEPEST_DEG {
-            return Ok(Snapshots { puncture, at: at_places });
+        let solved = snapshots_to_end(design, stiffness.clone(), common, &parameters, at)?;
+        if !reaches_short(&solved.puncture, at) || parameters.critical_tilt_deg >= STEEPEST_DEG {
+            return Ok(solved);
         }
         // Every try follows a whole path again, so the end moves in few large steps.
         parameters.critical_tilt_deg = (2.0 * parameters.critical_tilt_deg).min(STEEPEST_DEG);
     }
+}
+
+/// Solves the puncture of `design` as [`snapshots`] does, but ends the path where [`solve`](super::solve) ends it: it does not get to a
+/// place beyond.
+///
+/// # Errors
+/// As [`snapshots`].
+pub fn snapshots_to_end(
+    design: &Design,
+    substrate: impl Into<RowStiffness>,
+    common: &Common,
+    parameters: &PunctureParameters,
+    at: &[At],
+) -> Result<Snapshots, OutOfRange> {
+    let row = design.row()?;
+    let problem = Problem::new(Rows::Even(row), design, substrate.into(), common, parameters)?;
+    let mut followed = problem.follow(&[], at)?;
+    let found = std::mem::take(&mut followed.watch.places.found);
+    let chain = followed.path.system();
+    let snapshot = |state: &SkinState| snapshot(chain, row.pitch(), state);
+    let at = found.iter().map(|point| Some(snapshot(&point.as_ref()?.state))).collect();
+    let end = snapshot(&followed.path.point().state);
+    let is_critical =
+        followed.path.stop() == Some(Stop::Reached) && followed.status != Status::Untilted;
+    Ok(Snapshots { puncture: followed.puncture(false), at, end, is_critical })
 }
 
 /// Whether a path that came to its end has not come to every place.

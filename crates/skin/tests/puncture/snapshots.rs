@@ -2,7 +2,9 @@
 
 use approx::assert_relative_eq;
 use contact::CornerEdge;
-use skin::puncture::{At, PunctureParameters, RowSnapshot, ScaleState, Snapshots, snapshots};
+use skin::puncture::{
+    At, PunctureParameters, RowSnapshot, ScaleState, Snapshots, snapshots, snapshots_to_end,
+};
 use skin::{Common, Design};
 use substrate::Calibrations;
 
@@ -97,12 +99,24 @@ fn a_contact_stands_at_the_corner_that_touches() {
 #[test]
 fn a_place_beyond_the_critical_tilt_is_followed_to() {
     let places = [At::Tilt(5.0), At::Tilt(25.0)];
-    let Snapshots { puncture, at } = shots(&settled(), &on_row(41), &places);
+    let Snapshots { puncture, at, .. } = shots(&settled(), &on_row(41), &places);
     let tilts: Vec<f64> = at.iter().flatten().map(|shot| shot.tilt_deg).collect();
     assert_relative_eq!(tilts[0], 5.0, epsilon = 1e-9);
     assert_relative_eq!(tilts[1], 25.0, epsilon = 1e-9);
     let steepest = puncture.path.iter().map(|point| point.tilt_deg).fold(0.0, f64::max);
     assert!(steepest >= 25.0);
+}
+
+#[test]
+fn a_path_to_its_end_stands_critical_there_and_gets_to_no_place_beyond() {
+    let (design, parameters) = (settled(), on_row(41));
+    let springs = springs(&design, &parameters, &Calibrations::default());
+    let places = [At::Tilt(5.0), At::Tilt(25.0)];
+    let solved = snapshots_to_end(&design, &springs, &Common::default(), &parameters, &places);
+    let Snapshots { puncture, at, end, is_critical } = solved.unwrap();
+    assert!(is_critical && at[0].is_some() && at[1].is_none());
+    assert_relative_eq!(end.tilt_deg, 10.0, epsilon = 1e-9);
+    assert_eq!(Some(end.force), puncture.path.last().map(|point| point.force));
 }
 
 #[test]
