@@ -73,7 +73,7 @@ impl Solver {
         let puncture = solved.puncture.as_ref().and_then(|path| {
             let substrate = evaluator.substrate(&case).ok()?;
             let solve = |at: &[At]| {
-                puncture::snapshots(
+                puncture::snapshots_to_end(
                     &smooth.design,
                     &*substrate,
                     &smooth.common,
@@ -96,7 +96,7 @@ impl Solver {
             id: request.id,
             fine: request.fine,
             requirements: Required::all(&requirements, &values),
-            warnings: warnings(row, &values, change.flatten().as_ref()),
+            warnings: warnings(&case, row, &values, change.flatten().as_ref()),
             values,
             units: Units::of(&case),
             puncture,

@@ -3,6 +3,7 @@
 use results::columns::name;
 use results::{DesignRow, Outcome};
 use run::GapChange;
+use sweep::Case;
 
 use crate::answer::Value;
 
@@ -10,6 +11,7 @@ use crate::answer::Value;
 const LARGE_STRAIN: f64 = 0.2;
 
 pub(crate) fn warnings(
+    case: &Case,
     row: &DesignRow,
     values: &[Value],
     change: Option<&GapChange>,
@@ -33,9 +35,11 @@ pub(crate) fn warnings(
     if number(name::MEMBRANE_STRAIN).is_some_and(|strain| strain > LARGE_STRAIN) {
         sentences.push("The membrane is stretched by more than 20 %, where its law of small strains does not hold.".to_owned());
     }
-    if let Some(tilt) = number(name::PASSING_TILT) {
+    // A round tip touches the next scale soon, and still stands on the first: nothing to warn of.
+    let is_sharp = case.punctured().needle_radius.is_none_or(|radius| radius == 0.0);
+    if let Some(tilt) = number(name::PASSING_TILT).filter(|_| is_sharp) {
         sentences.push(format!(
-            "The needle slips off its scale at a tilt of {tilt:.1}° and goes on to the next."
+            "At a tilt of {tilt:.1}° the needle comes to the end of the face that it was set down on, a corner or the notch beside the next scale, and goes on from there."
         ));
     }
     sentences.extend(change.into_iter().flat_map(cliffs));

@@ -68,6 +68,42 @@ fn the_state_that_is_drawn_lies_on_the_path() {
     assert_eq!(answer["flexure"]["scales"].as_array().map(Vec::len), Some(13));
 }
 
+const GUIDED: &str =
+    "[puncture]\nneedle = 'guided'\nneedle_friction = 0.3\nload_inset_over_t = 0.05";
+
+/// Finer steps come to the end with another last digit: where the curve was then thought too short, it went on to twice the tilt.
+#[test]
+fn the_curve_under_a_guided_needle_ends_where_it_is_critical() {
+    let definition = DEFINITION.replace("[puncture]", GUIDED);
+    for slant in [25.0, 30.0, 40.0, 46.5, 55.0] {
+        let set = json!({ "slant_deg": slant, "length_over_t": 0.6 });
+        let request =
+            json!({ "definition": definition, "set": set, "drawn": [1.0, 0.0], "fine": true });
+        let answer = ask(&request);
+        let force = number(&answer, "critical_force");
+        let path = answer["puncture"]["path"].as_array().expect("a path");
+        let [_, end, share] =
+            [0, 1, 2].map(|k| path.last().expect("points")[k].as_f64().expect("a number"));
+        let drawn = answer["puncture"]["at"][1].as_f64().expect("a force");
+        assert!((end / force - 1.0).abs() < 1e-6, "{slant}: the curve to {end}, {force} measured");
+        assert!((drawn, share) == (end, 1.0), "{slant}: {drawn} drawn at {share}");
+    }
+}
+
+/// A sharp tip that comes to the corner goes on from there; a round one touches the next scale at once, and stands where it was.
+#[test]
+fn a_needle_that_passes_is_told_of_if_it_is_sharp() {
+    let set = json!({ "gap_over_t": 0.1, "length_over_t": 1, "slant_deg": 75 });
+    let warned = |more: &str| {
+        let guided = "[puncture]\nneedle = 'guided'\n";
+        let definition = DEFINITION.replace("[puncture]", &format!("{guided}{more}"));
+        let answer = ask(&json!({ "definition": definition, "set": set }));
+        assert!(number(&answer, "passing_force") > 0.0);
+        answer["warnings"].to_string().contains("end of the face that it was set down on")
+    };
+    assert!(warned("") && !warned("needle_radius_over_t = 0.5"));
+}
+
 /// A needle that stands inside the corner is drawn there, and with the forces that the measures tell: it was solved once more at the corner.
 #[test]
 fn a_needle_inside_the_corner_is_drawn_with_its_own_force() {

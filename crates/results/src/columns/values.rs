@@ -96,26 +96,26 @@ pub(crate) static VALUES: &[MeasuredValue] = &[
     force(
         "passing_force",
         Place::Anywhere,
-        "puncture force where a guided needle first left the face that it was set down on; empty if it did not",
+        "puncture force where a guided needle first touches more than the face that it was set down on, a corner or another scale; empty if it does not",
         |m| &mut m.passage.passing_force,
     ).large().guided(),
     depth(
         "passing_displacement",
         Place::Anywhere,
-        "depth of the tip of a guided needle where it first left its face",
+        "depth of the tip of a guided needle where it first touches more than its face",
         |m| &mut m.passage.passing_displacement,
     ).within(BOTH).guided(),
     number(
         name::PASSING_TILT,
         "deg",
         Place::Anywhere,
-        "tilt of the punctured scale where a guided needle first left its face",
+        "tilt of the punctured scale where a guided needle first touches more than its face",
         |m| &mut m.passage.passing_tilt_deg,
     ).guided(),
     depth(
         "needle_shift",
         Place::Anywhere,
-        "how far a guided needle has moved inward on its face: at the end, or where it left it",
+        "how far a guided needle has moved inward on its face: at the end, or where it first touches more",
         |m| &mut m.passage.needle_shift,
     ).within(BOTH).guided(),
     other("scales", BOTH, "scales in the row that was solved", |r| {

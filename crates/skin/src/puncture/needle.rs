@@ -10,7 +10,7 @@
 //! | `round.rs` | a tip with a radius: its own equations, conditions and transitions |
 //! | `forces.rs` | equations, tangent, and the conditions under which they hold |
 //! | `transition.rs` | what comes next where a condition ceases to hold |
-//! | `passage.rs` | measures of a path: where the needle leaves its face, how its path ends |
+//! | `passage.rs` | measures of a path: where the needle touches more than its face, how its path ends |
 //! | `history.rs` | what it keeps of its way, and how that changes with a parameter |
 
 mod forces;

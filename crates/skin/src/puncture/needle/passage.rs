@@ -1,4 +1,4 @@
-//! Where a guided needle leaves its face, and how its path ends.
+//! Where a guided needle comes to touch more than its face, and how its path ends.
 
 use serde::{Deserialize, Serialize};
 
@@ -33,13 +33,13 @@ impl CriticalEvent {
 pub struct Passage {
     /// What ended the path; `None` if something else did.
     pub critical_event: Option<CriticalEvent>,
-    /// `F*` where the needle first left the face that it was set down on; `None` if it never did.
+    /// `F*` where the needle first touches more than the face that it was set down on, a corner or another scale; `None` if it never does.
     pub passing_force: Option<f64>,
     /// `u*` there.
     pub passing_displacement: Option<f64>,
     /// Tilt of the punctured scale there, degrees.
     pub passing_tilt_deg: Option<f64>,
-    /// How far the needle moved inward on that face, over `t`: at the end, or where it left it.
+    /// How far the needle moved inward on that face, over `t`: at the end, or where it first touches more.
     pub needle_shift: Option<f64>,
 }
 
@@ -53,7 +53,7 @@ impl Passage {
 /// The scales that a round tip touches, 0 the punctured one, and its normal force on each, in the unit of `F*`.
 pub type TipForces = Vec<(i64, f64)>;
 
-/// Watches a path for the place at which the needle leaves its face, and notes the forces of a round tip.
+/// Watches a path for the place at which the needle comes to touch more than its face, and notes the forces of a round tip.
 #[derive(Debug, Default)]
 pub(in crate::puncture) struct PassageWatch {
     /// Of every point that the path has left.
