@@ -39,8 +39,8 @@ const MODULE: &[u8] = include_bytes!("../assets/explore/live.wasm.gz");
 pub struct Explorer {
     /// The definition.
     pub sweep: Sweep,
-    /// The file of the definition, or the folder of its results, as commands name it.
-    pub file: String,
+    /// The file of the definition, or the folder of its results, as commands name it, with the settings in its place.
+    pub source: String,
     /// What a design must keep, as `coverage >= 0.5`.
     pub requirements: Vec<String>,
     /// The version of the program.
@@ -163,7 +163,7 @@ const SHOWN: [Shown; 6] = [
 #[derive(Serialize)]
 struct Data<'a> {
     definition: String,
-    file: &'a str,
+    source: &'a str,
     base: String,
     /// Thickness of the scales, mm, if it is known.
     thickness: Option<f64>,
@@ -191,7 +191,7 @@ impl Explorer {
         let base = self.sweep.grid().base();
         let data = Data {
             definition: self.sweep.to_toml(),
-            file: &self.file,
+            source: &self.source,
             base: Parameter::named("base")
                 .map_or_else(String::new, |parameter| parameter.get(base).to_string()),
             thickness: base.material.thickness_mm,

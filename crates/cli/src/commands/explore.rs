@@ -63,10 +63,12 @@ pub fn explore(arguments: &Arguments) -> anyhow::Result<u8> {
         ));
     }
     require_folder_of("--out", &arguments.out)?;
+    let Definition { path, settings } = &arguments.definition;
+    // The page has a command to copy, so all is quoted for a shell.
+    let settings = settings.iter().map(|setting| format!(" --set {}", shell_word(setting)));
     let page = Explorer {
         sweep,
-        // The page has a command to copy, so the path is quoted for a shell.
-        file: shell_word(&arguments.definition.path.display().to_string()),
+        source: shell_word(&path.display().to_string()) + &settings.collect::<String>(),
         requirements: requirements.iter().map(ToString::to_string).collect(),
         version: PROGRAM.version.to_owned(),
     };

@@ -107,7 +107,7 @@ fn page(results: &ResultsFolder) -> anyhow::Result<Page> {
         // A page has no springs of layers.
         explorer: (!sweep.gives(sweep::key::TISSUE)).then(|| Explorer {
             sweep: sweep.clone(),
-            file: shell_word(&results.folder.display().to_string()),
+            source: shell_word(&results.folder.display().to_string()),
             // The page of a run has requirements of its own, which the solver asks it for.
             requirements: Vec::new(),
             version: PROGRAM.version.to_owned(),
@@ -201,12 +201,12 @@ fn solve(results: &ResultsFolder, row: usize, is_drawn: bool) -> Option<PageDesi
     // A definition may ask for smaller steps than a drawn curve needs: they hold then.
     case.common.solver.max_step = case.common.solver.max_step.min(CURVE_STEP);
     let substrate = substrate(&case).ok()?;
-    let at = [puncture::At::Tilt(case.punctured().critical_tilt_deg)];
     let solved =
-        puncture::snapshots(&case.design, &substrate, &case.common, &case.punctured(), &at).ok()?;
-    let states: Vec<_> = solved.at.into_iter().flatten().collect();
+        puncture::snapshots(&case.design, &substrate, &case.common, &case.punctured(), &[]).ok()?;
+    // A row that does not come to its end is drawn at rest alone.
+    let states = if solved.is_critical { std::slice::from_ref(&solved.end) } else { &[] };
     let name = format!("{} design {number}", results.sweep.name());
-    let drawing = drawings::PunctureDrawing { name: &name, case: &case, states: &states };
+    let drawing = drawings::PunctureDrawing { name: &name, case: &case, states };
     let path = solved.puncture.path.iter().map(|point| [point.displacement, point.force]);
     Some(PageDesign {
         number: number.to_owned(),

@@ -63,6 +63,15 @@ fn a_page_leaves_requirements_of_samples_out() {
     assert!(page.contains("coverage >= 0.5") && !page.contains("yield >="));
 }
 
+/// The command that a page copies starts from what the page was made with.
+#[test]
+fn a_page_knows_the_settings_that_it_was_made_with() {
+    let place = Place::with("name = 'x'");
+    place.prints("explore x.toml --no-open --set contact.friction=0.1 --set scale.base=2L");
+    let source = "x.toml --set contact.friction=0.1 --set scale.base=2L";
+    assert!(place.read("explore.html").contains(&format!("\"source\":\"{source}\"")));
+}
+
 /// What a page of a goal copies is a command that takes the goal; without a design of its own there is none yet.
 #[test]
 fn a_goal_gives_designs_that_are_chosen_by_their_values() {

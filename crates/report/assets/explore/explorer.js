@@ -12,7 +12,7 @@
     try { await navigator.clipboard.writeText(text()); told(at(id), "Copied"); }
     catch { prompt("Copy this", text()); }
   });
-  const command = () => `squama design ${live.data.file} ${(live.answer?.settings ?? []).join(" ")}`;
+  const command = () => `squama design ${live.data.source} ${(live.answer?.settings ?? []).join(" ")}`;
   copies("live-link", () => `${location.href.split("#")[0]}#${squama.written?.() ?? live.written()}`);
   copies("live-copy-command", command);
   copies("live-copy-toml", () => live.answer?.toml ?? "");
@@ -51,7 +51,7 @@
     at("live-pin").textContent = live.pinned ? "Unpin" : "Pin to compare";
     at("live-back").hidden = !live.pinned;
     at("live-command").textContent = command();
-    at("live").classList.remove("waiting");
+    at("live").classList.toggle("waiting", live.solving() !== null);
   });
 
   /** On the page of a run: the best designs for what is required, and a design that is chosen comes under the hand. */
