@@ -1,5 +1,5 @@
 //! Curves of designs: force–displacement, moment–curvature, energies; a × at every contact event, a ring where the surface of the
-//! substrate first folds over.
+//! substrate first folds over, a triangle where a guided needle passes.
 
 use results::{bending_units, puncture_units};
 use skin::flexure::Flexure;
@@ -13,7 +13,7 @@ use crate::drawings::geometry_label;
 use crate::figures::{Figure, columns, sheet};
 use crate::label::{Anchor, label, width};
 use crate::palette::SlantPalette;
-use crate::svg::{Element, Spot, circle, line, polyline};
+use crate::svg::{Element, Spot, circle, line, polygon, polyline};
 
 const WIDTH: f64 = 760.0;
 /// Room for the axes, px: left, right, below.
@@ -64,6 +64,8 @@ struct Curve {
     points: Vec<[f64; 2]>,
     crosses: Vec<[f64; 2]>,
     rings: Vec<[f64; 2]>,
+    /// Where a guided needle first touches more than its face.
+    passing: Vec<[f64; 2]>,
     /// Whether the line from each point to the next is one that no needle follows.
     unstable: Vec<bool>,
 }
@@ -163,10 +165,15 @@ fn puncture(solved: &DesignCurves) -> Option<CurveValues> {
     // Counted under a held depth, since what is stable under that a needle can follow.
     let unstable = puncture.instability.iter().map(|instability| instability.depth > 0);
     let fold = puncture.folds.first().map(|fold| [fold.point.displacement, fold.point.force]);
+    let passage = &puncture.measures.passage;
+    let passing = passage.passing_displacement.zip(passage.passing_force);
+    // A path that is cut off may end before.
+    let is_shown = |at: &[f64; 2]| puncture.path.iter().any(|p| p.displacement >= at[0]);
     Some(CurveValues {
         points: points.collect(),
         crosses: crosses.collect(),
         rings: fold.into_iter().collect(),
+        passing: passing.map(<[f64; 2]>::from).filter(is_shown).into_iter().collect(),
         unstable: unstable.collect(),
     })
 }
@@ -179,8 +186,9 @@ fn places(solved: &DesignCurves) -> Option<CurveValues> {
     let is_across =
         |ends: &[[f64; 2]]| open().any(|p| (ends[0][0]..ends[1][0]).contains(&p.position));
     let unstable = known.windows(2).map(is_across).collect();
-    let (crosses, rings) = (vec![], weakest.into_iter().collect());
-    (!known.is_empty()).then_some(CurveValues { points: known, crosses, rings, unstable })
+    let rings = weakest.into_iter().collect();
+    let values = CurveValues { points: known, rings, unstable, ..CurveValues::default() };
+    (!values.points.is_empty()).then_some(values)
 }
 
 fn flexure(solved: &DesignCurves) -> Option<CurveValues> {
@@ -191,8 +199,7 @@ fn flexure(solved: &DesignCurves) -> Option<CurveValues> {
     Some(CurveValues {
         points: points.collect(),
         crosses: crosses.collect(),
-        rings: vec![],
-        unstable: vec![],
+        ..CurveValues::default()
     })
 }
 
@@ -217,10 +224,12 @@ fn flexure_energies(solved: &DesignCurves) -> Option<Energies> {
 }
 
 /// The values that a curve shows of a design.
+#[derive(Default)]
 struct CurveValues {
     points: Vec<[f64; 2]>,
     crosses: Vec<[f64; 2]>,
     rings: Vec<[f64; 2]>,
+    passing: Vec<[f64; 2]>,
     unstable: Vec<bool>,
 }
 
@@ -257,7 +266,9 @@ fn one_panel(
     let panel = ChartPanel::new(area, &x, &y);
     let note = [MARGINS[0], 48.0];
     let mut inside = panel.axes(56.0).to_vec();
-    inside.push(label(text.note, note, 12.0, Anchor::Start).with("fill", INK));
+    let passes = curves.iter().any(|curve| !curve.passing.is_empty());
+    let explained = text.note.to_owned() + if passes { ";  ▼ passing" } else { "" };
+    inside.push(label(&explained, note, 12.0, Anchor::Start).with("fill", INK));
     for (k, curve) in curves.iter().enumerate() {
         inside.extend([drawn(&panel, curve), legend(curve, LEGEND + 20.0 * k as f64)]);
     }
@@ -293,11 +304,11 @@ fn curves_of(designs: &[DesignCurves], values: ValuesOf, units: &[[f64; 2]]) -> 
     let mut curves: Vec<Curve> = Vec::new();
     for (k, solved) in designs.iter().enumerate() {
         let Some(values) = values(solved) else { continue };
-        let CurveValues { points, crosses, rings, unstable } = values;
+        let CurveValues { points, crosses, rings, passing, unstable } = values;
         let [x, y] = units.get(k).copied().unwrap_or([1.0; 2]);
         let in_units = |points: Vec<[f64; 2]>| points.into_iter().map(|p| [p[0] * x, p[1] * y]);
-        let [points, crosses, rings] =
-            [points, crosses, rings].map(|points| in_units(points).collect());
+        let [points, crosses, rings, passing] =
+            [points, crosses, rings, passing].map(|points| in_units(points).collect());
         let slant = solved.case.design.slant_deg;
         // Counted among all designs, drawn or not, so that a design looks the same in every figure.
         let before = designs[..k].iter().filter(|other| other.case.design.slant_deg == slant);
@@ -305,7 +316,7 @@ fn curves_of(designs: &[DesignCurves], values: ValuesOf, units: &[[f64; 2]]) -> 
         let color = shaded(&palette.color(slant), SHADES[before % SHADES.len()]);
         let dashes = DASHES[before % DASHES.len()];
         let name = format!("{}:  {}", solved.number, geometry_label(solved.case));
-        curves.push(Curve { name, color, dashes, points, crosses, rings, unstable });
+        curves.push(Curve { name, color, dashes, points, crosses, rings, passing, unstable });
     }
     curves
 }
@@ -368,7 +379,17 @@ fn drawn(panel: &ChartPanel, curve: &Curve) -> Element {
     let ring =
         |at: Spot| circle(at, 6.5).with("fill", "none").with("stroke", RED).at("stroke-width", 2.2);
     let rings = spots(&curve.rings).into_iter().map(ring);
-    Element::group("curve").containing(paths).containing(crosses).containing(rings)
+    // It stands on the curve with its point.
+    let triangle = |[x, y]: Spot| {
+        let mark = polygon(&[[x, y], [x - 5.0, y - 9.0], [x + 5.0, y - 9.0]]);
+        mark.with("fill", curve.color.as_str()).with("stroke", INK).with("class", "passing")
+    };
+    let passing = spots(&curve.passing).into_iter().map(triangle);
+    Element::group("curve")
+        .containing(paths)
+        .containing(crosses)
+        .containing(rings)
+        .containing(passing)
 }
 
 /// Returns spots without those that stand on the one before: crosses would bury a steep path.
@@ -445,6 +466,7 @@ fn energies_of(
         points: points.clone(),
         crosses: Vec::new(),
         rings: Vec::new(),
+        passing: Vec::new(),
         unstable: Vec::new(),
     };
     let curves = energies.iter().map(|energy| drawn(&panel, &curve(energy)));

@@ -26,6 +26,11 @@ const STILL: f64 = 0.01;
 const SUBSTRATE: f64 = 26.0;
 /// Height of the bars of the reactions, px.
 const BARS: f64 = 62.0;
+/// Half the width of the shaft of a sharp needle, and the length of its point, px.
+const SHAFT: f64 = 5.0;
+const NOSE: f64 = 16.0;
+/// Radius of the ring where a needle was set down, px.
+const RING: f64 = 3.5;
 /// Room above the scales for the load, px.
 const AIR: f64 = LONGEST + 24.0;
 
@@ -200,8 +205,10 @@ impl<'a> RowSheet<'a> {
             }
             None => format!("$u^*$ = {},  $F^*$ = {}", short(u), short(f)),
         };
+        let ring =
+            if self.ring(state).is_some() { ",  ○ where the needle was set down" } else { "" };
         format!(
-            "{load},  tilt {:.2}°,  {}{force}",
+            "{load},  tilt {:.2}°,  {}{force}{ring}",
             state.tilt_deg + 0.0,
             contacts_label(&state.contacts)
         )
@@ -304,27 +311,44 @@ impl<'a> RowSheet<'a> {
         Some([[to[0], to[1] - length], to])
     }
 
-    /// Returns the load; of a needle that is guided also a ring round the place on the scale on which it was set down: how far the
-    /// tip is from it tells how it has moved there, or that it has passed.
+    /// Returns the load; of a needle that is guided also its tip, and a ring round the place on the scale on which it was set down: how
+    /// far the tip is from it tells how it has moved there, or that it has passed.
     fn load(&self, state: &RowSnapshot) -> Element {
         let drawn = self.load_arrow(state).map(|[from, to]| {
             let name = label("$F$", [from[0], from[1] - 5.0], 14.0, Anchor::Middle);
             [arrow(from, to, INK, 2.2), name.with("fill", INK)]
         });
-        let ring = self.set_down(state).filter(|_| state.tip.is_some()).map(|follows| {
-            let ring = circle(self.place(follows.into()), 3.5);
+        let ring = self.ring(state).map(|place| {
+            let ring = circle(self.place(place.into()), RING);
             ring.with("fill", "none").with("stroke", INK).with("class", "set-down")
         });
-        let tip = self.round_tip(state);
-        Element::group("load").containing(drawn.into_iter().flatten().chain(ring).chain(tip))
+        // The arrow stands in front of the needle.
+        let parts = self.tip(state).into_iter().chain(drawn.into_iter().flatten());
+        Element::group("load").containing(parts.chain(ring))
     }
 
-    /// Returns the circle of a round tip.
-    fn round_tip(&self, state: &RowSnapshot) -> Option<Element> {
-        let (radius, [x, y]) = (self.puncture.case.puncture.needle_radius?, state.tip?);
-        let [lowest, centre] = [[x, y], [x, y + radius]].map(|place| self.place(place));
-        let tip = circle(centre, lowest[1] - centre[1]);
-        Some(tip.with("fill", "none").with("stroke", INK).with("class", "tip"))
+    /// The place on the scale on which a guided needle was set down. A round tip between two scales was set down on none.
+    fn ring(&self, state: &RowSnapshot) -> Option<Vec2> {
+        let is_on_top = (0.0..=1.0).contains(&self.puncture.case.punctured().load_position);
+        self.set_down(state).filter(|_| is_on_top && state.tip.is_some())
+    }
+
+    /// Returns the outline of a guided needle: a body that the row cannot move, where the dead load is an arrow alone.
+    fn tip(&self, state: &RowSnapshot) -> Option<Element> {
+        let radius = self.puncture.case.puncture.needle_radius.unwrap_or(0.0);
+        let [x, y] = self.place(state.tip?);
+        let round = radius * self.view.scale;
+        let (half, nose, end) = if round > 0.0 {
+            (round, round, format!("A {0} {0} 0 0 0", px(round)))
+        } else {
+            (SHAFT, NOSE, "L".to_owned())
+        };
+        let top = px((y - nose).min(y - LONGEST));
+        let [left, right, nose] = [x - half, x + half, y - nose].map(px);
+        let (x, y) = (px(x), px(y));
+        let outline = format!("M {left} {top} V {nose} {end} {x} {y} {end} {right} {nose} V {top}");
+        let tip = Element::new("path").with("d", outline).with("class", "tip");
+        Some(tip.with("fill", "#e3e7ea").with("fill-opacity", "0.6").with("stroke", INK))
     }
 
     /// Returns the angle between the base of the punctured scale and its place at rest.

@@ -31,14 +31,11 @@ fn punctured(design: &Design, modulus: f64) -> Vec<RowSnapshot> {
 }
 
 fn svg(design: &Design, states: &[RowSnapshot]) -> String {
-    drawn(design, states, None)
+    drawn(&case(design, "", ""), states)
 }
 
-fn drawn(design: &Design, states: &[RowSnapshot], needle_radius: Option<f64>) -> String {
-    let needle =
-        needle_radius.map(|radius| format!("needle = 'guided'\nneedle_radius_over_t = {radius}"));
-    let case = case(design, &needle.unwrap_or_default(), "");
-    drawings::PunctureDrawing { name: "test", case: &case, states }.svg().expect("a drawing")
+fn drawn(case: &Case, states: &[RowSnapshot]) -> String {
+    drawings::PunctureDrawing { name: "test", case, states }.svg().expect("a drawing")
 }
 
 /// The case of a design with these entries of `[puncture]` and `[material]`.
@@ -100,6 +97,23 @@ fn with_a_material_everything_is_in_millimetres_and_newtons() {
     assert!((work / stored - 1.0).abs() < 1e-2, "{work} {stored}");
 }
 
+/// Where a needle passes, its curve has a triangle, and the note says what that is.
+#[test]
+fn a_needle_that_passes_is_marked_on_its_curve() {
+    let marks = |needle: &str| {
+        let case = case(&design(75.0), &format!("needle = '{needle}'"), "");
+        let springs =
+            substrate::calibrate(&case.footprint().expect("a footprint")).expect("springs");
+        let puncture =
+            skin::puncture::solve(&case.design, &springs, &case.common, &case.punctured());
+        let (number, puncture) = ("1".to_owned(), puncture.expect("a design"));
+        let of = DesignCurves { number, case: &case, puncture: Some(&puncture), flexure: None };
+        let svg = report::curves("x", &[of], None).remove(0).svg;
+        [svg.matches("class=\"passing\"").count(), svg.matches("▼ passing").count()]
+    };
+    assert_eq!([marks("guided"), marks("free")], [[1, 1], [0, 0]]);
+}
+
 /// Where scales rub, contacts that slip have rings, and the others discs; the caption counts them.
 #[test]
 fn contacts_that_slip_have_rings() {
@@ -142,6 +156,7 @@ fn a_guided_needle_stays_where_it_was_set_down() {
     assert_eq!((needles.len(), rings.len()), (2, 2), "{text}");
     assert_eq!(needles[0], needles[1]);
     assert!(rings[0] > needles[0] + 1.0 && rings[1] > rings[0], "{rings:?} {needles:?}");
+    assert_eq!(text.matches("○ where the needle was set down").count(), 2);
     assert!(!svg(&design, &punctured(&design, 9677.0)).contains("set-down"));
 }
 
@@ -165,6 +180,9 @@ fn a_round_tip_stands_where_it_touches() {
     let lowest = 1.0 + 0.4 - 0.5 - 0.05;
     let [x, y] = state.tip.expect("a tip");
     assert!((x - (0.5 * design.length + 0.3)).abs() < 1e-12 && (y - lowest).abs() < 1e-12);
-    let text = drawn(&design, &[state], Some(0.5));
-    assert!(text.contains("class=\"tip\""), "{text}");
+    // It was set down on no scale, so that no ring shows where.
+    let between = format!("load_position = {}", parameters.load_position);
+    let needle = format!("needle = 'guided'\nneedle_radius_over_t = 0.5\n{between}");
+    let text = drawn(&case(&design, &needle, ""), &[state]);
+    assert!(text.contains("class=\"tip\"") && !text.contains("set down"), "{text}");
 }
