@@ -22,7 +22,7 @@ const same = (one, other, name) => assert.ok(Math.abs(one - other) <= 1e-6 * Mat
 /** Estimates of errors are round-off themselves. */
 const isMeasured = (name) => !name.endsWith("_error");
 
-export default ({ openFile, open, place, results, run }) => {
+export default ({ openFile, open, place, results, run, problems }) => {
   const out = mkdtempSync(join(tmpdir(), "squama-explore-"));
   const explore = async (size, state = "") => {
     const page = await openFile(join(place, "explore.html"), state);
@@ -88,9 +88,35 @@ export default ({ openFile, open, place, results, run }) => {
     async "a guided needle has its own sliders"() {
       const page = await explore(SIZES[0]), friction = page.locator("#live-set-needle_friction");
       assert.equal(await friction.count(), 1);
+      assert.ok(!await page.locator("#live-dead-load").isVisible());
       await after(page, () => page.locator("#live-set-needle").selectOption("free"));
       assert.equal(await friction.count(), 0);
+      assert.ok(await page.locator("#live-dead-load").isVisible());
       assert.match(await page.locator("#live-command").textContent(), /--set puncture\.needle=free/);
+      await page.close();
+    },
+    async "until there is an answer the page says that it solves"() {
+      const page = await openFile(join(place, "explore.html"));
+      await page.addInitScript(() => { globalThis.Worker = class { postMessage() {} terminate() {} }; });
+      await page.reload();
+      for (const id of ["live-needle-words", "live-bent-words"]) assert.equal(await page.locator(`#${id}`).textContent(), "solving …");
+      assert.equal(await page.locator("#live-force text").count(), 0);
+      await page.close();
+    },
+    async "a skin without room is drawn when there is some"() {
+      const page = await explore(SIZES[0]), spot = () => page.locator("#live-handle-slant .grip").getAttribute("cx"), before = await spot();
+      await page.evaluate(() => { squama.at("live-rest").style.display = "none"; squama.live.set({ slant_deg: 20 }); });
+      await page.evaluate(() => { squama.at("live-rest").style.display = ""; });
+      await page.waitForFunction((own) => document.querySelector("#live-handle-slant .grip").getAttribute("cx") !== own, before);
+      assert.deepEqual(problems, []);
+      await page.close();
+    },
+    async "contacts that stick and slip are counted where they are drawn"() {
+      const page = await explore(SIZES[0]), told = () => page.locator("#live-needle-stuck").textContent();
+      assert.equal(await told(), "");
+      await after(page, () => page.evaluate(() => squama.live.set({ friction: 0.2, slant_deg: 50 })));
+      const slip = await page.locator("#live-needle .contact.slips").count(), all = await page.locator("#live-needle .contact").count();
+      assert.ok(slip > 0 && await told() === `Where scales touch: ● ${all - slip} stick, ○ ${slip} slip`, await told());
       await page.close();
     },
     async "what is typed, pressed and dragged is solved, and what cannot be read is not"() {

@@ -40,7 +40,7 @@ const detailIsWhole = async () => {
   assert.match(await text("#detail-commands"), new RegExp(`squama design \\S+run\\.toml --design ${design}`));
 };
 
-const shared = { page, open, openFile, run, place, squama, results, folders, text, texts, column, detail, forget, detailIsWhole };
+const shared = { page, open, openFile, run, problems, place, squama, results, folders, text, texts, column, detail, forget, detailIsWhole };
 const tests = {
   async "loads from a file and asks for nothing else"() {
     assert.match(await text("#title"), /54 designs/);

@@ -4,7 +4,7 @@ import { ready, spots, WIDE } from "./browser.mjs";
 
 export default ({ page, open, folders }) => ({
   async "a narrow window needs no scrolling sideways"() {
-    for (const folder of [null, folders.axes, folders.folded]) {
+    for (const folder of [null, folders.axes, folders.folded, folders.someFailed]) {
       const own = folder ? await open(folder) : page;
       await own.evaluate(() => squama.pin(3));
       for (const width of [800, 390]) {

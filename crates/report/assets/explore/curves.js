@@ -10,7 +10,12 @@
   ];
 
   const draw = ({ id, path, names, factors }, load) => {
-    const own = live.answer?.[path], before = live.pinned?.answer?.[path], units = live.answer?.units ?? {};
+    const slider = at(`live-${id}-share`);
+    slider.value = live.drawn[load];
+    slider.setAttribute("aria-valuetext", at(load === 0 ? "live-needle-words" : "live-bent-words").textContent);
+    // Axes without a curve would have no ends.
+    if (!live.answer) return;
+    const own = live.answer[path], before = live.pinned?.answer?.[path], { units } = live.answer;
     const lines = [own, before].map((one) => one?.path ?? []), all = lines.flat();
     const [low, high] = [[0, 1].map((k) => Math.min(0, ...all.map((point) => point[k]))), [0, 1].map((k) => Math.max(1e-12, ...all.map((point) => point[k])))];
     const spot = ([x, y]) => [LEFT + ((WIDE - LEFT - RIGHT) * (x - low[0])) / (high[0] - low[0]), HIGH - BOTTOM - ((HIGH - BOTTOM - TOP) * (y - low[1])) / (high[1] - low[1])];
@@ -30,9 +35,6 @@
       const far = (point) => Math.hypot(spot(point)[0] - ratio * (event.clientX - bounds.left), spot(point)[1] - ratio * (event.clientY - bounds.top));
       live.draw(load, own.path.reduce((best, point) => (far(point) < far(best) ? point : best))[2]);
     };
-    const slider = at(`live-${id}-share`);
-    slider.value = live.drawn[load];
-    slider.setAttribute("aria-valuetext", at(load === 0 ? "live-needle-words" : "live-bent-words").textContent);
   };
 
   LOADS.forEach(({ id }, load) => {

@@ -24,6 +24,11 @@
     at(id).setAttribute("viewBox", `0 0 ${width} ${height}`);
     return { width, height };
   };
+  /** What the rings among the dots are: nothing is known of that without friction. */
+  const stuck = (id, contacts) => {
+    const known = contacts.filter(([, , slips]) => slips !== null), slipping = known.filter(([, , slips]) => slips).length;
+    at(id).textContent = known.length > 0 ? `Where scales touch: ● ${known.length - slipping} stick, ○ ${slipping} slip` : "";
+  };
   const soil = (view, { width, height }) => svg("rect", { x: 0, y: view.base, width, height: Math.max(0, height - view.base), fill: "var(--soil)" });
   const row = (view, own, poses, kind) => poses.map(({ number, pose }) =>
     svg("polygon", { points: points(view, outline(own, pose)), class: `scale ${kind ?? (number === 0 ? "punctured" : "")}` }));
@@ -78,6 +83,8 @@
   };
 
   const rest = () => {
+    // A window that is opened behind another, or printed from a script, may have no room yet.
+    if (at("live-rest").clientWidth === 0) return;
     const own = now(), size = box("live-rest"), view = { ...(grabbed?.view ?? fitted(own, size, 170)) };
     if (grabbed?.id === "slant") view.scale = Math.min(view.scale * grabbed.half / own.half, 0.7 * size.height);
     const pinned = live.pinned ? row(view, form(live.pinned.values), poses(form(live.pinned.values), view, size.width), "ghost") : [];
@@ -97,7 +104,9 @@
     const [depth, force] = puncture?.at ?? [0, 0];
     const text = units?.force ? `${live.digits(force * units.force, 3)} N` : `F* = ${live.digits(force, 3)}`;
     const deep = units?.length ? `${live.digits(depth * units.length, 3)} mm` : `${live.digits(depth, 3)} t`;
-    at("live-needle-words").textContent = live.drawn[0] === 0 ? "at rest" : `${text} at a depth of ${deep}`;
+    at("live-needle-words").textContent = live.solving() ?? (live.drawn[0] === 0 ? "at rest" : `${text} at a depth of ${deep}`);
+    stuck("live-needle-stuck", puncture?.contacts ?? []);
+    at("live-dead-load").hidden = live.guided();
   };
 
   const bent = () => {
@@ -113,7 +122,8 @@
     at("live-bent").replaceChildren(svg("path", { d: axes, class: "membrane" }), svg("path", { d: outlined, class: "scale" }), ...dots(view, flexure?.contacts ?? []));
     const [curvature] = flexure?.at ?? [0];
     const radius = curvature ? Math.abs(1 / curvature) * (units?.length ?? 1) : null;
-    at("live-bent-words").textContent = radius ? `to a radius of ${live.digits(radius, 3)} ${units?.length ? "mm" : "t"}` : "at rest";
+    stuck("live-bent-stuck", flexure?.contacts ?? []);
+    at("live-bent-words").textContent = live.solving() ?? (radius ? `to a radius of ${live.digits(radius, 3)} ${units?.length ? "mm" : "t"}` : "at rest");
   };
 
   addEventListener("pointermove", (event) => {
@@ -124,7 +134,7 @@
   });
   for (const end of ["pointerup", "pointercancel"]) addEventListener(end, () => { if (grabbed) { grabbed = null; rest(); } });
   const loaded = () => { needle(); bent(); };
-  addEventListener("resize", () => { rest(); loaded(); });
+  new ResizeObserver(() => { rest(); loaded(); }).observe(at("live-rest"));
   live.listen("moved", rest);
   live.listen("answered", loaded);
 })();

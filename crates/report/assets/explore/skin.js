@@ -11,6 +11,8 @@ squama.live = (() => {
   live.listen = (topic, listener) => listeners[topic].push(listener);
   const tell = (topic) => listeners[topic].forEach((listener) => listener());
   live.show = () => tell("answered");
+  /** What stands where an answer will be, until there is one. */
+  live.solving = () => (live.answer ? null : live.error ? "no answer" : "solving …");
 
   live.guided = () => controls.get("needle")?.value === "guided";
   /** The controls that act: some do under a needle of one kind alone. */

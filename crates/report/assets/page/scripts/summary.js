@@ -29,7 +29,7 @@
     return groups.flatMap((rows) => bestOf(rows, `${name}${words(rows[0])}`, column, goal));
   };
 
-  const folds = () => (squama.has(squama.fold) ? [["can be trusted", `${squama.count - squama.foldedRows.length} designs; of ${squama.foldedRows.length}, marked ⚠, the surface folds over before the critical tilt, so that their critical force is not to be trusted`]] : []);
+  const folds = () => (squama.foldedRows.length > 0 ? [["can be trusted", `${squama.count - squama.foldedRows.length} designs; of ${squama.foldedRows.length}, marked ⚠, the surface folds over before the critical tilt, so that their critical force is not to be trusted`]] : []);
   const physical = () => [[`${squama.criticalForce}_N`, "largest critical force, N", "max"], ["bend_radius_mm", "smallest bend radius, mm", "min"], [squama.mass, "least areal mass, kg/m²", "min"]]
     .filter(([column]) => squama.numeric.includes(column)).flatMap(([column, name, goal]) => best(name, column, goal));
 
@@ -60,9 +60,9 @@
   if (failed.length === 0) {
     list.append(squama.element("p", {}, "None: every design that was asked for has every value."));
   } else {
-    list.append(squama.element("table", {},
+    list.append(squama.element("div", { class: "wide" }, squama.element("table", {},
       squama.element("thead", {}, squama.element("tr", {}, ...["design", "measure", "reason"].map((text) => squama.element("th", { scope: "col" }, text)))),
       squama.element("tbody", {}, ...failed.map(({ row, measure, reason }) => squama.element("tr", { "data-row": row, ...squama.chooser(row) },
-        squama.element("td", {}, squama.title(row)), squama.element("td", {}, measure), squama.element("td", {}, reason))))));
+        squama.element("td", {}, squama.title(row)), squama.element("td", {}, measure), squama.element("td", {}, reason)))))));
   }
 })();
