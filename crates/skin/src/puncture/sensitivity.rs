@@ -208,7 +208,7 @@ impl Problem<'_> {
         let mut passing =
             vec![force("passing_force"), depth("passing_displacement"), tilt("passing_tilt_deg")];
         if chain.needle.is_some() {
-            // The shift is that at which the needle left its face, or else that of the end.
+            // The shift is that where the needle first touches more than its face, or else that of the end.
             let left = if passage.passed.is_some() { &mut passing } else { &mut end_quantities };
             left.push(quantity("needle_shift", |chain, state, _, _| {
                 chain.shift(state).unwrap_or(f64::NAN)
