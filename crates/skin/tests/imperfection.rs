@@ -199,3 +199,15 @@ fn common_samples_have_the_same_random_numbers_in_all_designs() {
     }
     assert_ne!(gaps(&STEEP, 5), gaps(&STEEP, 6));
 }
+
+/// The gap that closes first decides, whether its tops meet or corners slide in: the first contact of the chain that is solved.
+#[test]
+fn a_strip_touches_where_its_first_gap_closes() {
+    for (gap_cv, slant_sd_deg) in [(0.2, 0.0), (0.2, 0.5)] {
+        for number in 1..=2 {
+            let measures = bent(&sample(gap_cv, slant_sd_deg, 3, number)).measures;
+            let [known, found] = [measures.contact_curvature, measures.first_contact_curvature];
+            assert_relative_eq!(known.unwrap(), found.unwrap(), max_relative = 1e-9);
+        }
+    }
+}

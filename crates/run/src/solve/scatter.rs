@@ -16,6 +16,9 @@ const FARTHEST: usize = 60;
 /// The parameters that differ from scale to scale.
 const SCATTERED: [&str; 2] = ["gap_over_t", "slant_deg"];
 
+/// Measures of bending that one gap alone decides.
+const OF_FIRST_GAP: [&str; 2] = ["first_contact_curvature", "contact_curvature"];
+
 /// The derivatives of the measures of a puncture with respect to the gap and the slant of every scale near the punctured one,
 /// those that are not zero. The substrate stays as it is, as under imperfect rows.
 pub(super) fn puncture(
@@ -58,7 +61,8 @@ fn one_scale(
 }
 
 /// The derivatives of the measures of bending with respect to the gaps and slants, one for all scales: in pure bending every one of
-/// the `n` gaps adds the same, so that independent deviations add up to `1/√n` of a common one. The number of gaps stays.
+/// the `n` gaps adds the same, so that independent deviations add up to `1/√n` of a common one. The number of gaps stays. What the first
+/// gap to close decides has a kink where all are alike.
 pub(super) fn flexure(case: &Case) -> Result<Vec<ParameterDerivative>, OutOfRange> {
     let gaps = whole_gaps(&case.design.row()?, &case.flexure);
     let mut fixed = *case;
@@ -68,6 +72,10 @@ pub(super) fn flexure(case: &Case) -> Result<Vec<ParameterDerivative>, OutOfRang
     derivatives.retain(|derivative| SCATTERED.contains(&derivative.parameter));
     let share = (gaps as f64).sqrt().recip();
     for derivative in &mut derivatives {
+        if OF_FIRST_GAP.contains(&derivative.measure.as_str()) {
+            (derivative.left, derivative.right) = (None, None);
+            derivative.kink = Some("one gap closes before the others".to_owned());
+        }
         derivative.left = derivative.left.map(|slope| share * slope);
         derivative.right = derivative.right.map(|slope| share * slope);
     }

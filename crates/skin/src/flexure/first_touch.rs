@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use contact::{CornerEdge, Corners, Level, Pair, Pose};
-use geometry::{OutOfRange, Row};
+use geometry::{OutOfRange, Row, UnevenRow};
 use solver::Neighbours;
 
 use super::problem::FlexureProblem;
@@ -37,14 +37,31 @@ pub fn contact_curvature(
     parameters: &FlexureParameters,
 ) -> Result<Option<f64>, OutOfRange> {
     let gap = BareGap::new(design.row()?, parameters);
-    Ok(gap.closing_rotation().map(|rotation| rotation / gap.row.pitch()))
+    Ok(gap.closing_rotation(LARGEST).map(|rotation| rotation / gap.pair.pitch()))
+}
+
+/// Returns the curvature at which the first of the gaps of an imperfect strip closes. The moment is the same everywhere, so the gaps are
+/// arcs of one curvature `θ/d` until then, and those of the strip together turn by it times `Σd`:
+///
+/// ```text
+/// κ₁* = minᵢ(θ₁ᵢ/dᵢ) Σd/Σp                                                                  (F9)
+/// ```
+pub(super) fn first_of_gaps(row: &UnevenRow, parameters: &FlexureParameters) -> Option<f64> {
+    // A gap that would close after another, or would have turned by half a circle, has no part in it.
+    let arc = (0..row.gaps().len()).fold(f64::INFINITY, |first, i| {
+        let gap = BareGap::of_uneven(row, i, parameters);
+        let closing = gap.closing_rotation(LARGEST.min(first * gap.width));
+        closing.map_or(first, |rotation| first.min(rotation / gap.width))
+    });
+    arc.is_finite().then(|| arc * row.gaps().iter().sum::<f64>() / row.length())
 }
 
 /// Whether the scales of a strip touch before its bending ends.
 pub(super) fn touches(input: &FlexureInput) -> Result<bool, OutOfRange> {
     let (gap, FlexureInput { design, common, parameters }) = (BareGap::of(input)?, input);
-    let end = FlexureProblem::of_row(gap.row, design, common, parameters)?.end_curvature();
-    Ok(gap.closing_rotation().is_some_and(|rotation| rotation / gap.row.pitch() <= end))
+    let row = design.leaning_row()?;
+    let end = FlexureProblem::of_row(row, design, common, parameters)?.end_curvature();
+    Ok(gap.closing_rotation(LARGEST).is_some_and(|rotation| rotation / gap.pair.pitch() <= end))
 }
 
 /// Returns the derivatives of [`contact_curvature`], which follow from the gap `g(θ, q)` that vanishes there:
@@ -59,7 +76,7 @@ pub(super) fn curvature_derivatives(
     variations: &[Neighbours<FlexureInput>],
 ) -> Result<Vec<Derivative>, OutOfRange> {
     let gap = BareGap::of(input)?;
-    let Some(rotation) = gap.closing_rotation() else { return Ok(Vec::new()) };
+    let Some(rotation) = gap.closing_rotation(LARGEST) else { return Ok(Vec::new()) };
     let derivative = |(parameter, variation): (usize, &Neighbours<FlexureInput>)| {
         let Neighbours { below, above, step } = variation;
         let neighbours = [BareGap::of(below)?, BareGap::of(above)?];
@@ -67,7 +84,7 @@ pub(super) fn curvature_derivatives(
         let own = gap.meeting(rotation).unwrap_or(CornerEdge::TopRightOnLeftEdge);
         let meetings = neighbours.each_ref().map(|side| side.meeting(rotation).unwrap_or(own));
         let rate = |meeting| Some(gap.closing_rate(meeting, rotation, &neighbours, *step));
-        let (measure, value) = ("contact_curvature", rotation / gap.row.pitch());
+        let (measure, value) = ("contact_curvature", rotation / gap.pair.pitch());
         let kink = || "another corner meets an edge".to_owned();
         let sided = SidedDerivative::new(meetings.map(rate), value, *step, kink);
         let SidedDerivative { left, right, kink } = sided;
@@ -84,8 +101,8 @@ const STEP: f64 = 1e-6;
 
 /// A gap whose membrane carries no force.
 struct BareGap {
-    row: Row,
     pair: Pair,
+    width: f64,
     /// Depth of the axis of the membrane below the bases.
     offset: f64,
 }
@@ -93,7 +110,13 @@ struct BareGap {
 impl BareGap {
     fn new(row: Row, parameters: &FlexureParameters) -> Self {
         let pair = Pair::new(*row.scale(), row.pitch());
-        Self { row, pair, offset: parameters.membrane_axis_offset }
+        Self { pair, width: row.gap(), offset: parameters.membrane_axis_offset }
+    }
+
+    /// Gap `i` of an uneven row.
+    fn of_uneven(row: &UnevenRow, i: usize, parameters: &FlexureParameters) -> Self {
+        let pair = Pair::of([row.scales()[i], row.scales()[i + 1]], row.pitch(i));
+        Self { pair, width: row.gaps()[i], offset: parameters.membrane_axis_offset }
     }
 
     fn of(input: &FlexureInput) -> Result<Self, OutOfRange> {
@@ -115,9 +138,9 @@ impl BareGap {
             / (2.0 * turn);
         let [below, above] = neighbours.each_ref().map(|gap| gap.opening(meeting, rotation));
         let turned = -(above - below) / (2.0 * step) / by_rotation;
-        let [below, above] = neighbours.each_ref().map(|gap| gap.row.pitch());
+        let [below, above] = neighbours.each_ref().map(|gap| gap.pair.pitch());
         // `κ₁* = θ₁/p`, and the pitch moves with the parameter, too.
-        let pitch = self.row.pitch();
+        let pitch = self.pair.pitch();
         (turned - rotation / pitch * (above - below) / (2.0 * step)) / pitch
     }
 
@@ -131,18 +154,26 @@ impl BareGap {
         let close = self.facing(rotation).filter(|(_, gap)| gap.abs() < CLOSE);
         close.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(meeting, _)| meeting)
     }
-    /// The first rotation at which the neighbours touch.
-    fn closing_rotation(&self) -> Option<f64> {
+
+    /// The first rotation at which the neighbours touch, at most `farthest`.
+    fn closing_rotation(&self, farthest: f64) -> Option<f64> {
         // Tops of upright scales meet corner on corner, where neither foot lies within an edge: a
         // search for a corner that faces an edge would not see it.
-        let upright = self.row.gap() / (1.0 + self.offset);
-        if self.row.scale().slant() == 0.0 && self.offset > -1.0 && upright <= LARGEST {
-            return Some(upright);
+        let upright = self.width / (1.0 + self.offset);
+        let stands = self.pair.scales().iter().all(|scale| scale.slant() == 0.0);
+        if stands && self.offset > -1.0 && upright <= LARGEST {
+            return (upright <= farthest).then_some(upright);
         }
         // The first look is not at zero, where the arc has no radius.
-        let at = |look: u32| LARGEST * f64::from(look) / f64::from(LOOKS);
-        let closed = (1..=LOOKS).find(|&look| self.touches(at(look)))?;
-        Some(self.narrowed(at(closed - 1), at(closed)))
+        let looks = (1..=LOOKS).map(|look| LARGEST * f64::from(look) / f64::from(LOOKS));
+        let mut open = 0.0;
+        for rotation in looks.take_while(|look| *look < farthest).chain([farthest]) {
+            if self.touches(rotation) {
+                return Some(self.narrowed(open, rotation));
+            }
+            open = rotation;
+        }
+        None
     }
 
     /// The rotation between `open` and `closed` at which the neighbours touch, to the last digit.
@@ -176,12 +207,13 @@ impl BareGap {
     /// The pose of the right scale (F5).
     fn right(&self, rotation: f64) -> Pose {
         let (sin, cos) = rotation.sin_cos();
-        let (a, z0) = (self.row.scale().half_base(), self.offset);
+        // Single scales differ in their slants, not in their bases.
+        let (a, z0) = (self.pair.scales()[0].half_base(), self.offset);
         // 1 − cos θ without loss of digits.
         let versine = 2.0 * (0.5 * rotation).sin().powi(2);
-        let chord = self.row.gap() / rotation;
+        let chord = self.width / rotation;
         let x = a + chord * sin + cos * a - sin * z0;
         let y = -z0 + chord * versine + sin * a + cos * z0;
-        Pose::new(x - self.row.pitch(), y, rotation)
+        Pose::new(x - self.pair.pitch(), y, rotation)
     }
 }

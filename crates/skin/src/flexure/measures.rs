@@ -44,8 +44,8 @@ pub struct FlexureMeasures {
     /// What is left once the moment is gone.
     #[serde(default, skip_serializing_if = "Remains::is_none")]
     pub remains: Remains,
-    /// `κ*` at which scales would touch, whether or not the path goes so far; `None` for a gap that cannot close, and for
-    /// imperfect strips.
+    /// `κ*` at which scales would touch, whether or not the path goes so far, of an imperfect strip in the gap that closes first; `None`
+    /// where none can close.
     pub contact_curvature: Option<f64>,
 }
 

@@ -6,7 +6,7 @@ use membrane::{Membrane, Section, Span};
 use solver::{Path, Stop};
 
 use super::accuracy::change;
-use super::first_touch::contact_curvature;
+use super::first_touch::{contact_curvature, first_of_gaps};
 use super::frame::Step;
 use super::mesh::Resolution;
 use super::strip::{Strip, StripExtent};
@@ -51,7 +51,7 @@ pub(crate) struct FlexureProblem<'a> {
     pub(crate) gaps: f64,
     /// Gaps that are solved for.
     pub(super) solved: usize,
-    /// The curvature of first contact of a design whose measures are asked for.
+    /// The curvature of first contact of a design whose measures are asked for, or of a sample.
     pub(super) contact_curvature: Option<f64>,
 }
 
@@ -91,8 +91,11 @@ impl<'a> FlexureProblem<'a> {
         sample: &Sample,
     ) -> Result<Self, OutOfRange> {
         let gaps = whole_gaps(&design.row()?, parameters);
-        let row = Arrangement::Uneven(sample.row(0, gaps)?);
-        Self::new(design, common, parameters, row, gaps as f64, gaps)
+        let row = sample.row(0, gaps)?;
+        let contact_curvature = first_of_gaps(&row, parameters);
+        let row = Arrangement::Uneven(row);
+        let problem = Self::new(design, common, parameters, row, gaps as f64, gaps)?;
+        Ok(Self { contact_curvature, ..problem })
     }
 
     pub(crate) fn new(
