@@ -207,12 +207,18 @@ fn value_of(value: &DeValue<'_>, place: &dyn Fn(usize) -> Place) -> Value {
 /// If it opens a string, list or table and is no TOML.
 pub(crate) fn parse_argument(text: &str, place: &Place) -> Result<Value, String> {
     let text = text.trim();
-    match DeValue::parse(text) {
-        Ok(value) => Ok(value_of(value.get_ref(), &|_| place.clone())),
-        // What opens a list or a text and does not close it is a slip, and no word without quotes.
-        Err(_) if !text.is_empty() && !text.starts_with(['[', '{', '"', '\'']) => {
-            Ok(Value::Text(text.to_owned()))
-        }
-        Err(error) => Err(one_line(error.message())),
+    let error = match DeValue::parse(text) {
+        Ok(value) => return Ok(value_of(value.get_ref(), &|_| place.clone())),
+        Err(error) => error,
+    };
+    // TOML has no number that begins or ends with its point, and people write them.
+    let number = || text.parse::<f64>().ok().filter(|number| number.is_finite());
+    if let Some(number) = text.contains('.').then(number).flatten() {
+        return Ok(Value::Number(number.to_string()));
     }
+    // What opens a list or a text and does not close it is a slip, and no word without quotes.
+    if text.is_empty() || text.starts_with(['[', '{', '"', '\'']) {
+        return Err(one_line(error.message()));
+    }
+    Ok(Value::Text(text.to_owned()))
 }

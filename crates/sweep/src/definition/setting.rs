@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::suggestion::VARIABLES;
-use crate::parameter::Parameter;
-use crate::parameter::key;
+use crate::case::Case;
+use crate::parameter::{Parameter, key};
 use crate::toml_source::{self, KeyValue, KeyValues, Place, Value};
 
 /// Parts of a dotted key, at most. None has more than two, but a mistyped one is refused by name.
@@ -121,11 +121,7 @@ impl Setting {
                 drop_from_file(table, section, parameter.key);
             }
         }
-        let is_guided = says(table, "puncture", key::NEEDLE, "guided");
-        let is_needle =
-            parameter.key == key::NEEDLE_FRICTION || parameter.key == key::CRITICAL_TILT;
-        // Under a guided needle tilt and friction are two things.
-        for other in parameter.others().filter(|_| !(is_guided && is_needle)) {
+        for other in parameter.others_in(&case_of(table)) {
             for section in ["designs", VARIABLES, other.section] {
                 drop_from_file(table, section, other.key);
             }
@@ -133,13 +129,27 @@ impl Setting {
     }
 }
 
-/// Whether a definition gives a key of a section this text.
-fn says(table: &KeyValues, section: &str, key: &str, text: &str) -> bool {
-    table.iter().filter(|entry| entry.key == section).any(|entry| {
-        let Value::Table(entries) = &entry.value else { return false };
-        let is_text = |value: &Value| matches!(value, Value::Text(found) if found == text);
-        entries.iter().any(|entry| entry.key == key && is_text(&entry.value))
-    })
+/// A case with what a definition says about which of its parameters exclude each other.
+fn case_of(table: &KeyValues) -> Case {
+    let mut written = Vec::new();
+    for KeyValue { key: section, value, .. } in table {
+        let Value::Table(entries) = value else { continue };
+        let is_own = |p: &&Parameter| ["designs", VARIABLES, p.section].contains(&&**section);
+        let named = |e: &KeyValue| Parameter::named(&e.key).filter(is_own);
+        written.extend(entries.iter().filter_map(|e| Some((named(e)?, &e.value))));
+    }
+    let says = |key| written.iter().any(|(parameter, _)| parameter.is_or_says(key));
+    let mut case = Case::default();
+    // Beside a gap the pitch says how long a scale is.
+    case.in_mm.pitch_says_length = says(key::PITCH) && says(key::GAP);
+    // Under a guided needle tilt and friction are two things.
+    for (parameter, value) in written.iter().filter(|(p, _)| p.key == key::NEEDLE) {
+        // Several needles along an axis are no one value, and a wrong one is refused where it is read.
+        if let Ok(needle) = parameter.read(value) {
+            parameter.set(&mut case, needle);
+        }
+    }
+    case
 }
 
 /// Removes what the file says about a key of a section.
@@ -170,6 +180,7 @@ mod tests {
         let value = |text| Setting::parse(text).expect("valid").value;
         assert_eq!(value("scale.base=2L"), Value::Text("2L".to_owned()));
         assert_eq!(value("scale.base=\"2L\""), Value::Text("2L".to_owned()));
+        assert_eq!(value("contact.friction=.1"), Value::Number("0.1".to_owned()));
         assert_eq!(value("puncture.scales = 41"), Value::Number("41".to_owned()));
     }
 
@@ -199,6 +210,24 @@ mod tests {
         assert_eq!(
             set("flexure.gaps = 42", &["designs.membrane_length_over_t=[50, 100]"]),
             "{ flexure = {}, designs = { membrane_length_over_t = [50, 100] } }"
+        );
+        // Beside a gap the pitch says a length, which stays; without one it says the gap.
+        assert_eq!(
+            set("designs = { gap_mm = 0.3, pitch_mm = 2 }", &["designs.gap_over_t=0.2"]),
+            "{ designs = { pitch_mm = 2, gap_over_t = 0.2 } }"
+        );
+        assert_eq!(
+            set("designs = { gap_mm = 0.3, pitch_mm = 2 }", &["designs.length_mm=1"]),
+            "{ designs = { gap_mm = 0.3, length_mm = 1 } }"
+        );
+        assert_eq!(
+            set("designs = { length_mm = 1, pitch_mm = 2 }", &["designs.gap_mm=0.2"]),
+            "{ designs = { length_mm = 1, gap_mm = 0.2 } }"
+        );
+        let tolerance = "designs = { pitch_mm = 2 }\ntolerance = { gap_mm = { batch_sd = 1 } }";
+        assert_eq!(
+            set(tolerance, &["designs.gap_mm=0.2"]),
+            "{ designs = { gap_mm = 0.2 }, tolerance = { gap_mm = { batch_sd = 1 } } }"
         );
         assert_eq!(
             set("variables.c1 = [1, 2]", &["contact.c1=3"]),

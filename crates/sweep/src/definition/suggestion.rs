@@ -1,6 +1,6 @@
 //! Suggestions for unknown keys.
 
-use crate::parameter::{PARAMETERS, Parameter};
+use crate::parameter::{PARAMETERS, Parameter, key};
 
 /// The section of the axes.
 const DESIGNS: &str = "designs";
@@ -16,6 +16,9 @@ const TOP: [&str; 4] = ["name", "measures", VARIABLES, TOLERANCE];
 
 /// Endings of names that are units.
 const UNITS: [&str; 7] = ["_over_t", "_mm", "_deg", "_MPa", "_kg_m2", "_kg_m3", "_N"];
+
+/// Keys that say the same, one of puncture and the other of bending.
+const TWINS: [[&str; 2]; 1] = [[key::UNLOAD, key::UNBEND]];
 
 /// The quantity that a name stands for, without its unit.
 fn quantity(name: &str) -> &str {
@@ -41,7 +44,10 @@ pub(crate) fn for_key(section: &str, key: &str) -> String {
     if let Some(parameter) = Parameter::named(key) {
         // A thickness of the substrate is that of the tissue, before it is that of the scales.
         let end = format!("_{key}");
-        let own = known.iter().find(|own| parameter.section != section && own.ends_with(&end));
+        let twin = TWINS.iter().find(|twins| twins.contains(&key));
+        let is_twin = |own: &str| twin.is_some_and(|twins| twins.contains(&own));
+        let mut known = known.iter().filter(|_| parameter.section != section);
+        let own = known.find(|own| own.ends_with(&end) || is_twin(own));
         let path = own.map_or_else(|| parameter.path(), |own| format!("{section}.{own}"));
         return format!("did you mean {path}?");
     }
@@ -117,6 +123,8 @@ mod tests {
         assert_eq!(for_key("scale", "c2"), "did you mean contact.c2?");
         let tissue = "did you mean substrate.tissue_thickness_mm?";
         assert_eq!(for_key("substrate", "thickness_mm"), tissue);
+        assert_eq!(for_key("flexure", "unload"), "did you mean flexure.unbend?");
+        assert_eq!(for_key("puncture", "unbend"), "did you mean puncture.unload?");
         assert_eq!(for_key("scale", "width"), "did you mean scale.width_over_t?");
         assert_eq!(for_key("scale", "width_m"), "did you mean scale.width_mm?");
         assert_eq!(nearest("gap_mm", &["gaps", "gap_cv", "bend_radius_mm"]), None);
