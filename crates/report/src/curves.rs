@@ -2,8 +2,8 @@
 //! substrate first folds over, a triangle where a guided needle passes.
 
 use results::{bending_units, puncture_units};
-use skin::flexure::Flexure;
-use skin::puncture::{Puncture, Weakest};
+use skin::flexure::{Flexure, FlexurePoint};
+use skin::puncture::{Puncture, PuncturePoint, Weakest};
 use sweep::Case;
 
 use crate::axis::ChartAxis;
@@ -30,6 +30,8 @@ const ENERGY_PANEL: [f64; 2] = [330.0, 300.0];
 const DASHES: [&str; 5] = ["none", "7 4", "2 3", "9 3 2 3", "12 5"];
 /// Dashes where no needle follows a path.
 const UNSTABLE: &str = "1 2.5";
+/// Dashes of a way back.
+const BACK: &str = "5 3";
 const SHADES: [f64; 4] = [0.0, -0.35, -0.6, 0.3];
 
 /// A solved design.
@@ -61,13 +63,7 @@ struct Curve {
     name: String,
     color: String,
     dashes: &'static str,
-    points: Vec<[f64; 2]>,
-    crosses: Vec<[f64; 2]>,
-    rings: Vec<[f64; 2]>,
-    /// Where a guided needle first touches more than its face.
-    passing: Vec<[f64; 2]>,
-    /// Whether the line from each point to the next is one that no needle follows.
-    unstable: Vec<bool>,
+    values: CurveValues,
 }
 
 /// Returns the curves of `designs` as figures: those for which there are paths, with what was `measured` over those of its kind.
@@ -159,8 +155,8 @@ impl FigureText {
 
 fn puncture(solved: &DesignCurves) -> Option<CurveValues> {
     let puncture = solved.puncture?;
+    let place = |p: &PuncturePoint| [p.displacement, p.force];
     let back = puncture.way_back.iter().flat_map(|back| &back.path);
-    let points = puncture.path.iter().chain(back).map(|p| [p.displacement, p.force]);
     let crosses = puncture.events.iter().map(|e| [e.point.displacement, e.point.force]);
     // Counted under a held depth, since what is stable under that a needle can follow.
     let unstable = puncture.instability.iter().map(|instability| instability.depth > 0);
@@ -170,7 +166,8 @@ fn puncture(solved: &DesignCurves) -> Option<CurveValues> {
     // A path that is cut off may end before.
     let is_shown = |at: &[f64; 2]| puncture.path.iter().any(|p| p.displacement >= at[0]);
     Some(CurveValues {
-        points: points.collect(),
+        points: puncture.path.iter().map(place).collect(),
+        back: back.map(place).collect(),
         crosses: crosses.collect(),
         rings: fold.into_iter().collect(),
         passing: passing.map(<[f64; 2]>::from).filter(is_shown).into_iter().collect(),
@@ -187,17 +184,18 @@ fn places(solved: &DesignCurves) -> Option<CurveValues> {
         |ends: &[[f64; 2]]| open().any(|p| (ends[0][0]..ends[1][0]).contains(&p.position));
     let unstable = known.windows(2).map(is_across).collect();
     let rings = weakest.into_iter().collect();
-    let values = CurveValues { points: known, rings, unstable, ..CurveValues::default() };
-    (!values.points.is_empty()).then_some(values)
+    let is_known = !known.is_empty();
+    is_known.then(|| CurveValues { points: known, rings, unstable, ..CurveValues::default() })
 }
 
 fn flexure(solved: &DesignCurves) -> Option<CurveValues> {
     let flexure = solved.flexure?;
+    let place = |p: &FlexurePoint| [p.curvature, p.moment];
     let back = flexure.way_back.iter().flat_map(|back| &back.path);
-    let points = flexure.path.iter().chain(back).map(|p| [p.curvature, p.moment]);
     let crosses = flexure.events.iter().map(|e| [e.point.curvature, e.point.moment]);
     Some(CurveValues {
-        points: points.collect(),
+        points: flexure.path.iter().map(place).collect(),
+        back: back.map(place).collect(),
         crosses: crosses.collect(),
         ..CurveValues::default()
     })
@@ -227,10 +225,27 @@ fn flexure_energies(solved: &DesignCurves) -> Option<Energies> {
 #[derive(Default)]
 struct CurveValues {
     points: Vec<[f64; 2]>,
+    /// Where the load is taken away again, from the end of `points`.
+    back: Vec<[f64; 2]>,
     crosses: Vec<[f64; 2]>,
     rings: Vec<[f64; 2]>,
+    /// Where a guided needle first touches more than its face.
     passing: Vec<[f64; 2]>,
+    /// Whether the line from each point to the next is one that no needle follows.
     unstable: Vec<bool>,
+}
+
+impl CurveValues {
+    fn all(&self) -> impl Iterator<Item = &[f64; 2]> {
+        self.points.iter().chain(&self.back)
+    }
+
+    fn in_units(&mut self, [x, y]: [f64; 2]) {
+        let Self { points, back, crosses, rings, passing, .. } = self;
+        for points in [points, back, crosses, rings, passing] {
+            points.iter_mut().for_each(|point| *point = [point[0] * x, point[1] * y]);
+        }
+    }
 }
 
 /// The values of a design; `None` where there are none.
@@ -252,7 +267,7 @@ fn one_panel(
         return None;
     }
     let measured = measured.map_or(&[][..], |measured| &measured.curves);
-    let solved = curves.iter().flat_map(|curve| &curve.points);
+    let solved = curves.iter().flat_map(|curve| curve.values.all());
     let points = solved.chain(measured.iter().flat_map(|(_, points)| points)).copied();
     let (x, y) = axes(labels, &points.collect::<Vec<_>>());
     let y = logarithmic(labels[1], &curves).unwrap_or(y);
@@ -266,9 +281,12 @@ fn one_panel(
     let panel = ChartPanel::new(area, &x, &y);
     let note = [MARGINS[0], 48.0];
     let mut inside = panel.axes(56.0).to_vec();
-    let passes = curves.iter().any(|curve| !curve.passing.is_empty());
-    let explained = text.note.to_owned() + if passes { ";  ▼ passing" } else { "" };
-    inside.push(label(&explained, note, 12.0, Anchor::Start).with("fill", INK));
+    let passes = curves.iter().any(|curve| !curve.values.passing.is_empty());
+    let returns = curves.iter().any(|curve| !curve.values.back.is_empty());
+    let passing = if passes { ";  ▼ passing" } else { "" };
+    let back = if returns { ";  thin dashes: the load is taken away again" } else { "" };
+    let words = format!("{}{passing}{back}", text.note);
+    inside.push(label(&words, note, 12.0, Anchor::Start).with("fill", INK));
     for (k, curve) in curves.iter().enumerate() {
         inside.extend([drawn(&panel, curve), legend(curve, LEGEND + 20.0 * k as f64)]);
     }
@@ -303,12 +321,8 @@ fn curves_of(designs: &[DesignCurves], values: ValuesOf, units: &[[f64; 2]]) -> 
     let palette = palette(designs);
     let mut curves: Vec<Curve> = Vec::new();
     for (k, solved) in designs.iter().enumerate() {
-        let Some(values) = values(solved) else { continue };
-        let CurveValues { points, crosses, rings, passing, unstable } = values;
-        let [x, y] = units.get(k).copied().unwrap_or([1.0; 2]);
-        let in_units = |points: Vec<[f64; 2]>| points.into_iter().map(|p| [p[0] * x, p[1] * y]);
-        let [points, crosses, rings, passing] =
-            [points, crosses, rings, passing].map(|points| in_units(points).collect());
+        let Some(mut values) = values(solved) else { continue };
+        values.in_units(units.get(k).copied().unwrap_or([1.0; 2]));
         let slant = solved.case.design.slant_deg;
         // Counted among all designs, drawn or not, so that a design looks the same in every figure.
         let before = designs[..k].iter().filter(|other| other.case.design.slant_deg == slant);
@@ -316,7 +330,7 @@ fn curves_of(designs: &[DesignCurves], values: ValuesOf, units: &[[f64; 2]]) -> 
         let color = shaded(&palette.color(slant), SHADES[before % SHADES.len()]);
         let dashes = DASHES[before % DASHES.len()];
         let name = format!("{}:  {}", solved.number, geometry_label(solved.case));
-        curves.push(Curve { name, color, dashes, points, crosses, rings, passing, unstable });
+        curves.push(Curve { name, color, dashes, values });
     }
     curves
 }
@@ -337,7 +351,7 @@ fn axes(labels: [&str; 2], points: &[[f64; 2]]) -> (ChartAxis, ChartAxis) {
 
 /// Returns an axis that shows the smallest of curves whose ends differ by decades.
 fn logarithmic(label: &str, curves: &[Curve]) -> Option<ChartAxis> {
-    let ends = curves.iter().map(|curve| curve.points.iter().map(|p| p[1]).fold(0.0, f64::max));
+    let ends = curves.iter().map(|curve| curve.values.all().map(|p| p[1]).fold(0.0, f64::max));
     let (low, high) = crate::axis::ends(ends);
     // Curves begin at zero, which has no place here: a decade and a half below the lowest end their
     // feet are left out.
@@ -345,19 +359,21 @@ fn logarithmic(label: &str, curves: &[Curve]) -> Option<ChartAxis> {
 }
 
 impl Curve {
-    /// The parts of the line that are alike stable, with their dashes.
-    fn parts(&self) -> Vec<(&[[f64; 2]], &'static str)> {
-        // Of the way back nothing is known: it counts as stable.
-        let is_unstable = |k: usize| self.unstable.get(k) == Some(&true);
+    /// The parts of the line that are alike stable, with their dashes and widths, and the way back.
+    fn parts(&self) -> Vec<(&[[f64; 2]], &'static str, f64)> {
+        let CurveValues { points, back, unstable, .. } = &self.values;
+        let is_unstable = |k: usize| unstable.get(k) == Some(&true);
         let mut parts = Vec::new();
         let mut start = 0;
-        for end in 1..self.points.len() {
-            if end + 1 == self.points.len() || is_unstable(end) != is_unstable(start) {
+        for end in 1..points.len() {
+            if end + 1 == points.len() || is_unstable(end) != is_unstable(start) {
                 let dashes = if is_unstable(start) { UNSTABLE } else { self.dashes };
-                parts.push((&self.points[start..=end], dashes));
+                parts.push((&points[start..=end], dashes, 1.8));
                 start = end;
             }
         }
+        // Of the way back no stability is known.
+        parts.extend((!back.is_empty()).then_some((&back[..], BACK, 1.1)));
         parts
     }
 }
@@ -366,25 +382,25 @@ fn drawn(panel: &ChartPanel, curve: &Curve) -> Element {
     let spots = |points: &[[f64; 2]]| -> Vec<Spot> {
         points.iter().filter_map(|&[x, y]| panel.place(x, y)).collect()
     };
-    let paths = curve.parts().into_iter().map(|(points, dashes)| {
+    let paths = curve.parts().into_iter().map(|(points, dashes, width)| {
         polyline(&spots(points))
             .with("stroke", curve.color.as_str())
-            .at("stroke-width", 1.8)
+            .at("stroke-width", width)
             .with("stroke-dasharray", dashes)
             .with("stroke-linejoin", "round")
     });
-    let crosses = apart(spots(&curve.crosses)).into_iter().flat_map(|[x, y]| {
+    let crosses = apart(spots(&curve.values.crosses)).into_iter().flat_map(|[x, y]| {
         [1.0, -1.0].map(|s| line([x - 3.0, y - 3.0 * s], [x + 3.0, y + 3.0 * s], INK, 0.8))
     });
     let ring =
         |at: Spot| circle(at, 6.5).with("fill", "none").with("stroke", RED).at("stroke-width", 2.2);
-    let rings = spots(&curve.rings).into_iter().map(ring);
+    let rings = spots(&curve.values.rings).into_iter().map(ring);
     // It stands on the curve with its point.
     let triangle = |[x, y]: Spot| {
         let mark = polygon(&[[x, y], [x - 5.0, y - 9.0], [x + 5.0, y - 9.0]]);
         mark.with("fill", curve.color.as_str()).with("stroke", INK).with("class", "passing")
     };
-    let passing = spots(&curve.passing).into_iter().map(triangle);
+    let passing = spots(&curve.values.passing).into_iter().map(triangle);
     Element::group("curve")
         .containing(paths)
         .containing(crosses)
@@ -463,11 +479,7 @@ fn energies_of(
         name: String::new(),
         color: color.to_owned(),
         dashes,
-        points: points.clone(),
-        crosses: Vec::new(),
-        rings: Vec::new(),
-        passing: Vec::new(),
-        unstable: Vec::new(),
+        values: CurveValues { points: points.clone(), ..CurveValues::default() },
     };
     let curves = energies.iter().map(|energy| drawn(&panel, &curve(energy)));
     panel.axes(58.0).into_iter().chain(curves).collect()

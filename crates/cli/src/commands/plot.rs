@@ -8,7 +8,7 @@ use fit::{MeasuredCurve, Test};
 use report::{DesignCurves, MapRequest, MeasuredCurves, curves, figures, map};
 use skin::Status;
 use skin::flexure::{self, Flexure};
-use skin::puncture::{self, Puncture};
+use skin::puncture::{self, Puncture, PunctureParameters};
 use sweep::{Case, PARAMETERS};
 
 use super::draw::{check_place, substrate};
@@ -254,10 +254,12 @@ fn solve(case: &Case, to: Option<f64>) -> anyhow::Result<(Puncture, Flexure)> {
     let mut common = case.common;
     // Close enough for a line.
     common.solver.max_step = common.solver.max_step.min(CURVE_STEP);
-    let at: Vec<_> = to.into_iter().map(puncture::At::Displacement).collect();
-    let mut puncture =
-        puncture::snapshots(&case.design, &substrate, &common, &case.punctured(), &at)?.puncture;
     let parameters = case.punctured();
+    let alone = PunctureParameters { places: None, ..parameters };
+    let mut puncture = match to.map(puncture::At::Displacement) {
+        None => puncture::solve(&case.design, &substrate, &common, &alone)?,
+        Some(to) => puncture::snapshots(&case.design, &substrate, &common, &alone, &[to])?.puncture,
+    };
     // The steps of the definition are enough, because a place is shown by its critical force alone.
     puncture.places = puncture::loaded_places(&case.design, &substrate, &case.common, &parameters)?;
     if let Some(to) = to {

@@ -59,6 +59,29 @@ fn takes_the_load_away_again() {
     for value in values("0") {
         assert!(value.abs() < 1e-9, "{value}");
     }
+    // Curves show both ways of both tests.
+    let curves = design.replace("design", "plot curves");
+    place.prints(&format!("{curves} --set contact.friction=.3 --out c"));
+    for figure in ["force-displacement", "moment-curvature"] {
+        let svg = place.read(&format!("c/{figure}-curves-of-0004.svg"));
+        assert!(svg.contains("thin dashes: the load is taken away again"), "{svg}");
+    }
+}
+
+/// A load that does not come back to zero is told, with the reason.
+#[test]
+fn says_why_a_way_back_has_no_end() {
+    let place = Place::with("name = 'x'");
+    let design =
+        "design x.toml --design 0024 --set contact.friction=0.1 --set puncture.unload=true";
+    let output = place.squama(design).assert().code(1);
+    let text = String::from_utf8_lossy(&output.get_output().stdout).into_owned();
+    let value = |name| {
+        let line = text.lines().find(|line| line.trim_start().starts_with(name));
+        line.and_then(|line| line.split_whitespace().nth(1)).expect("a line").to_owned()
+    };
+    let told = ["puncture_status", "loop_work", "unload_status"].map(value);
+    assert_eq!(told, ["complete", "none", "no"], "{text}");
 }
 
 /// A round tip between two scales presses on both: a column for each, whose parts along the load are the force.

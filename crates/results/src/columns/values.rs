@@ -346,9 +346,15 @@ pub(crate) static VALUES: &[MeasuredValue] = &[
         |r| measured(r, |m| m.remains.displacement),
     ).in_unit("t").at(Place::End).needing(&[key::UNLOAD]),
     other(
+        "unload_status",
+        BOTH,
+        "complete, or why the load did not come back to zero, and so nothing is known of its way back",
+        |r| punctured(r, |p| p.way_back.map(Outcome::text)),
+    ).last().needing(&[key::UNLOAD]),
+    other(
         "unique",
         BOTH,
-        "yes or no: whether no event of the path had another way on, among the ways of sticking and slipping that were looked at",
+        "yes or no: whether no event of the path of puncture had another way on, among the ways of sticking and slipping that were looked at",
         |r| measured(r, |m| m.unique.map(yes_or_no)),
     ).needing(&[key::FRICTION]),
     other(
@@ -369,6 +375,12 @@ pub(crate) static VALUES: &[MeasuredValue] = &[
         "curvature that remains once the moment is gone",
         |r| bent(r, |m| m.remains.displacement),
     ).in_unit("1/t").at(Place::End).needing(&[key::UNBEND]),
+    other(
+        "unbend_status",
+        COMPLIANCE,
+        "complete, or why the moment did not come back to zero, and so nothing is known of its way back",
+        |r| r.flexure.and_then(|f| f.way_back).map(Outcome::text).into(),
+    ).last().needing(&[key::UNBEND]),
     other(
         "locking_curvature",
         COMPLIANCE,

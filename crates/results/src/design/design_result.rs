@@ -1,9 +1,10 @@
 //! The result of a design: everything that is known of it once it is solved.
 
 use serde::{Deserialize, Serialize};
-use skin::Status;
 use skin::flexure::{self, BentSample, Flexure};
 use skin::puncture::{self, Puncture, TiltMeasures};
+use skin::{Status, WayBack};
+use solver::Stop;
 
 use super::failure::{Failure, finite};
 use super::outcome::Outcome;
@@ -73,6 +74,9 @@ pub struct PunctureResult {
     /// Whether the weakest place of the load is known, or why not, if it was asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub weakest: Option<Outcome>,
+    /// Whether the load came back to zero, or why not, if it was to be taken away.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub way_back: Option<Outcome>,
 }
 
 impl PunctureResult {
@@ -85,6 +89,7 @@ impl PunctureResult {
             iterations: 0,
             calibration_error: None,
             weakest: None,
+            way_back: None,
         }
     }
 
@@ -111,6 +116,7 @@ impl PunctureResult {
             iterations: puncture.history.len(),
             calibration_error: finite(calibration_error),
             weakest: (!puncture.places.is_empty()).then(weakest),
+            way_back: puncture.way_back.as_ref().map(back_to_zero),
         }
     }
 }
@@ -127,18 +133,23 @@ pub struct FlexureResult {
     pub points: usize,
     /// Newton iterations.
     pub iterations: usize,
+    /// Whether the load came back to zero, or why not, if it was to be taken away.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub way_back: Option<Outcome>,
 }
 
 impl FlexureResult {
     /// The result of a bending without a path.
     pub fn without_path(outcome: Outcome) -> Self {
-        Self { outcome, measures: flexure::FlexureMeasures::default(), points: 0, iterations: 0 }
+        let measures = flexure::FlexureMeasures::default();
+        Self { outcome, measures, points: 0, iterations: 0, way_back: None }
     }
 
     /// The result of a solved bending; if one of its numbers is not finite, all are left out.
     pub fn new(flexure: &Flexure) -> Self {
         let Flexure { status, measures, path, history, .. } = flexure;
-        Self::checked(*status, *measures, path.len(), history.len())
+        let way_back = flexure.way_back.as_ref().map(back_to_zero);
+        Self { way_back, ..Self::checked(*status, *measures, path.len(), history.len()) }
     }
 
     /// The result of an imperfect strip, as [`Self::new`].
@@ -157,7 +168,15 @@ impl FlexureResult {
             flexure::FlexureMeasures { gaps: measures.gaps, ..flexure::FlexureMeasures::default() };
         let finite_all = VALUES.iter().all(|value| value.is_finite_in_flexure(&mut measures));
         let (outcome, measures) = finite_or(finite_all, status.into(), measures, few);
-        Self { outcome, measures, points, iterations }
+        Self { outcome, measures, points, iterations, way_back: None }
+    }
+}
+
+/// The outcome of a way back.
+fn back_to_zero<P>(back: &WayBack<P>) -> Outcome {
+    match back.stop {
+        Stop::Unloaded => Outcome::Complete,
+        stop => stop.into(),
     }
 }
 

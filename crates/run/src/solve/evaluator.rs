@@ -261,6 +261,7 @@ fn taken_apart<R, P>(
 /// The failure of a measure of a solved design; `None` if it has a value.
 fn failure(measure: Measure, solved: &SolvedDesign) -> Option<Failure> {
     let result = &solved.row.result;
+    let is_missing = |outcome: &Outcome| *outcome != Outcome::Complete;
     let (outcome, end) = match measure {
         Measure::Coverage if result.coverage.is_some() => return None,
         // A formula fails only if the program does.
@@ -269,18 +270,22 @@ fn failure(measure: Measure, solved: &SolvedDesign) -> Option<Failure> {
         Measure::Sensitivity => return None,
         Measure::Puncture => {
             let puncture = result.puncture?;
-            match puncture.weakest {
-                // What is missing is the force at another place of the load, whose path nobody keeps.
-                Some(weakest) if puncture.outcome == Outcome::Complete => (weakest, None),
+            match [puncture.weakest, puncture.way_back].into_iter().flatten().find(is_missing) {
+                // What is missing is the force at another place of the load, whose path nobody keeps, or the way back.
+                Some(other) if puncture.outcome == Outcome::Complete => (other, None),
                 _ => (puncture.outcome, solved.puncture.as_ref().map(PathEnd::of_puncture)),
             }
         }
         Measure::Flexure => {
-            (result.flexure?.outcome, solved.flexure.as_ref().map(PathEnd::of_flexure))
+            let flexure = result.flexure?;
+            match flexure.way_back.filter(is_missing) {
+                Some(back) if flexure.outcome == Outcome::Complete => (back, None),
+                _ => (flexure.outcome, solved.flexure.as_ref().map(PathEnd::of_flexure)),
+            }
         }
     };
     let failure = Failure { measure, outcome, end: end.unwrap_or_default() };
-    (outcome != Outcome::Complete).then_some(failure)
+    is_missing(&outcome).then_some(failure)
 }
 
 /// The solution of a case. Validation lets no case without mechanical meaning come here.

@@ -72,7 +72,7 @@ pub(super) fn flexure(case: &Case) -> Result<Vec<ParameterDerivative>, OutOfRang
     derivatives.retain(|derivative| SCATTERED.contains(&derivative.parameter));
     let share = (gaps as f64).sqrt().recip();
     for derivative in &mut derivatives {
-        if OF_FIRST_GAP.contains(&derivative.measure.as_str()) {
+        if OF_FIRST_GAP.contains(&derivative.measure) {
             (derivative.left, derivative.right) = (None, None);
             derivative.kink = Some("one gap closes before the others".to_owned());
         }

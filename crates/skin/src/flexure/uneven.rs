@@ -168,6 +168,7 @@ impl<'a> UnevenStrip<'a> {
             friction_work: (problem.common.friction > 0.0)
                 .then(|| gaps.map(|gap| gap.friction_work(end)).sum()),
             locking_curvature: curvature(locking),
+            contact_curvature: problem.contact_curvature,
             gaps: problem.gaps,
             ..FlexureMeasures::default()
         };
