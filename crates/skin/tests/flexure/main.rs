@@ -8,6 +8,7 @@
 //! | `chain` | the assembled chain against the unit cell |
 //! | `uneven` | strips whose gaps differ, gap by gap against the chain of all |
 //! | `locking` | strips that rub, beside the lock of plates on torsional roots |
+//! | `rubbing` | strips that rub, beside end moments of other programs |
 //! | `steps` | the same path with steps a tenth as long, and with a tolerance at round-off |
 //! | `robustness` | the 720 designs of the reference study; strips that end early, and why |
 
@@ -17,6 +18,7 @@ mod elastica;
 mod first_touch;
 mod locking;
 mod robustness;
+mod rubbing;
 #[path = "../samples/mod.rs"]
 mod samples;
 mod steps;

@@ -1,0 +1,29 @@
+//! Strips whose scales rub, beside two programs that let contacts stick by springs that return to the cone.
+
+use approx::assert_relative_eq;
+use skin::flexure::{FlexureParameters, MembraneMesh, solve};
+use skin::{Base, Common};
+
+use crate::samples::design;
+
+/// The moment at the end of bending, with one linear element in each gap; contacts slip at the end, but for the last, which stick.
+#[test]
+fn friction_raises_the_end_moment_as_two_other_programs_say() {
+    let moments = [
+        ((0.3, 1.0, 75.0), 0.0, 661.29262),
+        ((0.3, 1.0, 75.0), 0.1, 702.49992),
+        ((0.3, 1.0, 75.0), 0.2, 746.69598),
+        ((0.2, 1.0, 60.0), 0.0, 160.58560),
+        ((0.2, 1.0, 60.0), 0.1, 166.03629),
+        ((0.1, 0.9, 45.0), 0.0, 185.77726),
+        ((0.1, 0.9, 45.0), 0.2, 191.15784),
+    ];
+    let parameters =
+        FlexureParameters { elements_per_gap: MembraneMesh::Elements(1), ..Default::default() };
+    for ((gap, length, slant), friction, expected) in moments {
+        let common = Common { friction, ..Common::default() };
+        let strip = solve(&design(gap, length, slant, Base::L), &common, &parameters);
+        let end = strip.expect("a strip").path.last().expect("a path").moment;
+        assert_relative_eq!(end, expected, max_relative = 1e-7);
+    }
+}
