@@ -111,8 +111,8 @@ fn verdict(statements: &[Statement], evidence: &Evidence) -> Result<Verdict, Val
 }
 
 /// Checks every claim against two studies: with the base `L`, and with `2L`.
-pub(crate) fn check(studies: &[Study; 2]) -> Result<Vec<CheckedClaim>, ValidationError> {
-    judge(&studies.each_ref().map(gather::gather))
+pub(crate) fn check(studies: [&Study; 2]) -> Result<Vec<CheckedClaim>, ValidationError> {
+    judge(&studies.map(gather::gather))
 }
 
 fn judge(evidence: &[Evidence; 2]) -> Result<Vec<CheckedClaim>, ValidationError> {

@@ -17,7 +17,7 @@
 //! | [`GapCount`] | the claims on the most compliant designs, for strips with the same number of gaps |
 //! | [`Sensitivity`], [`Headlines`], [`ChoiceEffects`], [`ChoiceEffect`] | the dependence of the main results on the open choices |
 //! | [`Soundness`] | folds of the surface, and the claims on a substrate that cannot fold |
-//! | [`UnderNeedle`] | the claims under a needle that is guided |
+//! | [`TurnedClaims`] | the claims under a needle that is guided, and where scales rub |
 //! | [`SettingSearch`], [`ScoredSetting`] | combinations of open choices, by the number of claims that they reproduce |
 //! | [`Validation`], [`PartProgress`] | all parts, one after the other, and the page in Markdown |
 //!
@@ -38,7 +38,7 @@ mod search;
 mod sensitivity;
 mod soundness;
 mod study;
-mod under_needle;
+mod turned;
 
 use sweep::Sweep;
 
@@ -51,7 +51,7 @@ pub use search::{ScoredSetting, SettingSearch};
 pub use sensitivity::{ChoiceEffect, ChoiceEffects, Headlines, Sensitivity};
 pub use soundness::Soundness;
 use study::Study;
-pub use under_needle::UnderNeedle;
+pub use turned::TurnedClaims;
 
 /// The sweeps on which claims are checked: the paper's 720 designs with either meaning of the length.
 // The text of the paper says 2L, and the coverage and first contacts that it prints follow from L.
@@ -81,7 +81,9 @@ pub struct Validation {
     /// Where the model holds, and the claims on a substrate that cannot fold.
     pub soundness: Soundness,
     /// The claims under a needle that is guided.
-    pub needle: UnderNeedle,
+    pub needle: TurnedClaims,
+    /// The claims where scales rub.
+    pub friction: TurnedClaims,
     /// The best designs between the points of the grid, if they were searched for.
     pub between: Option<BetweenPoints>,
     /// The claims on the most compliant designs, for strips with the same number of gaps in every design.
@@ -139,10 +141,10 @@ impl Validation {
         let (paper, neo_hookean, guided) = (paper?, neo_hookean?, guided?);
         begin("claims");
         let [claims, on_neo_hookean, under_needle] =
-            [&paper, &neo_hookean, &guided].map(claims::check);
+            [&paper, &neo_hookean, &guided].map(|of| claims::check(of.each_ref()));
         let claims = claims?;
         let soundness = Soundness::of(&paper, &neo_hookean, [&claims, &on_neo_hookean?]);
-        let needle = UnderNeedle::of(&claims, &under_needle?);
+        let needle = TurnedClaims::of(&claims, &[&under_needle?], BASES.len());
         let between = searches.then(|| {
             begin("between the grid points");
             BetweenPoints::of(&paper[0])
@@ -150,12 +152,16 @@ impl Validation {
         let between = between.transpose()?;
         begin("strips of equal gaps");
         let gap_counts = GapCount::all()?;
-        let (sensitivity, effects) = sensitivity::sensitivity(settings, &paper, begin)?;
+        let (sensitivity, effects, rubbing) = sensitivity::sensitivity(settings, &paper, begin)?;
+        let rubbing: Vec<_> = rubbing.iter().map(Vec::as_slice).collect();
+        // The sweep over friction has the base L alone.
+        let friction = TurnedClaims::of(&claims, &rubbing, 1);
         Ok(Self {
             benchmarks,
             claims,
             soundness,
             needle,
+            friction,
             between,
             gap_counts,
             sensitivity,

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::{
-    Benchmark, CheckedClaim, CheckedStatement, ChoiceEffect, Claim, GapCount, Headlines,
+    Benchmark, CheckedClaim, CheckedStatement, ChoiceEffect, Claim, Finding, GapCount, Headlines,
     Sensitivity, Validation, Verdict,
 };
 
@@ -27,7 +27,12 @@ impl Validation {
             ("friction", lines(&self.effects.friction, ChoiceEffect::row)),
         ];
         parts.extend(self.soundness.parts());
-        parts.extend(self.needle.parts());
+        parts.extend(
+            self.needle.parts(["claims turned by the needle", "claims kept under the needle"]),
+        );
+        parts.extend(
+            self.friction.parts(["claims turned by friction", "claims kept with friction"]),
+        );
         let mut page = PAGE.to_owned();
         match &self.between {
             Some(between) => parts.extend(between.parts()),
@@ -119,32 +124,29 @@ impl CheckedClaim {
 }
 
 impl CheckedClaim {
-    /// Returns the rows of those statements that are `shown`, beside what the `other` check of the claim finds: with the base `L`, then
-    /// with `2L`.
+    /// Returns the rows of the statements, beside what the `others` find, with the base `L` and, if there are two `bases`, with `2L`:
+    /// of those of which the findings with a base are to be `shown`.
     pub(crate) fn rows_beside(
         &self,
-        other: &Self,
-        shown: impl Fn(&CheckedStatement, &CheckedStatement) -> bool,
+        others: &[&Self],
+        bases: usize,
+        shown: impl Fn(&[&Finding]) -> bool,
     ) -> Vec<String> {
-        let pairs = self.statements.iter().zip(&other.statements);
-        let row = |(ours, theirs): (&CheckedStatement, &CheckedStatement)| {
+        let row = |(k, ours): (usize, &CheckedStatement)| {
             let says = if ours.says.is_empty() { &self.claim.claim } else { &ours.says };
-            let found =
-                ours.found.iter().zip(&theirs.found).flat_map(|(ours, theirs)| [ours, theirs]);
+            let all = || std::iter::once(ours).chain(others.iter().map(|of| &of.statements[k]));
+            let found: Vec<Vec<_>> =
+                (0..bases).map(|base| all().map(|of| &of.found[base]).collect()).collect();
             let cells: Vec<_> =
-                found.map(|found| format!("{}: {}", found.verdict, found.ours)).collect();
-            format!("| {}: {says} | {} |", self.claim.id, cells.join(" | "))
+                found.iter().flatten().map(|of| format!("{}: {}", of.verdict, of.ours)).collect();
+            let row = format!("| {}: {says} | {} |", self.claim.id, cells.join(" | "));
+            found.iter().any(|found| shown(found)).then_some(row)
         };
-        pairs.filter(|(ours, theirs)| shown(ours, theirs)).map(row).collect()
+        self.statements.iter().enumerate().filter_map(row).collect()
     }
 }
 
 impl CheckedStatement {
-    /// Returns whether another check of the statement has other verdicts.
-    pub(crate) fn turns(&self, other: &Self) -> bool {
-        self.found.iter().zip(&other.found).any(|(ours, theirs)| ours.verdict != theirs.verdict)
-    }
-
     fn cells(&self) -> String {
         let [paper, as_written] = [0, 1]
             .map(|base| format!("{}: {}", marked(self.found[base].verdict), self.found[base].ours));

@@ -5,7 +5,7 @@ use results::columns::name;
 use sweep::{Axis, Setting, Sweep};
 
 use crate::ValidationError;
-use crate::claims::{DesignValue, digits, named};
+use crate::claims::{self, CheckedClaim, DesignValue, digits, named};
 use crate::study::{Study, is_geometry};
 
 /// Sweeps over one open choice each: the files of `sweeps/sensitivity/`.
@@ -129,7 +129,8 @@ fn combinations(axes: &[&Axis]) -> Vec<OpenValues> {
     })
 }
 
-/// Compares the main results of all settings, and the measures of the choices that are compared design by design.
+/// Compares the main results of all settings, and the measures of the choices that are compared design by design, and checks the claims
+/// with each friction between scales.
 ///
 /// Settings that are part of the studies `known` are not solved again. `begin` is called with the name of each setting.
 ///
@@ -139,7 +140,7 @@ pub(crate) fn sensitivity(
     settings: Vec<OpenSetting>,
     known: &[Study],
     mut begin: impl FnMut(&str),
-) -> Result<(Vec<Sensitivity>, ChoiceEffects), ValidationError> {
+) -> Result<(Vec<Sensitivity>, ChoiceEffects, Vec<Vec<CheckedClaim>>), ValidationError> {
     let (mut all, mut couplings, mut frictions) = (Vec::new(), Vec::new(), Vec::new());
     for OpenSetting { sweep, label, definition } in settings {
         begin(&label);
@@ -154,6 +155,9 @@ pub(crate) fn sensitivity(
             _ => {}
         }
     }
+    // The first has none, and the claims of the paper.
+    let rubbing = frictions.iter().skip(1).map(|(_, study)| claims::check([study; 2]));
+    let rubbing = rubbing.collect::<Result<_, _>>()?;
     let [coupling, friction] = [couplings, frictions].map(|studies| {
         let (first, others) = studies.split_first()?;
         Some(others.iter().flat_map(|other| ChoiceEffect::of(&first.1, other)).collect())
@@ -162,7 +166,7 @@ pub(crate) fn sensitivity(
         coupling: coupling.unwrap_or_default(),
         friction: friction.unwrap_or_default(),
     };
-    Ok((all, effects))
+    Ok((all, effects, rubbing))
 }
 
 impl ChoiceEffect {

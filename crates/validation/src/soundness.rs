@@ -37,7 +37,7 @@ impl Soundness {
         Self {
             rows: rows(linear, neo_hookean),
             claims: concerned
-                .flat_map(|(claim, other)| claim.rows_beside(other, |_, _| true))
+                .flat_map(|(claim, other)| claim.rows_beside(&[other], 2, |_| true))
                 .collect(),
             turned: turned.map(|(claim, _)| claim.claim.id.clone()).collect(),
         }
