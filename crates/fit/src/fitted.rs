@@ -219,7 +219,13 @@ impl Residuals<'_> {
         let mixed = |k: usize| -> Vec<usize> {
             (0..count).filter(|&j| directions[(j, k)].abs() * spread[k] > AS_WIDE).collect()
         };
-        let untold: Vec<_> = (0..count).map(mixed).filter(|group| !group.is_empty()).collect();
+        let mut untold: Vec<Vec<usize>> = Vec::new();
+        // Several directions may mix the same unknowns.
+        for group in (0..count).map(mixed) {
+            if !group.is_empty() && !untold.contains(&group) {
+                untold.push(group);
+            }
+        }
         let is_untold = |j: usize| covariance(j, j).sqrt() > AS_WIDE;
         let values = self.values(shares);
         let estimate = |(j, unknown): (usize, &Unknown)| {

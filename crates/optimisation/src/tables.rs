@@ -51,7 +51,7 @@ pub fn optimum_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
         (
             "prices",
             "-",
-            "what each of these costs, by its multiplier; empty where the design stands on a kink",
+            "what each of these costs, by its multiplier; empty where no multipliers balance the slopes, as on a kink",
         ),
     ];
     let own = own.map(|(name, unit, meaning)| (name.to_owned(), unit, meaning));

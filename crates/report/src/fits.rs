@@ -4,6 +4,7 @@ use crate::axis::ChartAxis;
 use crate::chart::{Area, ChartPanel};
 use crate::colors::{FAINT, INK, RED};
 use crate::figures::sheet;
+use crate::label::{Anchor, label};
 use crate::svg::{Element, Spot, circle, line, polyline};
 
 /// A measured curve beside the fitted one.
@@ -61,18 +62,24 @@ impl FitPanel<'_> {
         let left: Vec<_> = self.points.iter().map(|p| [p[0], p[1] - p[2]]).collect();
         let bounds = [-1.96 * self.noise, 0.0, 1.96 * self.noise];
         let (_, unit) = self.axes[1].split_once(", ").unwrap_or(("", ""));
-        let label = if unit.is_empty() {
+        let name = if unit.is_empty() {
             "measured − fitted".to_owned()
         } else {
             format!("measured − fitted, {unit}")
         };
-        let y = ChartAxis::spanning(&label, left.iter().map(|p| p[1]).chain(bounds));
+        let y = ChartAxis::spanning(&name, left.iter().map(|p| p[1]).chain(bounds));
         self.panel(area, &y, |panel, spots| {
             let across = |value: f64| {
                 let [_, y] = panel.place(self.points[0][0], value)?;
                 Some(line([area.left, y], [area.right(), y], FAINT, 1.0))
             };
             let mut inside: Vec<_> = bounds.into_iter().filter_map(across).collect();
+            let upper = panel.place(self.points[0][0], bounds[2]);
+            let words =
+                "between the outer lines: 95 % of the points, if chance alone scatters them";
+            inside.extend(upper.map(|[_, y]| {
+                label(words, [area.left, y - 4.0], 10.0, Anchor::Start).with("fill", INK)
+            }));
             inside.extend(dots(&spots(&left)));
             inside
         })

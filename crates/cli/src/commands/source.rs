@@ -66,6 +66,8 @@ pub fn defined(definition: &Definition) -> anyhow::Result<Defined> {
 pub fn defined_by(text: &str, file: &Path, settings: &[Setting]) -> anyhow::Result<Defined> {
     let name = file.display().to_string();
     let entries = entries(text, &name, settings)?;
+    let is_fit = entries.iter().any(|entry| entry.key == "curve");
+    ensure!(!is_fit, "{name}: has a [[curve]]: squama fit looks for the skin behind it");
     if entries.iter().any(|entry| entry.key == "goal") {
         return Ok(Defined::Goal(Box::new(DesignGoal::of_entries(&entries, &name)?)));
     }

@@ -195,7 +195,10 @@ impl SearchReport<'_> {
             row.push(prices.join("; "));
             row
         }));
-        title + &aligned(&rows) + &skins::of_all(designs)
+        let is_unknown = rows[1..].iter().all(|row| row.last().is_some_and(String::is_empty));
+        let unknown = "  No price is known: no multipliers balance the slopes, as on a kink\n";
+        let prices = if is_unknown { unknown } else { "" };
+        title + &aligned(&rows) + prices + &skins::of_all(designs)
     }
 
     fn infeasible(&self, nearest: Option<usize>) -> String {

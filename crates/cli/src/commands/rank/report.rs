@@ -214,8 +214,10 @@ fn shown_cells(results: &Results, preferences: &Preferences, row: usize) -> Vec<
             _ if column == "design" && is_doubtful && is_folded(results, row) => {
                 format!("{text}{FOLDED}")
             }
-            // Parameters stay as they are written: rounded, they would not choose the design again.
-            Ok(number) if parameter_of(column).is_none() && column != "design" => digits(number),
+            Ok(_) if column == "design" => text.into_owned(),
+            // So many digits choose the design again, and hide the round-off of a division by the thickness.
+            Ok(number) if parameter_of(column).is_some() => sweep::number::rounded(number, 12),
+            Ok(number) => digits(number),
             _ => text.into_owned(),
         }
     };

@@ -129,17 +129,20 @@ fn list(sweep: &Sweep, requirements: &[Requirement], all: &[DesignTolerance]) ->
     designs.sort_by(|one, other| share(other).total_cmp(&share(one)));
     let row = |design: &&DesignTolerance| {
         let yielded = design.yields.last().and_then(|of| of.proportion).map(proportion);
+        let first = [design.nominal.number.to_string(), yielded.unwrap_or_default()];
         let shown = design.measures.iter().filter(|m| is_shown(&m.name, requirements));
-        let measure = |m: &MeasureTolerance| {
+        // A line for each measure: all in one are wider than a terminal.
+        let titles = std::iter::once(first).chain(std::iter::repeat(Default::default()));
+        let measure = |(title, m): ([String; 2], &MeasureTolerance)| {
             let spread =
                 m.sampled.as_ref().map(|s| s.spread).or(m.linear.as_ref().map(|l| l.spread));
             let value = m.value.map_or("none".to_owned(), rounded);
-            format!("{} {value} ± {}", m.name, spread.map_or("unknown".to_owned(), short))
+            let values = format!("{value} ± {}", spread.map_or("unknown".to_owned(), short));
+            title.into_iter().chain([m.name.clone(), values]).collect::<Vec<_>>()
         };
-        let measures: Vec<_> = shown.map(measure).collect();
-        vec![design.nominal.number.to_string(), yielded.unwrap_or_default(), measures.join(", ")]
+        titles.zip(shown).map(measure).collect::<Vec<_>>()
     };
-    let rows: Vec<_> = designs.iter().take(LISTED).map(row).collect();
+    let rows: Vec<_> = designs.iter().take(LISTED).flat_map(row).collect();
     text.push_str(&aligned(&rows));
     let more = all.len().saturating_sub(LISTED);
     if more > 0 {
