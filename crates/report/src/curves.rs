@@ -242,8 +242,9 @@ impl CurveValues {
 
     fn in_units(&mut self, [x, y]: [f64; 2]) {
         let Self { points, back, crosses, rings, passing, .. } = self;
-        for points in [points, back, crosses, rings, passing] {
-            points.iter_mut().for_each(|point| *point = [point[0] * x, point[1] * y]);
+        let all = [points, back, crosses, rings, passing];
+        for point in all.into_iter().flatten() {
+            *point = [point[0] * x, point[1] * y];
         }
     }
 }

@@ -129,6 +129,9 @@ fn combinations(axes: &[&Axis]) -> Vec<OpenValues> {
     })
 }
 
+/// The claims with each friction between scales.
+type ClaimsByFriction = Vec<Vec<CheckedClaim>>;
+
 /// Compares the main results of all settings, and the measures of the choices that are compared design by design, and checks the claims
 /// with each friction between scales.
 ///
@@ -140,7 +143,7 @@ pub(crate) fn sensitivity(
     settings: Vec<OpenSetting>,
     known: &[Study],
     mut begin: impl FnMut(&str),
-) -> Result<(Vec<Sensitivity>, ChoiceEffects, Vec<Vec<CheckedClaim>>), ValidationError> {
+) -> Result<(Vec<Sensitivity>, ChoiceEffects, ClaimsByFriction), ValidationError> {
     let (mut all, mut couplings, mut frictions) = (Vec::new(), Vec::new(), Vec::new());
     for OpenSetting { sweep, label, definition } in settings {
         begin(&label);
