@@ -32,7 +32,7 @@ pub struct CoupledMeasure {
 
 impl CouplingChange {
     /// The measures in `columns` of design `number` of `sweep`; columns without a number are left out. `None` if there is no such
-    /// design, if it has the whole substrate coupled already, or if solving it again would take long. Samples of imperfect rows
+    /// design, if it has the whole substrate coupled already, if nothing moves, or if solving it again would take long. Samples of imperfect rows
     /// are not solved.
     pub fn of(sweep: &Sweep, number: &str, columns: &[&str]) -> Option<Self> {
         let couplings = [Coupling::Nearest, Coupling::Full];
@@ -48,7 +48,9 @@ impl CouplingChange {
             Some(CoupledMeasure { column: (*column).to_owned(), nearest: nearest?, full })
         };
         let folds = matches!(values(name::FOLD_FORCE), Some([None, Some(_)]));
-        let measures = columns.iter().filter_map(measure).collect();
-        Some(Self { design: number.to_owned(), measures, folds })
+        let measures: Vec<_> = columns.iter().filter_map(measure).collect();
+        // Neither what only coverage says of a design nor how it bends before its scales touch depends on the tissue.
+        let moves = folds || measures.iter().any(|measure| measure.full != Some(measure.nearest));
+        moves.then(|| Self { design: number.to_owned(), measures, folds })
     }
 }

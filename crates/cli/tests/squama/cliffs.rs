@@ -54,7 +54,7 @@ fn a_cliff_is_told_in_words() {
 
 #[test]
 fn the_best_design_is_solved_again_with_the_whole_tissue_coupled() {
-    let (place, printed) = ranked(FEW, "--require 'penetration < 0.2' --json");
+    let (place, printed) = ranked(FEW, "--require penetration<0.2 --json");
     let ranking: Value = serde_json::from_str(&printed).expect("JSON");
     let [change] = ranking["full_coupling"].as_array().expect("changes").as_slice() else {
         panic!("one design is the best: {printed}")
