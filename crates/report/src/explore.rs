@@ -47,6 +47,12 @@ pub struct Explorer {
     pub version: String,
 }
 
+/// A script without the lines that are comments alone, which every page would carry.
+fn without_comments(script: &str) -> String {
+    let is_code = |line: &&str| !["//", "/**"].iter().any(|own| line.trim_start().starts_with(own));
+    script.lines().filter(is_code).flat_map(|line| [line, "\n"]).collect()
+}
+
 /// A parameter under the hand.
 #[derive(Clone, Debug, Serialize)]
 struct Control {
@@ -181,7 +187,7 @@ impl Explorer {
         fill(out, PAGE, |out, place| match place {
             "style" => write!(out, "{}{STYLE}", STYLES.concat()),
             "explorer" => self.write_section(out),
-            "scripts" => write!(out, "{ELEMENTS}{}", SCRIPTS.concat()),
+            "scripts" => write!(out, "{ELEMENTS}{}", without_comments(&SCRIPTS.concat())),
             _ => fill_head(out, place, self.sweep.name(), &self.version),
         })
     }

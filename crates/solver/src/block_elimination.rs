@@ -12,6 +12,10 @@ use crate::block_matrix::{BlockMatrix, FARTHEST_LINK, LINK};
 const NARROW: usize = LINK;
 const WIDE: usize = LINK * FARTHEST_LINK;
 
+/// Whether blocks that reach far are left to the caller's other solution: their elimination is a twelfth of the module of a page, and a page
+/// solves one design at a time.
+const IS_SMALL: bool = cfg!(target_arch = "wasm32");
+
 /// A pivot below this part of the largest entry of its column is too small: digits are lost that rows of other
 /// blocks might save.
 const SMALL: f64 = 1e-9;
@@ -107,6 +111,8 @@ impl BlockElimination {
         self.negative.resize(blocks, false);
         if self.matrix.reach == 1 {
             self.factorise_all::<NARROW>()
+        } else if IS_SMALL {
+            Err(UnsafeBlock { block: 0, size: self.matrix.size_of(0) })
         } else {
             Arch::new().dispatch(WideFactorisation(self))
         }
@@ -200,7 +206,7 @@ impl BlockElimination {
 
     /// From the right-hand side, which is zero outside of the blocks between two, inwards to the root, and outwards to the solution.
     fn inwards(&mut self, between: [usize; 2]) {
-        if self.matrix.reach == 1 {
+        if self.matrix.reach == 1 || IS_SMALL {
             self.substitute::<NARROW>(between);
         } else {
             Arch::new().dispatch(WideSubstitution(self, between));
