@@ -158,7 +158,7 @@ impl BlockMatrix {
     }
 
     /// `D` row by row, and the rows of `C` and of `Bᵀ`, of a block that is coupled with `W` unknowns of inner links.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn parts<const W: usize>(&self, block: usize) -> (&[f64], [&[[f64; W]]; 2]) {
         let size = self.size_of(block);
         let values = &self.values[self.at[block]..][..size * (size + 2 * W)];
@@ -167,7 +167,7 @@ impl BlockMatrix {
     }
 
     /// The same of a block of `N` unknowns, to be changed.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn parts_mut<const N: usize, const W: usize>(
         &mut self,
         block: usize,
@@ -213,7 +213,7 @@ impl BlockMatrix {
     }
 
     /// The part in which an entry stands; row and column by their places.
-    #[inline]
+    #[inline(always)]
     fn part(&self, row: usize, column: usize) -> Part {
         debug_assert!(
             self.is_coupled(row, column),
@@ -230,7 +230,7 @@ impl BlockMatrix {
     }
 
     /// Where an entry stands among the values; row and column by their places.
-    #[inline]
+    #[inline(always)]
     fn index(&self, row: usize, column: usize) -> usize {
         match self.part(row, column) {
             Part::Within => self.within[row].wrapping_add(column),
@@ -266,7 +266,7 @@ impl Tangent for BlockMatrix {
     }
 
     /// Adds `values` to the entries from the one at (`row`, `column`) down the diagonal, of unknowns that follow each other in blocks.
-    #[inline]
+    #[inline(always)]
     fn add_diagonal(&mut self, row: usize, column: usize, values: &[f64]) {
         let (row, column) = (self.places[row], self.places[column]);
         let first = self.index(row, column);
@@ -281,6 +281,7 @@ impl Tangent for BlockMatrix {
 
     /// Adds `values` to the entries from the one at (`row`, `column`) on. The unknowns of these rows, and of these columns,
     /// are all kept and follow each other within a block.
+    #[inline(always)]
     fn add_block<const R: usize, const C: usize>(
         &mut self,
         row: usize,
