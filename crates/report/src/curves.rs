@@ -90,7 +90,8 @@ struct FigureText {
     title: &'static str,
     /// Labels of the axes: dimensionless, and in physical units.
     axes: [[&'static str; 2]; 2],
-    note: &'static str,
+    /// What is said below the title: always, where a curve has a ring, and where a part of one is dotted.
+    notes: [&'static str; 3],
     /// What the units of both axes are worth in the physical ones, where the material tells.
     units: fn(&Case) -> Option<[f64; 2]>,
 }
@@ -106,13 +107,17 @@ const FORCE: FigureText = FigureText {
         ],
         ["displacement $u$, mm", "force $F$, N"],
     ],
-    note: "× a contact closes, opens or passes a corner;  ○ the surface folds over;  fine dots: unstable under a held depth",
+    notes: [
+        "× a contact closes, opens or passes a corner",
+        "○ the surface folds over",
+        "fine dots: unstable under a held depth",
+    ],
     units: |case| puncture_units(case).map(|[mm, newton, _]| [mm, newton]),
 };
 const PLACES: FigureText = FigureText {
     title: "puncture force over the place of the load",
     axes: [[PLACE, FORCE.axes[0][1]], [PLACE, FORCE.axes[1][1]]],
-    note: "○ the weakest place, if it is known;  fine dots: across places without a critical force",
+    notes: ["", "○ the weakest place", "fine dots: across places without a critical force"],
     units: |case| puncture_units(case).map(|[_, newton, _]| [1.0, newton]),
 };
 const MOMENT: FigureText = FigureText {
@@ -124,7 +129,7 @@ const MOMENT: FigureText = FigureText {
         ],
         ["curvature $κ$, 1/mm", "moment $M$, N mm"],
     ],
-    note: "× a contact closes, opens or passes a corner",
+    notes: ["× a contact closes, opens or passes a corner", "", ""],
     units: |case| bending_units(case).map(|[per_mm, moment, _]| [per_mm, moment]),
 };
 const PUNCTURE_ENERGY: FigureText = FigureText {
@@ -133,7 +138,7 @@ const PUNCTURE_ENERGY: FigureText = FigureText {
         [FORCE.axes[0][0], "energy $U$(1 − $ν$^2)/($E_s t$^3), dimensionless"],
         [FORCE.axes[1][0], "energy $U$, mJ"],
     ],
-    note: "solid: substrate, dotted: contacts",
+    notes: ["solid: substrate, dotted: contacts", "", ""],
     units: |case| puncture_units(case).map(|[mm, _, energy]| [mm, energy]),
 };
 const FLEXURE_ENERGY: FigureText = FigureText {
@@ -142,7 +147,7 @@ const FLEXURE_ENERGY: FigureText = FigureText {
         [MOMENT.axes[0][0], "energy $U$/($E_m t$^3), dimensionless"],
         [MOMENT.axes[1][0], "energy $U$, mJ"],
     ],
-    note: "solid: bending, dashed: axial, dotted: contacts",
+    notes: ["solid: bending, dashed: axial, dotted: contacts", "", ""],
     units: |case| bending_units(case).map(|[per_mm, _, energy]| [per_mm, energy]),
 };
 
@@ -282,11 +287,18 @@ fn one_panel(
     let panel = ChartPanel::new(area, &x, &y);
     let note = [MARGINS[0], 48.0];
     let mut inside = panel.axes(56.0).to_vec();
-    let passes = curves.iter().any(|curve| !curve.values.passing.is_empty());
-    let returns = curves.iter().any(|curve| !curve.values.back.is_empty());
-    let passing = if passes { ";  ▼ passing" } else { "" };
-    let back = if returns { ";  thin dashes: the load is taken away again" } else { "" };
-    let words = format!("{}{passing}{back}", text.note);
+    let any = |has: fn(&CurveValues) -> bool| curves.iter().any(|curve| has(&curve.values));
+    let [always, ring, dots] = text.notes;
+    let notes = [
+        (always, true),
+        (ring, any(|values| !values.rings.is_empty())),
+        (dots, any(|values| values.unstable.contains(&true))),
+        ("▼ passing", any(|values| !values.passing.is_empty())),
+        ("thin dashes: the way back", any(|values| !values.back.is_empty())),
+    ];
+    // What does not occur is not explained: all of it is longer than a figure is wide.
+    let told = notes.into_iter().filter(|(words, occurs)| *occurs && !words.is_empty());
+    let words = told.map(|(words, _)| words).collect::<Vec<_>>().join(";  ");
     inside.push(label(&words, note, 12.0, Anchor::Start).with("fill", INK));
     for (k, curve) in curves.iter().enumerate() {
         inside.extend([drawn(&panel, curve), legend(curve, LEGEND + 20.0 * k as f64)]);
@@ -450,7 +462,8 @@ fn panels(
     let palette = palette(designs);
     let columns = columns(solved.len()).min(3);
     let [w, h] = ENERGY_PANEL;
-    let mut inside = vec![label(text.note, [20.0, 48.0], 12.0, Anchor::Start).with("fill", INK)];
+    let mut inside =
+        vec![label(text.notes[0], [20.0, 48.0], 12.0, Anchor::Start).with("fill", INK)];
     for (k, (design, energies)) in solved.iter().enumerate() {
         let [left, top] = [(k % columns) as f64 * (w + 84.0), (k / columns) as f64 * (h + 84.0)];
         let area = Area { left: MARGINS[0] + left, top: 86.0 + top, width: w, height: h };
