@@ -288,11 +288,11 @@ fn one_panel(
     let note = [MARGINS[0], 48.0];
     let mut inside = panel.axes(56.0).to_vec();
     let any = |has: fn(&CurveValues) -> bool| curves.iter().any(|curve| has(&curve.values));
-    let [always, ring, dots] = text.notes;
+    let [always, ring, dotted] = text.notes;
     let notes = [
         (always, true),
         (ring, any(|values| !values.rings.is_empty())),
-        (dots, any(|values| values.unstable.contains(&true))),
+        (dotted, any(|values| values.unstable.contains(&true))),
         ("▼ passing", any(|values| !values.passing.is_empty())),
         ("thin dashes: the way back", any(|values| !values.back.is_empty())),
     ];

@@ -1,4 +1,8 @@
 //! Block-tridiagonal matrices of small blocks.
+#![expect(
+    clippy::inline_always,
+    reason = "places within a block are known where it is added, and a twentieth of a sweep is spent there"
+)]
 
 use crate::tangent::Tangent;
 
