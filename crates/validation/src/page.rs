@@ -30,9 +30,7 @@ impl Validation {
         parts.extend(
             self.needle.parts(["claims turned by the needle", "claims kept under the needle"]),
         );
-        parts.extend(
-            self.friction.parts(["claims turned by friction", "claims kept with friction"]),
-        );
+        parts.push(("claims with friction", self.friction.in_words()));
         let mut page = PAGE.to_owned();
         match &self.between {
             Some(between) => parts.extend(between.parts()),

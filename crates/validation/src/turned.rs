@@ -25,6 +25,19 @@ impl TurnedClaims {
         Self { kept: all - turned.len(), turned }
     }
 
+    /// Returns which statements have another verdict with a friction of 0.1 or 0.3, as a table, or that none has.
+    pub(crate) fn in_words(&self) -> String {
+        let kept = self.kept;
+        let setting = "With a friction of 0.1 and of 0.3, and the base L,";
+        if self.turned.is_empty() {
+            return format!("{setting} all {kept} statements of the claims keep their verdict.\n");
+        }
+        format!(
+            "{setting} {kept} statements of the claims keep their verdict, and these do not:\n\n| | No friction | 0.1 | 0.3 |\n|---|---|---|---|\n{}",
+            lines(&self.turned, String::clone)
+        )
+    }
+
     /// Returns the parts of the page in Markdown: the rows, and the count of what keeps its verdict, by these names.
     pub(crate) fn parts(&self, [turned, kept]: [&'static str; 2]) -> [(&'static str, String); 2] {
         [(turned, lines(&self.turned, String::clone)), (kept, self.kept.to_string())]

@@ -44,6 +44,8 @@ pub const FRICTION_WORK: &str = "friction_work";
 pub const FLEXURE_CONTACT: &str = "flexure_contact";
 /// The curvature at which scales touch, wherever bending ends.
 pub const CONTACT_CURVATURE: &str = "contact_curvature";
+/// Mean curvature at which scales first touch along the path.
+pub const FIRST_CONTACT_CURVATURE: &str = "first_contact_curvature";
 /// The largest strain of the membrane.
 pub const MEMBRANE_STRAIN: &str = "membrane_strain_max";
 /// The settings of a design that was solved again.

@@ -177,7 +177,7 @@ pub(crate) static VALUES: &[MeasuredValue] = &[
             |r| bent(r, |m| m.contact.map(yes_or_no)),
         ).then(),
     bending(
-            "first_contact_curvature",
+            name::FIRST_CONTACT_CURVATURE,
             "1/t",
             Place::Contact,
             "curvature when scales first touch",

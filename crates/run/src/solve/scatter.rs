@@ -2,6 +2,7 @@
 
 use geometry::OutOfRange;
 use results::ParameterDerivative;
+use results::columns::name;
 use skin::Neighbours;
 use skin::flexure::whole_gaps;
 use skin::puncture::{self, OddScale, PunctureInput};
@@ -17,7 +18,7 @@ const FARTHEST: usize = 60;
 const SCATTERED: [&str; 2] = ["gap_over_t", "slant_deg"];
 
 /// Measures of bending that one gap alone decides.
-const OF_FIRST_GAP: [&str; 2] = ["first_contact_curvature", "contact_curvature"];
+const OF_FIRST_GAP: [&str; 2] = [name::FIRST_CONTACT_CURVATURE, name::CONTACT_CURVATURE];
 
 /// The derivatives of the measures of a puncture with respect to the gap and the slant of every scale near the punctured one,
 /// those that are not zero. The substrate stays as it is, as under imperfect rows.
