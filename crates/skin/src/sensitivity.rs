@@ -35,16 +35,11 @@ pub struct Derivative {
     pub kink: Option<String>,
 }
 
-/// The derivatives of a measure on both sides of a parameter; `right` is the other but at a kink.
-pub(crate) struct SidedDerivative {
-    pub(crate) left: Option<f64>,
-    pub(crate) right: Option<f64>,
-    pub(crate) kink: Option<String>,
-}
-
-impl SidedDerivative {
-    /// The derivatives of a measure of this `value` by differences over twice the `step`. Those that are alike but for round-off are one.
-    pub(crate) fn new(
+impl Derivative {
+    /// The derivative of a measure of this `value` from those on both sides, by differences over twice the `step`. Those that are alike but
+    /// for round-off are one.
+    pub(crate) fn sided(
+        (measure, parameter): (&'static str, usize),
         [left, right]: [Option<f64>; 2],
         value: f64,
         step: f64,
@@ -55,7 +50,8 @@ impl SidedDerivative {
             let round_off = ROUND_OFF * value.abs() / step;
             (left - right).abs() <= SMOOTH * left.abs().max(right.abs()) + round_off
         });
-        Self { left, right: if smooth { left } else { right }, kink: (!smooth).then(kink) }
+        let (right, kink) = (if smooth { left } else { right }, (!smooth).then(kink));
+        Self { measure, parameter, value, left, right, kink }
     }
 }
 
@@ -64,22 +60,14 @@ pub(crate) struct MeasuredQuantity<S: Skin> {
     pub(crate) measure: &'static str,
     /// The value by system, state, direction of the path, and number among several.
     pub(crate) value: fn(&S, &SkinState, &[f64], usize) -> f64,
-    /// Which of several values it is.
-    pub(crate) extreme: Extreme<S>,
+    /// Of one that is the extreme one of several: how many there are, and which of two counts.
+    pub(crate) extreme: Option<Extreme<S>>,
     /// Whether the direction of the path enters.
     pub(crate) turns: bool,
 }
 
-/// Which of several values a quantity is, as many as a function of the system says.
-#[derive(Clone, Copy)]
-pub(crate) enum Extreme<S> {
-    /// There is one alone.
-    Alone,
-    /// The largest.
-    Largest(fn(&S) -> usize),
-    /// The least.
-    Least(fn(&S) -> usize),
-}
+/// Which of several values a quantity is, as many as a function of the system says: the larger or the lesser of two.
+pub(crate) type Extreme<S> = (fn(&S) -> usize, fn(f64, f64) -> f64);
 
 /// The value of a quantity, and the numbers of those that it is among of which one may take its place.
 struct Contenders {
@@ -127,11 +115,8 @@ pub(crate) fn derivatives<S: Skin>(
         let sides: Vec<_> = variations.iter().map(|v| linearised.sides(v)).collect();
         for quantity in &quantities {
             let candidates = quantity.value_at(system, linearised.here.place());
-            let value = candidates.value;
             let of = |(parameter, (sides, variation))| {
-                let derivative = quantity.derivative(variation, sides, &candidates);
-                let SidedDerivative { left, right, kink } = derivative;
-                Derivative { measure: quantity.measure, parameter, value, left, right, kink }
+                quantity.derivative(parameter, variation, sides, &candidates)
             };
             derivatives.extend(sides.iter().zip(variations).enumerate().map(of));
         }
@@ -271,10 +256,7 @@ impl<S: Skin> MeasuredQuantity<S> {
 
     /// The value at a place, and those of several that may be the extreme one beside it.
     fn value_at(&self, system: &S, place: &AnchoredPoint<S::Mode>) -> Contenders {
-        let count = match self.extreme {
-            Extreme::Alone => 1,
-            Extreme::Largest(count) | Extreme::Least(count) => count(system),
-        };
+        let count = self.extreme.map_or(1, |(count, _)| count(system));
         let value = |number| (self.value)(system, &place.state, &place.direction, number);
         let values: Vec<f64> = (0..count).map(value).collect();
         let extreme = values.iter().copied().reduce(|one, other| self.outer(one, other));
@@ -288,16 +270,17 @@ impl<S: Skin> MeasuredQuantity<S> {
 
     /// The one of two values that counts; a number, if one is none.
     fn outer(&self, one: f64, other: f64) -> f64 {
-        if let Extreme::Least(_) = self.extreme { one.min(other) } else { one.max(other) }
+        self.extreme.map_or(one, |(_, outer)| outer(one, other))
     }
 
     /// The derivatives on both sides of a parameter.
     fn derivative(
         &self,
+        parameter: usize,
         neighbours: &Neighbours<S>,
         Sides { left, right }: &Sides<S::Mode>,
         Contenders { value, numbers }: &Contenders,
-    ) -> SidedDerivative {
+    ) -> Derivative {
         let left_rate = self.rate(neighbours, left, 0, numbers);
         let right_rate = match right {
             // With one contender and one motion both sides have the same rate.
@@ -311,7 +294,7 @@ impl<S: Skin> MeasuredQuantity<S> {
         let jumps = self.turns && change.is_some();
         let known = |rate: Option<f64>| rate.filter(|rate| rate.is_finite() && !jumps);
         let rates = [left_rate, right_rate].map(known);
-        SidedDerivative::new(rates, *value, neighbours.step, kink)
+        Derivative::sided((self.measure, parameter), rates, *value, neighbours.step, kink)
     }
 
     /// The derivative on one side, of the one of the contenders that is the extreme one there.

@@ -34,16 +34,8 @@ impl Status {
             Stop::Reached => Self::audited(skin, end),
             // Newton's method fails where the model itself ends, too: a mechanical reason that the
             // state shows says more than the numeric one.
-            Stop::NoConvergence | Stop::Singular | Stop::Cycling | Stop::NotFinite
-                if skin.interpenetrates(end) =>
-            {
-                Self::Interpenetration
-            }
-            Stop::NoConvergence | Stop::Singular | Stop::Cycling | Stop::NotFinite
-                if skin.passes_an_end(path.point()) =>
-            {
-                Self::OffEdge
-            }
+            stop if stop.is_numerical() && skin.interpenetrates(end) => Self::Interpenetration,
+            stop if stop.is_numerical() && skin.passes_an_end(path.point()) => Self::OffEdge,
             stop => Self::Stopped(stop),
         }
     }

@@ -68,10 +68,6 @@ pub struct BlockMatrix {
     pub(crate) values: Vec<f64>,
 }
 
-/// The entries of a matrix in blocks.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct BlockValues(Vec<f64>);
-
 /// The part of the matrix in which an entry stands.
 enum Part {
     Within,
@@ -187,16 +183,6 @@ impl BlockMatrix {
         self.at.len()
     }
 
-    /// Copies all entries to `values`.
-    pub(crate) fn keep(&self, values: &mut BlockValues) {
-        values.0.clone_from(&self.values);
-    }
-
-    /// Replaces all entries by those of a matrix of the same shape.
-    pub(crate) fn set(&mut self, values: &BlockValues) {
-        self.values.copy_from_slice(&values.0);
-    }
-
     /// The entry at (`row`, `column`); zero outside the blocks and where it is left out.
     pub fn get(&self, row: usize, column: usize) -> f64 {
         let (row, column) = (self.places[row], self.places[column]);
@@ -247,19 +233,6 @@ impl BlockMatrix {
 }
 
 impl Tangent for BlockMatrix {
-    fn clear_row(&mut self, row: usize) {
-        let place = self.places[row];
-        let block = self.blocks[place];
-        let first = block.saturating_sub(self.reach);
-        let neighbours = first..(block + self.reach + 1).min(self.blocks());
-        for column in self.starts[neighbours.start]..self.starts[neighbours.end] {
-            if self.is_coupled(place, column) {
-                let index = self.index(place, column);
-                self.values[index] = 0.0;
-            }
-        }
-    }
-
     /// Adds `value` to an entry; does nothing where its row or column is left out.
     fn add(&mut self, row: usize, column: usize, value: f64) {
         let (row, column) = (self.places[row], self.places[column]);

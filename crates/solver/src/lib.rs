@@ -19,7 +19,7 @@
 //! | [`Settings`], [`Stop`] | steps and tolerances; why a path ended |
 //! | [`Peak`], [`Summit`] | the largest value of a quantity along the path, between its points too |
 //! | [`Newton`], [`Condition`], [`NewtonFailure`] | one equilibrium, by Newton's method |
-//! | [`Tangent`], [`NoTangent`], [`Blocks`], [`BlockMatrix`], [`BlockElimination`] | derivatives of a row, eliminated block by block towards the block of the load |
+//! | [`Tangent`], [`Blocks`], [`BlockMatrix`], [`BlockElimination`] | derivatives of a row, eliminated block by block towards the block of the load |
 //! | [`BandMatrix`], [`BandLu`] | linear solves where blocks are not safe, or are not stated |
 //! | [`Linearisation`], [`AnchoredPoint`], [`PathAnchor`], [`Neighbours`], [`Moved`] | derivatives of an equilibrium with respect to a parameter of the system |
 //! | [`SkylineMatrix`], [`SkylineFactors`] | symmetric matrices, and how many negative eigenvalues they have |
@@ -97,5 +97,5 @@ pub use skyline::{SkylineFactors, SkylineMatrix};
 pub use step::Settings;
 pub use stop::Stop;
 pub use system::{Control, Residual, State, System};
-pub use tangent::{NoTangent, Tangent};
+pub use tangent::Tangent;
 pub use watch::{FarAlong, watched};

@@ -312,20 +312,11 @@ impl<S: System> Path<S> {
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let mut condition = self.condition(from);
         condition.value += distance;
-        let candidate = self.trial_at(from, &condition)?;
+        let candidate = self.correct(Self::towards(from, &condition), &condition)?;
         if self.turns_sharply(from, &candidate) {
             return Err(NewtonFailure::TooManyIterations);
         }
         Ok(candidate)
-    }
-
-    /// The equilibrium that satisfies `condition`, reached along the direction of the path at `near`.
-    fn trial_at(
-        &mut self,
-        near: &Point<S::Mode>,
-        condition: &Condition,
-    ) -> Result<Candidate<S::Mode>, NewtonFailure> {
-        self.correct(Self::towards(near, condition), condition)
     }
 
     /// The state that satisfies `condition` in the direction in which the path leaves `near`.

@@ -212,7 +212,7 @@ where
     ///   ───┼─────────┼──────────┼───
     /// ```
     fn maximum(mut self, least: f64) -> Option<Summit<S::Mode>> {
-        let bracket = [self.start(least)?, self.end(least)?];
+        let bracket = [self.end(0.0, least)?, self.end(1.0, least)?];
         self.search(bracket, least)?;
         let (value, number) = self.highest?;
         let (_, point) = self.known.swap_remove(number);
@@ -238,21 +238,14 @@ where
         Some(())
     }
 
-    /// The lower end of the bracket.
-    fn start(&mut self, least: f64) -> Option<Sample> {
-        let Point { state, leaving, event, .. } = self.from;
+    /// An end of the bracket, the lower or the upper one.
+    fn end(&mut self, place: f64, least: f64) -> Option<Sample> {
+        let is_lower = place == 0.0;
+        let Point { state, arriving, leaving, event } = if is_lower { self.from } else { self.to };
+        let direction = if is_lower { leaving } else { arriving };
         match event {
-            Some(_) => self.beside(0.0, state, leaving, least),
-            None => self.at_end(0.0, state, leaving),
-        }
-    }
-
-    /// The upper end of the bracket.
-    fn end(&mut self, least: f64) -> Option<Sample> {
-        let Point { state, arriving, event, .. } = self.to;
-        match event {
-            Some(_) => self.beside(1.0, state, arriving, least),
-            None => self.at_end(1.0, state, arriving),
+            Some(_) => self.beside(place, state, direction, least),
+            None => self.at_end(place, state, direction),
         }
     }
 

@@ -32,6 +32,17 @@ impl<S> Neighbours<S> {
     pub fn map<T, E>(&self, f: impl Fn(&S) -> Result<T, E>) -> Result<Neighbours<T>, E> {
         Ok(Neighbours { below: f(&self.below)?, above: f(&self.above)?, step: self.step })
     }
+
+    /// What a function makes of both, of several.
+    ///
+    /// # Errors
+    /// Those of the function.
+    pub fn map_all<T, E>(
+        several: &[Self],
+        f: impl Fn(&S) -> Result<T, E>,
+    ) -> Result<Vec<Neighbours<T>>, E> {
+        several.iter().map(|neighbours| neighbours.map(&f)).collect()
+    }
 }
 
 /// A place for a neighbouring value of a parameter, to first order.

@@ -116,7 +116,8 @@ pub trait System {
     /// Across a change of mode the equations keep the sign of their determinant: a path that has come to another branch is known by it.
     fn residual(&self, state: &State<Self::Mode>, residual: &mut Residual);
 
-    /// Adds `∂r/∂z` to a zero matrix, its constant part included. Rows and columns of inactive constraints may be left out.
+    /// Adds `∂r/∂z` to a zero matrix, its constant part included; nothing to the row of the load. Rows and columns of inactive constraints
+    /// may be left out.
     fn tangent(&self, state: &State<Self::Mode>, matrix: &mut impl Tangent);
 
     /// Adds the part of `∂r/∂z` that is the same in every state.

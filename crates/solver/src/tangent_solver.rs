@@ -1,7 +1,7 @@
 //! Factors of the tangent of a system: block by block where that is possible, of a band matrix elsewhere.
 
 use crate::block_elimination::BlockElimination;
-use crate::block_matrix::{BlockValues, Blocks};
+use crate::block_matrix::Blocks;
 use crate::linear::{BandLu, BandMatrix, SingularMatrix};
 use crate::system::{Residual, State, System, inactive};
 use crate::tangent::Tangent;
@@ -22,8 +22,8 @@ struct InBlocks {
     elimination: BlockElimination,
     /// The unknowns that the matrix leaves out.
     left_out: Option<Vec<usize>>,
-    /// The constant part of the matrix.
-    constant: BlockValues,
+    /// The values of the constant part of the matrix.
+    constant: Vec<f64>,
 }
 
 #[derive(Clone, Debug)]
@@ -113,7 +113,8 @@ impl TangentSolver {
     }
 }
 
-/// Evaluates the equations, and adds the tangent to a `matrix` that holds its constant part, with `condition` in its missing row.
+/// Evaluates the equations, and adds the tangent to a `matrix` that holds its constant part, with `condition` in its missing row, in which
+/// the system has nothing.
 fn assemble<S: System>(
     system: &S,
     state: &State<S::Mode>,
@@ -122,7 +123,6 @@ fn assemble<S: System>(
     matrix: &mut impl Tangent,
 ) {
     system.linearise(state, residual, matrix);
-    matrix.clear_row(system.load());
     for &(index, coefficient) in condition {
         matrix.add(system.load(), index, coefficient);
     }
@@ -134,11 +134,11 @@ impl InBlocks {
         // Between events the shape stays, and the constant part is one copy instead of an assembly.
         let matrix = &mut self.elimination.matrix;
         if self.left_out.as_deref() == Some(inactive) {
-            matrix.set(&self.constant);
+            matrix.values.copy_from_slice(&self.constant);
         } else {
             matrix.reshape(blocks, system.size(), inactive);
             system.constant_tangent(matrix);
-            matrix.keep(&mut self.constant);
+            self.constant.clone_from(&matrix.values);
             let left_out = self.left_out.get_or_insert_default();
             left_out.clear();
             left_out.extend_from_slice(inactive);

@@ -8,7 +8,6 @@ use solver::Neighbours;
 
 use super::problem::FlexureProblem;
 use super::{FlexureInput, FlexureParameters};
-use crate::sensitivity::SidedDerivative;
 use crate::{Derivative, Design};
 
 /// Rotations at which a gap is looked at before the one at which it closes is narrowed down.
@@ -86,9 +85,7 @@ pub(super) fn curvature_derivatives(
         let rate = |meeting| Some(gap.closing_rate(meeting, rotation, &neighbours, *step));
         let (measure, value) = ("contact_curvature", rotation / gap.pair.pitch());
         let kink = || "another corner meets an edge".to_owned();
-        let sided = SidedDerivative::new(meetings.map(rate), value, *step, kink);
-        let SidedDerivative { left, right, kink } = sided;
-        Ok(Derivative { measure, parameter, value, left, right, kink })
+        Ok(Derivative::sided((measure, parameter), meetings.map(rate), value, *step, kink))
     };
     variations.iter().enumerate().map(derivative).collect()
 }

@@ -238,9 +238,9 @@ impl<'a> FlexureProblem<'a> {
         // The path was left while it could have gone on, so it has no reason of its own.
         let stop = if flush { Some(Stop::Singular) } else { path.stop() };
         let status = match Status::of(&path, stop.unwrap_or(Stop::Reached)) {
-            Status::Stopped(
-                Stop::NoConvergence | Stop::Singular | Stop::Cycling | Stop::NotFinite,
-            ) if flush || locks(&record.path) => Status::Locked,
+            Status::Stopped(stop) if stop.is_numerical() && (flush || locks(&record.path)) => {
+                Status::Locked
+            }
             status => status,
         };
         let error = self.error(resolution, &path, &record)?;

@@ -11,8 +11,8 @@ use super::{Flexure, FlexureParameters};
 use crate::contacts::{Contacts, SkinPoint, SkinState};
 use crate::record::{PathFunction, Record, Skin};
 use crate::sensitivity::{
-    self, Curve, CurvePoint, Derivative, Extreme, MeasuredPoint, MeasuredQuantity, curve_point,
-    derivatives, end, first_contact, missing, rest,
+    self, Curve, CurvePoint, Derivative, MeasuredPoint, MeasuredQuantity, curve_point, derivatives,
+    end, first_contact, missing, rest,
 };
 use crate::{Common, Design, Status};
 
@@ -97,8 +97,7 @@ pub fn moment_curve(
     let problem = FlexureProblem::even(design, common, &input.parameters)?;
     let (bent, resolution) = problem.resolved(&[], &rotations)?;
     let strip = |input: &FlexureInput| strip(&as_far(input), resolution);
-    let strips: Result<Vec<_>, _> = variations.iter().map(|v| v.map(strip)).collect();
-    let (strips, system) = (strips?, bent.path.system());
+    let (strips, system) = (Neighbours::map_all(variations, strip)?, bent.path.system());
     let point = |found: Option<SkinPoint>| {
         let point = found?;
         // How an anchor of a contact that sticks moves with a parameter is not known in bending.
@@ -126,15 +125,14 @@ impl FlexureProblem<'_> {
     ) -> Result<Vec<Derivative>, OutOfRange> {
         let spots = self.spots(&bent.record, &mut bent.path);
         let strip = |input: &FlexureInput| strip(input, resolution);
-        let strips: Result<Vec<_>, _> =
-            variations.iter().map(|variation| variation.map(strip)).collect();
+        let strips = Neighbours::map_all(variations, strip)?;
         let strip = bent.path.system();
         let sticks = |spot: &MeasuredPoint<Strip>| {
             spot.place.as_ref().is_some_and(|place| Contacts::rubbing(&place.state)[0] > 0)
         };
         let (sticking, free): (Vec<_>, Vec<_>) = spots.into_iter().partition(sticks);
         let unknown = missing(strip, &sticking, variations.len());
-        let mut derivatives = derivatives(strip, free, &strips?, &self.common.solver);
+        let mut derivatives = derivatives(strip, free, &strips, &self.common.solver);
         derivatives.extend(differences(unknown, variations, resolution)?);
         if bent.record.touching().is_none() {
             self.mark_touching(&mut derivatives, variations)?;
@@ -253,7 +251,7 @@ fn quantity(
     measure: &'static str,
     value: fn(&Strip, &SkinState, &[f64], usize) -> f64,
 ) -> MeasuredQuantity<Strip> {
-    MeasuredQuantity { measure, value, extreme: Extreme::Alone, turns: false }
+    MeasuredQuantity { measure, value, extreme: None, turns: false }
 }
 
 fn compliance(measure: &'static str) -> MeasuredQuantity<Strip> {

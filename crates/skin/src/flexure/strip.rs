@@ -3,7 +3,7 @@
 use contact::ContactLaw;
 use geometry::Vec2;
 use membrane::{Derivatives, GapEnergies, Membrane, Section};
-use solver::{Blocks, Change, Condition, Control, NoTangent, Residual, System, Tangent};
+use solver::{Blocks, Change, Condition, Control, Residual, System, Tangent};
 
 use super::frame::Step;
 use crate::arrangement::Arrangement;
@@ -357,7 +357,7 @@ impl System for Strip {
     }
 
     fn residual(&self, state: &SkinState, residual: &mut Residual) {
-        self.linearise(state, residual, &mut NoTangent);
+        self.linearise(state, residual, &mut |_: usize, _: usize, _: f64| {});
     }
 
     fn tangent(&self, state: &SkinState, matrix: &mut impl Tangent) {

@@ -67,7 +67,7 @@ impl Chain {
 
     /// Every entry of the stiffness that the bars add to that of the springs: row and column of the tangent, and value.
     pub(super) fn for_bar_stiffness(&self, z: &[f64], mut entry: impl FnMut(usize, usize, f64)) {
-        self.for_bars(z, |places, bar| bar.add_stiffness(places, &mut Entries(&mut entry)));
+        self.for_bars(z, |places, bar| bar.add_stiffness(places, &mut entry));
     }
 
     /// Energy of the bars above that of the springs which they replace.
@@ -94,17 +94,6 @@ impl Chain {
             excess([near, next]).max(excess([next, near])) / self.direct[0]
         };
         displacements.windows(2).zip(widths).map(excess).fold(0.0, f64::max)
-    }
-}
-
-/// A function that is shown every entry of a matrix.
-struct Entries<F>(F);
-
-impl<F: FnMut(usize, usize, f64)> Tangent for Entries<F> {
-    fn clear_row(&mut self, _row: usize) {}
-
-    fn add(&mut self, row: usize, column: usize, value: f64) {
-        (self.0)(row, column, value);
     }
 }
 

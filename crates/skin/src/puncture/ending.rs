@@ -1,7 +1,5 @@
 //! How the path of a puncture ends where the row gives way.
 
-use solver::Stop;
-
 use super::PuncturePoint;
 use crate::Status;
 
@@ -13,11 +11,7 @@ use crate::Status;
 /// lie flush in the middle of the fold, has no place where the row could stand under the needle.
 pub(super) fn judged(status: Status, path: &[PuncturePoint]) -> Status {
     match status {
-        Status::Stopped(Stop::NoConvergence | Stop::Singular | Stop::Cycling | Stop::NotFinite)
-            if has_turned_back(path) =>
-        {
-            Status::LimitPoint
-        }
+        Status::Stopped(stop) if stop.is_numerical() && has_turned_back(path) => Status::LimitPoint,
         other => other,
     }
 }
@@ -34,6 +28,8 @@ fn has_turned_back(path: &[PuncturePoint]) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use solver::Stop;
+
     use super::*;
 
     fn path(points: &[[f64; 3]]) -> Vec<PuncturePoint> {

@@ -34,7 +34,7 @@ use crate::contacts::SkinState;
 pub(super) use history::{HistoryWatch, Kept, anchors, event_before, history, with};
 pub(crate) use mode::NeedleMode;
 pub(super) use mode::Place;
-use mode::{Rub, Touch};
+use mode::{SHARP_SLOTS, Touch};
 use outline::{Face, Meeting, Tip};
 pub(super) use passage::PassageWatch;
 pub use passage::{CriticalEvent, Passage, TipForces};
@@ -106,7 +106,7 @@ pub(crate) struct GuidedNeedle {
     /// Numbers of the constraints that only grow.
     pub(super) growing: Vec<usize>,
     /// Touches that there may be.
-    slots: usize,
+    pub(super) slots: usize,
     /// Unknowns of a touch, and how many of them are constraints: of a round tip those of its place are the last.
     unknowns: usize,
     of_touch: usize,
@@ -131,7 +131,7 @@ impl GuidedNeedle {
             // Read backwards, the number of unknowns gives that of the touches that there may be.
             ((layout.needle - 1 - ENDINGS) / of_scale, of_scale, constraints)
         } else {
-            (2, OF_TOUCH, CONSTRAINTS)
+            (SHARP_SLOTS, OF_TOUCH, CONSTRAINTS)
         };
         // A round tip that does not rub has no ways to count.
         let slides = radius == 0.0 || friction > 0.0;
@@ -239,27 +239,6 @@ impl GuidedNeedle {
         self.of_touch * self.slots
     }
 
-    /// The slot of a touch of a round tip.
-    fn slot(&self, touch: &Touch) -> usize {
-        (touch.scale + self.reach() as i64) as usize
-    }
-
-    /// Whether there is a touch in a slot.
-    fn has_touch(&self, mode: &NeedleMode, slot: usize) -> bool {
-        if self.is_round() {
-            return mode.round.iter().any(|touch| self.slot(touch) == slot);
-        }
-        mode.touches[slot].is_some()
-    }
-
-    /// A touch by its slot.
-    fn touch_mut<'m>(&self, mode: &'m mut NeedleMode, slot: usize) -> Option<&'m mut Touch> {
-        if self.is_round() {
-            return mode.round.iter_mut().find(|touch| self.slot(touch) == slot);
-        }
-        mode.touches[slot].as_mut()
-    }
-
     /// The constraints that end a path, among its own: critical tilts, and last that of coming through.
     fn endings(&self) -> [usize; 3] {
         if self.is_round() {
@@ -279,14 +258,13 @@ impl Chain {
             return self.round_at_rest(needle, rest);
         }
         rest.active[needle.number(0, PUSH)] = true;
-        let touch = |rub| [Some(Touch { scale: 0, place: Place::Top, rub }), None];
         // Scale 0 is in every row.
         let Some(Tip { way: at, .. }) = self.tip(&rest.z, 0, Place::Top) else { return rest };
+        let rub = needle.resting(at);
+        rest.mode.needle.touches[0] = Some(Touch { scale: 0, place: Place::Top, rub });
         if needle.friction == 0.0 {
-            rest.mode.needle.touches = touch(Rub::Slip { sign: 0.0, from: at });
             return rest;
         }
-        rest.mode.needle.touches = touch(Rub::Stick { at });
         let control = self.controls[0];
         let condition = Condition::new(vec![(control.index, 1.0 / control.scale)], 0.0);
         // The tip is tried as sticking: the rates tell whether that takes more than there is.
@@ -325,14 +303,9 @@ impl Chain {
     /// All touches: slot, touch, index of the scale, and the tip there.
     fn touches<'a>(
         &'a self,
-        needle: &'a GuidedNeedle,
         state: &'a SkinState,
     ) -> impl Iterator<Item = (usize, &'a Touch, usize, Meeting)> {
-        let NeedleMode { touches, round } = &state.mode.needle;
-        let sharp = touches.iter().enumerate();
-        let sharp = sharp.filter_map(|(slot, touch)| Some((slot, touch.as_ref()?)));
-        let round = round.iter().map(|touch| (needle.slot(touch), touch));
-        sharp.chain(round).filter_map(|(slot, touch)| {
+        state.mode.needle.all().filter_map(|(slot, touch)| {
             let meeting = self.meeting(&state.z, touch.scale, touch.place)?;
             Some((slot, touch, self.scale_numbered(touch.scale)?, meeting))
         })
@@ -361,7 +334,7 @@ impl Chain {
         let slot = number / needle.of_touch;
         if number >= needle.tilt_number()
             || number % needle.of_touch != PUSH
-            || needle.has_touch(&state.mode.needle, slot)
+            || state.mode.needle.touches[slot].is_some()
         {
             return false;
         }

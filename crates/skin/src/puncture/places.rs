@@ -228,8 +228,8 @@ impl Problem<'_> {
             let parameters = input.parameters.at_place(place.position, sense);
             Ok::<_, OutOfRange>(PunctureInput { parameters, ..input.clone() })
         };
-        let variations: Result<Vec<_>, _> = variations.iter().map(|v| v.map(moved)).collect();
-        let (_, derivatives) = self.with(&parameters).differentiated(&variations?)?;
+        let variations = Neighbours::map_all(variations, moved)?;
+        let (_, derivatives) = self.with(&parameters).differentiated(&variations)?;
         let of_force = derivatives.into_iter().filter(|of| of.measure == CRITICAL_FORCE);
         Ok(of_force.map(|of| Derivative { measure: "weakest_force", ..of }).collect())
     }

@@ -6,15 +6,15 @@ use substrate::RowStiffness;
 
 use super::fold::{Fold, FoldWatch};
 use super::needle::{Kept, anchors, event_before, history, with};
-use super::snapshot::STEEPEST_DEG;
+use super::snapshot::farther;
 use super::system::{Chain, DEPTH_MARK, DEPTH_RATE, LOAD_RATE, Layout};
 use super::watch::PathWatch;
 use super::{At, Followed, OddScale, Problem, Puncture, PunctureParameters, Rows};
 use crate::contacts::{SkinMode, SkinPoint, SkinState};
 use crate::record::{PathFunction, Skin};
 use crate::sensitivity::{
-    self, Curve, CurvePoint, Derivative, Extreme, MeasuredPoint, MeasuredQuantity, curve_point,
-    derivatives, end, first_contact, missing, rest,
+    self, Curve, CurvePoint, Derivative, MeasuredPoint, MeasuredQuantity, curve_point, derivatives,
+    end, first_contact, missing, rest,
 };
 use crate::{Common, Design, Status};
 
@@ -81,18 +81,15 @@ pub fn force_curve(
         let problem = Problem::new(rows, design, stiffness.clone(), common, &parameters)?;
         let mut followed = problem.follow(&[], &at)?;
         let is_short = followed.watch.places.found.iter().any(Option::is_none);
-        if followed.status == Status::Complete && is_short && tilt < STEEPEST_DEG {
-            tilt = (2.0 * tilt).min(STEEPEST_DEG);
+        if farther(&mut tilt, followed.status, is_short) {
             continue;
         }
         // The critical tilt scales the control, by which neighbours are to be measured alike.
         let as_far = |input: &PunctureInput| {
             let parameters = PunctureParameters { critical_tilt_deg: tilt, ..input.parameters };
-            Ok(PunctureInput { parameters, ..input.clone() })
+            Ok::<_, OutOfRange>(PunctureInput { parameters, ..input.clone() })
         };
-        let variations: Result<Vec<_>, OutOfRange> =
-            variations.iter().map(|variation| variation.map(as_far)).collect();
-        return problem.curve(&mut followed, &variations?);
+        return problem.curve(&mut followed, &Neighbours::map_all(variations, as_far)?);
     }
 }
 
@@ -120,17 +117,13 @@ impl Problem<'_> {
         // Neighbours are as long as the row has become: their unknowns are those of the path.
         let layout = path.system().layout;
         let chain = |input: &PunctureInput| input.chain(layout);
-        let variations: Result<Vec<_>, _> =
-            variations.iter().map(|variation| variation.map(chain)).collect();
-        let variations = variations?;
+        let variations = Neighbours::map_all(variations, chain)?;
         let anchors = anchors(path, &watch.history.segments, &variations);
         let system = path.system();
         let point = |found: &Option<SkinPoint>| {
             let point = found.as_ref()?;
-            let kept = history(&point.state);
             // With something kept of the way, neighbours come to these places on ways of their own.
-            let own = || with(&anchors, &point.state, &variations);
-            let varied = if kept.is_empty() { Some(variations.clone()) } else { own() };
+            let varied = with(&anchors, &point.state, &variations);
             let known = varied.as_deref().unwrap_or_default();
             let mut on_curve = curve_point(system, point, known, &self.settings, FORCE_OVER_DEPTH);
             on_curve.rates.resize(variations.len(), None);
@@ -147,24 +140,19 @@ impl Problem<'_> {
         let Followed { watch, path, .. } = followed;
         let layout = path.system().layout;
         let chain = |input: &PunctureInput| input.chain(layout);
-        let variations: Result<Vec<_>, _> =
-            variations.iter().map(|variation| variation.map(chain)).collect();
-        let variations = variations?;
+        let variations = Neighbours::map_all(variations, chain)?;
         let anchors = anchors(path, &watch.history.segments, &variations);
         let mut found = Vec::new();
         // Neighbours are made once for all places that keep the same of the way.
         for spots in by_history(self.spots(watch, path)) {
             let state = spots.iter().find_map(|spot| Some(&spot.place.as_ref()?.state));
-            let kept = state.map(history).unwrap_or_default();
+            // Nothing can be said of a place that is not known.
+            let Some(state) = state else { continue };
             let system = path.system();
-            found.extend(if kept.is_empty() {
-                derivatives(system, spots, &variations, &self.settings)
-            } else {
-                // Neighbours come to these places on ways of their own.
-                match state.and_then(|state| with(&anchors, state, &variations)) {
-                    Some(varied) => derivatives(system, spots, &varied, &self.settings),
-                    None => missing(system, &spots, variations.len()),
-                }
+            // Neighbours come to these places on ways of their own.
+            found.extend(match with(&anchors, state, &variations) {
+                Some(varied) => derivatives(system, spots, &varied, &self.settings),
+                None => missing(system, &spots, variations.len()),
             });
         }
         Ok(found)
@@ -308,33 +296,28 @@ fn tilt(measure: &'static str) -> MeasuredQuantity<Chain> {
 
 fn critical() -> Vec<MeasuredQuantity<Chain>> {
     // Beyond the last gap there are those that are not solved for, as one.
-    let scales = |chain: &Chain| chain.layout.scales();
+    let extreme = |measure, value, outer: fn(f64, f64) -> f64| {
+        let scales: fn(&Chain) -> usize = |chain| chain.layout.scales();
+        MeasuredQuantity { extreme: Some((scales, outer)), ..quantity(measure, value) }
+    };
     vec![
         force(CRITICAL_FORCE),
         depth("critical_displacement"),
-        MeasuredQuantity {
-            extreme: Extreme::Largest(scales),
-            ..quantity("penetration", |chain, state, _, i| chain.base_depth(&state.z, i))
-        },
-        MeasuredQuantity {
-            extreme: Extreme::Largest(scales),
-            ..quantity("sink", |chain, state, _, i| -chain.displacement(&state.z, i)[1])
-        },
+        extreme("penetration", |chain, state, _, i| chain.base_depth(&state.z, i), f64::max),
+        extreme("sink", |chain, state, _, i| -chain.displacement(&state.z, i)[1], f64::max),
         quantity("secant_stiffness", |chain, state, _, _| {
             chain.plane_modulus * chain.force(state) * chain.length / chain.depth(&state.z)
         }),
-        MeasuredQuantity {
-            extreme: Extreme::Least(scales),
-            ..quantity("gap_stretch_min", |chain, state, _, gap| {
-                stretch(chain, state, gap, f64::min)
-            })
-        },
-        MeasuredQuantity {
-            extreme: Extreme::Largest(scales),
-            ..quantity("gap_stretch_max", |chain, state, _, gap| {
-                stretch(chain, state, gap, f64::max)
-            })
-        },
+        extreme(
+            "gap_stretch_min",
+            |chain, state, _, i| stretch(chain, state, i, f64::min),
+            f64::min,
+        ),
+        extreme(
+            "gap_stretch_max",
+            |chain, state, _, i| stretch(chain, state, i, f64::max),
+            f64::max,
+        ),
     ]
 }
 
@@ -354,7 +337,7 @@ fn quantity(
     measure: &'static str,
     value: fn(&Chain, &SkinState, &[f64], usize) -> f64,
 ) -> MeasuredQuantity<Chain> {
-    MeasuredQuantity { measure, value, extreme: Extreme::Alone, turns: false }
+    MeasuredQuantity { measure, value, extreme: None, turns: false }
 }
 
 fn depth(measure: &'static str) -> MeasuredQuantity<Chain> {

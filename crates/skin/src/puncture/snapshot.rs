@@ -5,8 +5,7 @@ use solver::Stop;
 
 use super::system::Chain;
 use super::{
-    Problem, Puncture, PunctureParameters, PuncturePoint, RowStiffness, Rows, ScaleState, Status,
-    scales,
+    Problem, Puncture, PunctureParameters, RowStiffness, Rows, ScaleState, Status, scales,
 };
 use crate::contacts::{Contact, SkinState};
 use crate::crossing::Crossing;
@@ -14,7 +13,17 @@ use crate::record::Skin;
 use crate::{Common, Design};
 
 /// Tilt beyond which a path is not followed for the sake of a snapshot, degrees.
-pub(super) const STEEPEST_DEG: f64 = 80.0;
+const STEEPEST_DEG: f64 = 80.0;
+
+/// Moves the end of a path to a larger tilt if it came to its end and was too `short` for the places that were looked for.
+pub(super) fn farther(tilt_deg: &mut f64, status: Status, short: bool) -> bool {
+    let may_go_on = status == Status::Complete && short && *tilt_deg < STEEPEST_DEG;
+    if may_go_on {
+        // Every try follows a whole path again, so the end moves in few large steps.
+        *tilt_deg = (2.0 * *tilt_deg).min(STEEPEST_DEG);
+    }
+    may_go_on
+}
 
 /// A place of the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,11 +95,10 @@ pub fn snapshots(
     let mut parameters = *parameters;
     loop {
         let solved = snapshots_to_end(design, stiffness.clone(), common, &parameters, at)?;
-        if !reaches_short(&solved.puncture, at) || parameters.critical_tilt_deg >= STEEPEST_DEG {
+        let is_short = solved.at.iter().any(Option::is_none);
+        if !farther(&mut parameters.critical_tilt_deg, solved.puncture.status, is_short) {
             return Ok(solved);
         }
-        // Every try follows a whole path again, so the end moves in few large steps.
-        parameters.critical_tilt_deg = (2.0 * parameters.critical_tilt_deg).min(STEEPEST_DEG);
     }
 }
 
@@ -117,19 +125,6 @@ pub fn snapshots_to_end(
     let is_critical =
         followed.path.stop() == Some(Stop::Reached) && followed.status != Status::Untilted;
     Ok(Snapshots { puncture: followed.puncture(false), at, end, is_critical })
-}
-
-/// Whether a path that came to its end has not come to every place.
-fn reaches_short(puncture: &Puncture, at: &[At]) -> bool {
-    let largest =
-        |value: fn(&PuncturePoint) -> f64| puncture.path.iter().map(value).fold(0.0, f64::max);
-    let beyond = |at: &At| match *at {
-        At::Displacement(u) => u > largest(|point| point.displacement),
-        At::Force(force) => force > largest(|point| point.force),
-        // The path ends at its tilt but for round-off.
-        At::Tilt(tilt) => tilt > largest(|point| point.tilt_deg) + 1e-9,
-    };
-    puncture.status == Status::Complete && at.iter().any(beyond)
 }
 
 fn snapshot(chain: &Chain, pitch: f64, state: &SkinState) -> RowSnapshot {

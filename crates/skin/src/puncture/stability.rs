@@ -1,8 +1,7 @@
 //! The stability of a row under a needle that holds its load, its depth, or the tilt of the scale.
 
-use solver::SkylineMatrix;
+use solver::{SkylineMatrix, System};
 
-use super::needle::GuidedNeedle;
 use super::system::Chain;
 use crate::contacts::SkinState;
 
@@ -38,7 +37,7 @@ impl Chain {
         for (place, &unknown) in kept.iter().enumerate() {
             places[unknown] = place;
         }
-        let factors = self.stiffness_matrix(state, &kept, &places).factorise().ok()?;
+        let factors = self.stiffness_matrix(state, kept.len(), &places).factorise().ok()?;
         let compliance = |loads: &[(usize, f64)]| {
             let mut x = vec![0.0; kept.len()];
             for &(unknown, load) in loads {
@@ -74,35 +73,11 @@ impl Chain {
         kept
     }
 
-    fn stiffness_matrix(
-        &self,
-        state: &SkinState,
-        kept: &[usize],
-        places: &[usize],
-    ) -> SkylineMatrix {
-        // A scale is coupled with as many before it, a force with the scales on both sides.
-        let before = self.coupled_scales();
-        let of_needle = self.layout.load()..=self.layout.load() + self.layout.needle;
-        let farthest = self.needle.as_ref().map_or(0, GuidedNeedle::farthest);
-        let first = |&unknown: &usize| {
-            // A needle is coupled with all scales that it touches.
-            let scale = if of_needle.contains(&unknown) {
-                self.layout.left.saturating_sub(before.max(farthest))
-            } else {
-                let scale = self.layout.scale_of(unknown);
-                let is_touched = scale > self.layout.left && self.touches_scale(state, scale);
-                // The needle's unknowns stand behind the punctured scale, so that the row of a
-                // scale on its right reaches back to that one.
-                let scale = if is_touched { scale.min(self.layout.left + 1) } else { scale };
-                scale.saturating_sub(before)
-            };
-            places[self.layout.scale(scale)]
-        };
-        let mut matrix = SkylineMatrix::new(kept.iter().map(first).collect());
-        let mut entry = |row: usize, column: usize, value| {
-            matrix.add(places[row], places[column], value);
-        };
-        self.for_springs(&mut entry);
+    fn stiffness_matrix(&self, state: &SkinState, size: usize, places: &[usize]) -> SkylineMatrix {
+        let mut entries = Vec::new();
+        let mut entry =
+            |row: usize, column: usize, value| entries.push((places[row], places[column], value));
+        self.constant_tangent(&mut entry);
         self.for_bar_stiffness(&state.z, &mut entry);
         if self.needle.is_some() {
             self.for_needle_stiffness(state, &mut entry);
@@ -112,6 +87,14 @@ impl Chain {
             entry(turn, turn, -state.z[self.layout.load()] * self.loaded_arm(&state.z).y);
         }
         self.contacts.for_stiffness(state, entry);
+        let mut first: Vec<usize> = (0..size).collect();
+        for &(row, column, _) in &entries {
+            first[row] = first[row].min(column);
+        }
+        let mut matrix = SkylineMatrix::new(first);
+        for (row, column, value) in entries {
+            matrix.add(row, column, value);
+        }
         matrix
     }
 }

@@ -4,11 +4,11 @@ use std::array;
 
 use contact::ContactLaw;
 use geometry::{Corner, Vec2};
-use solver::{Blocks, Change, Control, FARTHEST_LINK, NoTangent, Residual, System, Tangent};
+use solver::{Blocks, Change, Control, FARTHEST_LINK, Residual, System, Tangent};
 use substrate::{Neighbour, RowStiffness, SubstrateLaw};
 
 use super::PunctureParameters;
-use super::needle::{GuidedNeedle, Needle};
+use super::needle::{GuidedNeedle, Needle, NeedleMode};
 use super::surroundings::Surroundings;
 use crate::arrangement::Arrangement;
 use crate::contacts::{Contacts, SkinMode, SkinState};
@@ -92,11 +92,6 @@ impl Layout {
             root,
             reach,
         }
-    }
-
-    /// The scale that an unknown belongs to; of a contact force the left one of its pair.
-    pub(crate) fn scale_of(self, unknown: usize) -> usize {
-        (unknown - if unknown > self.load() { 1 + self.needle } else { 0 }) / self.block()
     }
 
     /// Units of the equations: the stiffness of a scale for itself in its balances, 1 elsewhere.
@@ -295,25 +290,7 @@ impl Chain {
         depths.fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// Every entry of the stiffness of the substrate: row and column of the tangent, and value.
-    pub(crate) fn for_springs(&self, mut entry: impl FnMut(usize, usize, f64)) {
-        self.for_spring_parts(|row, column, part| match part {
-            Part::Diagonal(values) => {
-                for (k, &value) in values.iter().enumerate() {
-                    entry(row + k, column + k, value);
-                }
-            }
-            Part::Block(values) => {
-                for (k, values) in values.iter().enumerate() {
-                    for (l, &value) in values.iter().enumerate() {
-                        entry(row + k, column + l, value);
-                    }
-                }
-            }
-        });
-    }
-
-    /// The same, part by part: the row and the column of its first entry, and the part.
+    /// The stiffness of the substrate, part by part: the row and the column of the first entry, and the part.
     fn for_spring_parts(&self, mut part: impl FnMut(usize, usize, Part)) {
         for i in 0..self.layout.scales() {
             let at = self.layout.scale(i);
@@ -353,7 +330,9 @@ impl Chain {
     /// Elastic energy of springs and bars, those beyond the ends included, over `E* t³`.
     pub(crate) fn substrate_energy(&self, state: &SkinState) -> f64 {
         let mut twice = 0.0;
-        self.for_springs(|row, column, value| twice += value * state.z[row] * state.z[column]);
+        self.constant_tangent(&mut |row: usize, column: usize, value: f64| {
+            twice += value * state.z[row] * state.z[column];
+        });
         0.5 * twice + self.bar_energy(&state.z)
     }
 }
@@ -437,11 +416,12 @@ impl System for Chain {
     }
 
     fn mode_at_rest(&self) -> SkinMode {
-        self.contacts.open()
+        let slots = self.needle.as_ref().map_or(0, |needle| needle.slots);
+        SkinMode { needle: NeedleMode { touches: vec![None; slots] }, ..self.contacts.open() }
     }
 
     fn residual(&self, state: &SkinState, residual: &mut Residual) {
-        self.linearise(state, residual, &mut NoTangent);
+        self.linearise(state, residual, &mut |_: usize, _: usize, _: f64| {});
     }
 
     fn tangent(&self, state: &SkinState, matrix: &mut impl Tangent) {

@@ -2,7 +2,7 @@
 
 use solver::{AnchoredPoint, Neighbours, PathAnchor, Point, Settings};
 
-use super::{Derivative, Extreme, MeasuredPoint, MeasuredQuantity, derivatives};
+use super::{Derivative, MeasuredPoint, MeasuredQuantity, derivatives};
 use crate::contacts::{SkinPoint, SkinState};
 use crate::record::Skin;
 
@@ -39,7 +39,7 @@ pub(crate) fn curve_point<S: Skin>(
     let [rise_x, rise_y] = curve.map(|f| at(f, ALONG) - at(f, -ALONG));
     let slope = rise_y / rise_x;
     let quantity =
-        |measure, value| MeasuredQuantity { measure, value, extreme: Extreme::Alone, turns: false };
+        |measure, value| MeasuredQuantity { measure, value, extreme: None, turns: false };
     // Held in its section of the path the place moves little, wherever the curve turns; to the same `x` it goes back along the curve.
     let place = AnchoredPoint {
         state: state.clone(),

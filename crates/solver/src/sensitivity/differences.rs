@@ -2,7 +2,6 @@
 
 use crate::newton::Newton;
 use crate::system::{State, System, inactive};
-use crate::tangent::Tangent;
 
 /// Part of the way over which the state changes, for derivatives along the path by differences.
 pub(super) const ALONG: f64 = 1e-5;
@@ -16,9 +15,12 @@ pub(super) fn turning<S: System>(
     step: f64,
 ) -> Vec<f64> {
     let product = |side: usize| {
-        let mut product = Product { by: direction, rows: vec![0.0; direction.len()] };
-        sides[side].tangent(&states[side], &mut product);
-        product.rows
+        let mut product = vec![0.0; direction.len()];
+        let mut add = |row: usize, column: usize, value: f64| {
+            product[row] += value * direction[column];
+        };
+        sides[side].tangent(&states[side], &mut add);
+        product
     };
     let change = difference(product(0), product(1), step);
     rates(newton, sides[0], &states[0], change)
@@ -54,20 +56,4 @@ pub(super) fn difference(below: Vec<f64>, mut above: Vec<f64>, step: f64) -> Vec
 
 pub(super) fn moved(from: &[f64], step: f64, rates: &[f64]) -> Vec<f64> {
     from.iter().zip(rates).map(|(from, rate)| from + step * rate).collect()
-}
-
-/// A tangent that is multiplied by a vector as it is evaluated.
-struct Product<'a> {
-    by: &'a [f64],
-    rows: Vec<f64>,
-}
-
-impl Tangent for Product<'_> {
-    fn add(&mut self, row: usize, column: usize, value: f64) {
-        self.rows[row] += value * self.by[column];
-    }
-
-    fn clear_row(&mut self, row: usize) {
-        self.rows[row] = 0.0;
-    }
 }

@@ -32,15 +32,14 @@ impl Chain {
         matrix.add(needle.depth, load, 1.0);
         if needle.of_touch < needle.unknowns {
             // A touch that is not there has no tangential force.
-            for slot in
-                (0..needle.slots).filter(|slot| !needle.has_touch(&state.mode.needle, *slot))
-            {
+            let touches = &state.mode.needle.touches;
+            for slot in (0..needle.slots).filter(|&slot| touches[slot].is_none()) {
                 let drag = needle.push(slot) + 1;
                 residual.add(drag, state.z[drag]);
                 matrix.add(drag, drag, 1.0);
             }
         }
-        for (slot, touch, scale, meeting) in self.touches(needle, state) {
+        for (slot, touch, scale, meeting) in self.touches(state) {
             let at = self.layout.scale(scale);
             let rows = [at, at + 1, at + 2, needle.depth];
             let push = needle.push(slot);
@@ -173,6 +172,9 @@ impl Chain {
     /// Whether the tip is already below the face that it would come to next, whose end is about to come over it: there a corner meets the
     /// shaft, of which the model knows nothing.
     pub(in crate::puncture) fn is_met_from_the_side(&self, state: &SkinState) -> bool {
+        if state.mode.needle.is_round() {
+            return false;
+        }
         // A tip that has gone on to the next scale is the second of the two touches.
         let mut touches = state.mode.needle.touches.iter().flatten();
         let (Some(touch), None) = (touches.next(), touches.next()) else { return false };
@@ -195,12 +197,8 @@ impl Chain {
         let largest = direction.iter().fold(f64::MIN_POSITIVE, |max, x| max.max(x.abs()));
         let step = STEP / largest;
         let at = |step: f64| {
-            let mut moved = state.clone();
-            for (z, rate) in moved.z.iter_mut().zip(direction) {
-                *z += step * rate;
-            }
             let mut values = Vec::new();
-            self.needle_conditions(needle, &moved, &mut values);
+            self.needle_conditions(needle, &state.moved(step, direction), &mut values);
             values
         };
         let (before, after) = (at(-step), at(step));
@@ -214,24 +212,18 @@ impl Chain {
             return true;
         }
         let Some(needle) = &self.needle else { return false };
-        state.mode.needle.all().any(|touch| match touch.rub {
+        state.mode.needle.all().any(|(_, touch)| match touch.rub {
             Rub::Slip { sign, .. } => sign * needle.friction != 0.0,
             Rub::Held { ratio } => ratio != 0.0,
             Rub::Stick { .. } | Rub::Passing { .. } => false,
         })
     }
 
-    /// Whether the needle touches a scale, by its index.
-    pub(in crate::puncture) fn touches_scale(&self, state: &SkinState, scale: usize) -> bool {
-        let mut touches = state.mode.needle.all();
-        touches.any(|touch| self.scale_numbered(touch.scale) == Some(scale))
-    }
-
     /// The unknowns of a guided needle in its stiffness: its depth, and the forces that keep it on faces and in places.
     pub(in crate::puncture) fn needle_in_stiffness(&self, state: &SkinState) -> Vec<usize> {
         let Some(needle) = &self.needle else { return Vec::new() };
         let mut unknowns = vec![needle.depth];
-        for (slot, touch, ..) in self.touches(needle, state) {
+        for (slot, touch, ..) in self.touches(state) {
             unknowns.push(needle.push(slot));
             if touch.is_at_a_place() {
                 unknowns.push(needle.push(slot) + 1);
@@ -248,7 +240,7 @@ impl Chain {
         mut entry: impl FnMut(usize, usize, f64),
     ) {
         let Some(needle) = &self.needle else { return };
-        for (slot, touch, scale, meeting) in self.touches(needle, state) {
+        for (slot, touch, scale, meeting) in self.touches(state) {
             let at = self.layout.scale(scale);
             let unknowns = [at, at + 1, at + 2, needle.depth];
             let push = needle.push(slot);
@@ -272,7 +264,7 @@ impl Chain {
     /// Force of the needle on the scales along the row, to the right.
     pub(in crate::puncture) fn lateral_force(&self, state: &SkinState) -> f64 {
         let Some(needle) = &self.needle else { return 0.0 };
-        let touches = self.touches(needle, state);
+        let touches = self.touches(state);
         touches.map(|(slot, _, _, at)| at.tip.force(needle.forces(&state.z, slot)).x).sum()
     }
 
@@ -298,7 +290,7 @@ impl Chain {
             let ways = [from.state.z[slid], sign * (end.way() - start)];
             needle.friction * product_integral([pushes, along(push)], [ways, along(slid)])
         };
-        self.touches(needle, &from.state).map(of_touch).sum()
+        self.touches(&from.state).map(of_touch).sum()
     }
 
     /// `T` and `ξ` of all touches, by their slots: friction takes `∫ T dξ`.
@@ -306,7 +298,7 @@ impl Chain {
     pub(in crate::puncture) fn rubbing(&self, state: &SkinState) -> Vec<[f64; 2]> {
         let Some(needle) = &self.needle else { return Vec::new() };
         let mut all = vec![[0.0; 2]; needle.slots];
-        for (slot, _, _, meeting) in self.touches(needle, state) {
+        for (slot, _, _, meeting) in self.touches(state) {
             all[slot] = [needle.forces(&state.z, slot)[1], meeting.way()];
         }
         all

@@ -12,7 +12,7 @@
 use solver::{AnchoredPoint, Linearisation, Neighbours, Path, PathAnchor};
 
 use super::GuidedNeedle;
-use super::mode::{NeedleMode, Rub, Touch};
+use super::mode::{Rub, Touch};
 use crate::contacts::{Contacts, SkinMode, SkinPoint, SkinState};
 use crate::puncture::growing::Segment;
 use crate::puncture::system::Chain;
@@ -113,10 +113,10 @@ pub(in crate::puncture) fn with(
 
 /// What the equations of a state keep of the way to it.
 pub(in crate::puncture) fn history(state: &SkinState) -> Vec<Kept> {
-    let NeedleMode { touches, round } = &state.mode.needle;
-    let round = round.iter().map(Touch::anywhere);
-    let touches = touches.iter().flatten().copied().chain(round);
-    let touches = touches.filter(Touch::has_history).map(Kept::Touch);
+    let mode = &state.mode.needle;
+    let touches = mode.all().filter(|(_, touch)| touch.has_history());
+    let touches = touches
+        .map(|(_, touch)| Kept::Touch(if mode.is_round() { touch.anywhere() } else { *touch }));
     let contacts = Contacts::kept(state).map(|(contact, kept)| Kept::Contact(contact, kept));
     touches.chain(contacts).collect()
 }
@@ -167,7 +167,7 @@ impl Chain {
             let place = to.mode.needle.place(touch.scale).unwrap_or(touch.place);
             return Some(self.meeting(&state.z, touch.scale, place)?.way());
         };
-        let before = state.mode.needle.touches;
+        let before = &state.mode.needle.touches;
         let is_there = |before: &Touch| (before.scale, before.place) == (touch.scale, touch.place);
         let Some(slot) = before.iter().position(|before| before.as_ref().is_some_and(is_there))
         else {

@@ -70,23 +70,30 @@ impl Touch {
     }
 }
 
+/// Slots in which a sharp tip may touch: neighbours, if they are two.
+pub(super) const SHARP_SLOTS: usize = 2;
+
 /// The state of a guided needle, history included: the scales that it touches. Nothing in a row under a free needle.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct NeedleMode {
-    /// Of a sharp tip: neighbours, if they are two.
-    pub(crate) touches: [Option<Touch>; 2],
-    /// Of a round tip.
-    pub(crate) round: Vec<Touch>,
+    /// By slots: those of a sharp tip, or of a round one a slot for each scale in reach.
+    pub(crate) touches: Vec<Option<Touch>>,
 }
 
 impl NeedleMode {
-    /// Where a round tip touches a scale, counted from the punctured one.
-    pub(crate) fn place(&self, scale: i64) -> Option<Place> {
-        self.round.iter().find(|touch| touch.scale == scale).map(|touch| touch.place)
+    /// Whether the tip is round: there are always more slots then.
+    pub(super) fn is_round(&self) -> bool {
+        self.touches.len() > SHARP_SLOTS
     }
 
-    /// All touches.
-    pub(crate) fn all(&self) -> impl Iterator<Item = &Touch> {
-        self.touches.iter().flatten().chain(&self.round)
+    /// Where the tip touches a scale, counted from the punctured one.
+    pub(super) fn place(&self, scale: i64) -> Option<Place> {
+        self.all().find(|(_, touch)| touch.scale == scale).map(|(_, touch)| touch.place)
+    }
+
+    /// All touches, each with its slot.
+    pub(super) fn all(&self) -> impl Iterator<Item = (usize, &Touch)> {
+        let slots = self.touches.iter().enumerate();
+        slots.filter_map(|(slot, touch)| Some((slot, touch.as_ref()?)))
     }
 }

@@ -99,7 +99,7 @@ fn has_passed(from: &SkinState, to: &SkinState) -> bool {
 
 /// Whether the needle touches nothing but the face on which it was set down.
 fn is_on_its_face(state: &SkinState) -> bool {
-    let on_top = |touch: &Touch| {
+    let on_top = |(_, touch): (usize, &Touch)| {
         touch.scale == 0 && touch.place == Place::Top && !matches!(touch.rub, Rub::Held { .. })
     };
     state.mode.needle.all().all(on_top)

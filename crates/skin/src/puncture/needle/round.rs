@@ -65,11 +65,7 @@ impl GuidedNeedle {
             self.end_sliding(state, slot);
             state.z[self.push(slot) + 1] = 0.0;
         }
-        let touches = &mut state.mode.needle.round;
-        touches.retain(|touch| touch.scale != scale);
-        touches.extend(touch);
-        // Touches are in the order of the scales, so that equal modes compare as equal.
-        touches.sort_by_key(|touch| touch.scale);
+        state.mode.needle.touches[slot] = touch;
         state.active[self.number(slot, PUSH)] = touch.is_some();
     }
 }
@@ -131,8 +127,7 @@ impl Chain {
             // At the end of a face the tip goes on to the corner or back on the face: without forces both have the same rates, which say it.
             let ahead = rest.moved(STEP / largest, &rates);
             let before = rest.clone();
-            for touch in before.mode.needle.round {
-                let slot = needle.slot(&touch);
+            for (slot, touch) in before.mode.needle.all() {
                 let [push, drag] = [0, 1].map(|k| rates[needle.push(slot) + k]);
                 // A touch that would have to pull is none.
                 if push <= 0.0 {
@@ -140,7 +135,7 @@ impl Chain {
                     continue;
                 }
                 if let Some((place, _)) = self.nearest(&ahead.z, touch.scale) {
-                    needle.set_touch(&mut rest, touch.scale, Some(Touch { place, ..touch }));
+                    needle.set_touch(&mut rest, touch.scale, Some(Touch { place, ..*touch }));
                 }
                 if let Rub::Stick { at } = touch.rub
                     && drag.abs() > needle.friction * push
@@ -172,12 +167,12 @@ impl Chain {
         let (tilt, through) = (needle.tilt_number(), needle.tilt_number() + 1);
         for (slot, scale) in needle.scales() {
             let of_scale = &mut values[needle.of_touch * slot..][..needle.of_touch];
-            if state.mode.needle.place(scale).is_none() {
+            if state.mode.needle.touches[slot].is_none() {
                 let nearest = self.nearest(&state.z, scale);
                 of_scale[PUSH] = nearest.map_or(HOLDS, |(_, distance)| distance - needle.radius);
             }
         }
-        for (slot, touch, number, meeting) in self.touches(needle, state) {
+        for (slot, touch, number, meeting) in self.touches(state) {
             let of_scale = &mut values[needle.of_touch * slot..][..needle.of_touch];
             of_scale[PUSH] = meeting.gap();
             let [before, after] = self.to_ends(state, touch.scale, touch.place);
@@ -241,17 +236,17 @@ impl Chain {
         if number >= needle.tilt_number() {
             return None;
         }
-        let scale = (number / needle.of_touch) as i64 - needle.reach() as i64;
+        let slot = number / needle.of_touch;
+        let scale = slot as i64 - needle.reach() as i64;
         if number % needle.of_touch == needle.of_touch - 1 {
             // It has no force: it never acts.
             state.active[change.constraint] = false;
-            let place = state.mode.needle.place(scale)?;
+            let place = state.mode.needle.touches[slot]?.place;
             let [before, after] = self.to_ends(state, scale, place);
             // The end that has come is the nearer one.
             let next = place.next(after < before)?;
             // The way goes on without a step, and the force with it.
-            let here = state.mode.needle.round.iter_mut().find(|touch| touch.scale == scale)?;
-            here.place = next;
+            state.mode.needle.touches[slot].as_mut()?.place = next;
         } else {
             let touch = self.round_touch(needle, &state.z, scale);
             needle.set_touch(state, scale, touch.filter(|_| change.activated));
@@ -262,9 +257,10 @@ impl Chain {
     /// The normal forces of a round tip; `None` of another needle, and unless the whole path is noted.
     pub(in crate::puncture) fn tip_forces(&self, state: &SkinState) -> Option<TipForces> {
         let needle = self.needle.as_ref().filter(|needle| self.whole_path && needle.is_round())?;
-        let of =
-            |touch: &Touch| (touch.scale, state.z[needle.push(needle.slot(touch))] / self.length);
-        Some(state.mode.needle.round.iter().map(of).collect())
+        let of = |(slot, touch): (usize, &Touch)| {
+            (touch.scale, state.z[needle.push(slot)] / self.length)
+        };
+        Some(state.mode.needle.all().map(of).collect())
     }
 }
 

@@ -37,13 +37,13 @@ impl Chain {
             (PUSH, true) => self.enter_notch(needle, state, slot)?,
             (PUSH, false) => return self.leave(needle, state, slot),
             (FORWARD | BACKWARD, true) => {
-                let at = self.way(needle, state, slot)?;
+                let at = self.way(state, slot)?;
                 needle.slide(state, slot, constraint == FORWARD, at);
                 constraint
             }
             (FORWARD | BACKWARD, false) => {
-                let at = self.way(needle, state, slot)?;
-                needle.touch_mut(&mut state.mode.needle, slot)?.rub = Rub::Stick { at };
+                let at = self.way(state, slot)?;
+                state.mode.needle.touches[slot].as_mut()?.rub = Rub::Stick { at };
                 constraint
             }
             (LOW | HIGH, _) => {
@@ -71,19 +71,17 @@ impl Chain {
     /// Lets the tip stick where it slides.
     pub(in crate::puncture) fn stop_tip(&self, needle: &GuidedNeedle, state: &mut SkinState) {
         for slot in (0..needle.slots).filter(|_| needle.rubs()) {
-            let touch = needle.touch_mut(&mut state.mode.needle, slot).copied();
-            let slides = touch.is_some_and(|touch| matches!(touch.rub, Rub::Slip { .. }));
-            let Some(at) = self.way(needle, state, slot).filter(|_| slides) else { continue };
+            let touch = state.mode.needle.touches[slot];
+            let slides = touch.filter(|touch| matches!(touch.rub, Rub::Slip { .. }));
+            let (Some(touch), Some(at)) = (slides, self.way(state, slot)) else { continue };
             needle.end_sliding(state, slot);
-            if let Some(touch) = needle.touch_mut(&mut state.mode.needle, slot) {
-                touch.rub = Rub::Stick { at };
-            }
+            state.mode.needle.touches[slot] = Some(Touch { rub: Rub::Stick { at }, ..touch });
         }
     }
 
     /// `ξ` of a touch.
-    fn way(&self, needle: &GuidedNeedle, state: &mut SkinState, slot: usize) -> Option<f64> {
-        let touch = *needle.touch_mut(&mut state.mode.needle, slot)?;
+    fn way(&self, state: &SkinState, slot: usize) -> Option<f64> {
+        let touch = state.mode.needle.touches[slot]?;
         Some(self.meeting(&state.z, touch.scale, touch.place)?.way())
     }
 
@@ -119,7 +117,7 @@ impl Chain {
 
     /// The touch of the face of a notch, and the contact of the corner that lies on it.
     fn notch(&self, state: &SkinState) -> Option<[usize; 2]> {
-        let touches = state.mode.needle.touches;
+        let touches = &state.mode.needle.touches;
         let is_top = |touch: &Touch| touch.place == Place::Top && touch.is_held();
         let top = touches.iter().position(|touch| touch.as_ref().is_some_and(is_top))?;
         Some([1 - top, self.corner_of_notch(touches[top]?.scale)?])
@@ -154,7 +152,7 @@ impl Chain {
 
     /// Lets a touch that was held in a notch stick by itself.
     fn come_to_rest(&self, needle: &GuidedNeedle, state: &mut SkinState, slot: usize) {
-        let at = self.way(needle, state, slot);
+        let at = self.way(state, slot);
         if let (Some(touch), Some(at)) = (&mut state.mode.needle.touches[slot], at)
             && touch.is_held()
         {
@@ -225,7 +223,7 @@ impl GuidedNeedle {
     /// Lets a touch slide forward or backward.
     pub(super) fn slide(&self, state: &mut SkinState, slot: usize, forward: bool, from: f64) {
         let (sign, constraint) = if forward { (1.0, FORWARD) } else { (-1.0, BACKWARD) };
-        if let Some(touch) = self.touch_mut(&mut state.mode.needle, slot) {
+        if let Some(touch) = &mut state.mode.needle.touches[slot] {
             touch.rub = Rub::Slip { sign, from };
             state.active[self.number(slot, constraint)] = true;
         }

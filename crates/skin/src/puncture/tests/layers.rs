@@ -66,7 +66,9 @@ fn reactions_are_those_of_the_stiffness() {
         while path.next().is_some() {}
         let (chain, z) = (path.system(), &path.point().state.z);
         let mut forces = vec![0.0; z.len()];
-        chain.for_springs(|row, column, value| forces[row] += value * z[column]);
+        chain.constant_tangent(&mut |row: usize, column: usize, value: f64| {
+            forces[row] += value * z[column];
+        });
         for scale in 0..chain.layout.scales() {
             let told = chain.reaction(z, scale.cast_signed());
             for (k, told) in told.into_iter().enumerate() {

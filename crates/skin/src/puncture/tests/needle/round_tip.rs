@@ -38,7 +38,7 @@ fn the_tangent_of_a_round_tip() {
                 return;
             }
             let Some(between) = path.between(from, to, 0.5) else { return };
-            for touch in &between.state.mode.needle.round {
+            for touch in between.state.mode.needle.touches.iter().flatten() {
                 rubs.insert((touch.place == Place::Top, std::mem::discriminant(&touch.rub)));
             }
             check_tangent(path.system(), &between.state, 1e-5).unwrap();
