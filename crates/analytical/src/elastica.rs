@@ -14,6 +14,8 @@
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
+use crate::bisected;
+
 /// The displacement of the tip of a cantilever, over its length, and its rotation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tip {
@@ -43,13 +45,8 @@ pub const MATTIASSON: [(f64, Tip); 4] = [
 /// Returns the displacement of the tip of an inextensible cantilever under the load `PL²/EI > 0`.
 pub fn tip(load: f64) -> Tip {
     // Just inside: at the ends of the interval the load is zero and infinite.
-    let (mut low, mut high) = (FRAC_1_SQRT_2 * (1.0 + 1e-12), 1.0 - 1e-12);
-    // Sixty halvings leave an interval below the resolution of a double.
-    for _ in 0..60 {
-        let k = 0.5 * (low + high);
-        *(if between(k)[0] < load.sqrt() { &mut low } else { &mut high }) = k;
-    }
-    let k = 0.5 * (low + high);
+    let ends = [FRAC_1_SQRT_2 * (1.0 + 1e-12), 1.0 - 1e-12];
+    let k = bisected(ends, |k| between(k)[0] < load.sqrt());
     let twice = 2.0 * k * k - 1.0;
     Tip {
         deflection: 1.0 - 2.0 * between(k)[1] / load.sqrt(),

@@ -30,3 +30,12 @@ pub mod linear_chain;
 pub mod rotating_plates;
 pub mod strips;
 pub mod upright_blocks;
+
+/// Returns where between two places what lies below ends: sixty halvings leave an interval below the resolution of a double.
+fn bisected([mut low, mut high]: [f64; 2], is_below: impl Fn(f64) -> bool) -> f64 {
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        *(if is_below(middle) { &mut low } else { &mut high }) = middle;
+    }
+    0.5 * (low + high)
+}

@@ -13,6 +13,8 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use crate::bisected;
+
 /// The angle of the arc between two roots where plates touch and where they lock.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Engagement {
@@ -33,15 +35,8 @@ pub fn engagement(length_over_pitch: f64, angle: f64, friction: f64) -> Option<E
 
 /// The zero of an increasing function between 0 and the `ψ = 2 cot(ψ/2)` up to which `ψ cos(ψ/2)` rises.
 fn root(f: impl Fn(f64) -> f64) -> Option<f64> {
-    let (mut low, mut high) = (0.0, 1.720_667_178_038_76);
-    if f(high) < 0.0 {
-        return None;
-    }
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if f(middle) < 0.0 { low = middle } else { high = middle }
-    }
-    Some(0.5 * (low + high))
+    let last = 1.720_667_178_038_76;
+    (f(last) >= 0.0).then(|| bisected([0.0, last], |arc| f(arc) < 0.0))
 }
 
 #[cfg(test)]

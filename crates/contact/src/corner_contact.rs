@@ -108,6 +108,12 @@ impl CornerContact {
         }
     }
 
+    /// The corners and edges of the contacts that carry: its own, and the flush one.
+    pub fn carrying(self) -> [Option<CornerEdge>; 2] {
+        let flush = if let Self::Flush(edge) = self { edge.flush() } else { None };
+        [self.edge(), flush]
+    }
+
     /// Which of the three forces act.
     pub fn acting(self) -> [bool; FORCES] {
         match self {

@@ -59,26 +59,26 @@ impl CornerEdge {
         Self::BottomLeftOnBase,
     ];
 
+    /// Its name, the corner that touches and the edge that it meets.
+    fn parts(self) -> (&'static str, Corner, fn(&Parallelogram) -> Edge) {
+        match self {
+            Self::TopRightOnLeftEdge => ("TR on left edge", Corner::TopRight, Edge::left),
+            Self::TopLeftOnRightEdge => ("TL on right edge", Corner::TopLeft, Edge::right),
+            Self::BottomRightOnLeftEdge => ("BR on left edge", Corner::BottomRight, Edge::left),
+            Self::BottomLeftOnRightEdge => ("BL on right edge", Corner::BottomLeft, Edge::right),
+            Self::TopRightOnTop => ("TR on top", Corner::TopRight, Edge::top),
+            Self::BottomLeftOnBase => ("BL on base", Corner::BottomLeft, Edge::base),
+        }
+    }
+
     /// Short name, as in tables.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::TopRightOnLeftEdge => "TR on left edge",
-            Self::TopLeftOnRightEdge => "TL on right edge",
-            Self::BottomRightOnLeftEdge => "BR on left edge",
-            Self::BottomLeftOnRightEdge => "BL on right edge",
-            Self::TopRightOnTop => "TR on top",
-            Self::BottomLeftOnBase => "BL on base",
-        }
+        self.parts().0
     }
 
     /// The corner that touches.
     pub fn corner(self) -> Corner {
-        match self {
-            Self::TopRightOnLeftEdge | Self::TopRightOnTop => Corner::TopRight,
-            Self::TopLeftOnRightEdge => Corner::TopLeft,
-            Self::BottomRightOnLeftEdge => Corner::BottomRight,
-            Self::BottomLeftOnRightEdge | Self::BottomLeftOnBase => Corner::BottomLeft,
-        }
+        self.parts().1
     }
 
     /// Whether the corner belongs to the left scale of the pair.
@@ -95,16 +95,6 @@ impl CornerEdge {
             Self::BottomRightOnLeftEdge => Some(Self::BottomLeftOnBase),
             Self::BottomLeftOnBase => Some(Self::BottomRightOnLeftEdge),
             Self::TopRightOnLeftEdge | Self::BottomLeftOnRightEdge => None,
-        }
-    }
-
-    /// The edge that the corner meets.
-    fn edge(self, scale: &Parallelogram) -> Edge {
-        match self {
-            Self::TopRightOnLeftEdge | Self::BottomRightOnLeftEdge => Edge::left(scale),
-            Self::TopLeftOnRightEdge | Self::BottomLeftOnRightEdge => Edge::right(scale),
-            Self::TopRightOnTop => Edge::top(scale),
-            Self::BottomLeftOnBase => Edge::base(scale),
         }
     }
 }
@@ -197,7 +187,8 @@ impl Pair {
         let meeting = |corner_edge: CornerEdge| {
             let [left, right] = &scales;
             let (a, b) = if corner_edge.corner_is_left() { (left, right) } else { (right, left) };
-            (a.corner(corner_edge.corner()), corner_edge.edge(b))
+            let (_, corner, edge) = corner_edge.parts();
+            (a.corner(corner), edge(b))
         };
         Self { scales, pitch, meetings: CornerEdge::ALL.map(meeting) }
     }
@@ -212,11 +203,9 @@ impl Pair {
         self.pitch
     }
 
-    /// Normals, at rest, of the right edge of the left scale (inward) and of the left edge of the right
-    /// one (outward): both point left.
-    pub(crate) fn normals(&self) -> [Vec2; 2] {
-        let normal = |corner_edge: CornerEdge| self.meetings[corner_edge as usize].1.normal;
-        [-normal(CornerEdge::TopLeftOnRightEdge), normal(CornerEdge::TopRightOnLeftEdge)]
+    /// Outward normal of the edge that a corner meets, at rest.
+    pub(crate) fn normal(&self, corner_edge: CornerEdge) -> Vec2 {
+        self.meetings[corner_edge as usize].1.normal
     }
 
     /// The gap between a corner and an edge, with all its derivatives.

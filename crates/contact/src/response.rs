@@ -171,17 +171,12 @@ fn flush_condition(corners: &Corners, flush: CornerEdge) -> Equation {
 impl CornerEdge {
     /// The direction of the force on the left scale, and the coordinate (a rotation) with which it turns.
     fn normal(self, pair: &Pair, [left, right]: [&Pose; 2]) -> (Vec2, usize) {
-        let [of_left, of_right] = pair.normals();
-        let [with_left, with_right] = ROTATIONS;
-        match self {
-            Self::TopRightOnLeftEdge | Self::BottomRightOnLeftEdge => {
-                (right.turn(of_right), with_right)
-            }
-            Self::TopLeftOnRightEdge | Self::BottomLeftOnRightEdge => {
-                (left.turn(of_left), with_left)
-            }
-            Self::TopRightOnTop => (right.turn(Vec2::y()), with_right),
-            Self::BottomLeftOnBase => (left.turn(Vec2::y()), with_left),
+        let (normal, [with_left, with_right]) = (pair.normal(self), ROTATIONS);
+        // Outward of the edge is the way in which the corner is pushed; the other scale takes the opposite.
+        if self.corner_is_left() {
+            (right.turn(normal), with_right)
+        } else {
+            (left.turn(-normal), with_left)
         }
     }
 }

@@ -19,7 +19,6 @@ use contact::{
     COORDINATES, ContactLaw, CornerContact, CornerEdge, Corners, Equation, FORCES, Force, Level,
     Pair, Pose,
 };
-use geometry::Parallelogram;
 use solver::Change;
 
 use crate::arrangement::Arrangement;
@@ -55,11 +54,11 @@ pub(crate) type SkinPoint = solver::Point<SkinMode>;
 /// `3 j + 2` that of its flush contact, `λ''`. Where scales rub each contact has two more, its grip and its way.
 #[derive(Clone, Debug)]
 pub(crate) struct Contacts {
-    arrangement: Arrangement,
+    pub(crate) arrangement: Arrangement,
     /// The pairs of the arrangement, or one for each distance.
     pair_shapes: Vec<Pair>,
     /// Scales on its right that a scale may meet: 1, its neighbour, unless a row was seen to need more.
-    reach: usize,
+    pub(crate) reach: usize,
     law: ContactLaw,
     /// First of the three unknowns of each scale; `None` for a scale that is held.
     scales: Vec<Option<usize>>,
@@ -67,10 +66,10 @@ pub(crate) struct Contacts {
     relative: bool,
     /// Constraints of each contact.
     slots: usize,
-    /// Unknown of each constraint.
-    forces: Vec<usize>,
+    /// Unknown of each constraint: these are the constraints of the system.
+    pub(crate) forces: Vec<usize>,
     /// Numbers of the ways that contacts slip, which only grow.
-    growing: Vec<usize>,
+    pub(crate) growing: Vec<usize>,
     /// Contacts whose anchor differs from that of a row of which this is a neighbour, and by how much.
     moved: Vec<(usize, f64)>,
 }
@@ -116,31 +115,6 @@ impl Contacts {
         Self { relative: true, ..Self::new(arrangement, law, scales, forces) }
     }
 
-    /// The gap at rest between the bases of a scale and the next one.
-    pub(crate) fn gap_at_rest(&self, scale: usize) -> f64 {
-        self.arrangement.gap(scale)
-    }
-
-    /// A scale at rest.
-    pub(crate) fn scale(&self, scale: usize) -> Parallelogram {
-        self.arrangement.scale(scale)
-    }
-
-    /// Distance of the node of a scale from that of the first, at rest.
-    pub(crate) fn place(&self, scale: usize) -> f64 {
-        self.arrangement.place(scale)
-    }
-
-    /// Unknowns of the forces, which are the constraints of the system.
-    pub(crate) fn forces(&self) -> &[usize] {
-        &self.forces
-    }
-
-    /// Numbers of the constraints whose unknown only grows.
-    pub(crate) fn growing(&self) -> &[usize] {
-        &self.growing
-    }
-
     /// The state of rest of all contacts.
     pub(crate) fn open(&self) -> SkinMode {
         let contacts = vec![CornerContact::Open; self.forces.len() / self.slots];
@@ -166,11 +140,6 @@ impl Contacts {
     /// The left and the right scale of the pair that a constraint belongs to.
     pub(crate) fn scales_of(&self, constraint: usize) -> [usize; 2] {
         self.ends(Self::pair_of(constraint / self.slots))
-    }
-
-    /// Scales on its right that a scale may meet.
-    pub(crate) fn reach(&self) -> usize {
-        self.reach
     }
 
     /// Which corner meets which edge where a constraint acts; `None` if the contact is open.
@@ -208,12 +177,7 @@ impl Contacts {
 
     /// Number of closed contacts, two where a side lies flush.
     pub(crate) fn closed(state: &SkinState) -> usize {
-        let counts = state.mode.iter().map(|contact| match contact {
-            CornerContact::Open => 0,
-            CornerContact::Edge(_) | CornerContact::Corner(_) => 1,
-            CornerContact::Flush(_) => 2,
-        });
-        counts.sum()
+        state.mode.iter().flat_map(|contact| contact.carrying()).flatten().count()
     }
 
     /// Number of scales that touch another one.
@@ -273,7 +237,7 @@ impl Contacts {
                 }
             }
         });
-        self.friction_conditions(state, values);
+        self.friction_conditions(state, &state.z, HOLDS, values);
     }
 
     /// Replaces `values` as [`Self::conditions`] does, and `slopes` by their derivatives along a direction.
@@ -297,8 +261,8 @@ impl Contacts {
                 }
             }
         });
-        self.friction_conditions(state, values);
-        self.friction_slopes(state, direction, slopes);
+        self.friction_conditions(state, &state.z, HOLDS, values);
+        self.friction_conditions(state, direction, 0.0, slopes);
     }
 
     /// The condition of a force that does not act.
@@ -485,10 +449,13 @@ impl Contacts {
         let left = self.scales[ends[0]].filter(|_| !self.relative);
         let right = self.scales[ends[1]];
         std::array::from_fn(|k| match k {
-            0..3 => Some(Part::new(left? + k, k)),
-            3..COORDINATES => Some(Part::new(right? + k - 3, k)),
+            0..3 => Some(Part { unknown: left? + k, coordinate: k, sign: 1.0 }),
+            3..COORDINATES => Some(Part { unknown: right? + k - 3, coordinate: k, sign: 1.0 }),
             // The coordinate is the rotation against the left scale, so the frame's is subtracted.
-            _ => Some(Part::new(self.frame(ends[1])?, COORDINATES - 1).opposite()),
+            _ => {
+                let (unknown, coordinate) = (self.frame(ends[1])?, COORDINATES - 1);
+                Some(Part { unknown, coordinate, sign: -1.0 })
+            }
         })
     }
 }
@@ -500,15 +467,4 @@ pub(crate) struct Part {
     pub(crate) coordinate: usize,
     /// 1 or −1.
     pub(crate) sign: f64,
-}
-
-impl Part {
-    pub(crate) fn new(unknown: usize, coordinate: usize) -> Self {
-        Self { unknown, coordinate, sign: 1.0 }
-    }
-
-    /// The part that is subtracted instead of added.
-    pub(crate) fn opposite(self) -> Self {
-        Self { sign: -self.sign, ..self }
-    }
 }

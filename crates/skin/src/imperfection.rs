@@ -79,10 +79,8 @@ impl Imperfection {
             ("standard deviation of the slants", self.slant_sd_deg),
         ];
         for (quantity, value) in rules {
-            if !(value >= 0.0 && value.is_finite()) {
-                let expected = "a number of at least 0";
-                return Err(OutOfRange { quantity, value, expected });
-            }
+            let is_legal = value >= 0.0 && value.is_finite();
+            OutOfRange::unless(is_legal, quantity, value, "a number of at least 0")?;
         }
         // Only the check.
         design.row()?;

@@ -241,10 +241,10 @@ impl PunctureParameters {
             (places >= 2.0, "number of places", places, "at least 2"),
             (scales >= 1.0, "number of scales", scales, "at least 1"),
         ];
-        match rules.into_iter().find(|(holds, ..)| !holds) {
-            Some((_, quantity, value, expected)) => Err(OutOfRange { quantity, value, expected }),
-            None => Ok(()),
-        }
+        let mut rules = rules.into_iter();
+        rules.try_for_each(|(holds, quantity, value, expected)| {
+            OutOfRange::unless(holds, quantity, value, expected)
+        })
     }
 }
 
@@ -355,13 +355,11 @@ impl<'a> Problem<'a> {
         let Common { solver: settings, whole_path, .. } = *common;
         let problem =
             Self { rows, design, stiffness, endless, law, settings, whole_path, parameters };
-        match parameters.needle_radius.filter(|_| problem.reach().is_none()) {
-            Some(value) => {
-                let expected = "at most 62 pitches of the row";
-                Err(OutOfRange { quantity: "needle radius", value, expected })
-            }
-            None => Ok(problem),
-        }
+        let radius = parameters.needle_radius;
+        let is_in_reach = radius.is_none() || problem.reach().is_some();
+        let expected = "at most 62 pitches of the row";
+        OutOfRange::unless(is_in_reach, "needle radius", radius.unwrap_or(0.0), expected)?;
+        Ok(problem)
     }
 
     fn solve(&self) -> Result<Puncture, OutOfRange> {

@@ -129,8 +129,10 @@ pub(crate) struct Record<S: Skin> {
     pub(crate) history: Vec<Iteration>,
     /// What friction has taken so far.
     pub(crate) work: Work,
-    initial_stiffness: f64,
-    stiffness: Peak<SkinMode>,
+    /// The stiffness at the beginning of the path.
+    pub(crate) initial_stiffness: f64,
+    /// The largest stiffness at its points.
+    pub(crate) stiffness: Peak<SkinMode>,
     /// The largest stiffness between the points too, once it has been searched.
     stiffness_summit: OnceCell<Option<Summit<SkinMode>>>,
     /// Further functions of which the largest value is searched.
@@ -212,7 +214,7 @@ impl<S: Skin> Record<S> {
         point: S::PathPoint,
         change: Change,
     ) -> Option<ContactEvent<S::PathPoint>> {
-        if change.constraint >= skin.contacts().forces().len() {
+        if change.constraint >= skin.contacts().forces.len() {
             // A guided needle has changes of its own.
             return None;
         }
@@ -235,11 +237,6 @@ impl<S: Skin> Record<S> {
         self.events.iter().find(closed).map(|event| &event.point)
     }
 
-    /// The equilibrium at which the first contact closes.
-    pub(crate) fn touching(&self) -> Option<&SkinPoint> {
-        self.touching.as_ref()
-    }
-
     /// The largest stiffness and its place.
     pub(crate) fn stiffness_summit(&self, path: &mut Path<S>) -> Option<&Summit<S::Mode>> {
         // The search solves for equilibria, so the measure and its derivatives share one.
@@ -256,20 +253,5 @@ impl<S: Skin> Record<S> {
     pub(crate) fn summit(&self, path: &mut Path<S>, followed: usize) -> Option<Summit<S::Mode>> {
         let (f, peak) = self.followed.get(followed)?;
         peak.summit(path, *f)
-    }
-
-    /// The point of the largest stiffness of those that were recorded.
-    pub(crate) fn stiffest(&self) -> Option<&SkinPoint> {
-        self.stiffness.point()
-    }
-
-    /// The stiffness at the beginning of the path.
-    pub(crate) fn initial_stiffness(&self) -> f64 {
-        self.initial_stiffness
-    }
-
-    /// The largest stiffness on the path, between its points too.
-    pub(crate) fn largest_stiffness(&self, path: &mut Path<S>) -> Option<f64> {
-        Some(self.stiffness_summit(path)?.value)
     }
 }

@@ -207,7 +207,7 @@ impl<S: Skin> Linearised<'_, S> {
 
     /// The change of a contact in words.
     fn name(&self, before: &SkinState, after: &SkinState, change: Change) -> String {
-        if change.constraint >= self.system.contacts().forces().len() {
+        if change.constraint >= self.system.contacts().forces.len() {
             return "the needle moves otherwise".to_owned();
         }
         let contacts = self.system.contacts();

@@ -117,7 +117,9 @@ impl BlockMatrix {
         let (mut stored, width) = (0, self.width());
         for block in 0..self.starts.len() - 1 {
             let (start, size) = (self.starts[block], self.starts[block + 1] - self.starts[block]);
-            let link = LINK * self.inner(block).unwrap_or(0);
+            // The root has no inner neighbour, and no entry of its is looked for there.
+            let inner = if block < self.root { block + 1 } else { block.saturating_sub(1) };
+            let link = LINK * inner;
             self.at.push(stored);
             for row in 0..size {
                 // What comes before the first column cancels when a column is added: it may well be below zero.
@@ -131,15 +133,6 @@ impl BlockMatrix {
         }
         self.values.clear();
         self.values.resize(stored, 0.0);
-    }
-
-    /// The inner neighbour of a block; `None` for the root.
-    pub(crate) fn inner(&self, block: usize) -> Option<usize> {
-        match block.cmp(&self.root) {
-            std::cmp::Ordering::Less => Some(block + 1),
-            std::cmp::Ordering::Equal => None,
-            std::cmp::Ordering::Greater => Some(block - 1),
-        }
     }
 
     /// Entries of a row in the columns of the inner links.

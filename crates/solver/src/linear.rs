@@ -10,7 +10,7 @@
 
 use std::ops::Range;
 
-use pulp::NullaryFnOnce;
+use pulp::{Simd, WithSimd};
 
 use crate::tangent::Tangent;
 
@@ -184,16 +184,16 @@ struct Factorisation<'a> {
     matrix: &'a BandMatrix,
 }
 
-impl NullaryFnOnce for Factorisation<'_> {
+impl WithSimd for Factorisation<'_> {
     type Output = Result<(), SingularMatrix>;
 
     #[inline(always)]
-    fn call(self) -> Self::Output {
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
         let Self { lu, matrix } = self;
         lu.load(matrix)?;
         for k in 0..lu.kept.len() {
             lu.pivot(k)?;
-            lu.eliminate(k);
+            lu.eliminate(simd, k);
         }
         Ok(())
     }
@@ -380,7 +380,7 @@ impl BandLu {
 
     /// Subtracts multiples of row `k` from the rows below that reach its column.
     #[inline(always)]
-    fn eliminate(&mut self, k: usize) {
+    fn eliminate<S: Simd>(&mut self, simd: S, k: usize) {
         let (below, count) = (self.reach[k] - k, self.ends[k] - k);
         if below == 0 {
             return;
@@ -401,9 +401,7 @@ impl BandLu {
                     row[used..count].fill(0.0);
                     *end = k + count;
                 }
-                for (x, pivot) in row[1..count].iter_mut().zip(pivot) {
-                    *x -= *multiplier * pivot;
-                }
+                subtract(simd, &mut row[1..count], *multiplier, pivot);
             }
         }
     }
@@ -421,5 +419,44 @@ impl BandLu {
     /// Index of the diagonal entry of a row in `upper`.
     fn diagonal(&self, row: usize) -> usize {
         row * (3 * self.half + 1) + self.half
+    }
+}
+
+/// `x ← x − factor y`.
+#[inline(always)]
+fn subtract<S: Simd>(simd: S, x: &mut [f64], factor: f64, y: &[f64]) {
+    let (wide, rest) = S::as_mut_simd_f64s(x);
+    let (by, rest_by) = S::as_simd_f64s(y);
+    let factors = simd.splat_f64s(factor);
+    for (x, y) in wide.iter_mut().zip(by) {
+        *x = simd.sub_f64s(*x, simd.mul_f64s(factors, *y));
+    }
+    for (x, y) in rest.iter_mut().zip(rest_by) {
+        *x -= factor * y;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{BandLu, BandMatrix, Tangent};
+
+    #[test]
+    fn the_sign_of_a_determinant_counts_exchanges_and_pivots() {
+        for ([a, b, c, d], zero, is_negative) in [
+            ([2.0, 1.0, 1.0, 2.0], vec![], false),
+            ([1.0, 2.0, 2.0, 1.0], vec![], true),
+            ([0.0, 1.0, -1.0, 0.0], vec![], false),
+            ([-1.0, 0.0, 0.0, 1.0], vec![], true),
+            // What is left out does not count.
+            ([-1.0, 0.0, 0.0, 1.0], vec![0], false),
+        ] {
+            let mut matrix = BandMatrix::new(2, 1);
+            for (row, column, value) in [(0, 0, a), (0, 1, b), (1, 0, c), (1, 1, d)] {
+                matrix.add(row, column, value);
+            }
+            let mut lu = BandLu::new(2, 1);
+            lu.factorise_without(&matrix, &zero).unwrap();
+            assert_eq!(lu.is_negative(), is_negative, "{a} {b} {c} {d}");
+        }
     }
 }

@@ -59,7 +59,8 @@ pub enum NewtonFailure {
 /// Storage for the solves of one system, kept from one to the next.
 #[derive(Clone, Debug)]
 pub struct Newton {
-    solver: TangentSolver,
+    /// With the factors of the last tangent.
+    pub(crate) solver: TangentSolver,
     residual: Residual,
     step: Vec<f64>,
     /// Residual norm of every iteration since this was last taken.
@@ -177,11 +178,6 @@ impl Newton {
         let row = condition.row_in_tangent().iter();
         let growth: f64 = row.map(|&(index, coefficient)| coefficient * direction[index]).sum();
         (growth > 0.0) != self.solver.is_negative()
-    }
-
-    /// Solves in place with the factors of the last tangent: `x` holds the right-hand side, then the solution.
-    pub(crate) fn solve_again(&mut self, x: &mut [f64]) {
-        self.solver.solve(x);
     }
 
     /// The guards (N5), one for each constraint, which are zero where it changes sides: `z_c` if active, `r_c` if not.

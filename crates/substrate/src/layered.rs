@@ -60,7 +60,7 @@ pub(crate) fn addition(
         roll: best[3],
         error: error.fold(0.0, f64::max),
         neighbours: best[OWN..].as_chunks().0.iter().map(neighbour).collect(),
-        truncation: 0.0,
+        ..RowStiffness::default()
     })
 }
 

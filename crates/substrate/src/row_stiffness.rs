@@ -41,7 +41,7 @@ pub const NEIGHBOURS: usize = 8;
 ///
 /// The form is that of mirror images and of Betti's
 /// theorem: the matrix is symmetric, whatever the numbers are.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct RowStiffness {
     /// Stiffness `K_0` of a scale for itself: force along `x`, force along `y`, moment.
     pub direct: [f64; 3],
@@ -156,13 +156,7 @@ impl RowStiffness {
         let estimate = |i: usize| (best[i] - check[i]).abs() + CAUTION * (best[i] - fine[i]).abs();
         // The worst of all numbers counts for each: a row tells one error.
         let mut error = (0..best.len()).map(|i| estimate(i) / sizes[i]).fold(0.0, f64::max);
-        let mut row = Self {
-            direct: [best[0], best[1], best[2]],
-            roll: 0.0,
-            neighbours: Vec::new(),
-            error,
-            truncation: 0.0,
-        };
+        let mut row = Self { direct: [best[0], best[1], best[2]], ..Self::default() };
         for n in best[3..].chunks(PER_NEIGHBOUR) {
             error = error.max((n[3] - n[4]).abs() / sizes[6]);
             // The mean of the two, which a mesh keeps apart by its error: the matrix is symmetric whatever that is.
@@ -191,10 +185,8 @@ impl RowStiffness {
         };
         Self {
             direct: [direct[0], direct[1], direct[2]],
-            roll: 0.0,
             neighbours: neighbours.as_chunks().0.iter().map(neighbour).collect(),
-            error: 0.0,
-            truncation: 0.0,
+            ..Self::default()
         }
     }
 
@@ -258,7 +250,7 @@ impl From<&Springs> for RowStiffness {
         let direct = springs.coupling.map(|beta| -beta);
         let nearest = Neighbour { direct, ..Neighbour::default() };
         let Springs { direct, error, .. } = *springs;
-        Self { direct, roll: 0.0, neighbours: vec![nearest], error, truncation: 0.0 }
+        Self { direct, neighbours: vec![nearest], error, ..Self::default() }
     }
 }
 

@@ -62,16 +62,18 @@ impl Contacts {
     pub(crate) fn off_edge(&self, state: &SkinState) -> bool {
         let contacts = state.mode.iter().enumerate();
         contacts.into_iter().any(|(contact, mode)| {
-            let edges = match *mode {
-                // Corners that are together stand at the end of the edge, where (C5) goes on.
-                CornerContact::Open | CornerContact::Corner(_) => return false,
-                CornerContact::Edge(edge) => [Some(edge), None],
-                CornerContact::Flush(edge) => [Some(edge), edge.flush()],
-            };
+            // Corners that are together stand at the end of the edge, where (C5) goes on.
+            if let CornerContact::Open | CornerContact::Corner(_) = mode {
+                return false;
+            }
             let [left, right] = self.pair_poses(&state.z, contact);
             let pair = self.pair(Self::pair_of(contact));
             // A foot is a part of its edge, from 0 at the one end to 1 at the other.
-            let feet = edges.into_iter().flatten().map(|edge| pair.gap(edge, &left, &right).foot);
+            let feet = mode
+                .carrying()
+                .into_iter()
+                .flatten()
+                .map(|edge| pair.gap(edge, &left, &right).foot);
             feet.into_iter().any(|foot| !(-OFF_EDGE..=1.0 + OFF_EDGE).contains(&foot))
         })
     }

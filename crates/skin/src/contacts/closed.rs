@@ -35,11 +35,7 @@ impl Contacts {
 
     /// The closed contacts at one level of a pair: of the corners with each other's edge, and the flush one.
     fn closed_at(&self, state: &SkinState, contact: usize) -> [Option<Contact>; 2] {
-        let [own, flush] = match state.mode[contact] {
-            CornerContact::Open => [None, None],
-            CornerContact::Edge(edge) | CornerContact::Corner(edge) => [Some(edge), None],
-            CornerContact::Flush(edge) => [Some(edge), edge.flush()],
-        };
+        let [own, flush] = state.mode[contact].carrying();
         let [on_corners, on_flush] = self.forces_on_left(state, contact);
         let approach = self.approach(state, contact);
         let slips = self.rub().then(|| Self::is_slipping(&state.mode, contact));

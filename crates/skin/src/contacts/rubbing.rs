@@ -23,7 +23,7 @@ use contact::{CornerContact, CornerEdge, FORCES, Force, Gap, Pose, quarter};
 use geometry::Vec2;
 use solver::{Residual, Tangent};
 
-use super::{Contacts, HOLDS, LEVELS, SkinMode, SkinPoint, SkinState};
+use super::{Contacts, LEVELS, SkinMode, SkinPoint, SkinState};
 
 /// Constraints of a contact that rubs, behind those of its forces.
 pub(super) const GRIP: usize = FORCES;
@@ -301,19 +301,17 @@ impl Contacts {
         }
     }
 
-    /// Replaces the conditions of grips and ways.
-    pub(super) fn friction_conditions(&self, state: &SkinState, values: &mut [f64]) {
+    /// Replaces the conditions of ways, or with a direction for `z` their derivatives: where there is none by `otherwise`.
+    pub(super) fn friction_conditions(
+        &self,
+        state: &SkinState,
+        z: &[f64],
+        otherwise: f64,
+        values: &mut [f64],
+    ) {
         for contact in 0..state.mode.rubs.len() {
             values[self.slots * contact + WAY] =
-                self.slot_condition(state, &state.z, contact, WAY).unwrap_or(HOLDS);
-        }
-    }
-
-    /// Replaces the derivatives of these conditions along a direction, in which they are linear.
-    pub(super) fn friction_slopes(&self, state: &SkinState, direction: &[f64], slopes: &mut [f64]) {
-        for contact in 0..state.mode.rubs.len() {
-            slopes[self.slots * contact + WAY] =
-                self.slot_condition(state, direction, contact, WAY).unwrap_or(0.0);
+                self.slot_condition(state, z, contact, WAY).unwrap_or(otherwise);
         }
     }
 

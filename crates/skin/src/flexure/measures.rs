@@ -55,8 +55,8 @@ impl FlexureMeasures {
         let first = record.first_contact();
         // Before scales touch the strip bends to arcs, as stiff everywhere as at rest: there is no maximum to look for.
         let stiffest = match first {
-            Some(_) => record.largest_stiffness(path),
-            None => Some(record.initial_stiffness()),
+            Some(_) => record.stiffness_summit(path).map(|summit| summit.value),
+            None => Some(record.initial_stiffness),
         };
         let strip = path.system();
         let share = record.path.last().map(axial_energy_share);
@@ -74,7 +74,7 @@ impl FlexureMeasures {
             locking_curvature: locking(record, path),
             remains: Remains::default(),
             contact_curvature: None,
-            gaps: strip.gaps() as f64 * strip.repeats(),
+            gaps: strip.gaps() as f64 * strip.repeats,
         }
     }
 

@@ -31,9 +31,12 @@ impl Resolution {
         })
     }
 
-    /// Whether it is not finer than a membrane can need.
-    pub(crate) fn is_usual(self) -> bool {
-        !matches!(self, Self::Order(order) if order > LAST_ORDER)
+    /// The next finer one, if the largest relative change of any measure with it, the `error`, is too large, and none is used that is finer
+    /// than a membrane can need.
+    pub(crate) fn better(self, error: Option<f64>) -> Option<Self> {
+        let suffices = error.is_none_or(|error| error <= TOLERANCE);
+        let is_usual = |finer: &Self| !matches!(finer, Self::Order(order) if *order > LAST_ORDER);
+        self.finer().filter(|finer| !suffices && is_usual(finer))
     }
 
     /// The next finer order; `None` for elements.
@@ -44,6 +47,9 @@ impl Resolution {
         }
     }
 }
+
+/// Largest relative change of any measure between two resolutions at which the coarser one suffices.
+const TOLERANCE: f64 = 1e-4;
 
 /// Order with which [`MembraneMesh::Auto`] begins. It resolves layers at the bases of a hundredth of the gap, and is within 1e-4 for
 /// nearly all designs of the reference study.

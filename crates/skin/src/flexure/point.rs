@@ -38,7 +38,7 @@ impl Skin for Strip {
 
     fn path_point(&self, point: &SkinPoint) -> FlexurePoint {
         let state = &point.state;
-        let repeats = self.repeats();
+        let repeats = self.repeats;
         let membrane = self.membrane_energy(state);
         FlexurePoint {
             curvature: self.curvature(&state.z),
@@ -57,11 +57,11 @@ impl Skin for Strip {
 
     fn stored(&self, state: &SkinState) -> f64 {
         let membrane = self.membrane_energy(state);
-        (membrane.bending + membrane.axial + self.contacts.energy(state)) * self.repeats()
+        (membrane.bending + membrane.axial + self.contacts.energy(state)) * self.repeats
     }
 
     fn repeats(&self) -> f64 {
-        self.repeats()
+        self.repeats
     }
 
     fn note_friction(&self, point: &mut FlexurePoint, work: f64) {
@@ -70,7 +70,7 @@ impl Skin for Strip {
 
     fn angle_deg(&self, state: &SkinState) -> f64 {
         // Each end turns by half of what they turn against each other.
-        0.5 * (self.rotation(&state.z) * self.repeats()).to_degrees()
+        0.5 * (self.rotation(&state.z) * self.repeats).to_degrees()
     }
 
     /// `dM/dΦ` of the gaps that are solved for.

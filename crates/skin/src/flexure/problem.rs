@@ -17,9 +17,6 @@ use crate::crossing::{Crossing, PlaceWatch};
 use crate::record::{PathFunction, Record};
 use crate::{Common, Design, Sample, Status, WayBack};
 
-/// Largest relative change of any measure between two resolutions at which the coarser one suffices.
-pub(super) const TOLERANCE: f64 = 1e-4;
-
 /// A strip that was bent to the end of its path.
 pub(crate) struct Bent {
     pub(crate) record: Record<Strip>,
@@ -30,13 +27,6 @@ pub(crate) struct Bent {
     steps: Vec<Vec<Step>>,
     /// The equilibria at the end rotations that were asked for.
     pub(crate) places: Vec<Option<SkinPoint>>,
-}
-
-impl Bent {
-    /// The error of a path that came to its end; the measures of another have none.
-    fn final_error(&self) -> Option<f64> {
-        self.error.filter(|_| self.status == Status::Complete)
-    }
 }
 
 /// A strip to be bent.
@@ -194,12 +184,10 @@ impl<'a> FlexureProblem<'a> {
         loop {
             let bent = self.bend(resolution, functions, end_rotations)?;
             // A path that stopped early has no error, and no finer membrane is tried for it.
-            let suffices = bent.final_error().is_none_or(|error| error <= TOLERANCE);
-            match resolution.finer() {
-                // At the finest usual resolution the error stays, and is told with the measures.
-                Some(finer) if !suffices && finer.is_usual() => resolution = finer,
-                _ => return Ok((bent, resolution)),
-            }
+            let error = bent.error.filter(|_| bent.status == Status::Complete);
+            // At the finest usual resolution the error stays, and is told with the measures.
+            let Some(finer) = resolution.better(error) else { return Ok((bent, resolution)) };
+            resolution = finer;
         }
     }
 
@@ -215,7 +203,7 @@ impl<'a> FlexureProblem<'a> {
         let mut steps = vec![strip.steps(&rest.z)];
         let mut path = Path::new(strip, rest, self.common.solver);
         let mut record = Record::new(&path, functions);
-        let repeats = path.system().repeats();
+        let repeats = path.system().repeats;
         let turned = |&rotation: &f64| Crossing {
             quantity: |strip: &Strip, state| strip.rotation(&state.z),
             value: 2.0 * rotation / repeats,
@@ -290,7 +278,8 @@ impl<'a> FlexureProblem<'a> {
             |state| change(path.system(), &finer, state, settings).unwrap_or(f64::INFINITY);
         let end = &path.point().state;
         // A strip is often stiffest at its end.
-        let before = record.stiffest().map(|point| &point.state).filter(|state| *state != end);
+        let before =
+            record.stiffness.point().map(|point| &point.state).filter(|state| *state != end);
         Ok(before.into_iter().chain([end]).map(change).reduce(f64::max))
     }
 }

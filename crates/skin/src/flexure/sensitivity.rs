@@ -134,7 +134,7 @@ impl FlexureProblem<'_> {
         let unknown = missing(strip, &sticking, variations.len());
         let mut derivatives = derivatives(strip, free, &strips, &self.common.solver);
         derivatives.extend(differences(unknown, variations, resolution)?);
-        if bent.record.touching().is_none() {
+        if bent.record.touching.is_none() {
             self.mark_touching(&mut derivatives, variations)?;
         }
         Ok(derivatives)
@@ -165,20 +165,20 @@ impl FlexureProblem<'_> {
     /// The places of the path at which measures are taken.
     fn spots(&self, record: &Record<Strip>, path: &mut Path<Strip>) -> Vec<MeasuredPoint<Strip>> {
         let settings = &self.common.solver;
-        let touching = record.touching().and_then(|point| first_contact(path.system(), point));
+        let touching =
+            record.touching.as_ref().and_then(|point| first_contact(path.system(), point));
         let stiffest = match touching {
-            Some(_) => record
-                .stiffness_summit(path)
-                .and_then(|summit| sensitivity::summit(path, summit, Strip::stiffness, settings)),
+            Some(_) => {
+                let stiffest = record.stiffness_summit(path);
+                sensitivity::summit(stiffest, path, Strip::stiffness, settings)
+            }
             // Without contact a strip is as stiff everywhere as at rest.
             None => Some(rest(path.system())),
         };
         let highest = record.highest_point(MOMENT);
-        let moment = highest
-            .and_then(|summit| sensitivity::summit(path, &summit, FOLLOWED[MOMENT], settings));
+        let moment = sensitivity::summit(highest.as_ref(), path, FOLLOWED[MOMENT], settings);
         let strained = record.summit(path, STRAIN);
-        let strain = strained
-            .and_then(|summit| sensitivity::summit(path, &summit, FOLLOWED[STRAIN], settings));
+        let strain = sensitivity::summit(strained.as_ref(), path, FOLLOWED[STRAIN], settings);
         let strip = path.system();
         let spot = |place, quantity| MeasuredPoint { place, quantities: vec![quantity] };
         vec![

@@ -94,7 +94,7 @@ pub(crate) struct Strip {
     membranes: Vec<Membrane>,
     pub(crate) contacts: Contacts,
     /// Gaps of the whole strip for each gap that is solved for.
-    repeats: f64,
+    pub(super) repeats: f64,
     /// Mean pitch `p` of the scales.
     pitch: f64,
     /// `E_m I_m`, over `E_m t⁴`.
@@ -158,11 +158,6 @@ impl Strip {
     /// The moment `M`, over `E_m t³`.
     pub(crate) fn moment(&self, z: &[f64]) -> f64 {
         z[self.layout.moment()]
-    }
-
-    /// Gaps of the whole strip for each gap that is solved for.
-    pub(crate) fn repeats(&self) -> f64 {
-        self.repeats
     }
 
     /// Gaps of the whole strip, rounded.
@@ -326,7 +321,7 @@ impl System for Strip {
     }
 
     fn constraints(&self) -> &[usize] {
-        self.contacts.forces()
+        &self.contacts.forces
     }
 
     fn vanishing(&self, state: &SkinState) -> impl Iterator<Item = usize> {
@@ -337,7 +332,7 @@ impl System for Strip {
     }
 
     fn growing(&self) -> &[usize] {
-        self.contacts.growing()
+        &self.contacts.growing
     }
 
     fn stop_sliding(&self, state: &mut SkinState) {

@@ -7,7 +7,7 @@ use solver::{Bracket, Newton};
 use super::accuracy::Quantities;
 use super::gap_curve::{GapCurve, Knot, Side};
 use super::mesh::Resolution;
-use super::problem::{FlexureProblem, LOCKED, TOLERANCE};
+use super::problem::{FlexureProblem, LOCKED};
 use super::strip::Strip;
 use super::{Flexure, FlexureMeasures};
 use crate::Status;
@@ -77,11 +77,8 @@ pub(super) fn solve(problem: &FlexureProblem) -> Result<Option<BentSample>, OutO
     loop {
         let mut strip = UnevenStrip::new(problem, resolution)?;
         let Some(bent) = strip.bend() else { return Ok(None) };
-        let suffices = bent.measures.error.is_none_or(|error| error <= TOLERANCE);
-        match resolution.finer() {
-            Some(finer) if !suffices && finer.is_usual() => resolution = finer,
-            _ => return Ok(Some(bent)),
-        }
+        let Some(finer) = resolution.better(bent.measures.error) else { return Ok(Some(bent)) };
+        resolution = finer;
     }
 }
 

@@ -50,7 +50,7 @@ fn end([x, _, rotation]: [f64; 3]) -> End {
 impl Chain {
     /// The strip of surface to the right of a scale.
     pub(super) fn strip(&self, scale: usize) -> SurfaceStrip {
-        SurfaceStrip { width: self.contacts.gap_at_rest(scale), half_base: self.half_base }
+        SurfaceStrip { width: self.contacts.arrangement.gap(scale), half_base: self.half_base }
     }
 
     /// Shows the bars, from the left, each with the first unknowns of its two scales; none where the substrate is linear.

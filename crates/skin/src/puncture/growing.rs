@@ -166,7 +166,7 @@ impl Chain {
     /// A point of the path of a `shorter` row, which lies within this one, as a point of this one.
     pub(super) fn extended(&self, shorter: &Self, point: &SkinPoint) -> SkinPoint {
         let added = self.layout.left - shorter.layout.left;
-        let contacts = [shorter, self].map(|chain| chain.contacts.forces().len());
+        let contacts = [shorter, self].map(|chain| chain.contacts.forces.len());
         let constraint = |number: usize| {
             // Those of the needle follow those of all contacts.
             if number < contacts[0] {

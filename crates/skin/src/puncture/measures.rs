@@ -86,7 +86,7 @@ pub struct PunctureMeasures {
 impl PunctureMeasures {
     /// The measures of a path that came to its end. Stiffness is measured in `E_s t`, the force in `E* t²`.
     pub(crate) fn new(record: &Record<Chain>, folds: &[Fold], path: &mut Path<Chain>) -> Self {
-        let max_stiffness = record.largest_stiffness(path);
+        let max_stiffness = record.stiffness_summit(path).map(|summit| summit.value);
         let (chain, state) = (path.system(), &path.point().state);
         let (end, modulus) = (chain.path_point(path.point()), chain.plane_modulus);
         let peak = peak(&record.path);
@@ -104,7 +104,7 @@ impl PunctureMeasures {
             contacts: Some(end.contacts),
             engaged_scales: Some(chain.contacts.engaged(state)),
             scales: chain.row_length(),
-            initial_stiffness: Some(modulus * record.initial_stiffness()),
+            initial_stiffness: Some(modulus * record.initial_stiffness),
             max_stiffness: max_stiffness.map(|stiffness| modulus * stiffness),
             // `F*` is divided by `L`, a stiffness is not.
             secant_stiffness: Some(modulus * end.force * chain.length / end.displacement),

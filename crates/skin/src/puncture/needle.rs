@@ -69,26 +69,22 @@ impl Needle {
 /// Scales on each side of the punctured one that a guided needle may come to. It moves by less than its own depth along the row.
 pub(super) const FARTHEST: i64 = 8;
 
-/// Unknowns of a touch: `N`, `T`, the ways slid forward and backward, and those of three conditions that never act.
-const OF_TOUCH: usize = 7;
+/// Unknowns of a touch: `N`, `T`, the ways slid forward and backward, and those of two conditions that never act.
+const OF_TOUCH: usize = 6;
 
 /// Constraints of a touch, in this order.
-const CONSTRAINTS: usize = 6;
+const CONSTRAINTS: usize = 5;
 const PUSH: usize = 0;
 const FORWARD: usize = 1;
 const BACKWARD: usize = 2;
 const LOW: usize = 3;
 const HIGH: usize = 4;
-const TILT: usize = 5;
 
-/// Unknowns of a guided needle, behind the load: its depth, those of two touches, and that of its coming through.
-pub(super) const NEEDLE_UNKNOWNS: usize = 1 + 2 * OF_TOUCH + 1;
-
-/// Number of the constraint of coming through.
-const THROUGH: usize = 2 * CONSTRAINTS;
-
-/// Conditions that end the path of a round tip: a tilt, and coming through.
+/// Conditions that end the path, behind those of all touches: a tilt, and coming through.
 const ENDINGS: usize = 2;
+
+/// Unknowns of a guided needle with a sharp tip, behind the load: its depth, those of two touches, and those of its endings.
+pub(super) const NEEDLE_UNKNOWNS: usize = 1 + SHARP_SLOTS * OF_TOUCH + ENDINGS;
 
 /// A guided needle on a row.
 #[derive(Clone, Debug)]
@@ -97,7 +93,7 @@ pub(crate) struct GuidedNeedle {
     /// Radius of the tip; 0 of a sharp one.
     radius: f64,
     /// The tip at rest, or the centre of a round one, from the node of the punctured scale.
-    tip: Vec2,
+    pub(super) tip: Vec2,
     critical_tilt: f64,
     /// The first of its unknowns: the depth.
     pub(super) depth: usize,
@@ -158,11 +154,6 @@ impl GuidedNeedle {
         self.radius > 0.0
     }
 
-    /// Sets the centre of a round tip at rest.
-    pub(super) fn set_centre(&mut self, centre: Vec2) {
-        self.tip = centre;
-    }
-
     /// The lowest point of its tip, from the node of the punctured scale at rest.
     pub(super) fn lowest(&self, z: &[f64]) -> Vec2 {
         self.tip - Vec2::new(0.0, self.radius + z[self.depth])
@@ -180,7 +171,6 @@ impl GuidedNeedle {
 
     /// The unknowns of its constraints, in their order.
     pub(super) fn constraints(&self) -> Vec<usize> {
-        let ends = if self.is_round() { ENDINGS } else { 1 };
         let behind = self.push(self.slots);
         // A tangential force that is an unknown has an equation in every state: no constraint.
         let drag = |first: usize| (self.of_touch < self.unknowns).then_some(first + 1);
@@ -188,7 +178,7 @@ impl GuidedNeedle {
             let first = self.push(slot);
             (first..first + self.unknowns).filter(move |unknown| Some(*unknown) != drag(first))
         };
-        (0..self.slots).flat_map(of_slot).chain(behind..behind + ends).collect()
+        (0..self.slots).flat_map(of_slot).chain(behind..behind + ENDINGS).collect()
     }
 
     /// Unknown of the normal force of a touch; that of the tangential one is the next.
@@ -215,7 +205,7 @@ impl GuidedNeedle {
         chain.needle_conditions(self, end, &mut conditions);
         let touches = (0..self.slots).map(|slot| self.of_touch * slot + PUSH);
         let touches = touches.filter(|&number| chain.meets_tilted(self, end, number));
-        let mut ends = self.endings().into_iter().chain(touches);
+        let mut ends = self.endings().chain(touches);
         // It has vanished to the tolerance of Newton's method.
         let ended = ends.find(|&number| conditions[number].abs() < 1e-8);
         ended.map(|number| self.contacts + number)
@@ -229,23 +219,14 @@ impl GuidedNeedle {
         })
     }
 
-    /// How many constraints it has.
-    fn constraint_count(&self) -> usize {
-        self.tilt_number() + if self.is_round() { ENDINGS } else { 1 }
-    }
-
-    /// Number of the first constraint behind those of the touches: of a round tip that on tilts.
+    /// Number of the first constraint behind those of the touches: that on tilts.
     fn tilt_number(&self) -> usize {
         self.of_touch * self.slots
     }
 
-    /// The constraints that end a path, among its own: critical tilts, and last that of coming through.
-    fn endings(&self) -> [usize; 3] {
-        if self.is_round() {
-            let tilt = self.tilt_number();
-            return [tilt, tilt, tilt + 1];
-        }
-        [TILT, CONSTRAINTS + TILT, THROUGH]
+    /// The constraints that end a path, among its own: that on tilts, and that of coming through.
+    fn endings(&self) -> Range<usize> {
+        self.tilt_number()..self.tilt_number() + ENDINGS
     }
 }
 
@@ -282,8 +263,9 @@ impl Chain {
     fn tip(&self, z: &[f64], scale: i64, place: Place) -> Option<Tip> {
         let needle = self.needle.as_ref()?;
         let number = self.scale_numbered(scale)?;
-        let away = self.contacts.place(number) - self.contacts.place(self.layout.left);
-        let face = Face::new(&self.contacts.scale(number), place);
+        let away = self.contacts.arrangement.place(number)
+            - self.contacts.arrangement.place(self.layout.left);
+        let face = Face::new(&self.contacts.arrangement.scale(number), place);
         let at = needle.tip - Vec2::new(away, z[needle.depth]);
         Some(Tip::new(&face, &self.contacts.pose(z, number), at))
     }
@@ -294,7 +276,7 @@ impl Chain {
         if !needle.is_round() {
             return Some(Meeting::of_sharp(tip));
         }
-        let shape = self.contacts.scale(self.scale_numbered(scale)?);
+        let shape = self.contacts.arrangement.scale(self.scale_numbered(scale)?);
         let behind = [Place::Left, Place::Top].into_iter().filter(|face| *face < place);
         let before = behind.map(|face| Face::new(&shape, face).length).sum();
         Some(Meeting::of_round(tip, needle.radius, before))

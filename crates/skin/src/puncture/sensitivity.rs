@@ -164,11 +164,9 @@ impl Problem<'_> {
         let FoldWatch { folds, first } = &watch.folds;
         let settings = &self.settings;
         let stiffest = record.stiffness_summit(path);
-        let stiffest = stiffest
-            .and_then(|summit| sensitivity::summit(path, summit, Chain::stiffness, settings));
+        let stiffest = sensitivity::summit(stiffest, path, Chain::stiffness, settings);
         let highest = record.highest_point(LOAD);
-        let highest =
-            highest.and_then(|summit| sensitivity::summit(path, &summit, FOLLOWED[LOAD], settings));
+        let highest = sensitivity::summit(highest.as_ref(), path, FOLLOWED[LOAD], settings);
         let passed = passage.passed.as_ref();
         let passed = passed.and_then(|[from, to]| event_before(path, [from, to]));
         let chain = path.system();
@@ -178,16 +176,12 @@ impl Problem<'_> {
         let load_limit = load_limit.and_then(|point| sensitivity::turn(chain, point, LOAD_RATE));
         let depth_limit = needle.depth_limit.as_ref();
         let depth_limit = depth_limit.and_then(|point| sensitivity::turn(chain, point, DEPTH_RATE));
-        let touching = record.touching().and_then(|point| first_contact(chain, point));
+        let touching = record.touching.as_ref().and_then(|point| first_contact(chain, point));
         let spot = |place, quantities| MeasuredPoint { place, quantities };
         let folded = first.as_ref().zip(folds.first());
         let folded = folded.map(|(point, fold)| chain.folded_at(point, fold));
         let deep = marked.found.iter().flatten().next();
-        let deep = deep.map(|point| AnchoredPoint {
-            state: point.state.clone(),
-            direction: point.arriving.clone(),
-            anchor: PathAnchor::Marker(DEPTH_MARK),
-        });
+        let deep = deep.map(|p| AnchoredPoint::arriving(p, PathAnchor::Marker(DEPTH_MARK)));
         let (mut end_quantities, fold_quantities) = at_end_and_fold(folded.is_some());
         // A path that ends before it is so deep has the force of its end as the measure.
         if !marked.found.is_empty() && deep.is_none() {
@@ -263,11 +257,7 @@ impl Chain {
     /// The equilibrium at which a gap vanishes.
     fn folded_at(&self, point: &SkinPoint, fold: &Fold) -> AnchoredPoint<SkinMode> {
         let pair = (fold.left_scale as isize + self.layout.left.cast_signed()).cast_unsigned();
-        AnchoredPoint {
-            state: point.state.clone(),
-            direction: point.arriving.clone(),
-            anchor: PathAnchor::Marker(pair),
-        }
+        AnchoredPoint::arriving(point, PathAnchor::Marker(pair))
     }
 }
 

@@ -206,11 +206,11 @@ impl Chain {
         };
         let contacts = Contacts::new(arrangement, law, scales, forces);
         let of_needle = needle.iter().flat_map(|needle| needle.growing.iter().copied());
-        let growing = contacts.growing().iter().copied().chain(of_needle).collect();
+        let growing = contacts.growing.iter().copied().chain(of_needle).collect();
         // A round tip that touches several scales couples them across the blocks, and contacts may reach farther than the substrate: the
         // band elimination takes both.
         let reach = neighbours.len().max(1);
-        let has_blocks = contacts.reach() <= reach && reach <= FARTHEST_LINK;
+        let has_blocks = contacts.reach <= reach && reach <= FARTHEST_LINK;
         let has_blocks = has_blocks && parameters.needle_radius.is_none();
         let mut chain = Self {
             layout,
@@ -237,7 +237,7 @@ impl Chain {
         let round = chain.needle.as_ref().filter(|needle| needle.is_round());
         let centre = round.map(|needle| chain.centre_at_rest(needle, load_arm.x));
         if let (Some(needle), Some(centre)) = (&mut chain.needle, centre) {
-            needle.set_centre(centre);
+            needle.tip = centre;
         }
         chain
     }
@@ -265,7 +265,7 @@ impl Chain {
 
     /// Scales on each side that a scale is coupled with, by the substrate or by contact.
     pub(crate) fn coupled_scales(&self) -> usize {
-        self.neighbours.len().max(self.contacts.reach())
+        self.neighbours.len().max(self.contacts.reach)
     }
 
     /// Derivative of [`Chain::depth`] along a direction.
@@ -320,6 +320,11 @@ impl Chain {
         for (row, column, values) in &self.surroundings.relief {
             part(*row, *column, Part::Block(values));
         }
+    }
+
+    /// The needle and the number of one of its constraints; `None` of those of contacts, which come first.
+    fn of_needle(&self, constraint: usize) -> Option<(&GuidedNeedle, usize)> {
+        self.needle.as_ref().zip(constraint.checked_sub(self.contacts.forces.len()))
     }
 
     /// `F*`.
@@ -385,11 +390,9 @@ impl System for Chain {
     }
 
     fn companions(&self, constraint: usize) -> std::ops::Range<usize> {
-        match &self.needle {
-            Some(needle) if constraint >= self.contacts.forces().len() => {
-                needle.companions(constraint)
-            }
-            _ => self.contacts.companions(constraint),
+        match self.of_needle(constraint) {
+            Some((needle, _)) => needle.companions(constraint),
+            None => self.contacts.companions(constraint),
         }
     }
 
@@ -483,27 +486,21 @@ impl System for Chain {
     }
 
     fn condition(&self, state: &SkinState, constraint: usize) -> f64 {
-        let contacts = self.contacts.forces().len();
-        match &self.needle {
-            Some(needle) if constraint >= contacts => {
-                let mut values = Vec::new();
-                self.needle_conditions(needle, state, &mut values);
-                values[constraint - contacts]
-            }
-            _ => self.contacts.condition(state, constraint),
-        }
+        let Some((needle, number)) = self.of_needle(constraint) else {
+            return self.contacts.condition(state, constraint);
+        };
+        let mut values = Vec::new();
+        self.needle_conditions(needle, state, &mut values);
+        values[number]
     }
 
     fn slope(&self, state: &SkinState, constraint: usize, direction: &[f64]) -> f64 {
-        let contacts = self.contacts.forces().len();
-        match &self.needle {
-            Some(needle) if constraint >= contacts => {
-                let mut slopes = Vec::new();
-                self.needle_slopes(needle, state, direction, &mut slopes);
-                slopes[constraint - contacts]
-            }
-            _ => self.contacts.slope(state, constraint, direction),
-        }
+        let Some((needle, number)) = self.of_needle(constraint) else {
+            return self.contacts.slope(state, constraint, direction);
+        };
+        let mut slopes = Vec::new();
+        self.needle_slopes(needle, state, direction, &mut slopes);
+        slopes[number]
     }
 
     /// The stretch of a gap, by its left scale: where it vanishes the surface folds over. Or how far the depth is beyond that at which
@@ -525,7 +522,7 @@ impl System for Chain {
 
     fn transition(&self, state: &mut SkinState, change: Change) -> Option<usize> {
         let Some(needle) = &self.needle else { return self.contacts.transition(state, change) };
-        if change.constraint >= self.contacts.forces().len() {
+        if change.constraint >= self.contacts.forces.len() {
             return self.needle_transition(needle, state, change);
         }
         let valid = self.contacts.transition(state, change);

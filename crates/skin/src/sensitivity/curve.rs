@@ -41,11 +41,7 @@ pub(crate) fn curve_point<S: Skin>(
     let quantity =
         |measure, value| MeasuredQuantity { measure, value, extreme: None, turns: false };
     // Held in its section of the path the place moves little, wherever the curve turns; to the same `x` it goes back along the curve.
-    let place = AnchoredPoint {
-        state: state.clone(),
-        direction: arriving.clone(),
-        anchor: PathAnchor::Still,
-    };
+    let place = AnchoredPoint::arriving(point, PathAnchor::Still);
     let quantities = vec![quantity("x", curve[0]), quantity("y", curve[1])];
     let spot = MeasuredPoint { place: Some(place), quantities };
     let found = derivatives(system, vec![spot], variations, settings);

@@ -31,7 +31,7 @@ pub(crate) fn first_contact<S: Skin>(
     point: &SkinPoint,
 ) -> Option<AnchoredPoint<S::Mode>> {
     let Some(Event::Changed(changes)) = &point.event else { return None };
-    let contacts = system.contacts().forces();
+    let contacts = &system.contacts().forces;
     // One guard holds the place; a contact that closes with it shows as violated beside it.
     let constraint = changes.iter().find(|change| change.activated)?.constraint;
     if changes.iter().any(|change| change.constraint >= contacts.len()) {
@@ -52,13 +52,14 @@ pub(crate) fn first_contact<S: Skin>(
     Some(AnchoredPoint { state, direction, anchor: PathAnchor::Guard(constraint) })
 }
 
-/// The place at which a function is the largest on a path.
+/// The place at which a function is the largest on a path, if it is known where that is.
 pub(crate) fn summit<S: Skin>(
+    summit: Option<&Summit<S::Mode>>,
     path: &mut Path<S>,
-    summit: &Summit<S::Mode>,
     f: PathFunction<S>,
     settings: &Settings,
 ) -> Option<AnchoredPoint<S::Mode>> {
+    let summit = summit?;
     let Point { state, arriving, leaving, event } = &*summit.point;
     let control = path.system().controls()[0];
     // The largest value may be at the end, where the target holds the place and no extremum.

@@ -2,6 +2,7 @@
 
 use super::differences::ALONG;
 use crate::newton::{guard, guard_slope};
+use crate::path::Point;
 use crate::system::{State, System};
 
 /// The condition that tells which equilibrium of the path a place is, when a parameter changes the path.
@@ -28,6 +29,13 @@ pub struct AnchoredPoint<M> {
     pub direction: Vec<f64>,
     /// The condition that holds the place on the path.
     pub anchor: PathAnchor,
+}
+
+impl<M: Clone> AnchoredPoint<M> {
+    /// A point of a path as the path arrives at it.
+    pub fn arriving(point: &Point<M>, anchor: PathAnchor) -> Self {
+        Self { state: point.state.clone(), direction: point.arriving.clone(), anchor }
+    }
 }
 
 impl PathAnchor {

@@ -42,7 +42,7 @@ pub(super) fn rates<S: System>(
     for index in inactive(system, state) {
         x[index] = 0.0;
     }
-    newton.solve_again(&mut x);
+    newton.solver.solve(&mut x);
     x
 }
 

@@ -4,7 +4,7 @@ use solver::{Residual, Tangent};
 
 use super::mode::{Place, Rub, Touch};
 use super::outline::{COORDINATES, Meeting};
-use super::{BACKWARD, CONSTRAINTS, FORWARD, GuidedNeedle, HIGH, LOW, PUSH, THROUGH, TILT};
+use super::{BACKWARD, CONSTRAINTS, FORWARD, GuidedNeedle, HIGH, LOW, PUSH};
 use crate::contacts::{Contacts, HOLDS, SkinPoint, SkinState, product_integral};
 use crate::puncture::system::Chain;
 
@@ -75,27 +75,32 @@ impl Chain {
         values: &mut Vec<f64>,
     ) {
         let first = values.len();
-        values.resize(first + needle.constraint_count(), HOLDS);
+        values.resize(first + needle.endings().end, HOLDS);
         let values = &mut values[first..];
+        let tilt = needle.tilt_number();
+        for (_, touch, number, meeting) in self.touches(state) {
+            let [_, _, rotation] = self.displacement(&state.z, number);
+            values[tilt] = values[tilt].min(needle.critical_tilt - rotation.abs());
+            // The foot is where the left face begins and where the right one ends.
+            let to_foot = match touch.place {
+                Place::Left => meeting.tip.way,
+                Place::Right => meeting.tip.length - meeting.tip.way,
+                _ => HOLDS,
+            };
+            values[tilt + 1] = values[tilt + 1].min(to_foot);
+        }
         if needle.is_round() {
             return self.round_conditions(needle, state, values);
         }
         for (number, touch) in state.mode.needle.touches.iter().enumerate() {
-            let of_touch = &mut values[CONSTRAINTS * number..][..CONSTRAINTS];
-            if let Some(touch) = touch {
-                self.touch_conditions(needle, state, number, touch, of_touch);
-            } else {
-                let other = state.mode.needle.touches[1 - number].as_ref();
-                of_touch[PUSH] = other.map_or(HOLDS, |touch| self.gap_of_next(state, touch));
+            let other = state.mode.needle.touches[1 - number].filter(|_| touch.is_none());
+            if let Some(other) = other {
+                values[CONSTRAINTS * number + PUSH] = self.gap_of_next(state, &other);
             }
-            let tip = touch.as_ref().and_then(|t| self.tip(&state.z, t.scale, t.place));
-            // The foot is where the left face begins and where the right one ends.
-            let left = match (touch.map(|touch| touch.place), tip) {
-                (Some(Place::Left), Some(tip)) => tip.way,
-                (Some(Place::Right), Some(tip)) => tip.length - tip.way,
-                _ => HOLDS,
-            };
-            values[THROUGH] = values[THROUGH].min(left);
+        }
+        for (number, touch, _, meeting) in self.touches(state) {
+            let of_touch = &mut values[CONSTRAINTS * number..][..CONSTRAINTS];
+            self.touch_conditions(needle, state, (number, touch), &meeting, of_touch);
         }
     }
 
@@ -104,29 +109,23 @@ impl Chain {
         &self,
         needle: &GuidedNeedle,
         state: &SkinState,
-        number: usize,
-        touch: &Touch,
+        (number, touch): (usize, &Touch),
+        meeting: &Meeting,
         values: &mut [f64],
     ) {
-        let Some(tip) = self.tip(&state.z, touch.scale, touch.place) else { return };
-        let push = needle.push(number);
-        let forces = [state.z[push], state.z[push + 1]];
+        let (tip, forces) = (&meeting.tip, needle.forces(&state.z, number));
         let friction = needle.friction;
         values[PUSH] = tip.gap;
-        let way = tip.way;
-        let length = tip.length;
-        let meeting = Meeting::of_sharp(tip);
-        needle.rub_conditions(state, number, touch, &meeting, values);
-        let tip = meeting.tip;
+        needle.rub_conditions(state, number, touch, meeting, values);
         match touch.rub {
             Rub::Slip { .. } => {
                 // The outer end of a side face is its foot, and to come there is to come through.
                 if touch.place != Place::Left {
-                    values[LOW] = way;
+                    values[LOW] = tip.way;
                 }
                 let is_stopped = touch.place == Place::Top && self.is_notched(state, touch.scale);
                 if touch.place != Place::Right && !is_stopped {
-                    values[HIGH] = length - way;
+                    values[HIGH] = tip.length - tip.way;
                 }
             }
             Rub::Passing { forward } => {
@@ -144,10 +143,6 @@ impl Chain {
                 };
             }
             Rub::Stick { .. } | Rub::Held { .. } => {}
-        }
-        if let Some(scale) = self.scale_numbered(touch.scale) {
-            let [_, _, rotation] = self.displacement(&state.z, scale);
-            values[TILT] = needle.critical_tilt - rotation.abs();
         }
     }
 

@@ -81,7 +81,7 @@ impl PassageWatch {
         let left = self.passed.as_ref().map_or(end, |[_, at]| &at.state);
         Passage {
             critical_event: ended.map(|constraint| {
-                let is_through = constraint == needle.contacts + needle.endings()[2];
+                let is_through = constraint > needle.contacts + needle.tilt_number();
                 if is_through { CriticalEvent::Through } else { CriticalEvent::Tilt }
             }),
             passing_force: passed.map(|point| point.force),

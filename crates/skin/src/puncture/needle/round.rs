@@ -76,9 +76,10 @@ impl Chain {
         let mut highest = f64::NEG_INFINITY;
         for (_, scale) in needle.scales() {
             let Some(number) = self.scale_numbered(scale) else { continue };
-            let away = self.contacts.place(number) - self.contacts.place(self.layout.left);
+            let away = self.contacts.arrangement.place(number)
+                - self.contacts.arrangement.place(self.layout.left);
             for place in FACES {
-                let face = Face::new(&self.contacts.scale(number), place);
+                let face = Face::new(&self.contacts.arrangement.scale(number), place);
                 highest = highest.max(height_above(&face, x - away, needle.radius));
             }
         }
@@ -164,7 +165,7 @@ impl Chain {
         state: &SkinState,
         values: &mut [f64],
     ) {
-        let (tilt, through) = (needle.tilt_number(), needle.tilt_number() + 1);
+        let through = needle.tilt_number() + 1;
         for (slot, scale) in needle.scales() {
             let of_scale = &mut values[needle.of_touch * slot..][..needle.of_touch];
             if state.mode.needle.touches[slot].is_none() {
@@ -172,7 +173,7 @@ impl Chain {
                 of_scale[PUSH] = nearest.map_or(HOLDS, |(_, distance)| distance - needle.radius);
             }
         }
-        for (slot, touch, number, meeting) in self.touches(state) {
+        for (slot, touch, _, meeting) in self.touches(state) {
             let of_scale = &mut values[needle.of_touch * slot..][..needle.of_touch];
             of_scale[PUSH] = meeting.gap();
             let [before, after] = self.to_ends(state, touch.scale, touch.place);
@@ -181,14 +182,6 @@ impl Chain {
             if needle.rubs() {
                 needle.rub_conditions(state, slot, touch, &meeting, of_scale);
             }
-            let [_, _, rotation] = self.displacement(&state.z, number);
-            values[tilt] = values[tilt].min(needle.critical_tilt - rotation.abs());
-            let to_foot = match touch.place {
-                Place::Left => meeting.tip.way,
-                Place::Right => meeting.tip.length - meeting.tip.way,
-                _ => HOLDS,
-            };
-            values[through] = values[through].min(to_foot);
         }
         values[through] = values[through].min(self.above_surface(needle, state));
     }
@@ -233,9 +226,6 @@ impl Chain {
         change: Change,
     ) -> Option<usize> {
         let number = change.constraint - needle.contacts;
-        if number >= needle.tilt_number() {
-            return None;
-        }
         let slot = number / needle.of_touch;
         let scale = slot as i64 - needle.reach() as i64;
         if number % needle.of_touch == needle.of_touch - 1 {

@@ -27,8 +27,11 @@ impl Chain {
         change: Change,
     ) -> Option<usize> {
         let number = change.constraint.checked_sub(needle.contacts)?;
+        if number >= needle.tilt_number() {
+            return None;
+        }
         let (slot, constraint) = (number / needle.of_touch, number % needle.of_touch);
-        let slides = number < needle.tilt_number() && (FORWARD..=BACKWARD).contains(&constraint);
+        let slides = (FORWARD..=BACKWARD).contains(&constraint);
         // Where it sticks and slides a round tip is like a sharp one: only its places differ.
         if needle.is_round() && !(slides && needle.rubs()) {
             return self.round_transition(needle, state, change);
