@@ -44,13 +44,6 @@ pub struct Change {
     pub activated: bool,
 }
 
-impl Event {
-    /// Whether a constraint changes sides here.
-    fn changes(&self, constraint: usize) -> bool {
-        matches!(self, Self::Changed(changes) if changes.iter().any(|c| c.constraint == constraint))
-    }
-}
-
 impl<S: System> Path<S> {
     /// The event that guards and their slopes predict within a distance, if it is the first one and not far from there.
     pub(crate) fn predicted_event(
@@ -164,7 +157,8 @@ impl<S: System> Path<S> {
         mut beyond: Candidate<S::Mode>,
         mut constraint: usize,
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
-        let changed = from.event.as_ref().is_some_and(|event| event.changes(constraint));
+        let is_it = |change: &Change| change.constraint == constraint;
+        let changed = matches!(&from.event, Some(Event::Changed(all)) if all.iter().any(is_it));
         let rises = self.guards[constraint] <= TOGETHER && self.slopes[constraint] > 0.0;
         if changed || rises {
             // It has just changed sides, or is the one whose condition a contact has passed to, and the path leaves in the

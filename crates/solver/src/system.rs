@@ -114,16 +114,22 @@ pub trait System {
     /// [`System::conditions`] of its own.
     ///
     /// Across a change of mode the equations keep the sign of their determinant: a path that has come to another branch is known by it.
-    fn residual(&self, state: &State<Self::Mode>, residual: &mut Residual);
+    fn residual(&self, state: &State<Self::Mode>, residual: &mut Residual) {
+        self.linearise(state, residual, &mut |_: usize, _: usize, _: f64| {});
+    }
 
     /// Adds `∂r/∂z` to a zero matrix, its constant part included; nothing to the row of the load. Rows and columns of inactive constraints
     /// may be left out.
-    fn tangent(&self, state: &State<Self::Mode>, matrix: &mut impl Tangent);
+    fn tangent(&self, state: &State<Self::Mode>, matrix: &mut impl Tangent) {
+        self.constant_tangent(matrix);
+        self.linearise(state, &mut Residual::new(self.size()), matrix);
+    }
 
     /// Adds the part of `∂r/∂z` that is the same in every state.
     fn constant_tangent(&self, _matrix: &mut impl Tangent) {}
 
-    /// Evaluates the equations and adds `∂r/∂z` to a matrix that holds its constant part.
+    /// Evaluates the equations and adds `∂r/∂z` to a matrix that holds its constant part: both at once by a system that has this function in
+    /// the place of the other two.
     fn linearise(
         &self,
         state: &State<Self::Mode>,

@@ -18,10 +18,10 @@
 //!
 //! for `u_x = 1`, `u_y = 1` and `u_y = x − x_m`, with `E* = a = 1`.
 
+use faer::linalg::solvers::Solve as _;
 use faer::{ColRef, Mat};
 
 use crate::Footprint;
-use crate::dense_lu::DenseLu;
 use crate::half_space::{CornerLine, Influence};
 use crate::mesh::{GradedAxis, Mesh};
 
@@ -144,10 +144,10 @@ impl Mesh {
         let turn = Load { middle: ARM, neighbour: None };
         let opposed = (0..self.neighbours.len()).map(|k| Load { middle: ZERO, neighbour: Some(k) });
         let loads: Vec<_> = [turn].into_iter().chain(opposed).collect();
-        let normal = DenseLu::new(equations.normal).solve(push.clone());
-        let odd = DenseLu::new(equations.rotation).solve(self.imposed(&loads));
-        let sums = |shear| {
-            let shear = DenseLu::new(shear).solve(push.clone());
+        let normal = equations.normal.partial_piv_lu().solve(&push);
+        let odd = equations.rotation.partial_piv_lu().solve(self.imposed(&loads));
+        let sums = |shear: Mat<f64>| {
+            let shear = shear.partial_piv_lu().solve(&push);
             self.sums(footprint, shear.col(0), normal.col(0), &odd)
         };
         equations.shear.into_iter().map(sums).collect()

@@ -6,7 +6,6 @@
 //! and a rotation, `q` odd and `p` even for one across it.
 
 use crate::boundary_element::{ARM, CellColumns, Load, ONE, Profile, Unresolved, row_reactions};
-use crate::dense_lu::DenseLu;
 use crate::half_space::{CornerLine, Influence};
 use crate::layer::{Displacements, Layer};
 use crate::mesh::{GradedAxis, Mesh};
@@ -15,6 +14,7 @@ use crate::springs::extrapolation;
 use crate::{Coupling, Footprint, NEIGHBOURS, Neighbour, RowStiffness};
 
 use faer::Mat;
+use faer::linalg::solvers::Solve as _;
 
 /// Cells a side of the meshes. What is added is smoother than the stiffness itself and takes fewer.
 const CELLS: [usize; 2] = [4, 6];
@@ -136,7 +136,7 @@ impl Mesh {
                 right.submatrix_mut(first, load, n, 1).copy_from(&part);
             }
         }
-        DenseLu::new(equations).solve(right)
+        equations.partial_piv_lu().solve(right)
     }
 }
 

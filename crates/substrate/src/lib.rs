@@ -49,7 +49,6 @@
 pub mod boundary_element;
 mod cache;
 mod calibrations;
-mod dense_lu;
 mod far_field;
 mod footprint;
 pub mod half_space;

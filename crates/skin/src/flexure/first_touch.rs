@@ -35,7 +35,7 @@ pub fn contact_curvature(
     design: &Design,
     parameters: &FlexureParameters,
 ) -> Result<Option<f64>, OutOfRange> {
-    let gap = BareGap::new(design.row()?, parameters);
+    let gap = BareGap::of_row(&design.row()?, parameters);
     Ok(gap.closing_rotation(LARGEST).map(|rotation| rotation / gap.pair.pitch()))
 }
 
@@ -48,7 +48,8 @@ pub fn contact_curvature(
 pub(super) fn first_of_gaps(row: &UnevenRow, parameters: &FlexureParameters) -> Option<f64> {
     // A gap that would close after another, or would have turned by half a circle, has no part in it.
     let arc = (0..row.gaps().len()).fold(f64::INFINITY, |first, i| {
-        let gap = BareGap::of_uneven(row, i, parameters);
+        let pair = Pair::of([row.scales()[i], row.scales()[i + 1]], row.pitch(i));
+        let gap = BareGap::new(pair, row.gaps()[i], parameters);
         let closing = gap.closing_rotation(LARGEST.min(first * gap.width));
         closing.map_or(first, |rotation| first.min(rotation / gap.width))
     });
@@ -105,19 +106,16 @@ struct BareGap {
 }
 
 impl BareGap {
-    fn new(row: Row, parameters: &FlexureParameters) -> Self {
-        let pair = Pair::new(*row.scale(), row.pitch());
-        Self { pair, width: row.gap(), offset: parameters.membrane_axis_offset }
+    fn new(pair: Pair, width: f64, parameters: &FlexureParameters) -> Self {
+        Self { pair, width, offset: parameters.membrane_axis_offset }
     }
 
-    /// Gap `i` of an uneven row.
-    fn of_uneven(row: &UnevenRow, i: usize, parameters: &FlexureParameters) -> Self {
-        let pair = Pair::of([row.scales()[i], row.scales()[i + 1]], row.pitch(i));
-        Self { pair, width: row.gaps()[i], offset: parameters.membrane_axis_offset }
+    fn of_row(row: &Row, parameters: &FlexureParameters) -> Self {
+        Self::new(Pair::new(*row.scale(), row.pitch()), row.gap(), parameters)
     }
 
     fn of(input: &FlexureInput) -> Result<Self, OutOfRange> {
-        Ok(Self::new(input.design.leaning_row()?, &input.parameters))
+        Ok(Self::of_row(&input.design.leaning_row()?, &input.parameters))
     }
 
     /// Derivative of the curvature at which a corner meets its edge, between two `neighbours` that differ by `2 step` in a

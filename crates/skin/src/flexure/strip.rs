@@ -351,15 +351,6 @@ impl System for Strip {
         self.contacts.open()
     }
 
-    fn residual(&self, state: &SkinState, residual: &mut Residual) {
-        self.linearise(state, residual, &mut |_: usize, _: usize, _: f64| {});
-    }
-
-    fn tangent(&self, state: &SkinState, matrix: &mut impl Tangent) {
-        // Equations and tangent come from one pass, and the equations are not wanted here.
-        self.linearise(state, &mut Residual::new(self.size()), matrix);
-    }
-
     fn linearise(&self, state: &SkinState, residual: &mut Residual, matrix: &mut impl Tangent) {
         residual.clear(&self.units);
         for gap in 0..self.layout.gaps {

@@ -70,34 +70,18 @@ impl FoldWatch {
         if self.first.is_some() && !path.system().whole_path {
             return;
         }
-        for (fold, place) in folds(path, from, to, events_before) {
-            self.folds.push(fold);
-            self.first.get_or_insert(place);
+        let crossings = crossings(path, from, to);
+        let located = |crossing: Crossing| (crossing.locate(path, from, to), crossing);
+        let mut places: Vec<_> = crossings.into_iter().map(located).collect();
+        // Gaps were looked at one by one, and the path meets their folds in an order of its own.
+        places.sort_by(|a, b| a.0.0.total_cmp(&b.0.0));
+        for ((_, point), Crossing { pair, folds, .. }) in places {
+            let chain = path.system();
+            let (left_scale, here) = (chain.layout.number(pair), chain.path_point(&point));
+            self.folds.push(Fold { point: here, left_scale, folds, events_before });
+            self.first.get_or_insert(point);
         }
     }
-}
-
-/// The folds on the segment between two neighbouring points of a path, in order, with their equilibria.
-fn folds(
-    path: &mut Path<Chain>,
-    from: &SkinPoint,
-    to: &SkinPoint,
-    events_before: usize,
-) -> Vec<(Fold, SkinPoint)> {
-    let crossings = crossings(path, from, to);
-    let mut places: Vec<_> = crossings
-        .iter()
-        .map(|crossing| {
-            let (place, point) = crossing.locate(path, from, to);
-            let chain = path.system();
-            let (left_scale, folds) = (chain.layout.number(crossing.pair), crossing.folds);
-            let fold = Fold { point: chain.path_point(&point), left_scale, folds, events_before };
-            (place, (fold, point))
-        })
-        .collect();
-    // Gaps were looked at one by one, and the path meets their folds in an order of its own.
-    places.sort_by(|a, b| a.0.total_cmp(&b.0));
-    places.into_iter().map(|(_, fold)| fold).collect()
 }
 
 /// The sign changes of all gaps between two neighbouring points: by the stretch at both, and, where it has the same sign, where

@@ -81,24 +81,17 @@ fn tied(places: &[LoadedPlace], force: f64) -> impl Iterator<Item = &LoadedPlace
     places.iter().filter(move |place| place.force.is_some_and(|of| of <= force * (1.0 + TIE)))
 }
 
-/// Which way the scale tilts under a free load, which ends its path on one side only.
-#[derive(Clone, Copy)]
-enum Sense {
-    Clockwise,
-    CounterClockwise,
-}
+/// The sense in which the scale tilts under a free load, which ends its path on one side only.
+const CLOCKWISE: f64 = 1.0;
+const COUNTER_CLOCKWISE: f64 = -1.0;
 
 impl PunctureParameters {
     /// The same puncture with the load elsewhere.
-    fn at_place(&self, position: f64, sense: Sense) -> Self {
-        let tilt = self.critical_tilt_deg;
+    fn at_place(&self, position: f64, sense: f64) -> Self {
         Self {
             load_position: position,
-            critical_tilt_deg: match sense {
-                Sense::Clockwise => tilt,
-                // A tilt below zero turns the control round, and with it the end of the path.
-                Sense::CounterClockwise => -tilt,
-            },
+            // A tilt below zero turns the control round, and with it the end of the path.
+            critical_tilt_deg: sense * self.critical_tilt_deg,
             // Only the force at the end is compared, and a place has no places of its own.
             tilts_before_deg: None,
             places: None,
@@ -146,16 +139,16 @@ impl Problem<'_> {
     }
 
     fn at_place(&self, position: f64) -> Result<LoadedPlace, OutOfRange> {
-        let clockwise = self.pushed(position, Sense::Clockwise)?;
+        let clockwise = self.pushed(position, CLOCKWISE)?;
         // A load left of the middle may tilt the scale the other way from the first step on: clockwise it would have to pull.
         let pulls = clockwise.status == Status::Stopped(Stop::Unloaded);
         if pulls && clockwise.borne <= Some(0.0) {
-            return self.pushed(position, Sense::CounterClockwise);
+            return self.pushed(position, COUNTER_CLOCKWISE);
         }
         Ok(clockwise)
     }
 
-    fn pushed(&self, position: f64, sense: Sense) -> Result<LoadedPlace, OutOfRange> {
+    fn pushed(&self, position: f64, sense: f64) -> Result<LoadedPlace, OutOfRange> {
         let parameters = self.parameters.at_place(position, sense);
         // These parameters are not checked: nobody may ask for a tilt below zero.
         let problem = self.with(&parameters);
@@ -222,7 +215,7 @@ impl Problem<'_> {
         variations: &[Neighbours<PunctureInput>],
     ) -> Result<Vec<Derivative>, OutOfRange> {
         let is_other_way = !self.parameters.needle.is_guided() && place.tilt_deg < Some(0.0);
-        let sense = if is_other_way { Sense::CounterClockwise } else { Sense::Clockwise };
+        let sense = if is_other_way { COUNTER_CLOCKWISE } else { CLOCKWISE };
         let parameters = self.parameters.at_place(place.position, sense);
         let moved = |input: &PunctureInput| {
             let parameters = input.parameters.at_place(place.position, sense);

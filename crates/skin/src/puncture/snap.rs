@@ -150,10 +150,10 @@ impl Snap {
             Some(from.clone())
         } else {
             // The depth turns back at the first point and is as large again before the second.
-            let places = (1..HALVINGS).map(|k| 0.5_f64.powi(k));
-            let points = places.filter_map(|place| path.between(from, to, place));
-            let points: Vec<_> = points.collect();
-            points.into_iter().find(|point| is_below(path, point))
+            (1..HALVINGS).find_map(|k| {
+                let point = path.between(from, to, 0.5_f64.powi(k))?;
+                is_below(path, &point).then_some(point)
+            })
         };
         let crossing = At::Displacement(depth).crossing();
         let landed = below.and_then(|below| crossing.between(path, &below, to));

@@ -423,15 +423,6 @@ impl System for Chain {
         SkinMode { needle: NeedleMode { touches: vec![None; slots] }, ..self.contacts.open() }
     }
 
-    fn residual(&self, state: &SkinState, residual: &mut Residual) {
-        self.linearise(state, residual, &mut |_: usize, _: usize, _: f64| {});
-    }
-
-    fn tangent(&self, state: &SkinState, matrix: &mut impl Tangent) {
-        self.constant_tangent(matrix);
-        self.linearise(state, &mut Residual::new(self.size()), matrix);
-    }
-
     fn constant_tangent(&self, matrix: &mut impl Tangent) {
         self.for_spring_parts(|row, column, part| match part {
             Part::Diagonal(values) => matrix.add_diagonal(row, column, values),

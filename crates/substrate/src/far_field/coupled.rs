@@ -1,10 +1,10 @@
 //! The far field where scales feel several neighbours.
 
 use faer::Mat;
+use faer::linalg::solvers::Solve as _;
 
 use super::Relief;
 use crate::RowStiffness;
-use crate::dense_lu::DenseLu;
 
 /// Blocks after which a row counts as one in which nothing decays.
 const BLOCKS: usize = 400;
@@ -38,7 +38,7 @@ impl CoupledRow {
         let least = SETTLED * stiffness.direct.iter().copied().fold(0.0, f64::max);
         let mut relief = Mat::zeros(3 * scales, 3 * scales);
         for _ in 0..BLOCKS {
-            let follows = DenseLu::new(&own - &relief).solve(next.transpose().to_owned());
+            let follows = (&own - &relief).partial_piv_lu().solve(next.transpose());
             let before = std::mem::replace(&mut relief, &next * &follows);
             let change = (&relief - &before).norm_max();
             if change <= least {

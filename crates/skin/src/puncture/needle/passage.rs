@@ -69,7 +69,7 @@ impl PassageWatch {
         Segment { from, to, .. }: &Segment,
     ) {
         self.tip_forces.extend(chain.tip_forces(&from.state));
-        if self.passed.is_none() && has_passed(&from.state, &to.state) {
+        if self.passed.is_none() && is_on_its_face(&from.state) && !is_on_its_face(&to.state) {
             self.passed = Some([(**from).clone(), to.clone()]);
         }
     }
@@ -90,11 +90,6 @@ impl PassageWatch {
             needle_shift: chain.shift(left),
         }
     }
-}
-
-/// Whether the needle comes to touch something else than the face on which it was set down.
-fn has_passed(from: &SkinState, to: &SkinState) -> bool {
-    is_on_its_face(from) && !is_on_its_face(to)
 }
 
 /// Whether the needle touches nothing but the face on which it was set down.
