@@ -58,12 +58,19 @@ impl Derivative {
 /// A quantity of an equilibrium, which may be the largest or the least of several.
 pub(crate) struct MeasuredQuantity<S: Skin> {
     pub(crate) measure: &'static str,
-    /// The value by system, state, direction of the path, and number among several.
-    pub(crate) value: fn(&S, &SkinState, &[f64], usize) -> f64,
+    pub(crate) value: ValueOf<S>,
     /// Of one that is the extreme one of several: how many there are, and which of two counts.
     pub(crate) extreme: Option<Extreme<S>>,
     /// Whether the direction of the path enters.
     pub(crate) turns: bool,
+}
+
+/// The value of a quantity by system, state, direction of the path, and number among several.
+pub(crate) type ValueOf<S> = fn(&S, &SkinState, &[f64], usize) -> f64;
+
+/// A quantity of which there is one alone, and into which the direction of the path does not enter.
+pub(crate) fn quantity<S: Skin>(measure: &'static str, value: ValueOf<S>) -> MeasuredQuantity<S> {
+    MeasuredQuantity { measure, value, extreme: None, turns: false }
 }
 
 /// Which of several values a quantity is, as many as a function of the system says: the larger or the lesser of two.

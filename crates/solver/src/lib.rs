@@ -22,7 +22,7 @@
 //! | [`Tangent`], [`Blocks`], [`BlockMatrix`], [`BlockElimination`] | derivatives of a row, eliminated block by block towards the block of the load |
 //! | [`BandMatrix`], [`BandLu`] | linear solves where blocks are not safe, or are not stated |
 //! | [`Linearisation`], [`AnchoredPoint`], [`PathAnchor`], [`Neighbours`], [`Moved`] | derivatives of an equilibrium with respect to a parameter of the system |
-//! | [`SkylineMatrix`], [`SkylineFactors`] | symmetric matrices, and how many negative eigenvalues they have |
+//! | [`SkylineMatrix`] | symmetric matrices, and how many negative eigenvalues they have |
 //! | [`Bracket`] | a root between two places, by the false position |
 //! | [`check_tangent`] | derivatives of a system against differences of its residual |
 //!
@@ -93,7 +93,7 @@ pub use newton::{Condition, Newton, NewtonFailure};
 pub use path::{Path, Point};
 pub use peak::{Peak, Summit};
 pub use sensitivity::{AnchoredPoint, Linearisation, Moved, Neighbours, PathAnchor};
-pub use skyline::{SkylineFactors, SkylineMatrix};
+pub use skyline::SkylineMatrix;
 pub use step::Settings;
 pub use stop::Stop;
 pub use system::{Control, Residual, State, System};

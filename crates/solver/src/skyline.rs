@@ -4,7 +4,7 @@ use crate::linear::SingularMatrix;
 
 /// A symmetric matrix of which each row holds the entries from its first column to the diagonal.
 ///
-/// Its factors `L D Lᵀ` are found without exchanges of rows, so that the profile is kept. By Sylvester's law `D` has as many negative
+/// Its factors `L D Lᵀ`, `L` left of the diagonal and `D` on it, take its place; they are found without exchanges of rows, so that the profile is kept. By Sylvester's law `D` has as many negative
 /// entries as the matrix has negative eigenvalues.
 #[derive(Clone, Debug)]
 pub struct SkylineMatrix {
@@ -52,7 +52,7 @@ impl SkylineMatrix {
     ///
     /// # Errors
     /// If a pivot vanishes or is not finite.
-    pub fn factorise(mut self) -> Result<SkylineFactors, SingularMatrix> {
+    pub fn factorise(mut self) -> Result<Self, SingularMatrix> {
         let size = self.size();
         for row in 0..size {
             let first = self.first[row];
@@ -70,7 +70,7 @@ impl SkylineMatrix {
                 return Err(SingularMatrix { column: row, size });
             }
         }
-        Ok(SkylineFactors { factors: self })
+        Ok(self)
     }
 
     /// Divides the entries of a row of L D by D, and returns the pivot of the row.
@@ -78,49 +78,40 @@ impl SkylineMatrix {
         let first = self.first[row];
         let mut taken = 0.0;
         for column in first..row {
-            let pivot = self.entries(column, column, column + 1)[0];
+            let pivot = self.pivot(column);
             let entry = &mut self.values[self.starts[row] + column - first];
             let factor = *entry / pivot;
             taken += factor * *entry;
             *entry = factor;
         }
         self.add(row, row, -taken);
+        self.pivot(row)
+    }
+
+    /// `D` of a row, once the matrix is factorised.
+    fn pivot(&self, row: usize) -> f64 {
         self.entries(row, row, row + 1)[0]
     }
-}
 
-/// Factors `L D Lᵀ` of a [`SkylineMatrix`].
-#[derive(Clone, Debug)]
-pub struct SkylineFactors {
-    /// `L` left of the diagonal, `D` on it.
-    factors: SkylineMatrix,
-}
-
-impl SkylineFactors {
-    fn pivot(&self, row: usize) -> f64 {
-        self.factors.entries(row, row, row + 1)[0]
-    }
-
-    /// Number of negative eigenvalues of the matrix.
+    /// Number of negative eigenvalues of a matrix that is factorised.
     pub fn negative_eigenvalues(&self) -> usize {
-        (0..self.factors.size()).filter(|&row| self.pivot(row) < 0.0).count()
+        (0..self.size()).filter(|&row| self.pivot(row) < 0.0).count()
     }
 
-    /// Solves in place: `x` holds the right-hand side, then the solution.
+    /// Solves in place with the factors: `x` holds the right-hand side, then the solution.
     pub fn solve(&self, x: &mut [f64]) {
-        let matrix = &self.factors;
-        for row in 0..matrix.size() {
-            let first = matrix.first[row];
-            let factors = matrix.entries(row, first, row).iter();
+        for row in 0..self.size() {
+            let first = self.first[row];
+            let factors = self.entries(row, first, row).iter();
             x[row] -= factors.zip(&x[first..row]).map(|(l, x)| l * x).sum::<f64>();
         }
         for (row, x) in x.iter_mut().enumerate() {
             *x /= self.pivot(row);
         }
-        for row in (0..matrix.size()).rev() {
-            let first = matrix.first[row];
+        for row in (0..self.size()).rev() {
+            let first = self.first[row];
             let (head, tail) = x.split_at_mut(row);
-            for (x, l) in head[first..].iter_mut().zip(matrix.entries(row, first, row)) {
+            for (x, l) in head[first..].iter_mut().zip(self.entries(row, first, row)) {
                 *x -= l * tail[0];
             }
         }

@@ -91,36 +91,25 @@ impl RowStiffness {
     /// # Errors
     /// As [`Self::solve`].
     pub fn of(footprint: &Footprint, coupling: Coupling) -> Result<Self, Unresolved> {
+        let mut row = match table::row(footprint, coupling) {
+            // The table bounds its error as a whole: it has no meshes to tell by.
+            Some(row) => Self { error: table::error(coupling), ..Self::from_table(&row, 0) },
+            None => Self::solved(footprint, coupling)?,
+        };
         // A layer adds to the half-space, so that the table serves both.
-        let half_space = Self::on_half_space(footprint, coupling)?;
-        if !footprint.is_on_layer() {
-            return Ok(half_space);
+        if footprint.is_on_layer() {
+            if !SOLVES {
+                return Err(Unresolved { footprint: *footprint, cells: 0 });
+            }
+            let stiffer = layered::addition(footprint, footprint, coupling)?;
+            // Neither error knows the sign of the other: they add at worst.
+            let error = row.error + stiffer.error;
+            row = Self { error, ..row + stiffer };
         }
-        if !SOLVES {
-            return Err(Unresolved { footprint: *footprint, cells: 0 });
-        }
-        let stiffer = layered::addition(footprint, footprint, coupling)?;
-        // Neither error knows the sign of the other: they add at worst.
-        let error = half_space.error + stiffer.error;
-        let mut row = Self { error, ..half_space + stiffer };
         if coupling == Coupling::Full {
             row.truncation = row.last_coupling();
         }
         Ok(row)
-    }
-
-    /// The stiffness of a row on the half-space.
-    fn on_half_space(footprint: &Footprint, coupling: Coupling) -> Result<Self, Unresolved> {
-        let Some(row) = table::row(footprint, coupling) else {
-            return Self::solved(footprint, coupling);
-        };
-        // The table bounds its error as a whole: it has no meshes to tell by.
-        let mut found = Self::from_table(&row, 0);
-        found.error = table::error(coupling);
-        if coupling == Coupling::Full {
-            found.truncation = found.last_coupling();
-        }
-        Ok(found)
     }
 
     /// Solves the stiffness of a row with a coupling on the half-space.

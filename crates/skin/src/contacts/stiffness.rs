@@ -29,8 +29,30 @@ impl Contacts {
         mut entry: impl FnMut(usize, usize, f64),
     ) {
         for (contact, mode) in state.mode.iter().enumerate() {
-            if *mode != CornerContact::Open {
-                self.show_stiffness(state, contact, &mut entry);
+            if *mode == CornerContact::Open {
+                continue;
+            }
+            let poses = self.pair_poses(&state.z, contact);
+            let forces = self.forces_of(&state.z, contact);
+            let stiffness = mode.stiffness(&self.corners(contact, &poses), &self.law, forces);
+            let parts: Vec<_> = self.parts(contact).into_iter().flatten().collect();
+            for row in &parts {
+                for column in &parts {
+                    let value = stiffness.by_coordinate[row.coordinate][column.coordinate];
+                    entry(row.unknown, column.unknown, row.sign * column.sign * value);
+                }
+            }
+            // The force stays an unknown, since its compliance vanishes at first touch.
+            let unknowns: Vec<_> = self.acting_unknowns(contact, *mode).collect();
+            for (i, (force, balance)) in unknowns.iter().zip(&stiffness.by_force).enumerate() {
+                for part in &parts {
+                    let value = part.sign * balance[part.coordinate];
+                    entry(part.unknown, *force, value);
+                    entry(*force, part.unknown, value);
+                }
+                for (j, other) in unknowns.iter().enumerate() {
+                    entry(*force, *other, -stiffness.compliance[i][j]);
+                }
             }
         }
     }
@@ -43,35 +65,5 @@ impl Contacts {
                 && mode.is_on_ridge(&self.corners(*contact, &at_corner()))
         };
         state.mode.iter().enumerate().filter(is_ridge).count()
-    }
-
-    fn show_stiffness(
-        &self,
-        state: &SkinState,
-        contact: usize,
-        entry: &mut impl FnMut(usize, usize, f64),
-    ) {
-        let (mode, poses) = (state.mode[contact], self.pair_poses(&state.z, contact));
-        let forces = self.forces_of(&state.z, contact);
-        let stiffness = mode.stiffness(&self.corners(contact, &poses), &self.law, forces);
-        let parts: Vec<_> = self.parts(contact).into_iter().flatten().collect();
-        for row in &parts {
-            for column in &parts {
-                let value = stiffness.by_coordinate[row.coordinate][column.coordinate];
-                entry(row.unknown, column.unknown, row.sign * column.sign * value);
-            }
-        }
-        // The force stays an unknown, since its compliance vanishes at first touch.
-        let unknowns: Vec<_> = self.acting_unknowns(contact, mode).collect();
-        for (i, (force, balance)) in unknowns.iter().zip(&stiffness.by_force).enumerate() {
-            for part in &parts {
-                let value = part.sign * balance[part.coordinate];
-                entry(part.unknown, *force, value);
-                entry(*force, part.unknown, value);
-            }
-            for (j, other) in unknowns.iter().enumerate() {
-                entry(*force, *other, -stiffness.compliance[i][j]);
-            }
-        }
     }
 }

@@ -12,7 +12,7 @@ use crate::contacts::{Contacts, SkinPoint, SkinState};
 use crate::record::{PathFunction, Record, Skin};
 use crate::sensitivity::{
     self, Curve, CurvePoint, Derivative, MeasuredPoint, MeasuredQuantity, curve_point, derivatives,
-    end, first_contact, missing, rest,
+    end, first_contact, missing, quantity, rest,
 };
 use crate::{Common, Design, Status};
 
@@ -245,13 +245,6 @@ fn measured(
         spot.place.as_ref().map_or_else(Vec::new, value)
     };
     Ok(spots.iter().flat_map(of_spot).collect())
-}
-
-fn quantity(
-    measure: &'static str,
-    value: fn(&Strip, &SkinState, &[f64], usize) -> f64,
-) -> MeasuredQuantity<Strip> {
-    MeasuredQuantity { measure, value, extreme: None, turns: false }
 }
 
 fn compliance(measure: &'static str) -> MeasuredQuantity<Strip> {

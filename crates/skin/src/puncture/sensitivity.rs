@@ -14,7 +14,7 @@ use crate::contacts::{SkinMode, SkinPoint, SkinState};
 use crate::record::{PathFunction, Skin};
 use crate::sensitivity::{
     self, Curve, CurvePoint, Derivative, MeasuredPoint, MeasuredQuantity, curve_point, derivatives,
-    end, first_contact, missing, rest,
+    end, first_contact, missing, quantity, rest,
 };
 use crate::{Common, Design, Status};
 
@@ -321,13 +321,6 @@ fn stretch(chain: &Chain, state: &SkinState, gap: usize, outer: fn(f64, f64) -> 
 
 fn force(measure: &'static str) -> MeasuredQuantity<Chain> {
     quantity(measure, |chain, state, _, _| chain.force(state))
-}
-
-fn quantity(
-    measure: &'static str,
-    value: fn(&Chain, &SkinState, &[f64], usize) -> f64,
-) -> MeasuredQuantity<Chain> {
-    MeasuredQuantity { measure, value, extreme: None, turns: false }
 }
 
 fn depth(measure: &'static str) -> MeasuredQuantity<Chain> {

@@ -2,8 +2,8 @@
 
 use solver::{AnchoredPoint, Neighbours, PathAnchor, Point, Settings};
 
-use super::{Derivative, MeasuredPoint, MeasuredQuantity, derivatives};
-use crate::contacts::{SkinPoint, SkinState};
+use super::{Derivative, MeasuredPoint, ValueOf, derivatives, quantity};
+use crate::contacts::SkinPoint;
 use crate::record::Skin;
 
 /// A point of a curve `y(x)` at a chosen `x`.
@@ -18,7 +18,7 @@ pub struct CurvePoint {
 }
 
 /// What a curve shows: `x` and `y` by system and state.
-pub(crate) type Curve<S> = [fn(&S, &SkinState, &[f64], usize) -> f64; 2];
+pub(crate) type Curve<S> = [ValueOf<S>; 2];
 
 /// Part of the way over which the slope of a curve is differenced.
 const ALONG: f64 = 1e-5;
@@ -32,14 +32,12 @@ pub(crate) fn curve_point<S: Skin>(
     curve: Curve<S>,
 ) -> CurvePoint {
     let Point { state, arriving, .. } = point;
-    let at = |f: fn(&S, &SkinState, &[f64], usize) -> f64, by: f64| {
+    let at = |f: ValueOf<S>, by: f64| {
         // At a kink the place belongs to the segment that came to it.
         f(system, &state.moved(by, arriving), arriving, 0)
     };
     let [rise_x, rise_y] = curve.map(|f| at(f, ALONG) - at(f, -ALONG));
     let slope = rise_y / rise_x;
-    let quantity =
-        |measure, value| MeasuredQuantity { measure, value, extreme: None, turns: false };
     // Held in its section of the path the place moves little, wherever the curve turns; to the same `x` it goes back along the curve.
     let place = AnchoredPoint::arriving(point, PathAnchor::Still);
     let quantities = vec![quantity("x", curve[0]), quantity("y", curve[1])];
