@@ -201,15 +201,8 @@ impl Contacts {
     /// Whether the first and whether the last scale touch another one.
     pub(crate) fn touching_at_ends(&self, state: &SkinState) -> [bool; 2] {
         let last = self.scales.len() - 1;
-        // Only pairs that begin this near to an end can end there.
-        let count = LEVELS.len() * self.reach;
-        let at_start = &state.mode[..count.min(state.mode.len())];
-        let begin = state.mode.len().saturating_sub(count * self.reach);
-        // `touching` counts pairs from the beginning of the slice.
-        let before = begin / LEVELS.len();
-        let mut at_end = Self::touching(&state.mode[begin..]);
-        let ends_last = |pair| self.ends(before + pair)[1] == last;
-        [Self::touching(at_start).next().is_some(), at_end.any(ends_last)]
+        let ends = || Self::touching(&state.mode).map(|pair| self.ends(pair));
+        [ends().any(|[left, _]| left == 0), ends().any(|[_, right]| right == last)]
     }
 
     /// Whether a side and a neighbour's end lie flush anywhere.

@@ -76,12 +76,6 @@ pub(crate) fn quantity<S: Skin>(measure: &'static str, value: ValueOf<S>) -> Mea
 /// Which of several values a quantity is, as many as a function of the system says: the larger or the lesser of two.
 pub(crate) type Extreme<S> = (fn(&S) -> usize, fn(f64, f64) -> f64);
 
-/// The value of a quantity, and the numbers of those that it is among of which one may take its place.
-struct Contenders {
-    value: f64,
-    numbers: Vec<usize>,
-}
-
 /// Quantities that are taken at one place of a path.
 pub(crate) struct MeasuredPoint<S: Skin> {
     /// The place; `None` where it is not known.
@@ -121,9 +115,12 @@ pub(crate) fn derivatives<S: Skin>(
         // All quantities of a place move with it, so its motion is found once for each parameter.
         let sides: Vec<_> = variations.iter().map(|v| linearised.sides(v)).collect();
         for quantity in &quantities {
-            let candidates = quantity.value_at(system, linearised.here.place());
+            let (value, contenders) = quantity.value_at(system, linearised.here.place());
             let of = |(parameter, (sides, variation))| {
-                quantity.derivative(parameter, variation, sides, &candidates)
+                let rates = quantity.rates(variation, sides, &contenders);
+                let kink = || kink(sides).unwrap_or("another scale takes over").to_owned();
+                let of = (quantity.measure, parameter);
+                Derivative::sided(of, rates, value, variation.step, kink)
             };
             derivatives.extend(sides.iter().zip(variations).enumerate().map(of));
         }
@@ -156,14 +153,16 @@ struct Linearised<'a, S: Skin> {
     turns: bool,
 }
 
-/// How a place moves on both sides of a parameter.
-struct Sides<M> {
-    left: SideMotion<M>,
-    /// `None` where the place moves on the right as on the left.
-    right: Option<SideMotion<M>>,
+/// How a place moves on the left and on the right of a parameter.
+type Sides<M> = [SideMotion<M>; 2];
+
+/// The contact that changes on a side, if one does.
+fn kink<M>([left, right]: &Sides<M>) -> Option<&str> {
+    right.change.as_deref().or(left.change.as_deref())
 }
 
 /// How a place moves on one side of a parameter.
+#[derive(Clone)]
 struct SideMotion<M> {
     /// The place below and above; `None` if there is no equilibrium on this side.
     moved: Option<[Moved<M>; 2]>,
@@ -179,10 +178,11 @@ impl<S: Skin> Linearised<'_, S> {
         let on_right = self.here.violated(&neighbours.above, &moved[1]);
         // Nothing changes within the step, so one motion serves both sides.
         if (on_left, on_right) == (None, None) {
-            return Sides { left: SideMotion { moved: Some(moved), change: None }, right: None };
+            let motion = SideMotion { moved: Some(moved), change: None };
+            return [motion.clone(), motion];
         }
         let right = self.side(neighbours, 1, moved.clone(), on_right);
-        Sides { left: self.side(neighbours, 0, moved, on_left), right: Some(right) }
+        [self.side(neighbours, 0, moved, on_left), right]
     }
 
     /// How the place moves on one side, where `violated` is the first contact that has to change.
@@ -258,11 +258,11 @@ pub(crate) fn missing<S: Skin>(
 impl<S: Skin> MeasuredQuantity<S> {
     /// The value at a place.
     pub(crate) fn at(&self, system: &S, place: &AnchoredPoint<S::Mode>) -> f64 {
-        self.value_at(system, place).value
+        self.value_at(system, place).0
     }
 
-    /// The value at a place, and those of several that may be the extreme one beside it.
-    fn value_at(&self, system: &S, place: &AnchoredPoint<S::Mode>) -> Contenders {
+    /// The value at a place, and the numbers of those of several that may be the extreme one beside it.
+    fn value_at(&self, system: &S, place: &AnchoredPoint<S::Mode>) -> (f64, Vec<usize>) {
         let count = self.extreme.map_or(1, |(count, _)| count(system));
         let value = |number| (self.value)(system, &place.state, &place.direction, number);
         let values: Vec<f64> = (0..count).map(value).collect();
@@ -272,7 +272,7 @@ impl<S: Skin> MeasuredQuantity<S> {
         let size = values.iter().fold(0.0_f64, |size, value| size.max(value.abs()));
         // Beside the place only these are evaluated again: the others are too far to take over.
         let is_near = |number: &usize| (values[*number] - extreme).abs() <= NEAR * size;
-        Contenders { value: extreme, numbers: (0..count).filter(is_near).collect() }
+        (extreme, (0..count).filter(is_near).collect())
     }
 
     /// The one of two values that counts; a number, if one is none.
@@ -280,28 +280,17 @@ impl<S: Skin> MeasuredQuantity<S> {
         self.extreme.map_or(one, |(_, outer)| outer(one, other))
     }
 
-    /// The derivatives on both sides of a parameter.
-    fn derivative(
+    /// The derivatives on both sides of a parameter, as far as they are known.
+    fn rates(
         &self,
-        parameter: usize,
         neighbours: &Neighbours<S>,
-        Sides { left, right }: &Sides<S::Mode>,
-        Contenders { value, numbers }: &Contenders,
-    ) -> Derivative {
-        let left_rate = self.rate(neighbours, left, 0, numbers);
-        let right_rate = match right {
-            // With one contender and one motion both sides have the same rate.
-            None if numbers.len() == 1 => left_rate,
-            right => self.rate(neighbours, right.as_ref().unwrap_or(left), 1, numbers),
-        };
-        let change =
-            right.as_ref().and_then(|right| right.change.as_ref()).or(left.change.as_ref());
-        let kink = || change.cloned().unwrap_or_else(|| "another scale takes over".to_owned());
+        sides: &Sides<S::Mode>,
+        contenders: &[usize],
+    ) -> [Option<f64>; 2] {
         // What depends on the direction of the path jumps where a contact changes, and the place of a maximum with it.
-        let jumps = self.turns && change.is_some();
-        let known = |rate: Option<f64>| rate.filter(|rate| rate.is_finite() && !jumps);
-        let rates = [left_rate, right_rate].map(known);
-        Derivative::sided((self.measure, parameter), rates, *value, neighbours.step, kink)
+        let jumps = self.turns && kink(sides).is_some();
+        let rate = |side: usize| self.rate(neighbours, &sides[side], side, contenders);
+        [0, 1].map(|side| rate(side).filter(|rate| rate.is_finite() && !jumps))
     }
 
     /// The derivative on one side, of the one of the contenders that is the extreme one there.

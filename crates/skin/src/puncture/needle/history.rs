@@ -72,8 +72,9 @@ pub(in crate::puncture) fn anchors(
         let mut here = place.and_then(|place| Linearisation::new(path.system(), place).ok());
         let new = history(&to.state).into_iter().filter(|kept| !is_in(*kept, &from.state));
         // The equilibria of neighbours at the event serve all that is kept from there on.
+        let unknown = || vec![None; variations.len()];
         let moved: Vec<_> =
-            here.as_mut().zip(varied.as_ref()).map_or_else(Vec::new, |(here, varied)| {
+            here.as_mut().zip(varied.as_ref()).map_or_else(unknown, |(here, varied)| {
                 varied.iter().map(|q| moved_to(path.system(), here, q)).collect()
             });
         for kept in new {
@@ -83,9 +84,7 @@ pub(in crate::puncture) fn anchors(
                 let rise = value(&neighbours.above, above)? - value(&neighbours.below, below)?;
                 Some(rise / (2.0 * neighbours.step)).filter(|rate| rate.is_finite())
             };
-            let known: Vec<_> = moved.iter().zip(variations).map(rate).collect();
-            let unknown = || vec![None; variations.len()];
-            let rates = if known.is_empty() { unknown() } else { known };
+            let rates = moved.iter().zip(variations).map(rate).collect();
             anchors.push(Anchor { kept, rates });
         }
     }
