@@ -61,8 +61,8 @@ pub(crate) struct Contacts {
     pub(crate) reach: usize,
     law: ContactLaw,
     /// First of the three unknowns of each scale; `None` for a scale that is held.
-    scales: Vec<Option<usize>>,
-    /// Whether each scale is placed in the frame of its left neighbour.
+    pub(crate) scales: Vec<Option<usize>>,
+    /// Whether each scale is placed in the frame of its left neighbour, its rotation measured from the first scale.
     relative: bool,
     /// Constraints of each contact.
     slots: usize,
@@ -80,6 +80,7 @@ impl Contacts {
         law: ContactLaw,
         scales: Vec<Option<usize>>,
         forces: Vec<usize>,
+        relative: bool,
     ) -> Self {
         let slots = slots(&law);
         let neighbours = pair_constraints(&law) * scales.len().saturating_sub(1);
@@ -89,7 +90,6 @@ impl Contacts {
         let pair_shapes = arrangement.pairs(reach);
         let ways = (0..forces.len()).filter(|number| number % slots == WAY);
         let growing = ways.collect();
-        let (relative, moved) = (false, Vec::new());
         Self {
             arrangement,
             pair_shapes,
@@ -100,19 +100,8 @@ impl Contacts {
             slots,
             forces,
             growing,
-            moved,
+            moved: Vec::new(),
         }
-    }
-
-    /// The contacts of a row whose scales are each placed in the frame of their left neighbour.
-    /// Rotations are measured from the first scale.
-    pub(crate) fn relative(
-        arrangement: Arrangement,
-        law: ContactLaw,
-        scales: Vec<Option<usize>>,
-        forces: Vec<usize>,
-    ) -> Self {
-        Self { relative: true, ..Self::new(arrangement, law, scales, forces) }
     }
 
     /// The state of rest of all contacts.

@@ -17,7 +17,7 @@ mod uneven;
 
 use std::collections::HashSet;
 
-use frame::{Frame, Step};
+use frame::{Step, displacements, frames};
 use geometry::{OutOfRange, Row};
 use problem::FlexureProblem;
 
@@ -127,9 +127,8 @@ impl Flexure {
     /// Displacement (over `t`) and rotation (radians, counter-clockwise) of every scale of the
     /// strip at a point of the path, the first scale at rest. `None` if there is no such point.
     pub fn shape(&self, point: usize) -> Option<Vec<[f64; 3]>> {
-        let frames = Frame::strip(self.steps.get(point)?, self.gaps, &self.row);
-        let displacement = |(i, frame): (usize, &Frame)| frame.displacement(i, &self.row);
-        Some(frames.iter().enumerate().map(displacement).collect())
+        let frames = frames(self.steps.get(point)?, self.gaps, &self.row);
+        Some(displacements(&frames, &self.row))
     }
 }
 

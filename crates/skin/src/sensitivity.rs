@@ -59,8 +59,8 @@ impl Derivative {
 pub(crate) struct MeasuredQuantity<S: Skin> {
     pub(crate) measure: &'static str,
     pub(crate) value: ValueOf<S>,
-    /// Of one that is the extreme one of several: how many there are, and which of two counts.
-    pub(crate) extreme: Option<Extreme<S>>,
+    /// Of one that is the extreme one of several, as many as there are scales: which of two counts.
+    pub(crate) extreme: Option<fn(f64, f64) -> f64>,
     /// Whether the direction of the path enters.
     pub(crate) turns: bool,
 }
@@ -72,9 +72,6 @@ pub(crate) type ValueOf<S> = fn(&S, &SkinState, &[f64], usize) -> f64;
 pub(crate) fn quantity<S: Skin>(measure: &'static str, value: ValueOf<S>) -> MeasuredQuantity<S> {
     MeasuredQuantity { measure, value, extreme: None, turns: false }
 }
-
-/// Which of several values a quantity is, as many as a function of the system says: the larger or the lesser of two.
-pub(crate) type Extreme<S> = (fn(&S) -> usize, fn(f64, f64) -> f64);
 
 /// Quantities that are taken at one place of a path.
 pub(crate) struct MeasuredPoint<S: Skin> {
@@ -263,7 +260,7 @@ impl<S: Skin> MeasuredQuantity<S> {
 
     /// The value at a place, and the numbers of those of several that may be the extreme one beside it.
     fn value_at(&self, system: &S, place: &AnchoredPoint<S::Mode>) -> (f64, Vec<usize>) {
-        let count = self.extreme.map_or(1, |(count, _)| count(system));
+        let count = self.extreme.map_or(1, |_| system.contacts().scales.len());
         let value = |number| (self.value)(system, &place.state, &place.direction, number);
         let values: Vec<f64> = (0..count).map(value).collect();
         let extreme = values.iter().copied().reduce(|one, other| self.outer(one, other));
@@ -277,7 +274,7 @@ impl<S: Skin> MeasuredQuantity<S> {
 
     /// The one of two values that counts; a number, if one is none.
     fn outer(&self, one: f64, other: f64) -> f64 {
-        self.extreme.map_or(one, |(_, outer)| outer(one, other))
+        self.extreme.map_or(one, |outer| outer(one, other))
     }
 
     /// The derivatives on both sides of a parameter, as far as they are known.

@@ -1,6 +1,6 @@
 //! Energy of the contacts, and the audit of a final state.
 
-use contact::{CornerContact, Overlap, Pose, overlaps};
+use contact::{CornerContact, Overlap, overlaps};
 use geometry::Vec2;
 
 use super::{Contacts, SkinPoint, SkinState};
@@ -102,11 +102,6 @@ impl Contacts {
         })
     }
 
-    /// Whether any two scales overlap by more than the approach of their contacts.
-    pub(crate) fn interpenetrate(&self, state: &SkinState) -> bool {
-        self.overlapping(state).max().is_some()
-    }
-
     /// How many pitches apart scales are that have come into each other without a contact; `None` of neighbours, and where a
     /// contact is so soft that a scale is pushed half through its neighbour: what it meets behind it is not to be trusted either.
     pub(crate) fn meeting_beyond(&self, state: &SkinState) -> Option<usize> {
@@ -119,7 +114,7 @@ impl Contacts {
     }
 
     /// How many pitches apart scales are that overlap by more than the approach of their contacts, of each two.
-    fn overlapping(&self, state: &SkinState) -> impl Iterator<Item = usize> {
+    pub(crate) fn overlapping(&self, state: &SkinState) -> impl Iterator<Item = usize> {
         let standing = |i| (self.arrangement.scale(i), self.arrangement.place(i));
         let found = overlaps(standing, &self.poses(&state.z));
         found.into_iter().filter_map(|Overlap { left, right, depth }| {
@@ -137,14 +132,10 @@ impl Contacts {
     pub(crate) fn neighbours_interpenetrate(&self, state: &SkinState) -> bool {
         self.pairs(&state.z).any(|(pair, poses)| {
             let allowed = self.pair_approach(state, pair) + AUDIT_TOLERANCE;
-            self.pair_overlaps(pair, &poses).iter().any(|overlap| overlap.depth > allowed)
+            let pair = self.pair(pair);
+            let standing = |i: usize| (pair.scales()[i], i as f64 * pair.pitch());
+            overlaps(standing, &poses).iter().any(|overlap| overlap.depth > allowed)
         })
-    }
-
-    fn pair_overlaps(&self, pair: usize, poses: &[Pose; 2]) -> Vec<Overlap> {
-        let pair = self.pair(pair);
-        let standing = |i: usize| (pair.scales()[i], i as f64 * pair.pitch());
-        overlaps(standing, poses)
     }
 
     /// The largest approach of the contacts of a pair.

@@ -1,9 +1,10 @@
 //! A strip of membrane with scales as it stands at chosen curvatures.
 
+use contact::Pose;
 use geometry::OutOfRange;
 
 use super::FlexureParameters;
-use super::frame::Frame;
+use super::frame::{displacements, frames, place};
 use super::problem::FlexureProblem;
 use super::strip::Strip;
 use crate::arrangement::Arrangement;
@@ -56,11 +57,10 @@ pub fn snapshots(
 /// The whole strip, from a state of the gaps that are solved for.
 fn snapshot(row: &Arrangement, strip: &Strip, state: &SkinState) -> StripSnapshot {
     let (solved, gaps) = (strip.gaps(), strip.whole_gaps());
-    let frames = Frame::strip(&strip.steps(&state.z), gaps, row);
-    let displacement = |(i, frame): (usize, &Frame)| frame.displacement(i, row);
+    let frames = frames(&strip.steps(&state.z), gaps, row);
     let axes: Vec<_> = (0..solved).map(|gap| strip.axis(state, gap, INTERVALS)).collect();
-    let axis = |(i, frame): (usize, &Frame)| {
-        axes[i % solved].iter().map(|&point| frame.place(point).into()).collect()
+    let axis = |(i, frame): (usize, &Pose)| {
+        axes[i % solved].iter().map(|&point| place(frame, point).into()).collect()
     };
     let contacts = strip.contacts.closed_contacts(state);
     // A chain is solved as a whole, and only the one gap of a unit cell has copies.
@@ -73,18 +73,18 @@ fn snapshot(row: &Arrangement, strip: &Strip, state: &SkinState) -> StripSnapsho
         curvature: strip.curvature(&state.z),
         moment: strip.normalised_moment(&state.z),
         end_rotation_deg: strip.angle_deg(state),
-        scales: frames.iter().enumerate().map(displacement).collect(),
+        scales: displacements(&frames, row),
         membrane: frames[..gaps].iter().enumerate().map(axis).collect(),
         contacts: copies.map(placed).collect(),
     }
 }
 
 /// A contact that is known in the frame of its left scale, in the frame of the strip.
-fn placed(frame: &Frame, left: usize, contact: &Contact) -> Contact {
+fn placed(frame: &Pose, left: usize, contact: &Contact) -> Contact {
     Contact {
         left,
         right: left + 1,
-        point: frame.place(contact.point.into()).into(),
+        point: place(frame, contact.point.into()).into(),
         force: frame.turn(contact.force.into()).into(),
         ..*contact
     }

@@ -136,7 +136,7 @@ impl Strip {
             repeats,
             pitch: row.mean_pitch(),
             bending_stiffness: section.bending_stiffness(),
-            contacts: Contacts::relative(row, law, scales, forces),
+            contacts: Contacts::new(row, law, scales, forces, true),
             blocks: layout.blocks(),
             // The rotation comes first, because it is what the bending has to reach.
             controls: [control(2, rotation), control(0, pitch), control(1, pitch)],

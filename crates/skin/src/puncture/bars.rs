@@ -65,11 +65,6 @@ impl Chain {
         }
     }
 
-    /// Every entry of the stiffness that the bars add to that of the springs: row and column of the tangent, and value.
-    pub(super) fn for_bar_stiffness(&self, z: &[f64], mut entry: impl FnMut(usize, usize, f64)) {
-        self.for_bars(z, |places, bar| bar.add_stiffness(places, &mut entry));
-    }
-
     /// Energy of the bars above that of the springs which they replace.
     pub(super) fn bar_energy(&self, z: &[f64]) -> f64 {
         let Some(spring) = self.bars else { return 0.0 };
@@ -134,7 +129,7 @@ impl Bar {
         }
     }
 
-    fn add_stiffness(&self, places: [usize; 2], matrix: &mut impl Tangent) {
+    pub(super) fn add_stiffness(&self, places: [usize; 2], matrix: &mut impl Tangent) {
         let along = self.stiffness - self.spring;
         let arms = self.turns.map(|turn| self.half_base * turn.sin);
         // The elongation falls with x of the left scale, and rises with that of the right one.

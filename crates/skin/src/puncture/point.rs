@@ -95,7 +95,7 @@ impl Skin for Chain {
     }
 
     fn interpenetrates(&self, state: &SkinState) -> bool {
-        self.contacts.interpenetrate(state)
+        self.contacts.overlapping(state).next().is_some()
     }
 
     fn passes_an_end(&self, at: &SkinPoint) -> bool {

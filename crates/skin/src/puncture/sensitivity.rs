@@ -13,8 +13,8 @@ use super::{At, Followed, OddScale, Problem, Puncture, PunctureParameters, Rows}
 use crate::contacts::{SkinMode, SkinPoint, SkinState};
 use crate::record::{PathFunction, Skin};
 use crate::sensitivity::{
-    self, Curve, CurvePoint, Derivative, MeasuredPoint, MeasuredQuantity, curve_point, derivatives,
-    end, first_contact, missing, quantity, rest,
+    self, Curve, CurvePoint, Derivative, MeasuredPoint, MeasuredQuantity, ValueOf, curve_point,
+    derivatives, end, first_contact, missing, quantity, rest,
 };
 use crate::{Common, Design, Status};
 
@@ -285,10 +285,10 @@ fn tilt(measure: &'static str) -> MeasuredQuantity<Chain> {
 }
 
 fn critical() -> Vec<MeasuredQuantity<Chain>> {
-    // Beyond the last gap there are those that are not solved for, as one.
-    let extreme = |measure, value, outer: fn(f64, f64) -> f64| {
-        let scales: fn(&Chain) -> usize = |chain| chain.layout.scales();
-        MeasuredQuantity { extreme: Some((scales, outer)), ..quantity(measure, value) }
+    // There is a gap for each scale, too: beyond the last one there are those that are not solved for, as one.
+    let extreme = |measure, value: ValueOf<Chain>, outer: fn(f64, f64) -> f64| MeasuredQuantity {
+        extreme: Some(outer),
+        ..quantity(measure, value)
     };
     vec![
         force(CRITICAL_FORCE),

@@ -78,7 +78,7 @@ impl Chain {
         let mut entry =
             |row: usize, column: usize, value| entries.push((places[row], places[column], value));
         self.constant_tangent(&mut entry);
-        self.for_bar_stiffness(&state.z, &mut entry);
+        self.for_bars(&state.z, |places, bar| bar.add_stiffness(places, &mut entry));
         if self.needle.is_some() {
             self.for_needle_stiffness(state, &mut entry);
         } else {

@@ -204,7 +204,7 @@ impl Chain {
             // Couplings are stored as `−β`, and the stiffness of a bar is positive.
             SubstrateLaw::NeoHookean => neighbours.first().map(|nearest| -nearest.direct[0]),
         };
-        let contacts = Contacts::new(arrangement, law, scales, forces);
+        let contacts = Contacts::new(arrangement, law, scales, forces, false);
         let of_needle = needle.iter().flat_map(|needle| needle.growing.iter().copied());
         let growing = contacts.growing.iter().copied().chain(of_needle).collect();
         // A round tip that touches several scales couples them across the blocks, and contacts may reach farther than the substrate: the
@@ -261,11 +261,6 @@ impl Chain {
     /// From the node of the punctured scale to the loaded point, deformed.
     pub(crate) fn loaded_arm(&self, z: &[f64]) -> Vec2 {
         self.contacts.pose(z, self.layout.left).turn(self.load_arm)
-    }
-
-    /// Scales on each side that a scale is coupled with, by the substrate or by contact.
-    pub(crate) fn coupled_scales(&self) -> usize {
-        self.neighbours.len().max(self.contacts.reach)
     }
 
     /// Derivative of [`Chain::depth`] along a direction.
@@ -353,7 +348,8 @@ impl System for Chain {
         // From x of a scale to φ of the last that it is coupled with, with the load between them. A guided needle is coupled with
         // all scales that it may come to.
         let coupled = self.needle.as_ref().map_or(0, GuidedNeedle::farthest);
-        self.layout.block() * self.coupled_scales().max(coupled) + 3 + self.layout.needle
+        let coupled = self.neighbours.len().max(self.contacts.reach).max(coupled);
+        self.layout.block() * coupled + 3 + self.layout.needle
     }
 
     fn blocks(&self) -> Option<&Blocks> {
