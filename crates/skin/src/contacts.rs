@@ -132,13 +132,9 @@ impl Contacts {
     }
 
     /// Which corner meets which edge where a constraint acts; `None` if the contact is open.
-    pub(crate) fn corner_edge(
-        &self,
-        mode: &[CornerContact],
-        constraint: usize,
-    ) -> Option<CornerEdge> {
+    pub(crate) fn corner_edge(&self, mode: &SkinMode, constraint: usize) -> Option<CornerEdge> {
         let (contact, slot) = self.contact_of(constraint);
-        let edge = mode[contact].edge()?;
+        let edge = mode.contacts[contact].edge()?;
         if slot == Force::Flush as usize { edge.flush() } else { Some(edge) }
     }
 
@@ -166,7 +162,7 @@ impl Contacts {
 
     /// Number of closed contacts, two where a side lies flush.
     pub(crate) fn closed(state: &SkinState) -> usize {
-        state.mode.iter().flat_map(|contact| contact.carrying()).flatten().count()
+        state.mode.contacts.iter().flat_map(|contact| contact.carrying()).flatten().count()
     }
 
     /// Number of scales that touch another one.
@@ -179,8 +175,8 @@ impl Contacts {
     }
 
     /// The pairs that touch, from the left.
-    fn touching(mode: &[CornerContact]) -> impl Iterator<Item = usize> {
-        let pairs = mode.chunks_exact(LEVELS.len()).enumerate();
+    fn touching(mode: &SkinMode) -> impl Iterator<Item = usize> {
+        let pairs = mode.contacts.chunks_exact(LEVELS.len()).enumerate();
         let closed = |contacts: &[CornerContact]| {
             contacts.iter().any(|contact| *contact != CornerContact::Open)
         };
@@ -196,7 +192,7 @@ impl Contacts {
 
     /// Whether a side and a neighbour's end lie flush anywhere.
     pub(crate) fn flush(state: &SkinState) -> bool {
-        state.mode.iter().any(|contact| matches!(contact, CornerContact::Flush(_)))
+        state.mode.contacts.iter().any(|contact| matches!(contact, CornerContact::Flush(_)))
     }
 
     /// Replaces `values` by the conditions of all forces that do not act.
@@ -205,7 +201,7 @@ impl Contacts {
         values.resize(self.forces.len(), HOLDS);
         self.for_each(state, |contact, corners| {
             let values = &mut values[self.slots * contact..][..FORCES];
-            match state.mode[contact] {
+            match state.mode.contacts[contact] {
                 CornerContact::Open => {
                     // Most contacts are open, and need the gap alone, without derivatives.
                     values[0] = corners.facing().map_or(HOLDS, |(_, gap)| gap);
@@ -235,7 +231,7 @@ impl Contacts {
         slopes.clear();
         slopes.resize(self.forces.len(), 0.0);
         self.for_each(state, |contact, corners| {
-            let conditions = state.mode[contact].resting_conditions(corners);
+            let conditions = state.mode.contacts[contact].resting_conditions(corners);
             for (slot, condition) in (self.slots * contact..).zip(conditions) {
                 if let Some(condition) = condition {
                     values[slot] = condition.value;
@@ -259,7 +255,8 @@ impl Contacts {
             return HOLDS;
         }
         let poses = self.pair_poses(&state.z, contact);
-        let conditions = state.mode[contact].resting_conditions(&self.corners(contact, &poses));
+        let conditions =
+            state.mode.contacts[contact].resting_conditions(&self.corners(contact, &poses));
         conditions[slot].map_or(HOLDS, |condition| condition.value)
     }
 
@@ -275,7 +272,7 @@ impl Contacts {
         let poses = self.pair_poses(&state.z, contact);
         let forces = self.forces_of(&state.z, contact);
         let corners = self.corners(contact, &poses);
-        let response = state.mode[contact].response(&corners, &self.law, forces);
+        let response = state.mode.contacts[contact].response(&corners, &self.law, forces);
         let condition = response.conditions[slot];
         condition.map_or(0.0, |condition| self.along(contact, &condition, direction))
     }
@@ -304,7 +301,7 @@ impl Contacts {
             return Some(first + self.change_friction(state, contact, slot, change.activated)?);
         };
         let poses = self.pair_poses(&state.z, contact);
-        let next = state.mode[contact].transition(
+        let next = state.mode.contacts[contact].transition(
             force,
             change.activated,
             &self.corners(contact, &poses),
@@ -312,7 +309,7 @@ impl Contacts {
         )?;
         // Only friction asks what was before, and without it the copy is saved.
         let before = self.rub().then(|| state.clone());
-        state.mode[contact] = next.contact;
+        state.mode.contacts[contact] = next.contact;
         for (unknown, force) in self.unknowns_of(contact).into_iter().zip(next.forces) {
             state.z[unknown] = force;
         }

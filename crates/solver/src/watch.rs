@@ -1,7 +1,6 @@
 //! How far a path is, told while it is followed.
 
 use std::cell::RefCell;
-use std::rc::Rc;
 use std::time::{Duration, Instant};
 
 /// How far work is that takes long.
@@ -18,7 +17,7 @@ pub struct FarAlong {
 struct Watch {
     begun: Instant,
     due: Duration,
-    tell: Rc<dyn Fn(FarAlong)>,
+    tell: Box<dyn Fn(FarAlong)>,
 }
 
 thread_local! {
@@ -33,7 +32,7 @@ pub fn watched<T>(
     tell: impl Fn(FarAlong) + 'static,
     work: impl FnOnce() -> T,
 ) -> T {
-    let watch = Watch { begun: Instant::now(), due: patience, tell: Rc::new(tell) };
+    let watch = Watch { begun: Instant::now(), due: patience, tell: Box::new(tell) };
     WATCH.with_borrow_mut(|slot| *slot = Some(watch));
     let done = work();
     WATCH.take();
@@ -42,16 +41,12 @@ pub fn watched<T>(
 
 /// Tells how far a path is, if it is time to.
 pub(crate) fn look(points: usize, share: f64) {
-    let due = WATCH.with_borrow_mut(|slot| {
-        let watch = slot.as_mut()?;
+    WATCH.with_borrow_mut(|slot| {
+        let Some(watch) = slot else { return };
         let elapsed = watch.begun.elapsed();
-        if elapsed < watch.due {
-            return None;
+        if elapsed >= watch.due {
+            watch.due = elapsed * 2;
+            (watch.tell)(FarAlong { elapsed, points, share });
         }
-        watch.due = elapsed * 2;
-        Some((Rc::clone(&watch.tell), elapsed))
     });
-    if let Some((tell, elapsed)) = due {
-        tell(FarAlong { elapsed, points, share });
-    }
 }

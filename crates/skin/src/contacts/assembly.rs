@@ -15,7 +15,7 @@ impl Contacts {
         matrix: &mut impl Tangent,
     ) {
         let mut turned = None;
-        for (pair, modes) in state.mode.chunks_exact(LEVELS.len()).enumerate() {
+        for (pair, modes) in state.mode.contacts.chunks_exact(LEVELS.len()).enumerate() {
             // Most pairs are open, and add nothing that would need their poses.
             if modes.iter().all(|mode| *mode == CornerContact::Open) {
                 continue;

@@ -33,12 +33,12 @@ impl Contacts {
     fn normal_forces_on_left(&self, state: &SkinState, contact: usize) -> [Vec2; 2] {
         let poses = self.pair_poses(&state.z, contact);
         let forces = self.forces_of(&state.z, contact);
-        state.mode[contact].forces_on_left(&self.corners(contact, &poses), forces)
+        state.mode.contacts[contact].forces_on_left(&self.corners(contact, &poses), forces)
     }
 
     /// Sum of the forces of a contact, for which the law holds.
     fn force(&self, state: &SkinState, contact: usize) -> f64 {
-        match state.mode[contact] {
+        match state.mode.contacts[contact] {
             CornerContact::Open => 0.0,
             // The law holds for the size of the force that turns at a corner (C5), and for the sum
             // of the two forces of flush edges (C7).
@@ -54,13 +54,13 @@ impl Contacts {
     /// Elastic energy of all contacts.
     pub(crate) fn energy(&self, state: &SkinState) -> f64 {
         let energy = |contact| self.law.energy(self.force(state, contact));
-        (0..state.mode.len()).map(energy).sum()
+        (0..state.mode.contacts.len()).map(energy).sum()
     }
 
     /// Whether any contact carries beyond an end of its edge: at the end where the corners meet it would not be on its
     /// edge any more, and at the other one the model has no contact to go on with.
     pub(crate) fn off_edge(&self, state: &SkinState) -> bool {
-        let contacts = state.mode.iter().enumerate();
+        let contacts = state.mode.contacts.iter().enumerate();
         contacts.into_iter().any(|(contact, mode)| {
             // Corners that are together stand at the end of the edge, where (C5) goes on.
             if let CornerContact::Open | CornerContact::Corner(_) = mode {
@@ -82,10 +82,10 @@ impl Contacts {
     /// the model has no contact for the edge that it went through, or for what lies below the bases.
     pub(crate) fn passes_an_end(&self, point: &SkinPoint) -> bool {
         let facing = |state: &SkinState| {
-            let mut gaps = vec![None; state.mode.len()];
+            let mut gaps = vec![None; state.mode.contacts.len()];
             self.for_each(state, |contact, corners| {
                 // A closed contact keeps to its edge: `off_edge` looks at it.
-                let is_open = state.mode[contact] == CornerContact::Open;
+                let is_open = state.mode.contacts[contact] == CornerContact::Open;
                 gaps[contact] = corners.facing().filter(|_| is_open).map(|(_, gap)| gap);
             });
             gaps
@@ -107,7 +107,7 @@ impl Contacts {
     pub(crate) fn meeting_beyond(&self, state: &SkinState) -> Option<usize> {
         let scale = self.arrangement.scale(0);
         let half_breadth = scale.half_base() * scale.slant().cos();
-        let mut contacts = 0..state.mode.len();
+        let mut contacts = 0..state.mode.contacts.len();
         let is_soft = contacts.any(|contact| self.approach(state, contact) > half_breadth);
         // The farthest counts: contacts that reach it reach all that are nearer.
         self.overlapping(state).max().filter(|&pitches| pitches > self.reach && !is_soft)

@@ -28,14 +28,14 @@ impl Contacts {
     /// Every closed contact, from the left; where poses are relative, as the left scale of its pair
     /// sees it.
     pub(crate) fn closed_contacts(&self, state: &SkinState) -> Vec<Contact> {
-        let is_closed = |&contact: &usize| state.mode[contact] != CornerContact::Open;
-        let contacts = (0..state.mode.len()).filter(is_closed);
+        let is_closed = |&contact: &usize| state.mode.contacts[contact] != CornerContact::Open;
+        let contacts = (0..state.mode.contacts.len()).filter(is_closed);
         contacts.flat_map(|contact| self.closed_at(state, contact)).flatten().collect()
     }
 
     /// The closed contacts at one level of a pair: of the corners with each other's edge, and the flush one.
     fn closed_at(&self, state: &SkinState, contact: usize) -> [Option<Contact>; 2] {
-        let [own, flush] = state.mode[contact].carrying();
+        let [own, flush] = state.mode.contacts[contact].carrying();
         let [on_corners, on_flush] = self.forces_on_left(state, contact);
         let approach = self.approach(state, contact);
         let slips = self.rub().then(|| Self::is_slipping(&state.mode, contact));

@@ -1,13 +1,11 @@
 //! The mode of a skin: what contacts and needle do.
 
-use std::ops::{Deref, DerefMut};
-
 use contact::CornerContact;
 
 use super::rubbing::Rub;
 use crate::puncture::NeedleMode;
 
-/// The mode of a skin: the state of every contact, as which it is read, its friction, and that of a guided needle.
+/// The mode of a skin: the state of every contact, its friction, and that of a guided needle.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct SkinMode {
     pub(crate) contacts: Vec<CornerContact>,
@@ -23,19 +21,5 @@ impl SkinMode {
         self.contacts == other.contacts
             && self.needle == other.needle
             && rubs.into_iter().all(|(one, other)| one.is_same_form(*other))
-    }
-}
-
-impl Deref for SkinMode {
-    type Target = Vec<CornerContact>;
-
-    fn deref(&self) -> &Vec<CornerContact> {
-        &self.contacts
-    }
-}
-
-impl DerefMut for SkinMode {
-    fn deref_mut(&mut self) -> &mut Vec<CornerContact> {
-        &mut self.contacts
     }
 }

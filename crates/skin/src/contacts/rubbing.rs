@@ -131,7 +131,7 @@ impl Contacts {
     pub(crate) fn keeps(&self, state: &SkinState, contact: usize, to: &SkinState) -> Option<f64> {
         match to.mode.rubs[contact] {
             Rub::Held { .. } => Some(self.ratio(state, contact)),
-            _ => Some(self.way(state, to.mode[contact].edge()?, contact)),
+            _ => Some(self.way(state, to.mode.contacts[contact].edge()?, contact)),
         }
     }
 
@@ -321,7 +321,7 @@ impl Contacts {
         let slips = from.state.mode.rubs.iter().enumerate();
         let work = |(contact, rub): (usize, &Rub)| {
             let Rub::Slip { sign, from: start } = *rub else { return 0.0 };
-            let Some(edge) = from.state.mode[contact].edge() else { return 0.0 };
+            let Some(edge) = from.state.mode.contacts[contact].edge() else { return 0.0 };
             let pressing = |z: &[f64]| -> f64 {
                 // A force may have been handed on at the second point.
                 let both = Self::borne_by(&from.state.mode, contact);
@@ -343,7 +343,7 @@ impl Contacts {
     /// Whether the other contact of the pair bears the friction of this one.
     pub(super) fn is_guest(mode: &SkinMode, contact: usize) -> bool {
         mode.rubs[contact] == Rub::None
-            && mode[contact] != CornerContact::Open
+            && mode.contacts[contact] != CornerContact::Open
             && mode.rubs[Self::beside(contact)].is_host()
     }
 
@@ -397,7 +397,8 @@ impl Contacts {
 
     /// The edge that a contact slides on; `None` where corners are together, whose force the law of the contact turns.
     fn edge_of(mode: &SkinMode, contact: usize) -> Option<CornerEdge> {
-        mode[contact].edge().filter(|_| !matches!(mode[contact], CornerContact::Corner(_)))
+        let contact = mode.contacts[contact];
+        contact.edge().filter(|_| !matches!(contact, CornerContact::Corner(_)))
     }
 
     fn slide(&self, edge: CornerEdge, contact: usize, [left, right]: &[Pose; 2]) -> Gap {
@@ -412,7 +413,7 @@ impl Contacts {
     /// Unknowns of the normal forces that bear on the edge of a contact: its own, and those of a contact whose friction it bears.
     fn pressing(&self, mode: &SkinMode, contact: usize) -> impl Iterator<Item = usize> {
         Self::borne_by(mode, contact).flat_map(move |contact| {
-            let acting = mode[contact].acting();
+            let acting = mode.contacts[contact].acting();
             let forces = [Force::Own, Force::Flush].map(|force| force as usize);
             let forces = forces.into_iter().filter(move |&force| acting[force]);
             forces.map(move |force| self.unknown(contact, force))

@@ -19,7 +19,7 @@ impl Contacts {
         // All of this is asked of the state before: behind the change forces stand elsewhere.
         let ratios = pair.map(|contact| self.ratio(before, contact));
         let mut rubs = pair.map(|contact| self.own_rub(before, contact, state));
-        match (before.mode[contact], state.mode[contact].edge()) {
+        match (before.mode.contacts[contact], state.mode.contacts[contact].edge()) {
             (_, None) => rubs[0] = Rub::None,
             (CornerContact::Open, Some(edge)) => {
                 // What has just closed has not slid: the rates tell whether it slips at once.
@@ -37,7 +37,7 @@ impl Contacts {
             }
             _ => {}
         }
-        if let CornerContact::Corner(_) = state.mode[contact] {
+        if let CornerContact::Corner(_) = state.mode.contacts[contact] {
             rubs[0] = Rub::Held { ratio: ratios[0] };
         }
         if rubs.iter().all(|rub| rub.is_host()) && Self::slide_along_one_line(state, contact) {
@@ -67,9 +67,9 @@ impl Contacts {
         let is_guest = Self::is_guest(&before.mode, contact);
         let from = if is_guest { Self::beside(contact) } else { contact };
         let rub = before.mode.rubs[from];
-        let Some(edge) = now.mode[contact].edge() else { return Rub::None };
+        let Some(edge) = now.mode.contacts[contact].edge() else { return Rub::None };
         // On the same edge the anchor, or the beginning of the way, stays what it was.
-        if !is_guest && before.mode[contact].edge() == Some(edge) {
+        if !is_guest && before.mode.contacts[contact].edge() == Some(edge) {
             return rub;
         }
         // On another edge the way is counted from elsewhere.
@@ -83,7 +83,7 @@ impl Contacts {
 
     /// Whether the contacts of a pair are both between its sides, which then lie on each other.
     fn slide_along_one_line(state: &SkinState, contact: usize) -> bool {
-        let is_side = |contact: usize| match state.mode[contact] {
+        let is_side = |contact: usize| match state.mode.contacts[contact] {
             CornerContact::Edge(edge) => {
                 // A tip on the neighbour's top or base slides along that, and not along the sides.
                 !matches!(edge, CornerEdge::TopRightOnTop | CornerEdge::BottomLeftOnBase)
@@ -129,7 +129,7 @@ impl Contacts {
         slot: usize,
         acts: bool,
     ) -> Option<usize> {
-        let here = self.way(state, state.mode[contact].edge()?, contact);
+        let here = self.way(state, state.mode.contacts[contact].edge()?, contact);
         let has_force = self.pressure(state, contact) > NO_FORCE;
         let (rub, valid) = match (state.mode.rubs[contact], slot, acts) {
             (Rub::Stick { .. }, GRIP, false) => (Rub::Slip { sign: 1.0, from: here }, WAY),

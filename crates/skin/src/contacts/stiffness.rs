@@ -7,7 +7,7 @@ use super::{Contacts, SkinState};
 impl Contacts {
     /// The unknowns in whose places the components of contact forces (C8) stand in the stiffness: those of the forces that act.
     pub(crate) fn forces_in_stiffness(&self, state: &SkinState) -> impl Iterator<Item = usize> {
-        let contacts = state.mode.iter().enumerate();
+        let contacts = state.mode.contacts.iter().enumerate();
         contacts.flat_map(|(contact, mode)| self.acting_unknowns(contact, *mode))
     }
 
@@ -28,7 +28,7 @@ impl Contacts {
         state: &SkinState,
         mut entry: impl FnMut(usize, usize, f64),
     ) {
-        for (contact, mode) in state.mode.iter().enumerate() {
+        for (contact, mode) in state.mode.contacts.iter().enumerate() {
             if *mode == CornerContact::Open {
                 continue;
             }
@@ -64,6 +64,6 @@ impl Contacts {
             matches!(mode, CornerContact::Corner(_))
                 && mode.is_on_ridge(&self.corners(*contact, &at_corner()))
         };
-        state.mode.iter().enumerate().filter(is_ridge).count()
+        state.mode.contacts.iter().enumerate().filter(is_ridge).count()
     }
 }

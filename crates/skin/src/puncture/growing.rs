@@ -191,7 +191,7 @@ impl Chain {
         copy_to(&mut state.active, self.layout.contacts * added, of_contacts);
         copy_to(&mut state.active, contacts[1], of_needle);
         let before = self.contacts.contacts_before(added);
-        copy_to(&mut state.mode, before, &point.state.mode);
+        copy_to(&mut state.mode.contacts, before, &point.state.mode.contacts);
         if self.contacts.rub() {
             copy_to(&mut state.mode.rubs, before, &point.state.mode.rubs);
         }

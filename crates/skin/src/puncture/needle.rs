@@ -336,7 +336,8 @@ impl Chain {
     /// Whether the top right corner of a scale lies on the left face of its right neighbour, so that the tip is stopped there by that
     /// face, and does not pass over the corner.
     fn is_notched(&self, state: &SkinState, scale: i64) -> bool {
-        let contact = self.corner_of_notch(scale).and_then(|contact| state.mode.get(contact));
+        let contact =
+            self.corner_of_notch(scale).and_then(|contact| state.mode.contacts.get(contact));
         contact == Some(&CornerContact::Edge(CornerEdge::TopRightOnLeftEdge))
     }
 

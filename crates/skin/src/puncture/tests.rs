@@ -121,7 +121,7 @@ fn the_tangent_agrees_with_finite_differences_in_every_state_of_contact() {
             // Half-way between the points: at events forces vanish, where the law has a kink.
             for_segments(path(&design, law(&design, constants, HARD), 1.0), |path, from, to| {
                 let state = path.between(from, to, 0.5).unwrap().state;
-                seen.extend(state.mode.iter().copied().map(name));
+                seen.extend(state.mode.contacts.iter().copied().map(name));
                 check_tangent(path.system(), &state, 1e-6).unwrap();
             });
         }
@@ -134,7 +134,8 @@ fn the_tangent_agrees_with_finite_differences_in_every_state_of_contact() {
 fn flags_and_modes_of_contacts_agree() {
     for design in [LIVELY, FOLDING, SLIDING] {
         for point in path(&design, law(&design, Law::EXCHANGED, HARD), 1.0) {
-            for (contact, acting) in point.state.mode.iter().zip(point.state.active.chunks(FORCES))
+            for (contact, acting) in
+                point.state.mode.contacts.iter().zip(point.state.active.chunks(FORCES))
             {
                 assert_eq!(contact.acting(), acting);
             }

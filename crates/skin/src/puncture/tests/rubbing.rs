@@ -66,7 +66,7 @@ fn forces_lie_within_the_cone() {
                 }
                 // Corners that are together turn their force from one normal to the other.
                 let angle = (y.atan2(x) - normal).sin().asin();
-                let pair = &to.state.mode[2 * contact.left..2 * contact.left + 2];
+                let pair = &to.state.mode.contacts[2 * contact.left..2 * contact.left + 2];
                 let closed: Vec<_> = pair.iter().filter(|c| **c != CornerContact::Open).collect();
                 if matches!(closed[..], [CornerContact::Edge(_)]) {
                     assert!(angle.abs() <= friction_angle + 1e-9, "{name} {angle} {design:?}");
