@@ -23,3 +23,8 @@ impl Default for Common {
         Self { law: Law::PRINTED, friction: 0.0, solver: Settings::default(), whole_path: true }
     }
 }
+
+/// Whether nothing is known: such a part of measures is not written.
+pub(crate) fn is_default<T: Default + PartialEq>(part: &T) -> bool {
+    *part == T::default()
+}

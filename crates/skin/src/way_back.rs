@@ -29,13 +29,6 @@ pub struct Remains {
     pub displacement: Option<f64>,
 }
 
-impl Remains {
-    /// Whether nothing is known.
-    pub fn is_none(&self) -> bool {
-        *self == Self::default()
-    }
-}
-
 impl<P> WayBack<P> {
     /// Turns a path back where it stands, after friction has taken `work`.
     pub(crate) fn follow<S: Skin<PathPoint = P>>(path: &mut Path<S>, mut work: Work) -> Self {

@@ -1,6 +1,5 @@
 //! How far the measures of a bent strip are from those of a strip that is resolved better.
 
-use membrane::GapEnergies;
 use solver::{Newton, Settings};
 
 use super::strip::Strip;
@@ -10,40 +9,23 @@ use crate::record::Skin;
 /// A quantity below this, in its own unit, counts as this much where its relative change is taken: it is round-off.
 const NEGLIGIBLE: f64 = 1e-9;
 
-/// Quantities of a state of a strip that a finer membrane may change.
-pub(super) struct Quantities {
-    pub(super) moment: f64,
-    pub(super) stiffness: f64,
-    pub(super) axial_energy_share: f64,
-    pub(super) strain: f64,
+/// Moment, its slope, axial share of the energy and largest strain of a state of a strip: what a finer membrane may change.
+pub(super) type Quantities = [f64; 4];
+
+/// The largest relative change of any to those of a finer membrane. `None` if one of them is not finite.
+pub(super) fn largest_change(ours: Quantities, finer: Quantities) -> Option<f64> {
+    let relative =
+        |(ours, theirs): (f64, f64)| (ours - theirs).abs() / theirs.abs().max(NEGLIGIBLE);
+    let changes = ours.into_iter().zip(finer).map(relative);
+    changes.reduce(f64::max).filter(|largest| largest.is_finite())
 }
 
-impl Quantities {
-    /// Solves the strip for the rotation that `state` has, with its contacts. `None` if Newton's method does not get there.
-    fn at(strip: &Strip, mut state: SkinState, settings: &Settings) -> Option<Self> {
-        let condition = strip.same_rotation(&state);
-        let direction = Newton::new(strip).solve(strip, &mut state, &condition, settings).ok()?;
-        let GapEnergies { axial, bending } = strip.membrane_energy(&state);
-        let contact = strip.contacts.energy(&state);
-        Some(Self {
-            moment: strip.moment(&state.z),
-            stiffness: strip.stiffness(&state, &direction),
-            axial_energy_share: axial / (bending + axial + contact),
-            strain: strip.largest_strain(&state),
-        })
-    }
-
-    fn values(&self) -> [f64; 4] {
-        [self.moment, self.stiffness, self.axial_energy_share, self.strain]
-    }
-
-    /// The largest relative change of any to those of a finer membrane. `None` if one of them is not finite.
-    pub(super) fn change_to(&self, finer: &Self) -> Option<f64> {
-        let relative =
-            |(ours, theirs): (f64, f64)| (ours - theirs).abs() / theirs.abs().max(NEGLIGIBLE);
-        let changes = self.values().into_iter().zip(finer.values()).map(relative);
-        changes.reduce(f64::max).filter(|largest| largest.is_finite())
-    }
+/// Solves the strip for the rotation that `state` has, with its contacts. `None` if Newton's method does not get there.
+fn quantities(strip: &Strip, mut state: SkinState, settings: &Settings) -> Option<Quantities> {
+    let condition = strip.same_rotation(&state);
+    let direction = Newton::new(strip).solve(strip, &mut state, &condition, settings).ok()?;
+    let (moment, stiffness) = (strip.moment(&state.z), strip.stiffness(&state, &direction));
+    Some([moment, stiffness, strip.axial_energy_share(&state), strip.largest_strain(&state)])
 }
 
 /// Returns the largest relative change of moment, slope of the moment, axial share of the energy and strain when the state
@@ -55,7 +37,7 @@ pub(crate) fn change(
     settings: &Settings,
 ) -> Option<f64> {
     // Both are solved in the same way, so that both slopes belong to the contacts of the state.
-    let ours = Quantities::at(strip, state.clone(), settings)?;
-    let theirs = Quantities::at(finer, strip.transferred(state, finer)?, settings)?;
-    ours.change_to(&theirs)
+    let ours = quantities(strip, state.clone(), settings)?;
+    let theirs = quantities(finer, strip.transferred(state, finer)?, settings)?;
+    largest_change(ours, theirs)
 }

@@ -7,6 +7,7 @@ use super::FlexurePoint;
 use super::problem::LOCKED;
 use super::strip::Strip;
 use crate::Remains;
+use crate::common::is_default;
 use crate::contacts::Contacts;
 use crate::record::Record;
 
@@ -42,7 +43,7 @@ pub struct FlexureMeasures {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub locking_curvature: Option<f64>,
     /// What is left once the moment is gone.
-    #[serde(default, skip_serializing_if = "Remains::is_none")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub remains: Remains,
     /// `κ*` at which scales would touch, whether or not the path goes so far, of an imperfect strip in the gap that closes first; `None`
     /// where none can close.
@@ -114,8 +115,8 @@ fn locking(record: &Record<Strip>, path: &Path<Strip>) -> Option<f64> {
     record.events.last().filter(|_| is_locked).map(|event| event.point.curvature)
 }
 
-/// The moment of the larger size.
-fn larger(a: f64, b: f64) -> f64 {
+/// The number of the larger size.
+pub(super) fn larger(a: f64, b: f64) -> f64 {
     if b.abs() > a.abs() { b } else { a }
 }
 

@@ -4,6 +4,7 @@ use geometry::OutOfRange;
 use solver::{Neighbours, Path};
 
 use super::first_touch::{curvature_derivatives, touches};
+use super::measures::larger;
 use super::mesh::Resolution;
 use super::problem::{Bent, FlexureProblem};
 use super::strip::Strip;
@@ -81,11 +82,11 @@ pub fn moment_curve(
     let FlexureInput { design, common, parameters } = input;
     let problem = FlexureProblem::even(design, common, parameters)?;
     // `κ*` is the rotation of one end against the other over this length, twice that of each end.
-    let pitches = problem.gaps * problem.row.mean_pitch();
-    let rotations: Vec<_> = curvatures.iter().map(|curvature| 0.5 * curvature * pitches).collect();
+    let length = problem.length();
+    let rotations: Vec<_> = curvatures.iter().map(|curvature| 0.5 * curvature * length).collect();
     let farthest =
         // A strip may also bend to the outside: the largest size counts, with its sign.
-        rotations.iter().copied().fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
+        rotations.iter().copied().fold(0.0, larger);
     // A little farther, so that round-off does not put the last place beyond the end.
     let end = (1.001 * farthest.to_degrees()).clamp(-180.0, 180.0);
     // The end scales the control, by which neighbours are to be measured alike.
@@ -191,7 +192,7 @@ impl FlexureProblem<'_> {
             spot(moment, quantity("max_moment", |s, state, _, _| s.normalised_moment(&state.z))),
             spot(
                 Some(end(path)),
-                quantity("axial_energy_share", |s, state, _, _| axial_share(s, state)),
+                quantity("axial_energy_share", |s, state, _, _| s.axial_energy_share(state)),
             ),
             spot(strain, quantity("membrane_strain_max", |s, state, _, _| s.largest_strain(state))),
         ]
@@ -252,10 +253,4 @@ fn compliance(measure: &'static str) -> MeasuredQuantity<Strip> {
         strip.normalised_stiffness(strip.stiffness(state, direction)).recip()
     };
     MeasuredQuantity { turns: true, ..quantity(measure, value) }
-}
-
-/// Part of the axial energy in the elastic energy.
-fn axial_share(strip: &Strip, state: &SkinState) -> f64 {
-    let membrane = strip.membrane_energy(state);
-    membrane.axial / (membrane.bending + membrane.axial + strip.contacts.energy(state))
 }

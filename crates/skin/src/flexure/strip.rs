@@ -197,6 +197,12 @@ impl Strip {
         energy
     }
 
+    /// Part of the axial energy in the elastic energy.
+    pub(crate) fn axial_energy_share(&self, state: &SkinState) -> f64 {
+        let GapEnergies { axial, bending } = self.membrane_energy(state);
+        axial / (bending + axial + self.contacts.energy(state))
+    }
+
     /// The largest strain at the surface of the membrane of any gap.
     pub(crate) fn largest_strain(&self, state: &SkinState) -> f64 {
         let strain = |gap: usize| self.membrane(gap).largest_strain(&self.acting(state, gap));

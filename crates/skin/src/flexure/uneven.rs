@@ -4,7 +4,7 @@ use geometry::OutOfRange;
 use membrane::GapEnergies;
 use solver::{Bracket, Newton};
 
-use super::accuracy::Quantities;
+use super::accuracy::{Quantities, largest_change};
 use super::gap_curve::{GapCurve, Knot, Side};
 use super::mesh::Resolution;
 use super::problem::{FlexureProblem, LOCKED};
@@ -321,7 +321,7 @@ impl<'a> UnevenStrip<'a> {
         }
         // Both are compared where the ends have turned alike.
         let theirs_there = moment - (theirs.rotation - ours.rotation) / theirs.compliance;
-        ours.quantities(moment).change_to(&theirs.quantities(theirs_there))
+        largest_change(ours.quantities(moment), theirs.quantities(theirs_there))
     }
 
     /// Solves all gaps under a moment that they have borne.
@@ -375,8 +375,6 @@ impl Sums {
     }
 
     fn quantities(&self, moment: f64) -> Quantities {
-        let &Self { compliance, axial_energy, energy, strain, .. } = self;
-        let (stiffness, axial_energy_share) = (compliance.recip(), axial_energy / energy);
-        Quantities { moment, stiffness, axial_energy_share, strain }
+        [moment, self.compliance.recip(), self.axial_energy / self.energy, self.strain]
     }
 }

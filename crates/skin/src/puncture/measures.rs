@@ -7,6 +7,7 @@ use super::fold::Fold;
 use super::system::Chain;
 use super::{Passage, PuncturePoint, Weakest};
 use crate::Remains;
+use crate::common::is_default;
 use crate::record::{Record, Skin};
 
 /// The measures of a puncture; `None` where the value does not exist.
@@ -73,13 +74,13 @@ pub struct PunctureMeasures {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unique: Option<bool>,
     /// What is left once the load is gone.
-    #[serde(default, skip_serializing_if = "Remains::is_none")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub remains: Remains,
     /// How a guided needle came through.
-    #[serde(default, skip_serializing_if = "Passage::is_none")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub passage: Passage,
     /// The weakest of several places of the load.
-    #[serde(default, skip_serializing_if = "Weakest::is_none")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub weakest: Weakest,
 }
 

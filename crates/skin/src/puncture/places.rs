@@ -49,11 +49,6 @@ pub struct Weakest {
 }
 
 impl Weakest {
-    /// Whether nothing is known.
-    pub fn is_none(&self) -> bool {
-        *self == Self::default()
-    }
-
     /// The weakest of `places`.
     ///
     /// # Errors
