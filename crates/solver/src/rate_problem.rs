@@ -76,9 +76,9 @@ impl<S: System> Path<S> {
         // Of changes that happen at once one may turn the path round, as a corner that closes where another lets go: only then is it asked
         // what comes of beginning with another of them.
         for change in changes.clone() {
-            for start in self.starts(state, change) {
+            for (from, first) in self.starts(state, changes, change) {
                 self.is_positive = before;
-                match self.pivot_in_turn(state, arriving, changes, &start) {
+                match self.pivot_from(from, Some(first), arriving, changes.len() == 1) {
                     Err(stop) => failure = stop,
                     Ok(way) => found = Some(self.better_way(found, way, before)),
                 }
@@ -130,20 +130,29 @@ impl<S: System> Path<S> {
         }
     }
 
-    /// The changes with which pivoting may begin: that of the event, or that and one of a companion which it leaves undecided. What
+    /// Where pivoting may begin: with the change of the event, or behind it with one of a companion which it leaves undecided. What
     /// closes with friction may stick, or slip either way, and another beginning may come to another end.
-    fn starts(&self, state: &State<S::Mode>, change: Change) -> Vec<Vec<Change>> {
-        let mut starts = vec![vec![change]];
+    fn starts(
+        &self,
+        state: &State<S::Mode>,
+        changes: &[Change],
+        change: Change,
+    ) -> Vec<(Pivoted<S::Mode>, Change)> {
+        let meeting = self.meeting(changes.iter().map(|change| change.constraint));
+        let (state, made) = (state.clone(), Vec::new());
+        let before = Pivoted { state, meeting, made, holds: None, turns_back: false };
+        let mut starts = vec![(before.clone(), change)];
         let companions = self.system.companions(change.constraint);
-        let mut after = state.clone();
         if companions.len() > 1
-            && let Some(valid) = self.pivot(&mut after, change)
+            && let Ok(after) = self.pivoted(&before, change)
         {
-            let guards = Newton::guards(&self.system, &after);
-            let is_undecided =
-                |c: &usize| *c != change.constraint && *c != valid && guards[*c].abs() <= FLOOR;
+            let guards = Newton::guards(&self.system, &after.state);
+            let is_undecided = |&c: &usize| {
+                c != change.constraint && Some(c) != after.holds && guards[c].abs() <= FLOOR
+            };
             starts.extend(companions.filter(is_undecided).map(|constraint| {
-                vec![change, Change { constraint, activated: !after.active[constraint] }]
+                let activated = !after.state.active[constraint];
+                (after.clone(), Change { constraint, activated })
             }));
         }
         starts
@@ -195,34 +204,10 @@ impl<S: System> Path<S> {
         self.violated(&next, &leaving, &meeting).is_empty().then_some((next, leaving))
     }
 
-    /// Lets the changes of `start` happen and then, while the direction violates one of the constraints that meet, the one
-    /// that it violates fastest. A constraint that has changed sides may have to change back; where that leads to a set of changes that
-    /// has been tried, others that are violated change instead.
-    fn pivot_in_turn(
-        &mut self,
-        state: &State<S::Mode>,
-        arriving: &[f64],
-        changes: &[Change],
-        start: &[Change],
-    ) -> Result<Resolved<S::Mode>, Stop> {
-        let meeting = self.meeting(changes.iter().map(|change| change.constraint));
-        let first = Pivoted {
-            state: state.clone(),
-            meeting,
-            made: Vec::new(),
-            holds: None,
-            turns_back: false,
-        };
-        let (&last, before) = start.split_last().ok_or(Stop::Singular)?;
-        let mut at = first;
-        for &change in before {
-            at = self.pivoted(&at, change)?;
-        }
-        self.pivot_from(at, Some(last), arriving, changes.len() == 1)
-    }
-
-    /// Tries one set of changes after the other, beginning with those of a state and one more. `is_single` tells of an event that is one
-    /// change.
+    /// Tries one set of changes after the other, beginning with those of a state and one more: while the direction violates one of the
+    /// constraints that meet, the one that it violates fastest changes. A constraint that has changed sides may have to change back; where
+    /// that leads to a set of changes that has been tried, others that are violated change instead. `is_single` tells of an event that is
+    /// one change.
     fn pivot_from(
         &mut self,
         first: Pivoted<S::Mode>,

@@ -104,8 +104,8 @@ fn added(
     let solved = Tractions {
         mesh: &mesh,
         pitch: footprint.pitch_over_a(),
-        along: mesh.solve(along, &[[Some(ONE), None], [None, Some(ARM)]]),
-        across: mesh.solve(across, &[[None, Some(ONE)]]),
+        along: mesh.solve(&along, &[[Some(ONE), None], [None, Some(ARM)]]),
+        across: mesh.solve(&across, &[[None, Some(ONE)]]),
     };
     let own = solved.own();
     let mut numbers = own.to_vec();
@@ -126,7 +126,7 @@ fn added(
 impl Mesh {
     /// Solves for the tractions, `q` before `p`; the displacements of the middle rectangle along the row and across it are given,
     /// those of its neighbours are 0.
-    fn solve(&self, equations: Mat<f64>, imposed: &[[Option<Profile>; 2]]) -> Mat<f64> {
+    fn solve(&self, equations: &Mat<f64>, imposed: &[[Option<Profile>; 2]]) -> Mat<f64> {
         let n = self.unknowns();
         let mut right = Mat::zeros(2 * n, imposed.len());
         for (load, parts) in imposed.iter().enumerate() {

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use contact::{CornerEdge, Corners, Level, Pair, Pose};
-use geometry::{OutOfRange, Row, UnevenRow};
+use geometry::{OutOfRange, Parallelogram, Row, UnevenRow};
 use solver::Neighbours;
 
 use super::problem::FlexureProblem;
@@ -48,8 +48,8 @@ pub fn contact_curvature(
 pub(super) fn first_of_gaps(row: &UnevenRow, parameters: &FlexureParameters) -> Option<f64> {
     // A gap that would close after another, or would have turned by half a circle, has no part in it.
     let arc = (0..row.gaps().len()).fold(f64::INFINITY, |first, i| {
-        let pair = Pair::of([row.scales()[i], row.scales()[i + 1]], row.pitch(i));
-        let gap = BareGap::new(pair, row.gaps()[i], parameters);
+        let scales = [row.scales()[i], row.scales()[i + 1]];
+        let gap = BareGap::new(scales, [row.pitch(i), row.gaps()[i]], parameters);
         let closing = gap.closing_rotation(LARGEST.min(first * gap.width));
         closing.map_or(first, |rotation| first.min(rotation / gap.width))
     });
@@ -106,12 +106,17 @@ struct BareGap {
 }
 
 impl BareGap {
-    fn new(pair: Pair, width: f64, parameters: &FlexureParameters) -> Self {
-        Self { pair, width, offset: parameters.membrane_axis_offset }
+    fn new(
+        scales: [Parallelogram; 2],
+        [pitch, width]: [f64; 2],
+        parameters: &FlexureParameters,
+    ) -> Self {
+        let offset = parameters.membrane_axis_offset;
+        Self { pair: Pair::of(scales, pitch), width, offset }
     }
 
     fn of_row(row: &Row, parameters: &FlexureParameters) -> Self {
-        Self::new(Pair::new(*row.scale(), row.pitch()), row.gap(), parameters)
+        Self::new([*row.scale(); 2], [row.pitch(), row.gap()], parameters)
     }
 
     fn of(input: &FlexureInput) -> Result<Self, OutOfRange> {

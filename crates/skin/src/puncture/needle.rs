@@ -67,7 +67,7 @@ impl Needle {
 }
 
 /// Scales on each side of the punctured one that a guided needle may come to. It moves by less than its own depth along the row.
-pub(super) const FARTHEST: i64 = 8;
+pub(super) const FARTHEST: usize = 8;
 
 /// Unknowns of a touch: `N`, `T`, the ways slid forward and backward, and those of two conditions that never act.
 const OF_TOUCH: usize = 6;
@@ -161,7 +161,7 @@ impl GuidedNeedle {
 
     /// Scales on each side of the punctured one that it may come to.
     pub(super) fn farthest(&self) -> usize {
-        if self.is_round() { self.reach() } else { FARTHEST.unsigned_abs() as usize }
+        if self.is_round() { self.reach() } else { FARTHEST }
     }
 
     /// Whether its tip rubs.
@@ -273,13 +273,10 @@ impl Chain {
     /// The tip where it touches a scale, at this place.
     fn meeting(&self, z: &[f64], scale: i64, place: Place) -> Option<Meeting> {
         let (needle, tip) = (self.needle.as_ref()?, self.tip(z, scale, place)?);
-        if !needle.is_round() {
-            return Some(Meeting::of_sharp(tip));
-        }
         let shape = self.contacts.arrangement.scale(self.scale_numbered(scale)?);
         let behind = [Place::Left, Place::Top].into_iter().filter(|face| *face < place);
         let before = behind.map(|face| Face::new(&shape, face).length).sum();
-        Some(Meeting::of_round(tip, needle.radius, before))
+        Some(Meeting::new(tip, needle.radius, before))
     }
 
     /// All touches: slot, touch, index of the scale, and the tip there.

@@ -140,12 +140,8 @@ pub(super) struct Meeting {
 }
 
 impl Meeting {
-    pub(super) fn of_sharp(tip: Tip) -> Self {
-        Self { tip, radius: 0.0, is_corner: false, before: 0.0 }
-    }
-
-    pub(super) fn of_round(tip: Tip, radius: f64, before: f64) -> Self {
-        let is_corner = tip.length == 0.0;
+    pub(super) fn new(tip: Tip, radius: f64, before: f64) -> Self {
+        let is_corner = radius > 0.0 && tip.length == 0.0;
         Self { tip: if is_corner { tip.at_corner() } else { tip }, radius, is_corner, before }
     }
 
