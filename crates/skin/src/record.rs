@@ -214,11 +214,11 @@ impl<S: Skin> Record<S> {
         point: S::PathPoint,
         change: Change,
     ) -> Option<ContactEvent<S::PathPoint>> {
-        if change.constraint >= skin.contacts().forces.len() {
+        let contacts = skin.contacts();
+        if change.constraint >= contacts.forces.len() {
             // A guided needle has changes of its own.
             return None;
         }
-        let contacts = skin.contacts();
         let corner_edge = |mode| contacts.corner_edge(mode, change.constraint);
         let [left, right] = contacts.scales_of(change.constraint);
         Some(ContactEvent {

@@ -141,7 +141,7 @@ impl<S: System> Path<S> {
         let meeting = self.meeting(changes.iter().map(|change| change.constraint));
         let (state, made) = (state.clone(), Vec::new());
         let before = Pivoted { state, meeting, made, holds: None, turns_back: false };
-        let mut starts = vec![(before.clone(), change)];
+        let mut starts = Vec::new();
         let companions = self.system.companions(change.constraint);
         if companions.len() > 1
             && let Ok(after) = self.pivoted(&before, change)
@@ -155,6 +155,7 @@ impl<S: System> Path<S> {
                 (after.clone(), Change { constraint, activated })
             }));
         }
+        starts.insert(0, (before, change));
         starts
     }
 

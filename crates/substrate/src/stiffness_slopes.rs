@@ -29,20 +29,18 @@ impl StiffnessSlopes {
     pub fn of(footprint: &Footprint, coupling: Coupling) -> Result<Self, Unresolved> {
         let stiffness = RowStiffness::of(footprint, coupling)?;
         // Polynomials are differentiated as they are: differences of them would lose digits.
-        let [by_gap, by_width, by_poisson_ratio] = match table::row(footprint, coupling) {
+        let [mut by_gap, mut by_width, mut by_poisson_ratio] = match table::row(footprint, coupling)
+        {
             Some(row) => [1, 2, 3].map(|k| RowStiffness::from_table(&row, k)),
             None => differences(footprint, coupling)?,
         };
-        let mut slopes = [by_gap, by_width, by_poisson_ratio];
-        let by_thickness = if SOLVES && footprint.is_on_layer() {
+        let mut by_thickness = None;
+        if SOLVES && footprint.is_on_layer() {
             let [gap, width, ratio, thickness] = layered::slopes(footprint, coupling)?;
-            let [of_gap, of_width, of_ratio] = slopes;
-            slopes = [of_gap + gap, of_width + width, of_ratio + ratio];
-            Some(thickness)
-        } else {
-            None
-        };
-        let [by_gap, by_width, by_poisson_ratio] = slopes;
+            (by_gap, by_width) = (by_gap + gap, by_width + width);
+            by_poisson_ratio = by_poisson_ratio + ratio;
+            by_thickness = Some(thickness);
+        }
         // Over a base that shrinks all other lengths grow in the same ratio.
         let mut by_size =
             by_gap.clone() * footprint.gap_over_a() + by_width.clone() * footprint.width_over_a();

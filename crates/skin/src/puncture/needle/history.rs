@@ -36,7 +36,7 @@ pub(in crate::puncture) struct HistoryWatch {
 impl HistoryWatch {
     pub(in crate::puncture) fn follow(&mut self, Segment { from, to, .. }: &Segment) {
         // What is kept is copied bit by bit along the path, so that equality tells what is new.
-        if history(&to.state).into_iter().any(|kept| !is_in(kept, &from.state)) {
+        if history(&to.state).iter().any(|kept| !history(&from.state).contains(kept)) {
             self.segments.push([(**from).clone(), to.clone()]);
         }
     }
@@ -70,7 +70,8 @@ pub(in crate::puncture) fn anchors(
         // Earlier anchors move this event, too: the segments are in the order of the path.
         let varied = place.as_ref().and_then(|place| with(&anchors, &place.state, variations));
         let mut here = place.and_then(|place| Linearisation::new(path.system(), place).ok());
-        let new = history(&to.state).into_iter().filter(|kept| !is_in(*kept, &from.state));
+        let new =
+            history(&to.state).into_iter().filter(|kept| !history(&from.state).contains(kept));
         // The equilibria of neighbours at the event serve all that is kept from there on.
         let unknown = || vec![None; variations.len()];
         let moved: Vec<_> =
@@ -118,10 +119,6 @@ pub(in crate::puncture) fn history(state: &SkinState) -> Vec<Kept> {
         .map(|(_, touch)| Kept::Touch(if mode.is_round() { touch.anywhere() } else { *touch }));
     let contacts = Contacts::kept(state).map(|(contact, kept)| Kept::Contact(contact, kept));
     touches.chain(contacts).collect()
-}
-
-fn is_in(kept: Kept, state: &SkinState) -> bool {
-    history(state).into_iter().any(|other| other == kept)
 }
 
 /// The event at the end of a segment, seen from before it.
