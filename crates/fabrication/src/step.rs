@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use nalgebra::Vector3;
+
 use crate::{Patch, Prism};
 
 /// What stands before the solids: a product in millimetres, which are known to 1e-7 mm. The representation (#20) follows the solids.
@@ -63,16 +65,17 @@ impl Entities {
         self.last
     }
 
-    fn point(&mut self, at: [f64; 3]) -> usize {
+    fn point(&mut self, at: Vector3<f64>) -> usize {
         self.add(&format!("CARTESIAN_POINT('',{})", triple(at)))
     }
 
-    fn direction(&mut self, to: [f64; 3]) -> usize {
-        self.add(&format!("DIRECTION('',{})", triple(to)))
+    fn direction(&mut self, to: Vector3<f64>) -> usize {
+        // Adding zero turns −0 into 0.
+        self.add(&format!("DIRECTION('',{})", triple(to.add_scalar(0.0))))
     }
 
     fn solid(&mut self, name: &str, prism: &Prism) -> usize {
-        let corners = prism.corners();
+        let corners = prism.corners().map(Vector3::from);
         let points = corners.map(|corner| self.point(corner));
         let vertices = points.map(|point| self.add(&format!("VERTEX_POINT('',#{point})")));
         // An edge is shared by two faces, which run through it in opposite directions.
@@ -100,11 +103,11 @@ impl Entities {
     fn edge(
         &mut self,
         [from, to]: [usize; 2],
-        corners: &[[f64; 3]; 8],
+        corners: &[Vector3<f64>; 8],
         points: &[usize; 8],
         vertices: &[usize; 8],
     ) -> usize {
-        let direction = self.direction(unit(difference(corners[to], corners[from])));
+        let direction = self.direction((corners[to] - corners[from]).normalize());
         let vector = self.add(&format!("VECTOR('',#{direction},1.)"));
         let line = self.add(&format!("LINE('',#{},#{vector})", points[from]));
         let ends = references(&[vertices[from], vertices[to]]);
@@ -114,12 +117,12 @@ impl Entities {
     fn face(
         &mut self,
         [a, b, _, d]: [usize; 4],
-        corners: &[[f64; 3]; 8],
+        corners: &[Vector3<f64>; 8],
         origin: usize,
         sides: &[usize; 4],
     ) -> usize {
-        let along = unit(difference(corners[b], corners[a]));
-        let normal = unit(cross(along, difference(corners[d], corners[a])));
+        let along = (corners[b] - corners[a]).normalize();
+        let normal = along.cross(&(corners[d] - corners[a])).normalize();
         let (normal, along) = (self.direction(normal), self.direction(along));
         let axes = self.add(&format!("AXIS2_PLACEMENT_3D('',#{origin},#{normal},#{along})"));
         let plane = self.add(&format!("PLANE('',#{axes})"));
@@ -133,8 +136,8 @@ fn references(entities: &[usize]) -> String {
     entities.iter().map(|entity| format!("#{entity}")).collect::<Vec<_>>().join(",")
 }
 
-fn triple(values: [f64; 3]) -> String {
-    format!("({})", values.map(real).join(","))
+fn triple(values: Vector3<f64>) -> String {
+    format!("({})", <[f64; 3]>::from(values).map(real).join(","))
 }
 
 /// A number as STEP writes it: with a point always, and a capital E.
@@ -146,23 +149,6 @@ fn real(value: f64) -> String {
         Some((digits, exponent)) => format!("{digits}.E{exponent}"),
         None => text,
     }
-}
-
-fn difference(to: [f64; 3], from: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|k| to[k] - from[k])
-}
-
-fn cross(u: [f64; 3], v: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|k| {
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        u[i] * v[j] - u[j] * v[i]
-    })
-}
-
-fn unit(vector: [f64; 3]) -> [f64; 3] {
-    let size = vector.iter().map(|part| part * part).sum::<f64>().sqrt();
-    // Adding zero turns −0 into 0.
-    vector.map(|part| part / size + 0.0)
 }
 
 #[cfg(test)]

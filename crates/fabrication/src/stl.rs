@@ -1,5 +1,7 @@
 //! Binary STL.
 
+use nalgebra::Vector3;
+
 use crate::Patch;
 use crate::mesh::triangles;
 
@@ -13,10 +15,12 @@ pub(crate) fn write(patch: &Patch) -> Vec<u8> {
     let mut count: u32 = 0;
     for prism in patch.scale_prisms().chain([patch.membrane()]) {
         // Rounded before normals are taken: equal corners stay equal, so the mesh stays closed.
-        let corners = prism.corners().map(|corner| corner.map(|length| length as f32));
+        let corners = prism.corners().map(|corner| Vector3::from(corner).map(|at| at as f32));
         for triangle in triangles() {
             let [a, b, c] = triangle.map(|k| corners[k]);
-            for value in [normal([a, b, c]), a, b, c].concat() {
+            let [u, v] = [b, c].map(|to| (to - a).map(f64::from));
+            let normal = u.cross(&v).normalize().map(|part| part as f32);
+            for value in [normal, a, b, c].iter().flatten() {
                 facets.extend(value.to_le_bytes());
             }
             // The format ends each facet with two bytes of attributes, of which none are defined.
@@ -25,18 +29,6 @@ pub(crate) fn write(patch: &Patch) -> Vec<u8> {
         }
     }
     [header, count.to_le_bytes().to_vec(), facets].concat()
-}
-
-/// The unit normal of a triangle, outwards.
-fn normal([a, b, c]: [[f32; 3]; 3]) -> [f32; 3] {
-    let edge = |to: [f32; 3]| -> [f64; 3] { std::array::from_fn(|k| f64::from(to[k] - a[k])) };
-    let (u, v) = (edge(b), edge(c));
-    let cross: [f64; 3] = std::array::from_fn(|k| {
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        u[i] * v[j] - u[j] * v[i]
-    });
-    let size = cross.iter().map(|part| part * part).sum::<f64>().sqrt();
-    cross.map(|part| (part / size) as f32)
 }
 
 #[cfg(test)]

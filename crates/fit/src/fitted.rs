@@ -13,7 +13,7 @@ use sweep::Sweep;
 
 use crate::definition::{FitDefinition, TestCurve, Unknown};
 use crate::model::ModelCurve;
-use crate::search::{Residuals, Stopped};
+use crate::search::Residuals;
 
 /// The answer of a fit.
 #[derive(Clone, Debug)]
@@ -93,12 +93,6 @@ pub enum NoFit {
     /// No skin of the ranges can be solved.
     #[error("none of the skins that were tried can be solved; look at one with squama design")]
     Unsolvable,
-}
-
-impl From<Stopped> for NoFit {
-    fn from(_: Stopped) -> Self {
-        Self::Stopped
-    }
 }
 
 /// Rounds in which the noise of several curves is found, at most; it settles in three or four.

@@ -245,7 +245,8 @@ fn pair(names: &[String]) -> Result<[(usize, &'static Column); 2], String> {
     let mut pairs = known(names, 0).flat_map(|x| known(names, 1).map(move |y| [x, y]));
     let found = pairs.find(|[(_, x), (_, y)]| x.1 == y.1 && x.3.is_some() == y.3.is_some());
     // Refused: the first would be taken, and the other may have been meant.
-    let twice = found.and_then(|pair| pair.into_iter().find(|(_, c)| count(names, c.0) > 1));
+    let count = |column: &Column| names.iter().filter(|name| *name == column.0).count();
+    let twice = found.and_then(|pair| pair.into_iter().find(|(_, column)| count(column) > 1));
     if let Some((_, column)) = twice {
         return Err(format!(
             "has several columns {0}, expected one: give the others another name",
@@ -257,10 +258,6 @@ fn pair(names: &[String]) -> Result<[(usize, &'static Column); 2], String> {
         let names = if names.is_empty() { "none".to_owned() } else { names.join(" ") };
         format!("its columns are {names}, expected two of one test: {all}")
     })
-}
-
-fn count(names: &[String], name: &str) -> usize {
-    names.iter().filter(|other| *other == name).count()
 }
 
 #[cfg(test)]

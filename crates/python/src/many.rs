@@ -73,7 +73,7 @@ fn columns(
     for column in kinds.iter().flat_map(|(_, columns)| columns) {
         if !all.iter().any(|(name, ..)| *name == column.name) {
             // Name, unit and meaning alone: cells come batch by batch.
-            all.extend(table(slice::from_ref(column), &[]));
+            all.extend(table(slice::from_ref(column), []));
         }
     }
     for (batch, skins) in skins.chunks(BATCH).enumerate() {
@@ -90,7 +90,7 @@ fn columns(
         }
     }
     for parameter in differing(skins) {
-        let value = |skin: &Py<Skin>| parameter.get(&skin.get().case()).into();
+        let value = |skin: &&Py<Skin>| parameter.get(&skin.get().case()).into();
         let column = Column::parameter(parameter, value);
         if !all.iter().any(|(name, ..)| *name == column.name) {
             all.extend(table(&[column], skins));

@@ -40,10 +40,8 @@ impl Solved {
 
     /// The tables of the paths, by their names; none of what was not solved.
     fn tables(&self) -> HashMap<&'static str, Vec<NamedCells>> {
-        let named = |of: PathTable| {
-            let rows: Vec<usize> = (0..of.rows).collect();
-            (of.file.trim_end_matches(".csv"), table(&of.columns, &rows))
-        };
+        let named =
+            |of: PathTable| (of.file.trim_end_matches(".csv"), table(&of.columns, 0..of.rows));
         path_tables(&self.design).into_iter().map(named).collect()
     }
 

@@ -142,8 +142,7 @@ pub fn rank(
     let ranking = ranking.or_failed("rank")?;
     let parameters: Vec<_> = results.parameters().collect();
     let columns = ranking_columns(&parameters, ranking.preferences());
-    let ranked: Vec<_> = ranking.by_fitness(ranking.preferences().weights).collect();
-    Ok(table(&columns, &ranked))
+    Ok(table(&columns, ranking.by_fitness(ranking.preferences().weights)))
 }
 
 fn requirements(texts: &[String]) -> PyResult<Vec<Requirement>> {
@@ -206,14 +205,8 @@ pub fn tolerance(
         error => error::failed("tolerance", &error.to_string()),
     })?;
     Ok([
-        table(
-            TOLERANCE_COLUMNS,
-            &all.iter().flat_map(DesignTolerance::measure_rows).collect::<Vec<_>>(),
-        ),
-        table(
-            SOURCE_COLUMNS,
-            &all.iter().flat_map(DesignTolerance::source_rows).collect::<Vec<_>>(),
-        ),
-        table(YIELD_COLUMNS, &all.iter().flat_map(DesignTolerance::yield_rows).collect::<Vec<_>>()),
+        table(TOLERANCE_COLUMNS, all.iter().flat_map(DesignTolerance::measure_rows)),
+        table(SOURCE_COLUMNS, all.iter().flat_map(DesignTolerance::source_rows)),
+        table(YIELD_COLUMNS, all.iter().flat_map(DesignTolerance::yield_rows)),
     ])
 }

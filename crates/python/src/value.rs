@@ -112,7 +112,8 @@ impl Extend<Cell> for Cells {
 }
 
 /// The cells of every column in some rows.
-pub fn table<R>(columns: &[Column<R>], rows: &[R]) -> Vec<NamedCells> {
+pub fn table<R>(columns: &[Column<R>], rows: impl IntoIterator<Item = R>) -> Vec<NamedCells> {
+    let rows: Vec<R> = rows.into_iter().collect();
     let named = |column: &Column<R>| {
         let mut cells = Cells::Numbers(Vec::new());
         cells.extend(rows.iter().map(|row| column.cell(row)));

@@ -30,6 +30,13 @@ impl Area {
         self.top + self.height
     }
 
+    /// Returns panel `k` of a grid of some columns that stand so far apart, across and down, of which this is the first.
+    pub(crate) fn panel(self, k: usize, columns: usize, between: [f64; 2]) -> Self {
+        let [column, row] = [k % columns, k / columns].map(|place| place as f64);
+        let left = self.left + column * (self.width + between[0]);
+        Self { left, top: self.top + row * (self.height + between[1]), ..self }
+    }
+
     /// Draws the border.
     pub(crate) fn border(&self) -> Element {
         rect([self.left, self.top], [self.width, self.height])
@@ -71,6 +78,11 @@ impl<'a> ChartPanel<'a> {
         Some([self.across(x)?, self.down(y)?])
     }
 
+    /// Returns the spots of points, without those that lie outside.
+    pub(crate) fn spots(&self, points: impl IntoIterator<Item = [f64; 2]>) -> Vec<Spot> {
+        points.into_iter().filter_map(|[x, y]| self.place(x, y)).collect()
+    }
+
     fn across(&self, x: f64) -> Option<f64> {
         Some(self.area.left + self.area.width * self.x.place(x)?)
     }
@@ -86,12 +98,7 @@ impl<'a> ChartPanel<'a> {
         Element::group("frame")
             .containing(self.x_ticks())
             .containing(self.y_ticks())
-            .containing([self.border(), title.with("fill", INK)])
-    }
-
-    /// Draws the border of the panel.
-    pub(crate) fn border(&self) -> Element {
-        self.area.border()
+            .containing([self.area.border(), title.with("fill", INK)])
     }
 
     pub(crate) fn x_ticks(&self) -> Vec<Element> {
@@ -147,17 +154,11 @@ impl<'a> ChartPanel<'a> {
     /// Returns the label of the y axis beside the panel, `away` px from it.
     pub(crate) fn y_name(&self, away: f64) -> Element {
         let spot = [self.area.left - away, self.area.center()[1]];
-        let name = self.short_name();
-        upright(name, spot, fitting(name, self.area.height)).with("fill", INK)
-    }
-}
-
-impl ChartPanel<'_> {
-    /// Returns the label of the y axis, without the formula behind its symbol where that is taller than the panel.
-    fn short_name(&self) -> &str {
         let label = &self.y.label;
+        // Without the formula behind its symbol where that is taller than the panel.
         let is_long = width(label, NAME) > self.area.height;
-        label.split(" = ").next().filter(|_| is_long).unwrap_or(label)
+        let name = label.split(" = ").next().filter(|_| is_long).unwrap_or(label);
+        upright(name, spot, fitting(name, self.area.height)).with("fill", INK)
     }
 }
 
@@ -218,13 +219,9 @@ impl MarkLook {
 /// Returns the shapes that the marks of some slants are uses of. A mark is then as short as its place: a page holds a hundred
 /// thousand of them.
 pub(crate) fn shapes(palette: &SlantPalette) -> Element {
-    let mut marks: Vec<Mark> = Vec::new();
-    for mark in palette.slants().iter().map(|&slant| palette.mark(slant)) {
-        if !marks.contains(&mark) {
-            marks.push(mark);
-        }
-    }
-    let looks = marks.iter().flat_map(|&mark| MarkLook::ALL.map(|look| (look, mark)));
+    let is_used = |mark: &Mark| palette.slants().iter().any(|&of| palette.mark(of) == *mark);
+    let marks = Mark::ALL.into_iter().filter(is_used);
+    let looks = marks.flat_map(|mark| MarkLook::ALL.map(|look| (look, mark)));
     let shape = |(look, mark): (MarkLook, Mark)| look.draw(mark).with("id", look.shape(mark));
     Element::new("defs").containing(looks.map(shape))
 }

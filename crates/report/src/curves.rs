@@ -321,7 +321,7 @@ const MEASURED: [&str; 3] = [RED, INK, "#1b7f4b"];
 
 /// Draws measured points.
 fn dots(panel: &ChartPanel, points: &[[f64; 2]], color: &str) -> Element {
-    let spots = points.iter().filter_map(|&[x, y]| panel.place(x, y));
+    let spots = panel.spots(points.iter().copied()).into_iter();
     Element::group("measured").containing(spots.map(|spot| dot(spot, color)))
 }
 
@@ -342,10 +342,14 @@ fn curves_of(designs: &[DesignCurves], values: ValuesOf, units: &[[f64; 2]]) -> 
         let before = before.count();
         let color = shaded(&palette.color(slant), SHADES[before % SHADES.len()]);
         let dashes = DASHES[before % DASHES.len()];
-        let name = format!("{}:  {}", solved.number, geometry_label(solved.case));
+        let name = curve_name(solved);
         curves.push(Curve { name, color, dashes, values });
     }
     curves
+}
+
+fn curve_name(solved: &DesignCurves) -> String {
+    format!("{}:  {}", solved.number, geometry_label(solved.case))
 }
 
 /// Returns the colours of the slants of some designs.
@@ -392,9 +396,7 @@ impl Curve {
 }
 
 fn drawn(panel: &ChartPanel, curve: &Curve) -> Element {
-    let spots = |points: &[[f64; 2]]| -> Vec<Spot> {
-        points.iter().filter_map(|&[x, y]| panel.place(x, y)).collect()
-    };
+    let spots = |points: &[[f64; 2]]| panel.spots(points.iter().copied());
     let paths = curve.parts().into_iter().map(|(points, dashes, width)| {
         polyline(&spots(points))
             .with("stroke", curve.color.as_str())
@@ -448,27 +450,34 @@ fn panels(
 ) -> Option<String> {
     let units = text.physical(designs);
     let labels = text.axes[usize::from(units.is_some())];
-    let scaled = |(k, solved)| {
-        let mut energies = values(solved)?;
-        let [x, y] = units.as_ref().map_or([1.0; 2], |units| units[k]);
-        let points = energies.iter_mut().flat_map(|(_, points)| points);
-        points.for_each(|point| *point = [point[0] * x, point[1] * y]);
-        Some((solved, energies))
+    let palette = palette(designs);
+    let curves = |(k, solved): (usize, &DesignCurves)| {
+        let units = units.as_ref().map_or([1.0; 2], |units| units[k]);
+        let curve = |(dashes, points)| {
+            let mut values = CurveValues { points, ..CurveValues::default() };
+            values.in_units(units);
+            let color = palette.color(solved.case.design.slant_deg);
+            Curve { name: curve_name(solved), color, dashes, values }
+        };
+        Some(values(solved)?.into_iter().map(curve).collect())
     };
-    let solved: Vec<_> = designs.iter().enumerate().filter_map(scaled).collect();
+    let solved: Vec<Vec<Curve>> = designs.iter().enumerate().filter_map(curves).collect();
     if solved.is_empty() {
         return None;
     }
-    let palette = palette(designs);
     let columns = columns(solved.len()).min(3);
     let [w, h] = ENERGY_PANEL;
+    let first = Area { left: MARGINS[0], top: 86.0, width: w, height: h };
     let mut inside =
         vec![label(text.notes[0], [20.0, 48.0], 12.0, Anchor::Start).with("fill", INK)];
-    for (k, (design, energies)) in solved.iter().enumerate() {
-        let [left, top] = [(k % columns) as f64 * (w + 84.0), (k / columns) as f64 * (h + 84.0)];
-        let area = Area { left: MARGINS[0] + left, top: 86.0 + top, width: w, height: h };
-        let color = palette.color(design.case.design.slant_deg);
-        inside.extend(energies_of(labels, (design, &color), energies, area));
+    for (k, curves) in solved.iter().enumerate() {
+        let area = first.panel(k, columns, [84.0; 2]);
+        let points = curves.iter().flat_map(|curve| curve.values.all()).copied();
+        let (x, y) = axes(labels, &points.collect::<Vec<_>>());
+        let title = curves[0].name.clone();
+        let panel = ChartPanel { title, ..ChartPanel::new(area, &x, &y) };
+        inside.extend(panel.axes(58.0));
+        inside.extend(curves.iter().map(|curve| drawn(&panel, curve)));
     }
     let rows = solved.len().div_ceil(columns) as f64;
     let title = format!("{name}: {}", text.title);
@@ -476,25 +485,4 @@ fn panels(
     // One panel alone is narrower than its title.
     let paper = paper.max(width(&title, 15.0) + 60.0);
     Some(sheet(paper, 86.0 + rows * (h + 84.0) - 20.0, &title, inside))
-}
-
-/// Returns the energies of one design.
-fn energies_of(
-    labels: [&str; 2],
-    (solved, color): (&DesignCurves, &str),
-    energies: &Energies,
-    area: Area,
-) -> Vec<Element> {
-    let points: Vec<_> = energies.iter().flat_map(|(_, points)| points.iter().copied()).collect();
-    let (x, y) = axes(labels, &points);
-    let title = format!("{}:  {}", solved.number, geometry_label(solved.case));
-    let panel = ChartPanel { title, ..ChartPanel::new(area, &x, &y) };
-    let curve = |(dashes, points): &(&'static str, Vec<[f64; 2]>)| Curve {
-        name: String::new(),
-        color: color.to_owned(),
-        dashes,
-        values: CurveValues { points: points.clone(), ..CurveValues::default() },
-    };
-    let curves = energies.iter().map(|energy| drawn(&panel, &curve(energy)));
-    panel.axes(58.0).into_iter().chain(curves).collect()
 }

@@ -4,6 +4,7 @@ use std::io::{self, Write};
 
 use results::columns::name;
 use serde::Serialize;
+use serde_json::Value;
 use sweep::{Axis, Parameter, Scalar, Sweep, Variable, key};
 
 use crate::packed::in_sevens;
@@ -63,55 +64,31 @@ struct Control {
     max: f64,
     /// What one press of a key moves.
     step: f64,
-    value: ControlValue,
+    /// The value with which a page opens, a number or a word.
+    value: Value,
     /// The values of one that takes words.
     words: Option<[&'static str; 2]>,
     /// The only kind of needle for which it has a meaning.
     only: Option<&'static str>,
 }
 
-/// The value with which a page opens.
-#[derive(Clone, Copy, Debug, Serialize)]
-#[serde(untagged)]
-enum ControlValue {
-    Number(f64),
-    Word(&'static str),
-}
-
-/// A parameter that a hand may move: its label, the range where the definition gives none, and the share of the range at which a
-/// page opens where the definition gives several values.
-struct Offered {
-    key: &'static str,
-    label: &'static str,
-    range: [f64; 2],
-    opens_at: f64,
-    /// Whether a definition that does not give it leaves it out.
-    if_given: bool,
-}
-
-impl Offered {
-    const fn new(key: &'static str, label: &'static str, range: [f64; 2], opens_at: f64) -> Self {
-        Self { key, label, range, opens_at, if_given: false }
-    }
-
-    const fn if_given(self) -> Self {
-        Self { if_given: true, ..self }
-    }
-}
+/// A parameter that a hand may move: its key and label, the range where the definition gives none, the share of the range at which
+/// a page opens where the definition gives several values, and whether a definition that does not give it leaves it out.
+type Offered = (&'static str, &'static str, [f64; 2], f64, bool);
 
 /// The parameters under the hand. A page opens with a skin of overlapping scales, because that is one that protects.
 const OFFERED: [Offered; 11] = [
-    Offered::new(key::GAP, "Gap", [0.02, 1.0], 0.1),
-    Offered::new(key::LENGTH, "Length", [0.05, 2.0], 0.5),
-    Offered::new(key::SLANT, "Slant", [0.0, 80.0], 0.7),
-    Offered::new(key::WIDTH, "Width", [0.25, 2.0], 0.5),
-    Offered::new(key::THICKNESS, "Thickness", [0.1, 10.0], 0.5).if_given(),
-    Offered::new("membrane_thickness_over_t", "Membrane", [0.02, 0.5], 0.5),
-    Offered::new(key::SUBSTRATE_MODULUS, "Tissue", [0.01, 10.0], 0.5).if_given(),
-    Offered::new(key::FRICTION, "Scales rub", [0.0, 0.5], 0.0),
-    Offered::new(key::NEEDLE, "Needle", [0.0, 0.0], 0.0),
-    Offered::new(key::NEEDLE_FRICTION, "Friction", [0.0, 1.0], 0.2),
-    Offered::new(key::CRITICAL_TILT, "Critical tilt", [2.0, 30.0], 0.5),
+    (key::GAP, "Gap", [0.02, 1.0], 0.1, false),
+    (key::LENGTH, "Length", [0.05, 2.0], 0.5, false),
+    (key::SLANT, "Slant", [0.0, 80.0], 0.7, false),
+    (key::WIDTH, "Width", [0.25, 2.0], 0.5, false),
+    (key::THICKNESS, "Thickness", [0.1, 10.0], 0.5, true),
+    ("membrane_thickness_over_t", "Membrane", [0.02, 0.5], 0.5, false),
+    (key::SUBSTRATE_MODULUS, "Tissue", [0.01, 10.0], 0.5, true),
+    (key::FRICTION, "Scales rub", [0.0, 0.5], 0.0, false),
+    (key::NEEDLE, "Needle", [0.0, 0.0], 0.0, false),
+    (key::NEEDLE_FRICTION, "Friction", [0.0, 1.0], 0.2, false),
+    (key::CRITICAL_TILT, "Critical tilt", [2.0, 30.0], 0.5, false),
 ];
 
 /// A measure that is shown.
@@ -125,44 +102,33 @@ struct Shown {
     words: &'static str,
 }
 
+const fn shown(
+    name: &'static str,
+    label: &'static str,
+    physical: &'static str,
+    words: &'static str,
+) -> Shown {
+    Shown { name, label, physical, words }
+}
+
 /// The measures that are shown.
 const SHOWN: [Shown; 6] = [
-    Shown {
-        name: name::COVERAGE,
-        label: "Coverage",
-        physical: "",
-        words: "share of the thickness filled with scales",
-    },
-    Shown {
-        name: name::CRITICAL_FORCE,
-        label: "Critical force",
-        physical: "critical_force_N",
-        words: "the needle tilts a scale too far",
-    },
-    Shown {
-        name: name::PENETRATION,
-        label: "Penetration",
-        physical: "penetration_mm",
-        words: "how deep the scales have sunk then",
-    },
-    Shown {
-        name: name::COMPLIANCE,
-        label: "Flexibility",
-        physical: "",
-        words: "1: the membrane alone bends as easily",
-    },
-    Shown {
-        name: name::CONTACT_CURVATURE,
-        label: "Bends freely to",
-        physical: "bend_radius_mm",
-        words: "radius, or curvature, at which scales touch",
-    },
-    Shown {
-        name: name::SOUND_FORCE,
-        label: "Trusted to",
-        physical: "sound_force_N",
-        words: "before the surface folds over",
-    },
+    shown(name::COVERAGE, "Coverage", "", "share of the thickness filled with scales"),
+    shown(
+        name::CRITICAL_FORCE,
+        "Critical force",
+        "critical_force_N",
+        "the needle tilts a scale too far",
+    ),
+    shown(name::PENETRATION, "Penetration", "penetration_mm", "how deep the scales have sunk then"),
+    shown(name::COMPLIANCE, "Flexibility", "", "1: the membrane alone bends as easily"),
+    shown(
+        name::CONTACT_CURVATURE,
+        "Bends freely to",
+        "bend_radius_mm",
+        "radius, or curvature, at which scales touch",
+    ),
+    shown(name::SOUND_FORCE, "Trusted to", "sound_force_N", "before the surface folds over"),
 ];
 
 /// What the scripts read.
@@ -213,50 +179,37 @@ impl Explorer {
     }
 
     /// The control of a parameter: over the values of its axis or variable where there are several, over a range of its own elsewhere.
-    fn control(&self, offered: &Offered) -> Option<Control> {
-        let parameter = Parameter::named(offered.key)?;
-        let own = parameter.get(&self.sweep.grid().case(0));
-        let axis = self.sweep.grid().axis(offered.key).and_then(span);
-        let span = axis.or_else(|| {
-            self.sweep.variables().iter().find_map(|variable| interval(variable, offered.key))
-        });
-        if offered.if_given && span.is_none() && own.number().is_none() {
+    fn control(&self, &(key, label, range, opens_at, if_given): &Offered) -> Option<Control> {
+        let parameter = Parameter::named(key)?;
+        let grid = self.sweep.grid();
+        let own = parameter.get(&grid.case(0));
+        let variables = || self.sweep.variables().iter();
+        let span = grid.axis(key).and_then(span);
+        let span = span.or_else(|| variables().find_map(|variable| interval(variable, key)));
+        if if_given && span.is_none() && own.number().is_none() {
             return None;
         }
-        let base = self.sweep.grid().base();
         // Under a free needle a friction stands for the critical tilt: only one of both acts.
-        let friction_is_given = base.needle_friction.is_some()
-            || self.sweep.grid().axis(key::NEEDLE_FRICTION).is_some();
+        let friction_is_given =
+            grid.base().needle_friction.is_some() || grid.axis(key::NEEDLE_FRICTION).is_some();
         let friction_says_tilt = friction_is_given && !self.sweep.is_guided();
-        let only = match offered.key {
+        let only = match key {
             key::NEEDLE_FRICTION if !friction_says_tilt => Some("guided"),
             key::CRITICAL_TILT if friction_says_tilt => Some("guided"),
             _ => None,
         };
-        let (words, value) = match own {
-            Scalar::Word(word) if offered.key == key::NEEDLE => {
-                (Some(["free", "guided"]), ControlValue::Word(word))
-            }
-            _ => (None, ControlValue::Number(0.0)),
-        };
-        let [min, max] = span.unwrap_or(offered.range);
+        let [min, max] = span.unwrap_or(range);
         // The first design of a grid is one of its corners, and seldom one that protects.
-        let middle = min + offered.opens_at * (max - min);
+        let middle = min + opens_at * (max - min);
         let number = own.number().filter(|_| span.is_none()).unwrap_or(middle);
         // A definition may give more than the usual range has.
         let (min, max) = (min.min(number), max.max(number));
-        let value = if words.is_some() { value } else { ControlValue::Number(number) };
-        Some(Control {
-            key: offered.key,
-            label: offered.label,
-            unit: parameter.unit,
-            min,
-            max,
-            step: (max - min) / 100.0,
-            value,
-            words,
-            only,
-        })
+        let (words, value) = match own {
+            Scalar::Word(word) if key == key::NEEDLE => (Some(["free", "guided"]), word.into()),
+            _ => (None, number.into()),
+        };
+        let (unit, step) = (parameter.unit, (max - min) / 100.0);
+        Some(Control { key, label, unit, min, max, step, value, words, only })
     }
 }
 

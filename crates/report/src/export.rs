@@ -103,7 +103,8 @@ pub fn export(
     others: &[OtherTable],
     file: &Path,
 ) -> Result<Exported, ExportError> {
-    let name = file.file_name().filter(|_| has_extension(file)).and_then(|name| name.to_str());
+    let is_workbook = file.extension().is_some_and(|end| end.eq_ignore_ascii_case("xlsx"));
+    let name = file.file_name().filter(|_| is_workbook).and_then(|name| name.to_str());
     let name = name.ok_or_else(|| ExportError::NoWorkbook { file: file.to_owned() })?;
     let mut others = others.to_vec();
     others.retain(|table| results.holds(table.file));
@@ -116,10 +117,6 @@ pub fn export(
     // The writer of workbooks panics if the disk does not take the rows that it puts aside.
     let written = catch_unwind(AssertUnwindSafe(|| write(results, &others, folder, name)));
     written.unwrap_or_else(|panic| Err(unwritable(folder, name, &said(&*panic))))
-}
-
-fn has_extension(file: &Path) -> bool {
-    file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("xlsx"))
 }
 
 fn write(
@@ -221,8 +218,8 @@ fn copy(
     while csv.read_record(&mut row).map_err(|error| unreadable(words(error)))? {
         sheet.add(&row).map_err(failed)?;
     }
-    guide.explain(sheet.table(), own, &header).map_err(failed)?;
-    let rows = sheet.rows();
+    guide.explain(&sheet.table, own, &header).map_err(failed)?;
+    let rows = sheet.rows;
     Ok((sheet.finish().map_err(failed)?, rows))
 }
 

@@ -33,7 +33,11 @@ fn runs(source: &str) -> Vec<TextRun> {
             '{' if level != 0 => braced = true,
             '}' if braced => (braced, level) = (false, 0),
             c => {
-                push(&mut runs, c, italic && level == 0, level);
+                let italic = italic && level == 0;
+                match runs.last_mut() {
+                    Some(run) if run.italic == italic && run.level == level => run.text.push(c),
+                    _ => runs.push(TextRun { text: c.to_string(), italic, level }),
+                }
                 if !braced {
                     level = 0;
                 }
@@ -42,13 +46,6 @@ fn runs(source: &str) -> Vec<TextRun> {
     }
     runs.retain(|run| !run.text.is_empty());
     runs
-}
-
-fn push(runs: &mut Vec<TextRun>, c: char, italic: bool, level: i8) {
-    match runs.last_mut() {
-        Some(run) if run.italic == italic && run.level == level => run.text.push(c),
-        _ => runs.push(TextRun { text: c.to_string(), italic, level }),
-    }
 }
 
 /// Returns the characters of `source` without its notation.

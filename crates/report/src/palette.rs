@@ -40,21 +40,18 @@ impl SlantPalette {
     /// Returns the colour of a slant.
     pub fn color(&self, slant_deg: f64) -> String {
         let last = SLANTS.len() - 1;
-        let spread = self.0.len().max(2) - 1;
-        let place = match self.steps() {
-            Steps::Fifteen => slant_deg / 15.0,
-            Steps::Few => self.place(slant_deg) as f64,
-            Steps::Many => self.place(slant_deg) as f64 * last as f64 / spread as f64,
+        let place = match self.0.len() {
+            _ if self.is_by_fifteen() => slant_deg / 15.0,
+            0..=7 => self.place(slant_deg) as f64,
+            count => self.place(slant_deg) as f64 * last as f64 / (count - 1) as f64,
         };
         mixed(&SLANTS, place / last as f64)
     }
 
     /// Returns the mark of a slant.
     pub fn mark(&self, slant_deg: f64) -> Mark {
-        let place = match self.steps() {
-            Steps::Fifteen => (slant_deg / 15.0).round() as usize,
-            Steps::Few | Steps::Many => self.place(slant_deg),
-        };
+        let by_fifteen = || (slant_deg / 15.0).round() as usize;
+        let place = if self.is_by_fifteen() { by_fifteen() } else { self.place(slant_deg) };
         Mark::ALL[place % Mark::ALL.len()]
     }
 
@@ -62,21 +59,10 @@ impl SlantPalette {
         self.0.partition_point(|other| *other < slant_deg)
     }
 
-    fn steps(&self) -> Steps {
-        let is_multiple = |slant: &f64| (slant / 15.0 - (slant / 15.0).round()).abs() < 1e-9;
-        match self.0.len() {
-            _ if self.0.iter().all(is_multiple) => Steps::Fifteen,
-            0..=7 => Steps::Few,
-            _ => Steps::Many,
-        }
+    /// Returns whether all slants are multiples of 15°.
+    fn is_by_fifteen(&self) -> bool {
+        self.0.iter().all(|slant| (slant / 15.0 - (slant / 15.0).round()).abs() < 1e-9)
     }
-}
-
-/// How the slants of a sweep lie.
-enum Steps {
-    Fifteen,
-    Few,
-    Many,
 }
 
 /// The shape that marks a slant.
@@ -117,21 +103,16 @@ impl Mark {
 
     /// Returns the mark at a place, about as large as a circle of `radius`.
     pub(crate) fn draw(self, center: Spot, radius: f64) -> Element {
-        let corners = self.corners(center, radius);
-        corners.map_or_else(|| circle(center, radius), |corners| polygon(&corners))
-    }
-
-    /// Returns the corners of the mark; a circle has none.
-    fn corners(self, center: Spot, radius: f64) -> Option<Vec<Spot>> {
-        Some(match self {
-            Self::Circle => return None,
-            Self::Square => regular(center, 1.25 * radius, 4, PI / 4.0, 1.0),
-            Self::Diamond => regular(center, 1.35 * radius, 4, 0.0, 1.0),
-            Self::Up => regular(center, 1.4 * radius, 3, PI / 2.0, 1.0),
-            Self::Down => regular(center, 1.4 * radius, 3, -PI / 2.0, 1.0),
-            Self::Star => regular(center, 1.5 * radius, 5, PI / 2.0, 0.45),
-            Self::Hexagon => regular(center, 1.15 * radius, 6, 0.0, 1.0),
-        })
+        let (size, corners, start, inner) = match self {
+            Self::Circle => return circle(center, radius),
+            Self::Square => (1.25, 4, PI / 4.0, 1.0),
+            Self::Diamond => (1.35, 4, 0.0, 1.0),
+            Self::Up => (1.4, 3, PI / 2.0, 1.0),
+            Self::Down => (1.4, 3, -PI / 2.0, 1.0),
+            Self::Star => (1.5, 5, PI / 2.0, 0.45),
+            Self::Hexagon => (1.15, 6, 0.0, 1.0),
+        };
+        polygon(&regular(center, size * radius, corners, start, inner))
     }
 }
 

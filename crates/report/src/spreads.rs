@@ -1,6 +1,6 @@
 //! Figures of tolerances: a histogram of samples, and where a spread comes from.
 
-use crate::axis::ChartAxis;
+use crate::axis::{ChartAxis, ends};
 use crate::chart::{Area, ChartPanel};
 use crate::colors::{INK, RED, map_color};
 use crate::figures::{in_words, sheet};
@@ -33,9 +33,7 @@ impl Histogram<'_> {
     pub fn svg(&self) -> String {
         let shown = self.values.iter().copied().chain(self.drawn);
         // Bounds beyond all samples stay in sight: how far away they are is what is asked.
-        let shown: Vec<f64> = shown.chain(self.bounds.iter().map(|(_, at)| *at)).collect();
-        let low = shown.iter().copied().fold(f64::INFINITY, f64::min);
-        let high = shown.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let (low, high) = ends(shown.chain(self.bounds.iter().map(|(_, at)| *at)));
         let x = ChartAxis::linear(&in_words(self.measure), low, high);
         let bars = self.bars();
         let y = ChartAxis::spanning("samples", bars.iter().map(|(.., count)| *count));
@@ -58,8 +56,7 @@ impl Histogram<'_> {
 
     /// The bars, each from one value to another, with its count.
     fn bars(&self) -> Vec<(f64, f64, f64)> {
-        let low = self.values.iter().copied().fold(f64::INFINITY, f64::min);
-        let high = self.values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let (low, high) = ends(self.values.iter().copied());
         // More bars than the square root of the samples would show chance.
         let count = ((self.values.len() as f64).sqrt() as usize).clamp(BARS[0], BARS[1]);
         let step = (high - low) / count as f64;

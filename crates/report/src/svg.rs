@@ -15,18 +15,13 @@ pub(crate) type Spot = [f64; 2];
 pub(crate) struct Element {
     name: &'static str,
     attributes: Vec<(&'static str, String)>,
-    inside: Vec<SvgNode>,
-}
-
-#[derive(Clone, Debug, PartialEq)]
-enum SvgNode {
-    Element(Element),
-    Text(String),
+    text: Option<String>,
+    inside: Vec<Element>,
 }
 
 impl Element {
     pub(crate) fn new(name: &'static str) -> Self {
-        Self { name, attributes: Vec::new(), inside: Vec::new() }
+        Self { name, attributes: Vec::new(), text: None, inside: Vec::new() }
     }
 
     /// Returns a group with a class, which says what it shows.
@@ -45,16 +40,16 @@ impl Element {
     }
 
     pub(crate) fn add(&mut self, element: Self) {
-        self.inside.push(SvgNode::Element(element));
+        self.inside.push(element);
     }
 
     pub(crate) fn containing(mut self, elements: impl IntoIterator<Item = Self>) -> Self {
-        self.inside.extend(elements.into_iter().map(SvgNode::Element));
+        self.inside.extend(elements);
         self
     }
 
     pub(crate) fn text(mut self, text: &str) -> Self {
-        self.inside.push(SvgNode::Text(text.to_owned()));
+        self.text = Some(text.to_owned());
         self
     }
 
@@ -63,25 +58,21 @@ impl Element {
         for (name, value) in &self.attributes {
             let _ = write!(out, " {name}=\"{}\"", escaped(value));
         }
-        if self.inside.is_empty() {
+        if self.inside.is_empty() && self.text.is_none() {
             out.push_str("/>");
             return;
         }
         out.push('>');
+        out.push_str(&escaped(self.text.as_deref().unwrap_or_default()));
         // White space inside of a text would show.
-        let lines = self.name != "text" && self.name != "tspan";
-        for node in &self.inside {
-            match node {
-                SvgNode::Element(element) => {
-                    if lines {
-                        new_line(out, depth + 1);
-                    }
-                    element.write(out, depth + 1);
-                }
-                SvgNode::Text(text) => out.push_str(&escaped(text)),
+        let lines = self.name != "text" && !self.inside.is_empty();
+        for element in &self.inside {
+            if lines {
+                new_line(out, depth + 1);
             }
+            element.write(out, depth + 1);
         }
-        if lines && self.inside.iter().any(|node| matches!(node, SvgNode::Element(_))) {
+        if lines {
             new_line(out, depth);
         }
         let _ = write!(out, "</{}>", self.name);
@@ -180,17 +171,12 @@ pub fn smallest_letters(svg: &str, width: f64) -> Option<f64> {
 /// Points of letters in a millimetre.
 const POINTS_PER_MM: f64 = 72.0 / 25.4;
 
-/// Returns the data of a path through `points`.
-pub(crate) fn through(points: &[Spot], closed: bool) -> String {
-    let mut data = String::new();
-    for (k, [x, y]) in points.iter().enumerate() {
-        let command = if k == 0 { "M" } else { " L" };
-        let _ = write!(data, "{command}{} {}", px(*x), px(*y));
-    }
-    if closed {
-        data.push_str(" Z");
-    }
-    data
+/// Returns the data of a path through `points`, whose coordinates `text` writes.
+pub(crate) fn path_data(points: &[Spot], closed: bool, text: fn(f64) -> String) -> String {
+    let corners = points.iter().map(|[x, y]| format!("{} {}", text(*x), text(*y)));
+    let line = corners.collect::<Vec<_>>().join(" L");
+    let start = if points.is_empty() { "" } else { "M" };
+    format!("{start}{line}{}", if closed { " Z" } else { "" })
 }
 
 pub(crate) fn rect([x, y]: Spot, [width, height]: [f64; 2]) -> Element {
@@ -198,11 +184,11 @@ pub(crate) fn rect([x, y]: Spot, [width, height]: [f64; 2]) -> Element {
 }
 
 pub(crate) fn polygon(points: &[Spot]) -> Element {
-    Element::new("path").with("d", through(points, true))
+    Element::new("path").with("d", path_data(points, true, px))
 }
 
 pub(crate) fn polyline(points: &[Spot]) -> Element {
-    Element::new("path").with("d", through(points, false)).with("fill", "none")
+    Element::new("path").with("d", path_data(points, false, px)).with("fill", "none")
 }
 
 pub(crate) fn line(from: Spot, to: Spot, stroke: &str, width: f64) -> Element {

@@ -149,21 +149,16 @@ impl<'a> Analysis<'a> {
         columns: &[String],
         store: &SampleStore,
     ) -> Result<Vec<SolvedSample>, NoAnalysis> {
-        // A sample for which no deviations are found is one that fails, with no values.
-        let solve =
-            |sample: u64| self.sample(nominal, sample).unwrap_or_else(|| vec![None; columns.len()]);
+        let (design, case) = (nominal.row.number, &nominal.case);
+        let solve = |sample: u64| match self.sampler.solve(design, case, sample) {
+            Some(skin) => [skin.deviations, nominal.measured.values(&skin.row)].concat(),
+            // A sample for which no deviations are found is one that fails, with no values.
+            None => vec![None; columns.len()],
+        };
         let number = nominal.row.number.to_string();
         // Of this design alone: another design of the sweep makes no samples stale.
         let header = header(self.program, &self.sweep.only(nominal.index));
         store.samples((&number, header), columns, self.samples, self.stop, solve)
-    }
-
-    /// The deviations and values of a sample; `None` if there is no such skin.
-    fn sample(&self, nominal: &Nominal, sample: u64) -> Option<Vec<Option<f64>>> {
-        let skin = self.sampler.solve(nominal.row.number, &nominal.case, sample)?;
-        let mut values = skin.deviations;
-        values.extend(nominal.measured.values(&skin.row));
-        Some(values)
     }
 
     /// The values of a column in all samples; deviations stand before the columns.

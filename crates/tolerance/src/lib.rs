@@ -78,8 +78,5 @@ pub use sampled::Sampled;
 pub use sampler::{Sample, Sampler};
 pub use sobol::{Evaluation, IndexEstimate, SobolIndices, sobol_indices};
 pub use store::{SampleStore, SolvedSample};
-pub use tables::{
-    DesignMeasureTolerance, DesignSource, DesignYield, INDEX_COLUMNS, IndexRow, SOURCE_COLUMNS,
-    TOLERANCE_COLUMNS, YIELD_COLUMNS,
-};
+pub use tables::{INDEX_COLUMNS, SOURCE_COLUMNS, TOLERANCE_COLUMNS, YIELD_COLUMNS};
 pub use yields::RequirementYield;

@@ -4,7 +4,7 @@ use results::columns::measure_name;
 use results::{Column, DesignRow, ParameterDerivative, SlopeSide};
 use sweep::{BatchDeviation, Case, Deviation, Parameter};
 
-use crate::moments::DeviationSlopes;
+use crate::moments;
 
 /// Part of a standard deviation over which slopes are taken.
 const STEP: f64 = 1e-5;
@@ -58,7 +58,7 @@ impl Gradients<'_> {
         for deviation in self.deviations {
             // A deviation may be one from scale to scale alone, which stands below.
             let Some(batch) = deviation.batch() else { continue };
-            let variance = self.slopes(column, deviation, batch)?.variance(batch);
+            let variance = moments::variance(self.slopes(column, deviation, batch)?, batch);
             let (source, deviation) = (deviation.key(), batch.standard_deviation());
             sources.push((source, DeviationLevel::Batch, deviation, variance));
         }
@@ -75,7 +75,7 @@ impl Gradients<'_> {
         column: &Column<DesignRow>,
         deviation: &Deviation,
         batch: BatchDeviation,
-    ) -> Option<DeviationSlopes> {
+    ) -> Option<[f64; 2]> {
         let case = &self.design.case;
         // Derivatives are extrapolated, so the step needs to be small against the deviation and large against round-off only.
         let step = STEP * batch.standard_deviation();
@@ -83,7 +83,7 @@ impl Gradients<'_> {
             |to: &Case| column.cell(&self.design.extrapolated(to, SlopeSide::Ahead)).number();
         let here = value(case)?;
         let slope = |by: f64| Some((value(&deviation.moved(case, by)?)? - here) / by);
-        Some(DeviationSlopes { left: slope(-step)?, right: slope(step)? })
+        Some([slope(-step)?, slope(step)?])
     }
 
     /// The parameters that differ from scale to scale, with their standard deviations.
@@ -108,11 +108,8 @@ impl Gradients<'_> {
         let single = self.single.iter();
         let of_measure = single.filter(|d| d.measure == measure && d.parameter == key);
         let variance = |derivative: &ParameterDerivative| {
-            let slopes = DeviationSlopes {
-                left: factor * derivative.left?,
-                right: factor * derivative.right?,
-            };
-            Some(slopes.variance(BatchDeviation::Normal(sd)))
+            let slopes = [factor * derivative.left?, factor * derivative.right?];
+            Some(moments::variance(slopes, BatchDeviation::Normal(sd)))
         };
         of_measure.map(variance).sum()
     }

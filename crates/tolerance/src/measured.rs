@@ -33,20 +33,15 @@ impl MeasuredColumns {
         self.0.iter().map(|column| column.cell(row).number()).collect()
     }
 
-    /// The index of the column of that name.
-    fn index(&self, name: &str) -> Result<usize, NoSuchColumn> {
-        let found = self.0.iter().position(|column| column.name == name);
-        found.ok_or_else(|| self.no_such_column(name))
-    }
-
-    /// As [`Self::index`], of a column in which `row` has a value unless it failed or all of it is solved.
+    /// The index of the column of that name, in which `row` has a value unless it failed or all of it is solved.
     pub(crate) fn required(
         &self,
         name: &str,
         row: &DesignRow,
         measures: &[Measure],
     ) -> Result<usize, NoSuchColumn> {
-        let index = self.index(name)?;
+        let index = self.0.iter().position(|column| column.name == name);
+        let index = index.ok_or_else(|| self.no_such_column(name))?;
         let is_whole = Measure::USUAL.iter().all(|measure| measures.contains(measure));
         let has_value = self.0[index].cell(row).number().is_some();
         // A design that failed has no values, and the requirement is not at fault.

@@ -2,27 +2,19 @@
 
 use sweep::BatchDeviation;
 
-/// The slopes of a measure where a deviation is negative and where it is positive; equal but at a kink.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct DeviationSlopes {
-    pub(crate) left: f64,
-    pub(crate) right: f64,
-}
-
-impl DeviationSlopes {
-    /// The variance of a measure with these slopes under a `deviation` of mean 0 (T2).
-    pub(crate) fn variance(self, deviation: BatchDeviation) -> f64 {
-        let squares = self.left.powi(2) + self.right.powi(2);
-        let difference = self.right - self.left;
-        let (mean, mean_square) = match deviation {
-            BatchDeviation::Normal(sd) => {
-                (sd * difference / std::f64::consts::TAU.sqrt(), sd * sd * squares / 2.0)
-            }
-            BatchDeviation::Uniform(most) => (most * difference / 4.0, most * most * squares / 6.0),
-        };
-        // Round-off may leave the variance of a constant just below zero.
-        (mean_square - mean * mean).max(0.0)
-    }
+/// The variance of a measure under a `deviation` of mean 0 (T2), from its slopes where that is negative and where it is positive,
+/// which are equal but at a kink.
+pub(crate) fn variance([left, right]: [f64; 2], deviation: BatchDeviation) -> f64 {
+    let squares = left.powi(2) + right.powi(2);
+    let difference = right - left;
+    let (mean, mean_square) = match deviation {
+        BatchDeviation::Normal(sd) => {
+            (sd * difference / std::f64::consts::TAU.sqrt(), sd * sd * squares / 2.0)
+        }
+        BatchDeviation::Uniform(most) => (most * difference / 4.0, most * most * squares / 6.0),
+    };
+    // Round-off may leave the variance of a constant just below zero.
+    (mean_square - mean * mean).max(0.0)
 }
 
 #[cfg(test)]
@@ -31,19 +23,19 @@ mod tests {
 
     #[test]
     fn a_smooth_measure_spreads_by_slope_times_deviation() {
-        let slopes = DeviationSlopes { left: -3.0, right: -3.0 };
+        let slopes = [-3.0, -3.0];
         for deviation in [BatchDeviation::Normal(0.2), BatchDeviation::Uniform(0.2)] {
             let expected = 9.0 * deviation.standard_deviation().powi(2);
-            assert!((slopes.variance(deviation) - expected).abs() < 1e-15);
+            assert!((variance(slopes, deviation) - expected).abs() < 1e-15);
         }
     }
 
     #[test]
     fn a_kink_has_the_moments_of_the_folded_distribution() {
-        let slopes = DeviationSlopes { left: -1.0, right: 1.0 };
+        let slopes = [-1.0, 1.0];
         // |z|: 1 − 2/π, and w²/3 − w²/4.
-        let normal = slopes.variance(BatchDeviation::Normal(1.0));
+        let normal = variance(slopes, BatchDeviation::Normal(1.0));
         assert!((normal - (1.0 - 2.0 / std::f64::consts::PI)).abs() < 1e-15);
-        assert!((slopes.variance(BatchDeviation::Uniform(1.0)) - 1.0 / 12.0).abs() < 1e-15);
+        assert!((variance(slopes, BatchDeviation::Uniform(1.0)) - 1.0 / 12.0).abs() < 1e-15);
     }
 }

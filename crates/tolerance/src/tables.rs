@@ -11,65 +11,36 @@ use crate::sampled::Sampled;
 use crate::sobol::SobolIndices;
 use crate::yields::RequirementYield;
 
-/// A row of `tolerance.csv`: a measure of a design and its spread.
-pub struct DesignMeasureTolerance {
-    /// The design.
-    pub design: DesignNumber,
-    /// The measure.
-    pub measure: MeasureTolerance,
-}
-
-/// A row of `tolerance_sources.csv`: the share of a source in the spread of a measure.
-pub struct DesignSource {
-    /// The design.
-    pub design: DesignNumber,
-    /// Name of the measure.
-    pub measure: String,
-    /// The source.
-    pub source: SourceShare,
-}
-
-/// A row of `yield.csv`: how many samples of a design meet a requirement.
-pub struct DesignYield {
-    /// The design.
-    pub design: DesignNumber,
-    /// The requirement, or all of them.
-    pub of: RequirementYield,
-}
-
-/// A row of `sobol.csv`: the part of a variable in a measure.
-pub struct IndexRow {
-    /// The measure, with the indices of all variables.
-    pub measure: MeasureIndices,
-    /// Key of the variable.
-    pub variable: &'static str,
-    /// The indices of the variable.
-    pub indices: SobolIndices,
-}
-
 impl DesignTolerance {
-    /// The rows of `tolerance.csv`.
-    pub fn measure_rows(&self) -> impl Iterator<Item = DesignMeasureTolerance> {
+    /// The rows of `tolerance.csv`: a measure of a design and its spread.
+    pub fn measure_rows(&self) -> impl Iterator<Item = (DesignNumber, MeasureTolerance)> {
         let design = self.nominal.number;
-        let measures = self.measures.iter().cloned();
-        measures.map(move |measure| DesignMeasureTolerance { design, measure })
+        self.measures.iter().cloned().map(move |measure| (design, measure))
     }
 
-    /// The rows of `tolerance_sources.csv`.
-    pub fn source_rows(&self) -> impl Iterator<Item = DesignSource> {
+    /// The rows of `tolerance_sources.csv`: the share of a source in the spread of the measure of that name.
+    pub fn source_rows(&self) -> impl Iterator<Item = (DesignNumber, String, SourceShare)> {
         let design = self.nominal.number;
-        let rows = move |of: &MeasureTolerance| {
-            let row = |source| DesignSource { design, measure: of.name.clone(), source };
-            let sources = of.linear.iter().flat_map(|linear| linear.sources.iter().cloned());
-            sources.map(row).collect::<Vec<_>>()
-        };
-        self.measures.iter().flat_map(rows)
+        self.measures.iter().flat_map(move |measure| {
+            let sources = measure.linear.iter().flat_map(|linear| linear.sources.iter().cloned());
+            sources.map(move |source| (design, measure.name.clone(), source))
+        })
     }
 
-    /// The rows of `yield.csv`.
-    pub fn yield_rows(&self) -> impl Iterator<Item = DesignYield> {
+    /// The rows of `yield.csv`: how many samples of a design meet a requirement, or all of them.
+    pub fn yield_rows(&self) -> impl Iterator<Item = (DesignNumber, RequirementYield)> {
         let design = self.nominal.number;
-        self.yields.iter().cloned().map(move |of| DesignYield { design, of })
+        self.yields.iter().cloned().map(move |of| (design, of))
+    }
+}
+
+impl MeasureIndices {
+    /// The rows of `sobol.csv`: the part of each of the `variables`, by their keys, in the measure.
+    pub fn rows(
+        &self,
+        variables: &[&'static str],
+    ) -> impl Iterator<Item = (Self, &'static str, SobolIndices)> {
+        variables.iter().zip(&self.indices).map(|(key, indices)| (self.clone(), *key, *indices))
     }
 }
 
@@ -78,143 +49,148 @@ const MEASURE: &str = "the measure, by the name of its column";
 const SAME: &str = "as the measure";
 
 /// The columns of `tolerance.csv`.
-pub static TOLERANCE_COLUMNS: &[Column<DesignMeasureTolerance>] = &[
-    Column::new("design", "-", DESIGN, |r| r.design.to_string().into()),
-    Column::new("measure", "-", MEASURE, |r| r.measure.name.clone().into()),
-    Column::new("unit", "-", "unit of the measure", |r| r.measure.unit.into()),
-    Column::new("value", SAME, "value of the nominal design", |r| r.measure.value.into()),
+pub static TOLERANCE_COLUMNS: &[Column<(DesignNumber, MeasureTolerance)>] = &[
+    Column::new("design", "-", DESIGN, |(design, _)| design.to_string().into()),
+    Column::new("measure", "-", MEASURE, |(_, m)| m.name.clone().into()),
+    Column::new("unit", "-", "unit of the measure", |(_, m)| m.unit.into()),
+    Column::new("value", SAME, "value of the nominal design", |(_, m)| m.value.into()),
     Column::new(
         "linear_spread",
         SAME,
         "standard deviation that the derivatives predict, empty at a kink without one of its sides",
-        |r| r.measure.linear.as_ref().map(|linear| linear.spread).into(),
+        |(_, m)| m.linear.as_ref().map(|linear| linear.spread).into(),
     ),
-    Column::new("sources", "-", "what that spread comes from, the largest share first", |r| {
-        r.measure.linear.as_ref().map(LinearSpread::in_words).into()
+    Column::new(
+        "sources",
+        "-",
+        "what that spread comes from, the largest share first",
+        |(_, m)| m.linear.as_ref().map(LinearSpread::in_words).into(),
+    ),
+    Column::new("samples", "-", "solved samples that have a value", |(_, m)| {
+        m.sampled.as_ref().map(|sampled| sampled.count).into()
     }),
-    Column::new("samples", "-", "solved samples that have a value", |r| {
-        r.measure.sampled.as_ref().map(|sampled| sampled.count).into()
+    Column::new("failed", "-", "samples without a value", |(_, m)| m.failed.into()),
+    Column::new("spread", SAME, "standard deviation over the solved samples", |(_, m)| {
+        sampled(m, |s| s.spread)
     }),
-    Column::new("failed", "-", "samples without a value", |r| r.measure.failed.into()),
-    Column::new("spread", SAME, "standard deviation over the solved samples", |r| {
-        sampled(r, |s| s.spread)
-    }),
-    Column::new("spread_error", SAME, "standard error of that standard deviation", |r| {
-        sampled(r, |s| s.spread_error)
+    Column::new("spread_error", SAME, "standard error of that standard deviation", |(_, m)| {
+        sampled(m, |s| s.spread_error)
     }),
     Column::new(
         "discrepancy",
         "-",
         "linear spread over that of the samples, less 1: how far the prediction is off",
-        |r| r.measure.discrepancy().into(),
+        |(_, m)| m.discrepancy().into(),
     ),
-    Column::new("mean", SAME, "mean over the samples", |r| sampled(r, |s| s.statistics.mean)),
-    Column::new("p05", SAME, "5 % quantile over the samples", |r| {
-        sampled(r, |s| s.statistics.quantiles[0])
+    Column::new("mean", SAME, "mean over the samples", |(_, m)| sampled(m, |s| s.statistics.mean)),
+    Column::new("p05", SAME, "5 % quantile over the samples", |(_, m)| {
+        sampled(m, |s| s.statistics.quantiles[0])
     }),
-    Column::new("p50", SAME, "median over the samples", |r| {
-        sampled(r, |s| s.statistics.quantiles[1])
+    Column::new("p50", SAME, "median over the samples", |(_, m)| {
+        sampled(m, |s| s.statistics.quantiles[1])
     }),
-    Column::new("p95", SAME, "95 % quantile over the samples", |r| {
-        sampled(r, |s| s.statistics.quantiles[2])
+    Column::new("p95", SAME, "95 % quantile over the samples", |(_, m)| {
+        sampled(m, |s| s.statistics.quantiles[2])
     }),
 ];
 
 /// The columns of `tolerance_sources.csv`.
-pub static SOURCE_COLUMNS: &[Column<DesignSource>] = &[
-    Column::new("design", "-", DESIGN, |r| r.design.to_string().into()),
-    Column::new("measure", "-", MEASURE, |r| r.measure.clone().into()),
-    Column::new("source", "-", "what deviates, by its key in [tolerance]", |r| {
-        r.source.source.clone().into()
+pub static SOURCE_COLUMNS: &[Column<(DesignNumber, String, SourceShare)>] = &[
+    Column::new("design", "-", DESIGN, |(design, ..)| design.to_string().into()),
+    Column::new("measure", "-", MEASURE, |(_, measure, _)| measure.clone().into()),
+    Column::new("source", "-", "what deviates, by its key in [tolerance]", |(.., s)| {
+        s.source.clone().into()
     }),
     Column::new(
         "level",
         "-",
         "batch: all scales have the same deviation; scale: each its own",
-        |r| {
-            match r.source.level {
+        |(.., s)| {
+            match s.level {
                 DeviationLevel::Batch => "batch",
                 DeviationLevel::Scale => "scale",
             }
             .into()
         },
     ),
-    Column::new("deviation", "as the source", "standard deviation of the source", |r| {
-        r.source.deviation.into()
+    Column::new("deviation", "as the source", "standard deviation of the source", |(.., s)| {
+        s.deviation.into()
     }),
     Column::new(
         "linear_spread",
         SAME,
         "standard deviation of the measure, were this the only source",
-        |r| r.source.spread.into(),
+        |(.., s)| s.spread.into(),
     ),
-    Column::new("share", "-", "part of the variance of the measure", |r| r.source.share.into()),
+    Column::new("share", "-", "part of the variance of the measure", |(.., s)| s.share.into()),
 ];
 
 /// The columns of `yield.csv`.
-pub static YIELD_COLUMNS: &[Column<DesignYield>] = &[
-    Column::new("design", "-", DESIGN, |r| r.design.to_string().into()),
-    Column::new("requirement", "-", "the requirement, or all of them together", |r| {
-        r.of.requirement.as_ref().map_or("all".to_owned(), ToString::to_string).into()
+pub static YIELD_COLUMNS: &[Column<(DesignNumber, RequirementYield)>] = &[
+    Column::new("design", "-", DESIGN, |(design, _)| design.to_string().into()),
+    Column::new("requirement", "-", "the requirement, or all of them together", |(_, of)| {
+        of.requirement.as_ref().map_or("all".to_owned(), ToString::to_string).into()
     }),
-    Column::new("samples", "-", "solved samples", |r| share(r, |p| p.of.into())),
-    Column::new("failed", "-", "samples without a value, which do not meet", |r| {
-        r.of.failed.into()
+    Column::new("samples", "-", "solved samples", |(_, of)| share(of, |p| p.of.into())),
+    Column::new("failed", "-", "samples without a value, which do not meet", |(_, of)| {
+        of.failed.into()
     }),
-    Column::new("met", "-", "samples that meet", |r| share(r, |p| p.met.into())),
-    Column::new("yield", "-", "share of the samples that meet", |r| share(r, |p| p.share().into())),
-    Column::new("yield_low", "-", "lower end of the 95 % interval of the yield", |r| {
-        share(r, |p| p.interval()[0].into())
+    Column::new("met", "-", "samples that meet", |(_, of)| share(of, |p| p.met.into())),
+    Column::new("yield", "-", "share of the samples that meet", |(_, of)| {
+        share(of, |p| p.share().into())
     }),
-    Column::new("yield_high", "-", "upper end of that interval", |r| {
-        share(r, |p| p.interval()[1].into())
+    Column::new("yield_low", "-", "lower end of the 95 % interval of the yield", |(_, of)| {
+        share(of, |p| p.interval()[0].into())
     }),
-    Column::new("linear_yield", "-", "yield that the linear spread predicts", |r| {
-        r.of.linear.into()
+    Column::new("yield_high", "-", "upper end of that interval", |(_, of)| {
+        share(of, |p| p.interval()[1].into())
+    }),
+    Column::new("linear_yield", "-", "yield that the linear spread predicts", |(_, of)| {
+        of.linear.into()
     }),
 ];
 
 /// The columns of `sobol.csv`.
-pub static INDEX_COLUMNS: &[Column<IndexRow>] = &[
-    Column::new("measure", "-", MEASURE, |r| r.measure.name.clone().into()),
-    Column::new("variable", "-", "the variable, by its key", |r| r.variable.into()),
+pub static INDEX_COLUMNS: &[Column<(MeasureIndices, &'static str, SobolIndices)>] = &[
+    Column::new("measure", "-", MEASURE, |(m, ..)| m.name.clone().into()),
+    Column::new("variable", "-", "the variable, by its key", |(_, key, _)| (*key).into()),
     Column::new(
         "first",
         "-",
         "first-order index: part of the variance that the variable has alone",
-        |r| r.indices.first.value.into(),
+        |(.., of)| of.first.value.into(),
     ),
-    Column::new("first_low", "-", "lower end of its 95 % interval", |r| {
-        r.indices.first.interval()[0].into()
+    Column::new("first_low", "-", "lower end of its 95 % interval", |(.., of)| {
+        of.first.interval()[0].into()
     }),
-    Column::new("first_high", "-", "upper end of that interval", |r| {
-        r.indices.first.interval()[1].into()
+    Column::new("first_high", "-", "upper end of that interval", |(.., of)| {
+        of.first.interval()[1].into()
     }),
     Column::new(
         "total",
         "-",
         "total index: part of the variance that the variable has, alone and together with others",
-        |r| r.indices.total.value.into(),
+        |(.., of)| of.total.value.into(),
     ),
-    Column::new("total_low", "-", "lower end of its 95 % interval", |r| {
-        r.indices.total.interval()[0].into()
+    Column::new("total_low", "-", "lower end of its 95 % interval", |(.., of)| {
+        of.total.interval()[0].into()
     }),
-    Column::new("total_high", "-", "upper end of that interval", |r| {
-        r.indices.total.interval()[1].into()
+    Column::new("total_high", "-", "upper end of that interval", |(.., of)| {
+        of.total.interval()[1].into()
     }),
-    Column::new("spread", SAME, "standard deviation of the measure over the box", |r| {
-        r.measure.spread.into()
+    Column::new("spread", SAME, "standard deviation of the measure over the box", |(m, ..)| {
+        m.spread.into()
     }),
-    Column::new("samples", "-", "samples that have all their values", |r| r.measure.samples.into()),
-    Column::new("failed", "-", "samples that lack a value, which are left out", |r| {
-        r.measure.failed.into()
+    Column::new("samples", "-", "samples that have all their values", |(m, ..)| m.samples.into()),
+    Column::new("failed", "-", "samples that lack a value, which are left out", |(m, ..)| {
+        m.failed.into()
     }),
 ];
 
-fn sampled(row: &DesignMeasureTolerance, value: fn(&Sampled) -> f64) -> Cell {
-    row.measure.sampled.as_ref().map(value).into()
+fn sampled(measure: &MeasureTolerance, value: fn(&Sampled) -> f64) -> Cell {
+    measure.sampled.as_ref().map(value).into()
 }
 
-fn share(row: &DesignYield, cell: fn(Proportion) -> Cell) -> Cell {
-    row.of.proportion.map_or(Cell::Empty, cell)
+fn share(of: &RequirementYield, cell: fn(Proportion) -> Cell) -> Cell {
+    of.proportion.map_or(Cell::Empty, cell)
 }

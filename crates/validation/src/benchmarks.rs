@@ -6,7 +6,7 @@ mod membranes;
 mod paths;
 mod skins;
 
-use crate::ValidationError;
+use anyhow::Context as _;
 
 /// A quantity with a known value, and the value that the program finds.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,10 +51,8 @@ impl Benchmark {
 ///
 /// # Errors
 /// If one of them cannot be set up or has no solution.
-pub fn benchmarks() -> Result<Vec<Benchmark>, ValidationError> {
-    let mut all = half_space::benchmarks()?;
-    all.extend(membranes::benchmarks()?);
-    all.extend(paths::benchmarks()?);
-    all.extend(skins::benchmarks()?);
-    Ok(all)
+pub fn benchmarks() -> anyhow::Result<Vec<Benchmark>> {
+    let all = [half_space::benchmarks, membranes::benchmarks, paths::benchmarks, skins::benchmarks];
+    let solved = all.map(|of| of().context("benchmark")).into_iter();
+    Ok(solved.collect::<anyhow::Result<Vec<_>>>()?.concat())
 }

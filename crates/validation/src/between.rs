@@ -3,12 +3,12 @@
 use std::sync::atomic::AtomicBool;
 use std::thread::available_parallelism;
 
+use anyhow::{Context as _, bail};
 use optimisation::{Answer, BestDesign, DesignGoal, Found, Judgement, SearchMeter, SearchOptions};
 use ranking::{CRITERIA, RankedDesign, Ranking, TetrahedralGrid, Weights};
 use run::{Program, Start};
 use sweep::number;
 
-use crate::ValidationError;
 use crate::claims::{digits, named};
 use crate::page::lines;
 use crate::study::{MeasuredDesign, Study};
@@ -22,6 +22,9 @@ const BOX: &str = "name = \"between\"\nmeasures = [\"coverage\", \"puncture\", \
 // Four points are enough to reach every design of the grid.
 const FRONT: &str = "maximize = [\"critical_force\", \"coverage\"]\nrequire = [\"compliance >= 0.2\"]\npoints = 4\n";
 const LEAST_COMPLIANCE: f64 = 0.2;
+
+/// Said of a search that finds no design, or was stopped.
+const NO_OPTIMUM: &str = "a search between the grid points has no optimum";
 
 /// The best designs on the grid and between its points.
 #[derive(Clone, Debug)]
@@ -65,8 +68,9 @@ impl BetweenPoints {
     ///
     /// # Errors
     /// If the grid cannot be ranked or the temporary folder cannot be written.
-    pub(crate) fn of(study: &Study) -> Result<Self, ValidationError> {
-        let rows = sound_rows(study);
+    pub(crate) fn of(study: &Study) -> anyhow::Result<Self> {
+        let rows: Vec<usize> =
+            (0..study.designs.len()).filter(|&row| is_sound(&study.designs[row])).collect();
         let sound = study.results.only(&rows);
         let ranking = Ranking::new(&sound, TetrahedralGrid::default())?;
         let ends = ends(&ranking);
@@ -113,16 +117,16 @@ impl FittestDesign {
 }
 
 impl FrontOverGrid {
-    fn of(study: &Study) -> Result<Self, ValidationError> {
+    fn of(study: &Study) -> anyhow::Result<Self> {
         let found = search(&format!("{BOX}{FRONT}"))?;
-        let Answer::Front(front) = &found.answer else { return Err(ValidationError::NoOptimum) };
-        let front: Vec<[f64; 2]> = front.designs.iter().filter_map(pair_of).collect();
+        let Answer::Front(front) = &found.answer else { bail!(NO_OPTIMUM) };
+        let front: Vec<&[f64]> = front.designs.iter().filter_map(objectives).collect();
         let counts = |d: &&MeasuredDesign| d.compliance.is_some_and(|c| c >= LEAST_COMPLIANCE);
         let pair = |d: &MeasuredDesign| Some([d.critical_force?, d.coverage?]);
         let sound = study.designs.iter().filter(|design| is_sound(design));
         let grid: Vec<[f64; 2]> = sound.filter(counts).filter_map(pair).collect();
-        let beaten = |a: &&[f64; 2]| grid.iter().any(|b| b != *a && at_least(b, a));
-        let reached = |a: &&[f64; 2]| front.iter().any(|b| at_least(b, a));
+        let beaten = |a: &&[f64; 2]| grid.iter().any(|b| b != *a && at_least(b, *a));
+        let reached = |a: &&[f64; 2]| front.iter().any(|b| at_least(b, *a));
         Ok(Self {
             designs: front.len(),
             grid: grid.len(),
@@ -132,26 +136,22 @@ impl FrontOverGrid {
     }
 }
 
-/// The first two objectives of a design.
-fn pair_of(best: &BestDesign) -> Option<[f64; 2]> {
+/// The values of the objectives of a design.
+fn objectives(best: &BestDesign) -> Option<&[f64]> {
     match &best.candidate.verdict {
-        Judgement::Judged(worth) => Some([worth.objectives[0], worth.objectives[1]]),
+        Judgement::Judged(worth) => Some(&worth.objectives),
         _ => None,
     }
 }
 
 /// Whether one is at least as good as the other in both, but for round-off.
-fn at_least(one: &[f64; 2], other: &[f64; 2]) -> bool {
+fn at_least(one: &[f64], other: &[f64]) -> bool {
     // Equal designs of the grid and of a search differ by the round-off of their paths.
     one.iter().zip(other).all(|(a, b)| *a >= b * (1.0 - 1e-9))
 }
 
 fn is_sound(design: &MeasuredDesign) -> bool {
     design.fold_force.is_none() && design.gap_stretch_min.is_none_or(|least| least > 0.0)
-}
-
-fn sound_rows(study: &Study) -> Vec<usize> {
-    (0..study.designs.len()).filter(|&row| is_sound(&study.designs[row])).collect()
 }
 
 /// The worst and the best value of every criterion over the designs of a ranking, as a goal has them.
@@ -176,7 +176,7 @@ fn fittest(
     weights: (Weights, &str),
     ends: &str,
     (grid_fitness, on_grid): (f64, String),
-) -> Result<FittestDesign, ValidationError> {
+) -> anyhow::Result<FittestDesign> {
     let (weights, name) = weights;
     let weighted = CRITERIA.iter().zip(weights.values());
     let weighted: Vec<_> =
@@ -186,34 +186,28 @@ fn fittest(
         "{BOX}maximize = \"fitness\"\nrequire = \"coverage > 0\"\nweights = {{ {} }}\nrescale = {ends}\n",
         weighted.join(", ")
     ))?;
-    let Answer::Optimum(best) = &found.answer else { return Err(ValidationError::NoOptimum) };
-    let Judgement::Judged(worth) = &best.candidate.verdict else {
-        return Err(ValidationError::NoOptimum);
-    };
+    let Answer::Optimum(best) = &found.answer else { bail!(NO_OPTIMUM) };
     let design = best.row.case.design;
-    let [gap, length, slant] = [design.gap, design.length, design.slant_deg].map(three_digits);
+    let [gap, length, slant] =
+        [design.gap, design.length, design.slant_deg].map(|value| number::rounded(value, 3));
     Ok(FittestDesign {
         weights: name.to_owned(),
         on_grid,
         grid_fitness,
         found: format!("({gap}, {length}, {slant}°)"),
-        found_fitness: worth.objectives[0],
+        found_fitness: objectives(best).context(NO_OPTIMUM)?[0],
     })
 }
 
-/// A number to three digits, without zeros at its end.
-fn three_digits(number: f64) -> String {
-    number::rounded(number, 3)
-}
-
-fn search(goal: &str) -> Result<Found, ValidationError> {
+fn search(goal: &str) -> anyhow::Result<Found> {
     let goal = DesignGoal::parse(goal, "between", &[])?;
-    let (folder, stop) = (tempfile::tempdir()?, AtomicBool::new(false));
+    let (folder, stop) =
+        (tempfile::tempdir().context("no temporary folder")?, AtomicBool::new(false));
     let threads = available_parallelism().map_or(1, usize::from);
     let meter = SearchMeter::default();
     let options = SearchOptions { threads, start: Start::New, stop: &stop, meter: &meter };
     // The folder is temporary: no later search has to know this one.
     let program = Program { version: env!("CARGO_PKG_VERSION"), revision: "" };
     let found = optimisation::optimise(&goal, folder.path(), &options, &program)?;
-    found.ok_or(ValidationError::NoOptimum)
+    found.context(NO_OPTIMUM)
 }

@@ -1,8 +1,6 @@
 //! The claims of the paper, statement by statement.
 
-mod coverage;
 mod critical_force;
-mod domino;
 mod evidence;
 mod flexure;
 mod gather;
@@ -13,7 +11,6 @@ mod statistics;
 #[cfg(test)]
 mod tests;
 mod verdict;
-mod words;
 
 use serde::Deserialize;
 
@@ -23,7 +20,6 @@ use statement::Statement;
 pub(crate) use statistics::DesignValue;
 pub use verdict::Verdict;
 
-use crate::ValidationError;
 use crate::study::{MeasuredDesign, Study};
 
 /// The claims and their places in the paper, as a table.
@@ -81,7 +77,7 @@ pub fn claims() -> Result<Vec<Claim>, csv::Error> {
 }
 
 /// Returns the claims with their statements.
-fn statements() -> Result<Vec<(Claim, Vec<Statement>)>, ValidationError> {
+fn statements() -> anyhow::Result<Vec<(Claim, Vec<Statement>)>> {
     let mut table = csv::Reader::from_reader(STATEMENTS.as_bytes());
     let all: Vec<Statement> = table.deserialize().collect::<Result<_, _>>()?;
     // C18a and C18b belong to C18: numbers have two digits, so no number begins another.
@@ -97,7 +93,7 @@ fn statements() -> Result<Vec<(Claim, Vec<Statement>)>, ValidationError> {
 ///
 /// # Errors
 /// If the tables of claims cannot be read.
-pub(crate) fn score(study: &Study) -> Result<Vec<(String, Verdict)>, ValidationError> {
+pub(crate) fn score(study: &Study) -> anyhow::Result<Vec<(String, Verdict)>> {
     let evidence = gather::gather(study);
     let verdicts = statements()?
         .into_iter()
@@ -105,17 +101,17 @@ pub(crate) fn score(study: &Study) -> Result<Vec<(String, Verdict)>, ValidationE
     verdicts.collect()
 }
 
-fn verdict(statements: &[Statement], evidence: &Evidence) -> Result<Verdict, ValidationError> {
+fn verdict(statements: &[Statement], evidence: &Evidence) -> anyhow::Result<Verdict> {
     let verdicts = statements.iter().map(|s| Ok(s.find(evidence)?.verdict));
-    Ok(Verdict::of_all(&verdicts.collect::<Result<Vec<_>, ValidationError>>()?))
+    Ok(Verdict::of_all(&verdicts.collect::<anyhow::Result<Vec<_>>>()?))
 }
 
 /// Checks every claim against two studies: with the base `L`, and with `2L`.
-pub(crate) fn check(studies: [&Study; 2]) -> Result<Vec<CheckedClaim>, ValidationError> {
+pub(crate) fn check(studies: [&Study; 2]) -> anyhow::Result<Vec<CheckedClaim>> {
     judge(&studies.map(gather::gather))
 }
 
-fn judge(evidence: &[Evidence; 2]) -> Result<Vec<CheckedClaim>, ValidationError> {
+fn judge(evidence: &[Evidence; 2]) -> anyhow::Result<Vec<CheckedClaim>> {
     let claims = statements()?.into_iter();
     claims.map(|(claim, statements)| judge_claim(claim, statements, evidence)).collect()
 }
@@ -124,14 +120,17 @@ fn judge_claim(
     claim: Claim,
     statements: Vec<Statement>,
     [paper, as_written]: &[Evidence; 2],
-) -> Result<CheckedClaim, ValidationError> {
-    let verdicts = [verdict(&statements, paper)?, verdict(&statements, as_written)?];
+) -> anyhow::Result<CheckedClaim> {
     let checked = |statement: Statement| {
         let found = [statement.find(paper)?, statement.find(as_written)?];
         let Statement { says, measured, limits, .. } = statement;
         Ok(CheckedStatement { says, measured, limits, found })
     };
-    let statements = statements.into_iter().map(checked).collect::<Result<_, ValidationError>>()?;
+    let statements = statements.into_iter().map(checked).collect::<anyhow::Result<Vec<_>>>()?;
+    let verdicts = [0, 1].map(|base| {
+        let found = statements.iter().map(|of: &CheckedStatement| of.found[base].verdict);
+        Verdict::of_all(&found.collect::<Vec<_>>())
+    });
     Ok(CheckedClaim { claim, statements, verdicts })
 }
 

@@ -2,9 +2,9 @@
 
 use sweep::Sweep;
 
+use crate::claims;
 use crate::page::marked;
 use crate::study::Study;
-use crate::{ValidationError, claims};
 
 /// Strips of 40 to 45 gaps in every design, of either base. Punctures do not depend on them.
 // With 41 to 44 gaps the claims come out as printed; 40 and 45 show where that ends.
@@ -28,7 +28,7 @@ impl GapCount {
     ///
     /// # Errors
     /// If the temporary folder cannot be written.
-    pub fn all() -> Result<Vec<Self>, ValidationError> {
+    pub fn all() -> anyhow::Result<Vec<Self>> {
         let study = Study::run(Sweep::parse(STRIPS, "gaps", &[])?)?;
         let count = |(setting, study): (String, Study)| {
             let score = claims::score(&study)?;

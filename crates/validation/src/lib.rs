@@ -25,13 +25,12 @@
 //! for benchmark in validation::benchmarks()? {
 //!     assert!(benchmark.holds(), "{}: {}", benchmark.name, benchmark.ours);
 //! }
-//! # Ok::<(), validation::ValidationError>(())
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 mod benchmarks;
 mod between;
 mod claims;
-mod error;
 mod gap_counts;
 mod page;
 mod search;
@@ -45,7 +44,6 @@ use sweep::Sweep;
 pub use benchmarks::{Benchmark, benchmarks};
 pub use between::{BetweenPoints, FittestDesign, FrontOverGrid};
 pub use claims::{CheckedClaim, CheckedStatement, Claim, Finding, Verdict, claims};
-pub use error::ValidationError;
 pub use gap_counts::GapCount;
 pub use search::{ScoredSetting, SettingSearch};
 pub use sensitivity::{ChoiceEffect, ChoiceEffects, Headlines, Sensitivity};
@@ -98,7 +96,7 @@ pub struct Validation {
 fn studies(
     (model, choice): (&str, &str),
     mut begin: impl FnMut(&str),
-) -> Result<[Study; 2], ValidationError> {
+) -> anyhow::Result<[Study; 2]> {
     let [paper, as_written] = BASES.map(|(base, text)| {
         begin(&format!("{model}, {base}"));
         Study::run(Sweep::parse(&format!("{text}\n{choice}"), "paper", &[])?)
@@ -122,10 +120,7 @@ impl Validation {
     ///
     /// # Errors
     /// If a benchmark has no result or the temporary folder cannot be written.
-    pub fn run(
-        searches: bool,
-        mut progress: impl FnMut(PartProgress<'_>),
-    ) -> Result<Self, ValidationError> {
+    pub fn run(searches: bool, mut progress: impl FnMut(PartProgress<'_>)) -> anyhow::Result<Self> {
         let settings = sensitivity::settings()?;
         // Benchmarks, claims, strips of equal gaps, searches, and a part for each sweep and for each setting.
         let sweeps = MODELS.len() * BASES.len();

@@ -119,9 +119,7 @@ impl CheckedClaim {
         }
         rows
     }
-}
 
-impl CheckedClaim {
     /// Returns the rows of the statements, beside what the `others` find, with the base `L` and, if there are two `bases`, with `2L`:
     /// of those of which the findings with a base are to be `shown`.
     pub(crate) fn rows_beside(

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use sweep::Sweep;
 
 use crate::study::Study;
-use crate::{Headlines, PartProgress, ValidationError, Verdict, claims};
+use crate::{Headlines, PartProgress, Verdict, claims};
 
 /// A setting with the claims that it reproduces.
 #[derive(Clone, Debug)]
@@ -41,7 +41,7 @@ impl SettingSearch {
     pub fn run(
         sweeps: &[Sweep],
         mut progress: impl FnMut(PartProgress<'_>),
-    ) -> Result<Self, ValidationError> {
+    ) -> anyhow::Result<Self> {
         let score = |(setting, study): (String, Study)| {
             let verdicts = claims::score(&study)?;
             Ok(ScoredSetting { setting, verdicts, headlines: Headlines::of(&study) })
@@ -51,7 +51,7 @@ impl SettingSearch {
             progress(PartProgress { done, parts: sweeps.len(), part: sweep.name() });
             let study = Study::run(sweep.clone())?;
             let scored = study.settings().into_par_iter().map(score);
-            settings.extend(scored.collect::<Result<Vec<_>, ValidationError>>()?);
+            settings.extend(scored.collect::<anyhow::Result<Vec<_>>>()?);
         }
         // Stable: of equal ones the first in the sweep comes first.
         settings.sort_by_key(|s| {

@@ -4,7 +4,6 @@ use ranking::{Ranking, TetrahedralGrid, Weights};
 use results::columns::name;
 use sweep::{Axis, Setting, Sweep};
 
-use crate::ValidationError;
 use crate::claims::{self, CheckedClaim, DesignValue, digits, named};
 use crate::study::{Study, is_geometry};
 
@@ -92,7 +91,7 @@ pub(crate) struct OpenSetting {
 ///
 /// # Errors
 /// If a definition is not valid.
-pub(crate) fn settings() -> Result<Vec<OpenSetting>, ValidationError> {
+pub(crate) fn settings() -> anyhow::Result<Vec<OpenSetting>> {
     let mut all = Vec::new();
     for (name, text) in SWEEPS {
         let whole = Sweep::parse(text, name, &[])?;
@@ -143,7 +142,7 @@ pub(crate) fn sensitivity(
     settings: Vec<OpenSetting>,
     known: &[Study],
     mut begin: impl FnMut(&str),
-) -> Result<(Vec<Sensitivity>, ChoiceEffects, ClaimsByFriction), ValidationError> {
+) -> anyhow::Result<(Vec<Sensitivity>, ChoiceEffects, ClaimsByFriction)> {
     let (mut all, mut couplings, mut frictions) = (Vec::new(), Vec::new(), Vec::new());
     for OpenSetting { sweep, label, definition } in settings {
         begin(&label);
@@ -162,14 +161,10 @@ pub(crate) fn sensitivity(
     let rubbing = frictions.iter().skip(1).map(|(_, study)| claims::check([study; 2]));
     let rubbing = rubbing.collect::<Result<_, _>>()?;
     let [coupling, friction] = [couplings, frictions].map(|studies| {
-        let (first, others) = studies.split_first()?;
-        Some(others.iter().flat_map(|other| ChoiceEffect::of(&first.1, other)).collect())
+        let others = studies.iter().skip(1);
+        others.flat_map(|other| ChoiceEffect::of(&studies[0].1, other)).collect()
     });
-    let effects = ChoiceEffects {
-        coupling: coupling.unwrap_or_default(),
-        friction: friction.unwrap_or_default(),
-    };
-    Ok((all, effects, rubbing))
+    Ok((all, ChoiceEffects { coupling, friction }, rubbing))
 }
 
 impl ChoiceEffect {
@@ -208,14 +203,11 @@ impl Headlines {
         let best = study.design(0.1, 0.1, 75.0);
         let force = best.and_then(|design| design.critical_force).map_or_else(nothing, digits);
         // Where nothing can be ranked the row says so: a setting that fails is a result, too.
-        let Ok(ranking) = Ranking::new(&study.results, TetrahedralGrid::default()) else {
-            return Self {
-                force,
-                balanced: nothing(),
-                corners: std::array::from_fn(|_| nothing()),
-            };
+        let ranking = Ranking::new(&study.results, TetrahedralGrid::default()).ok();
+        let winner = |weights| {
+            let winner = ranking.as_ref().map(|ranking| ranking.winner(weights).row());
+            winner.map_or_else(nothing, |row| named(&study.designs[row]))
         };
-        let winner = |weights| named(&study.designs[ranking.winner(weights).row()]);
         let mut alone = Weights::alone().map(winner);
         Self {
             force,

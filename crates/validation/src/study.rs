@@ -4,12 +4,11 @@ use std::sync::atomic::AtomicBool;
 use std::thread::available_parallelism;
 use std::time::Duration;
 
+use anyhow::Context as _;
 use results::columns::name;
 use results::{InvalidResults, Results};
 use run::{Options, Program, Start, WorkMeter};
 use sweep::{Axis, Case, Parameter, Subset, Sweep};
-
-use crate::ValidationError;
 
 /// Keys of the parameters of the geometry, over which every study varies.
 const GEOMETRY: [&str; 3] = ["gap_over_t", "length_over_t", "slant_deg"];
@@ -40,6 +39,19 @@ pub(crate) struct MeasuredDesign {
     pub(crate) sound_force: Option<f64>,
 }
 
+impl MeasuredDesign {
+    /// Sections 3 and 4 of the paper call a length of 0.1 the smallest; the two smaller ones occur in section 5 only.
+    pub(crate) fn is_in_figures(&self) -> bool {
+        self.length >= 0.1
+    }
+
+    /// Section 5 leaves out the designs that leave the substrate exposed.
+    pub(crate) fn is_covered(&self) -> bool {
+        // `None` is less than any value: a design without a coverage is left out, too.
+        self.coverage > Some(0.0)
+    }
+}
+
 /// A sweep with its results, or a part of it.
 pub(crate) struct Study {
     sweep: Sweep,
@@ -54,8 +66,8 @@ impl Study {
     ///
     /// # Errors
     /// If the temporary folder cannot be written.
-    pub(crate) fn run(sweep: Sweep) -> Result<Self, ValidationError> {
-        let folder = tempfile::tempdir()?;
+    pub(crate) fn run(sweep: Sweep) -> anyhow::Result<Self> {
+        let folder = tempfile::tempdir().context("no temporary folder")?;
         // The folder is temporary: no later run has to know this one.
         let program = Program { version: env!("CARGO_PKG_VERSION"), revision: "" };
         let options = Options {

@@ -9,8 +9,7 @@ use results::{CsvFormat, MEASURE_TABLES, Maker, write_rows};
 use serde_json::{Value, json};
 use sweep::Sweep;
 use tolerance::{
-    GlobalAnalysis, GlobalSensitivity, INDEX_COLUMNS, IndexEstimate, IndexRow, MeasureIndices,
-    SobolIndices,
+    GlobalAnalysis, GlobalSensitivity, INDEX_COLUMNS, IndexEstimate, MeasureIndices, SobolIndices,
 };
 
 use super::sampled::{Sampled, SampledFolder};
@@ -69,7 +68,7 @@ pub fn sensitivity(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Resu
         return Ok(interrupt.exit_code().unwrap_or(INCOMPLETE));
     };
     let folder = &sampled.folder;
-    let rows = found.measures.iter().flat_map(|measure| rows(&found, measure));
+    let rows = found.measures.iter().flat_map(|measure| measure.rows(&found.variables));
     write_rows(folder, TABLE, CsvFormat::Plain, INDEX_COLUMNS, rows)?;
     claim.state(&[TABLE])?;
     let record = || record(&sweep, &found, folder.path());
@@ -94,16 +93,6 @@ fn check(sweep: &Sweep, path: &Path) -> anyhow::Result<()> {
         several.join(" ")
     );
     Ok(())
-}
-
-fn rows(found: &GlobalSensitivity, measure: &MeasureIndices) -> Vec<IndexRow> {
-    let all = found.variables.iter().zip(&measure.indices);
-    all.map(|(variable, indices)| IndexRow {
-        measure: measure.clone(),
-        variable,
-        indices: *indices,
-    })
-    .collect()
 }
 
 fn report(sweep: &Sweep, found: &GlobalSensitivity, samples: usize) -> String {

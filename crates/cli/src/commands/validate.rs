@@ -6,7 +6,7 @@ use anyhow::ensure;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use sweep::Sweep;
-use validation::{PartProgress, SettingSearch, Validation, ValidationError};
+use validation::{PartProgress, SettingSearch, Validation};
 
 use super::figure_file::write_file;
 use super::source::require_folder_of;
@@ -70,8 +70,8 @@ pub fn validate(arguments: &Arguments) -> anyhow::Result<u8> {
 
 /// Works behind a bar on the terminal that names the part in hand.
 fn with_bar<T>(
-    work: impl FnOnce(&mut dyn FnMut(PartProgress<'_>)) -> Result<T, ValidationError>,
-) -> Result<T, ValidationError> {
+    work: impl FnOnce(&mut dyn FnMut(PartProgress<'_>)) -> anyhow::Result<T>,
+) -> anyhow::Result<T> {
     let bar = ProgressBar::new(0);
     let template = "{wide_bar} {pos}/{len} parts  {elapsed}  {eta} left  {msg}";
     if let Ok(style) = ProgressStyle::with_template(template) {

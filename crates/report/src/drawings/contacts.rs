@@ -1,12 +1,10 @@
 //! Contacts: overlaps in red, a halo around each, forces along their lines of action.
 
-use std::fmt::Write as _;
-
 use skin::Contact;
 
 use super::view::View;
 use crate::colors::RED;
-use crate::svg::{Element, Spot, arrow, circle};
+use crate::svg::{Element, Spot, arrow, circle, path_data};
 
 /// Length of the arrow of the largest force, px.
 pub(super) const LONGEST: f64 = 64.0;
@@ -18,20 +16,11 @@ const SHORTEST: f64 = 2.5;
 pub(super) fn overlaps(view: &View, polygons: &[(usize, Vec<[f64; 2]>)]) -> Element {
     let polygon = |(left, points): &(usize, Vec<[f64; 2]>)| {
         Element::new("path")
-            .with("d", exact(&view.all(points)))
+            .with("d", path_data(&view.all(points), true, |length| length.to_string()))
             .with("fill", RED)
             .with("data-left", left.to_string())
     };
     Element::group("overlaps").containing(polygons.iter().map(polygon))
-}
-
-fn exact(points: &[Spot]) -> String {
-    let mut data = String::new();
-    for (k, [x, y]) in points.iter().enumerate() {
-        let _ = write!(data, "{}{x} {y}", if k == 0 { "M" } else { " L" });
-    }
-    data.push_str(" Z");
-    data
 }
 
 /// Returns a halo and a dot at each contact, so that it is seen however small its overlap; where it slips the halo is a ring.

@@ -69,16 +69,16 @@ impl PunctureDrawing<'_> {
         let free = self.states.iter().map(|state| sheet.free(state)).fold(AIR, f64::min);
         Ok(self.states.iter().map(|state| sheet.state(state, free)).collect())
     }
+}
 
-    /// The load of a state over `E* t²`.
-    fn load(&self, state: &RowSnapshot) -> f64 {
-        state.force * self.case.design.length
-    }
+/// Returns the load of a state over `E* t²`.
+fn load(case: &Case, state: &RowSnapshot) -> f64 {
+    state.force * case.design.length
 }
 
 /// The scales, windows and units that all panels of a drawing share.
 struct RowSheet<'a> {
-    puncture: &'a PunctureDrawing<'a>,
+    case: &'a Case,
     row: Row,
     /// Numbers of the first and the last scale shown.
     first: i64,
@@ -94,9 +94,10 @@ struct RowSheet<'a> {
 }
 
 impl<'a> RowSheet<'a> {
-    fn new(puncture: &'a PunctureDrawing<'a>) -> Result<Self, OutOfRange> {
-        let row = puncture.case.design.row()?;
-        let states = puncture.states;
+    fn new(
+        &PunctureDrawing { case, states, .. }: &PunctureDrawing<'a>,
+    ) -> Result<Self, OutOfRange> {
+        let row = case.design.row()?;
         let (first, last) = window(&row, states);
         let (a, shift, pitch) = (row.scale().half_base(), row.scale().shift(), row.pitch());
         let width = (last - first) as f64 * pitch + 2.0 * a + shift;
@@ -111,17 +112,16 @@ impl<'a> RowSheet<'a> {
         let middle = first as f64 * pitch - a + 0.5 * width;
         let view = View { scale, origin: [0.5 * WIDTH - scale * middle, AIR + scale] };
         let bars = AIR + scale + deepest + 18.0;
-        let load = |state: &RowSnapshot| puncture.load(state);
-        let largest = states.iter().map(|s| contacts::largest(&s.contacts).max(load(s)));
+        let largest = states.iter().map(|s| contacts::largest(&s.contacts).max(load(case, s)));
         let reactions = states.iter().flat_map(|state| {
-            let load = load(state);
+            let load = load(case, state);
             state.scales.iter().filter(move |_| load > 0.0).map(move |s| s.reaction / load)
         });
         // From zero, because the line without a reaction is always drawn.
         let reactions =
             reactions.fold((0.0, 0.0), |(high, low): (f64, f64), r| (high.max(r), low.min(r)));
         Ok(Self {
-            puncture,
+            case,
             row,
             first,
             last,
@@ -148,11 +148,7 @@ impl<'a> RowSheet<'a> {
         let mut inside = vec![self.substrate(&poses, bottom), self.scales(&poses)];
         inside.extend(self.coverage_line());
         let within_substrate = [WIDTH - 2.0 * MARGIN, bottom - 6.0];
-        inside.extend(scale_bar(
-            &self.view,
-            self.puncture.case.material.thickness_mm,
-            within_substrate,
-        ));
+        inside.extend(scale_bar(&self.view, self.case.material.thickness_mm, within_substrate));
         let caption = format!("at rest, coverage $λ$ = {:.3}", self.row.coverage());
         // Neither a load nor reactions: the panel needs less room.
         lifted(AIR - 14.0, bottom + 10.0, caption, inside)
@@ -182,7 +178,7 @@ impl<'a> RowSheet<'a> {
             self.contacts(state),
             self.load(state),
             self.tilt(state),
-            self.reactions(&shown, self.puncture.load(state)),
+            self.reactions(&shown, load(self.case, state)),
         ];
         // Folds are counted in the whole row, also where it is not shown.
         let all: Vec<_> = state.scales.iter().map(|s| (s.scale, pose(s))).collect();
@@ -191,7 +187,7 @@ impl<'a> RowSheet<'a> {
     }
 
     fn caption(&self, state: &RowSnapshot) -> String {
-        let load = self.puncture.load(state);
+        let load = load(self.case, state);
         let largest = contacts::largest(&state.contacts);
         let force = if largest > 0.0 && load > 0.0 {
             format!(", the largest force {} $F$", short(largest / load))
@@ -199,7 +195,7 @@ impl<'a> RowSheet<'a> {
             String::new()
         };
         let (u, f) = (state.displacement, state.force);
-        let load = match puncture_units(self.puncture.case) {
+        let load = match puncture_units(self.case) {
             Some([mm, newton, _]) => {
                 format!("$u$ = {} mm,  $F$ = {} N", short(u * mm), short(f * newton))
             }
@@ -220,12 +216,11 @@ impl<'a> RowSheet<'a> {
             let [left, right, ..] = corners(&self.row, *i as f64, pose);
             [left, right]
         });
-        let surface: Vec<Spot> = surface.map(|point| self.place(point)).collect();
+        let mut top: Vec<Spot> = surface.map(|point| self.place(point)).collect();
         let (left, right) = (MARGIN, WIDTH - MARGIN);
-        let ends = surface.first().zip(surface.last()).map_or((0.0, 0.0), |(a, b)| (a[1], b[1]));
-        let mut top = vec![[left, ends.0]];
-        top.extend(surface);
-        top.push([right, ends.1]);
+        // There is the punctured scale, at least.
+        top.insert(0, [left, top[0][1]]);
+        top.push([right, top[top.len() - 1][1]]);
         let mut body = top.clone();
         body.extend([[right, bottom], [left, bottom]]);
         let fill = polygon(&body).with("fill", "#f3e3cc");
@@ -297,7 +292,7 @@ impl<'a> RowSheet<'a> {
         let scale = self.row.scale();
         let (left, right) = (scale.corner(Corner::TopLeft), scale.corner(Corner::TopRight));
         let (pose, at_rest) =
-            (pose(punctured), left + self.puncture.case.punctured().load_position * (right - left));
+            (pose(punctured), left + self.case.punctured().load_position * (right - left));
         Some(pose.displacement + pose.turn(at_rest))
     }
 
@@ -307,7 +302,7 @@ impl<'a> RowSheet<'a> {
         // A guided tip is straight below its place at rest, whatever the scale does.
         let to = self.place(state.tip.unwrap_or(follows.into()));
         // However small the load is, its arrow tells where it acts.
-        let length = (self.force * state.force * self.puncture.case.design.length).max(9.0);
+        let length = (self.force * load(self.case, state)).max(9.0);
         Some([[to[0], to[1] - length], to])
     }
 
@@ -329,13 +324,13 @@ impl<'a> RowSheet<'a> {
 
     /// The place on the scale on which a guided needle was set down. A round tip between two scales was set down on none.
     fn ring(&self, state: &RowSnapshot) -> Option<Vec2> {
-        let is_on_top = (0.0..=1.0).contains(&self.puncture.case.punctured().load_position);
+        let is_on_top = (0.0..=1.0).contains(&self.case.punctured().load_position);
         self.set_down(state).filter(|_| is_on_top && state.tip.is_some())
     }
 
     /// Returns the outline of a guided needle: a body that the row cannot move, where the dead load is an arrow alone.
     fn tip(&self, state: &RowSnapshot) -> Option<Element> {
-        let radius = self.puncture.case.puncture.needle_radius.unwrap_or(0.0);
+        let radius = self.case.puncture.needle_radius.unwrap_or(0.0);
         let [x, y] = self.place(state.tip?);
         let round = radius * self.view.scale;
         let (half, nose, end) = if round > 0.0 {

@@ -58,14 +58,11 @@ impl FlexureDrawing<'_> {
     fn panel(&self, row: &Row, state: &StripSnapshot) -> DrawingPanel {
         let shape = Shape::upright(row, state);
         let area = [WIDTH - ENLARGED - 3.0 * MARGIN, TALLEST];
-        let Some(extent) = Extent::around(shape.bodies.iter().flatten().copied()) else {
-            return DrawingPanel { height: 0.0, caption: String::new(), inside: Vec::new() };
-        };
-        let [width, height] = extent.size();
+        let extent = shape.extent();
+        let ([width, height], middle) = (extent.size(), extent.middle());
         let scale = (area[0] / width).min(area[1] / height);
         let enlarged = Enlarged::of(row, state);
         let tall = (scale * height + 24.0).max(enlarged.height + 12.0);
-        let middle = [0, 1].map(|k| 0.5 * (extent.low[k] + extent.high[k]));
         let view = View {
             scale,
             origin: [MARGIN + 0.5 * area[0] - scale * middle[0], 0.5 * tall + scale * middle[1]],
@@ -93,14 +90,13 @@ impl FlexureDrawing<'_> {
             ],
         };
         let unit = LONGEST / contacts::largest(&shape.contacts).max(f64::MIN_POSITIVE);
-        let [border, name] = enlargement(frame, *height);
-        let bar = scale_bar(
-            &view,
-            self.case.material.thickness_mm,
-            [frame[0] + ENLARGED - 12.0, frame[1] + 22.0],
-        );
+        let border = rect(frame, [ENLARGED, *height]).at("rx", 4.0);
+        let spot = [frame[0] + 0.5 * ENLARGED, frame[1] + height - 9.0];
+        let name = label("one gap, enlarged", spot, 11.0, Anchor::Middle).with("fill", FAINT);
+        let corner = [frame[0] + ENLARGED - 12.0, frame[1] + 22.0];
+        let bar = scale_bar(&view, self.case.material.thickness_mm, corner);
         let parts = [
-            border,
+            border.with("fill", "#fbfbfb").with("stroke", "#bdbdbd"),
             shape.membrane(&view, (scale * self.case.flexure.membrane_thickness).max(1.5)),
             shape.scales(&view, outline(row, *scale).clamp(0.4, 0.9)),
             contacts::overlaps(&view, &shape.overlaps),
@@ -130,25 +126,12 @@ impl Enlarged {
     /// Returns the gap in the middle of the strip, as large as its part has room for.
     fn of(row: &Row, state: &StripSnapshot) -> Self {
         let shape = Shape::of_gap(row, state, (state.scales.len() - 1) / 2);
-        let extent = Extent::around(shape.bodies.iter().flatten().copied());
-        let ([width, height], middle) = extent.map_or(([1.0, 1.0], [0.0, 0.0]), |extent| {
-            (extent.size(), [0, 1].map(|k| 0.5 * (extent.low[k] + extent.high[k])))
-        });
+        let extent = shape.extent();
+        let ([width, height], middle) = (extent.size(), extent.middle());
         let scale = ((ENLARGED - ARROWS[0]) / width).min((HEIGHT[1] - ARROWS[1]) / height);
         let height = (scale * height + ARROWS[1]).clamp(HEIGHT[0], HEIGHT[1]);
         Self { shape, scale, middle, height, bends_inward: state.moment >= 0.0 }
     }
-}
-
-/// Returns the border and the name of an enlarged gap whose upper left corner is `frame`.
-fn enlargement(frame: Spot, height: f64) -> [Element; 2] {
-    let border = rect(frame, [ENLARGED, height])
-        .at("rx", 4.0)
-        .with("fill", "#fbfbfb")
-        .with("stroke", "#bdbdbd");
-    let spot = [frame[0] + 0.5 * ENLARGED, frame[1] + height - 9.0];
-    let name = label("one gap, enlarged", spot, 11.0, Anchor::Middle).with("fill", FAINT);
-    [border, name]
 }
 
 /// Returns the width of an outline, px: thinner around thin scales, so that their area is seen.
@@ -191,8 +174,9 @@ impl Shape {
             // An overlap of a millionth of a thickness is not seen in a whole strip.
             overlaps: Vec::new(),
         };
-        let turned = |scale: Option<&[f64; 3]>| scale.map_or(0.0, |scale| scale[2]);
-        shape.turned(-0.5 * (turned(state.scales.first()) + turned(state.scales.last())))
+        // A strip has a gap, and a scale on either side of it.
+        let turn = |place: usize| state.scales[place][2];
+        shape.turned(-0.5 * (turn(0) + turn(state.scales.len() - 1)))
     }
 
     /// Returns the gap right of scale `left` and its two scales.
@@ -231,6 +215,10 @@ impl Shape {
         }
     }
 
+    fn extent(&self) -> Extent {
+        Extent::around(self.bodies.iter().flatten())
+    }
+
     fn scales(&self, view: &View, stroke: f64) -> Element {
         Element::group("scales")
             .with("fill", "#c9d6e1")
@@ -258,10 +246,8 @@ fn poses(state: &StripSnapshot) -> Vec<Pose> {
 
 /// Returns the moments that bend the gap, as arrows round its two ends.
 fn moments(view: &View, shape: &Shape, inward: bool) -> Element {
-    let Some(([left, ..], [_, right, ..])) = shape.bodies.first().zip(shape.bodies.last()) else {
-        return Element::group("moments");
-    };
-    let (left, right) = (view.place(*left), view.place(*right));
+    let ([left, ..], [_, right, ..]) = (shape.bodies[0], shape.bodies[1]);
+    let (left, right) = (view.place(left), view.place(right));
     // The arrows of a short gap stand apart too.
     let apart = (0.5 * (50.0 - (right[0] - left[0]))).max(0.0);
     let (left, right) = (shifted(left, [-apart, 0.0]), shifted(right, [apart, 0.0]));

@@ -29,15 +29,17 @@ pub(super) struct Extent {
 }
 
 impl Extent {
-    /// Returns the least rectangle around `points`, `None` of none.
-    pub(super) fn around(points: impl IntoIterator<Item = [f64; 2]>) -> Option<Self> {
-        points.into_iter().fold(None, |extent: Option<Self>, point| {
-            let Extent { low, high } = extent.unwrap_or(Extent { low: point, high: point });
-            Some(Extent {
-                low: [0, 1].map(|k| low[k].min(point[k])),
-                high: [0, 1].map(|k| high[k].max(point[k])),
-            })
+    /// Returns the least rectangle around `points`, at least one.
+    pub(super) fn around<'p>(points: impl IntoIterator<Item = &'p [f64; 2]>) -> Self {
+        let nothing = Self { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] };
+        points.into_iter().fold(nothing, |Self { low, high }, point| Self {
+            low: [0, 1].map(|k| low[k].min(point[k])),
+            high: [0, 1].map(|k| high[k].max(point[k])),
         })
+    }
+
+    pub(super) fn middle(&self) -> [f64; 2] {
+        [0, 1].map(|k| 0.5 * (self.low[k] + self.high[k]))
     }
 
     pub(super) fn size(&self) -> [f64; 2] {

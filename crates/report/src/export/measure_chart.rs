@@ -88,12 +88,14 @@ impl MeasureChart {
         let axis = self.along.iter().find(|axis| axis.varies).or(self.along.first());
         let Some(axis) = axis.filter(|_| rows > 0) else { return Ok(()) };
         let place = ColNum::try_from(axis.place).unwrap_or(0);
+        let mut marker = ChartMarker::new();
+        marker.set_type(ChartMarkerType::Circle).set_size(4);
         let mut chart = Chart::new_scatter();
         for (name, first, last) in self.series(axis, rows) {
             let series = chart.add_series();
             series.set_categories((table, first, place, last, place));
             series.set_values((table, first, self.value, last, self.value));
-            series.set_name(name.as_str()).set_marker(&marker());
+            series.set_name(name.as_str()).set_marker(&marker);
         }
         chart.title().set_name(table.replace('_', " ").as_str());
         chart.x_axis().set_name(axis.name);
@@ -120,8 +122,4 @@ impl MeasureChart {
         let runs = self.runs.iter().zip(ends);
         runs.map(|((first, value), last)| (format!("{APART} {value}"), *first, last)).collect()
     }
-}
-
-fn marker() -> ChartMarker {
-    ChartMarker::new().set_type(ChartMarkerType::Circle).set_size(4).clone()
 }

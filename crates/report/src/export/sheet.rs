@@ -8,7 +8,7 @@ use rust_xlsxwriter::{
 
 use results::{CsvFormat, Outcome};
 
-use super::explanation::{Explanation, is_leading};
+use super::explanation::{explained, is_leading};
 use super::profile::ColumnProfile;
 use super::{MeasureChart, TableProfile};
 
@@ -48,13 +48,15 @@ impl Formats {
 
 /// A sheet that grows row by row.
 pub(super) struct Sheet {
-    table: String,
+    /// The name of the table.
+    pub table: String,
     page: Worksheet,
     format: CsvFormat,
     columns: Vec<SheetColumn>,
     formats: Formats,
     chart: Option<MeasureChart>,
-    rows: u32,
+    /// How many rows there are below the header.
+    pub rows: u32,
 }
 
 /// A column of a sheet.
@@ -119,16 +121,6 @@ impl Sheet {
         Ok(Self { table, page, format, columns, formats, chart, rows: 0 })
     }
 
-    /// The name of the table.
-    pub fn table(&self) -> &str {
-        &self.table
-    }
-
-    /// How many rows there are below the header.
-    pub fn rows(&self) -> u32 {
-        self.rows
-    }
-
     /// Adds a row.
     pub fn add(&mut self, cells: &StringRecord) -> Result<(), XlsxError> {
         if self.rows == 0 {
@@ -143,14 +135,13 @@ impl Sheet {
         for (column, cell) in self.columns.iter().zip(cells).filter(|(_, c)| !c.is_empty()) {
             let (page, place) = (&mut self.page, column.place);
             let formats = &self.formats;
+            let format = match (column.is_number, has_failed) {
+                (true, true) => &formats.failed_number,
+                (true, false) => &formats.number,
+                _ => &column.number,
+            };
             match self.format.number(cell) {
-                Some(number) if column.is_number => {
-                    let format = if has_failed { &formats.failed_number } else { &formats.number };
-                    page.write_number_with_format(self.rows, place, number, format)?
-                }
-                Some(number) => {
-                    page.write_number_with_format(self.rows, place, number, &column.number)?
-                }
+                Some(number) => page.write_number_with_format(self.rows, place, number, format)?,
                 None if column.says_failed(cell) => {
                     page.write_string_with_format(self.rows, place, cell, &formats.failed)?
                 }
@@ -223,13 +214,13 @@ impl Guide {
         own: &[(String, &'static str, &'static str)],
         header: &StringRecord,
     ) -> Result<(), XlsxError> {
-        let unknown = Explanation { unit: "-", meaning: "no column of squama" };
         for name in header {
             self.row += 1;
             let own = own.iter().find(|column| column.0 == name);
-            let own = own.map(|&(_, unit, meaning)| Explanation { unit, meaning });
-            let explained = own.or_else(|| Explanation::of(table, name)).unwrap_or(unknown);
-            for (place, text) in (0..).zip([table, name, explained.unit, explained.meaning]) {
+            let own = own.map(|&(_, unit, meaning)| (unit, meaning));
+            let (unit, meaning) =
+                own.or_else(|| explained(table, name)).unwrap_or(("-", "no column of squama"));
+            for (place, text) in (0..).zip([table, name, unit, meaning]) {
                 self.page.write_string(self.row, place, text)?;
             }
         }

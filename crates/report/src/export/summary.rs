@@ -10,7 +10,7 @@ use rust_xlsxwriter::{Format, FormatAlign, Worksheet, XlsxError};
 use sweep::{Measure, PARAMETERS, Sweep};
 
 use super::ExportError;
-use super::explanation::Explanation;
+use super::explanation::explained;
 use crate::facts::facts;
 use crate::figures::physical_of;
 
@@ -28,7 +28,6 @@ const WIDTHS: [f64; 4] = [34.0, 22.0, 26.0, 90.0];
 #[derive(Debug, Default)]
 pub(super) struct BestValues {
     columns: Vec<BestColumn>,
-    best: [Option<Leader<String>>; 4],
     designs: u64,
     /// Place of the force at which the surface folds over, and the designs under which it does.
     fold: Option<usize>,
@@ -41,13 +40,14 @@ struct BestColumn {
     name: String,
     place: usize,
     goal: Goal,
+    best: Option<Leader<String>>,
 }
 
 impl BestColumn {
     fn of(criterion: &Criterion, header: &csv::StringRecord) -> Option<Self> {
         let name = physical_of(header, &criterion.column).unwrap_or(&criterion.column);
         let place = header.iter().position(|column| column == name)?;
-        Some(Self { name: name.to_owned(), place, goal: criterion.goal })
+        Some(Self { name: name.to_owned(), place, goal: criterion.goal, best: None })
     }
 }
 
@@ -72,10 +72,9 @@ impl BestValues {
         if self.fold.and_then(|place| row.get(place)).is_some_and(|cell| !cell.is_empty()) {
             self.folded.insert(design.to_owned());
         }
-        for (column, best) in self.columns.iter().zip(&mut self.best) {
-            let value = row.get(column.place).and_then(|cell| format.number(cell));
-            if let Some(value) = value {
-                Leader::enter(best, design.to_owned(), value, column.goal);
+        for BestColumn { place, goal, best, .. } in &mut self.columns {
+            if let Some(value) = row.get(*place).and_then(|cell| format.number(cell)) {
+                Leader::enter(best, design.to_owned(), value, *goal);
             }
         }
     }
@@ -190,7 +189,7 @@ impl Sheet {
 
     fn best(&mut self, best: &BestValues, sweep: Option<&Sweep>) -> Result<(), XlsxError> {
         self.part(&["Best designs", "design", "value", "unit"])?;
-        for (BestColumn { name: column, goal, .. }, leader) in best.columns.iter().zip(&best.best) {
+        for BestColumn { name: column, goal, best: leader, .. } in &best.columns {
             let Some(leader) = leader else { continue };
             let ties = match leader.ties {
                 0 => String::new(),
@@ -204,7 +203,7 @@ impl Sheet {
                 self.add(&[&name, "", "", &why])?;
                 continue;
             }
-            let unit = Explanation::of("designs", column).map_or("-", |e| e.unit);
+            let unit = explained("designs", column).map_or("-", |(unit, _)| unit);
             self.add(&[
                 &name,
                 &format!("{}{}{ties}", leader.first, best.doubt(&leader.first, column)),

@@ -86,15 +86,13 @@ pub enum InvalidMap {
 /// # Errors
 /// If an axis does not vary, the column has no numbers, no design has the values that are held, or there are too many maps.
 pub fn map(name: &str, designs: &Designs, request: &MapRequest) -> Result<Figure, InvalidMap> {
-    let known = designs.varied();
+    // A parameter of words varies, too, but has no place along an axis.
+    let known = designs.varied().into_iter().filter(|axis| designs.has(axis));
+    let known: Vec<String> = known.map(str::to_owned).collect();
     for (option, axis) in [("--x", &request.x), ("--y", &request.y)] {
-        // A parameter of words varies, too, but has no place along an axis.
-        let is_axis = known.contains(&axis.as_str()) && designs.has(axis);
-        let numeric =
-            || known.iter().filter(|axis| designs.has(axis)).map(|axis| (*axis).to_owned());
-        let error =
-            || InvalidMap::NoAxis { option, found: axis.clone(), known: numeric().collect() };
-        is_axis.then_some(()).ok_or_else(error)?;
+        if !known.contains(axis) {
+            return Err(InvalidMap::NoAxis { option, found: axis.clone(), known });
+        }
     }
     if request.x == request.y {
         return Err(InvalidMap::Twice(request.y.clone()));
@@ -138,8 +136,11 @@ pub(crate) fn by_slant(name: &str, designs: &Designs, of: &str) -> String {
 fn held(designs: &Designs, at: &[(String, String)]) -> Result<Designs, InvalidMap> {
     let mut held = designs.clone();
     for (axis, value) in at {
-        let rows: Vec<usize> =
-            (0..held.count()).filter(|&row| is_at(&held, axis, value, row)).collect();
+        // A value may be written otherwise than in the table, as 0.10 for 0.1.
+        let number = value.parse::<f64>().ok();
+        let is_number = |row| number.is_some() && held.number(axis, row) == number;
+        let is_at = |&row: &usize| held.text(axis, row) == *value || is_number(row);
+        let rows: Vec<usize> = (0..held.count()).filter(is_at).collect();
         if rows.is_empty() {
             let known: Vec<&str> =
                 if designs.texts(axis).len() > 1 { vec![axis.as_str()] } else { designs.varied() };
@@ -154,12 +155,6 @@ fn held(designs: &Designs, at: &[(String, String)]) -> Result<Designs, InvalidMa
         held = held.only(&rows);
     }
     Ok(held)
-}
-
-fn is_at(designs: &Designs, axis: &str, value: &str, row: usize) -> bool {
-    // A value may be written otherwise than in the table, as 0.10 for 0.1.
-    let number = || Some(designs.number(axis, row)? == value.parse::<f64>().ok()?);
-    designs.text(axis, row) == value || number() == Some(true)
 }
 
 fn too_many(parts: &[(AxisValues<'_>, Designs)]) -> InvalidMap {
@@ -184,15 +179,13 @@ impl MapSubject<'_> {
         let rows = parts.len().div_ceil(count);
         let width = (WIDTH - LEFT - RIGHT - BETWEEN[0] * (count - 1) as f64) / count as f64;
         let height = HEIGHTS[usize::from(parts.len() == 1)];
+        let first = Area { left: LEFT, top: TOP, width, height };
         let mut inside = Vec::new();
         for (k, (values, designs)) in parts.iter().enumerate() {
-            let [column, row] = [(k % count) as f64, (k / count) as f64];
-            let (left, top) =
-                (LEFT + column * (width + BETWEEN[0]), TOP + row * (height + BETWEEN[1]));
             let map = Map {
                 subject: self,
                 designs,
-                area: Area { left, top, width, height },
+                area: first.panel(k, count, BETWEEN),
                 x: designs.values(self.x),
                 y: designs.values(self.y),
             };

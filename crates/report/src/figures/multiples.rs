@@ -40,6 +40,8 @@ pub(crate) fn figure(
     let y = ChartAxis::fit(&axis_label(&quantity.column), quantity.numbers(designs));
     let values = some(designs.values(across));
     let columns = columns(values.len());
+    let width = (WIDTH - LEFT - RIGHT - BETWEEN[0] * (columns - 1) as f64) / columns as f64;
+    let first = Area { left: LEFT, top: TOP, width, height: HEIGHT };
     let palette = designs.palette();
     let has_folds = is_touched_by_folds(&quantity.column) && designs.any_folded();
     let mut inside = vec![mark_legend(&palette, has_folds, [LEFT, 50.0])];
@@ -51,7 +53,7 @@ pub(crate) fn figure(
     for (k, &value) in values.iter().enumerate() {
         let title = with_value(&(across, &value.to_string()));
         let (x_labels, y_labels) = (k + columns >= values.len(), k % columns == 0);
-        let area = area(k, columns);
+        let area = first.panel(k, columns, BETWEEN);
         let panel = ChartPanel { title, x_labels, y_labels, ..ChartPanel::new(area, &x, &y) };
         inside.push(panel.frame());
         let is_here = |row: &usize| designs.number(across, *row) == Some(value);
@@ -59,20 +61,12 @@ pub(crate) fn figure(
         let here = PanelSeries { designs, palette: &palette, along, rows, quantity, filled };
         inside.extend(palette.slants().iter().map(|&slant| here.series(&panel, slant)));
     }
-    let bottom = area(values.len().saturating_sub(1), columns).bottom();
+    let bottom = first.panel(values.len().saturating_sub(1), columns, BETWEEN).bottom();
     let middle = 0.5 * (LEFT + WIDTH - RIGHT);
     inside.push(label(&x.label, [middle, bottom + 38.0], NAME, Anchor::Middle).with("fill", INK));
     inside.push(upright(&y.label, [18.0, 0.5 * (TOP + bottom)], NAME).with("fill", INK));
     let title = format!("{name}: {}", super::in_words(&quantity.column));
     sheet(WIDTH, bottom + BOTTOM, &title, inside)
-}
-
-/// Returns the area of panel `k`, of `columns` in a row.
-fn area(k: usize, columns: usize) -> Area {
-    let (column, row) = ((k % columns) as f64, (k / columns) as f64);
-    let width = (WIDTH - LEFT - RIGHT - BETWEEN[0] * (columns - 1) as f64) / columns as f64;
-    let (left, top) = (LEFT + column * (width + BETWEEN[0]), TOP + row * (HEIGHT + BETWEEN[1]));
-    Area { left, top, width, height: HEIGHT }
 }
 
 /// Returns at most as many of `values` as there is room for, from end to end.
@@ -157,12 +151,8 @@ impl PanelSeries<'_> {
     }
 
     fn is_filled(&self, row: usize) -> bool {
-        self.filled.is_none_or(|column| is_true(&self.designs.text(column, row)))
+        self.filled.is_none_or(|column| self.designs.text(column, row) == "yes")
     }
-}
-
-fn is_true(text: &str) -> bool {
-    matches!(text, "true" | "yes" | "1")
 }
 
 fn contact_legend(palette: &SlantPalette, [x, y]: Spot) -> Element {

@@ -14,8 +14,7 @@ use crate::svg::{Element, Spot, circle, polyline};
 const WIDTH: f64 = 1000.0;
 const LEFT: f64 = 74.0;
 const BETWEEN: [f64; 2] = [74.0, 62.0];
-const TOP: f64 = 80.0;
-const PANEL: [f64; 2] = [244.0, 240.0];
+const FIRST: Area = Area { left: LEFT, top: 80.0, width: 244.0, height: 240.0 };
 
 /// The criteria, each the larger the better, with their columns; all labels fit along a panel.
 const CRITERIA: [(&str, &str); 4] = [
@@ -42,15 +41,11 @@ pub(crate) fn figure(
     let palette = designs.palette();
     let dot = circle([0.0, 0.0], 1.6).with("fill", "currentColor").with("id", "dot");
     let mut inside = vec![mark_legend(&palette, designs.any_folded(), [LEFT, 50.0])];
-    inside.extend([Element::new("defs").containing([dot]), legend()]);
+    let legend = "on the line: no other is better in both; grey: the others";
+    let legend = label(legend, [LEFT, 68.0], 12.0, Anchor::Start).with("fill", INK);
+    inside.extend([Element::new("defs").containing([dot]), legend]);
     for (k, (i, j)) in PAIRS.into_iter().enumerate() {
-        let area = Area {
-            left: LEFT + (k % 3) as f64 * (PANEL[0] + BETWEEN[0]),
-            top: TOP + (k / 3) as f64 * (PANEL[1] + BETWEEN[1]),
-            width: PANEL[0],
-            height: PANEL[1],
-        };
-        let panel = ChartPanel::new(area, &axes[i], &axes[j]);
+        let panel = ChartPanel::new(FIRST.panel(k, 3, BETWEEN), &axes[i], &axes[j]);
         inside.extend(panel.axes(48.0));
         let point = |(row, worth): &(usize, [f64; 4])| {
             let criteria = [worth[i], worth[j]];
@@ -62,7 +57,7 @@ pub(crate) fn figure(
     }
     let title =
         format!("{name}: designs that no other beats in two criteria{}", of_perfect(designs));
-    Some(sheet(WIDTH, TOP + 2.0 * (PANEL[1] + BETWEEN[1]), &title, inside))
+    Some(sheet(WIDTH, FIRST.top + 2.0 * (FIRST.height + BETWEEN[1]), &title, inside))
 }
 
 /// A design in a panel.
@@ -96,9 +91,4 @@ fn front(points: &[Point], designs: &Designs, palette: &SlantPalette) -> Element
         .containing(beaten)
         .containing([line.with("class", "line")])
         .containing(marks)
-}
-
-fn legend() -> Element {
-    let text = "on the line: no other is better in both; grey: the others";
-    label(text, [LEFT, 68.0], 12.0, Anchor::Start).with("fill", INK)
 }

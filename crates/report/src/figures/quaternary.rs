@@ -15,17 +15,9 @@ const HEIGHT: f64 = 640.0;
 /// The number of winners that are listed: as many as fit on the sheet.
 const LISTED: usize = 9;
 
-/// The weights for which one design is best.
-struct Region {
-    /// The row of the design.
-    row: usize,
-    /// The part of the weights for which it is best, from 0 to 1.
-    share: f64,
-}
-
 pub(super) fn figure(name: &str, designs: &Designs, ranking: &Ranking<'_>) -> String {
-    let region = |winner: &RankedDesign<'_>| Region { row: winner.row(), share: winner.share() };
-    let regions: Vec<_> = ranking.winners().iter().map(region).collect();
+    let winners = ranking.winners();
+    let regions = regions(designs, &winners);
     let weights = WeightSlices {
         resolution: ranking.grid().resolution(),
         winners: ranking
@@ -35,15 +27,13 @@ pub(super) fn figure(name: &str, designs: &Designs, ranking: &Ranking<'_>) -> St
             .collect(),
     };
     let best: Vec<_> = Weights::alone().map(|alone| ranking.winner(alone).design()).collect();
-    let mut inside = weights.drawn(designs, &looks(designs, &regions), &best);
-    let colors = colors(designs, &regions);
-    // Only listed regions have a colour, so that the list ends with them.
-    inside.extend(regions.iter().zip(&colors).enumerate().map(|(k, (region, color))| {
-        entry(designs, region, color, &letter(k), [604.0, 78.0 + 58.0 * k as f64])
+    let mut inside = weights.drawn(designs, &regions, &best);
+    inside.extend(regions.iter().zip(&winners).enumerate().map(|(k, (region, winner))| {
+        entry(designs, region, winner.share(), [604.0, 78.0 + 58.0 * k as f64])
     }));
-    if regions.len() > LISTED {
-        let rest: f64 = regions[LISTED..].iter().map(|region| region.share).sum();
-        let text = format!("{} more designs: {:.1} %", regions.len() - LISTED, 100.0 * rest);
+    if winners.len() > LISTED {
+        let rest: f64 = winners[LISTED..].iter().map(RankedDesign::share).sum();
+        let text = format!("{} more designs: {:.1} %", winners.len() - LISTED, 100.0 * rest);
         let spot = [596.0, 78.0 + 58.0 * LISTED as f64];
         inside.push(label(&text, spot, 12.0, Anchor::Start).with("fill", FAINT));
     }
@@ -58,31 +48,18 @@ pub(super) fn figure(name: &str, designs: &Designs, ranking: &Ranking<'_>) -> St
     sheet(WIDTH, HEIGHT, &title, inside)
 }
 
-/// Returns the row, the colour and the letter of each listed region.
-fn looks(designs: &Designs, regions: &[Region]) -> Vec<RegionLook> {
-    let look = |(k, (region, color)): (usize, (&Region, String))| RegionLook {
-        row: region.row,
-        color,
-        letter: letter(k),
-    };
-    regions.iter().zip(colors(designs, regions)).enumerate().map(look).collect()
-}
-
-/// Returns the colour of each listed region: that of its slant, lighter or darker for further ones of one slant.
-fn colors(designs: &Designs, regions: &[Region]) -> Vec<String> {
+/// Returns the listed regions: in the colour of the slant of their design, lighter or darker for further ones of one slant.
+fn regions(designs: &Designs, winners: &[RankedDesign<'_>]) -> Vec<RegionLook> {
     const SHADES: [f64; 6] = [0.0, 0.55, -0.45, 0.3, -0.25, 0.78];
-    let slant = |region: &Region| designs.number("slant_deg", region.row).unwrap_or(90.0);
-    let listed = &regions[..regions.len().min(LISTED)];
+    let rows = || winners.iter().map(RankedDesign::row).take(LISTED);
+    let slant = |row: usize| designs.number("slant_deg", row).unwrap_or(90.0);
     let palette = designs.palette();
-    let color = |(k, region): (usize, &Region)| {
-        let before = listed[..k].iter().filter(|other| slant(other) == slant(region)).count();
-        shaded(&palette.color(slant(region)), SHADES[before % SHADES.len()])
+    let region = |((k, row), letter): ((usize, usize), char)| {
+        let before = rows().take(k).filter(|other| slant(*other) == slant(row)).count();
+        let color = shaded(&palette.color(slant(row)), SHADES[before % SHADES.len()]);
+        RegionLook { row, color, letter: letter.to_string() }
     };
-    listed.iter().enumerate().map(color).collect()
-}
-
-fn letter(k: usize) -> String {
-    char::from(b'A' + u8::try_from(k).unwrap_or(0)).to_string()
+    rows().enumerate().zip('A'..).map(region).collect()
 }
 
 fn badge(text: &str, [x, y]: Spot) -> Element {
@@ -93,7 +70,7 @@ fn badge(text: &str, [x, y]: Spot) -> Element {
 }
 
 /// Returns a design of the list: its letter, parameters, share, and row at rest.
-fn entry(designs: &Designs, region: &Region, color: &str, letter: &str, [x, y]: Spot) -> Element {
+fn entry(designs: &Designs, region: &RegionLook, share: f64, [x, y]: Spot) -> Element {
     let value = |column| designs.text(column, region.row);
     let text = format!(
         "{}:  $d/t$ = {},  $L/t$ = {},  $α$ = {}°",
@@ -102,16 +79,16 @@ fn entry(designs: &Designs, region: &Region, color: &str, letter: &str, [x, y]: 
         value("length_over_t"),
         value("slant_deg")
     );
-    let share = format!("best for {:.1} % of the weights", 100.0 * region.share);
+    let share = format!("best for {:.1} % of the weights", 100.0 * share);
     let doubt = designs.folded(region.row).then(|| "surface folds".to_owned());
     let share = [share].into_iter().chain(doubt).collect::<Vec<_>>().join(",  ");
-    let swatch = rect([x + 14.0, y - 9.0], [12.0, 18.0]).with("fill", color);
+    let swatch = rect([x + 14.0, y - 9.0], [12.0, 18.0]).with("fill", region.color.as_str());
     let mut swatch = Element::group("swatch").containing([swatch]);
     if designs.folded(region.row) {
         swatch.add(line([x + 12.0, y + 11.0], [x + 28.0, y - 11.0], RED, 1.6));
     }
     let entry = Element::group("entry").containing([
-        badge(letter, [x, y]),
+        badge(&region.letter, [x, y]),
         swatch,
         label(&text, [x + 34.0, y - 2.0], 12.5, Anchor::Start).with("fill", INK),
         label(&share, [x + 34.0, y + 15.0], 12.0, Anchor::Start).with("fill", FAINT),

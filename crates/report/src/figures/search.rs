@@ -5,7 +5,7 @@ use crate::axis::ChartAxis;
 use crate::chart::{Area, ChartPanel};
 use crate::colors::{INK, RED};
 use crate::label::{Anchor, label};
-use crate::svg::{Element, Spot, circle, polyline};
+use crate::svg::{Element, circle, polyline};
 
 const WIDTH: f64 = 760.0;
 const HEIGHT: f64 = 480.0;
@@ -50,18 +50,15 @@ impl SearchFigure<'_> {
         let (x, y) = (axis(0), axis(1));
         let panel = ChartPanel::new(AREA, &x, &y);
         let dots = |met: bool| {
-            let designs = self.designs.iter().filter(move |design| design.met == met);
-            let [x, y] = [0, 1].map(|k| move |place: [f64; 2]| place[k]);
-            let spots = designs.filter_map(|design| panel.place(x(design.place), y(design.place)));
+            let designs = self.designs.iter().filter(|design| design.met == met);
+            let spots = panel.spots(designs.map(|design| design.place));
             let shade = SHADES[usize::from(met)];
-            let dots: Vec<Element> =
-                spots.map(|spot| circle(spot, 1.8).with("fill", shade)).collect();
+            let dots = spots.into_iter().map(|spot| circle(spot, 1.8).with("fill", shade));
             Element::group(if met { "met" } else { "short" }).containing(dots)
         };
-        let spots: Vec<Spot> = self.line.iter().filter_map(|[x, y]| panel.place(*x, *y)).collect();
+        let spots = panel.spots(self.line.iter().copied());
         let line = polyline(&spots).with("stroke", RED).at("stroke-width", 1.6);
-        let ends: Vec<Element> =
-            spots.iter().map(|spot| circle(*spot, 2.6).with("fill", RED)).collect();
+        let ends = spots.into_iter().map(|spot| circle(spot, 2.6).with("fill", RED));
         let text = format!(
             "red: {}; blue: designs that meet every requirement; grey: others",
             self.legend

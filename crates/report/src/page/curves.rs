@@ -44,20 +44,21 @@ pub(super) fn figure(page: &Page, is_log: bool) -> Option<String> {
     let kinds = KINDS.iter().zip(page.is_physical).filter(|(kind, _)| has_curves(kind));
     let kinds: Vec<_> = kinds.collect();
     let [left, above, below] = MARGINS;
-    let step = left + PANEL[0] + 20.0;
-    let area = |k: usize| Area {
-        left: left + k as f64 * step,
-        top: above,
-        width: PANEL[0],
-        height: PANEL[1],
-    };
+    let between = left + 20.0;
+    let first = Area { left, top: above, width: PANEL[0], height: PANEL[1] };
     let panels = kinds.iter().enumerate();
     let inside: Vec<_> = panels
         .flat_map(|(k, (kind, is_physical))| {
-            panel(page, kind, kind.labels[usize::from(*is_physical)], is_log, area(k))
+            panel(
+                page,
+                kind,
+                kind.labels[usize::from(*is_physical)],
+                is_log,
+                first.panel(k, kinds.len(), [between; 2]),
+            )
         })
         .collect();
-    let [width, height] = [step * kinds.len() as f64, above + PANEL[1] + below];
+    let [width, height] = [(PANEL[0] + between) * kinds.len() as f64, above + PANEL[1] + below];
     (!inside.is_empty()).then(|| sheet(width, height, "Curves", inside))
 }
 
@@ -65,7 +66,9 @@ pub(super) fn figure(page: &Page, is_log: bool) -> Option<String> {
 /// axes of two curves, and scales both to them. A logarithmic axis upwards is the same for all.
 fn panel(page: &Page, kind: &Kind, labels: [&str; 2], is_log: bool, area: Area) -> Vec<Element> {
     let solved = || page.solved.iter().filter(|design| (kind.points)(design).len() > 1);
-    let size = |design: &PageDesign| [0, 1].map(|k| highest(design, kind, k));
+    let size = |design: &PageDesign| {
+        [0, 1].map(|k| (kind.points)(design).iter().map(|point| point[k]).fold(0.0, f64::max))
+    };
     let ends =
         [0, 1].map(|k| ends(solved().map(|design| size(design)[k]).filter(|size| *size > 0.0)));
     let logarithmic = ChartAxis::logarithmic(labels[1], ends[1].0 / DECADES, ends[1].1);
@@ -85,7 +88,7 @@ fn panel(page: &Page, kind: &Kind, labels: [&str; 2], is_log: bool, area: Area) 
     }
     let (x, y) = (&axis(0, 1.0), &own(1.0));
     let panel = ChartPanel::new(area, x, y);
-    drawn.extend([panel.border(), panel.x_name(), panel.y_name(56.0)]);
+    drawn.extend([area.border(), panel.x_name(), panel.y_name(56.0)]);
     let curve = |design: &PageDesign| {
         let [width, height] = if is_log { [size(design)[0], 1.0] } else { size(design) };
         // What a logarithmic axis has no place for is left out.
@@ -99,11 +102,6 @@ fn panel(page: &Page, kind: &Kind, labels: [&str; 2], is_log: bool, area: Area) 
     let curves = Element::group("curves").at("stroke-width", 2.2).containing(solved().map(curve));
     let whole = Element::group("panel").with("data-origin", origin);
     vec![whole.containing(drawn).containing([curves])]
-}
-
-/// Returns the largest coordinate of a curve.
-fn highest(design: &PageDesign, kind: &Kind, k: usize) -> f64 {
-    (kind.points)(design).iter().map(|point| point[k]).fold(0.0, f64::max)
 }
 
 /// Returns ends of axes at round numbers, from that of the smallest curve to that of the largest.

@@ -46,11 +46,8 @@ impl PageFront {
         let objectives = self.objectives.iter().map(|objective| objective.column.as_ref());
         let required = self.requirements.iter().map(|requirement| requirement.column.as_str());
         let others = required.chain(self.variables.iter().map(String::as_str));
-        let mut axes: Vec<&str> = objectives.collect();
-        if axes.len() == 1 {
-            axes.extend(others.filter(|other| *other != axes[0]).take(1).collect::<Vec<_>>());
-        }
-        axes
+        let others = others.filter(|other| *other != self.objectives[0].column);
+        objectives.chain(others.take(usize::from(self.objectives.len() == 1))).collect()
     }
 
     /// Draws what was found over the designs of `grid`: a panel for each pair of axes.

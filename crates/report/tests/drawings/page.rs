@@ -24,7 +24,7 @@ fn table() -> String {
             0.01 * f64::from(k),
             1.0 / value,
             0.5,
-            k % 2 == 0
+            if k % 2 == 0 { "yes" } else { "no" }
         );
     }
     text

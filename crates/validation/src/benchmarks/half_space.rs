@@ -4,7 +4,6 @@ use analytical::half_space;
 use substrate::{Footprint, Springs, calibrate, extrapolated};
 
 use super::Benchmark;
-use crate::ValidationError;
 
 /// A gap, over `a`, at which the coupling of rectangles is below the last digit of the references.
 const ALONE: f64 = 1e5;
@@ -12,13 +11,12 @@ const ALONE: f64 = 1e5;
 /// Names of the six coefficients.
 const NAMES: [&str; 6] = ["α_x", "α_y", "α_φ", "β_x", "β_y", "β_φ"];
 
-fn footprint(gap: f64, width: f64) -> Result<Footprint, ValidationError> {
-    Footprint::new(gap, width, 0.5).map_err(|error| ValidationError::Benchmark(error.to_string()))
+fn footprint(gap: f64, width: f64) -> anyhow::Result<Footprint> {
+    Ok(Footprint::new(gap, width, 0.5)?)
 }
 
-fn springs(gap: f64, width: f64) -> Result<Springs, ValidationError> {
-    calibrate(&footprint(gap, width)?)
-        .map_err(|error| ValidationError::Benchmark(error.to_string()))
+fn springs(gap: f64, width: f64) -> anyhow::Result<Springs> {
+    Ok(calibrate(&footprint(gap, width)?)?)
 }
 
 /// Returns the six coefficients in the order of [`NAMES`].
@@ -27,7 +25,7 @@ fn six(springs: &Springs) -> [f64; 6] {
     [ax, ay, aphi, bx, by, bphi]
 }
 
-pub(super) fn benchmarks() -> Result<Vec<Benchmark>, ValidationError> {
+pub(super) fn benchmarks() -> anyhow::Result<Vec<Benchmark>> {
     let mut all = square()?;
     all.extend(converged()?);
     for width in [1.0, 2.0, 8.0] {
@@ -36,7 +34,7 @@ pub(super) fn benchmarks() -> Result<Vec<Benchmark>, ValidationError> {
     Ok(all)
 }
 
-fn square() -> Result<Vec<Benchmark>, ValidationError> {
+fn square() -> anyhow::Result<Vec<Benchmark>> {
     // Of width `2a`, as long as the base: the rectangle is a square.
     let [x, y, phi] = springs(ALONE, 2.0)?.direct;
     let square = |name, source, values| Benchmark::new(name, source, values, 1e-4);
@@ -59,12 +57,11 @@ fn square() -> Result<Vec<Benchmark>, ValidationError> {
 }
 
 /// Compares the coefficients that differ most from those of a much finer mesh.
-fn converged() -> Result<Vec<Benchmark>, ValidationError> {
+fn converged() -> anyhow::Result<Vec<Benchmark>> {
     let corners = [(0.05, 0.25), (0.05, 80.0), (0.2, 2.0), (2.0, 20.0), (80.0, 0.25), (80.0, 80.0)];
     let worst = |(gap, width)| {
         let ours = six(&springs(gap, width)?);
-        let fine = extrapolated(&footprint(gap, width)?, [16, 24])
-            .map_err(|error| ValidationError::Benchmark(error.to_string()))?;
+        let fine = extrapolated(&footprint(gap, width)?, [16, 24])?;
         // A coupling that has died out has no digits to compare.
         let off = |k: &usize| ((ours[*k] - fine[*k]) / fine[k % 3]).abs();
         let k = (0..6).max_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(0);
@@ -75,7 +72,7 @@ fn converged() -> Result<Vec<Benchmark>, ValidationError> {
 }
 
 /// Compares isolated rectangles with the formulas of soil dynamics.
-fn formulas(width: f64) -> Result<Vec<Benchmark>, ValidationError> {
+fn formulas(width: f64) -> anyhow::Result<Vec<Benchmark>> {
     let ours = springs(ALONE, width)?.direct;
     let pais_kausel = half_space::pais_kausel(width).values();
     let row = |name: &str, source, values| {

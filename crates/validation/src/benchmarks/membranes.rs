@@ -2,9 +2,10 @@
 
 use analytical::elastica::{MATTIASSON, Tip};
 
+use anyhow::Context as _;
+
 use super::Benchmark;
 use super::frame::{Drive, FrameNode, PlaneFrame};
-use crate::ValidationError;
 
 /// Loads `P L²/EI` of the benchmark: small, medium and large rotations.
 const LOADS: [f64; 3] = [1.0, 5.0, 10.0];
@@ -25,17 +26,16 @@ fn tip(elements: usize, load: f64) -> Option<Tip> {
     Some(Tip { deflection: -y, shortening: -x, rotation: -turn })
 }
 
-pub(super) fn benchmarks() -> Result<Vec<Benchmark>, ValidationError> {
+pub(super) fn benchmarks() -> anyhow::Result<Vec<Benchmark>> {
     let rows = MATTIASSON.iter().filter(|(load, _)| LOADS.contains(load));
     let rows = rows.map(|(load, reference)| cantilever(*load, reference));
     Ok(rows.collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect())
 }
 
 /// Compares the three displacements of the tip under a load.
-fn cantilever(load: f64, reference: &Tip) -> Result<[Benchmark; 3], ValidationError> {
-    let missing =
-        || ValidationError::Benchmark(format!("no equilibrium of the cantilever at {load}"));
-    let [coarse, medium, fine] = MESHES.map(|elements| tip(elements, load).ok_or_else(missing));
+fn cantilever(load: f64, reference: &Tip) -> anyhow::Result<[Benchmark; 3]> {
+    let missing = || format!("no equilibrium of the cantilever at {load}");
+    let [coarse, medium, fine] = MESHES.map(|elements| tip(elements, load).with_context(missing));
     let (coarse, medium, fine) = (coarse?, medium?, fine?.values());
     let reference = reference.values();
     let error = |tip: &Tip| {

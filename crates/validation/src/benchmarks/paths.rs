@@ -2,23 +2,23 @@
 
 use analytical::frames::{LEES_FRAME, toggle_limit_load};
 
+use anyhow::{Context as _, bail};
+
 use super::Benchmark;
 use super::frame::{Drive, FrameNode, PlaneFrame};
-use crate::ValidationError;
 
-pub(super) fn benchmarks() -> Result<Vec<Benchmark>, ValidationError> {
+pub(super) fn benchmarks() -> anyhow::Result<Vec<Benchmark>> {
     Ok(vec![toggle()?, lees_frame()?])
 }
 
 /// Compares the limit load of half a toggle.
-fn toggle() -> Result<Benchmark, ValidationError> {
+fn toggle() -> anyhow::Result<Benchmark> {
     let (base, height, axial) = (1.0, 0.2, 1e3);
     let hinge = FrameNode { place: [0.0, 0.0], held: [true, true, false] };
     let slide = FrameNode { place: [base, height], held: [true, false, false] };
     let frame = PlaneFrame::new(vec![hinge, slide], axial, 1, Drive::Depth(2.5 * height));
     let load = frame.and_then(|frame| frame.limit_load(0.05));
-    let ours =
-        load.ok_or_else(|| ValidationError::Benchmark("the toggle has no limit load".to_owned()))?;
+    let ours = load.context("the toggle has no limit load")?;
     let values = [toggle_limit_load(base, height, axial), ours];
     Ok(Benchmark::new("toggle that snaps through: limit load", "closed form", values, 1e-9))
 }
@@ -36,14 +36,14 @@ fn lee(elements: usize, axial: f64) -> Option<f64> {
 }
 
 /// Compares the limit load of Lee's frame, with its order of convergence.
-fn lees_frame() -> Result<Benchmark, ValidationError> {
-    let missing = || ValidationError::Benchmark("Lee's frame has no limit load".to_owned());
+fn lees_frame() -> anyhow::Result<Benchmark> {
     // EA L²/EI = 12 (L/h)² for a thickness h of a sixtieth of the length.
     let axial = 43_200.0;
     // Multiples of five, so that a node stands at a fifth of the beam, under the load.
-    let [coarse, medium, fine] = [10, 20, 40].map(|elements| lee(elements, axial));
-    let (coarse, medium) = (coarse.ok_or_else(missing)?, medium.ok_or_else(missing)?);
-    let fine = fine.ok_or_else(missing)?;
+    let loads = [10, 20, 40].map(|elements| lee(elements, axial));
+    let [Some(coarse), Some(medium), Some(fine)] = loads else {
+        bail!("Lee's frame has no limit load")
+    };
     let order = ((coarse - medium) / (medium - fine)).abs().log2();
     let name = "Lee's frame: first limit load P L²/EI";
     // The reference does not stretch and our frame does: no mesh makes them equal.

@@ -8,43 +8,36 @@ use skin::flexure::MembraneMesh;
 use skin::puncture::RowLength;
 use skin::{Base, Common, Design, flexure, puncture};
 
+use anyhow::Context as _;
+
 use super::Benchmark;
-use crate::ValidationError;
 
-/// Returns an error of a benchmark with the text of another.
-fn wrong(error: &impl ToString) -> ValidationError {
-    ValidationError::Benchmark(error.to_string())
-}
-
-pub(super) fn benchmarks() -> Result<Vec<Benchmark>, ValidationError> {
+pub(super) fn benchmarks() -> anyhow::Result<Vec<Benchmark>> {
     let mut all = isolated_scale()?;
     all.extend(bending()?);
     Ok(all)
 }
 
 /// Compares the critical force and displacement of a scale without neighbours.
-fn isolated_scale() -> Result<Vec<Benchmark>, ValidationError> {
+fn isolated_scale() -> anyhow::Result<Vec<Benchmark>> {
     let design = Design { gap: 1.0, length: 0.5, slant_deg: 45.0, base: Base::L, width: 1.0 };
     let parameters = puncture::PunctureParameters {
         scales: RowLength::Scales(1),
         ..puncture::PunctureParameters::default()
     };
-    let footprint = design.footprint(parameters.poisson_ratio).map_err(|e| wrong(&e))?;
-    let springs = substrate::calibrate(&footprint).map_err(|e| wrong(&e))?;
-    let measures = puncture::solve(&design, &springs, &Common::default(), &parameters)
-        .map_err(|e| wrong(&e))?
-        .measures;
+    let springs = substrate::calibrate(&design.footprint(parameters.poisson_ratio)?)?;
+    let solved = puncture::solve(&design, &springs, &Common::default(), &parameters)?;
+    let measures = solved.measures;
     let (a, tilt) = (design.half_base(), parameters.critical_tilt_deg.to_radians());
     let exact = IsolatedScale {
         normal: a * springs.direct[1],
         rotation: a.powi(3) * springs.direct[2],
         arm: [a + design.slant_deg.to_radians().tan(), 1.0],
     };
-    let missing = || ValidationError::Benchmark("an isolated scale does not tilt".to_owned());
     let row = |name, exact, ours: Option<f64>| {
-        let values = [exact, ours.ok_or_else(missing)?];
+        let values = [exact, ours.context("an isolated scale does not tilt")?];
         let name = format!("isolated scale, slant 45°: {name}");
-        Ok::<_, ValidationError>(Benchmark::new(name, "closed form", values, 1e-9))
+        anyhow::Ok(Benchmark::new(name, "closed form", values, 1e-9))
     };
     Ok(vec![
         row("F_c*", exact.force(tilt) / design.length, measures.critical_force)?,
@@ -53,10 +46,10 @@ fn isolated_scale() -> Result<Vec<Benchmark>, ValidationError> {
 }
 
 /// Compares the bending of upright blocks before and at their first contact.
-fn bending() -> Result<Vec<Benchmark>, ValidationError> {
+fn bending() -> anyhow::Result<Vec<Benchmark>> {
     let design = Design { gap: 0.1, length: 1.0, slant_deg: 0.0, base: Base::L, width: 1.0 };
     let (gap, pitch) = (design.gap, design.gap + design.length);
-    let missing = || ValidationError::Benchmark("upright blocks do not meet".to_owned());
+    let missing = "upright blocks do not meet";
     let bent = |elements_per_gap| {
         let parameters = flexure::FlexureParameters {
             // On the 100 t of the sweeps upright blocks with this gap never meet.
@@ -64,14 +57,12 @@ fn bending() -> Result<Vec<Benchmark>, ValidationError> {
             elements_per_gap,
             ..flexure::FlexureParameters::default()
         };
-        flexure::solve(&design, &Common::default(), &parameters).map_err(|e| wrong(&e))
+        flexure::solve(&design, &Common::default(), &parameters)
     };
     let (one, many) = (bent(MembraneMesh::Elements(1))?, bent(MembraneMesh::Auto)?);
-    let free = one.path.get(1).ok_or_else(missing)?;
-    let first = |flexure: &flexure::Flexure| {
-        Ok::<_, ValidationError>(flexure.events.first().ok_or_else(missing)?.point)
-    };
-    let (coarse, fine) = (first(&one)?, first(&many)?);
+    let free = one.path.get(1).context(missing)?;
+    let [coarse, fine] = [&one, &many].map(|of| of.events.first().context(missing));
+    let (coarse, fine) = (coarse?.point, fine?.point);
     let row = |name: &str, values, band| {
         Benchmark::new(format!("upright blocks, d/t = 0.1: {name}"), "closed form", values, band)
     };

@@ -4,7 +4,6 @@ use super::digits;
 use super::evidence::Evidence;
 use super::statement::Measured;
 use super::statistics::{DesignValue, GAP, LENGTH, SLANT, explained};
-use super::words::in_figures;
 use crate::study::MeasuredDesign;
 
 pub(super) const FORCE: DesignValue = |design| design.critical_force;
@@ -14,7 +13,7 @@ pub(super) const INITIAL_STIFFNESS: DesignValue = |design| design.initial_stiffn
 pub(super) fn correlation(evidence: &Evidence, stiffness: DesignValue) -> Option<Measured> {
     let pair = |d: &MeasuredDesign| Some([stiffness(d)?, FORCE(d)?]);
     let pairs: Vec<_> =
-        evidence.designs.iter().filter(|d| in_figures(d)).filter_map(pair).collect();
+        evidence.designs.iter().filter(|d| d.is_in_figures()).filter_map(pair).collect();
     Some(ranking::rank_correlation(&pairs)?.into())
 }
 

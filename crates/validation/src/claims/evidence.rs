@@ -1,8 +1,9 @@
 //! The evidence on which claims are judged: numbers alone, so that a verdict can be tested on constructed ones.
 
+use std::collections::BTreeMap;
 use std::fmt;
 
-use super::statistics::{DesignParameter, DesignValue, lines};
+use super::statistics::{DesignParameter, DesignValue};
 use super::{digits, named};
 use crate::study::MeasuredDesign;
 
@@ -159,14 +160,23 @@ impl Evidence {
         Some(BestDesigns { designs: equal.map(|(design, _)| design).collect(), value: largest })
     }
 
-    /// Returns the lines of a value along a parameter, of the designs `among`.
+    /// Returns the values along each line of designs of the figures that differ in one parameter, ordered by it.
     pub(crate) fn lines(
         &self,
-        among: fn(&MeasuredDesign) -> bool,
         along: DesignParameter,
         fixed: [DesignParameter; 2],
         value: DesignValue,
     ) -> Vec<Vec<Option<f64>>> {
-        lines(self.designs.iter().filter(|design| among(design)), along, fixed, value)
+        let mut lines = BTreeMap::<[u64; 2], Vec<(f64, Option<f64>)>>::new();
+        for design in self.designs.iter().filter(|design| design.is_in_figures()) {
+            // Parameters are positive, so their bits are in their order.
+            let key = fixed.map(|parameter| parameter(design).to_bits());
+            lines.entry(key).or_default().push((along(design), value(design)));
+        }
+        let ordered = lines.into_values().map(|mut line| {
+            line.sort_by(|a, b| a.0.total_cmp(&b.0));
+            line.into_iter().map(|(_, value)| value).collect()
+        });
+        ordered.collect()
     }
 }

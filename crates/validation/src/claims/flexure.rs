@@ -3,7 +3,6 @@
 use super::digits;
 use super::evidence::{BentStrip, BestDesigns, Evidence};
 use super::statement::Measured;
-use super::words::in_figures;
 use crate::study::MeasuredDesign;
 
 /// A slope that falls to less than this part of its largest value softens.
@@ -27,7 +26,7 @@ pub(super) fn slanted_scales_soften(evidence: &Evidence) -> Option<Measured> {
 }
 
 pub(super) fn touching(evidence: &Evidence, slant: f64) -> Option<BestDesigns> {
-    evidence.best(|d| in_figures(d) && d.bends_to_contact && d.slant == slant, |d| d.compliance)
+    evidence.best(|d| d.is_in_figures() && d.bends_to_contact && d.slant == slant, |d| d.compliance)
 }
 
 pub(super) fn axial_before_contact(evidence: &Evidence) -> Option<Measured> {
@@ -39,6 +38,6 @@ pub(super) fn axial_before_contact(evidence: &Evidence) -> Option<Measured> {
 
 pub(super) fn loss_of_compliance(evidence: &Evidence) -> Option<Measured> {
     let loss = |d: &MeasuredDesign| Some(d.initial_compliance? / d.compliance?);
-    let best = evidence.best(|d| in_figures(d) && d.bends_to_contact, loss)?;
+    let best = evidence.best(|d| d.is_in_figures() && d.bends_to_contact, loss)?;
     Some(Measured { value: best.value, shown: best.to_string() })
 }

@@ -11,7 +11,6 @@ use sweep::Case;
 
 use super::evidence::{Balanced, BentStrip, CurveEnd, Evidence, LoadedRow, PunctureCurve};
 use super::statistics::{DesignParameter, GAP, LENGTH, SLANT};
-use super::words::in_figures;
 use crate::study::{MeasuredDesign, Study};
 
 /// `u/t` of the rows in Fig. 6, and so the end of its curves.
@@ -38,7 +37,7 @@ pub(super) fn gather(study: &Study) -> Evidence {
     Evidence {
         designs: study.designs.clone(),
         by_slant: curves(|d| (d.gap, d.length) == (0.1, 1.0), SLANT),
-        by_length: curves(|d| (d.gap, d.slant) == (0.1, 45.0) && in_figures(d), LENGTH),
+        by_length: curves(|d| (d.gap, d.slant) == (0.1, 45.0) && d.is_in_figures(), LENGTH),
         by_gap: curves(|d| (d.length, d.slant) == (0.5, 45.0), GAP),
         loaded: loaded(study),
         kink: two_blocks(study).as_ref().and_then(kink),

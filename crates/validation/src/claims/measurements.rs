@@ -3,20 +3,20 @@
 use critical_force::{FORCE, INITIAL_STIFFNESS, LARGEST_STIFFNESS};
 use puncture::trend;
 
-use super::evidence::{Evidence, PunctureCurve};
+use super::evidence::{Evidence, LoadedRow, PunctureCurve};
 use super::statement::Measured;
 use super::statement::Measurement::{self, Best, Number};
 use super::statistics::{GAP, LENGTH, SLANT, TrendSteps};
-use super::words::{any, covered, in_figures};
-use super::{coverage, critical_force, domino, flexure, named, puncture};
+use super::{critical_force, digits, flexure, named, puncture};
+use crate::study::MeasuredDesign;
 
 /// Returns what is measured of a statement, by its number.
 pub(super) fn measurement(id: &str) -> Option<Measurement> {
     Some(match id {
         // Of the largest coverage: if that is 0, so are all the others.
         "C01" => Number(|e| Some(e.best(|d| d.slant == 0.0, |d| d.coverage)?.value.into())),
-        "C02a" => Best(|e| e.best(any, |d| d.coverage)),
-        "C02b" => Number(coverage::smallest_gap_largest_length),
+        "C02a" => Best(|e| e.best(|_| true, |d| d.coverage)),
+        "C02b" => Number(smallest_gap_largest_length),
         "C03" => Number(|e| Some(puncture::first_contact(e, 0.0)?.into())),
         "C04" => Number(|e| Some(puncture::first_contact(e, 45.0)?.into())),
         "C05" => Number(puncture::steep_scales_touch_first),
@@ -39,23 +39,27 @@ pub(super) fn measurement(id: &str) -> Option<Measurement> {
         "C10b" => Number(|e| puncture::spread(&e.by_gap, PunctureCurve::slope_after_contact)),
         "C10c" => Number(puncture::contact_is_delayed),
         "C11" => Number(|e| {
-            let lines = e.lines(in_figures, GAP, [LENGTH, SLANT], FORCE);
+            let lines = e.lines(GAP, [LENGTH, SLANT], FORCE);
             Measured::steps(TrendSteps::falling(&lines))
         }),
-        "C12" => Best(|e| e.best(in_figures, FORCE)),
+        "C12" => Best(|e| e.best(MeasuredDesign::is_in_figures, FORCE)),
         "C13" => Number(|e| Some(FORCE(e.design(0.1, 0.1, 75.0)?)?.into())),
         // The paper does not say which stiffness it means: "initial" and "post-contact" are both called puncture stiffness.
         "C14a" => Number(|e| critical_force::correlation(e, LARGEST_STIFFNESS)),
         "C14b" => Number(|e| critical_force::correlation(e, INITIAL_STIFFNESS)),
-        "C15a" => Best(|e| e.best(in_figures, LARGEST_STIFFNESS)),
-        "C15b" => Best(|e| e.best(in_figures, INITIAL_STIFFNESS)),
-        "C16a" => Number(|e| critical_force::shares(e, in_figures, FORCE)),
-        "C16b" => Number(|e| critical_force::shares(e, in_figures, LARGEST_STIFFNESS)),
-        "C16c" => Number(|e| critical_force::shares(e, in_figures, INITIAL_STIFFNESS)),
-        "C16d" => Number(|e| critical_force::shares(e, any, FORCE)),
-        "C17" => Number(|e| domino::row(e, 0, |row| row.carrying)),
-        "C18a" => Number(|e| domino::row(e, 1, |row| row.carrying)),
-        "C18b" => Number(|e| domino::row(e, 1, |row| row.touching)),
+        "C15a" => Best(|e| e.best(MeasuredDesign::is_in_figures, LARGEST_STIFFNESS)),
+        "C15b" => Best(|e| e.best(MeasuredDesign::is_in_figures, INITIAL_STIFFNESS)),
+        "C16a" => Number(|e| critical_force::shares(e, MeasuredDesign::is_in_figures, FORCE)),
+        "C16b" => {
+            Number(|e| critical_force::shares(e, MeasuredDesign::is_in_figures, LARGEST_STIFFNESS))
+        }
+        "C16c" => {
+            Number(|e| critical_force::shares(e, MeasuredDesign::is_in_figures, INITIAL_STIFFNESS))
+        }
+        "C16d" => Number(|e| critical_force::shares(e, |_| true, FORCE)),
+        "C17" => Number(|e| loaded(e, 0, |row| row.carrying)),
+        "C18a" => Number(|e| loaded(e, 1, |row| row.carrying)),
+        "C18b" => Number(|e| loaded(e, 1, |row| row.touching)),
         "C19a" => Number(flexure::axial_before_contact),
         "C19b" => Number(|e| Some(flexure::strip(e, 0.0)?.axial_at_end.into())),
         "C20a" => Number(flexure::slanted_scales_soften),
@@ -67,17 +71,35 @@ pub(super) fn measurement(id: &str) -> Option<Measurement> {
         "C23a" => Best(|e| flexure::touching(e, 60.0)),
         "C23b" => Best(|e| flexure::touching(e, 75.0)),
         "C24" => Number(|e| {
-            let lines = e.lines(in_figures, LENGTH, [GAP, SLANT], |d| d.compliance);
+            let lines = e.lines(LENGTH, [GAP, SLANT], |d| d.compliance);
             Measured::steps(TrendSteps::falling(&lines))
         }),
-        "C25" => Best(|e| e.best(covered, |d| d.penetration.map(f64::recip))),
-        "C26" => Best(|e| e.best(covered, |d| d.compliance)),
-        "C27" => Best(|e| e.best(covered, FORCE)),
+        "C25" => Best(|e| e.best(MeasuredDesign::is_covered, |d| d.penetration.map(f64::recip))),
+        "C26" => Best(|e| e.best(MeasuredDesign::is_covered, |d| d.compliance)),
+        "C27" => Best(|e| e.best(MeasuredDesign::is_covered, FORCE)),
         "C28" => Best(|e| Some(e.balanced?.into())),
         "C29" => Number(share_of_printed),
         "C30" => Number(|e| Some(e.kink?.into())),
         _ => return None,
     })
+}
+
+/// The coverage that the smallest gap and the largest length give, over the largest of all.
+fn smallest_gap_largest_length(evidence: &Evidence) -> Option<Measured> {
+    let there = evidence.design(0.1, 1.0, 45.0)?;
+    let best = evidence.best(|_| true, |d| d.coverage)?;
+    // One among equals has the largest, too.
+    let equal = best.designs.iter().any(|design| named(design) == named(there));
+    Some(if equal { 1.0 } else { there.coverage? / best.value }.into())
+}
+
+/// How many scales of a row of Fig. 9 bear a part of the load.
+fn loaded(evidence: &Evidence, which: usize, count: fn(&LoadedRow) -> usize) -> Option<Measured> {
+    let row = evidence.loaded.as_ref()?.get(which)?;
+    let count = count(row);
+    let [force, displacement] = [row.force, row.displacement].map(digits);
+    let shown = format!("{count}, at F* = {force} and u* = {displacement}");
+    Some(Measured { value: count as f64, shown })
 }
 
 fn share_of_printed(evidence: &Evidence) -> Option<Measured> {

@@ -1,5 +1,6 @@
 //! The statements of a claim, and their checks.
 
+use anyhow::Context as _;
 use serde::Deserialize;
 
 use super::digits;
@@ -7,7 +8,6 @@ use super::evidence::{BestDesigns, Evidence};
 use super::measurements::measurement;
 use super::statistics::TrendSteps;
 use super::verdict::{Limits, Optimum, Verdict};
-use crate::ValidationError;
 
 /// A single statement of a claim, as the table has it.
 #[derive(Clone, Debug, Deserialize)]
@@ -65,16 +65,16 @@ impl Statement {
     ///
     /// # Errors
     /// If nothing is measured for the statement, or its limits cannot be read.
-    pub(crate) fn find(&self, evidence: &Evidence) -> Result<Finding, ValidationError> {
-        let unchecked = || ValidationError::UncheckedClaim(self.id.clone());
+    pub(crate) fn find(&self, evidence: &Evidence) -> anyhow::Result<Finding> {
+        let unchecked = || format!("claim {} has no check", self.id);
         // A statement without a measurement, or with limits that cannot be read, is a mistake in the table.
-        let found = match measurement(&self.id).ok_or_else(unchecked)? {
+        let found = match measurement(&self.id).with_context(unchecked)? {
             Measurement::Number(measure) => {
-                let limits = Limits::read(&self.limits).ok_or_else(unchecked)?;
+                let limits = Limits::read(&self.limits).with_context(unchecked)?;
                 measure(evidence).map(|found| (limits.verdict(found.value), found.shown))
             }
             Measurement::Best(find) => {
-                let optimum = Optimum::read(&self.limits).ok_or_else(unchecked)?;
+                let optimum = Optimum::read(&self.limits).with_context(unchecked)?;
                 find(evidence).map(|best| (optimum.verdict(&best.designs), best.to_string()))
             }
         };

@@ -1,4 +1,4 @@
-//! Trends along the lines of a grid, and shares of variance.
+//! Trends along lines, and shares of variance.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -13,26 +13,6 @@ pub(crate) type DesignValue = fn(&MeasuredDesign) -> Option<f64>;
 pub(crate) const GAP: DesignParameter = |design| design.gap;
 pub(crate) const LENGTH: DesignParameter = |design| design.length;
 pub(crate) const SLANT: DesignParameter = |design| design.slant;
-
-/// Returns the values along each line of designs that differ in one parameter, ordered by it.
-pub(crate) fn lines<'d>(
-    designs: impl Iterator<Item = &'d MeasuredDesign>,
-    along: DesignParameter,
-    fixed: [DesignParameter; 2],
-    value: DesignValue,
-) -> Vec<Vec<Option<f64>>> {
-    let mut lines = BTreeMap::<[u64; 2], Vec<(f64, Option<f64>)>>::new();
-    for design in designs {
-        // Parameters are positive, so their bits are in their order.
-        let key = fixed.map(|parameter| parameter(design).to_bits());
-        lines.entry(key).or_default().push((along(design), value(design)));
-    }
-    let ordered = lines.into_values().map(|mut line| {
-        line.sort_by(|a, b| a.0.total_cmp(&b.0));
-        line.into_iter().map(|(_, value)| value).collect()
-    });
-    ordered.collect()
-}
 
 /// The steps between neighbours on lines, counted by their direction.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
