@@ -55,13 +55,13 @@ pub(crate) fn region(search: &Search<'_>, candidate: &Candidate) -> Region {
 }
 
 /// Starts of local searches for a target: the best design of each region, then others that are apart from those.
-pub(crate) fn starts(
+pub(crate) fn starts<'c>(
     search: &Search<'_>,
-    history: &[Candidate],
+    history: impl IntoIterator<Item = &'c Candidate>,
     target: &Target,
     count: usize,
 ) -> Vec<Candidate> {
-    let judged = history.iter().map(|candidate| (search.merit(candidate, target), candidate));
+    let judged = history.into_iter().map(|candidate| (search.merit(candidate, target), candidate));
     let mut order: Vec<(Merit, &Candidate)> =
         judged.filter(|(merit, _)| *merit != Merit::None).collect();
     order.sort_by(|(a, _), (b, _)| b.compare(*a));

@@ -3,24 +3,25 @@
 use ranking::dominates;
 use rayon::iter::{IntoParallelRefIterator as _, ParallelIterator as _};
 
-use crate::best::{BestDesign, best_design, starts};
+use crate::best::{BestDesign, best_design};
 use crate::candidate::{Candidate, Merit, Target};
 use crate::evaluations::Halt;
-use crate::local::{Effort, Search};
+use crate::improvement::{Plan, improved};
+use crate::local::Search;
 use crate::meter::SearchPart;
 use crate::worth::Judgement;
 
 /// Rounds in which points are put into the widest gaps, at most.
 const REFILLS: usize = 3;
 
-/// Regions from which a point is searched, at most.
-const REGIONS: usize = 3;
-
 /// A floor is inside a gap that is this share of it away from both ends.
 const INSIDE: f64 = 1e-3;
 
 /// Objectives that differ by less than this part are equal: a floor is kept to within as much.
 const EQUAL: f64 = 1e-9;
+
+/// A gap below this share of the front needs no point: its ends look the same.
+const NARROW: f64 = 1e-3;
 
 /// The ratio of the ends of a front from which on its points are spaced by equal ratios.
 const DECADE: f64 = 10.0;
@@ -38,30 +39,38 @@ pub struct Front {
     pub empty: usize,
 }
 
+impl Front {
+    /// Points that were asked for, and not searched: no gap was left that was wide, and no step.
+    pub fn left_out(&self, points: usize) -> usize {
+        points.saturating_sub(self.designs.len() + self.same + self.beaten + self.empty)
+    }
+}
+
 /// The front: points between its ends, then others in the widest gaps that are left.
 pub(crate) fn search(
     search: &Search<'_>,
     history: &mut Vec<Candidate>,
+    plan: Plan,
     points: usize,
 ) -> Result<Front, Halt> {
     // Half of the points tell where the front changes.
     let mut targets = targets(search, history, points.div_ceil(2).max(2).min(points));
-    improve(search, history, &targets)?;
+    improve(search, history, &targets, plan.of_a_point())?;
     let mut front = rescaled_front(search, history, &targets)?;
     for _ in 0..REFILLS {
         let more = between(search, &front.designs, &targets, points);
         if more.is_empty() {
             break;
         }
-        improve(search, history, &more)?;
+        improve(search, history, &more, plan.between_points())?;
         targets.extend(more);
         front = rescaled_front(search, history, &targets)?;
     }
     Ok(front)
 }
 
-/// Targets in the widest gaps of a front of two objectives that has fewer than so many points, but for gaps that have had one: the front
-/// has a step there.
+/// Targets in the widest gaps of a front of two objectives that has fewer than so many points, but for narrow ones and those that have had
+/// one: the front has a step there.
 fn between(
     search: &Search<'_>,
     designs: &[BestDesign],
@@ -86,7 +95,8 @@ fn between(
         let spacing = Spacing::between(pair[0][1], pair[1][1]);
         floors.all(|(_, floor)| !(INSIDE..1.0 - INSIDE).contains(&spacing.share(*floor)))
     };
-    let mut gaps: Vec<&[Vec<f64>]> = turned.windows(2).filter(is_untried).collect();
+    let is_wide = |pair: &&[Vec<f64>]| width(pair) > NARROW;
+    let mut gaps: Vec<&[Vec<f64>]> = turned.windows(2).filter(is_untried).filter(is_wide).collect();
     gaps.sort_by(|a, b| width(b).total_cmp(&width(a)));
     gaps.truncate(points.saturating_sub(designs.len()));
     let floor = |pair: &[Vec<f64>]| Spacing::between(pair[0][1], pair[1][1]).at(0.5);
@@ -130,62 +140,19 @@ impl Spacing {
     }
 }
 
-/// A local search for each of the points, from the best that is known for it, then from its neighbours' designs, from both ends.
+/// A search for each of the points, from what is known.
 fn improve(
     search: &Search<'_>,
     history: &mut Vec<Candidate>,
     targets: &[Target],
+    plan: Plan,
 ) -> Result<(), Halt> {
-    // Each target is a task three times: by itself, and once in either chain.
-    search.meter.begin(SearchPart::Front, 3 * targets.len());
-    let first = |target: &Target| {
-        let mut walk = Vec::new();
-        for start in starts(search, history, target, REGIONS) {
-            walk.extend(search.improve(target, &start, Effort::CLIMB)?);
-        }
-        // Climbs are cheap, and tell which region is the best; the search to its end costs several times as much, and
-        // is made there alone.
-        if let Some(start) = search.best(history.iter().chain(&walk), target).cloned() {
-            walk.extend(search.improve(target, &start, Effort { rounds: 2, ..Effort::WHOLE })?);
-        }
-        search.meter.step();
-        Ok(walk)
-    };
+    search.meter.begin(SearchPart::Front, targets.len() * plan.tasks());
     // Noted in the order of the targets, whichever ends first: a search looks at the same designs on every machine.
-    let walks: Vec<Vec<Candidate>> = targets.par_iter().map(first).collect::<Result<_, _>>()?;
-    let bests: Vec<Option<Candidate>> = targets
-        .iter()
-        .zip(&walks)
-        .map(|(target, walk)| search.best(history.iter().chain(walk), target).cloned())
-        .collect();
+    let walks = targets.par_iter().map(|target| improved(search, history, target, plan));
+    let walks: Vec<Vec<Candidate>> = walks.collect::<Result<_, _>>()?;
     history.extend(walks.into_iter().flatten());
-    let forth = (0..targets.len()).collect::<Vec<_>>();
-    let back = forth.iter().rev().copied().collect::<Vec<_>>();
-    // Neither chain sees what the other finds, so that both run at once and no thread's pace shows in the front.
-    let chains = [forth, back];
-    let chains = chains.par_iter().map(|order| chain(search, targets, &bests, order));
-    history.extend(chains.collect::<Result<Vec<_>, _>>()?.into_iter().flatten());
     Ok(())
-}
-
-/// Improves the points in an `order`, each from the design of the one before.
-fn chain(
-    search: &Search<'_>,
-    targets: &[Target],
-    bests: &[Option<Candidate>],
-    order: &[usize],
-) -> Result<Vec<Candidate>, Halt> {
-    let mut log: Vec<Candidate> = Vec::new();
-    let mut neighbour: Option<Candidate> = None;
-    for &k in order {
-        if let Some(start) = &neighbour {
-            log.extend(search.improve(&targets[k], start, Effort::SHORT)?);
-        }
-        search.meter.step();
-        // The neighbour's own search is part of the log.
-        neighbour = search.best(bests[k].iter().chain(&log), &targets[k]).cloned();
-    }
-    Ok(log)
 }
 
 /// The front once the design of every target has been scaled to every other: what a result does not depend on, as a thickness in mm, only

@@ -58,6 +58,7 @@ mod evaluations;
 mod fill;
 mod front;
 mod goal;
+mod improvement;
 mod judge;
 mod local;
 mod looked;

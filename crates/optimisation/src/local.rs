@@ -81,8 +81,6 @@ impl Effort {
     /// To the end.
     pub const WHOLE: Self =
         Self { rounds: ROUNDS, reach: 0.06, ridge: 20, polish: 8, ..Self::CLIMB };
-    /// From a design that is nearly the best.
-    pub const SHORT: Self = Self { rounds: 1, reach: 0.01, ridge: 10, polish: 4, ..Self::CLIMB };
 
     /// As much as it may take where each design costs as many solutions as it has samples.
     fn on_samples(self) -> Self {

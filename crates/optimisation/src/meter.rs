@@ -13,8 +13,6 @@ pub enum SearchPart {
     Sample,
     /// The best of them, along derivatives.
     Climb,
-    /// The best of those, to the end.
-    Finish,
     /// The points of a front.
     Front,
     /// The first samples of the best nominal designs.
@@ -52,7 +50,6 @@ impl SearchPart {
         match self {
             Self::Sample => "filling the space",
             Self::Climb => "climbing from the best",
-            Self::Finish => "finishing",
             Self::Front => "points of the front",
             Self::Samples => "first samples",
             Self::Refine => "near the best with more samples",
@@ -135,14 +132,14 @@ impl SearchMeter {
 
 #[cfg(test)]
 mod tests {
-    use super::SearchPart::{Check, Climb, Finish, Sample};
+    use super::SearchPart::{Check, Climb, Front, Sample};
     use super::*;
 
     #[test]
     fn tasks_are_counted_part_by_part_and_the_share_over_all() {
         let meter = SearchMeter::default();
         assert_eq!(meter.share(), 0.0);
-        meter.expect(vec![(Sample, 1.0), (Climb, 2.0), (Finish, 3.0), (Climb, 2.0), (Check, 2.0)]);
+        meter.expect(vec![(Sample, 1.0), (Climb, 2.0), (Front, 3.0), (Climb, 2.0), (Check, 2.0)]);
         meter.begin(Sample, 12);
         meter.step();
         meter.look();
@@ -150,12 +147,12 @@ mod tests {
         meter.begin(Climb, 4);
         meter.step();
         assert_eq!((meter.progress(), meter.share()), ((Climb, 1, 4), 0.15));
-        meter.begin(Finish, 1);
+        meter.begin(Front, 1);
         assert_eq!(meter.share(), 0.3);
         meter.begin(Climb, 4);
         assert_eq!(meter.share(), 0.6);
         // A part that was not foreseen again does not lead back.
-        meter.begin(Finish, 2);
-        assert_eq!((meter.progress(), meter.share()), ((Finish, 0, 2), 0.6));
+        meter.begin(Front, 2);
+        assert_eq!((meter.progress(), meter.share()), ((Front, 0, 2), 0.6));
     }
 }

@@ -9,7 +9,7 @@ use rayon::iter::{IntoParallelIterator as _, IntoParallelRefIterator as _, Paral
 use results::{DesignRow, Outcome};
 use run::{Program, Start};
 
-use crate::answer::{Answer, Plan, answer};
+use crate::answer::{Answer, answer};
 use crate::best::{Region, region};
 use crate::candidate::{Candidate, SearchStage};
 use crate::column::ends_over;
@@ -17,6 +17,7 @@ use crate::error::OptimisationError;
 use crate::evaluations::{Evaluations, Halt};
 use crate::fill;
 use crate::goal::DesignGoal;
+use crate::improvement::Plan;
 use crate::judge::Judge;
 use crate::local::Search;
 use crate::margin::has_folded;
@@ -130,7 +131,7 @@ fn find(
         let searches = Searches { nominal: &nominal, sampled: &search, finer: &finer };
         searches.answer(goal, &mut history)?
     } else {
-        answer(&search, &mut history, Plan { points: goal.points, ..Plan::NOMINAL })?
+        answer(&search, &mut history, Plan::NOMINAL, goal.points)?
     };
     let left_out = LeftOutDesigns::of(&search, &history);
     let mut regions: Vec<Region> = Vec::new();
@@ -148,22 +149,21 @@ fn find(
 fn expected(goal: &DesignGoal) -> Vec<(SearchPart, f64)> {
     let (objectives, variables) = (goal.objectives.len(), goal.space.intervals().len() as f64);
     let answer = |plan: Plan, each: f64| {
-        let climbs = (plan.regions + plan.starts) as f64 * 11.0;
-        let finishes = plan.finalists as f64 * 75.0;
         let each = variables * each;
-        let one = [(SearchPart::Climb, climbs * each), (SearchPart::Finish, finishes * each)];
+        // A design that is improved to the end takes as many solutions as seven others.
+        let climbs = (11 * plan.tasks() + 64 * plan.finalists) as f64 * each;
         // Half of the points of a front first, then those between them.
         let halves = if objectives > 1 { 2 } else { 0 };
-        let front = vec![(SearchPart::Front, plan.points as f64 * 80.0 * each); halves];
-        [one.repeat(objectives), front].concat()
+        let front = vec![(SearchPart::Front, goal.points as f64 * 80.0 * each); halves];
+        [vec![(SearchPart::Climb, climbs); objectives], front].concat()
     };
     let mut parts = vec![(SearchPart::Sample, goal.samples as f64)];
-    parts.extend(answer(Plan { points: goal.points, ..Plan::NOMINAL }, 1.0));
+    parts.extend(answer(Plan::NOMINAL, 1.0));
     if goal.is_about_samples() {
         // Samples are punctured one by one, but neither differentiated nor bent where no requirement asks for it.
         let each = 0.25 * goal.realisations as f64;
         parts.push((SearchPart::Samples, (objectives * SEEDS) as f64 * each));
-        parts.extend(answer(Plan { points: goal.points, ..Plan::SAMPLED }, each));
+        parts.extend(answer(Plan::SAMPLED, each));
         let best = if objectives > 1 { goal.points } else { 1 } as f64;
         parts.extend([
             (SearchPart::Refine, 230.0 * variables * each),

@@ -5,11 +5,12 @@ use rayon::iter::{
 };
 
 use super::confirmation::confirm;
-use crate::answer::{Answer, Plan, answer};
+use crate::answer::{Answer, answer};
 use crate::best::{BestDesign, best_design, starts};
 use crate::candidate::{Candidate, Merit, SearchStage, Target};
 use crate::evaluations::Halt;
 use crate::goal::DesignGoal;
+use crate::improvement::Plan;
 use crate::local::{Effort, Search};
 use crate::meter::SearchPart;
 use crate::space::SpacePoint;
@@ -37,8 +38,7 @@ impl Searches<'_> {
         let Self { nominal, sampled, finer } = self;
         // A nominal design costs one solution, a sampled one as many as it has samples: nominal ones tell where to
         // begin.
-        let plan = Plan { points: goal.points.min(NOMINAL_POINTS), ..Plan::NOMINAL };
-        let first = answer(nominal, history, plan)?;
+        let first = answer(nominal, history, Plan::NOMINAL, goal.points.min(NOMINAL_POINTS))?;
         let seeds = seeds(nominal, history, &first);
         let mut is_admitted = false;
         for candidate in history.iter_mut() {
@@ -58,8 +58,7 @@ impl Searches<'_> {
         };
         let looked: Vec<Candidate> = seeds.into_par_iter().map(look).collect::<Result<_, _>>()?;
         history.extend(looked);
-        let plan = Plan { points: goal.points, ..Plan::SAMPLED };
-        let mut answer = answer(sampled, history, plan)?;
+        let mut answer = answer(sampled, history, Plan::SAMPLED, goal.points)?;
         match &mut answer {
             Answer::Optimum(best) => {
                 let is_refined = refine(self, best, history)?;
@@ -84,7 +83,7 @@ fn refine(
     history: &mut Vec<Candidate>,
 ) -> Result<bool, Halt> {
     let Searches { sampled, finer, .. } = searches;
-    let starts = starts(sampled, history, &best.target, REFINED);
+    let starts = starts(sampled, history.iter(), &best.target, REFINED);
     finer.meter.begin(SearchPart::Refine, starts.len());
     let mut looked = Vec::new();
     for start in starts {
