@@ -15,7 +15,7 @@ use sweep::Parameter;
 
 use matching::Matching;
 
-pub use columns::{comparison_columns, difference_columns};
+pub use columns::{COMPARISON_COLUMNS, difference_columns};
 pub use correlation::rank_correlation;
 pub use matching::ParameterChange;
 
@@ -291,7 +291,7 @@ impl Comparison<'_> {
         let claim = Claim::take(&folder, Maker::Comparison)?;
         let [by_column, by_cell] = RunFolder::COMPARISON;
         let format = self.first.format();
-        write_rows(&folder, by_column, format, comparison_columns(), &self.columns)?;
+        write_rows(&folder, by_column, format, COMPARISON_COLUMNS, &self.columns)?;
         let parameters: Vec<_> = self.first.parameters().collect();
         let columns = difference_columns(&parameters);
         write_rows(&folder, by_cell, format, &columns, self.differences())?;

@@ -57,8 +57,8 @@ mod weights;
 mod worth;
 
 pub use compare::{
-    ColumnDifference, Comparison, Difference, Extreme, InvalidComparison, ParameterChange, compare,
-    comparison_columns, difference_columns, rank_correlation, write_comparison,
+    COMPARISON_COLUMNS, ColumnDifference, Comparison, Difference, Extreme, InvalidComparison,
+    ParameterChange, compare, difference_columns, rank_correlation, write_comparison,
 };
 pub use criterion::{CRITERIA, Criterion, InvalidCriterion};
 pub use fitness::{CriterionEnds, FitnessGoal, RescaledCriterion};

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use store::OutputError;
 
+use crate::columns;
 use crate::columns::{Cell, Column};
 use crate::design::row::DesignRow;
 use crate::folder::RunFolder;
@@ -19,12 +20,12 @@ pub struct DesignMeasure {
 }
 
 /// The columns of `measures.csv`.
-pub static MEASURE_COLUMNS: &[Column<DesignMeasure>] = &[
-    Column::new("measure", "-", "column of `designs.csv`", |m| m.name.clone().into_owned().into()),
-    Column::new("value", "-", "value, in its unit", |m| m.value.clone()),
-    Column::new("unit", "-", "unit, `-` if it has none", |m| m.unit.into()),
-    Column::new("meaning", "-", "meaning, in half a sentence", |m| m.meaning.into()),
-];
+pub static MEASURE_COLUMNS: &[Column<DesignMeasure>] = &columns! { DesignMeasure:
+    "measure", "-", |m| m.name.clone().into_owned(), "column of `designs.csv`";
+    "value", "-", |m| m.value.clone(), "value, in its unit";
+    "unit", "-", |m| m.unit, "unit, `-` if it has none";
+    "meaning", "-", |m| m.meaning, "meaning, in half a sentence";
+};
 
 /// Writes every column of a row of `designs.csv` as a row of `measures.csv` in `folder`; returns the name of the file.
 ///

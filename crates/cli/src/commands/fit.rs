@@ -8,7 +8,7 @@ use ::fit::{Estimate, FitDefinition, Fitted, FittedCurve, NoFit};
 use anyhow::Context as _;
 use clap::Args;
 use report::{FitPanel, fit_figure};
-use results::{Claim, Column, CsvFormat, Maker, RunFolder, write_rows};
+use results::{Claim, Column, CsvFormat, Maker, RunFolder, columns, write_rows};
 use run::WorkMeter;
 use serde_json::{Value, json};
 
@@ -117,19 +117,15 @@ fn write(folder: &RunFolder, fitted: &Fitted) -> anyhow::Result<()> {
 const AS_SOUGHT: &str = "as unit says";
 
 /// The columns of `fit.csv`.
-pub(super) static ESTIMATES: &[Column<Estimate>] = &[
-    Column::new("sought", "-", "key of a parameter, or offset of a curve", |e| {
-        e.unknown.name.clone().into()
-    }),
-    Column::new("unit", "-", "its unit", |e| e.unknown.unit.into()),
-    Column::new("value", AS_SOUGHT, "value with the least squares", |e| e.value.into()),
-    Column::new("low", AS_SOUGHT, "lower end of the 95 % confidence interval", |e| {
-        e.interval.map(|i| i[0]).into()
-    }),
-    Column::new("high", AS_SOUGHT, "upper end of it", |e| e.interval.map(|i| i[1]).into()),
-    Column::new("from", AS_SOUGHT, "least value that was tried", |e| e.unknown.from.into()),
-    Column::new("to", AS_SOUGHT, "largest value that was tried", |e| e.unknown.to.into()),
-];
+pub(super) static ESTIMATES: &[Column<Estimate>] = &columns! { Estimate:
+    "sought", "-", |e| e.unknown.name.clone(), "key of a parameter, or offset of a curve";
+    "unit", "-", |e| e.unknown.unit, "its unit";
+    "value", AS_SOUGHT, |e| e.value, "value with the least squares";
+    "low", AS_SOUGHT, |e| e.interval.map(|i| i[0]), "lower end of the 95 % confidence interval";
+    "high", AS_SOUGHT, |e| e.interval.map(|i| i[1]), "upper end of it";
+    "from", AS_SOUGHT, |e| e.unknown.from, "least value that was tried";
+    "to", AS_SOUGHT, |e| e.unknown.to, "largest value that was tried";
+};
 
 /// A row of `residuals.csv`: the file, and place, measured and fitted value.
 pub(super) type Point = (String, [f64; 3]);
@@ -137,12 +133,12 @@ pub(super) type Point = (String, [f64; 3]);
 const AS_CURVE: &str = "mm and N, 1/mm and N mm, or none, as the curve";
 
 /// The columns of `residuals.csv`.
-pub(super) static POINTS: &[Column<Point>] = &[
-    Column::new("curve", "-", "file of the measured curve", |(file, _)| file.clone().into()),
-    Column::new("x", AS_CURVE, "displacement or curvature", |(_, point)| point[0].into()),
-    Column::new("measured", AS_CURVE, "measured force or moment", |(_, point)| point[1].into()),
-    Column::new("fitted", AS_CURVE, "that of the fitted skin", |(_, point)| point[2].into()),
-];
+pub(super) static POINTS: &[Column<Point>] = &columns! { Point:
+    "curve", "-", |(file, _)| file.clone(), "file of the measured curve";
+    "x", AS_CURVE, |(_, point)| point[0], "displacement or curvature";
+    "measured", AS_CURVE, |(_, point)| point[1], "measured force or moment";
+    "fitted", AS_CURVE, |(_, point)| point[2], "that of the fitted skin";
+};
 
 /// What was found, for people.
 fn text(fitted: &Fitted) -> String {

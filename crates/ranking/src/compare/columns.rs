@@ -1,66 +1,37 @@
 //! The columns of the tables of a comparison.
 
-use results::Column;
-use results::columns::{Cell, number};
+use results::columns::number;
+use results::{Column, columns};
 use sweep::Parameter;
 
-use super::{ColumnDifference, Difference, Extreme, absolute, relative};
-
-static COMPARISON: &[Column<ColumnDifference>] = &[
-    Column::new("column", "-", "column of designs.csv", |c| c.name.clone().into()),
-    Column::new("compared", "-", "designs that have a value in both runs", |c| c.compared.into()),
-    Column::new("differing", "-", "those whose values differ by more than the tolerance", |c| {
-        c.differing.into()
-    }),
-    Column::new("only_first", "-", "designs that have a value in the first run alone", |c| {
-        c.only_first.into()
-    }),
-    Column::new("only_second", "-", "designs that have a value in the second run alone", |c| {
-        c.only_second.into()
-    }),
-    Column::new(
-        "largest_relative",
-        "-",
-        "largest difference, over the larger of the two values",
-        |c| extreme(c.relative.as_ref(), |e| e.difference.into()),
-    ),
-    Column::new("relative_design", "-", "design that has it, as the first run numbers it", |c| {
-        extreme(c.relative.as_ref(), |e| e.design.clone().into())
-    }),
-    Column::new("relative_first", "-", "its value in the first run", |c| {
-        extreme(c.relative.as_ref(), |e| e.first.into())
-    }),
-    Column::new("relative_second", "-", "its value in the second run", |c| {
-        extreme(c.relative.as_ref(), |e| e.second.into())
-    }),
-    Column::new("largest_absolute", "-", "largest difference, in the unit of the column", |c| {
-        extreme(c.absolute.as_ref(), |e| e.difference.into())
-    }),
-    Column::new("absolute_design", "-", "design that has it, as the first run numbers it", |c| {
-        extreme(c.absolute.as_ref(), |e| e.design.clone().into())
-    }),
-    Column::new("absolute_first", "-", "its value in the first run", |c| {
-        extreme(c.absolute.as_ref(), |e| e.first.into())
-    }),
-    Column::new("absolute_second", "-", "its value in the second run", |c| {
-        extreme(c.absolute.as_ref(), |e| e.second.into())
-    }),
-    Column::new(
-        "rank_correlation",
-        "-",
-        "Spearman's rank correlation of the two runs, 1 if both put the designs in the same order",
-        |c| c.correlation.into(),
-    ),
-];
-
-fn extreme(extreme: Option<&Extreme>, cell: fn(&Extreme) -> Cell) -> Cell {
-    extreme.map_or(Cell::Empty, cell)
-}
+use super::{ColumnDifference, Difference, absolute, relative};
 
 /// The columns of `compare.csv`.
-pub fn comparison_columns() -> &'static [Column<ColumnDifference>] {
-    COMPARISON
-}
+pub static COMPARISON_COLUMNS: &[Column<ColumnDifference>] = &columns! { ColumnDifference:
+    "column", "-", |c| c.name.clone(), "column of designs.csv";
+    "compared", "-", |c| c.compared, "designs that have a value in both runs";
+    "differing", "-", |c| c.differing, "those whose values differ by more than the tolerance";
+    "only_first", "-", |c| c.only_first, "designs that have a value in the first run alone";
+    "only_second", "-", |c| c.only_second, "designs that have a value in the second run alone";
+    "largest_relative", "-", |c| c.relative.as_ref().map(|e| e.difference),
+        "largest difference, over the larger of the two values";
+    "relative_design", "-", |c| c.relative.as_ref().map(|e| e.design.clone()),
+        "design that has it, as the first run numbers it";
+    "relative_first", "-", |c| c.relative.as_ref().map(|e| e.first),
+        "its value in the first run";
+    "relative_second", "-", |c| c.relative.as_ref().map(|e| e.second),
+        "its value in the second run";
+    "largest_absolute", "-", |c| c.absolute.as_ref().map(|e| e.difference),
+        "largest difference, in the unit of the column";
+    "absolute_design", "-", |c| c.absolute.as_ref().map(|e| e.design.clone()),
+        "design that has it, as the first run numbers it";
+    "absolute_first", "-", |c| c.absolute.as_ref().map(|e| e.first),
+        "its value in the first run";
+    "absolute_second", "-", |c| c.absolute.as_ref().map(|e| e.second),
+        "its value in the second run";
+    "rank_correlation", "-", |c| c.correlation,
+        "Spearman's rank correlation of the two runs, 1 if both put the designs in the same order";
+};
 
 /// The columns of `differences.csv` for designs with these parameters.
 pub fn difference_columns<'a>(parameters: &[&'static Parameter]) -> Vec<Column<Difference<'a>>> {
@@ -69,23 +40,18 @@ pub fn difference_columns<'a>(parameters: &[&'static Parameter]) -> Vec<Column<D
             d.parameter(parameter).into_owned().into()
         })
     };
-    let mut columns = vec![
-        number(|d: &Difference<'a>| d.designs()[0].to_owned().into()),
-        Column::new("other_design", "-", "the same design as the second run numbers it", |d| {
-            d.designs()[1].to_owned().into()
-        }),
-    ];
+    let mut columns = vec![number(|d: &Difference<'a>| d.designs()[0].to_owned().into())];
+    columns.extend(columns! { Difference<'a>:
+        "other_design", "-", |d| d.designs()[1].to_owned(),
+            "the same design as the second run numbers it";
+    });
     columns.extend(parameters.iter().map(parameter));
-    columns.extend([
-        Column::new("column", "-", "column of designs.csv", |d: &Difference<'a>| {
-            d.column().to_owned().into()
-        }),
-        Column::new("first", "-", "value in the first run", |d| d.texts()[0].to_string().into()),
-        Column::new("second", "-", "value in the second run", |d| d.texts()[1].to_string().into()),
-        Column::new("absolute", "-", "their difference", |d| d.numbers().map(absolute).into()),
-        Column::new("relative", "-", "the same over the larger of the two", |d| {
-            d.numbers().map(relative).into()
-        }),
-    ]);
+    columns.extend(columns! { Difference<'a>:
+        "column", "-", |d| d.column().to_owned(), "column of designs.csv";
+        "first", "-", |d| d.texts()[0].to_string(), "value in the first run";
+        "second", "-", |d| d.texts()[1].to_string(), "value in the second run";
+        "absolute", "-", |d| d.numbers().map(absolute), "their difference";
+        "relative", "-", |d| d.numbers().map(relative), "the same over the larger of the two";
+    });
     columns
 }

@@ -1,7 +1,7 @@
 //! The meaning of a column of a table, looked up by the names of both.
 
 use ranking::{
-    Preferences, comparison_columns, difference_columns, pareto_columns, quaternary_columns,
+    COMPARISON_COLUMNS, Preferences, difference_columns, pareto_columns, quaternary_columns,
     ranking_columns, winner_columns,
 };
 use results::columns::{Cell, explain_value, number, parameter_of};
@@ -26,7 +26,7 @@ fn own(table: &str, name: &str) -> Option<Explanation> {
         "pareto" => among(&pareto_columns(&[], &Preferences::paper()), name),
         "winners" => among(&winner_columns(&[], &Preferences::paper()), name),
         "quaternary" => among(&quaternary_columns(&[], &Preferences::paper()), name),
-        "compare" => among(comparison_columns(), name),
+        "compare" => among(COMPARISON_COLUMNS, name),
         "differences" => among(&difference_columns(&[]), name),
         _ => None,
     }

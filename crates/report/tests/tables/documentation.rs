@@ -5,7 +5,7 @@ use std::path::Path;
 
 use optimisation::{DesignGoal, history_columns, optimum_columns};
 use ranking::{
-    Preferences, comparison_columns, difference_columns, pareto_columns, quaternary_columns,
+    COMPARISON_COLUMNS, Preferences, difference_columns, pareto_columns, quaternary_columns,
     ranking_columns, winner_columns,
 };
 use results::columns::{
@@ -110,7 +110,7 @@ fn the_guide_to_the_results_explains_every_column() {
             "`history.csv`, between `stage` and `shortfall` the variables and the objectives",
             columns(&history),
         ),
-        ("`compare.csv`", columns(comparison_columns())),
+        ("`compare.csv`", columns(COMPARISON_COLUMNS)),
         ("`differences.csv`", columns(&difference_columns(geometry))),
     ];
     let expected = expected.map(|(title, table)| format!("### {title}\n\n{table}"));

@@ -64,6 +64,14 @@ impl<R> Column<R> {
     }
 }
 
+/// The columns of a table whose rows are of the type that comes first, one after the other: header, unit, cell of a row, meaning.
+#[macro_export]
+macro_rules! columns {
+    ($row:ty: $($name:expr, $unit:expr, |$of:pat_param| $cell:expr, $meaning:expr;)*) => {
+        [$($crate::Column::<$row>::new($name, $unit, $meaning, |$of| $cell.into()),)*]
+    };
+}
+
 /// The column of the number of a design.
 pub fn number<R>(cell: fn(&R) -> Cell) -> Column<R> {
     Column::new("design", "-", "position of the design in the grid of its sweep", cell)

@@ -21,7 +21,7 @@ pub(super) const BOTH: &[&str] = &[name::CRITICAL_FORCE, name::PENETRATION];
 pub(super) const COMPLIANCE: &[&str] = &[name::COMPLIANCE];
 
 /// A value of which nothing is known yet.
-pub(super) const BLANK: MeasuredValue = MeasuredValue {
+const BLANK: MeasuredValue = MeasuredValue {
     name: "",
     unit: "-",
     meaning: "",
@@ -53,105 +53,63 @@ pub(super) const fn other_thing(
     Physical { quantity, other: Some((name, meaning)) }
 }
 
-/// A number of a puncture.
-pub(super) const fn number(
+/// A value in a result, and the tables in which it stands.
+pub(super) const fn value(
     name: &'static str,
-    unit: &'static str,
-    place: Place,
-    meaning: &'static str,
-    field: PunctureField,
+    tables: &'static [&'static str],
+    value: Value,
 ) -> MeasuredValue {
-    MeasuredValue {
-        name,
-        unit,
-        meaning,
-        tables: FORCE,
-        place,
-        value: Value::Puncture(field),
-        ..BLANK
-    }
-}
-
-pub(super) const fn force(
-    name: &'static str,
-    place: Place,
-    meaning: &'static str,
-    field: PunctureField,
-) -> MeasuredValue {
-    // A constant of its own: a list that borrows what a call returns would end with this function.
-    const IN_NEWTON: &[Physical] = &[same(Quantity::Force)];
-    MeasuredValue { physical: IN_NEWTON, ..number(name, "E_s L t/(1-nu^2)", place, meaning, field) }
-}
-
-pub(super) const fn depth(
-    name: &'static str,
-    place: Place,
-    meaning: &'static str,
-    field: PunctureField,
-) -> MeasuredValue {
-    const IN_MM: &[Physical] = &[same(Quantity::Length)];
-    MeasuredValue { physical: IN_MM, ..number(name, "t", place, meaning, field) }
-}
-
-pub(super) const fn stiffness(
-    name: &'static str,
-    place: Place,
-    meaning: &'static str,
-    field: PunctureField,
-) -> MeasuredValue {
-    const PER_MM: &[Physical] = &[same(Quantity::Stiffness)];
-    MeasuredValue { physical: PER_MM, ..number(name, "E_s t", place, meaning, field) }
-}
-
-/// A number of bending.
-pub(super) const fn bending(
-    name: &'static str,
-    unit: &'static str,
-    place: Place,
-    meaning: &'static str,
-    field: FlexureField,
-) -> MeasuredValue {
-    MeasuredValue {
-        name,
-        unit,
-        meaning,
-        tables: COMPLIANCE,
-        place,
-        value: Value::Flexure(field),
-        ..BLANK
-    }
+    MeasuredValue { name, tables, value, ..BLANK }
 }
 
 /// A count, a text, or a number without derivatives.
 pub(super) const fn other(
     name: &'static str,
     tables: &'static [&'static str],
-    meaning: &'static str,
     cell: fn(&DesignResult) -> Cell,
 ) -> MeasuredValue {
-    MeasuredValue { name, meaning, tables, value: Value::Other(cell), ..BLANK }
+    value(name, tables, Value::Other(cell))
 }
 
-pub(super) const fn failed_samples(
+/// A number of a puncture.
+pub(super) const fn number(
     name: &'static str,
-    tables: &'static [&'static str],
-    meaning: &'static str,
-    count: fn(&SampleStatistics) -> Option<usize>,
+    place: Place,
+    field: PunctureField,
 ) -> MeasuredValue {
-    MeasuredValue { name, meaning, tables, value: Value::Samples(count), ..BLANK }
+    value(name, FORCE, Value::Puncture(field)).at(place)
+}
+
+pub(super) const fn force(name: &'static str, place: Place, field: PunctureField) -> MeasuredValue {
+    // A constant of its own: a list that borrows what a call returns would end with this function.
+    const IN_NEWTON: &[Physical] = &[same(Quantity::Force)];
+    number(name, place, field).in_unit("E_s L t/(1-nu^2)").physical(IN_NEWTON)
+}
+
+pub(super) const fn depth(name: &'static str, place: Place, field: PunctureField) -> MeasuredValue {
+    const IN_MM: &[Physical] = &[same(Quantity::Length)];
+    number(name, place, field).in_unit("t").physical(IN_MM)
+}
+
+pub(super) const fn stiffness(
+    name: &'static str,
+    place: Place,
+    field: PunctureField,
+) -> MeasuredValue {
+    const PER_MM: &[Physical] = &[same(Quantity::Stiffness)];
+    number(name, place, field).in_unit("E_s t").physical(PER_MM)
+}
+
+/// A number of bending.
+pub(super) const fn bending(
+    name: &'static str,
+    place: Place,
+    field: FlexureField,
+) -> MeasuredValue {
+    value(name, COMPLIANCE, Value::Flexure(field)).at(place)
 }
 
 impl MeasuredValue {
-    /// An entry of that name.
-    pub(super) const fn named(
-        self,
-        name: &'static str,
-        unit: &'static str,
-        meaning: &'static str,
-    ) -> Self {
-        Self { name, unit, meaning, ..self }
-    }
-
     /// It has this unit.
     pub(super) const fn in_unit(self, unit: &'static str) -> Self {
         Self { unit, ..self }
@@ -190,10 +148,6 @@ impl MeasuredValue {
     /// What it is in physical units.
     pub(super) const fn physical(self, physical: &'static [Physical]) -> Self {
         Self { physical, ..self }
-    }
-
-    pub(super) const fn valued(self, value: Value) -> Self {
-        Self { value, ..self }
     }
 
     /// Its statistics over imperfect samples, and the value in words.

@@ -9,6 +9,7 @@ use skin::{ContactEvent, Iteration};
 
 use super::column::Column;
 use super::name;
+use crate::columns;
 use crate::design::outcome::Outcome;
 
 /// An equilibrium of a puncture and its instability.
@@ -16,64 +17,34 @@ pub type StabilityPoint = (PuncturePoint, Instability);
 
 /// The columns of `path.csv`; those of a guided needle and of scales that rub stand in no other.
 pub fn path_columns(is_guided: bool, rubs: bool) -> Vec<Column<StabilityPoint>> {
-    let mut columns: Vec<Column<StabilityPoint>> = vec![
-        Column::new(
-            "displacement",
-            "t",
-            "downward displacement of the punctured point",
-            |(p, _)| p.displacement.into(),
-        ),
-        Column::new("force", "E_s L t/(1-nu^2)", "puncture force", |(p, _)| p.force.into()),
-        Column::new("tilt_deg", "deg", "clockwise tilt of the punctured scale", |(p, _)| {
-            p.tilt_deg.into()
-        }),
-        Column::new(name::CONTACTS, "-", "closed contacts", |(p, _)| p.contacts.into()),
-        Column::new(
-            "unstable_under_load",
-            "-",
-            "negative eigenvalues of the stiffness if the load is held, as the path leaves",
-            |(_, i)| i.load.into(),
-        ),
-        Column::new(
-            "unstable_under_depth",
-            "-",
-            "negative eigenvalues of the stiffness if the depth of the punctured point is held",
-            |(_, i)| i.depth.into(),
-        ),
-        Column::new(
-            "unstable_under_tilt",
-            "-",
-            "negative eigenvalues of the stiffness if the tilt of the punctured scale is held",
-            |(_, i)| i.tilt.into(),
-        ),
-        Column::new(
-            name::GAP_STRETCH_MIN,
-            "-",
-            "width of the tightest gap between bases over that at rest",
-            |(p, _)| p.gap_stretch.map(|stretch| stretch.min).into(),
-        ),
-        Column::new(
-            name::GAP_STRETCH_MAX,
-            "-",
-            "width of the widest gap between bases over that at rest",
-            |(p, _)| p.gap_stretch.map(|stretch| stretch.max).into(),
-        ),
-    ];
+    let mut columns = Vec::from(columns! { StabilityPoint:
+        "displacement", "t", |(p, _)| p.displacement,
+            "downward displacement of the punctured point";
+        "force", "E_s L t/(1-nu^2)", |(p, _)| p.force, "puncture force";
+        "tilt_deg", "deg", |(p, _)| p.tilt_deg, "clockwise tilt of the punctured scale";
+        name::CONTACTS, "-", |(p, _)| p.contacts, "closed contacts";
+        "unstable_under_load", "-", |(_, i)| i.load,
+            "negative eigenvalues of the stiffness if the load is held, as the path leaves";
+        "unstable_under_depth", "-", |(_, i)| i.depth,
+            "negative eigenvalues of the stiffness if the depth of the punctured point is held";
+        "unstable_under_tilt", "-", |(_, i)| i.tilt,
+            "negative eigenvalues of the stiffness if the tilt of the punctured scale is held";
+        name::GAP_STRETCH_MIN, "-", |(p, _)| p.gap_stretch.map(|stretch| stretch.min),
+            "width of the tightest gap between bases over that at rest";
+        name::GAP_STRETCH_MAX, "-", |(p, _)| p.gap_stretch.map(|stretch| stretch.max),
+            "width of the widest gap between bases over that at rest";
+    });
     if is_guided {
-        columns.push(Column::new(
-            "lateral_force",
-            "E_s L t/(1-nu^2)",
-            "force of the guided needle on the scales along the row, to the right",
-            |(p, _)| p.lateral_force.into(),
-        ));
+        columns.extend(columns! { StabilityPoint:
+            "lateral_force", "E_s L t/(1-nu^2)", |(p, _)| p.lateral_force,
+                "force of the guided needle on the scales along the row, to the right";
+        });
     }
     if rubs {
-        columns.push(Column::new(
-            name::FRICTION_WORK,
-            "E* t^3",
-            "work that friction between scales has taken up to here",
-            |(p, _)| p.friction_work.into(),
-        ));
+        columns.extend(columns! { StabilityPoint:
+            name::FRICTION_WORK, "E* t^3", |(p, _)| p.friction_work,
+                "work that friction between scales has taken up to here";
+        });
     }
     columns
 }
@@ -97,13 +68,13 @@ pub fn tip_force_columns(forces: &[TipForces]) -> Vec<Column<usize>> {
 }
 
 /// An event of a puncture.
-pub enum PunctureEvent {
-    /// A contact changes its state.
-    Contact(ContactEvent<PuncturePoint>),
-    /// The row snaps.
-    Snap(Snap),
-    /// The surface of the substrate folds over in a gap, or unfolds.
-    Fold(Fold),
+pub struct PunctureEvent {
+    point: PuncturePoint,
+    left_scale: Option<i64>,
+    right_scale: Option<i64>,
+    kind: Option<&'static str>,
+    change: &'static str,
+    drop: Option<f64>,
 }
 
 impl PunctureEvent {
@@ -117,240 +88,135 @@ impl PunctureEvent {
         for count in 0..=puncture.events.len() {
             let is_last = count == puncture.events.len();
             while let Some(fold) = folds.next_if(|fold| is_last || fold.events_before <= count) {
-                all.push(Self::Fold(*fold));
+                all.push(Self::fold(fold));
             }
             while let Some(snap) = snaps.next_if(|snap| is_last || snap.events_before <= count) {
-                all.push(Self::Snap(*snap));
+                all.push(Self::snap(snap));
             }
-            all.extend(puncture.events.get(count).copied().map(Self::Contact));
+            all.extend(puncture.events.get(count).map(Self::contact));
         }
         all
     }
 
-    fn point(&self) -> PuncturePoint {
-        match self {
-            Self::Contact(event) => event.point,
-            Self::Snap(snap) => snap.point,
-            Self::Fold(fold) => fold.point,
-        }
+    /// A contact changes its state.
+    fn contact(event: &ContactEvent<PuncturePoint>) -> Self {
+        let ContactEvent { point, left_scale, right_scale, .. } = *event;
+        let (kind, change) = (Some(event.corner_edge.name()), event.change.name());
+        Self { point, left_scale, right_scale, kind, change, drop: None }
     }
 
-    fn left_scale(&self) -> Option<i64> {
-        match self {
-            Self::Contact(event) => event.left_scale,
-            Self::Snap(_) => None,
-            Self::Fold(fold) => Some(fold.left_scale),
-        }
+    /// The row snaps.
+    fn snap(snap: &Snap) -> Self {
+        let Snap { point, drop, .. } = *snap;
+        Self { point, left_scale: None, right_scale: None, kind: None, change: "snap", drop }
     }
 
-    fn right_scale(&self) -> Option<i64> {
-        match self {
-            Self::Contact(event) => event.right_scale,
-            Self::Snap(_) => None,
-            Self::Fold(fold) => Some(fold.left_scale + 1),
-        }
-    }
-
-    fn kind(&self) -> Option<&'static str> {
-        match self {
-            Self::Contact(event) => Some(event.corner_edge.name()),
-            Self::Snap(_) => None,
-            Self::Fold(_) => Some("gap"),
-        }
-    }
-
-    fn change(&self) -> &'static str {
-        match self {
-            Self::Contact(event) => event.change.name(),
-            Self::Snap(_) => "snap",
-            Self::Fold(fold) => fold.name(),
-        }
-    }
-
-    fn drop(&self) -> Option<f64> {
-        match self {
-            Self::Contact(_) | Self::Fold(_) => None,
-            Self::Snap(snap) => snap.drop,
-        }
+    /// The surface of the substrate folds over in a gap, or unfolds.
+    fn fold(fold: &Fold) -> Self {
+        let [left_scale, right_scale] = [fold.left_scale, fold.left_scale + 1].map(Some);
+        let (point, kind, change) = (fold.point, Some("gap"), fold.name());
+        Self { point, left_scale, right_scale, kind, change, drop: None }
     }
 }
 
 /// The columns of `events.csv`.
-pub static EVENTS: &[Column<PunctureEvent>] = &[
-    Column::new("displacement", "t", "downward displacement of the punctured point", |e| {
-        e.point().displacement.into()
-    }),
-    Column::new("force", "E_s L t/(1-nu^2)", "puncture force", |e| e.point().force.into()),
-    Column::new("tilt_deg", "deg", "clockwise tilt of the punctured scale", |e| {
-        e.point().tilt_deg.into()
-    }),
-    Column::new("left_scale", "-", "left scale of the pair, 0 is the punctured one", |e| {
-        e.left_scale().into()
-    }),
-    Column::new("right_scale", "-", "right scale of the pair, nearly always the next one", |e| {
-        e.right_scale().into()
-    }),
-    Column::new("kind", "-", "which corner meets which edge; gap between two bases", |e| {
-        e.kind().into()
-    }),
-    Column::new(
-        "change",
-        "-",
-        "what happens to the contact, or to the surface in the gap; snap where a needle that only goes deeper leaves the path",
-        |e| e.change().into(),
-    ),
-    Column::new(
-        "drop",
-        "E_s L t/(1-nu^2)",
-        "force before a snap less that after it, at the same depth; empty if the path ends before",
-        |e| e.drop().into(),
-    ),
-];
+pub static EVENTS: &[Column<PunctureEvent>] = &columns! { PunctureEvent:
+    "displacement", "t", |e| e.point.displacement, "downward displacement of the punctured point";
+    "force", "E_s L t/(1-nu^2)", |e| e.point.force, "puncture force";
+    "tilt_deg", "deg", |e| e.point.tilt_deg, "clockwise tilt of the punctured scale";
+    "left_scale", "-", |e| e.left_scale, "left scale of the pair, 0 is the punctured one";
+    "right_scale", "-", |e| e.right_scale, "right scale of the pair, nearly always the next one";
+    "kind", "-", |e| e.kind, "which corner meets which edge; gap between two bases";
+    "change", "-", |e| e.change,
+        "what happens to the contact, or to the surface in the gap; snap where a needle that only goes deeper leaves the path";
+    "drop", "E_s L t/(1-nu^2)", |e| e.drop,
+        "force before a snap less that after it, at the same depth; empty if the path ends before";
+};
 
 /// The columns of `scales.csv`.
-pub static SCALES: &[Column<ScaleState>] = &[
-    Column::new("scale", "-", "0 is the punctured scale, positive to the right", |s| {
-        s.scale.into()
-    }),
-    Column::new(
-        "displacement_x",
-        "t",
-        "displacement of the midpoint of the base, to the right",
-        |s| s.displacement[0].into(),
-    ),
-    Column::new("displacement_y", "t", "displacement of the midpoint of the base, upward", |s| {
-        s.displacement[1].into()
-    }),
-    Column::new("rotation_deg", "deg", "counter-clockwise rotation", |s| s.rotation_deg.into()),
-    Column::new("reaction", "E_s t^2/(1-nu^2)", "upward reaction of the substrate", |s| {
-        s.reaction.into()
-    }),
-];
+pub static SCALES: &[Column<ScaleState>] = &columns! { ScaleState:
+    "scale", "-", |s| s.scale, "0 is the punctured scale, positive to the right";
+    "displacement_x", "t", |s| s.displacement[0],
+        "displacement of the midpoint of the base, to the right";
+    "displacement_y", "t", |s| s.displacement[1],
+        "displacement of the midpoint of the base, upward";
+    "rotation_deg", "deg", |s| s.rotation_deg, "counter-clockwise rotation";
+    "reaction", "E_s t^2/(1-nu^2)", |s| s.reaction, "upward reaction of the substrate";
+};
 
 /// The columns of `places.csv`.
-pub static LOADED_PLACES: &[Column<LoadedPlace>] = &[
-    Column::new(
-        "place",
-        "-",
-        "place of the load: 0 the left corner of the top, 1 the right; beyond, a round tip between two scales",
-        |p| p.position.into(),
-    ),
-    Column::new(
-        name::CRITICAL_FORCE,
-        "E_s L t/(1-nu^2)",
-        "puncture force at which the scale is critically tilted, either way, or a guided needle is through",
-        |p| p.force.into(),
-    ),
-    Column::new(name::CRITICAL_DISPLACEMENT, "t", "downward displacement of the load there", |p| {
-        p.displacement.into()
-    }),
-    Column::new("tilt_deg", "deg", "clockwise tilt of the punctured scale there", |p| {
-        p.tilt_deg.into()
-    }),
-    Column::new(name::CRITICAL_EVENT, "-", "which of the two it was, under a guided needle", |p| {
-        p.critical_event.map(CriticalEvent::name).into()
-    }),
-    Column::new(
-        "largest_force",
-        "E_s L t/(1-nu^2)",
-        "largest puncture force of the path; empty where the load tilts nothing from the first step on",
-        |p| p.borne.into(),
-    ),
-    Column::new("status", "-", "complete, or why there is no critical force", |p| {
-        Outcome::from(p.status).text().into()
-    }),
-];
+pub static LOADED_PLACES: &[Column<LoadedPlace>] = &columns! { LoadedPlace:
+    "place", "-", |p| p.position,
+        "place of the load: 0 the left corner of the top, 1 the right; beyond, a round tip between two scales";
+    name::CRITICAL_FORCE, "E_s L t/(1-nu^2)", |p| p.force,
+        "puncture force at which the scale is critically tilted, either way, or a guided needle is through";
+    name::CRITICAL_DISPLACEMENT, "t", |p| p.displacement, "downward displacement of the load there";
+    "tilt_deg", "deg", |p| p.tilt_deg, "clockwise tilt of the punctured scale there";
+    name::CRITICAL_EVENT, "-", |p| p.critical_event.map(CriticalEvent::name),
+        "which of the two it was, under a guided needle";
+    "largest_force", "E_s L t/(1-nu^2)", |p| p.borne,
+        "largest puncture force of the path; empty where the load tilts nothing from the first step on";
+    "status", "-", |p| Outcome::from(p.status).text(),
+        "complete, or why there is no critical force";
+};
 
 /// The columns of `steps.csv`.
-pub static STEPS: &[Column<Iteration>] = &[
-    Column::new("step", "-", "step of the path", |i| i.step.into()),
-    Column::new("iteration", "-", "Newton iteration within the step", |i| i.iteration.into()),
-    Column::new("residual", "-", "largest scaled residual", |i| i.residual.into()),
-    Column::new("tilt_deg", "deg", "clockwise tilt of the punctured scale", |i| i.angle_deg.into()),
-];
+pub static STEPS: &[Column<Iteration>] = &columns! { Iteration:
+    "step", "-", |i| i.step, "step of the path";
+    "iteration", "-", |i| i.iteration, "Newton iteration within the step";
+    "residual", "-", |i| i.residual, "largest scaled residual";
+    "tilt_deg", "deg", |i| i.angle_deg, "clockwise tilt of the punctured scale";
+};
 
 /// The columns of `flexure_path.csv`; that of scales that rub stands in no other.
 pub fn flexure_path_columns(rubs: bool) -> Vec<Column<flexure::FlexurePoint>> {
-    let mut columns: Vec<Column<flexure::FlexurePoint>> = vec![
-        Column::new("curvature", "1/t", "curvature of the strip", |p| p.curvature.into()),
-        Column::new("moment", "E_m I_m/t", "bending moment", |p| p.moment.into()),
-        Column::new(
-            "stiffness",
-            "E_m I_m",
-            "moment per curvature of the path that goes on from here",
-            |p| p.stiffness.into(),
-        ),
-        Column::new("end_rotation_deg", "deg", "rotation of each end", |p| {
-            p.end_rotation_deg.into()
-        }),
-        Column::new("bending_energy", "E_m t^3", "energy that bends the membrane", |p| {
-            p.bending_energy.into()
-        }),
-        Column::new("axial_energy", "E_m t^3", "energy that stretches the membrane", |p| {
-            p.axial_energy.into()
-        }),
-        Column::new("contact_energy", "E_m t^3", "energy of the contacts", |p| {
-            p.contact_energy.into()
-        }),
-        Column::new(
-            name::CONTACTS,
-            "-",
-            "closed contacts of the strip, rounded to whole gaps",
-            |p| p.contacts.into(),
-        ),
-        Column::new("membrane_strain", "-", "largest strain at the surface of the membrane", |p| {
-            p.membrane_strain.into()
-        }),
-    ];
+    let mut columns = Vec::from(columns! { flexure::FlexurePoint:
+        "curvature", "1/t", |p| p.curvature, "curvature of the strip";
+        "moment", "E_m I_m/t", |p| p.moment, "bending moment";
+        "stiffness", "E_m I_m", |p| p.stiffness,
+            "moment per curvature of the path that goes on from here";
+        "end_rotation_deg", "deg", |p| p.end_rotation_deg, "rotation of each end";
+        "bending_energy", "E_m t^3", |p| p.bending_energy, "energy that bends the membrane";
+        "axial_energy", "E_m t^3", |p| p.axial_energy, "energy that stretches the membrane";
+        "contact_energy", "E_m t^3", |p| p.contact_energy, "energy of the contacts";
+        name::CONTACTS, "-", |p| p.contacts, "closed contacts of the strip, rounded to whole gaps";
+        "membrane_strain", "-", |p| p.membrane_strain,
+            "largest strain at the surface of the membrane";
+    });
     if rubs {
-        columns.push(Column::new(
-            name::FRICTION_WORK,
-            "E_m t^3",
-            "work that friction between scales has taken up to here, of the whole strip",
-            |p| p.friction_work.into(),
-        ));
+        columns.extend(columns! { flexure::FlexurePoint:
+            name::FRICTION_WORK, "E_m t^3", |p| p.friction_work,
+                "work that friction between scales has taken up to here, of the whole strip";
+        });
     }
     columns
 }
 /// The columns of `flexure_events.csv`.
-pub static FLEXURE_EVENTS: &[Column<ContactEvent<flexure::FlexurePoint>>] = &[
-    Column::new("curvature", "1/t", "curvature of the strip", |e| e.point.curvature.into()),
-    Column::new("moment", "E_m I_m/t", "bending moment", |e| e.point.moment.into()),
-    Column::new("end_rotation_deg", "deg", "rotation of each end", |e| {
-        e.point.end_rotation_deg.into()
-    }),
-    Column::new("gap", "-", "gap, 0 is the first; empty if every gap does the same", |e| {
-        e.left_scale.into()
-    }),
-    Column::new("kind", "-", "which corner meets which edge", |e| e.corner_edge.name().into()),
-    Column::new("change", "-", "what happens to the contact", |e| e.change.name().into()),
-];
+pub static FLEXURE_EVENTS: &[Column<ContactEvent<flexure::FlexurePoint>>] = &columns! { ContactEvent<flexure::FlexurePoint>:
+    "curvature", "1/t", |e| e.point.curvature, "curvature of the strip";
+    "moment", "E_m I_m/t", |e| e.point.moment, "bending moment";
+    "end_rotation_deg", "deg", |e| e.point.end_rotation_deg, "rotation of each end";
+    "gap", "-", |e| e.left_scale, "gap, 0 is the first; empty if every gap does the same";
+    "kind", "-", |e| e.corner_edge.name(), "which corner meets which edge";
+    "change", "-", |e| e.change.name(), "what happens to the contact";
+};
 
 /// A scale of a bent strip: its place from the first, which is held, and how far it has moved
 /// (over `t`) and turned (radians).
 pub type BentScale = (usize, [f64; 3]);
 
 /// The columns of `flexure_scales.csv`.
-pub static FLEXURE_SCALES: &[Column<BentScale>] = &[
-    Column::new("scale", "-", "0 is the first scale, which is held", |s| s.0.into()),
-    Column::new(
-        "displacement_x",
-        "t",
-        "displacement of the midpoint of the base, to the right",
-        |s| s.1[0].into(),
-    ),
-    Column::new("displacement_y", "t", "displacement of the midpoint of the base, upward", |s| {
-        s.1[1].into()
-    }),
-    Column::new("rotation_deg", "deg", "counter-clockwise rotation", |s| {
-        s.1[2].to_degrees().into()
-    }),
-];
+pub static FLEXURE_SCALES: &[Column<BentScale>] = &columns! { BentScale:
+    "scale", "-", |s| s.0, "0 is the first scale, which is held";
+    "displacement_x", "t", |s| s.1[0], "displacement of the midpoint of the base, to the right";
+    "displacement_y", "t", |s| s.1[1], "displacement of the midpoint of the base, upward";
+    "rotation_deg", "deg", |s| s.1[2].to_degrees(), "counter-clockwise rotation";
+};
 
 /// The columns of `flexure_steps.csv`.
-pub static FLEXURE_STEPS: &[Column<Iteration>] = &[
-    Column::new("step", "-", "step of the path", |i| i.step.into()),
-    Column::new("iteration", "-", "Newton iteration within the step", |i| i.iteration.into()),
-    Column::new("residual", "-", "largest scaled residual", |i| i.residual.into()),
-    Column::new("end_rotation_deg", "deg", "rotation of each end", |i| i.angle_deg.into()),
-];
+pub static FLEXURE_STEPS: &[Column<Iteration>] = &columns! { Iteration:
+    "step", "-", |i| i.step, "step of the path";
+    "iteration", "-", |i| i.iteration, "Newton iteration within the step";
+    "residual", "-", |i| i.residual, "largest scaled residual";
+    "end_rotation_deg", "deg", |i| i.angle_deg, "rotation of each end";
+};

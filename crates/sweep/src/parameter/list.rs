@@ -1,8 +1,20 @@
 //! The one list of parameters: it drives validation, messages, axes, columns and documentation.
 
+use skin::Base;
+use skin::flexure::{MembraneMesh, Method};
+use skin::puncture::{Needle, NumberList, RowLength};
+use substrate::{Coupling, SubstrateLaw};
+
+use crate::case::{Case, set_tilts};
 use crate::parameter::Bound::{Excluded, Included};
-use crate::parameter::Role::{Continuous, Made};
-use crate::parameter::{Parameter, ParameterKind, Range, Role};
+use crate::parameter::ParameterKind::{
+    Count, CountOrWord, Number, Numbers, OptionalNumber, SignedNumber, Word,
+};
+use crate::parameter::Role::{
+    Continuous, EndsBending, EndsPuncture, Geometry, InMm, InsteadOf, Made, MovesSprings,
+    Scattered, UnitOfBending,
+};
+use crate::parameter::{CountRange, Parameter, ParameterKind, Range, Scalar, key};
 
 // Beyond these ranges differences of lengths and of stiffnesses are round-off, and what a path does is that of its digits.
 const LENGTH: Range = Range::closed(1e-3, 1e3);
@@ -16,69 +28,302 @@ const STIFF: Range = Range::closed(1.0, 1e9);
 /// The word of a count that is to be found.
 const AUTO: &str = "auto";
 
-/// The roles of a number that describes the skin and its load, and no more.
-const NUMBER: &[Role] = &[Continuous, Made];
+type Field<T> = fn(&mut Case) -> &mut T;
 
-/// What a parameter of a section is unless its entry says otherwise: without a unit, and with no role.
-const fn of(section: &'static str) -> Parameter {
-    // Every entry has a key and values of its own.
-    let kind = ParameterKind::Word { words: &[], get: |_| 0, set: |_, _| {} };
-    Parameter { key: "", section, unit: "-", meaning: "", roles: &[], kind }
+// Kinds are made by constant functions, because the list of all parameters is a static.
+const fn number(range: Range, field: Field<f64>) -> ParameterKind {
+    Number { range, field }
 }
 
-/// A length in mm beside the same over the thickness, which follows from it.
-macro_rules! in_mm {
-    ($stem:literal, $what:literal, $section:expr, $range:expr, $roles:expr, $field:expr) => {
-        Parameter {
-            key: concat!($stem, "_mm"),
-            unit: "mm",
-            meaning: concat!(
-                $what,
-                ", instead of ",
-                $stem,
-                "_over_t; with thickness_mm in [material]"
-            ),
-            roles: $roles,
-            kind: OptionalNumber { range: $range, field: $field },
-            ..$section
+const fn optional(range: Range, field: Field<Option<f64>>) -> ParameterKind {
+    OptionalNumber { range, field }
+}
+
+const fn count(low: usize, high: usize, field: Field<usize>) -> ParameterKind {
+    Count { range: CountRange { low, high }, field }
+}
+
+const fn count_or(
+    word: &'static str,
+    low: usize,
+    high: usize,
+    get: fn(&Case) -> Option<usize>,
+    set: fn(&mut Case, Option<usize>),
+) -> ParameterKind {
+    CountOrWord { range: CountRange { low, high }, word, get, set }
+}
+
+/// A field that takes the value of one of a few words.
+macro_rules! words {
+    ($($field:ident).+: $($word:literal = $value:expr),+) => {
+        Word {
+            words: &[$($word),+],
+            get: |case| {
+                [$($value),+].iter().position(|value| *value == case.$($field).+).unwrap_or(0)
+            },
+            set: |case, word| case.$($field).+ = [$($value),+][word],
         }
     };
 }
 
-mod flexure;
-mod puncture;
-mod skin;
-mod solution;
+/// The meaning of a length in mm beside the same over the thickness, which follows from it.
+macro_rules! in_mm {
+    ($stem:literal, $what:literal) => {
+        concat!($what, ", instead of ", $stem, "_over_t; with thickness_mm in [material]")
+    };
+}
 
-const PARTS: [&[Parameter]; 4] =
-    [skin::PARAMETERS, puncture::PARAMETERS, flexure::PARAMETERS, solution::PARAMETERS];
+/// The parameters by section, each with its key, unit, roles and kind, and what it means.
+macro_rules! parameters {
+    ($($section:literal {
+        $($key:expr, $unit:literal, [$($role:expr),*], $kind:expr, $meaning:expr;)*
+    })*) => {
+        &[$($(Parameter {
+            key: $key,
+            section: $section,
+            unit: $unit,
+            meaning: $meaning,
+            roles: &[$($role),*],
+            kind: $kind,
+        },)*)*]
+    };
+}
 
 /// Every parameter, in the order of the documentation. Keys are unique over all sections, because
 /// an axis is named by its key alone.
-// One slice, not a chain of iterators: others take parameters by their place, and keep them for as long as the program runs.
-pub static PARAMETERS: &[Parameter] = &joined::<{ count() }>();
-
-const fn count() -> usize {
-    let (mut all, mut part) = (0, 0);
-    // Constant functions have no iterators.
-    while part < PARTS.len() {
-        all += PARTS[part].len();
-        part += 1;
+pub static PARAMETERS: &[Parameter] = parameters! {
+    "designs" {
+        key::GAP, "t", [Geometry, Continuous, Made, Scattered, MovesSprings],
+            number(LENGTH, |c| &mut c.design.gap), "gap d between neighbouring bases";
+        "gap_mm", "mm", [InMm(key::GAP), Made, Scattered, MovesSprings],
+            optional(POSITIVE, |c| &mut c.in_mm.gap), in_mm!("gap", "gap between neighbouring bases");
+        key::LENGTH, "t", [Geometry, Continuous, Made, MovesSprings],
+            number(LENGTH, |c| &mut c.design.length), "length L of a scale";
+        "length_mm", "mm", [InMm(key::LENGTH), Made, MovesSprings],
+            optional(POSITIVE, |c| &mut c.in_mm.length), in_mm!("length", "length of a scale");
+        key::PITCH, "mm", [InMm(key::GAP), Made, MovesSprings],
+            optional(POSITIVE, |c| &mut c.in_mm.pitch),
+            "base and gap of a scale in mm, instead of its gap or, beside a gap, of its length; with thickness_mm in [material]";
+        key::SLANT, "deg", [Geometry, Continuous, Made, Scattered],
+            number(Range { low: Included(0.0), high: Excluded(90.0) }, |c| &mut c.design.slant_deg),
+            "slant of the scales from the vertical, to the right";
     }
-    all
-}
 
-const fn joined<const N: usize>() -> [Parameter; N] {
-    // Any parameter will do to begin with: each place is written over.
-    let mut all = [PARTS[0][0]; N];
-    let (mut place, mut part) = (0, 0);
-    while part < PARTS.len() {
-        let mut i = 0;
-        while i < PARTS[part].len() {
-            all[place] = PARTS[part][i];
-            (place, i) = (place + 1, i + 1);
-        }
-        part += 1;
+    "scale" {
+        "base", "-", [MovesSprings],
+            words!(design.base: "L" = Base::L, "2L" = Base::TwoL),
+            "length of the base of a scale, L or 2L";
+        key::WIDTH, "t", [Continuous, Made, MovesSprings],
+            number(LENGTH, |c| &mut c.design.width), "out-of-plane width b of the scales";
+        "width_mm", "mm", [InMm(key::WIDTH), Made, MovesSprings],
+            optional(POSITIVE, |c| &mut c.in_mm.width), in_mm!("width", "width of a scale out of the plane");
     }
-    all
+
+    "substrate" {
+        key::POISSON_RATIO, "-", [Continuous, Made, MovesSprings],
+            number(Range::closed(0.0, 0.5), |c| &mut c.puncture.poisson_ratio),
+            "Poisson's ratio of the substrate";
+        key::TISSUE, "t", [Continuous, Made, MovesSprings],
+            optional(LENGTH, |c| &mut c.tissue_thickness),
+            "thickness of the substrate on a rigid base, as of tissue on bone; of a half-space unless it is given";
+        "tissue_thickness_mm", "mm", [InMm(key::TISSUE), Made, MovesSprings],
+            optional(POSITIVE, |c| &mut c.in_mm.tissue_thickness),
+            in_mm!("tissue_thickness", "thickness of the tissue on a rigid base");
+        "coupling", "-", [MovesSprings],
+            words!(coupling: "nearest" = Coupling::Nearest, "full" = Coupling::Full),
+            "neighbours that the substrate couples a scale with, the nearest or all that matter";
+        "law", "-", [],
+            words!(puncture.substrate_law: "linear" = SubstrateLaw::Linear, "neo-hookean" = SubstrateLaw::NeoHookean),
+            "how the substrate answers where the gap between two bases is stretched or pressed: by linear springs, or as rubber, which cannot fold over";
+    }
+
+    "contact" {
+        "c1", "-", [Continuous, Made],
+            number(Range::closed(1e-3, 1e3), |c| &mut c.common.law.c1), "prefactor C1 of the contact law";
+        // A flat end has an exponent of 1, a sphere of 1.5; at larger ones contacts begin without any stiffness.
+        "c2", "-", [Continuous, Made],
+            number(Range::closed(0.05, 1.5), |c| &mut c.common.law.c2), "exponent C2 of the contact law";
+        // Rubber on a rough surface has about 2.
+        key::FRICTION, "-", [Continuous, Made],
+            number(Range::closed(0.0, 2.0), |c| &mut c.common.friction),
+            "coefficient of friction between two scales";
+    }
+
+    "puncture" {
+        "scales", "-", [],
+            count_or(AUTO, 1, 1_000_000,
+                |c| match c.puncture.scales {
+                    RowLength::Auto => None,
+                    RowLength::Scales(count) => Some(count),
+                },
+                |c, count| c.puncture.scales = count.map_or(RowLength::Auto, RowLength::Scales)),
+            "scales in the row";
+        // How far beyond 1 it may stand depends on gap and tip: `load_can_stand` refuses, and
+        // `punctured` keeps it before the next scale.
+        key::LOAD_POSITION, "-", [Continuous, Made],
+            number(Range::closed(0.0, 1e6), |c| &mut c.puncture.load_position),
+            "place of the load on the top of the punctured scale, 0 its left corner, 1 its right; of a round tip also beyond, at most 1 + gap/base, the left corner of the next scale";
+        key::LOAD_INSET, "t", [InsteadOf(key::LOAD_POSITION)],
+            optional(Range::closed(0.0, 1e6), |c| &mut c.load_inset),
+            "distance of the load from the right corner of the top, inward as far as the middle; instead of load_position";
+        "load_inset_mm", "mm", [InMm(key::LOAD_INSET)],
+            optional(ANY, |c| &mut c.in_mm.load_inset),
+            in_mm!("load_inset", "distance of the load from the right corner of the top");
+        key::NEEDLE, "-", [EndsPuncture],
+            Word {
+                words: &["free", "guided"],
+                get: |c| usize::from(c.puncture.needle.is_guided()),
+                // Its friction is that of the case.
+                set: |c, word| c.puncture.needle = [Needle::Free, Needle::Guided { friction: 0.0 }][word],
+            },
+            "free: a load that follows its point of the scale sideways, as in the paper; guided: a tip that moves straight down and slides on the scale";
+        key::NEEDLE_RADIUS, "t", [Continuous, Made],
+            optional(LENGTH, |c| &mut c.puncture.needle_radius),
+            "radius of the round tip of a guided needle, which may touch several scales; sharp unless it is given";
+        "needle_radius_mm", "mm", [InMm(key::NEEDLE_RADIUS), Made],
+            optional(POSITIVE, |c| &mut c.in_mm.needle_radius),
+            in_mm!("needle_radius", "radius of the round tip of a guided needle");
+        key::UNLOAD, "-", [],
+            words!(puncture.unload: "false" = false, "true" = true),
+            "whether the load is taken away again at the end of the puncture";
+        key::CRITICAL_TILT, "deg", [Continuous, EndsPuncture],
+            Numbers {
+                // Below 1e-14 the path to it drowns in round-off.
+                range: Range { low: Included(1e-9), high: Excluded(90.0) },
+                word: None,
+                get: tilts,
+                set: |c, tilts| set_tilts(&mut c.puncture, tilts, |tilt| tilt),
+            },
+            "tilt of the punctured scale at which the puncture ends; of several the largest, with columns for each";
+        key::NEEDLE_FRICTION, "-", [Continuous, EndsPuncture, InsteadOf(key::CRITICAL_TILT)],
+            Numbers {
+                // Of 1000 the arctangent is 89.94°; of 1e16 it is 90°, to the last digit.
+                range: Range::closed(0.0, 1e3),
+                word: Some("none"),
+                get: |c| c.needle_friction.unwrap_or(Scalar::Word("none")),
+                set: |c, friction| {
+                    c.needle_friction = Some(friction).filter(|f| !matches!(f, Scalar::Word(_)));
+                },
+            },
+            "friction between needle and scale; of a free needle its arctangent is the critical tilt, instead of that, of a guided one both may be given";
+        key::DEPTH, "t", [],
+            optional(LENGTH, |c| &mut c.puncture.depth),
+            "depth of the punctured point at which the force is measured besides, in force_at_depth";
+        key::DEPTH_MM, "mm", [InMm(key::DEPTH)],
+            optional(POSITIVE, |c| &mut c.in_mm.depth),
+            in_mm!("depth", "depth at which force_at_depth is measured");
+        key::PLACES, "-", [],
+            count_or("none", 2, 1000, |c| c.puncture.places, |c, count| c.puncture.places = count),
+            "places of the load that are tried besides, from the left corner of the top to the right, of a round tip over one pitch, for weakest_force";
+        key::CONTACT_OVER_SUBSTRATE, "-", [Continuous, Made],
+            number(STIFF, |c| &mut c.puncture.contact_modulus_over_substrate),
+            "modulus of the scales in contact, E_ct, over that of the substrate, E_s";
+    }
+
+    "flexure" {
+        "method", "-", [],
+            words!(flexure.method: "unit-cell" = Method::UnitCell, "chain" = Method::Chain),
+            "what is bent: one gap, since all deform alike, or the chain of all";
+        key::MEMBRANE_LENGTH, "t", [Continuous, Made, EndsBending],
+            number(LENGTH, |c| &mut c.flexure.membrane_length),
+            "length of the membrane; a chain and imperfect strips round it to whole gaps";
+        "membrane_length_mm", "mm", [InMm(key::MEMBRANE_LENGTH), Made, EndsBending],
+            optional(POSITIVE, |c| &mut c.in_mm.membrane_length),
+            in_mm!("membrane_length", "length of the membrane");
+        "gaps", "-", [InsteadOf(key::MEMBRANE_LENGTH)],
+            count_or(AUTO, 1, 1_000_000, |c| c.flexure.gaps, |c, count| c.flexure.gaps = count),
+            "gaps of the strip, the same number for every design, instead of a length";
+        key::MEMBRANE_THICKNESS, "t", [Continuous, Made, UnitOfBending],
+            number(LENGTH, |c| &mut c.flexure.membrane_thickness), "thickness h of the membrane";
+        "membrane_thickness_mm", "mm", [InMm(key::MEMBRANE_THICKNESS), Made, UnitOfBending],
+            optional(POSITIVE, |c| &mut c.in_mm.membrane_thickness),
+            in_mm!("membrane_thickness", "thickness of the membrane");
+        key::MEMBRANE_AXIS, "t", [Continuous, Made],
+            number(Range::closed(-1e3, 1e3), |c| &mut c.flexure.membrane_axis_offset),
+            "depth of the axis of the membrane below the bases of the scales";
+        "membrane_axis_offset_mm", "mm", [InMm(key::MEMBRANE_AXIS), Made],
+            optional(ANY, |c| &mut c.in_mm.membrane_axis_offset),
+            in_mm!("membrane_axis_offset", "depth of the axis of the membrane below the bases");
+        "elements_per_gap", "-", [],
+            count_or(AUTO, 1, 1000,
+                |c| match c.flexure.elements_per_gap {
+                    MembraneMesh::Auto => None,
+                    MembraneMesh::Elements(count) => Some(count),
+                },
+                |c, count| {
+                    c.flexure.elements_per_gap = count.map_or(MembraneMesh::Auto, MembraneMesh::Elements);
+                }),
+            "beam elements of the membrane between two scales, or as fine as the measures need";
+        key::UNBEND, "-", [],
+            words!(flexure.unload: "false" = false, "true" = true),
+            "whether the moment is taken away again at the end of bending";
+        "max_end_rotation_deg", "deg", [Continuous, Made, EndsBending],
+            SignedNumber {
+                size: Range { low: Excluded(0.0), high: Included(180.0) },
+                field: |c| &mut c.flexure.max_end_rotation_deg,
+            },
+            "rotation of each end at which bending ends; below zero, bending the other way, scales outside";
+        key::CONTACT_OVER_MEMBRANE, "-", [Continuous, Made],
+            number(STIFF, |c| &mut c.flexure.contact_modulus_over_membrane),
+            "modulus of the scales in contact, E_ct, over that of the membrane, E_m";
+    }
+
+    "imperfection" {
+        "gap_cv", "-", [],
+            number(Range::closed(0.0, 1.0), |c| &mut c.imperfection.gap_cv),
+            "coefficient of variation of the gaps of imperfect rows";
+        "slant_sd_deg", "deg", [],
+            number(Range::closed(0.0, 30.0), |c| &mut c.imperfection.slant_sd_deg),
+            "standard deviation of the slants of imperfect rows";
+        "samples", "-", [],
+            count(1, 1_000_000, |c| &mut c.samples.count),
+            "imperfect rows that are solved, if gaps or slants scatter";
+        "seed", "-", [],
+            count(0, 1_000_000_000, |c| &mut c.samples.seed), "seed of the random gaps and slants";
+    }
+
+    "solver" {
+        "first_step", "-", [],
+            number(FRACTION, |c| &mut c.common.solver.first_step),
+            "first step, as a fraction of the whole path";
+        "max_step", "-", [],
+            number(FRACTION, |c| &mut c.common.solver.max_step),
+            "largest step, as a fraction of the whole path";
+        "min_step", "-", [],
+            number(FRACTION, |c| &mut c.common.solver.min_step),
+            "smallest step, as a fraction of the whole path, below which the path stops";
+        "tolerance", "-", [],
+            number(Range { low: Excluded(0.0), high: Included(0.01) }, |c| &mut c.common.solver.tolerance),
+            "largest scaled residual of an equilibrium";
+        "max_iterations", "-", [],
+            count(1, 1000, |c| &mut c.common.solver.max_iterations),
+            "Newton iterations after which a step is cut to a third";
+        "max_points", "-", [],
+            count(2, 1_000_000_000, |c| &mut c.common.solver.max_points),
+            "equilibria after which the path stops";
+    }
+
+    "material" {
+        key::THICKNESS, "mm", [Made],
+            optional(POSITIVE, |c| &mut c.material.thickness_mm), "thickness t of the scales";
+        key::SUBSTRATE_MODULUS, "MPa", [Made],
+            optional(POSITIVE, |c| &mut c.material.substrate_modulus_mpa), "modulus E_s of the substrate";
+        key::MEMBRANE_MODULUS, "MPa", [Made],
+            optional(POSITIVE, |c| &mut c.material.membrane_modulus_mpa), "modulus E_m of the membrane";
+        key::SCALE_MODULUS, "MPa", [Made],
+            optional(POSITIVE, |c| &mut c.material.scale_modulus_mpa),
+            "modulus E_ct of the scales in contact, in the place of its ratios to the other two";
+        key::DENSITY, "kg/m^3", [Made],
+            optional(POSITIVE, |c| &mut c.material.scale_density_kg_m3), "density of the scales";
+    }
+};
+
+/// The tilts of a puncture as it is solved: those of a free needle may follow from its friction.
+fn tilts(case: &Case) -> Scalar {
+    let punctured = case.punctured();
+    let listed = punctured.tilts_before_deg.and_then(|_| {
+        let tilts: Vec<f64> = punctured.tilts_deg().collect();
+        NumberList::new(&tilts)
+    });
+    listed.map_or(Scalar::Number(punctured.critical_tilt_deg), Scalar::List)
 }
