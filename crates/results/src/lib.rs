@@ -15,7 +15,7 @@
 //! | [`DesignRow`], [`FailureRow`], [`RerunChange`] | the rows of `designs.csv`, `failures.csv` and `reruns.csv` |
 //! | [`ParameterDerivative`], [`DerivativeRow`] | the derivative of a measure, and the row of `sensitivity.csv` |
 //! | [`SlopeSide`] | which of two one-sided derivatives a neighbouring row is extrapolated by |
-//! | [`columns`], [`Column`], [`Cell`] | the list of everything that stands in a table |
+//! | [`mod@columns`], [`Column`], [`Cell`] | the list of everything that stands in a table |
 //! | [`Quantity`], [`areal_mass()`], [`puncture_units`], [`bending_units`] | from dimensionless values to millimetres, newtons and kilograms |
 //! | [`CsvFormat`], [`CsvFile`] | how tables are written |
 //! | [`RunFolder`], [`FILES`], [`FileEntry`] | the folder, and an entry for every file in it: name, maker, whether its SHA-256 is stated |
