@@ -1,6 +1,6 @@
 //! The tables of tolerances.
 
-use results::{Cell, Column};
+use results::{Column, columns};
 use sweep::DesignNumber;
 
 use crate::analysis::{DesignTolerance, MeasureTolerance};
@@ -49,148 +49,83 @@ const MEASURE: &str = "the measure, by the name of its column";
 const SAME: &str = "as the measure";
 
 /// The columns of `tolerance.csv`.
-pub static TOLERANCE_COLUMNS: &[Column<(DesignNumber, MeasureTolerance)>] = &[
-    Column::new("design", "-", DESIGN, |(design, _)| design.to_string().into()),
-    Column::new("measure", "-", MEASURE, |(_, m)| m.name.clone().into()),
-    Column::new("unit", "-", "unit of the measure", |(_, m)| m.unit.into()),
-    Column::new("value", SAME, "value of the nominal design", |(_, m)| m.value.into()),
-    Column::new(
-        "linear_spread",
-        SAME,
-        "standard deviation that the derivatives predict, empty at a kink without one of its sides",
-        |(_, m)| m.linear.as_ref().map(|linear| linear.spread).into(),
-    ),
-    Column::new(
-        "sources",
-        "-",
-        "what that spread comes from, the largest share first",
-        |(_, m)| m.linear.as_ref().map(LinearSpread::in_words).into(),
-    ),
-    Column::new("samples", "-", "solved samples that have a value", |(_, m)| {
-        m.sampled.as_ref().map(|sampled| sampled.count).into()
-    }),
-    Column::new("failed", "-", "samples without a value", |(_, m)| m.failed.into()),
-    Column::new("spread", SAME, "standard deviation over the solved samples", |(_, m)| {
-        sampled(m, |s| s.spread)
-    }),
-    Column::new("spread_error", SAME, "standard error of that standard deviation", |(_, m)| {
-        sampled(m, |s| s.spread_error)
-    }),
-    Column::new(
-        "discrepancy",
-        "-",
-        "linear spread over that of the samples, less 1: how far the prediction is off",
-        |(_, m)| m.discrepancy().into(),
-    ),
-    Column::new("mean", SAME, "mean over the samples", |(_, m)| sampled(m, |s| s.statistics.mean)),
-    Column::new("p05", SAME, "5 % quantile over the samples", |(_, m)| {
-        sampled(m, |s| s.statistics.quantiles[0])
-    }),
-    Column::new("p50", SAME, "median over the samples", |(_, m)| {
-        sampled(m, |s| s.statistics.quantiles[1])
-    }),
-    Column::new("p95", SAME, "95 % quantile over the samples", |(_, m)| {
-        sampled(m, |s| s.statistics.quantiles[2])
-    }),
-];
+pub static TOLERANCE_COLUMNS: &[Column<(DesignNumber, MeasureTolerance)>] = &columns! {
+    (DesignNumber, MeasureTolerance):
+    "design", "-", |(design, _)| design.to_string(), DESIGN;
+    "measure", "-", |(_, m)| m.name.clone(), MEASURE;
+    "unit", "-", |(_, m)| m.unit, "unit of the measure";
+    "value", SAME, |(_, m)| m.value, "value of the nominal design";
+    "linear_spread", SAME, |(_, m)| m.linear.as_ref().map(|linear| linear.spread),
+        "standard deviation that the derivatives predict, empty at a kink without one of its sides";
+    "sources", "-", |(_, m)| m.linear.as_ref().map(LinearSpread::in_words),
+        "what that spread comes from, the largest share first";
+    "samples", "-", |(_, m)| m.sampled.as_ref().map(|sampled| sampled.count),
+        "solved samples that have a value";
+    "failed", "-", |(_, m)| m.failed, "samples without a value";
+    "spread", SAME, |(_, m)| sampled(m, |s| s.spread), "standard deviation over the solved samples";
+    "spread_error", SAME, |(_, m)| sampled(m, |s| s.spread_error),
+        "standard error of that standard deviation";
+    "discrepancy", "-", |(_, m)| m.discrepancy(),
+        "linear spread over that of the samples, less 1: how far the prediction is off";
+    "mean", SAME, |(_, m)| sampled(m, |s| s.statistics.mean), "mean over the samples";
+    "p05", SAME, |(_, m)| sampled(m, |s| s.statistics.quantiles[0]), "5 % quantile over the samples";
+    "p50", SAME, |(_, m)| sampled(m, |s| s.statistics.quantiles[1]), "median over the samples";
+    "p95", SAME, |(_, m)| sampled(m, |s| s.statistics.quantiles[2]), "95 % quantile over the samples";
+};
 
 /// The columns of `tolerance_sources.csv`.
-pub static SOURCE_COLUMNS: &[Column<(DesignNumber, String, SourceShare)>] = &[
-    Column::new("design", "-", DESIGN, |(design, ..)| design.to_string().into()),
-    Column::new("measure", "-", MEASURE, |(_, measure, _)| measure.clone().into()),
-    Column::new("source", "-", "what deviates, by its key in [tolerance]", |(.., s)| {
-        s.source.clone().into()
-    }),
-    Column::new(
-        "level",
-        "-",
-        "batch: all scales have the same deviation; scale: each its own",
-        |(.., s)| {
-            match s.level {
-                DeviationLevel::Batch => "batch",
-                DeviationLevel::Scale => "scale",
-            }
-            .into()
+pub static SOURCE_COLUMNS: &[Column<(DesignNumber, String, SourceShare)>] = &columns! {
+    (DesignNumber, String, SourceShare):
+    "design", "-", |(design, ..)| design.to_string(), DESIGN;
+    "measure", "-", |(_, measure, _)| measure.clone(), MEASURE;
+    "source", "-", |(.., s)| s.source.clone(), "what deviates, by its key in [tolerance]";
+    "level", "-",
+        |(.., s)| match s.level {
+            DeviationLevel::Batch => "batch",
+            DeviationLevel::Scale => "scale",
         },
-    ),
-    Column::new("deviation", "as the source", "standard deviation of the source", |(.., s)| {
-        s.deviation.into()
-    }),
-    Column::new(
-        "linear_spread",
-        SAME,
-        "standard deviation of the measure, were this the only source",
-        |(.., s)| s.spread.into(),
-    ),
-    Column::new("share", "-", "part of the variance of the measure", |(.., s)| s.share.into()),
-];
+        "batch: all scales have the same deviation; scale: each its own";
+    "deviation", "as the source", |(.., s)| s.deviation, "standard deviation of the source";
+    "linear_spread", SAME, |(.., s)| s.spread,
+        "standard deviation of the measure, were this the only source";
+    "share", "-", |(.., s)| s.share, "part of the variance of the measure";
+};
 
 /// The columns of `yield.csv`.
-pub static YIELD_COLUMNS: &[Column<(DesignNumber, RequirementYield)>] = &[
-    Column::new("design", "-", DESIGN, |(design, _)| design.to_string().into()),
-    Column::new("requirement", "-", "the requirement, or all of them together", |(_, of)| {
-        of.requirement.as_ref().map_or("all".to_owned(), ToString::to_string).into()
-    }),
-    Column::new("samples", "-", "solved samples", |(_, of)| share(of, |p| p.of.into())),
-    Column::new("failed", "-", "samples without a value, which do not meet", |(_, of)| {
-        of.failed.into()
-    }),
-    Column::new("met", "-", "samples that meet", |(_, of)| share(of, |p| p.met.into())),
-    Column::new("yield", "-", "share of the samples that meet", |(_, of)| {
-        share(of, |p| p.share().into())
-    }),
-    Column::new("yield_low", "-", "lower end of the 95 % interval of the yield", |(_, of)| {
-        share(of, |p| p.interval()[0].into())
-    }),
-    Column::new("yield_high", "-", "upper end of that interval", |(_, of)| {
-        share(of, |p| p.interval()[1].into())
-    }),
-    Column::new("linear_yield", "-", "yield that the linear spread predicts", |(_, of)| {
-        of.linear.into()
-    }),
-];
+pub static YIELD_COLUMNS: &[Column<(DesignNumber, RequirementYield)>] = &columns! {
+    (DesignNumber, RequirementYield):
+    "design", "-", |(design, _)| design.to_string(), DESIGN;
+    "requirement", "-",
+        |(_, of)| of.requirement.as_ref().map_or("all".to_owned(), ToString::to_string),
+        "the requirement, or all of them together";
+    "samples", "-", |(_, of)| of.proportion.map(|p| p.of), "solved samples";
+    "failed", "-", |(_, of)| of.failed, "samples without a value, which do not meet";
+    "met", "-", |(_, of)| of.proportion.map(|p| p.met), "samples that meet";
+    "yield", "-", |(_, of)| of.proportion.map(Proportion::share), "share of the samples that meet";
+    "yield_low", "-", |(_, of)| of.proportion.map(|p| p.interval()[0]),
+        "lower end of the 95 % interval of the yield";
+    "yield_high", "-", |(_, of)| of.proportion.map(|p| p.interval()[1]), "upper end of that interval";
+    "linear_yield", "-", |(_, of)| of.linear, "yield that the linear spread predicts";
+};
 
 /// The columns of `sobol.csv`.
-pub static INDEX_COLUMNS: &[Column<(MeasureIndices, &'static str, SobolIndices)>] = &[
-    Column::new("measure", "-", MEASURE, |(m, ..)| m.name.clone().into()),
-    Column::new("variable", "-", "the variable, by its key", |(_, key, _)| (*key).into()),
-    Column::new(
-        "first",
-        "-",
-        "first-order index: part of the variance that the variable has alone",
-        |(.., of)| of.first.value.into(),
-    ),
-    Column::new("first_low", "-", "lower end of its 95 % interval", |(.., of)| {
-        of.first.interval()[0].into()
-    }),
-    Column::new("first_high", "-", "upper end of that interval", |(.., of)| {
-        of.first.interval()[1].into()
-    }),
-    Column::new(
-        "total",
-        "-",
-        "total index: part of the variance that the variable has, alone and together with others",
-        |(.., of)| of.total.value.into(),
-    ),
-    Column::new("total_low", "-", "lower end of its 95 % interval", |(.., of)| {
-        of.total.interval()[0].into()
-    }),
-    Column::new("total_high", "-", "upper end of that interval", |(.., of)| {
-        of.total.interval()[1].into()
-    }),
-    Column::new("spread", SAME, "standard deviation of the measure over the box", |(m, ..)| {
-        m.spread.into()
-    }),
-    Column::new("samples", "-", "samples that have all their values", |(m, ..)| m.samples.into()),
-    Column::new("failed", "-", "samples that lack a value, which are left out", |(m, ..)| {
-        m.failed.into()
-    }),
-];
+pub static INDEX_COLUMNS: &[Column<(MeasureIndices, &'static str, SobolIndices)>] = &columns! {
+    (MeasureIndices, &'static str, SobolIndices):
+    "measure", "-", |(m, ..)| m.name.clone(), MEASURE;
+    "variable", "-", |(_, key, _)| *key, "the variable, by its key";
+    "first", "-", |(.., of)| of.first.value,
+        "first-order index: part of the variance that the variable has alone";
+    "first_low", "-", |(.., of)| of.first.interval()[0], "lower end of its 95 % interval";
+    "first_high", "-", |(.., of)| of.first.interval()[1], "upper end of that interval";
+    "total", "-", |(.., of)| of.total.value,
+        "total index: part of the variance that the variable has, alone and together with others";
+    "total_low", "-", |(.., of)| of.total.interval()[0], "lower end of its 95 % interval";
+    "total_high", "-", |(.., of)| of.total.interval()[1], "upper end of that interval";
+    "spread", SAME, |(m, ..)| m.spread, "standard deviation of the measure over the box";
+    "samples", "-", |(m, ..)| m.samples, "samples that have all their values";
+    "failed", "-", |(m, ..)| m.failed, "samples that lack a value, which are left out";
+};
 
-fn sampled(measure: &MeasureTolerance, value: fn(&Sampled) -> f64) -> Cell {
-    measure.sampled.as_ref().map(value).into()
-}
-
-fn share(of: &RequirementYield, cell: fn(Proportion) -> Cell) -> Cell {
-    of.proportion.map_or(Cell::Empty, cell)
+fn sampled(measure: &MeasureTolerance, value: fn(&Sampled) -> f64) -> Option<f64> {
+    measure.sampled.as_ref().map(value)
 }
