@@ -40,7 +40,8 @@ pub struct Front {
 }
 
 impl Front {
-    /// Points that were asked for, and not searched: no gap was left that was wide, and no step.
+    /// Points that were asked for, and not searched: no gap was left that was wide and no step, or objectives are more than two, whose front
+    /// has no gaps.
     pub fn left_out(&self, points: usize) -> usize {
         points.saturating_sub(self.designs.len() + self.same + self.beaten + self.empty)
     }
