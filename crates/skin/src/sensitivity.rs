@@ -115,7 +115,7 @@ pub(crate) fn derivatives<S: Skin>(
             let (value, contenders) = quantity.value_at(system, linearised.here.place());
             let of = |(parameter, (sides, variation))| {
                 let rates = quantity.rates(variation, sides, &contenders);
-                let kink = || kink(sides).unwrap_or("another scale takes over").to_owned();
+                let kink = || sides.change().unwrap_or("another scale takes over").to_owned();
                 let of = (quantity.measure, parameter);
                 Derivative::sided(of, rates, value, variation.step, kink)
             };
@@ -150,16 +150,22 @@ struct Linearised<'a, S: Skin> {
     turns: bool,
 }
 
-/// How a place moves on the left and on the right of a parameter.
-type Sides<M> = [SideMotion<M>; 2];
+/// How a place moves on both sides of a parameter.
+struct Sides<M> {
+    left: SideMotion<M>,
+    /// `None` where the place moves on the right as on the left.
+    right: Option<SideMotion<M>>,
+}
 
-/// The contact that changes on a side, if one does.
-fn kink<M>([left, right]: &Sides<M>) -> Option<&str> {
-    right.change.as_deref().or(left.change.as_deref())
+impl<M> Sides<M> {
+    /// The contact that changes on a side, if one does.
+    fn change(&self) -> Option<&str> {
+        let right = self.right.as_ref().and_then(|right| right.change.as_deref());
+        right.or(self.left.change.as_deref())
+    }
 }
 
 /// How a place moves on one side of a parameter.
-#[derive(Clone)]
 struct SideMotion<M> {
     /// The place below and above; `None` if there is no equilibrium on this side.
     moved: Option<[Moved<M>; 2]>,
@@ -175,11 +181,10 @@ impl<S: Skin> Linearised<'_, S> {
         let on_right = self.here.violated(&neighbours.above, &moved[1]);
         // Nothing changes within the step, so one motion serves both sides.
         if (on_left, on_right) == (None, None) {
-            let motion = SideMotion { moved: Some(moved), change: None };
-            return [motion.clone(), motion];
+            return Sides { left: SideMotion { moved: Some(moved), change: None }, right: None };
         }
-        let right = self.side(neighbours, 1, moved.clone(), on_right);
-        [self.side(neighbours, 0, moved, on_left), right]
+        let right = Some(self.side(neighbours, 1, moved.clone(), on_right));
+        Sides { left: self.side(neighbours, 0, moved, on_left), right }
     }
 
     /// How the place moves on one side, where `violated` is the first contact that has to change.
@@ -285,9 +290,14 @@ impl<S: Skin> MeasuredQuantity<S> {
         contenders: &[usize],
     ) -> [Option<f64>; 2] {
         // What depends on the direction of the path jumps where a contact changes, and the place of a maximum with it.
-        let jumps = self.turns && kink(sides).is_some();
-        let rate = |side: usize| self.rate(neighbours, &sides[side], side, contenders);
-        [0, 1].map(|side| rate(side).filter(|rate| rate.is_finite() && !jumps))
+        let jumps = self.turns && sides.change().is_some();
+        let left = self.rate(neighbours, &sides.left, 0, contenders);
+        let right = match &sides.right {
+            // With one contender and one motion both sides have the same rate.
+            None if contenders.len() == 1 => left,
+            right => self.rate(neighbours, right.as_ref().unwrap_or(&sides.left), 1, contenders),
+        };
+        [left, right].map(|rate| rate.filter(|rate| rate.is_finite() && !jumps))
     }
 
     /// The derivative on one side, of the one of the contenders that is the extreme one there.

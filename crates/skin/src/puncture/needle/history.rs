@@ -9,6 +9,8 @@
 //!
 //! The second is (D2) of systems for `q ± h` whose own history is that of their paths, to first order.
 
+use std::borrow::Cow;
+
 use solver::{AnchoredPoint, Linearisation, Neighbours, Path, PathAnchor};
 
 use super::GuidedNeedle;
@@ -93,16 +95,16 @@ pub(in crate::puncture) fn anchors(
 }
 
 /// Variations of a row of which the neighbours have come to a state, each on its own way; `None` if one of these is not known.
-pub(in crate::puncture) fn with(
+pub(in crate::puncture) fn with<'v>(
     anchors: &[Anchor],
     state: &SkinState,
-    variations: &[Neighbours<Chain>],
-) -> Option<Vec<Neighbours<Chain>>> {
-    let mut varied = variations.to_vec();
+    variations: &'v [Neighbours<Chain>],
+) -> Option<Cow<'v, [Neighbours<Chain>]>> {
+    let mut varied = Cow::Borrowed(variations);
     for kept in history(state) {
         // Something may come to the same rest twice: the latest event counts.
         let anchor = anchors.iter().rev().find(|anchor| anchor.kept == kept)?;
-        for (neighbours, rate) in varied.iter_mut().zip(&anchor.rates) {
+        for (neighbours, rate) in varied.to_mut().iter_mut().zip(&anchor.rates) {
             let change = neighbours.step * (*rate)?;
             neighbours.below.move_kept(kept, -change);
             neighbours.above.move_kept(kept, change);
