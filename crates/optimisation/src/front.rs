@@ -14,7 +14,7 @@ use crate::worth::Judgement;
 /// Rounds in which points are put into the widest gaps, at most.
 const REFILLS: usize = 3;
 
-/// A floor is inside a gap that is this share of it away from both ends.
+/// A floor is inside a gap if it is this share of it beyond its beginning: a design keeps its own floor by a little more than it must.
 const INSIDE: f64 = 1e-3;
 
 /// Objectives that differ by less than this part are equal: a floor is kept to within as much.
@@ -70,8 +70,8 @@ pub(crate) fn search(
     Ok(front)
 }
 
-/// Targets in the widest gaps of a front of two objectives that has fewer than so many points, but for narrow ones and those that have had
-/// one: the front has a step there.
+/// Targets in the widest gaps of a front of two objectives that has fewer than so many points. Of a gap in which a floor led to its far
+/// end, the front has a step there, only the part before that floor is left; narrow ones need no point.
 fn between(
     search: &Search<'_>,
     designs: &[BestDesign],
@@ -86,22 +86,20 @@ fn between(
         return Vec::new();
     }
     let scales = [0, 1].map(|k| Spacing::between(first[k], last[k]));
-    let width = |pair: &[Vec<f64>]| {
+    let gap = |pair: &[Vec<f64>]| {
         let parts = [0, 1].map(|k| scales[k].share(pair[0][k]) - scales[k].share(pair[1][k]));
-        parts[0].hypot(parts[1])
-    };
-    let is_untried = |pair: &&[Vec<f64>]| {
-        let mut floors = targets.iter().flat_map(|target| &target.floors);
-        // A design keeps its own floor by a little more than it must.
         let spacing = Spacing::between(pair[0][1], pair[1][1]);
-        floors.all(|(_, floor)| !(INSIDE..1.0 - INSIDE).contains(&spacing.share(*floor)))
+        let floors = targets.iter().flat_map(|target| &target.floors);
+        let places = floors.map(|(_, floor)| spacing.share(*floor));
+        let untried = places.filter(|place| *place > INSIDE).fold(1.0, f64::min);
+        (untried * parts[0].hypot(parts[1]), spacing.at(0.5 * untried))
     };
-    let is_wide = |pair: &&[Vec<f64>]| width(pair) > NARROW;
-    let mut gaps: Vec<&[Vec<f64>]> = turned.windows(2).filter(is_untried).filter(is_wide).collect();
-    gaps.sort_by(|a, b| width(b).total_cmp(&width(a)));
+    let mut gaps: Vec<(f64, f64)> = turned.windows(2).map(gap).collect();
+    gaps.retain(|(width, _)| *width > NARROW);
+    gaps.sort_by(|(a, _), (b, _)| b.total_cmp(a));
     gaps.truncate(points.saturating_sub(designs.len()));
-    let floor = |pair: &[Vec<f64>]| Spacing::between(pair[0][1], pair[1][1]).at(0.5);
-    gaps.into_iter().map(|pair| Target { objective: 0, floors: vec![(1, floor(pair))] }).collect()
+    let target = |(_, floor)| Target { objective: 0, floors: vec![(1, floor)] };
+    gaps.into_iter().map(target).collect()
 }
 
 /// How values are spaced between two ends: by equal ratios where they span a power of ten, or else by equal differences.
