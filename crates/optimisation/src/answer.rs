@@ -26,17 +26,18 @@ pub(crate) fn answer(
     plan: Plan,
     points: usize,
 ) -> Result<Answer, Halt> {
-    let mut targets: Vec<Target> = Vec::new();
-    for objective in 0..search.judge.objectives() {
-        let target = Target { objective, floors: Vec::new() };
+    let targets =
+        (0..search.judge.objectives()).map(|k| Target { objective: k, floors: Vec::new() });
+    let mut targets: Vec<Target> = targets.collect();
+    for target in &targets {
         search.meter.begin(SearchPart::Climb, plan.tasks());
-        history.extend(improved(search, history, &target, plan)?);
-        targets.push(target);
-    }
-    // By any objective: without floors all targets ask for the same requirements.
-    let is_feasible = |c: &Candidate| matches!(search.merit(c, &targets[0]), Merit::Met(_));
-    if !history.iter().any(is_feasible) {
-        return Ok(Answer::Infeasible(best(history.iter().map(|c| search.merit(c, &targets[0])))));
+        history.extend(improved(search, history, target, plan)?);
+        // Without floors all targets ask for the same: what one does not find none of them does.
+        let is_feasible = |c: &Candidate| matches!(search.merit(c, target), Merit::Met(_));
+        if !history.iter().any(is_feasible) {
+            let merits = history.iter().map(|candidate| search.merit(candidate, target));
+            return Ok(Answer::Infeasible(best(merits)));
+        }
     }
     if targets.len() == 1 {
         let best = best_design(search, history, targets.swap_remove(0))?;

@@ -40,14 +40,13 @@ pub struct Front {
 }
 
 impl Front {
-    /// Points that were asked for, and not searched: no gap was left that was wide and no step, or objectives are more than two, whose front
-    /// has no gaps.
+    /// Points that were asked for, and not searched: no gap was left that was wide and no step, nor a design of a surface far from its points.
     pub fn left_out(&self, points: usize) -> usize {
         points.saturating_sub(self.designs.len() + self.same + self.beaten + self.empty)
     }
 }
 
-/// The front: points between its ends, then others in the widest gaps that are left.
+/// The front: points between its ends, then others where it is the least known.
 pub(crate) fn search(
     search: &Search<'_>,
     history: &mut Vec<Candidate>,
@@ -55,11 +54,11 @@ pub(crate) fn search(
     points: usize,
 ) -> Result<Front, Halt> {
     // Half of the points tell where the front changes.
-    let mut targets = targets(search, history, points.div_ceil(2).max(2).min(points));
+    let mut targets = first_targets(search, history, points.div_ceil(2).max(2).min(points));
     improve(search, history, &targets, plan.of_a_point())?;
     let mut front = rescaled_front(search, history, &targets)?;
     for _ in 0..REFILLS {
-        let more = between(search, &front.designs, &targets, points);
+        let more = more_targets(search, history, &front.designs, &targets, points);
         if more.is_empty() {
             break;
         }
@@ -70,21 +69,31 @@ pub(crate) fn search(
     Ok(front)
 }
 
-/// Targets in the widest gaps of a front of two objectives that has fewer than so many points. Of a gap in which a floor led to its far
-/// end, the front has a step there, only the part before that floor is left; narrow ones need no point.
-fn between(
+/// Targets for the points that a front still lacks: in the widest gaps of a curve, or else at those known designs of a surface that are the
+/// farthest from all of its points.
+fn more_targets(
     search: &Search<'_>,
+    history: &[Candidate],
     designs: &[BestDesign],
     targets: &[Target],
     points: usize,
 ) -> Vec<Target> {
-    let turned: Vec<Vec<f64>> =
-        designs.iter().filter_map(|design| turned(search, &design.candidate)).collect();
-    let (Some(first), Some(last)) = (turned.first(), turned.last()) else { return Vec::new() };
-    // Only a curve has neighbours with a gap between them: points of a surface have no order.
-    if first.len() != 2 {
-        return Vec::new();
+    let more = points.saturating_sub(designs.len());
+    let values = |candidate| turned(search, candidate);
+    let front: Vec<Vec<f64>> = designs.iter().filter_map(|d| values(&d.candidate)).collect();
+    if search.judge.objectives() == 2 {
+        return between(&front, targets, more);
     }
+    let known: Vec<Vec<f64>> = history.iter().filter_map(values).collect();
+    let floors = spread(&known, &front, more).into_iter().map(target);
+    // Where a floor has led before it leads again.
+    floors.filter(|target| !targets.contains(target)).collect()
+}
+
+/// Targets in the widest gaps of a front of two objectives, at most so many. Of a gap in which a floor led to its far end, the front has a
+/// step there, only the part before that floor is left; narrow ones need no point.
+fn between(front: &[Vec<f64>], targets: &[Target], count: usize) -> Vec<Target> {
+    let (Some(first), Some(last)) = (front.first(), front.last()) else { return Vec::new() };
     let scales = [0, 1].map(|k| Spacing::between(first[k], last[k]));
     let gap = |pair: &[Vec<f64>]| {
         let parts = [0, 1].map(|k| scales[k].share(pair[0][k]) - scales[k].share(pair[1][k]));
@@ -94,12 +103,11 @@ fn between(
         let untried = places.filter(|place| *place > INSIDE).fold(1.0, f64::min);
         (untried * parts[0].hypot(parts[1]), spacing.at(0.5 * untried))
     };
-    let mut gaps: Vec<(f64, f64)> = turned.windows(2).map(gap).collect();
+    let mut gaps: Vec<(f64, f64)> = front.windows(2).map(gap).collect();
     gaps.retain(|(width, _)| *width > NARROW);
     gaps.sort_by(|(a, _), (b, _)| b.total_cmp(a));
-    gaps.truncate(points.saturating_sub(designs.len()));
-    let target = |(_, floor)| Target { objective: 0, floors: vec![(1, floor)] };
-    gaps.into_iter().map(target).collect()
+    gaps.truncate(count);
+    gaps.into_iter().map(|(_, floor)| target(vec![floor])).collect()
 }
 
 /// How values are spaced between two ends: by equal ratios where they span a power of ten, or else by equal differences.
@@ -224,17 +232,21 @@ fn turned(search: &Search<'_>, candidate: &Candidate) -> Option<Vec<f64>> {
     worth.met.then(|| turned.collect())
 }
 
-/// The targets of a front: its ends, and floors between them.
-fn targets(search: &Search<'_>, history: &[Candidate], points: usize) -> Vec<Target> {
+/// The first targets of a front: its ends, and floors between them.
+fn first_targets(search: &Search<'_>, history: &[Candidate], points: usize) -> Vec<Target> {
     let values: Vec<Vec<f64>> = history.iter().filter_map(|c| turned(search, c)).collect();
-    let count = search.judge.objectives();
-    let floors = if count == 2 { even(&values, points) } else { spread(&values, points) };
+    let is_curve = search.judge.objectives() == 2;
+    let floors = if is_curve { even(&values, points) } else { spread(&values, &[], points) };
+    floors.into_iter().map(target).collect()
+}
+
+/// The target with these floors of all objectives but the first.
+fn target(floors: Vec<f64>) -> Target {
     // One objective climbs for all points: floors of the others lead it to any part of a front.
-    let target = |floors: Vec<f64>| Target {
+    Target {
         objective: 0,
         floors: floors.into_iter().enumerate().map(|(k, floor)| (k + 1, floor)).collect(),
-    };
-    floors.into_iter().map(target).collect()
+    }
 }
 
 /// Floors of the second of two objectives, from where the first is the best to where the second is.
@@ -252,27 +264,31 @@ fn even(values: &[Vec<f64>], points: usize) -> Vec<Vec<f64>> {
     (0..points).map(|k| vec![spacing.at(share(k))]).collect()
 }
 
-/// Floors of all objectives but the first at designs of the front that is known, as far from each other as can be.
-fn spread(values: &[Vec<f64>], points: usize) -> Vec<Vec<f64>> {
+/// Floors of all objectives but the first at designs that none beats, as far from each other and from `taken` as can be.
+fn spread(values: &[Vec<f64>], taken: &[Vec<f64>], count: usize) -> Vec<Vec<f64>> {
     let is_beaten = |value: &Vec<f64>| values.iter().any(|other| dominates(other, value));
     let front: Vec<&Vec<f64>> = values.iter().filter(|value| !is_beaten(value)).collect();
-    let Some(first) = front.first() else { return Vec::new() };
     let span = |k: usize| {
         let all = front.iter().map(|value| value[k]);
         let (low, high) = all
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
         if high > low { high - low } else { 1.0 }
     };
-    let spans: Vec<f64> = (0..first.len()).map(span).collect();
+    let spans: Vec<f64> = (0..front.first().map_or(0, |value| value.len())).map(span).collect();
     let apart = |a: &[f64], b: &[f64]| {
         let pairs = a.iter().zip(b).zip(&spans);
-        pairs.map(|((a, b), span)| ((a - b) / span).powi(2)).sum::<f64>()
+        pairs.map(|((a, b), span)| ((a - b) / span).powi(2)).sum::<f64>().sqrt()
     };
-    let mut chosen = vec![0];
-    let mut nearest: Vec<f64> = front.iter().map(|value| apart(value, first)).collect();
-    while chosen.len() < points.min(front.len()) {
-        let farthest = (0..front.len()).max_by(|&a, &b| nearest[a].total_cmp(&nearest[b]));
-        let Some(farthest) = farthest.filter(|&k| nearest[k] > 0.0) else { break };
+    let from_taken = |value: &&Vec<f64>| {
+        taken.iter().map(|other| apart(value, other)).fold(f64::INFINITY, f64::min)
+    };
+    let mut nearest: Vec<f64> = front.iter().map(from_taken).collect();
+    let mut chosen: Vec<usize> = Vec::new();
+    while chosen.len() < count {
+        // Of equals the first: nothing is taken at the beginning, and all are as far from that.
+        let farther = |a: usize, b: usize| if nearest[b] > nearest[a] { b } else { a };
+        let farthest = (0..front.len()).reduce(farther).filter(|&k| nearest[k] > NARROW);
+        let Some(farthest) = farthest else { break };
         chosen.push(farthest);
         for (distance, value) in nearest.iter_mut().zip(&front) {
             *distance = distance.min(apart(value, front[farthest]));

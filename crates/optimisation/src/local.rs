@@ -62,6 +62,8 @@ pub(crate) struct Effort {
     pub looks: u64,
     /// Pieces of coverage that a climb goes through.
     pub pieces: usize,
+    /// Whether a climb that begins where something is missed makes the largest shortfall small, and leaves the objective.
+    pub is_elastic: bool,
     /// Rounds.
     pub rounds: usize,
     /// First step along ridges and without derivatives, a share of the intervals.
@@ -76,8 +78,15 @@ impl Effort {
     /// A few steps along derivatives, which tell regions that are worth more.
     pub const PROBE: Self = Self { looks: 4, pieces: 1, ..Self::CLIMB };
     /// Along derivatives alone.
-    pub const CLIMB: Self =
-        Self { looks: 15, pieces: 2, rounds: 0, reach: 0.0, ridge: 0, polish: 0 };
+    pub const CLIMB: Self = Self {
+        looks: 15,
+        pieces: 2,
+        is_elastic: false,
+        rounds: 0,
+        reach: 0.0,
+        ridge: 0,
+        polish: 0,
+    };
     /// To the end.
     pub const WHOLE: Self =
         Self { rounds: ROUNDS, reach: 0.06, ridge: 20, polish: 8, ..Self::CLIMB };

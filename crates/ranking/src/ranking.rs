@@ -4,6 +4,7 @@ mod columns;
 mod contenders;
 
 use std::collections::BTreeMap;
+use std::fs::File;
 use std::path::Path;
 
 use rayon::prelude::*;
@@ -334,14 +335,14 @@ fn best(contenders: &Contenders, weights: Weights) -> usize {
 }
 
 /// Writes the tables of `ranking`, with the ranking itself by its weights, and what it goes by, to `folder`; returns the
-/// names of the files. Without four criteria there are no tables for all weights.
+/// names of the files, and the lock of the folder, for whoever reads them again. Without four criteria there are no tables for all weights.
 ///
 /// # Errors
 /// If the folder or the disk does not take them.
 pub fn write_ranking(
     folder: &Path,
     ranking: &Ranking<'_>,
-) -> Result<Vec<&'static str>, OutputError> {
+) -> Result<(Vec<&'static str>, File), OutputError> {
     let folder = RunFolder::new(folder);
     // Removes the earlier tables: those for all weights would outlive a change of the criteria.
     let claim = Claim::take(&folder, Maker::Ranking)?;
@@ -371,20 +372,23 @@ pub fn write_ranking(
         )?;
         files.splice(2..2, [winners, quaternary]);
     }
-    claim.state(&files)?;
-    Ok(files)
+    let lock = claim.state(&files)?;
+    Ok((files, lock))
 }
 
 /// Writes what a ranking that no design meets goes by to `folder`, and takes an earlier ranking away; returns the name of the
-/// file.
+/// file, and the lock of the folder.
 ///
 /// # Errors
 /// If the folder or the disk does not take it.
-pub fn write_unmet(folder: &Path, preferences: &Preferences) -> Result<&'static str, OutputError> {
+pub fn write_unmet(
+    folder: &Path,
+    preferences: &Preferences,
+) -> Result<(&'static str, File), OutputError> {
     let folder = RunFolder::new(folder);
     let claim = Claim::take(&folder, Maker::Ranking)?;
     // Kept although no design meets them: the page of the run opens with these requirements.
     folder.write_text(RunFolder::PREFERENCES, &preferences.to_toml())?;
-    claim.state(&[RunFolder::PREFERENCES])?;
-    Ok(RunFolder::PREFERENCES)
+    let lock = claim.state(&[RunFolder::PREFERENCES])?;
+    Ok((RunFolder::PREFERENCES, lock))
 }

@@ -121,8 +121,10 @@ pub fn rank(arguments: &Arguments) -> anyhow::Result<u8> {
 
 fn ranked(arguments: &Arguments, results: &Results, ranking: &Ranking<'_>) -> anyhow::Result<u8> {
     let folder = arguments.out.as_deref().unwrap_or(results.folder());
-    let files = ranking::write_ranking(folder, ranking)?;
+    // Held until the files are noted: another ranking would remove them in between.
+    let (files, lock) = ranking::write_ranking(folder, ranking)?;
     derived::note(results.verified_folder(), RunFolder::RANKING_RECORD, folder, &files)?;
+    drop(lock);
     let changes = gap_changes(results, ranking);
     let couplings = couplings(results, ranking);
     let top = arguments.top as usize;
@@ -145,8 +147,9 @@ fn none_meets(
 ) -> anyhow::Result<u8> {
     let folder = arguments.out.as_deref().unwrap_or(results.folder());
     // Preferences alone are kept: an earlier ranking would pass for one by these requirements.
-    let file = ranking::write_unmet(folder, preferences)?;
+    let (file, lock) = ranking::write_unmet(folder, preferences)?;
     derived::note(results.verified_folder(), RunFolder::RANKING_RECORD, folder, &[file])?;
+    drop(lock);
     let (record, text) =
         (|| unmet_record(results, unmet), || unmet_report(results, preferences, unmet));
     json::answer(arguments.json, record, text, (folder, &[file]))?;

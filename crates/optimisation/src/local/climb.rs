@@ -11,7 +11,7 @@ use sweep::Measure;
 
 use super::problem::LocalProblem;
 use super::{Effort, LocalSearch};
-use crate::candidate::SearchStage;
+use crate::candidate::{Merit, SearchStage};
 use crate::evaluations::Halt;
 use crate::slopes::Slopes;
 use crate::tooth::Tooth;
@@ -47,10 +47,15 @@ impl LocalSearch<'_> {
     }
 
     fn climb_in(&self, piece: Option<Tooth>, effort: Effort) -> Result<(), Halt> {
-        let Some(problem) = LocalProblem::new(self, SearchStage::Gradient, piece) else {
+        // As long as something is missed: a climb that keeps to all else ends where the last limits that it can keep meet.
+        let is_elastic = effort.is_elastic && matches!(self.best_merit(), Merit::Short(_));
+        let Some(problem) = LocalProblem::new(self, SearchStage::Gradient, piece, is_elastic)
+        else {
             return Ok(());
         };
-        let start = SelectedFirstOrderState::new(self.best_shares());
+        let missed = problem.upper.get(self.best_shares().len()).copied();
+        let start =
+            SelectedFirstOrderState::new(self.best_shares().into_iter().chain(missed).collect());
         let solver = Slsqp::new().with_absolute_accuracy_tolerance(ACCURACY);
         let most = effort.looks * self.best_shares().len() as u64;
         match Executor::new(problem, solver, start).max_cost_evals(most).run() {
@@ -71,7 +76,10 @@ impl CostFunction for LocalProblem<'_> {
     fn cost(&self, shares: &Vec<f64>) -> Result<f64, Halt> {
         let looked = self.look(shares)?;
         // What cannot be judged is worse than anything that can.
-        Ok(looked.map_or(f64::INFINITY, |looked| self.cost_of(&looked.worth)))
+        Ok(looked.map_or(f64::INFINITY, |looked| match self.missed(shares) {
+            Some(missed) => missed,
+            None => self.cost_of(&looked.worth),
+        }))
     }
 }
 
@@ -79,6 +87,9 @@ impl Gradient for LocalProblem<'_> {
     type Gradient = Vec<f64>;
 
     fn gradient(&self, shares: &Vec<f64>) -> Result<Vec<f64>, Halt> {
+        if self.is_elastic {
+            return Ok((1..=shares.len()).map(|k| f64::from(k == shares.len())).collect());
+        }
         let looked = self.look(shares)?;
         // Without a derivative there is no way to go: SLSQP ends at a number that is not finite.
         let gradient = looked.and_then(|l| self.cost_gradient(shares, &l, Slopes::uphill));
@@ -111,7 +122,10 @@ impl NonlinearInequalityValues for LocalProblem<'_> {
     ) -> Result<Vec<f64>, ConstraintSolveError<Halt>> {
         // As for the cost: what cannot be judged keeps to no limit.
         let none = || vec![f64::INFINITY; self.limit_count()];
-        Ok(self.look(shares)?.map_or_else(none, |looked| self.limits(&looked)))
+        let mut limits = self.look(shares)?.map_or_else(none, |looked| self.limits(&looked));
+        let asked = limits.iter_mut().take(self.asked_count());
+        asked.for_each(|limit| *limit -= self.missed(shares).unwrap_or(0.0));
+        Ok(limits)
     }
 }
 
@@ -126,8 +140,9 @@ impl ConstraintJacobian for LocalProblem<'_> {
     ) -> Result<DenseMatrix, ConstraintSolveError<Halt>> {
         let looked = self.look(shares)?;
         let row = |k| {
-            let looked = looked.as_ref()?;
-            self.limit_gradient(k, shares, looked, Slopes::uphill)
+            let mut row = self.limit_gradient(k, shares, looked.as_ref()?, Slopes::uphill)?;
+            row.extend(self.missed(shares).map(|_| -f64::from(k < self.asked_count())));
+            Some(row)
         };
         let none = || vec![f64::NAN; shares.len()];
         let rows = (0..self.limit_count()).flat_map(|k| row(k).unwrap_or_else(none));

@@ -2,6 +2,7 @@
 //! intervals.
 
 use std::cell::RefCell;
+use std::iter;
 
 use ranking::Worth;
 use results::DesignResult;
@@ -63,6 +64,8 @@ pub(super) struct LocalProblem<'a> {
     stays_open: bool,
     /// The piece of coverage in which the search stays.
     tooth: Option<Tooth>,
+    /// Whether the shares end with one more variable, by which requirements and floors may be missed, and which is the cost.
+    pub is_elastic: bool,
     /// Where it looked last, and how often in a row it has hardly moved.
     still: RefCell<(Vec<f64>, usize)>,
     pub lower: Vec<f64>,
@@ -83,6 +86,7 @@ impl<'a> LocalProblem<'a> {
         walk: &'a LocalSearch<'a>,
         stage: SearchStage,
         tooth: Option<Tooth>,
+        is_elastic: bool,
     ) -> Option<Self> {
         let best = walk.best.borrow();
         let Judgement::Judged(worth) = &best.verdict else { return None };
@@ -95,14 +99,19 @@ impl<'a> LocalProblem<'a> {
             scale: if value > 0.0 { CostScale::Logarithm } else { CostScale::Linear(value.abs()) },
             stays_open: walk.search.judge.is_about(Measure::Flexure) && is_open(&best.result),
             tooth,
+            is_elastic,
             still: RefCell::default(),
-            lower: vec![0.0; count],
-            upper: vec![1.0; count],
+            lower: vec![0.0; count + usize::from(is_elastic)],
+            // Nobody goes where more is missed than at the start.
+            upper: iter::repeat_n(1.0, count)
+                .chain(is_elastic.then(|| worth.shortfall()))
+                .collect(),
         })
     }
 
     /// The design at some shares, with its derivatives.
     pub fn look(&self, shares: &[f64]) -> Result<Option<Looked>, Halt> {
+        let shares = &shares[..self.walk.search.space.intervals().len()];
         let (mut candidate, mut row) = self.walk.at(self.stage, shares, true)?;
         // Of the design as it is: continued beyond a border it may keep limits that it breaks.
         let met = matches!(self.walk.search.merit(&candidate, self.walk.target), Merit::Met(_));
@@ -146,12 +155,20 @@ impl<'a> LocalProblem<'a> {
         if cost.is_finite() { cost } else { f64::INFINITY }
     }
 
+    /// By how much a requirement or a floor may be missed at some shares.
+    pub fn missed(&self, shares: &[f64]) -> Option<f64> {
+        shares.last().copied().filter(|_| self.is_elastic)
+    }
+
+    /// The number of requirements and floors, which come first among the limits.
+    pub fn asked_count(&self) -> usize {
+        self.walk.search.judge.requirements().count() + self.walk.target.floors.len()
+    }
+
     /// The number of limits: requirements, floors, borders of the piece, and room in bending.
     pub fn limit_count(&self) -> usize {
-        let floors = self.walk.target.floors.len();
         let borders = self.tooth.map_or(0, |_| Tooth::BORDERS);
-        let required = self.walk.search.judge.requirements().count();
-        required + floors + borders + usize::from(self.stays_open)
+        self.asked_count() + borders + usize::from(self.stays_open)
     }
 
     /// How far a design is beyond each limit; not above 0 where it keeps to it.

@@ -166,16 +166,32 @@ fn a_front_goes_from_one_end_to_the_other() {
 }
 
 #[test]
+fn a_front_of_three_objectives_has_as_many_points_as_were_asked_for() {
+    let text = "maximize = ['coverage', 'gap_over_t']\nminimize = 'slant_deg'\npoints = 24";
+    let found = found(&goal(text));
+    let Answer::Front(front) = &found.answer else { panic!("a front") };
+    assert_eq!(front.designs.len(), 24, "{} {}", front.same, front.beaten);
+    for best in &front.designs {
+        let [coverage, gap, slant] = *objectives(best) else { panic!("three") };
+        // On the first peak of coverage, or before it, where scales hide no more than (S − d)/S.
+        let reach = slant.to_radians().tan();
+        let most = (1.0 - gap / reach).max(0.0).min(1.0 / (1.0 + gap));
+        assert!((coverage - most).abs() < 1e-6, "{coverage} of {most} at {gap} {slant}");
+    }
+}
+
+#[test]
 fn where_nothing_meets_the_requirements_the_nearest_is_told() {
-    let found = found(&goal(
-        "maximize = 'gap_over_t'\nrequire = ['coverage >= 0.9', 'areal_mass_kg_m2 <= 0.8']",
-    ));
-    let Answer::Infeasible(Some(nearest)) = found.answer else { panic!("no design") };
-    let Judgement::Judged(worth) = &found.history[nearest].verdict else { panic!("judged") };
-    // Coverage is at most the mass here, so both fall short alike: 0.9 (1 − s) = 0.8 (1 + s).
-    let shortfall = 0.1 / 1.7;
-    let largest = worth.shortfall();
-    assert!((largest - shortfall).abs() < 1e-4, "{largest}");
+    for seed in [0, 1] {
+        let found = found(&goal(&format!(
+            "maximize = 'gap_over_t'\nrequire = ['coverage >= 0.9', 'areal_mass_kg_m2 <= 0.8']\nseed = {seed}",
+        )));
+        let Answer::Infeasible(Some(nearest)) = found.answer else { panic!("no design") };
+        let Judgement::Judged(worth) = &found.history[nearest].verdict else { panic!("judged") };
+        // Coverage is at most the mass here, so both fall short alike: 0.9 (1 − s) = 0.8 (1 + s).
+        let shortfall = 0.1 / 1.7;
+        assert!((worth.shortfall() - shortfall).abs() < 1e-9, "{}", worth.shortfall());
+    }
 }
 
 /// The best critical force in the paper's box with these requirements, as far as a search of a few hundred designs finds it.
@@ -342,6 +358,25 @@ fn what_is_no_journal_is_left_alone() {
     std::fs::remove_file(&journal).expect("a link");
     std::os::unix::fs::symlink("/dev/zero", &journal).expect("a link");
     assert!(refused(folder.path(), &goal, Start::Resume).contains("is not a regular file"));
+}
+
+#[test]
+fn the_nearest_design_does_not_depend_on_the_seed() {
+    let shortfall = |seed: usize| {
+        let text = format!(
+            "name = 'x'\nmeasures = ['coverage', 'puncture']\npuncture.scales = 15\n[variables]\ngap_over_t = {{ from = 0.1, to = 0.4 }}\n\
+             length_over_t = {{ from = 0.1, to = 0.6 }}\nslant_deg = {{ from = 60, to = 75 }}\n[goal]\nmaximize = 'critical_force'\n\
+             require = ['coverage >= 0.8', 'critical_force >= 10']\nsamples = 32\nseed = {seed}"
+        );
+        let found = found(&DesignGoal::parse(&text, "x.toml", &[]).expect("a goal"));
+        let Answer::Infeasible(Some(nearest)) = found.answer else { panic!("no design") };
+        let Judgement::Judged(worth) = &found.history[nearest].verdict else { panic!("judged") };
+        worth.shortfall()
+    };
+    let [one, other] = [0, 1].map(shortfall);
+    // Force, soundness and the end of an interval meet there: steps without derivatives came to within 5e-11 of it,
+    // and with the rows that designs of this size need to within 3 %.
+    assert!((one / other - 1.0).abs() < 1e-13, "{one} {other}");
 }
 
 /// The strongest of the 720 designs of the reference study that meets the requirements of a goal is not as good as what a search

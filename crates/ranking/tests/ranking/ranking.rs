@@ -123,7 +123,11 @@ fn the_tables_of_a_ranking() {
     write_results(folder.path(), 4, Criteria::Independent, 0);
     let results = Results::read(folder.path()).expect("results");
     let ranking = Ranking::new(&results, grid("5")).expect("a ranking");
-    let files = write_ranking(folder.path(), &ranking).expect("writable");
+    let (files, lock) = write_ranking(folder.path(), &ranking).expect("writable");
+    // Whoever notes the files holds them: another ranking would remove them in between.
+    let refused = write_ranking(folder.path(), &ranking).expect_err("held").to_string();
+    assert!(refused.contains("another squama is writing there"), "{refused}");
+    drop(lock);
     let table = |file: &str| std::fs::read_to_string(folder.path().join(file)).expect("a table");
     let headers = files.iter().filter(|file| **file != "ranking.toml");
     let headers =
@@ -307,7 +311,11 @@ fn what_a_ranking_goes_by_stands_beside_its_tables() {
     write_ranking(folder.path(), &by(&results, "").expect("a ranking")).expect("writable");
     let own = "criteria = ['min:critical_force']\nrequirements = ['coverage > 0.1']";
     let ranking = by(&results, own).expect("a ranking");
-    let files = write_ranking(folder.path(), &ranking).expect("writable");
+    let (files, lock) = write_ranking(folder.path(), &ranking).expect("writable");
+    // Whoever notes the files holds them: another ranking would remove them in between.
+    let refused = write_ranking(folder.path(), &ranking).expect_err("held").to_string();
+    assert!(refused.contains("another squama is writing there"), "{refused}");
+    drop(lock);
     assert_eq!(files, ["ranking.csv", "pareto.csv", "ranking.toml"]);
     assert!(!folder.path().join("quaternary.csv").exists(), "that of other criteria is gone");
     let verified = VerifiedFolder::open(folder.path(), Completeness::Whole).expect("a folder");

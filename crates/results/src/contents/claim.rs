@@ -18,7 +18,7 @@ pub struct Claim<'f> {
     maker: Maker,
     made: Derivation,
     // Held as long as the claim: the system gives it back when the file is closed.
-    _lock: File,
+    lock: File,
 }
 
 impl<'f> Claim<'f> {
@@ -61,7 +61,7 @@ impl<'f> Claim<'f> {
         let (from, files) = (String::new(), names.collect());
         let made = Derivation { product, command, from, made_from: None, files };
         made.write(folder, maker.key())?;
-        Ok(Self { folder, maker, made, _lock: lock })
+        Ok(Self { folder, maker, made, lock })
     }
 
     /// Claims one more file.
@@ -75,11 +75,12 @@ impl<'f> Claim<'f> {
         self.made.write(self.folder, self.maker.key())
     }
 
-    /// States that `files` were written, and no other: one of an earlier time that somebody has changed is his.
+    /// States that `files` were written, and no other: one of an earlier time that somebody has changed is his. Returns the lock of the
+    /// folder, for whoever has more to do with the files before another command may remove them.
     ///
     /// # Errors
     /// If a file cannot be read, or the disk does not take the record.
-    pub fn state(mut self, files: &[impl AsRef<str>]) -> Result<(), OutputError> {
+    pub fn state(mut self, files: &[impl AsRef<str>]) -> Result<File, OutputError> {
         let folder = self.folder;
         self.made.files.retain(|name, _| files.iter().any(|file| file.as_ref() == name));
         for (name, digest) in &mut self.made.files {
@@ -89,7 +90,7 @@ impl<'f> Claim<'f> {
         }
         self.made.write(folder, self.maker.key())?;
         folder.sync();
-        Ok(())
+        Ok(self.lock)
     }
 
     /// Removes the files of `maker` in `folder` that are as they were written, and its record.

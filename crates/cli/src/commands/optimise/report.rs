@@ -163,10 +163,7 @@ impl SearchReport<'_> {
                 (front.same, "led to the design of another: the front has a step there"),
                 (front.beaten, "led to a design that another beats"),
                 (front.empty, "led to no design"),
-                (
-                    front.left_out(asked),
-                    "left out: only wide gaps of a front of two objectives get more",
-                ),
+                (front.left_out(asked), "left out: the front has no wide gap"),
             ];
             let of = |(count, why): &(usize, &str)| {
                 (*count > 0).then(|| format!("{} {why}", counted(*count as u64, "point")))
