@@ -17,8 +17,15 @@ const REFILLS: usize = 3;
 /// A floor is inside a gap if it is this share of it beyond its beginning: a design keeps its own floor by a little more than it must.
 const INSIDE: f64 = 1e-3;
 
-/// Objectives that differ by less than this part are equal: a floor is kept to within as much.
+/// An objective that is worse by less than this part is as good: a floor is kept to within as much.
 const EQUAL: f64 = 1e-9;
+
+/// Designs of which all objectives differ by less than this part are one point: tables show six digits.
+const SAME: f64 = 1e-6;
+
+/// The ends of a front are looked for this share of it inside: designs that are the best in one objective to the last digit may be a line
+/// without width, along which no search can step.
+const BESIDE: f64 = 1e-6;
 
 /// A gap below this share of the front needs no point: its ends look the same.
 const NARROW: f64 = 1e-3;
@@ -98,7 +105,7 @@ fn between(front: &[Vec<f64>], targets: &[Target], count: usize) -> Vec<Target> 
     let gap = |pair: &[Vec<f64>]| {
         let parts = [0, 1].map(|k| scales[k].share(pair[0][k]) - scales[k].share(pair[1][k]));
         let spacing = Spacing::between(pair[0][1], pair[1][1]);
-        let floors = targets.iter().flat_map(|target| &target.floors);
+        let floors = targets.iter().flat_map(|target| &target.floors).filter(|(k, _)| *k == 1);
         let places = floors.map(|(_, floor)| spacing.share(*floor));
         let untried = places.filter(|place| *place > INSIDE).fold(1.0, f64::min);
         (untried * parts[0].hypot(parts[1]), spacing.at(0.5 * untried))
@@ -126,14 +133,7 @@ impl Spacing {
     /// The value at a share of the way.
     fn at(self, share: f64) -> f64 {
         let [from, to] = self.ends;
-        // Ends are taken as they are: a power or a sum would miss them by rounding, and a floor there would rule out
-        // the design that set it.
-        let is_end = share <= 0.0 || share >= 1.0;
-        match self.logarithmic {
-            _ if is_end => self.ends[usize::from(share >= 1.0)],
-            true => from * (to / from).powf(share),
-            false => from + (to - from) * share,
-        }
+        if self.logarithmic { from * (to / from).powf(share) } else { from + (to - from) * share }
     }
 
     /// The share of the way at which a value is.
@@ -213,16 +213,16 @@ fn designs(search: &Search<'_>, history: &[Candidate], targets: &[Target]) -> Re
     Ok(front)
 }
 
-/// Whether objectives are the same but for round-off.
+/// Whether objectives look the same.
 fn is_same(one: &[f64], other: &[f64]) -> bool {
-    one.iter().zip(other).all(|(a, b)| (a - b).abs() <= EQUAL * b.abs())
+    one.iter().zip(other).all(|(a, b)| (a - b).abs() <= SAME * b.abs())
 }
 
 /// Whether a point of a front beats another: it is better in an objective, and in none worse, but for round-off.
 fn beats(one: &[f64], other: &[f64]) -> bool {
     // Where two limits bind, a floor keeps points of one objective a last digit apart, and the worst of them would stay.
-    let size = |x: &f64| EQUAL * x.abs();
-    !is_same(one, other) && one.iter().zip(other).all(|(a, b)| *a >= b - size(b))
+    let pairs = || one.iter().zip(other).map(|(a, b)| (a - b, EQUAL * b.abs()));
+    pairs().all(|(gain, size)| gain >= -size) && pairs().any(|(gain, size)| gain > size)
 }
 
 /// The turned objectives of a design that meets every requirement.
@@ -235,9 +235,10 @@ fn turned(search: &Search<'_>, candidate: &Candidate) -> Option<Vec<f64>> {
 /// The first targets of a front: its ends, and floors between them.
 fn first_targets(search: &Search<'_>, history: &[Candidate], points: usize) -> Vec<Target> {
     let values: Vec<Vec<f64>> = history.iter().filter_map(|c| turned(search, c)).collect();
-    let is_curve = search.judge.objectives() == 2;
-    let floors = if is_curve { even(&values, points) } else { spread(&values, &[], points) };
-    floors.into_iter().map(target).collect()
+    if search.judge.objectives() == 2 {
+        return curve(&values, points);
+    }
+    spread(&values, &[], points).into_iter().map(target).collect()
 }
 
 /// The target with these floors of all objectives but the first.
@@ -249,19 +250,17 @@ fn target(floors: Vec<f64>) -> Target {
     }
 }
 
-/// Floors of the second of two objectives, from where the first is the best to where the second is.
-fn even(values: &[Vec<f64>], points: usize) -> Vec<Vec<f64>> {
-    let end = |k: usize| {
-        let better = |a: &&Vec<f64>, b: &&Vec<f64>| {
-            // Of designs alike in one objective the better in the other: a floor at the worse one would only be met
-            // by what is beaten.
-            a[k].total_cmp(&b[k]).then(a[1 - k].total_cmp(&b[1 - k]))
-        };
-        values.iter().max_by(better).map_or(f64::NAN, |value| value[1])
-    };
-    let spacing = Spacing::between(end(0), end(1));
+/// The ends of a front of two objectives, and floors of the second from where the first is the best to where the second is.
+fn curve(values: &[Vec<f64>], points: usize) -> Vec<Target> {
+    let end = |k: usize| values.iter().max_by(|a, b| a[k].total_cmp(&b[k]));
+    let Some((first, last)) = end(0).zip(end(1)) else { return Vec::new() };
+    let between = |k: usize| Spacing::between(first[k], last[k]);
+    // At an end the other objective counts: many designs may be the best in one.
+    let first_end = Target { objective: 1, floors: vec![(0, between(0).at(BESIDE))] };
+    let last_end = target(vec![between(1).at(1.0 - BESIDE)]);
     let share = |k: usize| k as f64 / (points - 1) as f64;
-    (0..points).map(|k| vec![spacing.at(share(k))]).collect()
+    let inner = (1..points - 1).map(|k| target(vec![between(1).at(share(k))]));
+    [first_end].into_iter().chain(inner).chain([last_end]).collect()
 }
 
 /// Floors of all objectives but the first at designs that none beats, as far from each other and from `taken` as can be.
