@@ -13,6 +13,10 @@ use crate::tooth::Tooth;
 /// A distance between two starts, a share of the intervals, at least.
 const APART: f64 = 0.12;
 
+/// The part of its limit by which a start may miss a requirement or a floor and count as one that meets it: a climb ends some 1e-8 beyond limits
+/// between which there is next to no room, as between `coverage >= 0.6` and `compliance >= 0.4`.
+const NEARLY: f64 = 1e-6;
+
 /// A best design.
 #[derive(Clone, Debug)]
 pub struct BestDesign {
@@ -61,7 +65,7 @@ pub(crate) fn starts<'c>(
     target: &Target,
     count: usize,
 ) -> Vec<Candidate> {
-    let judged = history.into_iter().map(|candidate| (search.merit(candidate, target), candidate));
+    let judged = history.into_iter().map(|c| (search.merit_within(c, target, NEARLY), c));
     let mut order: Vec<(Merit, &Candidate)> =
         judged.filter(|(merit, _)| *merit != Merit::None).collect();
     order.sort_by(|(a, _), (b, _)| b.compare(*a));

@@ -64,6 +64,13 @@ pub(crate) fn search(
     let mut targets = first_targets(search, history, points.div_ceil(2).max(2).min(points));
     improve(search, history, &targets, plan.of_a_point())?;
     let mut front = rescaled_front(search, history, &targets)?;
+    if let Some(ends) = ends(search, &front.designs) {
+        improve(search, history, &ends, plan.between_points())?;
+        let last = targets.len() - 1;
+        let [first_end, last_end] = ends;
+        (targets[0], targets[last]) = (first_end, last_end);
+        front = rescaled_front(search, history, &targets)?;
+    }
     for _ in 0..REFILLS {
         let more = more_targets(search, history, &front.designs, &targets, points);
         if more.is_empty() {
@@ -74,6 +81,17 @@ pub(crate) fn search(
         front = rescaled_front(search, history, &targets)?;
     }
     Ok(front)
+}
+
+/// The targets of the ends themselves, from what was found beside them: each objective is made as large as can be while the other keeps what it
+/// has there, but for what looks the same.
+fn ends(search: &Search<'_>, designs: &[BestDesign]) -> Option<[Target; 2]> {
+    let values = |design: &BestDesign| turned(search, &design.candidate);
+    let (first, last) = (values(designs.first()?)?, values(designs.last()?)?);
+    let beyond = |k: usize, from: &[f64], to: &[f64]| Spacing::between(from[k], to[k]).at(-NARROW);
+    let end = |objective, floor| Target { objective, floors: vec![(1 - objective, floor)] };
+    let floors = [beyond(1, &first, &last), beyond(0, &last, &first)];
+    (first.len() == 2 && designs.len() > 1).then(|| [end(0, floors[0]), end(1, floors[1])])
 }
 
 /// Targets for the points that a front still lacks: in the widest gaps of a curve, or else at those known designs of a surface that are the

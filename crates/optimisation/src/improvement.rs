@@ -3,7 +3,7 @@
 use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
 
 use crate::best::starts;
-use crate::candidate::{Candidate, Merit, Target};
+use crate::candidate::{Candidate, Target};
 use crate::evaluations::Halt;
 use crate::local::{Effort, Search};
 
@@ -48,31 +48,22 @@ pub(crate) fn improved(
     plan: Plan,
 ) -> Result<Vec<Candidate>, Halt> {
     let mut looked: Vec<Candidate> = Vec::new();
-    // Until something meets all: first for the objective, then for what is missed alone, and once more for the objective.
-    for is_elastic in [false, true, false] {
-        // Many a little, some more, few to the end: a few steps tell which regions are worth the rest.
-        let stages = [
-            (plan.regions, if is_elastic { Effort::CLIMB } else { Effort::PROBE }),
-            (plan.starts, Effort::CLIMB),
-            (plan.finalists, Effort::WHOLE),
-        ];
-        for (count, effort) in stages {
-            // Each knows only its own start, so that what is found does not depend on which ends first.
-            let starts = starts(search, history.iter().chain(&looked), target, count);
-            let walks = starts.into_par_iter().map(|start| {
-                let walk = search.improve(target, &start, Effort { is_elastic, ..effort });
-                search.meter.step();
-                walk
-            });
-            let walks: Vec<_> = walks.collect::<Result<_, _>>()?;
-            looked.extend(walks.into_iter().flatten());
-        }
-        let is_met = |c: &Candidate| matches!(search.merit(c, target), Merit::Met(_));
-        let is_found = history.iter().chain(&looked).any(is_met);
-        // Floors are kept by a design that is known: without one the front has a gap there.
-        if is_found != is_elastic || !target.floors.is_empty() {
-            break;
-        }
+    // Many a little, some more, few to the end: a few steps tell which regions are worth the rest.
+    let stages = [
+        (plan.regions, Effort::PROBE),
+        (plan.starts, Effort::CLIMB),
+        (plan.finalists, Effort::WHOLE),
+    ];
+    for (count, effort) in stages {
+        // Each knows only its own start, so that what is found does not depend on which ends first.
+        let starts = starts(search, history.iter().chain(&looked), target, count);
+        let walks = starts.into_par_iter().map(|start| {
+            let walk = search.improve(target, &start, effort);
+            search.meter.step();
+            walk
+        });
+        let walks: Vec<_> = walks.collect::<Result<_, _>>()?;
+        looked.extend(walks.into_iter().flatten());
     }
     Ok(looked)
 }

@@ -62,8 +62,6 @@ pub(crate) struct Effort {
     pub looks: u64,
     /// Pieces of coverage that a climb goes through.
     pub pieces: usize,
-    /// Whether a climb that begins where something is missed makes the largest shortfall small, and leaves the objective.
-    pub is_elastic: bool,
     /// Rounds.
     pub rounds: usize,
     /// First step along ridges and without derivatives, a share of the intervals.
@@ -78,15 +76,8 @@ impl Effort {
     /// A few steps along derivatives, which tell regions that are worth more.
     pub const PROBE: Self = Self { looks: 4, pieces: 1, ..Self::CLIMB };
     /// Along derivatives alone.
-    pub const CLIMB: Self = Self {
-        looks: 15,
-        pieces: 2,
-        is_elastic: false,
-        rounds: 0,
-        reach: 0.0,
-        ridge: 0,
-        polish: 0,
-    };
+    pub const CLIMB: Self =
+        Self { looks: 15, pieces: 2, rounds: 0, reach: 0.0, ridge: 0, polish: 0 };
     /// To the end.
     pub const WHOLE: Self =
         Self { rounds: ROUNDS, reach: 0.06, ridge: 20, polish: 8, ..Self::CLIMB };
@@ -131,12 +122,18 @@ impl Search<'_> {
 
     /// The merit of a design under a target.
     pub fn merit(&self, candidate: &Candidate, target: &Target) -> Merit {
+        self.merit_within(candidate, target, 0.0)
+    }
+
+    /// The merit of a design that may miss requirements and floors by the part `slack` of their limits.
+    pub fn merit_within(&self, candidate: &Candidate, target: &Target, slack: f64) -> Merit {
         let Judgement::Judged(worth) = &candidate.verdict else { return Merit::None };
         let turned = |k: usize| self.judge.sign(k) * worth.objectives[k];
         let short = target.floors.iter().map(|&(k, floor)| (floor - turned(k)) / floor_size(floor));
         let floors = short.fold(0.0, f64::max);
+        let is_met = worth.met || worth.shortfall() < slack;
         // A floor is kept but for round-off, as a requirement is.
-        if worth.met && floors <= 1e-9 {
+        if is_met && floors <= slack.max(1e-9) {
             return Merit::Met(
                 self.judge.sign(target.objective) * worth.compared[target.objective],
             );

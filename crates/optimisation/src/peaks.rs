@@ -13,7 +13,7 @@ use crate::space::{DesignSpace, SpacePoint};
 use crate::tooth::{self, COMPLIANCES, open_share};
 
 /// Points from which peaks are looked for.
-const POINTS: usize = 256;
+const POINTS: usize = 512;
 
 /// Points on each peak that are solved.
 const EACH: usize = 6;

@@ -20,16 +20,29 @@ use crate::tooth::Tooth;
 const ACCURACY: f64 = 1e-11;
 
 impl LocalSearch<'_> {
+    /// Climbs from the best design; where that does not come to meet all, for what is missed alone, and then for the objective again.
+    pub(super) fn climb(&self, effort: Effort) -> Result<(), Halt> {
+        let is_short = || matches!(self.best_merit(), Merit::Short(_));
+        self.climb_for(effort, false)?;
+        if is_short() {
+            self.climb_for(effort, true)?;
+            if !is_short() {
+                self.climb_for(effort, false)?;
+            }
+        }
+        Ok(())
+    }
+
     /// Climbs from the best design, in one smooth piece of coverage after the other as long as the best stands on a border; what it
     /// comes by is noted.
-    pub(super) fn climb(&self, effort: Effort) -> Result<(), Halt> {
+    fn climb_for(&self, effort: Effort, is_elastic: bool) -> Result<(), Halt> {
         let mut climbed: Vec<Option<Tooth>> = Vec::new();
         while climbed.len() < effort.pieces {
             // Asked anew for each climb: the best design may have come to a border, from where another piece goes on.
             let pieces = self.pieces();
             // No piece twice, or two that share a border would hand the best design to and fro.
             let Some(&piece) = pieces.iter().find(|piece| !climbed.contains(piece)) else { break };
-            self.climb_in(piece, effort)?;
+            self.climb_in(piece, effort, is_elastic)?;
             climbed.push(piece);
         }
         Ok(())
@@ -46,9 +59,7 @@ impl LocalSearch<'_> {
         Tooth::beside(&case).into_iter().map(Some).collect()
     }
 
-    fn climb_in(&self, piece: Option<Tooth>, effort: Effort) -> Result<(), Halt> {
-        // As long as something is missed: a climb that keeps to all else ends where the last limits that it can keep meet.
-        let is_elastic = effort.is_elastic && matches!(self.best_merit(), Merit::Short(_));
+    fn climb_in(&self, piece: Option<Tooth>, effort: Effort, is_elastic: bool) -> Result<(), Halt> {
         let Some(problem) = LocalProblem::new(self, SearchStage::Gradient, piece, is_elastic)
         else {
             return Ok(());

@@ -64,7 +64,7 @@ pub(super) struct LocalProblem<'a> {
     stays_open: bool,
     /// The piece of coverage in which the search stays.
     tooth: Option<Tooth>,
-    /// Whether the shares end with one more variable, by which requirements and floors may be missed, and which is the cost.
+    /// Whether the shares end with one more variable, by which requirements and floors may be missed, and which is the cost (O9).
     pub is_elastic: bool,
     /// Where it looked last, and how often in a row it has hardly moved.
     still: RefCell<(Vec<f64>, usize)>,
