@@ -45,13 +45,29 @@ impl Unmet {
     ) -> Result<Self, InvalidResults> {
         let filter = RequirementFilter::new(results, requirements)?;
         let rows = (0..results.len()).map(|row| filter.values(row));
-        Ok(Self::of_values(&rows.collect::<Result<Vec<_>, _>>()?, requirements))
+        let values = rows.collect::<Result<Vec<_>, _>>()?;
+        let sizes = requirements.iter().enumerate().map(|(k, r)| size(&values, k, r));
+        Ok(Self::by_sizes(&values, requirements, &sizes.collect::<Vec<_>>(), nearest))
     }
 
-    /// The obstacle to the requirements among designs with these `values` in their columns, none of which meets them together.
-    pub fn of_values(values: &[Vec<Option<f64>>], requirements: &[Requirement]) -> Self {
-        let sizes: Vec<f64> =
-            requirements.iter().enumerate().map(|(k, r)| size(values, k, r)).collect();
+    /// The obstacle to the requirements among designs with these `values` in their columns, none of which meets them together and of which
+    /// a search has found `nearest` to be that.
+    pub fn of_search(
+        values: &[Vec<Option<f64>>],
+        requirements: &[Requirement],
+        nearest: Option<usize>,
+    ) -> Self {
+        // The sizes that margins are relative to, by which the search went.
+        let sizes: Vec<f64> = requirements.iter().map(Requirement::size).collect();
+        Self::by_sizes(values, requirements, &sizes, |_| nearest)
+    }
+
+    fn by_sizes(
+        values: &[Vec<Option<f64>>],
+        requirements: &[Requirement],
+        sizes: &[f64],
+        nearest: impl Fn(&[Vec<f64>]) -> Option<usize>,
+    ) -> Self {
         let shortfalls = |row: &Vec<Option<f64>>| -> Vec<f64> {
             let one = |(k, value): (usize, &Option<f64>)| {
                 // What has no value in a required column is never the nearest.

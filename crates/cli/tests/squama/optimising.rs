@@ -79,6 +79,13 @@ fn an_answer_for_programs() {
     let output = place.squama(infeasible).assert().code(1).get_output().stdout.clone();
     let record: serde_json::Value = serde_json::from_slice(&output).expect("JSON");
     assert_eq!(record["infeasible"]["requirements"][0]["met"], 0);
+    let told = "optimise x.toml --json --out w --set measures=puncture --set puncture.scales=5 --set goal.samples=16 \
+        --set goal.maximize=['critical_force'] --set goal.minimize=[] --set goal.require=['gap_over_t>=0.5','critical_force>=0.5']";
+    let output = place.squama(told).assert().code(1).get_output().stdout.clone();
+    let record: serde_json::Value = serde_json::from_slice(&output).expect("JSON");
+    let infeasible = &record["infeasible"];
+    // The values that are told beside the requirements are those of the design that is told.
+    assert_eq!(infeasible["requirements"][0]["nearest"], infeasible["nearest"]["gap_over_t"]);
     // The design that comes nearest is a definition like that of the best.
     place.squama("run y/nearest.toml -q --out z").assert().code(0);
 }

@@ -81,7 +81,7 @@ fn infeasible(
     nearest: Option<usize>,
 ) -> Value {
     let requirements: Vec<Requirement> = words.requirements().into_iter().cloned().collect();
-    let unmet = unmet(goal, found, &requirements);
+    let unmet = unmet(goal, found, &requirements, nearest);
     let requirement = |r: &ranking::UnmetRequirement| {
         json!({
             "requirement": r.requirement.to_string(),

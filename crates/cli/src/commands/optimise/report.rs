@@ -205,7 +205,7 @@ impl SearchReport<'_> {
     fn infeasible(&self, nearest: Option<usize>) -> String {
         let words = Words::new(self.goal);
         let requirements: Vec<Requirement> = words.requirements().into_iter().cloned().collect();
-        let unmet = unmet(self.goal, self.found, &requirements);
+        let unmet = unmet(self.goal, self.found, &requirements, nearest);
         // Requirements of columns act within a yield, too: what is left without one, nobody has looked at.
         let obstacle =
             if self.goal.is_about_samples() { skins::shortfalls(&unmet) } else { obstacle(&unmet) };
@@ -219,7 +219,12 @@ impl SearchReport<'_> {
 }
 
 /// The obstacle to the requirements among all designs that were looked at: to those of what is drawn, if skins were made of none.
-pub fn unmet(goal: &DesignGoal, found: &Found, requirements: &[Requirement]) -> Unmet {
+pub fn unmet(
+    goal: &DesignGoal,
+    found: &Found,
+    requirements: &[Requirement],
+    nearest: Option<usize>,
+) -> Unmet {
     let has_skins = found.history.iter().any(|c| matches!(c.verdict, Judgement::Judged(_)));
     let is_told = |r: &&Requirement| has_skins || goal.statistic(&r.column).is_none();
     let requirements: Vec<Requirement> = requirements.iter().filter(is_told).cloned().collect();
@@ -236,5 +241,5 @@ pub fn unmet(goal: &DesignGoal, found: &Found, requirements: &[Requirement]) -> 
         }
         _ => vec![None; requirements.len()],
     };
-    Unmet::of_values(&found.history.iter().map(values).collect::<Vec<_>>(), &requirements)
+    Unmet::of_search(&found.history.iter().map(values).collect::<Vec<_>>(), &requirements, nearest)
 }
