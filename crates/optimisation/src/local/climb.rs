@@ -60,11 +60,15 @@ impl LocalSearch<'_> {
     }
 
     fn climb_in(&self, piece: Option<Tooth>, effort: Effort, is_elastic: bool) -> Result<(), Halt> {
-        let Some(problem) = LocalProblem::new(self, SearchStage::Gradient, piece, is_elastic)
-        else {
+        let missed = match self.best_merit() {
+            Merit::Short(missed) if is_elastic => Some(missed),
+            // An earlier piece has led to where nothing is missed.
+            _ if is_elastic => return Ok(()),
+            _ => None,
+        };
+        let Some(problem) = LocalProblem::new(self, SearchStage::Gradient, piece, missed) else {
             return Ok(());
         };
-        let missed = problem.upper.get(self.best_shares().len()).copied();
         let start =
             SelectedFirstOrderState::new(self.best_shares().into_iter().chain(missed).collect());
         let solver = Slsqp::new().with_absolute_accuracy_tolerance(ACCURACY);

@@ -81,12 +81,12 @@ pub(super) struct Looked {
 }
 
 impl<'a> LocalProblem<'a> {
-    /// The problem from the best design of `walk`; none if that cannot be judged.
+    /// The problem from the best design of `walk`, elastic if that misses something by `missed`; none if it cannot be judged.
     pub fn new(
         walk: &'a LocalSearch<'a>,
         stage: SearchStage,
         tooth: Option<Tooth>,
-        is_elastic: bool,
+        missed: Option<f64>,
     ) -> Option<Self> {
         let best = walk.best.borrow();
         let Judgement::Judged(worth) = &best.verdict else { return None };
@@ -99,13 +99,11 @@ impl<'a> LocalProblem<'a> {
             scale: if value > 0.0 { CostScale::Logarithm } else { CostScale::Linear(value.abs()) },
             stays_open: walk.search.judge.is_about(Measure::Flexure) && is_open(&best.result),
             tooth,
-            is_elastic,
+            is_elastic: missed.is_some(),
             still: RefCell::default(),
-            lower: vec![0.0; count + usize::from(is_elastic)],
+            lower: vec![0.0; count + usize::from(missed.is_some())],
             // Nobody goes where more is missed than at the start.
-            upper: iter::repeat_n(1.0, count)
-                .chain(is_elastic.then(|| worth.shortfall()))
-                .collect(),
+            upper: iter::repeat_n(1.0, count).chain(missed).collect(),
         })
     }
 

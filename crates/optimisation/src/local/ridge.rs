@@ -19,7 +19,7 @@ impl LocalSearch<'_> {
             return Ok(());
         }
         // In no piece of coverage: borders of pieces are ridges, and this search goes along them.
-        let Some(problem) = LocalProblem::new(self, SearchStage::Ridge, None, false) else {
+        let Some(problem) = LocalProblem::new(self, SearchStage::Ridge, None, None) else {
             return Ok(());
         };
         let smallest = SMALLEST.max(self.search.fineness().step).min(0.1 * reach);

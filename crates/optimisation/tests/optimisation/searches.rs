@@ -206,35 +206,36 @@ fn where_nothing_meets_the_requirements_the_nearest_is_told() {
     }
 }
 
-/// The best critical force in the paper's box with these requirements, as far as a search of a few hundred designs finds it.
-fn strongest(required: &str, seed: usize) -> f64 {
+/// The best critical force in the paper's box with these requirements, as far as a search of fewer than `most` designs finds it.
+fn strongest(required: &str, seed: usize, most: usize) -> f64 {
     let text = format!(
         "name = 'x'\nmeasures = ['coverage', 'puncture', 'flexure']\n[variables]\ngap_over_t = {{ from = 0.1, to = 1 }}\n\
          length_over_t = {{ from = 0.025, to = 1 }}\nslant_deg = {{ from = 0, to = 75 }}\n[goal]\n\
          maximize = 'critical_force'\nrequire = [{required}]\nsamples = 32\nseed = {seed}"
     );
     let found = found(&DesignGoal::parse(&text, "x.toml", &[]).expect("a goal"));
-    assert!(found.evaluations < 800, "{}", found.evaluations);
+    assert!(found.evaluations < most, "{}", found.evaluations);
     objectives(optimum(&found))[0]
 }
 
 #[test]
 fn a_design_that_only_a_peak_of_coverage_allows_is_found() {
     // Coverage is at most 1 − d/p and compliance d/p: both bind, at the peaks alone. A search that climbs one of a few found 0.493.
-    assert!(strongest("'coverage >= 0.7', 'compliance >= 0.3'", 0) >= 1.538);
+    assert!(strongest("'coverage >= 0.7', 'compliance >= 0.3'", 0, 600) >= 1.538);
 }
 
 #[test]
 fn the_best_of_all_slivers_of_coverage_is_found() {
     // Beside the seventh peak; a search that climbs one of a few found 1.816, beside the sixth.
-    assert!(strongest("'coverage >= 0.65', 'compliance >= 0.3'", 0) >= 1.982);
+    assert!(strongest("'coverage >= 0.65', 'compliance >= 0.3'", 0, 600) >= 1.982);
 }
 
 #[test]
 fn limits_that_leave_each_other_no_room_are_searched() {
     // Coverage and compliance both bind, at one length on each peak: half of the seeds came to 1.448, on the eighth, and not on the ninth.
     for seed in [2, 3] {
-        assert!(strongest("'coverage >= 0.6', 'compliance >= 0.4'", seed) >= 1.702, "{seed}");
+        let found = strongest("'coverage >= 0.6', 'compliance >= 0.4'", seed, 700);
+        assert!(found >= 1.702, "{seed}: {found}");
     }
 }
 
