@@ -10,6 +10,9 @@
 //! | `work` | work that can be interrupted and tells how far it is |
 //! | `value`, `error` | values and errors between the two languages |
 
+// What comes from Python is taken by value.
+#![allow(clippy::needless_pass_by_value)]
+
 mod error;
 mod gradient;
 mod many;
