@@ -187,7 +187,7 @@ fn curves_without_noise_give_back_what_they_were_made_of() {
 }
 
 /// How many trials are made with each noise, and for how long they are begun: with `SQUAMA_CAMPAIGNS=endless` a thousand, with `long` those
-/// of half a minute, else one of each kind.
+/// that can be begun in six seconds, else a few.
 fn campaign() -> (u64, Duration) {
     match std::env::var("SQUAMA_CAMPAIGNS").as_deref() {
         Ok("endless") => (1000, Duration::MAX),
