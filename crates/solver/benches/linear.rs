@@ -59,7 +59,7 @@ impl Problem {
         let starts: Vec<_> = (0..self.scales).map(|scale| BLOCK * scale).collect();
         let blocks = Blocks { links: starts.clone(), starts, root: self.scales - 1, reach: 1 };
         let mut matrix = BlockMatrix::default();
-        matrix.reshape(&blocks, self.rhs.len(), &[]);
+        matrix.reshape(&blocks, &vec![false; self.rhs.len()]);
         self.fill(&mut matrix);
         let mut elimination = BlockElimination::default();
         group.bench_function(BenchmarkId::new("block elimination", self.scales), |bencher| {
@@ -77,9 +77,10 @@ impl Problem {
         let mut matrix = BandMatrix::new(self.rhs.len(), HALF);
         self.fill(&mut matrix);
         let mut lu = BandLu::new(self.rhs.len(), HALF);
+        let none = vec![false; self.rhs.len()];
         group.bench_function(BenchmarkId::new("band LU", self.scales), |bencher| {
             bencher.iter(|| {
-                lu.factorise(black_box(&matrix)).expect("a regular matrix");
+                lu.factorise(black_box(&matrix), &none).expect("a regular matrix");
                 let mut x = self.rhs.clone();
                 lu.solve(&mut x);
                 x

@@ -82,9 +82,9 @@ pub(crate) type PartsMut<'a, const N: usize, const W: usize> =
     (&'a mut [[f64; N]; N], &'a mut [[f64; W]; N], &'a mut [[f64; W]; N]);
 
 impl BlockMatrix {
-    /// Gives the matrix a shape: that of `blocks` over `size` unknowns, without those that are `left_out`, in ascending order.
+    /// Gives the matrix a shape: that of `blocks`, without the unknowns that are `left_out`.
     /// Every entry is zero afterwards.
-    pub fn reshape(&mut self, blocks: &Blocks, size: usize, left_out: &[usize]) {
+    pub fn reshape(&mut self, blocks: &Blocks, left_out: &[bool]) {
         self.root = blocks.root;
         // One of two widths, so that elimination knows it as a constant.
         self.reach = if blocks.reach > 1 { FARTHEST_LINK } else { 1 };
@@ -92,17 +92,15 @@ impl BlockMatrix {
         debug_assert!(blocks.reach <= 1 || blocks.root + 1 == blocks.starts.len());
         let lists = [&mut self.kept, &mut self.blocks, &mut self.starts, &mut self.places];
         lists.into_iter().for_each(Vec::clear);
-        self.places.resize(size, LEFT_OUT);
-        let mut left_out = left_out.iter().peekable();
-        let ends = blocks.starts.iter().skip(1).chain([&size]);
+        self.places.resize(left_out.len(), LEFT_OUT);
+        let end = left_out.len();
+        let ends = blocks.starts.iter().skip(1).chain([&end]);
         for (block, (&start, &end)) in blocks.starts.iter().zip(ends).enumerate() {
             self.starts.push(self.kept.len());
-            for unknown in start..end {
-                if left_out.next_if_eq(&&unknown).is_none() {
-                    self.places[unknown] = self.kept.len();
-                    self.kept.push(unknown);
-                    self.blocks.push(block);
-                }
+            for unknown in (start..end).filter(|&unknown| !left_out[unknown]) {
+                self.places[unknown] = self.kept.len();
+                self.kept.push(unknown);
+                self.blocks.push(block);
             }
         }
         self.starts.push(self.kept.len());

@@ -13,15 +13,15 @@ pub(crate) struct TangentSolver {
     band: Option<InBand>,
     /// Whether the factors are those of the blocks.
     is_in_blocks: bool,
-    /// Unknowns of the inactive constraints.
-    inactive: Vec<usize>,
+    /// Whether each unknown is that of an inactive constraint.
+    inactive: Vec<bool>,
 }
 
 #[derive(Clone, Debug, Default)]
 struct InBlocks {
     elimination: BlockElimination,
-    /// The unknowns that the matrix leaves out.
-    left_out: Option<Vec<usize>>,
+    /// Whether the matrix leaves out each unknown; empty before the first.
+    left_out: Vec<bool>,
     /// The values of the constant part of the matrix.
     constant: Vec<f64>,
 }
@@ -40,7 +40,7 @@ impl TangentSolver {
             blocks: system.blocks().map(|_| InBlocks::default()),
             band: None,
             is_in_blocks: false,
-            inactive: Vec::with_capacity(system.constraints().len()),
+            inactive: Vec::with_capacity(system.size()),
         }
     }
 
@@ -57,11 +57,8 @@ impl TangentSolver {
         residual: &mut Residual,
     ) -> Result<(), SingularMatrix> {
         self.inactive.clear();
-        self.inactive.extend(inactive(system, state));
-        // In most systems forces are numbered along the row, and sorted already.
-        if !self.inactive.is_sorted() {
-            self.inactive.sort_unstable();
-        }
+        self.inactive.resize(system.size(), false);
+        inactive(system, state).for_each(|unknown| self.inactive[unknown] = true);
         self.is_in_blocks = false;
         let blocks = system.blocks().filter(|_| system.is_in_blocks(state));
         if let (Some(in_blocks), Some(blocks)) = (&mut self.blocks, blocks) {
@@ -77,7 +74,7 @@ impl TangentSolver {
         let InBand { matrix, constant, lu } = self.band.get_or_insert_with(|| InBand::new(system));
         matrix.set(constant);
         assemble(system, state, condition, residual, matrix);
-        lu.factorise_without(matrix, &self.inactive)
+        lu.factorise(matrix, &self.inactive)
     }
 
     /// Solves in place: `x` holds the right-hand side, then the solution.
@@ -130,18 +127,17 @@ fn assemble<S: System>(
 
 impl InBlocks {
     /// Gives the matrix its constant part alone, without the unknowns that are `inactive`.
-    fn begin(&mut self, system: &impl System, blocks: &Blocks, inactive: &[usize]) {
+    fn begin(&mut self, system: &impl System, blocks: &Blocks, inactive: &[bool]) {
         // Between events the shape stays, and the constant part is one copy instead of an assembly.
         let matrix = &mut self.elimination.matrix;
-        if self.left_out.as_deref() == Some(inactive) {
+        if self.left_out == inactive {
             matrix.values.copy_from_slice(&self.constant);
         } else {
-            matrix.reshape(blocks, system.size(), inactive);
+            matrix.reshape(blocks, inactive);
             system.constant_tangent(matrix);
             self.constant.clone_from(&matrix.values);
-            let left_out = self.left_out.get_or_insert_default();
-            left_out.clear();
-            left_out.extend_from_slice(inactive);
+            self.left_out.clear();
+            self.left_out.extend_from_slice(inactive);
         }
     }
 }
