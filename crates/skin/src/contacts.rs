@@ -5,6 +5,7 @@ mod audit;
 mod change;
 mod closed;
 mod mode;
+mod pair_unknowns;
 mod rubbing;
 mod stick_slip;
 mod stiffness;
@@ -16,8 +17,7 @@ pub(crate) use rubbing::product_integral;
 use rubbing::{Rub, WAY};
 
 use contact::{
-    COORDINATES, ContactLaw, CornerContact, CornerEdge, Corners, Equation, FORCES, Force, Level,
-    Pair, Pose,
+    ContactLaw, CornerContact, CornerEdge, Corners, Equation, FORCES, Force, Level, Pair, Pose,
 };
 use solver::Change;
 
@@ -279,15 +279,7 @@ impl Contacts {
 
     /// Derivative of a condition along a direction.
     fn along(&self, contact: usize, condition: &Equation, direction: &[f64]) -> f64 {
-        let by_coordinate = &condition.by_coordinate;
-        // In a row coordinates are unknowns in succession, so no list of parts is made.
-        let by_parts: f64 = if let Some([left, right]) = self.whole_pair(contact) {
-            let rates = direction[left..left + 3].iter().chain(&direction[right..right + 3]);
-            by_coordinate.iter().zip(rates).map(|(slope, rate)| slope * rate).sum()
-        } else {
-            let parts = self.parts(contact).into_iter().flatten();
-            parts.map(|p| p.sign * by_coordinate[p.coordinate] * direction[p.unknown]).sum()
-        };
+        let by_parts = self.pair_unknowns(contact).sum(|k| condition.by_coordinate[k], direction);
         let unknowns = self.unknowns_of(contact).into_iter().zip(condition.by_force);
         by_parts + unknowns.map(|(unknown, slope)| slope * direction[unknown]).sum::<f64>()
     }
@@ -419,31 +411,4 @@ impl Contacts {
         *turned = Some((right, of_right));
         [of_left, of_right]
     }
-
-    /// The unknowns that the coordinates of a contact's pair are made of. In a row of relative poses the rotation of
-    /// the right scale has a second part, that of the frame.
-    fn parts(&self, contact: usize) -> [Option<Part>; COORDINATES + 1] {
-        let ends = self.ends(Self::pair_of(contact));
-        // In relative poses the left scale is the origin, so its coordinates are no unknowns.
-        let left = self.scales[ends[0]].filter(|_| !self.relative);
-        let right = self.scales[ends[1]];
-        std::array::from_fn(|k| match k {
-            0..3 => Some(Part { unknown: left? + k, coordinate: k, sign: 1.0 }),
-            3..COORDINATES => Some(Part { unknown: right? + k - 3, coordinate: k, sign: 1.0 }),
-            // The coordinate is the rotation against the left scale, so the frame's is subtracted.
-            _ => {
-                let (unknown, coordinate) = (self.frame(ends[1])?, COORDINATES - 1);
-                Some(Part { unknown, coordinate, sign: -1.0 })
-            }
-        })
-    }
-}
-
-/// An unknown of a system as a part of a coordinate: the coordinate is the sum of such parts.
-#[derive(Clone, Copy)]
-pub(crate) struct Part {
-    pub(crate) unknown: usize,
-    pub(crate) coordinate: usize,
-    /// 1 or −1.
-    pub(crate) sign: f64,
 }

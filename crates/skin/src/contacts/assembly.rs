@@ -1,6 +1,6 @@
 //! What the closed contacts of a row add to its equations and to their tangent.
 
-use contact::{COORDINATES, CornerContact, CornerResponse, Equation, FORCES};
+use contact::{CornerContact, CornerResponse, FORCES};
 use solver::{Residual, Tangent};
 
 use super::rubbing::Rub;
@@ -29,21 +29,7 @@ impl Contacts {
                 let (forces, held) =
                     (self.forces_of(&state.z, contact), self.held(&state.mode, contact));
                 let response = mode.acting_response(&corners, &self.law, forces, held);
-                // In a row coordinates are unknowns, so whole blocks are added. In a strip a
-                // rotation is the difference of two unknowns, and entries are added one by one.
-                match self.whole_pair(contact) {
-                    Some(scales) => {
-                        self.add_blocks(
-                            contact,
-                            mode.acting(),
-                            &response,
-                            scales,
-                            residual,
-                            matrix,
-                        );
-                    }
-                    None => self.add_parts(contact, mode.acting(), &response, residual, matrix),
-                }
+                self.add_response(contact, mode.acting(), &response, residual, matrix);
             }
         }
         // Friction is looked at apart: without it this pass costs nothing.
@@ -57,82 +43,28 @@ impl Contacts {
         }
     }
 
-    /// The first unknowns of the scales of a contact's pair, where its coordinates are unknowns, three of each scale in succession.
-    pub(super) fn whole_pair(&self, contact: usize) -> Option<[usize; 2]> {
-        let [left, right] = self.ends(Self::pair_of(contact));
-        let scales = [self.scales[left]?, self.scales[right]?];
-        (!self.relative).then_some(scales)
-    }
-
-    /// Adds a response where the coordinates of the pair are unknowns, three of each of the `scales` in succession.
-    fn add_blocks(
+    fn add_response(
         &self,
         contact: usize,
         acting: [bool; FORCES],
-        response: &CornerResponse,
-        scales: [usize; 2],
+        CornerResponse { balance, conditions }: &CornerResponse,
         residual: &mut Residual,
         matrix: &mut impl Tangent,
     ) {
-        let unknowns = self.unknowns_of(contact);
-        let three = |row: &[f64; COORDINATES], side: usize| -> [f64; 3] {
-            std::array::from_fn(|k| row[3 * side + k])
-        };
-        for (i, row) in scales.into_iter().enumerate() {
-            let balance: [&Equation; 3] = std::array::from_fn(|k| &response.balance[3 * i + k]);
-            for (k, equation) in balance.iter().enumerate() {
-                residual.add(row + k, equation.value);
-            }
-            for (j, column) in scales.into_iter().enumerate() {
-                let block = balance.map(|equation| three(&equation.by_coordinate, j));
-                matrix.add_block(row, column, &block);
-            }
-            for force in (0..FORCES).filter(|&force| acting[force]) {
-                let column = balance.map(|equation| [equation.by_force[force]]);
-                matrix.add_block(row, unknowns[force], &column);
-            }
+        let (pair, unknowns) = (self.pair_unknowns(contact), self.unknowns_of(contact));
+        let acting = || (0..FORCES).filter(|&force| acting[force]);
+        pair.add_balance(residual, |k| balance[k].value);
+        pair.add_square(matrix, |k, l| balance[k].by_coordinate[l]);
+        for force in acting() {
+            pair.add_column(matrix, unknowns[force], |k| balance[k].by_force[force]);
         }
         // The condition of a force stands in the row of its own unknown.
-        for force in (0..FORCES).filter(|&force| acting[force]) {
-            let Some(condition) = &response.conditions[force] else { continue };
+        for force in acting() {
+            let Some(condition) = &conditions[force] else { continue };
             residual.add(unknowns[force], condition.value);
-            for (j, column) in scales.into_iter().enumerate() {
-                matrix.add_block(unknowns[force], column, &[three(&condition.by_coordinate, j)]);
-            }
-            for other in (0..FORCES).filter(|&other| acting[other]) {
+            pair.add_row(matrix, unknowns[force], |k| condition.by_coordinate[k]);
+            for other in acting() {
                 matrix.add(unknowns[force], unknowns[other], condition.by_force[other]);
-            }
-        }
-    }
-
-    /// Adds a response where coordinates of the pair are sums of unknowns.
-    fn add_parts(
-        &self,
-        contact: usize,
-        acting: [bool; FORCES],
-        response: &CornerResponse,
-        residual: &mut Residual,
-        matrix: &mut impl Tangent,
-    ) {
-        let parts = self.parts(contact);
-        let unknowns = self.unknowns_of(contact);
-        let mut add_row = |row: usize, sign: f64, equation: &Equation| {
-            residual.add(row, sign * equation.value);
-            for part in parts.iter().flatten() {
-                let slope = part.sign * equation.by_coordinate[part.coordinate];
-                matrix.add(row, part.unknown, sign * slope);
-            }
-            for force in (0..FORCES).filter(|&force| acting[force]) {
-                matrix.add(row, unknowns[force], sign * equation.by_force[force]);
-            }
-        };
-        // The balance of a coordinate belongs to the rows of all unknowns that it is made of.
-        for part in parts.iter().flatten() {
-            add_row(part.unknown, part.sign, &response.balance[part.coordinate]);
-        }
-        for force in (0..FORCES).filter(|&force| acting[force]) {
-            if let Some(condition) = &response.conditions[force] {
-                add_row(unknowns[force], 1.0, condition);
             }
         }
     }

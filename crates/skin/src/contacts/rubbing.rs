@@ -217,41 +217,24 @@ impl Contacts {
             let Some(sliding) = self.friction_of(state, contact, poses) else { continue };
             let Sliding { rub, traction, by_pressure, slide } = sliding;
             let [grip, way] = [GRIP, WAY].map(|slot| self.unknown(contact, slot));
-            let parts = self.parts(contact);
-            for row in parts.iter().flatten() {
-                let along = row.sign * slide.gradient[row.coordinate];
-                residual.add(row.unknown, -traction * along);
-                for column in parts.iter().flatten() {
-                    let turning = slide.hessian[row.coordinate][column.coordinate];
-                    matrix.add(
-                        row.unknown,
-                        column.unknown,
-                        -traction * row.sign * column.sign * turning,
-                    );
-                }
-                for force in self.pressing(&state.mode, contact) {
-                    matrix.add(row.unknown, force, -by_pressure * along);
-                }
-                // `T = a − μ Λ` where the contact sticks, so its derivative by the grip is 1.
-                if let Rub::Stick { .. } = rub {
-                    matrix.add(row.unknown, grip, -along);
-                }
+            let (pair, along) = (self.pair_unknowns(contact), slide.gradient);
+            pair.add_balance(residual, |k| -traction * along[k]);
+            pair.add_square(matrix, |k, l| -traction * slide.hessian[k][l]);
+            for force in self.pressing(&state.mode, contact) {
+                pair.add_column(matrix, force, |k| -by_pressure * along[k]);
             }
-            let mut add_way = |row: usize, factor: f64, value: f64| {
-                residual.add(row, factor * value);
-                for part in parts.iter().flatten() {
-                    let along = part.sign * slide.gradient[part.coordinate];
-                    matrix.add(row, part.unknown, factor * along);
-                }
-            };
             match rub {
                 Rub::Stick { at } => {
-                    add_way(grip, 1.0, slide.value - self.moved_from(contact, at));
+                    // `T = a − μ Λ` where the contact sticks, so its derivative by the grip is 1.
+                    pair.add_column(matrix, grip, |k| -along[k]);
+                    residual.add(grip, slide.value - self.moved_from(contact, at));
+                    pair.add_row(matrix, grip, |k| along[k]);
                 }
                 Rub::Slip { sign, from } => {
                     // Counted from where slipping began, the way is zero there and only grows.
-                    add_way(way, -sign, slide.value - from);
+                    residual.add(way, -sign * (slide.value - from));
                     residual.add(way, state.z[way]);
+                    pair.add_row(matrix, way, |k| -sign * along[k]);
                     matrix.add(way, way, 1.0);
                 }
                 // Neither constraint acts here, so neither has an equation.
@@ -288,11 +271,8 @@ impl Contacts {
         slot: usize,
     ) -> f64 {
         let poses = self.pair_poses(&state.z, contact);
-        let along = |sliding: Sliding| -> f64 {
-            let parts = self.parts(contact).into_iter().flatten();
-            let slope = |part: super::Part| part.sign * sliding.slide.gradient[part.coordinate];
-            parts.map(|part| slope(part) * direction[part.unknown]).sum()
-        };
+        let pair = self.pair_unknowns(contact);
+        let along = |sliding: Sliding| pair.sum(|k| sliding.slide.gradient[k], direction);
         let along = || self.friction_of(state, contact, &poses).map_or(0.0, along);
         match (state.mode.rubs[contact], slot) {
             (Rub::Stick { .. }, GRIP) => along(),

@@ -35,21 +35,13 @@ impl Contacts {
             let poses = self.pair_poses(&state.z, contact);
             let forces = self.forces_of(&state.z, contact);
             let stiffness = mode.stiffness(&self.corners(contact, &poses), &self.law, forces);
-            let parts: Vec<_> = self.parts(contact).into_iter().flatten().collect();
-            for row in &parts {
-                for column in &parts {
-                    let value = stiffness.by_coordinate[row.coordinate][column.coordinate];
-                    entry(row.unknown, column.unknown, row.sign * column.sign * value);
-                }
-            }
+            let pair = self.pair_unknowns(contact);
+            pair.add_square(&mut entry, |k, l| stiffness.by_coordinate[k][l]);
             // The force stays an unknown, since its compliance vanishes at first touch.
             let unknowns: Vec<_> = self.acting_unknowns(contact, *mode).collect();
             for (i, (force, balance)) in unknowns.iter().zip(&stiffness.by_force).enumerate() {
-                for part in &parts {
-                    let value = part.sign * balance[part.coordinate];
-                    entry(part.unknown, *force, value);
-                    entry(*force, part.unknown, value);
-                }
+                pair.add_column(&mut entry, *force, |k| balance[k]);
+                pair.add_row(&mut entry, *force, |k| balance[k]);
                 for (j, other) in unknowns.iter().enumerate() {
                     entry(*force, *other, -stiffness.compliance[i][j]);
                 }

@@ -1,0 +1,141 @@
+//! The unknowns that the coordinates of a pair of scales are made of, and what an equation of these coordinates adds there.
+
+use std::array;
+
+use contact::COORDINATES;
+use solver::{Residual, Tangent};
+
+use super::Contacts;
+
+/// An unknown of a system as a part of a coordinate: the coordinate is the sum of such parts.
+#[derive(Clone, Copy)]
+pub(super) struct Part {
+    unknown: usize,
+    coordinate: usize,
+    /// 1 or −1.
+    sign: f64,
+}
+
+/// The unknowns that the coordinates of a pair are made of.
+#[derive(Clone, Copy)]
+#[expect(clippy::large_enum_variant, reason = "one lives at a time, on the stack")]
+pub(super) enum PairUnknowns {
+    /// In a row the coordinates are unknowns, three of each scale in succession from these on: whole blocks are added.
+    Blocks([usize; 2]),
+    /// In a strip a rotation is the difference of two unknowns: entries are added one by one.
+    Parts([Option<Part>; COORDINATES + 1]),
+}
+
+impl Contacts {
+    /// The unknowns of the pair of a contact. In a row of relative poses the rotation of the right scale has a second part, that of
+    /// the frame.
+    pub(super) fn pair_unknowns(&self, contact: usize) -> PairUnknowns {
+        let ends = self.ends(Self::pair_of(contact));
+        let right = self.scales[ends[1]];
+        // In relative poses the left scale is the origin, so its coordinates are no unknowns.
+        let left = self.scales[ends[0]].filter(|_| !self.relative);
+        if let (Some(left), Some(right)) = (left, right) {
+            return PairUnknowns::Blocks([left, right]);
+        }
+        PairUnknowns::Parts(array::from_fn(|k| match k {
+            0..3 => Some(Part { unknown: left? + k, coordinate: k, sign: 1.0 }),
+            3..COORDINATES => Some(Part { unknown: right? + k - 3, coordinate: k, sign: 1.0 }),
+            // The coordinate is the rotation against the left scale, so the frame's is subtracted.
+            _ => {
+                let (unknown, coordinate) = (self.frame(ends[1])?, COORDINATES - 1);
+                Some(Part { unknown, coordinate, sign: -1.0 })
+            }
+        }))
+    }
+}
+
+impl PairUnknowns {
+    /// The sum over all coordinates of what is `of` one, times its value in `z`.
+    pub(super) fn sum(self, of: impl Fn(usize) -> f64, z: &[f64]) -> f64 {
+        match self {
+            Self::Blocks([left, right]) => {
+                let z = z[left..left + 3].iter().chain(&z[right..right + 3]);
+                z.enumerate().map(|(k, z)| of(k) * z).sum()
+            }
+            Self::Parts(parts) => {
+                let parts = parts.into_iter().flatten();
+                parts.map(|part| part.sign * of(part.coordinate) * z[part.unknown]).sum()
+            }
+        }
+    }
+
+    /// Adds the balance of each coordinate to the rows of all unknowns that it is made of.
+    pub(super) fn add_balance(self, residual: &mut Residual, of: impl Fn(usize) -> f64) {
+        match self {
+            Self::Blocks(scales) => {
+                for (i, row) in scales.into_iter().enumerate() {
+                    (0..3).for_each(|k| residual.add(row + k, of(3 * i + k)));
+                }
+            }
+            Self::Parts(parts) => {
+                for part in parts.into_iter().flatten() {
+                    residual.add(part.unknown, part.sign * of(part.coordinate));
+                }
+            }
+        }
+    }
+
+    /// Adds the derivative of the balance of one coordinate by another.
+    pub(super) fn add_square(self, matrix: &mut impl Tangent, of: impl Fn(usize, usize) -> f64) {
+        match self {
+            Self::Blocks(scales) => {
+                for (i, row) in scales.into_iter().enumerate() {
+                    for (j, column) in scales.into_iter().enumerate() {
+                        let three = |k| array::from_fn::<_, 3, _>(|l| of(3 * i + k, 3 * j + l));
+                        matrix.add_block(row, column, &array::from_fn::<_, 3, _>(three));
+                    }
+                }
+            }
+            Self::Parts(parts) => {
+                for row in parts.into_iter().flatten() {
+                    for column in parts.into_iter().flatten() {
+                        let value = of(row.coordinate, column.coordinate);
+                        matrix.add(row.unknown, column.unknown, row.sign * column.sign * value);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Adds the derivative of the balance of each coordinate by the unknown of `column`.
+    pub(super) fn add_column(
+        self,
+        matrix: &mut impl Tangent,
+        column: usize,
+        of: impl Fn(usize) -> f64,
+    ) {
+        match self {
+            Self::Blocks(scales) => {
+                for (i, row) in scales.into_iter().enumerate() {
+                    matrix.add_block(row, column, &array::from_fn::<_, 3, _>(|k| [of(3 * i + k)]));
+                }
+            }
+            Self::Parts(parts) => {
+                for part in parts.into_iter().flatten() {
+                    matrix.add(part.unknown, column, part.sign * of(part.coordinate));
+                }
+            }
+        }
+    }
+
+    /// Adds the derivative of the equation of `row` by each coordinate.
+    pub(super) fn add_row(self, matrix: &mut impl Tangent, row: usize, of: impl Fn(usize) -> f64) {
+        match self {
+            Self::Blocks(scales) => {
+                for (j, column) in scales.into_iter().enumerate() {
+                    matrix.add_block(row, column, &[array::from_fn::<_, 3, _>(|l| of(3 * j + l))]);
+                }
+            }
+            Self::Parts(parts) => {
+                for part in parts.into_iter().flatten() {
+                    matrix.add(row, part.unknown, part.sign * of(part.coordinate));
+                }
+            }
+        }
+    }
+}
