@@ -86,8 +86,9 @@ impl PairUnknowns {
             Self::Blocks(scales) => {
                 for (i, row) in scales.into_iter().enumerate() {
                     for (j, column) in scales.into_iter().enumerate() {
-                        let three = |k| array::from_fn::<_, 3, _>(|l| of(3 * i + k, 3 * j + l));
-                        matrix.add_block(row, column, &array::from_fn::<_, 3, _>(three));
+                        let (k, l) = (3 * i, 3 * j);
+                        let three = |k| [of(k, l), of(k, l + 1), of(k, l + 2)];
+                        matrix.add_block(row, column, &[three(k), three(k + 1), three(k + 2)]);
                     }
                 }
             }
@@ -112,7 +113,7 @@ impl PairUnknowns {
         match self {
             Self::Blocks(scales) => {
                 for (i, row) in scales.into_iter().enumerate() {
-                    matrix.add_block(row, column, &array::from_fn::<_, 3, _>(|k| [of(3 * i + k)]));
+                    matrix.add_block(row, column, &[[of(3 * i)], [of(3 * i + 1)], [of(3 * i + 2)]]);
                 }
             }
             Self::Parts(parts) => {
@@ -128,7 +129,7 @@ impl PairUnknowns {
         match self {
             Self::Blocks(scales) => {
                 for (j, column) in scales.into_iter().enumerate() {
-                    matrix.add_block(row, column, &[array::from_fn::<_, 3, _>(|l| of(3 * j + l))]);
+                    matrix.add_block(row, column, &[[of(3 * j), of(3 * j + 1), of(3 * j + 2)]]);
                 }
             }
             Self::Parts(parts) => {
