@@ -279,7 +279,7 @@ impl Contacts {
 
     /// Derivative of a condition along a direction.
     fn along(&self, contact: usize, condition: &Equation, direction: &[f64]) -> f64 {
-        let by_parts = self.pair_unknowns(contact).sum(|k| condition.by_coordinate[k], direction);
+        let by_parts = self.pair_unknowns(contact).sum(&condition.by_coordinate, direction);
         let unknowns = self.unknowns_of(contact).into_iter().zip(condition.by_force);
         by_parts + unknowns.map(|(unknown, slope)| slope * direction[unknown]).sum::<f64>()
     }

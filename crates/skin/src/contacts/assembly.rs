@@ -53,16 +53,16 @@ impl Contacts {
     ) {
         let (pair, unknowns) = (self.pair_unknowns(contact), self.unknowns_of(contact));
         let acting = || (0..FORCES).filter(|&force| acting[force]);
-        pair.add_balance(residual, |k| balance[k].value);
-        pair.add_square(matrix, |k, l| balance[k].by_coordinate[l]);
+        pair.add_balance(residual, &balance.map(|equation| equation.value));
+        pair.add_square(matrix, &balance.map(|equation| equation.by_coordinate));
         for force in acting() {
-            pair.add_column(matrix, unknowns[force], |k| balance[k].by_force[force]);
+            pair.add_column(matrix, unknowns[force], &balance.map(|own| own.by_force[force]));
         }
         // The condition of a force stands in the row of its own unknown.
         for force in acting() {
             let Some(condition) = &conditions[force] else { continue };
             residual.add(unknowns[force], condition.value);
-            pair.add_row(matrix, unknowns[force], |k| condition.by_coordinate[k]);
+            pair.add_row(matrix, unknowns[force], &condition.by_coordinate);
             for other in acting() {
                 matrix.add(unknowns[force], unknowns[other], condition.by_force[other]);
             }

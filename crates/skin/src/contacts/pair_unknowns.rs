@@ -7,6 +7,9 @@ use solver::{Residual, Tangent};
 
 use super::Contacts;
 
+/// A number of each coordinate.
+type OfEach = [f64; COORDINATES];
+
 /// An unknown of a system as a part of a coordinate: the coordinate is the sum of such parts.
 #[derive(Clone, Copy)]
 pub(super) struct Part {
@@ -50,44 +53,44 @@ impl Contacts {
 }
 
 impl PairUnknowns {
-    /// The sum over all coordinates of what is `of` one, times its value in `z`.
-    pub(super) fn sum(self, of: impl Fn(usize) -> f64, z: &[f64]) -> f64 {
+    /// The sum over all coordinates of a factor of each, times its value in `z`.
+    pub(super) fn sum(self, factors: &OfEach, z: &[f64]) -> f64 {
         match self {
             Self::Blocks([left, right]) => {
                 let z = z[left..left + 3].iter().chain(&z[right..right + 3]);
-                z.enumerate().map(|(k, z)| of(k) * z).sum()
+                factors.iter().zip(z).map(|(factor, z)| factor * z).sum()
             }
             Self::Parts(parts) => {
                 let parts = parts.into_iter().flatten();
-                parts.map(|part| part.sign * of(part.coordinate) * z[part.unknown]).sum()
+                parts.map(|part| part.sign * factors[part.coordinate] * z[part.unknown]).sum()
             }
         }
     }
 
     /// Adds the balance of each coordinate to the rows of all unknowns that it is made of.
-    pub(super) fn add_balance(self, residual: &mut Residual, of: impl Fn(usize) -> f64) {
+    pub(super) fn add_balance(self, residual: &mut Residual, balance: &OfEach) {
         match self {
             Self::Blocks(scales) => {
                 for (i, row) in scales.into_iter().enumerate() {
-                    (0..3).for_each(|k| residual.add(row + k, of(3 * i + k)));
+                    (0..3).for_each(|k| residual.add(row + k, balance[3 * i + k]));
                 }
             }
             Self::Parts(parts) => {
                 for part in parts.into_iter().flatten() {
-                    residual.add(part.unknown, part.sign * of(part.coordinate));
+                    residual.add(part.unknown, part.sign * balance[part.coordinate]);
                 }
             }
         }
     }
 
-    /// Adds the derivative of the balance of one coordinate by another.
-    pub(super) fn add_square(self, matrix: &mut impl Tangent, of: impl Fn(usize, usize) -> f64) {
+    /// Adds the derivative of the balance of each coordinate by each.
+    pub(super) fn add_square(self, matrix: &mut impl Tangent, slopes: &[OfEach; COORDINATES]) {
         match self {
             Self::Blocks(scales) => {
                 for (i, row) in scales.into_iter().enumerate() {
                     for (j, column) in scales.into_iter().enumerate() {
                         let (k, l) = (3 * i, 3 * j);
-                        let three = |k| [of(k, l), of(k, l + 1), of(k, l + 2)];
+                        let three = |k: usize| [slopes[k][l], slopes[k][l + 1], slopes[k][l + 2]];
                         matrix.add_block(row, column, &[three(k), three(k + 1), three(k + 2)]);
                     }
                 }
@@ -95,7 +98,7 @@ impl PairUnknowns {
             Self::Parts(parts) => {
                 for row in parts.into_iter().flatten() {
                     for column in parts.into_iter().flatten() {
-                        let value = of(row.coordinate, column.coordinate);
+                        let value = slopes[row.coordinate][column.coordinate];
                         matrix.add(row.unknown, column.unknown, row.sign * column.sign * value);
                     }
                 }
@@ -104,37 +107,32 @@ impl PairUnknowns {
     }
 
     /// Adds the derivative of the balance of each coordinate by the unknown of `column`.
-    pub(super) fn add_column(
-        self,
-        matrix: &mut impl Tangent,
-        column: usize,
-        of: impl Fn(usize) -> f64,
-    ) {
+    pub(super) fn add_column(self, matrix: &mut impl Tangent, column: usize, slopes: &OfEach) {
         match self {
             Self::Blocks(scales) => {
-                for (i, row) in scales.into_iter().enumerate() {
-                    matrix.add_block(row, column, &[[of(3 * i)], [of(3 * i + 1)], [of(3 * i + 2)]]);
+                for (row, &[x, y, turn]) in scales.into_iter().zip(slopes.as_chunks::<3>().0) {
+                    matrix.add_block(row, column, &[[x], [y], [turn]]);
                 }
             }
             Self::Parts(parts) => {
                 for part in parts.into_iter().flatten() {
-                    matrix.add(part.unknown, column, part.sign * of(part.coordinate));
+                    matrix.add(part.unknown, column, part.sign * slopes[part.coordinate]);
                 }
             }
         }
     }
 
     /// Adds the derivative of the equation of `row` by each coordinate.
-    pub(super) fn add_row(self, matrix: &mut impl Tangent, row: usize, of: impl Fn(usize) -> f64) {
+    pub(super) fn add_row(self, matrix: &mut impl Tangent, row: usize, slopes: &OfEach) {
         match self {
             Self::Blocks(scales) => {
-                for (j, column) in scales.into_iter().enumerate() {
-                    matrix.add_block(row, column, &[[of(3 * j), of(3 * j + 1), of(3 * j + 2)]]);
+                for (column, three) in scales.into_iter().zip(slopes.as_chunks::<3>().0) {
+                    matrix.add_block(row, column, &[*three]);
                 }
             }
             Self::Parts(parts) => {
                 for part in parts.into_iter().flatten() {
-                    matrix.add(row, part.unknown, part.sign * of(part.coordinate));
+                    matrix.add(row, part.unknown, part.sign * slopes[part.coordinate]);
                 }
             }
         }

@@ -218,23 +218,26 @@ impl Contacts {
             let Sliding { rub, traction, by_pressure, slide } = sliding;
             let [grip, way] = [GRIP, WAY].map(|slot| self.unknown(contact, slot));
             let (pair, along) = (self.pair_unknowns(contact), slide.gradient);
-            pair.add_balance(residual, |k| -traction * along[k]);
-            pair.add_square(matrix, |k, l| -traction * slide.hessian[k][l]);
+            pair.add_balance(residual, &along.map(|slope| -traction * slope));
+            pair.add_square(
+                matrix,
+                &slide.hessian.map(|row| row.map(|turning| -traction * turning)),
+            );
             for force in self.pressing(&state.mode, contact) {
-                pair.add_column(matrix, force, |k| -by_pressure * along[k]);
+                pair.add_column(matrix, force, &along.map(|slope| -by_pressure * slope));
             }
             match rub {
                 Rub::Stick { at } => {
                     // `T = a − μ Λ` where the contact sticks, so its derivative by the grip is 1.
-                    pair.add_column(matrix, grip, |k| -along[k]);
+                    pair.add_column(matrix, grip, &along.map(|slope| -slope));
                     residual.add(grip, slide.value - self.moved_from(contact, at));
-                    pair.add_row(matrix, grip, |k| along[k]);
+                    pair.add_row(matrix, grip, &along);
                 }
                 Rub::Slip { sign, from } => {
                     // Counted from where slipping began, the way is zero there and only grows.
                     residual.add(way, -sign * (slide.value - from));
                     residual.add(way, state.z[way]);
-                    pair.add_row(matrix, way, |k| -sign * along[k]);
+                    pair.add_row(matrix, way, &along.map(|slope| -sign * slope));
                     matrix.add(way, way, 1.0);
                 }
                 // Neither constraint acts here, so neither has an equation.
@@ -272,7 +275,7 @@ impl Contacts {
     ) -> f64 {
         let poses = self.pair_poses(&state.z, contact);
         let pair = self.pair_unknowns(contact);
-        let along = |sliding: Sliding| pair.sum(|k| sliding.slide.gradient[k], direction);
+        let along = |sliding: Sliding| pair.sum(&sliding.slide.gradient, direction);
         let along = || self.friction_of(state, contact, &poses).map_or(0.0, along);
         match (state.mode.rubs[contact], slot) {
             (Rub::Stick { .. }, GRIP) => along(),

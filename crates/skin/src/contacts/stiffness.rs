@@ -36,12 +36,12 @@ impl Contacts {
             let forces = self.forces_of(&state.z, contact);
             let stiffness = mode.stiffness(&self.corners(contact, &poses), &self.law, forces);
             let pair = self.pair_unknowns(contact);
-            pair.add_square(&mut entry, |k, l| stiffness.by_coordinate[k][l]);
+            pair.add_square(&mut entry, &stiffness.by_coordinate);
             // The force stays an unknown, since its compliance vanishes at first touch.
             let unknowns: Vec<_> = self.acting_unknowns(contact, *mode).collect();
             for (i, (force, balance)) in unknowns.iter().zip(&stiffness.by_force).enumerate() {
-                pair.add_column(&mut entry, *force, |k| balance[k]);
-                pair.add_row(&mut entry, *force, |k| balance[k]);
+                pair.add_column(&mut entry, *force, balance);
+                pair.add_row(&mut entry, *force, balance);
                 for (j, other) in unknowns.iter().enumerate() {
                     entry(*force, *other, -stiffness.compliance[i][j]);
                 }
