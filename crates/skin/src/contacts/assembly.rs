@@ -43,6 +43,7 @@ impl Contacts {
         }
     }
 
+    /// Adds the response of a closed contact, of whose forces some are `acting`.
     fn add_response(
         &self,
         contact: usize,
