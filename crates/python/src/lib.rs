@@ -10,8 +10,7 @@
 //! | `work` | work that can be interrupted and tells how far it is |
 //! | `value`, `error` | values and errors between the two languages |
 
-// What comes from Python is taken by value.
-#![allow(clippy::needless_pass_by_value)]
+#![expect(clippy::needless_pass_by_value, reason = "what comes from Python is taken by value")]
 
 mod error;
 mod gradient;

@@ -92,9 +92,9 @@ impl BlockMatrix {
         debug_assert!(blocks.reach <= 1 || blocks.root + 1 == blocks.starts.len());
         let lists = [&mut self.kept, &mut self.blocks, &mut self.starts, &mut self.places];
         lists.into_iter().for_each(Vec::clear);
-        self.places.resize(left_out.len(), LEFT_OUT);
-        let end = left_out.len();
-        let ends = blocks.starts.iter().skip(1).chain([&end]);
+        let size = left_out.len();
+        self.places.resize(size, LEFT_OUT);
+        let ends = blocks.starts.iter().skip(1).chain([&size]);
         for (block, (&start, &end)) in blocks.starts.iter().zip(ends).enumerate() {
             self.starts.push(self.kept.len());
             for unknown in (start..end).filter(|&unknown| !left_out[unknown]) {

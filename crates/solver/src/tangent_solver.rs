@@ -136,8 +136,7 @@ impl InBlocks {
             matrix.reshape(blocks, inactive);
             system.constant_tangent(matrix);
             self.constant.clone_from(&matrix.values);
-            self.left_out.clear();
-            self.left_out.extend_from_slice(inactive);
+            inactive.clone_into(&mut self.left_out);
         }
     }
 }

@@ -274,8 +274,8 @@ impl Contacts {
         slot: usize,
     ) -> f64 {
         let poses = self.pair_poses(&state.z, contact);
-        let pair = self.pair_unknowns(contact);
-        let along = |sliding: Sliding| pair.sum(&sliding.slide.gradient, direction);
+        let along =
+            |sliding: Sliding| self.pair_unknowns(contact).sum(&sliding.slide.gradient, direction);
         let along = || self.friction_of(state, contact, &poses).map_or(0.0, along);
         match (state.mode.rubs[contact], slot) {
             (Rub::Stick { .. }, GRIP) => along(),
