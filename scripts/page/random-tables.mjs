@@ -11,7 +11,7 @@ const COLUMNS = ["coverage", "critical_force", "penetration", "compliance"];
 
 /** The scripts of the page that rank, without the page. */
 const scripts = () => {
-  const source = ["ranking", "weightings"].map((name) => readFileSync(`crates/report/assets/page/scripts/${name}.js`, "utf8"));
+  const source = ["ranking", "weightings"].map((name) => readFileSync(`crates/apps/report/assets/page/scripts/${name}.js`, "utf8"));
   return vm.runInNewContext(`const squama = { paper: ${JSON.stringify(COLUMNS.map((column) => ({ column, goal: column === "penetration" ? "min" : "max" })))} }; ${source.join("\n")}; squama`);
 };
 

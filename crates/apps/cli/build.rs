@@ -1,0 +1,92 @@
+//! Tells the program which revision of its source it is made from.
+//!
+//! A build from a clean checkout is known by its commit. Any other is known by its sources too: two builds of different
+//! sources never have the same name, so none goes on with the results of the other.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+fn main() {
+    println!("cargo:rustc-env=SQUAMA_REVISION={}", revision());
+    println!("cargo:rerun-if-changed=../..");
+    println!("cargo:rerun-if-changed=../../../Cargo.lock");
+    println!("cargo:rerun-if-changed=../../../Cargo.toml");
+    for file in ["HEAD", "index"] {
+        if let Some(path) = git(&["rev-parse", "--git-path", file]) {
+            println!("cargo:rerun-if-changed={path}");
+        }
+    }
+}
+
+fn revision() -> String {
+    match commit() {
+        Some((commit, true)) => commit,
+        Some((commit, false)) => format!("{commit}-dirty-{}", sources()),
+        None => format!("sources-{}", sources()),
+    }
+}
+
+/// The commit, and whether the sources are as it has them.
+fn commit() -> Option<(String, bool)> {
+    // A copy of the source inside of another repository has no revision of its own.
+    git(&["ls-files", "--error-unmatch", "Cargo.toml"])?;
+    let revision = git(&["rev-parse", "--short=12", "HEAD"])?;
+    let changes = git(&["status", "--porcelain", "--untracked-files=no"])?;
+    Some((revision, changes.is_empty()))
+}
+
+/// A hash of everything that the program is made from: the sources of all crates, and what is locked.
+fn sources() -> String {
+    let mut files =
+        vec![PathBuf::from("../../../Cargo.toml"), PathBuf::from("../../../Cargo.lock")];
+    collect(Path::new("../.."), &mut files);
+    files.sort();
+    let mut hash = Fnv::default();
+    for file in files {
+        hash.add(file.to_string_lossy().as_bytes());
+        hash.add(&fs::read(&file).unwrap_or_default());
+    }
+    format!("{:016x}", hash.state)
+}
+
+/// The files below `folder`, but for tests and benches, which are no part of the program.
+fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let path = entry.path();
+        let name = entry.file_name();
+        if path.is_dir()
+            && !["tests", "benches", "target", "python"].iter().any(|other| name == **other)
+        {
+            collect(&path, files);
+        } else if path.is_file() {
+            files.push(path);
+        }
+    }
+}
+
+/// The hash FNV-1a of 64 bits (Fowler, Noll & Vo, draft-eastlake-fnv), which needs no other crate.
+struct Fnv {
+    state: u64,
+}
+
+impl Default for Fnv {
+    fn default() -> Self {
+        Self { state: 0xcbf2_9ce4_8422_2325 }
+    }
+}
+
+impl Fnv {
+    /// Adds `bytes` and their number.
+    fn add(&mut self, bytes: &[u8]) {
+        for byte in bytes.iter().chain(&(bytes.len() as u64).to_le_bytes()) {
+            self.state = (self.state ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+    }
+}
+
+fn git(arguments: &[&str]) -> Option<String> {
+    let output = Command::new("git").args(arguments).output().ok()?;
+    let text = String::from_utf8(output.stdout).ok()?;
+    output.status.success().then(|| text.trim().to_owned())
+}

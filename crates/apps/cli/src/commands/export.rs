@@ -1,0 +1,97 @@
+//! `squama export`.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use optimisation::{DesignGoal, FRONT, GOAL, HISTORY, OPTIMUM, history_columns, optimum_columns};
+use report::OtherTable;
+use results::{Column, FileEntry, Maker, VerifiedFolder};
+use uncertainty::{INDEX_COLUMNS, SOURCE_COLUMNS, TOLERANCE_COLUMNS, YIELD_COLUMNS};
+
+use super::fit::{ESTIMATES, FILES, POINTS};
+use super::source::{Partial, require_folder_of, verified_folder};
+use super::{DONE, derived};
+use crate::print::{aligned, counted, print, shortfall};
+
+/// Arguments of `squama export`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama export results/paper --xlsx paper.xlsx
+  squama export results/glove/tolerance --xlsx tolerance.xlsx
+
+The workbook has a sheet for each table of the folder, and one that explains the columns. The folder may also be that of
+a search (squama optimise), a tolerance, a sensitivity or a fit. The same
+tables always give the same bytes. A sheet holds at most 1,048,575 rows.
+Exit code: 0 done, 2 bad input or a disk error.")]
+pub struct Arguments {
+    /// Results folder of a run, a search or an analysis, or the definition of a run
+    #[arg(value_name = "RESULTS")]
+    pub results: PathBuf,
+
+    /// Workbook to write
+    #[arg(long, value_name = "FILE")]
+    pub xlsx: PathBuf,
+
+    #[command(flatten)]
+    pub partial: Partial,
+}
+
+/// Writes the tables of a run as one workbook.
+pub fn export(arguments: &Arguments) -> anyhow::Result<u8> {
+    // A disk that is full is told of in an error, and not by whatever panics over it.
+    std::panic::set_hook(Box::new(|_| ()));
+    require_folder_of("--xlsx", &arguments.xlsx)?;
+    let (path, completeness) = (&arguments.results, arguments.partial.completeness());
+    // Where a run is asked for, such a folder is refused with the advice to export it.
+    let mut others_of = results::FILES.iter().filter(|file| is_other(file));
+    let is_other = others_of.any(|file| path.join(file.name).is_file());
+    let results = if is_other {
+        VerifiedFolder::open(path, completeness)?
+    } else {
+        verified_folder(path, completeness)?
+    };
+    let exported = report::export(&results, &others(&results)?, &arguments.xlsx)?;
+    let (folder, name) = (arguments.xlsx.parent(), arguments.xlsx.file_name());
+    let name = name.unwrap_or_default().to_string_lossy();
+    derived::note(&results, "workbook", folder.unwrap_or(Path::new("")), &[name])?;
+    let row = |(table, rows): &(String, u32)| [table.clone(), counted(u64::from(*rows), "row")];
+    let rows: Vec<_> = exported.tables.iter().map(row).collect();
+    let from = shortfall(&results);
+    print(&format!("{}\n{from}{}", arguments.xlsx.display(), aligned(&rows)))?;
+    Ok(DONE)
+}
+
+/// Whether a file is a table of what is no run: of a search or an analysis.
+fn is_other(file: &FileEntry) -> bool {
+    let makers = [Maker::Search, Maker::Tolerance, Maker::Sensitivity, Maker::Fit];
+    makers.contains(&file.maker)
+        && Path::new(file.name).extension().is_some_and(|kind| kind == "csv")
+}
+
+/// Such tables with their columns. Those of a search follow from its goal.
+fn others(results: &VerifiedFolder) -> anyhow::Result<Vec<OtherTable>> {
+    let [of_best, of_history] = if results.holds(GOAL) {
+        let name = results.path().join(GOAL).display().to_string();
+        let goal = DesignGoal::parse(&results.text(GOAL)?, &name, &[])?;
+        [explained(&optimum_columns(&goal)), explained(&history_columns(&goal))]
+    } else {
+        [Vec::new(), Vec::new()]
+    };
+    let tables = [
+        (OPTIMUM, of_best.clone()),
+        (FRONT, of_best),
+        (HISTORY, of_history),
+        ("tolerance.csv", explained(TOLERANCE_COLUMNS)),
+        ("tolerance_sources.csv", explained(SOURCE_COLUMNS)),
+        ("yield.csv", explained(YIELD_COLUMNS)),
+        ("sobol.csv", explained(INDEX_COLUMNS)),
+        (FILES[0], explained(ESTIMATES)),
+        (FILES[1], explained(POINTS)),
+    ];
+    Ok(tables.into_iter().map(|(file, columns)| OtherTable { file, columns }).collect())
+}
+
+fn explained<R>(columns: &[Column<R>]) -> Vec<(String, &'static str, &'static str)> {
+    columns.iter().map(|column| (column.name.to_string(), column.unit, column.meaning)).collect()
+}

@@ -1,0 +1,117 @@
+//! `squama init`.
+
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context as _, ensure};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::{Arg, Args, Command};
+use sweep::Sweep;
+
+use super::DONE;
+use super::figure_file::write_file;
+use super::source::require_folder_of;
+use crate::print::{counted, print};
+
+/// Definitions to begin with, which the program carries along: names, which are also those of their sweeps, and texts.
+// The first one is taken where a file is given without a template.
+const TEMPLATES: [(&str, &str); 7] = [
+    ("paper", include_str!("../../../../../sweeps/paper.toml")),
+    ("smoke", include_str!("../../../../../sweeps/smoke.toml")),
+    ("glove", include_str!("../../../../../sweeps/glove.toml")),
+    ("gaps", include_str!("../../../../../sweeps/gaps.toml")),
+    ("imperfection", include_str!("../../../../../sweeps/imperfection.toml")),
+    ("paper-as-written", include_str!("../../../../../sweeps/paper-as-written.toml")),
+    ("paper-neo-hookean", include_str!("../../../../../sweeps/paper-neo-hookean.toml")),
+];
+
+/// Arguments of `squama init`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama init                       write the sweep of the paper to paper.toml
+  squama init mine.toml             the same, as a sweep of the name mine
+  squama init smoke mine.toml       a dozen designs instead
+
+The template paper explains every key. An existing file is never overwritten.
+Exit code: 0 done, 2 bad input or a disk error.")]
+pub struct Arguments {
+    /// Template to start from; a FILE alone is made from the template paper
+    #[arg(value_name = "TEMPLATE", default_value = "paper", value_parser = TemplateOrFile)]
+    pub template: String,
+
+    /// File to write; the sweep is named after it [default: TEMPLATE.toml]
+    #[arg(value_name = "FILE")]
+    pub file: Option<PathBuf>,
+}
+
+/// Writes a commented definition.
+pub fn init(arguments: &Arguments) -> anyhow::Result<u8> {
+    let (template, file) = template_and_file(arguments);
+    let shown = file.display().to_string();
+    ensure!(
+        // A link that leads nowhere is a file, too: no link is written through.
+        file.symlink_metadata().is_err(),
+        "{shown}: exists already; give the name of a new file, e.g. squama init {template} mine.toml"
+    );
+    require_folder_of("FILE", &file)?;
+    let name = file.file_stem().context("expected the name of a new file")?.to_string_lossy();
+    let text = definition(&template, &name, &shown).context("there is no such definition")?;
+    // A name that is none of a sweep is refused before it is written.
+    let sweep = Sweep::parse(&text, &shown, &[])?;
+    write_file(&file, text.as_bytes())?;
+    let designs = counted(sweep.grid().len(), "design");
+    print(&format!("{shown}: {designs}; to solve them: squama run {shown}\n"))?;
+    Ok(DONE)
+}
+
+/// The template and the file that are asked for: a template of its own name, or a file alone, which is made from the first.
+fn template_and_file(arguments: &Arguments) -> (String, PathBuf) {
+    let template = &arguments.template;
+    match &arguments.file {
+        Some(file) => (template.clone(), file.clone()),
+        None if is_file(template) => (TEMPLATES[0].0.to_owned(), PathBuf::from(template)),
+        None => (template.clone(), PathBuf::from(format!("{template}.toml"))),
+    }
+}
+
+/// Whether an argument names a file and no template.
+fn is_file(argument: &str) -> bool {
+    Path::new(argument).extension().is_some_and(|extension| extension == "toml")
+        || argument.contains(['/', '\\'])
+}
+
+/// Reads the name of a template, or that of a file alone.
+#[derive(Clone)]
+struct TemplateOrFile;
+
+impl TypedValueParser for TemplateOrFile {
+    type Value = String;
+
+    fn parse_ref(
+        &self,
+        command: &Command,
+        argument: Option<&Arg>,
+        value: &OsStr,
+    ) -> Result<String, clap::Error> {
+        let templates = PossibleValuesParser::new(TEMPLATES.map(|(name, _)| name));
+        match value.to_str().filter(|value| is_file(value)) {
+            Some(file) => Ok(file.to_owned()),
+            None => templates.parse_ref(command, argument, value),
+        }
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        // Help and completions list templates alone, though the name of a file is taken, too.
+        Some(Box::new(TEMPLATES.into_iter().map(|(name, _)| PossibleValue::new(name))))
+    }
+}
+
+/// The template of that name, as the definition of the sweep `name` in `file`.
+fn definition(template: &str, name: &str, file: &str) -> Option<String> {
+    let (known, text) = TEMPLATES.iter().find(|(known, _)| *known == template)?;
+    let text = text.replace(&format!("name = \"{known}\""), &format!("name = \"{name}\""));
+    // The comments of a template have commands to copy, which are to name the new file.
+    let text = text.replace(&format!("results/{known}/"), &format!("results/{name}/"));
+    Some(text.replace(&format!("sweeps/{known}.toml"), file))
+}

@@ -1,0 +1,226 @@
+//! `squama make`.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context as _, bail, ensure};
+use clap::Args;
+use fabrication::{Format, Patch, Sheet};
+use ranking::CRITERIA;
+use results::columns::{measure_name, name};
+use sweep::Case;
+use uncertainty::{Analysis, SampleStore};
+
+use super::figure_file::write_file;
+use super::selection::{SelectedDesign, Selection, select};
+use super::source::{Definition, require_folder_of};
+use super::work::decimal;
+use super::{DONE, PROGRAM};
+use crate::interrupt::Interrupt;
+use crate::print::{aligned, note, print, rounded};
+
+/// Arguments of `squama make`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama make sweeps/glove.toml --design 0072 --out skin.3mf
+  squama make results/palm --design 1 --scales 8x6 --out palm.step
+  squama make results/palm --design 1 --kerf 0.12 --template-mm 0.1 --out palm.dxf
+
+Writes a patch of skin in millimetres: scales on their membrane, which reaches a gap beyond their bases on every
+side. The design needs a thickness (material.thickness_mm). The ending of --out says the format:
+  .3mf          printers; names its unit; scales and membrane are two parts, for two materials
+  .stl          printers; has no unit, so tell the slicer that lengths are in mm
+  .step, .stp   CAD programs; exact solids
+  .dxf, .svg    laser cutters: the profile of each scale, to be cut from a sheet as thick as the scales are wide;
+                a template with a hole for each base, to glue the scales at their pitch; and a square to
+                check that the file came through with a side of 100 mm. Each on a layer of its own
+Beside it, a list of parts: sizes, counts, mass if scale_density_kg_m3 is known, and, if the definition has
+[tolerance], which deviations move the measures most (solved by derivatives; squama tolerance gives the yield).
+Scatter of gaps and slants is left out: the patch is that of the nominal design.")]
+pub struct Arguments {
+    #[command(flatten)]
+    pub definition: Definition,
+
+    #[command(flatten)]
+    pub selection: Selection,
+
+    /// File to write, which ends in .3mf, .stl, .step, .dxf or .svg
+    #[arg(long, value_name = "FILE", default_value = "skin.3mf")]
+    pub out: PathBuf,
+
+    /// Number of scales along and across
+    #[arg(long, value_name = "ALONGxACROSS", default_value = "5x4", value_parser = along_and_across)]
+    pub scales: [usize; 2],
+
+    /// Gap between neighbouring rows, mm [default: the gap of the design]
+    #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = decimal)]
+    pub gap_across_mm: Option<f64>,
+
+    /// Width of the line that the laser burns, mm [default: 0]
+    #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = decimal)]
+    pub kerf: Option<f64>,
+
+    /// Thickness of the sheet of the glue template, mm [default: 0.1]
+    ///
+    /// Scales that lean need longer holes in thicker sheets.
+    #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = decimal)]
+    pub template_mm: Option<f64>,
+}
+
+/// Thickness of the template unless told otherwise, mm: a film, since thicker sheets have no webs between leaning scales.
+const TEMPLATE_MM: f64 = 0.1;
+
+/// Reads two numbers of scales, as `5x4`.
+fn along_and_across(text: &str) -> Result<[usize; 2], String> {
+    // People type an x, and copy a times sign from the texts about a skin.
+    let numbers =
+        text.split_once(['x', '×']).map(|(along, across)| (along.parse(), across.parse()));
+    match numbers {
+        Some((Ok(along), Ok(across))) => Ok([along, across]),
+        _ => Err("expected numbers of scales along and across, e.g. 5x4".to_owned()),
+    }
+}
+
+/// Writes a patch of skin, and the list of its parts.
+pub fn make(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
+    let out = &arguments.out;
+    let format = format(arguments)?;
+    require_folder_of("--out", out)?;
+    let designs = select(&arguments.definition, &arguments.selection)?;
+    let [design] = designs.as_slice() else {
+        bail!("{} designs are selected; a file holds one: choose it with --design", designs.len());
+    };
+    let case = design.case();
+    let patch = patch(&case, arguments)?;
+    let (kerf, template) =
+        (arguments.kerf.unwrap_or(0.0), arguments.template_mm.unwrap_or(TEMPLATE_MM));
+    let sheet = Sheet::new(&patch, kerf, template)?;
+    let mut list = format!("{}\n\n{}", design.title(), parts(&patch, &case));
+    if format.is_flat() && !sheet.has_template() {
+        let missing = no_template(&sheet, template);
+        note(&missing);
+        list = format!("{list}\n{missing}\n");
+    }
+    // Before anything is written: without its list, which may fail, there is no file either.
+    list.push_str(&tolerances(design, out, interrupt)?);
+    let list_file = out.with_extension("parts.txt");
+    write_file(out, &format.bytes(&patch, &sheet))?;
+    write_file(&list_file, list.as_bytes())?;
+    print(&format!("{list}\n{} {}\n", out.display(), list_file.display()))?;
+    Ok(DONE)
+}
+
+/// The format that the ending of the file says.
+fn format(arguments: &Arguments) -> anyhow::Result<Format> {
+    let out = &arguments.out;
+    let extension = out.extension().unwrap_or_default().to_string_lossy();
+    let format = Format::of_extension(&extension).with_context(|| {
+        format!(
+            "--out {}: expected a file that ends in .3mf, .stl, .step, .dxf or .svg",
+            out.display()
+        )
+    })?;
+    for (option, value) in [("--kerf", arguments.kerf), ("--template-mm", arguments.template_mm)] {
+        ensure!(
+            format.is_flat() || value.is_none(),
+            "{option} has no effect on {}: it is about outlines for laser cutters, .dxf and .svg",
+            out.display()
+        );
+    }
+    Ok(format)
+}
+
+/// The patch of a design, in mm.
+fn patch(case: &Case, arguments: &Arguments) -> anyhow::Result<Patch> {
+    let thickness = case.material.thickness_mm.with_context(|| {
+        let path = arguments.definition.path.display();
+        format!("{path}: has no thickness in mm; add --set material.thickness_mm=2, for scales 2 mm thick")
+    })?;
+    let membrane = case.flexure.membrane_thickness * thickness;
+    let across = arguments.gap_across_mm.unwrap_or(case.design.gap * thickness);
+    let lengths = [case.design.width * thickness, membrane, across];
+    Ok(Patch::new(case.design.row()?, thickness, lengths, arguments.scales)?)
+}
+
+/// Sizes, counts and masses.
+fn parts(patch: &Patch, case: &Case) -> String {
+    let [along, across] = patch.scales();
+    let count = (along * across) as f64;
+    let ([gap, gap_across], [pitch, pitch_across]) = (patch.gaps(), patch.pitches());
+    let [length, width, height] = patch.membrane_size();
+    let mut rows = vec![
+        ("scales", count, ""),
+        ("  along", along as f64, ""),
+        ("  across", across as f64, ""),
+        ("  base along the row", patch.base(), "mm"),
+        ("  thickness", patch.thickness(), "mm"),
+        ("  width across the row", patch.width(), "mm"),
+        ("  slant from the vertical", patch.slant_deg(), "deg"),
+        ("  shift of the top", patch.shift(), "mm"),
+        ("  gap along, between bases", gap, "mm"),
+        ("  gap across", gap_across, "mm"),
+        ("  pitch along", pitch, "mm"),
+        ("  pitch across", pitch_across, "mm"),
+        ("  volume of one scale", patch.scale_volume(), "mm3"),
+    ];
+    if let Some(density) = case.material.scale_density_kg_m3 {
+        // 1 kg/m3 is 1e-6 g/mm3.
+        let mass = density * patch.scale_volume() * 1e-6;
+        rows.push(("  mass of one scale", mass, "g"));
+        rows.push(("  mass of all scales", mass * count, "g"));
+    }
+    rows.extend([
+        ("membrane", 1.0, ""),
+        ("  length along the rows", length, "mm"),
+        ("  width", width, "mm"),
+        ("  thickness", height, "mm"),
+    ]);
+    let row =
+        |(name, value, unit): (&str, f64, &str)| [name.to_owned(), rounded(value), unit.to_owned()];
+    aligned(&rows.into_iter().map(row).collect::<Vec<_>>())
+}
+
+/// Why there is no template, and what serves instead.
+fn no_template(sheet: &Sheet, template: f64) -> String {
+    format!(
+        "no glue template: in a sheet of {} mm its webs would be {} mm wide; a thinner sheet (--template-mm) \
+         has wider webs, or set the scales apart with shims",
+        rounded(template),
+        rounded(sheet.web())
+    )
+}
+
+/// What the derivatives say of the deviations in `[tolerance]`: a line for each measure that makers ask for and that they move.
+fn tolerances(
+    design: &SelectedDesign,
+    out: &Path,
+    interrupt: &Interrupt,
+) -> anyhow::Result<String> {
+    let sweep = &design.sweep;
+    if sweep.deviations().is_empty() {
+        return Ok(String::new());
+    }
+    let analysis = Analysis::new(sweep, &[], 0, PROGRAM, interrupt.stop());
+    // Without samples nothing is kept in this store.
+    let analysed = analysis.design(0, &SampleStore::new(out))?;
+    let shown = analysed.measures.iter().filter(|measure| is_for_a_maker(&measure.name));
+    let moved = shown.filter_map(|measure| {
+        let linear = measure.linear.as_ref().filter(|linear| linear.spread > 0.0)?;
+        let deviation = format!("+- {}", rounded(linear.spread));
+        let value = rounded(measure.value?);
+        let unit = if measure.unit == "-" { "" } else { measure.unit };
+        Some([measure.name.clone(), value, deviation, unit.to_owned(), linear.in_words()])
+    });
+    let rows: Vec<_> = moved.collect();
+    Ok(format!(
+        "\nStandard deviations by [tolerance], and where they come from; squama tolerance has all of them\n{}",
+        aligned(&rows)
+    ))
+}
+
+/// Whether a measure is one of the four of a sweep, or what a skin weighs and how far it bends: a list of forty hides these.
+fn is_for_a_maker(measure: &str) -> bool {
+    let is_criterion =
+        || CRITERIA.iter().any(|criterion| criterion.column == measure_name(measure));
+    is_criterion() || ["bend_radius_mm", name::AREAL_MASS].contains(&measure)
+}

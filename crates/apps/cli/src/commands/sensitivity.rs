@@ -1,0 +1,152 @@
+//! `squama sensitivity`.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use anyhow::ensure;
+use clap::Args;
+use results::{CsvFormat, MEASURE_TABLES, Maker, write_rows};
+use serde_json::{Value, json};
+use sweep::Sweep;
+use uncertainty::{
+    GlobalAnalysis, GlobalSensitivity, INDEX_COLUMNS, IndexEstimate, MeasureIndices, SobolIndices,
+};
+
+use super::sampled::{Sampled, SampledFolder};
+use super::source::{Definition, read};
+use super::work::whole;
+use super::{DONE, INCOMPLETE, PROGRAM};
+use crate::interrupt::Interrupt;
+use crate::json;
+use crate::print::{aligned, counted};
+
+/// Arguments of `squama sensitivity`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama sensitivity box.toml
+  squama sensitivity box.toml --samples 4000 --json
+
+Varies the parameters in [variables], such as gap_over_t = { from = 0.1, to = 1 } or length_over_t = [0.5, 1],
+independently and uniformly; all other parameters keep their values. Shows the share of the variance of each
+measure that is due to each variable, alone (first-order Sobol' index) and together with others (total index),
+with 95 % intervals. A sample solves two designs more than there are variables. A sample in which any of them
+fails is left out, and counted.
+Writes sobol.csv, and samples/, from which the same command continues after an interruption.
+For derivatives at one design, use squama design --sensitivity.
+Exit code: 0 done, 2 bad input or a disk error.")]
+pub struct Arguments {
+    #[command(flatten)]
+    pub definition: Definition,
+
+    // Scripts of earlier versions say it.
+    #[arg(long = "global", hide = true)]
+    _global: bool,
+
+    /// Number of samples
+    // One sample has no variance to share out.
+    #[arg(long, value_name = "N", default_value_t = 1000, allow_hyphen_values = true, value_parser = whole::<2, 1_000_000>)]
+    pub samples: u64,
+
+    #[command(flatten)]
+    pub sampled: Sampled,
+}
+
+const TABLE: &str = "sobol.csv";
+
+/// Says which part of the variance of each measure every variable has.
+pub fn sensitivity(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
+    let sweep = read(&arguments.definition)?;
+    check(&sweep, &arguments.definition.path)?;
+    let command = ("sensitivity", Maker::Sensitivity);
+    let sampled = SampledFolder::new((&arguments.definition, &sweep), &arguments.sampled, command)?;
+    let (samples, stop) = (arguments.samples as usize, interrupt.stop());
+    let analysis = GlobalAnalysis { sweep: &sweep, samples, stop, program: PROGRAM };
+    let Some((found, claim)) =
+        sampled.solved((arguments.samples, interrupt), |store| analysis.solve(store))?
+    else {
+        return Ok(interrupt.exit_code().unwrap_or(INCOMPLETE));
+    };
+    let folder = &sampled.folder;
+    let rows = found.measures.iter().flat_map(|measure| measure.rows(&found.variables));
+    write_rows(folder, TABLE, CsvFormat::Plain, INDEX_COLUMNS, rows)?;
+    claim.state(&[TABLE])?;
+    let record = || record(&sweep, &found, folder.path());
+    let report = || report(&sweep, &found, samples);
+    json::answer(arguments.sampled.solving.json, record, report, (folder.path(), &[TABLE]))?;
+    Ok(DONE)
+}
+
+/// Refuses a definition without a box, or with more than one.
+fn check(sweep: &Sweep, path: &Path) -> anyhow::Result<()> {
+    let path = path.display();
+    ensure!(
+        !sweep.variables().is_empty(),
+        "{path}: has no [variables]; add some, e.g. gap_over_t = {{ from = 0.1, to = 1 }}"
+    );
+    let several = sweep.grid().axes().iter().filter(|axis| axis.len() > 1);
+    let several: Vec<_> = several.map(|axis| axis.parameter().key).collect();
+    ensure!(
+        several.is_empty(),
+        "{path}: {} designs besides the variables; give one value, or [variables], for {}",
+        sweep.grid().len(),
+        several.join(" ")
+    );
+    Ok(())
+}
+
+fn report(sweep: &Sweep, found: &GlobalSensitivity, samples: usize) -> String {
+    // Two points that are independent, and for each variable one that mixes them.
+    let points = samples * (found.variables.len() + 2);
+    let samples = counted(samples as u64, "sample");
+    let mut text = format!("{}: {samples}, {points} designs\n", sweep.name());
+    // People see the leading measures; the table has all.
+    let is_shown = |m: &&MeasureIndices| MEASURE_TABLES.iter().any(|(table, _)| *table == m.name);
+    for measure in found.measures.iter().filter(is_shown) {
+        let failed = match measure.failed {
+            0 => String::new(),
+            failed => format!(", {} left out", counted(failed as u64, "sample")),
+        };
+        let _ = writeln!(text, "\n{}{failed}", measure.name);
+        let row = |(variable, indices): (&&str, &SobolIndices)| {
+            let (first, total) = (percent(indices.first), percent(indices.total));
+            [(*variable).to_owned(), format!("alone {first}"), format!("with others {total}")]
+        };
+        let rows: Vec<_> = found.variables.iter().zip(&measure.indices).map(row).collect();
+        text.push_str(&aligned(&rows));
+    }
+    text
+}
+
+/// An index in per cent, with its interval.
+fn percent(estimate: IndexEstimate) -> String {
+    let [low, high] = estimate.interval().map(|end| 100.0 * end);
+    format!("{:.0} % ({low:.0} to {high:.0} %)", 100.0 * estimate.value)
+}
+
+fn record(sweep: &Sweep, found: &GlobalSensitivity, folder: &Path) -> Value {
+    let estimate = |e: IndexEstimate| json!({ "value": e.value, "interval": e.interval() });
+    let variable = |(variable, indices): (&&str, &SobolIndices)| {
+        json!({
+            "variable": variable,
+            "first": estimate(indices.first),
+            "total": estimate(indices.total),
+        })
+    };
+    let measure = |measure: &MeasureIndices| {
+        let indices = found.variables.iter().zip(&measure.indices).map(variable);
+        json!({
+            "measure": measure.name,
+            "spread": measure.spread,
+            "samples": measure.samples,
+            "failed": measure.failed,
+            "indices": indices.collect::<Vec<_>>(),
+        })
+    };
+    json!({
+        "sweep": sweep.name(),
+        "measures": found.measures.iter().map(measure).collect::<Vec<_>>(),
+        "folder": folder.to_string_lossy(),
+        "files": [TABLE],
+    })
+}

@@ -1,0 +1,118 @@
+//! `squama slurm`.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context as _, ensure};
+use clap::Args;
+use results::{make_folder, quoted, shell_word, write_text};
+use sweep::Sweep;
+
+use super::DONE;
+use super::source::{Definition, folder_of, read};
+use super::work::whole;
+use crate::print::print;
+
+/// Arguments of `squama slurm`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama slurm sweeps/paper.toml --shards 20
+  results/paper/slurm/submit.sh --time=12:00:00 --cpus-per-task=4
+
+Writes submit.sh and the complete definition to DIR/slurm. submit.sh submits a job array with one element for
+each shard, and a job that merges the shards. Shards write to DIR/shards, the merged sweep to DIR. If they
+are submitted again, shards continue where they ended. The folder may be moved.
+Exit code: 0 done, 2 bad input or a disk error.")]
+pub struct Arguments {
+    #[command(flatten)]
+    pub definition: Definition,
+
+    /// Number of shards, 1 to 1000: the elements of the job array
+    // Any number is read here, because `check` tells why Slurm takes no more.
+    #[arg(long, allow_hyphen_values = true, value_name = "N", value_parser = whole::<0, { u64::MAX }>)]
+    pub shards: u64,
+
+    /// Results folder [default: results/NAME]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
+
+/// The scripts, which are the same for every sweep.
+const SCRIPTS: [(&str, &str); 3] = [
+    ("submit.sh", include_str!("../../../../../scripts/slurm/submit.sh")),
+    ("array.sh", include_str!("../../../../../scripts/slurm/array.sh")),
+    ("merge.sh", include_str!("../../../../../scripts/slurm/merge.sh")),
+];
+
+/// The largest index of a job array: below `MaxArraySize`, which is 1001 unless a cluster says
+/// otherwise.
+const LARGEST: u64 = 1000;
+
+/// Writes the scripts that run a sweep as a job array.
+pub fn slurm(arguments: &Arguments) -> anyhow::Result<u8> {
+    let sweep = read(&arguments.definition)?;
+    check(arguments.shards, &sweep)?;
+    let results = folder_of(&sweep, arguments.out.as_deref());
+    let folder = results.join("slurm");
+    make_folder(&folder)?;
+    for (name, text) in SCRIPTS {
+        write_text(&folder, name, text)?;
+        make_executable(&folder.join(name))?;
+    }
+    write_text(&folder, "sweep.sh", &settings(&sweep, arguments.shards)?)?;
+    // The whole definition, so that `--set` and defaults hold for shards that run later, too.
+    write_text(&folder, "sweep.toml", &sweep.to_toml())?;
+    print(&format!(
+        "{}: sweep.toml sweep.sh submit.sh array.sh merge.sh\n\
+         {} designs in {} shards; to submit them: {}\n",
+        folder.display(),
+        sweep.grid().len(),
+        arguments.shards,
+        shell_word(&folder.join("submit.sh").display().to_string())
+    ))?;
+    Ok(DONE)
+}
+
+fn check(shards: u64, sweep: &Sweep) -> anyhow::Result<()> {
+    ensure!(
+        (1..=LARGEST).contains(&shards),
+        "--shards {shards}: expected 1 to {LARGEST}, because Slurm's job arrays end there \
+         (MaxArraySize is {} by default); a shard may have any number of designs",
+        LARGEST + 1
+    );
+    let designs = sweep.grid().len();
+    ensure!(
+        shards <= designs,
+        "--shards {shards}: there are only {designs} designs, expected 1 to {designs}"
+    );
+    Ok(())
+}
+
+/// The settings that differ from sweep to sweep.
+fn settings(sweep: &Sweep, shards: u64) -> anyhow::Result<String> {
+    // Nodes may have the program elsewhere, so the environment may name another one.
+    let program = std::env::current_exe().context("the path of squama is not known")?;
+    Ok(format!(
+        "# What the scripts in this folder run: the sweep of sweep.toml. Written by squama slurm.\n\
+         NAME={}\n\
+         # Shards keep their results only as long as this does not change.\n\
+         SHARDS={shards}\n\
+         # The program, on the nodes.\n\
+         SQUAMA=${{SQUAMA:-{}}}\n",
+        quoted(sweep.name()),
+        quoted(&program.display().to_string())
+    ))
+}
+
+#[cfg(unix)]
+fn make_executable(script: &Path) -> anyhow::Result<()> {
+    use std::os::unix::fs::PermissionsExt as _;
+    let permissions = std::fs::Permissions::from_mode(0o755);
+    std::fs::set_permissions(script, permissions)
+        .with_context(|| format!("{}: cannot be made executable", script.display()))
+}
+
+#[cfg(not(unix))]
+fn make_executable(_: &Path) -> anyhow::Result<()> {
+    Ok(())
+}

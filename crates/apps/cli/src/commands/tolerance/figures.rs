@@ -1,0 +1,59 @@
+//! The figures of the tolerances of one design.
+
+use ranking::Requirement;
+use report::{Histogram, Shares, share_bars};
+use results::columns::physical_source;
+use sweep::Sweep;
+use uncertainty::{DesignTolerance, DeviationLevel, MeasureTolerance, SourceShare};
+
+use super::report::is_shown;
+
+const SOURCES: &str = "sources.svg";
+
+/// Where the spread of the measures comes from, and a histogram of every measure that is required, each under the name of its file.
+pub fn figures(
+    sweep: &Sweep,
+    requirements: &[Requirement],
+    design: &DesignTolerance,
+) -> Vec<(String, String)> {
+    let name = format!("{} design {}", sweep.name(), design.nominal.number);
+    let shown = design.measures.iter().filter(|m| is_shown(&m.name, requirements));
+    let shares: Vec<Shares> = shown.filter_map(shares).collect();
+    let mut files = vec![(SOURCES.to_owned(), share_bars(&name, &shares))];
+    let required = |m: &&MeasureTolerance| requirements.iter().any(|r| r.column == m.name);
+    for measure in design.measures.iter().filter(required) {
+        let Some(svg) = histogram(&name, requirements, design, measure) else { continue };
+        let file = format!("histogram-{}.svg", measure.name.replace('_', "-"));
+        files.push((file, svg));
+    }
+    files
+}
+
+fn shares(measure: &MeasureTolerance) -> Option<Shares> {
+    let source = |source: &SourceShare| {
+        let level = if source.level == DeviationLevel::Scale { " from scale to scale" } else { "" };
+        (format!("{}{level}", source.source), source.share)
+    };
+    let sources = measure.linear.as_ref()?.sources.iter().map(source);
+    Some((measure.name.clone(), sources.collect()))
+}
+
+/// The histogram of a measure; `None` if no sample has a value.
+fn histogram(
+    name: &str,
+    requirements: &[Requirement],
+    design: &DesignTolerance,
+    measure: &MeasureTolerance,
+) -> Option<String> {
+    let place = design.columns.iter().position(|column| *column == measure.name)?;
+    let values: Vec<f64> = design.samples.iter().filter_map(|s| s.values[place]).collect();
+    let own = requirements.iter().filter(|requirement| requirement.column == measure.name);
+    let bounds: Vec<_> = own.map(|r| (r.to_string(), r.limit)).collect();
+    // The name of a column in physical units ends in its unit.
+    let has_unit = measure.unit == "-" || physical_source(&measure.name).is_some();
+    let unit = if has_unit { String::new() } else { format!(", {}", measure.unit) };
+    let label = format!("{}{unit}", measure.name);
+    let histogram =
+        Histogram { name, measure: &label, values: &values, drawn: measure.value, bounds: &bounds };
+    (!values.is_empty()).then(|| histogram.svg())
+}

@@ -1,0 +1,152 @@
+//! Tolerances, for people.
+
+use std::fmt::Write as _;
+
+use ranking::Requirement;
+use results::MEASURE_TABLES;
+use results::columns::measure_name;
+use results::columns::name::{AREAL_MASS, FOLD_FORCE, GAP_STRETCH_MIN};
+use sweep::Sweep;
+use uncertainty::{
+    DesignTolerance, MeasureTolerance, Proportion, RequirementYield, Sampled, SolvedSample,
+};
+
+use crate::print::{aligned, change, counted, rounded};
+
+/// Designs that are listed before a list is cut short.
+const LISTED: usize = 10;
+
+const HEADER: [&str; 8] = [
+    "measure",
+    "nominal",
+    "predicted ±",
+    "sampled ±",
+    "prediction off by",
+    "5 %",
+    "95 %",
+    "sources",
+];
+
+/// The report on a design, or a list of several.
+pub fn report(sweep: &Sweep, requirements: &[Requirement], all: &[DesignTolerance]) -> String {
+    match all {
+        [design] => one(sweep, requirements, design),
+        several => list(sweep, requirements, several),
+    }
+}
+
+fn one(sweep: &Sweep, requirements: &[Requirement], design: &DesignTolerance) -> String {
+    let (number, count) = (design.nominal.number, sweep.grid().len());
+    let samples = counted(design.samples.len() as u64, "sample");
+    let mut text = format!("{}: design {number} of {count}, {samples}\n", sweep.name());
+    let is_shown = |measure: &&MeasureTolerance| is_shown(&measure.name, requirements);
+    let mut rows = vec![HEADER.map(str::to_owned).to_vec()];
+    rows.extend(design.measures.iter().filter(is_shown).map(measure_row));
+    let _ = write!(text, "{}", aligned(&rows));
+    if design.measures.iter().filter(is_shown).any(MeasureTolerance::is_off) {
+        text.push_str("  (!) off by more than twice the statistical error: the measure is not linear over these deviations; trust the samples\n");
+    }
+    if !design.yields.is_empty() {
+        let rows: Vec<_> = design.yields.iter().map(yield_row).collect();
+        let _ = write!(text, "\nYield\n{}", aligned(&rows));
+    }
+    text.push_str(&folded(design).unwrap_or_default());
+    text
+}
+
+/// The line about samples whose surface folds on the way, which a yield leaves out only if that is required.
+fn folded(design: &DesignTolerance) -> Option<String> {
+    let place = design.columns.iter().position(|column| column == FOLD_FORCE)?;
+    let folds = |sample: &&SolvedSample| sample.values.get(place).is_some_and(Option::is_some);
+    let count = design.samples.iter().filter(folds).count();
+    let samples = counted(count as u64, "sample");
+    let line = format!(
+        "  (!) {samples}: the surface folds; --require '{GAP_STRETCH_MIN} > 0' counts those that end so as failed requirements\n"
+    );
+    (count > 0).then_some(line)
+}
+
+/// Whether people see a measure: what the tables are about, in all units, the mass, and what is required.
+pub fn is_shown(name: &str, requirements: &[Requirement]) -> bool {
+    let measure = measure_name(name);
+    let leads = MEASURE_TABLES.iter().any(|(table, _)| *table == measure);
+    leads || name == AREAL_MASS || requirements.iter().any(|requirement| requirement.column == name)
+}
+
+fn measure_row(measure: &MeasureTolerance) -> Vec<String> {
+    let linear = measure.linear.as_ref();
+    let sampled =
+        |value: fn(&Sampled) -> String| measure.sampled.as_ref().map_or("none".to_owned(), value);
+    let off = measure.discrepancy().map_or("unknown".to_owned(), |off| {
+        let mark = if measure.is_off() { " (!)" } else { "" };
+        format!("{}{mark}", change(100.0 * off, 0))
+    });
+    vec![
+        measure.name.clone(),
+        measure.value.map_or("none".to_owned(), rounded),
+        linear.map_or("kink".to_owned(), |linear| short(linear.spread)),
+        sampled(|s| format!("{} (± {})", short(s.spread), short(s.spread_error))),
+        off,
+        sampled(|s| short(s.statistics.quantiles[0])),
+        sampled(|s| short(s.statistics.quantiles[2])),
+        linear.map_or(String::new(), uncertainty::LinearSpread::in_words),
+    ]
+}
+
+fn yield_row(of: &RequirementYield) -> Vec<String> {
+    let name = of.requirement.as_ref().map_or("all together".to_owned(), ToString::to_string);
+    let linear = of.linear.map(|share| format!("prediction {}", percent(share)));
+    let failed = (of.failed > 0).then(|| format!("{} failed", counted(of.failed as u64, "sample")));
+    let notes: Vec<_> = failed.into_iter().chain(linear).collect();
+    vec![name, of.proportion.map_or("none".to_owned(), proportion), notes.join(", ")]
+}
+
+/// A share with its interval: never a bare probability.
+fn proportion(proportion: Proportion) -> String {
+    let [low, high] = proportion.interval().map(percent);
+    format!("{} (95 % interval {low} to {high})", percent(proportion.share()))
+}
+
+fn percent(share: f64) -> String {
+    format!("{:.1} %", 100.0 * share)
+}
+
+/// Three digits.
+fn short(value: f64) -> String {
+    sweep::number::rounded(value, 3)
+}
+
+/// The designs with the highest yield, or in their order if nothing is required.
+fn list(sweep: &Sweep, requirements: &[Requirement], all: &[DesignTolerance]) -> String {
+    let count = counted(all.len() as u64, "design");
+    let mut text = format!("{}: {count} of {}\n", sweep.name(), sweep.grid().len());
+    let share = |design: &&DesignTolerance| {
+        let last = design.yields.last().and_then(|of| of.proportion);
+        last.map_or(-1.0, Proportion::share)
+    };
+    let mut designs: Vec<&DesignTolerance> = all.iter().collect();
+    // Equal designs keep their order, and so do all where nothing is required.
+    designs.sort_by(|one, other| share(other).total_cmp(&share(one)));
+    let row = |design: &&DesignTolerance| {
+        let yielded = design.yields.last().and_then(|of| of.proportion).map(proportion);
+        let first = [design.nominal.number.to_string(), yielded.unwrap_or_default()];
+        let shown = design.measures.iter().filter(|m| is_shown(&m.name, requirements));
+        // A line for each measure: all in one are wider than a terminal.
+        let titles = std::iter::once(first).chain(std::iter::repeat(Default::default()));
+        let measure = |(title, m): ([String; 2], &MeasureTolerance)| {
+            let spread =
+                m.sampled.as_ref().map(|s| s.spread).or(m.linear.as_ref().map(|l| l.spread));
+            let value = m.value.map_or("none".to_owned(), rounded);
+            let values = format!("{value} ± {}", spread.map_or("unknown".to_owned(), short));
+            title.into_iter().chain([m.name.clone(), values]).collect::<Vec<_>>()
+        };
+        titles.zip(shown).map(measure).collect::<Vec<_>>()
+    };
+    let rows: Vec<_> = designs.iter().take(LISTED).flat_map(row).collect();
+    text.push_str(&aligned(&rows));
+    let more = all.len().saturating_sub(LISTED);
+    if more > 0 {
+        let _ = writeln!(text, "  and {more} more");
+    }
+    text
+}

@@ -1,0 +1,125 @@
+//! Curves of testing machines: laid over solved ones, and fitted.
+
+use std::fs;
+
+use crate::Place;
+
+/// A skin of printed scales on foam, in mm.
+const SKIN: &str = "name = 'palm'\n[designs]\ngap_over_t = 0.2\nlength_over_t = 0.8\nslant_deg = 60\n[puncture]\nneedle = 'guided'\n\
+                    needle_friction = 0.3\nload_inset_over_t = 0.05\n[material]\nthickness_mm = 2\nsubstrate_modulus_MPa = 0.5\n\
+                    membrane_modulus_MPa = 4.5\n";
+
+#[test]
+fn a_measured_curve_lies_over_the_solved_one_in_its_units() {
+    let place = Place::with(SKIN);
+    fs::write(place.path("a_1.csv"), "displacement_mm,force_N\n0,0\n0.2,0.4\n").expect("writable");
+    place.prints("plot curves x.toml --design 1 --measured a_1.csv --out o");
+    let name = "o/force-displacement-curves-of-0001.svg";
+    let figure = place.read(name);
+    assert!(figure.contains("mm</tspan>") && figure.contains(">a_1.csv</text>"), "{figure}");
+    assert!(!figure.contains("dimensionless"), "{figure}");
+    assert_eq!(
+        figure.split("class=\"measured\"").nth(1).expect("points").matches("<circle").count(),
+        3
+    );
+    // What was measured without units has the other in those of the model, too.
+    fs::write(place.path("c.csv"), "displacement,force\n0,0\n0.1,0.4\n").expect("writable");
+    place.prints("plot curves x.toml --design 1 --measured c.csv --out o");
+    assert!(place.read(name).contains("dimensionless"));
+    assert!(!place.read("o/moment-curvature-curves-of-0001.svg").contains("dimensionless"));
+
+    fs::write(place.path("b.csv"), "Kappa;M\n2,5;0,1\n").expect("writable");
+    place.prints("plot curves x.toml --design 1 --measured b.csv --measured-columns curvature_per_m,moment_N_mm --out o");
+    assert!(place.read("o/moment-curvature-curves-of-0001.svg").contains("b.csv"));
+}
+
+#[test]
+fn what_cannot_be_laid_over_is_refused() {
+    let place = Place::with(
+        "name = 'bare'\n[designs]\ngap_over_t = 0.2\nlength_over_t = 1\nslant_deg = 0\n",
+    );
+    for (file, text) in [
+        ("a.csv", "displacement_mm,force_N\n0,0\n"),
+        ("b.csv", "curvature,moment\n0,0\n"),
+        ("c.csv", "displacement_mm,force\n0,0\n"),
+    ] {
+        fs::write(place.path(file), text).expect("writable");
+    }
+    let plot =
+        |files: &str| place.refused(&format!("plot curves x.toml --design 1 {files} --out o"));
+    insta::assert_snapshot!(plot("--measured a.csv"), @"error: x.toml: a.csv is in mm and N, which needs material.thickness_mm and material.substrate_modulus_MPa");
+    insta::assert_snapshot!(plot("--measured a.csv --measured b.csv"), @"error: b.csv: is of another test than a.csv, or in other units");
+    insta::assert_snapshot!(plot("--measured c.csv"), @"error: c.csv: its columns are displacement_mm force, expected two of one test: displacement_mm displacement_um displacement_m displacement force_N force_mN force_kN force curvature_per_mm curvature_per_m curvature moment_N_mm moment_mN_m moment_N_m moment");
+    insta::assert_snapshot!(plot("--measured d.csv"), @"error: d.csv: cannot be read (No such file or directory), expected a CSV file");
+    assert!(!place.path("o").exists());
+}
+
+/// The folder of the example.
+fn example() -> std::path::PathBuf {
+    std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../sweeps/fit/palm.toml")
+}
+
+#[test]
+fn the_example_is_fitted_and_its_answer_is_a_definition() {
+    let place = Place::new();
+    let text = place.prints(&format!("fit {} --out f", example().display()));
+    for word in ["palm-test: 4 unknowns from 120 points of 3 curves", "95 % interval", "noise"] {
+        assert!(text.contains(word), "{text}");
+    }
+    assert_eq!(place.list("f"), "derived fit.csv fitted.toml residuals.csv residuals.svg");
+    let table = place.read("f/fit.csv");
+    let truth = [0.5, 4.5, 0.3, 0.05];
+    for (row, truth) in table.lines().skip(1).zip(truth) {
+        let numbers: Vec<f64> = row.split(',').filter_map(|cell| cell.parse().ok()).collect();
+        let [value, low, high] = [numbers[0], numbers[1], numbers[2]];
+        // These curves are one throw of the dice: the truth is close, if not within each interval.
+        assert!((value - truth).abs() < 1.5 * (high - low), "{row}");
+    }
+    assert_eq!(place.read("f/residuals.csv").lines().count(), 121);
+    place.prints("design f/fitted.toml --design 1 --out d");
+    // The same command does it again; a file that somebody else has written is left alone.
+    place.prints(&format!("fit {} --out f --json", example().display()));
+    fs::create_dir(place.path("g")).expect("a folder");
+    fs::write(place.path("g/fit.csv"), "mine").expect("writable");
+    let refused = place.refused(&format!("fit {} --out g", example().display()));
+    assert!(refused.contains("g/fit.csv") && refused.contains("has not written"), "{refused}");
+    assert_eq!(place.read("g/fit.csv"), "mine");
+}
+
+#[test]
+fn what_the_curves_do_not_tell_gives_exit_code_1() {
+    let place = Place::with(&SKIN.replace("membrane_modulus_MPa = 4.5\n", "[variables]\nmembrane_modulus_MPa = { from = 1, to = 9 }\n[[curve]]\nfile = 'a.csv'\nkind = 'puncture'\n"));
+    fs::write(place.path("a.csv"), "displacement_mm,force_N\n0.1,0.01\n0.2,0.03\n0.3,0.05\n")
+        .expect("writable");
+    let assert = place.squama("fit x.toml").assert().code(1);
+    let text = String::from_utf8_lossy(&assert.get_output().stdout).into_owned();
+    assert!(
+        text.contains("not told") && text.contains("say next to nothing of membrane_modulus_MPa"),
+        "{text}"
+    );
+    assert!(place.path("results/palm/fit/fit.csv").exists());
+}
+
+#[test]
+fn what_makes_a_fit_doubtful_is_said() {
+    let skin = SKIN.replace("substrate_modulus_MPa = 0.5\n", "");
+    let place = Place::with(&format!(
+        "{skin}[variables]\nsubstrate_modulus_MPa = {{ from = 0.1, to = 9 }}\n[[curve]]\nfile = 'a.csv'\nkind = 'puncture'\n"
+    ));
+    let fitted = |file: &str, exit: i32| {
+        fs::write(place.path("a.csv"), file).expect("writable");
+        let assert = place.squama("fit x.toml").assert().code(exit);
+        String::from_utf8_lossy(&assert.get_output().stdout).into_owned()
+    };
+    let pulled = (1..30).map(|k| format!("{k},-{k}")).collect::<Vec<_>>().join("\n");
+    let text =
+        fitted(&format!("Machine;7\nDisplacement (µm),Force [mN]\n{pulled}\n,\n40,-40\n"), 0);
+    assert!(text.contains("(!) a.csv: no point has a displacement and a force above 0"), "{text}");
+    assert!(text.contains("a.csv: 1 line without numbers left out"), "{text}");
+    let wave = (1..60).map(|k| format!("{k},{}", 2 * k + 20 * (k / 10 % 2)));
+    let wave = wave.collect::<Vec<_>>().join("\n");
+    let text = fitted(&format!("displacement_um,force_mN\n{wave}"), 0);
+    assert!(text.contains("(!) a.csv: the residuals follow each other (correlation 0."), "{text}");
+    let text = fitted("displacement,force\n0.1,0.2\n0.2,0.4\n0.3,0.6\n", 1);
+    assert!(text.contains("displacement and force have no units in the file"), "{text}");
+}

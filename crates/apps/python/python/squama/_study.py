@@ -1,0 +1,107 @@
+"""Many skins, and studies that are kept in folders."""
+
+import os
+import shutil
+import subprocess
+import tempfile
+from array import array
+
+from . import _squama
+from ._errors import Failed
+from ._progress import Bar
+from ._table import Table
+
+
+def solve_many(skins, measures="all", *, threads=None, progress=False):
+    """Solves skins, or one, on all cores, and gives a `Table` with the columns of ``designs.csv``, a row each, in their order.
+
+    Parameters in which the skins differ have columns too. A measure that failed is NaN; ``puncture_status`` and
+    ``flexure_status`` say why. Ctrl-C ends it, and the results are lost: `run` keeps them.
+    """
+    with Bar(progress) as tell:
+        skins = [skins] if isinstance(skins, _squama.Skin) else list(skins)
+        return Table(_squama.solve_many(skins, measures, threads, tell))
+
+
+class Run(Table):
+    """The designs of a results folder, a `Table` with the columns of ``designs.csv``."""
+
+    def __init__(self, folder):
+        self.folder = os.fspath(folder)
+        known = {name: (unit, meaning) for name, unit, meaning in _squama.columns()}
+        known.update({key: (unit, meaning) for key, _, unit, meaning, _, _ in _squama.parameters()})
+        columns = ((name, *known.get(name, ("-", "")), _numbers(name, cells)) for name, cells in _squama.read(folder))
+        super().__init__(columns)
+
+    def rank(self, require=(), maximize=(), minimize=(), weights=None):
+        """The designs that keep the requirements, such as ``"coverage >= 0.6"``, by fitness, as a `Table`.
+
+        The criteria are those of the paper, unless columns to maximize or minimize are given; ``weights`` one for each.
+        """
+        listed = lambda of: [of] if isinstance(of, str) else list(of)  # noqa: E731
+        return Table(_squama.rank(self.folder, listed(require), listed(maximize), listed(minimize), weights))
+
+    def report(self, out=None):
+        """Writes one page with figures, ranking, table and drawings by ``squama report``, and returns its path.
+
+        The command of that name has to be on the path, or named by the environment variable ``SQUAMA``.
+        """
+        command = os.environ.get("SQUAMA") or shutil.which("squama")
+        if command is None:
+            raise Failed("report", "there is no command squama on the path; cargo install --path crates/apps/cli installs it")
+        out = os.path.join(self.folder, "report.html") if out is None else os.fspath(out)
+        done = subprocess.run([command, "report", self.folder, "--out", out], capture_output=True, text=True)
+        if done.returncode:
+            raise Failed("report", done.stderr.strip())
+        return out
+
+
+def _numbers(name, cells):
+    """The cells of a column as numbers, if they are; the number of a design is a name, with its zeros."""
+    try:
+        return cells if name == "design" else array("d", (float(cell or "nan") for cell in cells)).tobytes()
+    except ValueError:
+        return [cell or None for cell in cells]
+
+
+def read(folder):
+    """The designs in a results folder of ``run`` or ``optimise``, or of the commands of that name; checked first."""
+    return Run(folder)
+
+
+def run(definition, out=None, *, set=None, resume=False, fresh=False, threads=None, progress=False):
+    """Solves every design of a definition (a path, a text in TOML or a `Skin`) into a folder, as ``squama run``.
+
+    ``out`` is ``results/NAME`` unless given; ``set={"puncture.scales": 41}`` takes the place of what the definition says.
+    Ctrl-C keeps what is solved, and ``resume=True`` goes on; ``fresh=True`` throws earlier results away.
+    """
+    with Bar(progress) as tell:
+        return Run(_squama.run(definition, dict(out=out, set=set, resume=resume, fresh=fresh, threads=threads, progress=tell)))
+
+
+def optimise(goal, out=None, *, set=None, resume=False, fresh=False, threads=None, progress=False):
+    """Searches for the optimum of a goal, or its Pareto front, as ``squama optimise``.
+
+    Returns a `Run` of the best designs; of a single objective its ``skin`` is the best. Raises `squama.Failed` if no design
+    meets the constraints.
+    """
+    with Bar(progress) as tell:
+        keywords = dict(out=out, set=set, resume=resume, fresh=fresh, threads=threads, progress=tell)
+        folder, best = _squama.optimise(goal, keywords)
+    found = Run(folder)
+    found.skin = best and _squama.Skin.from_toml(best)
+    return found
+
+
+def tolerance(definition, *, set=None, require=(), samples=1000, out=None, threads=None, progress=False):
+    """Predicts the effect of manufacturing tolerances, and the yield, as ``squama tolerance``.
+
+    ``definition`` is a path, a text in TOML or a `Skin`, with a section ``[tolerance]`` or
+    ``set={"tolerance.gap_over_t": {"batch_sd": 0.02}}``. Returns a dict of tables: ``"tolerance"``, ``"sources"`` and
+    ``"yield"``. Samples are kept in the folder ``out``, if it is given, from which the same call goes on.
+    """
+    require = [require] if isinstance(require, str) else list(require)
+    with Bar(progress) as tell, tempfile.TemporaryDirectory() as temporary:
+        keywords = dict(out=out or temporary, set=set, resume=False, fresh=False, threads=threads, progress=tell)
+        tables = _squama.tolerance(definition, require, samples, keywords)
+    return dict(zip(("tolerance", "sources", "yield"), map(Table, tables)))

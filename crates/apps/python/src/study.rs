@@ -1,0 +1,212 @@
+//! Runs, searches and tolerances in folders: calls of the crates behind the commands.
+
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use ::run::{Options, Program, Start};
+use ::uncertainty::{
+    Analysis, DesignTolerance, NoAnalysis, SOURCE_COLUMNS, SampleStore, TOLERANCE_COLUMNS,
+    YIELD_COLUMNS,
+};
+use optimisation::{
+    Answer, DesignGoal, FRONT, OPTIMUM, OPTIMUM_DEFINITION, SearchOptions, write_found,
+};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use ranking::{
+    Criterion, Goal, Preferences, Ranking, Requirement, TetrahedralGrid, Weights, ranking_columns,
+};
+use rayon::prelude::*;
+use results::{Completeness, CsvFormat, Results, RunFolder, VerifiedFolder};
+use sweep::{Setting, Subset, Sweep};
+
+use crate::error::{self, OrFailed as _};
+use crate::skin::Skin;
+use crate::value::{NamedCells, table, text, value};
+use crate::work::{interrupted, pool, threads as threads_of, watched};
+
+/// This program, which a run notes in its folder.
+const PROGRAM: Program =
+    Program { version: env!("CARGO_PKG_VERSION"), revision: env!("SQUAMA_REVISION") };
+
+/// How often the tables are written while a run goes on.
+const TABLES_EVERY: Duration = Duration::from_secs(30);
+
+/// The keywords that studies share.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub struct Keywords<'py> {
+    /// The folder.
+    out: Option<PathBuf>,
+    /// In place of what the definition says: dotted keys and their values.
+    set: Option<Bound<'py, PyDict>>,
+    resume: bool,
+    fresh: bool,
+    threads: Option<usize>,
+    progress: Option<Bound<'py, PyAny>>,
+}
+
+impl Keywords<'_> {
+    fn settings(&self) -> PyResult<Vec<Setting>> {
+        let setting = |(key, of): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
+            let key = text(&key)?;
+            let text = format!("{key}={}", value(&of)?);
+            let expected = "a dotted key with a value, such as {\"puncture.scales\": 41}";
+            let wrong = |_| error::invalid_parameter(of.py(), &key, Some(of.clone()), expected);
+            Setting::parse(&text).map_err(wrong)
+        };
+        self.set.iter().flatten().map(setting).collect()
+    }
+
+    /// The folder, for the command and for this program the same.
+    fn folder(&self, sweep: &Sweep) -> PathBuf {
+        self.out.clone().unwrap_or_else(|| Path::new("results").join(sweep.name()))
+    }
+
+    /// What becomes of earlier results.
+    fn start(&self) -> Start {
+        match (self.resume, self.fresh) {
+            (true, _) => Start::Resume,
+            (_, true) => Start::Fresh,
+            _ => Start::New,
+        }
+    }
+}
+
+/// Solves the designs of a definition into a folder, and returns the folder.
+#[pyfunction]
+pub fn run(
+    py: Python<'_>,
+    definition: &Bound<'_, PyAny>,
+    keywords: Keywords<'_>,
+) -> PyResult<PathBuf> {
+    let sweep = Skin::definition(py, definition, &keywords.settings()?)?;
+    let (folder, start) = (keywords.folder(&sweep), keywords.start());
+    let (place, threads) = (folder.clone(), threads_of(keywords.threads));
+    let finished = watched(py, keywords.progress, move |watch| {
+        let options = Options {
+            threads,
+            format: None,
+            fail_fast: false,
+            tables_every: TABLES_EVERY,
+            stop: &watch.stop,
+            work: &watch.run,
+        };
+        let told = |progress| watch.tell(progress);
+        ::run::run(&sweep, Subset::default(), &place, start, &options, &PROGRAM, told)
+    })?;
+    // Designs that fail are results, too: missing are only those that an interrupt has left.
+    if finished.or_failed("run")?.missing > 0 { Err(interrupted()) } else { Ok(folder) }
+}
+
+/// The results in a folder, once they are checked.
+fn results(folder: &Path, file: &'static str) -> PyResult<Results> {
+    let verified = VerifiedFolder::open(folder, Completeness::Whole).or_failed("read")?;
+    Results::of_file(&verified, file).or_failed("read")
+}
+
+/// The table of designs in a folder: names and cells of its columns.
+#[pyfunction]
+pub fn read(folder: PathBuf) -> PyResult<Vec<(String, Vec<String>)>> {
+    let files = [RunFolder::DESIGNS, OPTIMUM, FRONT];
+    let file = files.into_iter().find(|file| folder.join(file).is_file());
+    let results = results(&folder, file.unwrap_or(RunFolder::DESIGNS))?;
+    let cells =
+        |column| (0..results.len()).map(|row| results.text(row, column).into_owned()).collect();
+    Ok(results.header().iter().cloned().enumerate().map(|(k, name)| (name, cells(k))).collect())
+}
+
+/// The designs of a run that meet requirements, by fitness.
+#[pyfunction]
+#[pyo3(signature = (folder, require, maximize, minimize, weights))]
+pub fn rank(
+    folder: PathBuf,
+    require: Vec<String>,
+    maximize: Vec<String>,
+    minimize: Vec<String>,
+    weights: Option<Vec<f64>>,
+) -> PyResult<Vec<NamedCells>> {
+    let requirements = requirements(&require)?;
+    let goals = [(Goal::Maximize, maximize), (Goal::Minimize, minimize)];
+    let criteria = goals.into_iter().flat_map(|(goal, columns)| {
+        columns.into_iter().map(move |column| Criterion::new(&column, goal))
+    });
+    let criteria: Vec<_> = criteria.collect();
+    let criteria = if criteria.is_empty() { ranking::CRITERIA.to_vec() } else { criteria };
+    let weights = weights.map(|of| Weights::new(&of)).transpose().or_failed("rank")?;
+    let preferences = Preferences::new(requirements, criteria, weights, ranking::Scale::Paper);
+    let preferences = preferences.or_failed("rank")?;
+    let results = results(&folder, RunFolder::DESIGNS)?;
+    ranking::check_comparable(&results, &preferences).or_failed("rank")?;
+    let ranking = Ranking::by(&results, preferences, TetrahedralGrid::default());
+    let ranking = ranking.or_failed("rank")?;
+    let parameters: Vec<_> = results.parameters().collect();
+    let columns = ranking_columns(&parameters, ranking.preferences());
+    Ok(table(&columns, ranking.by_fitness(ranking.preferences().weights)))
+}
+
+fn requirements(texts: &[String]) -> PyResult<Vec<Requirement>> {
+    texts.iter().map(|text| text.parse().or_failed(text)).collect()
+}
+
+/// Searches for the best designs of a goal, and returns the folder and, of one objective, the definition of the best.
+#[pyfunction]
+pub fn optimise(
+    py: Python<'_>,
+    goal: PathBuf,
+    keywords: Keywords<'_>,
+) -> PyResult<(PathBuf, Option<PathBuf>)> {
+    let goal = DesignGoal::read(&goal, &keywords.settings()?).or_failed("optimise")?;
+    let (folder, start) = (keywords.folder(goal.space.sweep()), keywords.start());
+    let (place, threads) = (folder.clone(), threads_of(keywords.threads));
+    let searched = watched(py, keywords.progress, move |watch| {
+        let options = SearchOptions { threads, start, stop: &watch.stop, meter: &watch.search };
+        let found = optimisation::optimise(&goal, &place, &options, &PROGRAM);
+        let Some(found) = found.or_failed("optimise")? else { return Err(interrupted()) };
+        let folder = RunFolder::new(&place);
+        let written = write_found(&folder, &goal, &found, &[], CsvFormat::default());
+        written.or_failed("optimise").map(|_| found.answer)
+    })?;
+    match searched? {
+        Answer::Optimum(_) => Ok((folder.clone(), Some(folder.join(OPTIMUM_DEFINITION)))),
+        Answer::Front(_) => Ok((folder, None)),
+        Answer::Infeasible(_) => Err(error::failed("optimise", "no design meets the constraints")),
+    }
+}
+
+/// Predicts and samples the effect of the deviations of a definition on its designs: the columns of the spread of every
+/// measure, of its sources, and of the yields. Samples are kept in the folder.
+#[pyfunction]
+pub fn tolerance(
+    py: Python<'_>,
+    definition: &Bound<'_, PyAny>,
+    require: Vec<String>,
+    samples: usize,
+    keywords: Keywords<'_>,
+) -> PyResult<[Vec<NamedCells>; 3]> {
+    let sweep = Skin::definition(py, definition, &keywords.settings()?)?;
+    if sweep.deviations().is_empty() && !sweep.is_imperfect() {
+        let expected = "a definition with deviations, or such as set={\"tolerance.gap_over_t\": {\"batch_sd\": 0.02}}";
+        return Err(error::invalid_parameter(py, "tolerance", None, expected));
+    }
+    let requirements = requirements(&require)?;
+    let store = SampleStore::new(&keywords.folder(&sweep));
+    let pool = pool(keywords.threads)?;
+    let analysed = watched(py, keywords.progress, move |watch| {
+        let analysis = Analysis::new(&sweep, &requirements, samples, PROGRAM, &watch.stop);
+        let analyse = |index| analysis.design(index, &store);
+        let all = || -> Result<Vec<DesignTolerance>, NoAnalysis> {
+            (0..sweep.grid().len()).into_par_iter().map(analyse).collect()
+        };
+        pool.install(all)
+    })?;
+    let all = analysed.map_err(|error| match error {
+        NoAnalysis::Stopped { .. } => interrupted(),
+        error => error::failed("tolerance", &error.to_string()),
+    })?;
+    Ok([
+        table(TOLERANCE_COLUMNS, all.iter().flat_map(DesignTolerance::measure_rows)),
+        table(SOURCE_COLUMNS, all.iter().flat_map(DesignTolerance::source_rows)),
+        table(YIELD_COLUMNS, all.iter().flat_map(DesignTolerance::yield_rows)),
+    ])
+}

@@ -1,0 +1,229 @@
+//! The page that solves: sliders, the skin under the hand, and the solver itself, in one HTML file.
+
+use std::io::{self, Write};
+
+use results::columns::name;
+use serde::Serialize;
+use serde_json::Value;
+use sweep::{Axis, Parameter, Scalar, Sweep, Variable, key};
+
+use crate::packed::in_sevens;
+use crate::page::{ELEMENTS, fill, fill_head, fill_json};
+
+const PAGE: &str = concat!(
+    include_str!("../assets/page/head.html"),
+    include_str!("../assets/explore/explore.html")
+);
+/// What a page shows of it.
+const SECTION: &str = include_str!("../assets/explore/explorer.html");
+/// Its style on any page, and that of a page of its own.
+pub(crate) const STYLE: &str = include_str!("../assets/explore/explore.css");
+const STYLES: [&str; 2] =
+    [include_str!("../assets/page/styles/theme.css"), include_str!("../assets/explore/page.css")];
+/// The scripts of the page, in the order in which they run.
+pub(crate) const SCRIPTS: [&str; 7] = [
+    include_str!("../assets/explore/solver.js"),
+    include_str!("../assets/explore/skin.js"),
+    include_str!("../assets/explore/pictures.js"),
+    include_str!("../assets/explore/controls.js"),
+    include_str!("../assets/explore/measures.js"),
+    include_str!("../assets/explore/curves.js"),
+    include_str!("../assets/explore/explorer.js"),
+];
+/// The thread in which the page solves.
+const WORKER: &str = include_str!("../assets/explore/worker.js");
+/// The crate `live` as WebAssembly, compressed: `scripts/wasm` makes it.
+const MODULE: &[u8] = include_bytes!("../assets/explore/solver.wasm.gz");
+
+/// What a page that solves starts from.
+#[derive(Clone, Debug)]
+pub struct Explorer {
+    /// The definition.
+    pub sweep: Sweep,
+    /// The file of the definition, or the folder of its results, as commands name it, with the settings in its place.
+    pub source: String,
+    /// What a design must keep, as `coverage >= 0.5`.
+    pub requirements: Vec<String>,
+    /// The version of the program.
+    pub version: String,
+}
+
+/// A script without the lines that are comments alone, which every page would carry.
+fn without_comments(script: &str) -> String {
+    let is_code = |line: &&str| !["//", "/**"].iter().any(|own| line.trim_start().starts_with(own));
+    script.lines().filter(is_code).flat_map(|line| [line, "\n"]).collect()
+}
+
+/// A parameter under the hand.
+#[derive(Clone, Debug, Serialize)]
+struct Control {
+    key: &'static str,
+    label: &'static str,
+    unit: &'static str,
+    min: f64,
+    max: f64,
+    /// What one press of a key moves.
+    step: f64,
+    /// The value with which a page opens, a number or a word.
+    value: Value,
+    /// The values of one that takes words.
+    words: Option<[&'static str; 2]>,
+    /// The only kind of needle for which it has a meaning.
+    only: Option<&'static str>,
+}
+
+/// A parameter that a hand may move: its key and label, the range where the definition gives none, the share of the range at which
+/// a page opens where the definition gives several values, and whether a definition that does not give it leaves it out.
+type Offered = (&'static str, &'static str, [f64; 2], f64, bool);
+
+/// The parameters under the hand. A page opens with a skin of overlapping scales, because that is one that protects.
+const OFFERED: [Offered; 11] = [
+    (key::GAP, "Gap", [0.02, 1.0], 0.1, false),
+    (key::LENGTH, "Length", [0.05, 2.0], 0.5, false),
+    (key::SLANT, "Slant", [0.0, 80.0], 0.7, false),
+    (key::WIDTH, "Width", [0.25, 2.0], 0.5, false),
+    (key::THICKNESS, "Thickness", [0.1, 10.0], 0.5, true),
+    ("membrane_thickness_over_t", "Membrane", [0.02, 0.5], 0.5, false),
+    (key::SUBSTRATE_MODULUS, "Tissue", [0.01, 10.0], 0.5, true),
+    (key::FRICTION, "Scales rub", [0.0, 0.5], 0.0, false),
+    (key::NEEDLE, "Needle", [0.0, 0.0], 0.0, false),
+    (key::NEEDLE_FRICTION, "Friction", [0.0, 1.0], 0.2, false),
+    (key::CRITICAL_TILT, "Critical tilt", [2.0, 30.0], 0.5, false),
+];
+
+/// A measure that is shown.
+#[derive(Serialize)]
+struct Shown {
+    name: &'static str,
+    label: &'static str,
+    /// The column in physical units that takes its place where there is one.
+    physical: &'static str,
+    /// What it is, in words for everyone.
+    words: &'static str,
+}
+
+const fn shown(
+    name: &'static str,
+    label: &'static str,
+    physical: &'static str,
+    words: &'static str,
+) -> Shown {
+    Shown { name, label, physical, words }
+}
+
+/// The measures that are shown.
+const SHOWN: [Shown; 6] = [
+    shown(name::COVERAGE, "Coverage", "", "share of the thickness filled with scales"),
+    shown(
+        name::CRITICAL_FORCE,
+        "Critical force",
+        "critical_force_N",
+        "the needle tilts a scale too far",
+    ),
+    shown(name::PENETRATION, "Penetration", "penetration_mm", "how deep the scales have sunk then"),
+    shown(name::COMPLIANCE, "Flexibility", "", "1: the membrane alone bends as easily"),
+    shown(
+        name::CONTACT_CURVATURE,
+        "Bends freely to",
+        "bend_radius_mm",
+        "radius, or curvature, at which scales touch",
+    ),
+    shown(name::SOUND_FORCE, "Trusted to", "sound_force_N", "before the surface folds over"),
+];
+
+/// What the scripts read.
+#[derive(Serialize)]
+struct Data<'a> {
+    definition: String,
+    source: &'a str,
+    base: String,
+    /// Thickness of the scales, mm, if it is known.
+    thickness: Option<f64>,
+    controls: Vec<Control>,
+    measures: &'static [Shown],
+    requirements: &'a [String],
+}
+
+impl Explorer {
+    /// Writes a page as HTML that needs no other file.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
+        fill(out, PAGE, |out, place| match place {
+            "style" => write!(out, "{}{STYLE}", STYLES.concat()),
+            "explorer" => self.write_section(out),
+            "scripts" => write!(out, "{ELEMENTS}{}", without_comments(&SCRIPTS.concat())),
+            _ => fill_head(out, place, self.sweep.name(), &self.version),
+        })
+    }
+
+    /// Writes the section of a page that solves, with the solver.
+    pub(crate) fn write_section(&self, out: &mut impl Write) -> io::Result<()> {
+        let base = self.sweep.grid().base();
+        let data = Data {
+            definition: self.sweep.to_toml(),
+            source: &self.source,
+            base: Parameter::named("base")
+                .map_or_else(String::new, |parameter| parameter.get(base).to_string()),
+            thickness: base.material.thickness_mm,
+            controls: OFFERED.iter().filter_map(|offered| self.control(offered)).collect(),
+            measures: &SHOWN,
+            requirements: &self.requirements,
+        };
+        fill(out, SECTION, |out, place| match place {
+            "module" => out.write_all(in_sevens(MODULE).as_bytes()),
+            "worker" => out.write_all(WORKER.as_bytes()),
+            _ => fill_json(out, &data),
+        })
+    }
+
+    /// The control of a parameter: over the values of its axis or variable where there are several, over a range of its own elsewhere.
+    fn control(&self, &(key, label, range, opens_at, if_given): &Offered) -> Option<Control> {
+        let parameter = Parameter::named(key)?;
+        let grid = self.sweep.grid();
+        let own = parameter.get(&grid.case(0));
+        let variables = || self.sweep.variables().iter();
+        let span = grid.axis(key).and_then(span);
+        let span = span.or_else(|| variables().find_map(|variable| interval(variable, key)));
+        if if_given && span.is_none() && own.number().is_none() {
+            return None;
+        }
+        // Under a free needle a friction stands for the critical tilt: only one of both acts.
+        let friction_is_given =
+            grid.base().needle_friction.is_some() || grid.axis(key::NEEDLE_FRICTION).is_some();
+        let friction_says_tilt = friction_is_given && !self.sweep.is_guided();
+        let only = match key {
+            key::NEEDLE_FRICTION if !friction_says_tilt => Some("guided"),
+            key::CRITICAL_TILT if friction_says_tilt => Some("guided"),
+            _ => None,
+        };
+        let [min, max] = span.unwrap_or(range);
+        // The first design of a grid is one of its corners, and seldom one that protects.
+        let middle = min + opens_at * (max - min);
+        let number = own.number().filter(|_| span.is_none()).unwrap_or(middle);
+        // A definition may give more than the usual range has.
+        let (min, max) = (min.min(number), max.max(number));
+        let (words, value) = match own {
+            Scalar::Word(word) if key == key::NEEDLE => (Some(["free", "guided"]), word.into()),
+            _ => (None, number.into()),
+        };
+        let (unit, step) = (parameter.unit, (max - min) / 100.0);
+        Some(Control { key, label, unit, min, max, step, value, words, only })
+    }
+}
+
+/// The ends of an axis of several numbers.
+fn span(axis: &Axis) -> Option<[f64; 2]> {
+    let values = (0..axis.len()).filter_map(|k| axis.value(k).number());
+    let ends =
+        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)]);
+    (ends[0] < ends[1]).then_some(ends)
+}
+
+/// The ends of a variable, if it is the one of `key` and its values are numbers.
+fn interval(variable: &Variable, key: &str) -> Option<[f64; 2]> {
+    let ends = [0.0, 1.0].map(|share| variable.at(share).number());
+    let [Some(low), Some(high)] = ends else { return None };
+    (variable.parameter().key == key).then_some([low, high])
+}

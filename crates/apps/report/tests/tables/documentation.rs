@@ -1,0 +1,162 @@
+//! The guides to sweeps and results say what the program does.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use optimisation::{DesignGoal, history_columns, optimum_columns};
+use ranking::{
+    COMPARISON_COLUMNS, Preferences, difference_columns, pareto_columns, quaternary_columns,
+    ranking_columns, winner_columns,
+};
+use results::columns::{
+    EVENTS, FLEXURE_EVENTS, FLEXURE_SCALES, FLEXURE_STEPS, SCALES, STEPS, design_columns,
+    flexure_path_columns, path_columns, tip_force_columns,
+};
+use results::{
+    Column, DERIVATIVE_COLUMNS, MEASURE_COLUMNS, Outcome, RERUN_COLUMNS, failure_detail_columns,
+};
+use skin::puncture::Needle;
+use sweep::{PARAMETERS, Sweep};
+
+/// The sweep that `text` defines.
+fn sweep(text: &str) -> Sweep {
+    Sweep::parse(text, "x.toml", &[]).expect("a valid sweep")
+}
+
+/// The goal that `text` holds.
+fn goal(text: &str) -> DesignGoal {
+    DesignGoal::parse(text, "x.toml", &[]).expect("a goal")
+}
+
+fn root() -> &'static Path {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../.."))
+}
+
+fn text(file: &str) -> String {
+    std::fs::read_to_string(root().join(file)).expect("a file of the project")
+}
+
+fn read(file: &str) -> Sweep {
+    Sweep::read(&root().join(file), &[]).expect("a valid sweep")
+}
+
+fn columns<R>(columns: &[Column<R>]) -> String {
+    let mut table = "| Column | Unit | Meaning |\n|---|---|---|\n".to_owned();
+    for column in columns {
+        let _ = writeln!(table, "| `{}` | {} | {} |", column.name, column.unit, column.meaning);
+    }
+    table
+}
+
+#[test]
+fn the_guide_to_the_results_explains_every_column() {
+    let mut guide = text("results/README.md");
+    guide = guide.split_off(guide.find("### `designs.csv`").expect("the first table"));
+    let mut statuses = "| Status | Meaning |\n|---|---|\n".to_owned();
+    for outcome in Outcome::ALL {
+        let _ = writeln!(statuses, "| `{outcome}` | {} |", outcome.meaning());
+    }
+    let paper = Preferences::paper();
+    let geometry = &PARAMETERS[..3].iter().collect::<Vec<_>>();
+    let imperfect = design_columns(&sweep("name = 'x'\nimperfection.gap_cv = 0.1"));
+    let with_imperfections = &imperfect[design_columns(&sweep("name = 'x'")).len()..];
+    let material = "[material]\nthickness_mm = 1\nsubstrate_modulus_MPa = 1\nmembrane_modulus_MPa = 1\nscale_density_kg_m3 = 1";
+    let physical =
+        design_columns(&sweep(&format!("name = 'x'\nimperfection.gap_cv = 0.1\n{material}")));
+    let in_physical_units = &physical[imperfect.len()..];
+    let several = design_columns(&sweep("name = 'x'\npuncture.critical_tilt_deg = [5, 10]"));
+    let at_tilts = &several[design_columns(&sweep("name = 'x'")).len()..];
+    let fittest = goal(
+        "name = 'x'\n[variables]\ngap_over_t = { from = 0.1, to = 1 }\n[designs]\nlength_over_t = 1\nslant_deg = 45\n[goal]\nmaximize = 'fitness'",
+    );
+    let (best, known) = (optimum_columns(&fittest), design_columns(&sweep("name = 'x'")).len());
+    let history = history_columns(&goal(
+        "name = 'x'\nmeasures = 'coverage'\n[variables]\ngap_over_t = { from = 0.1, to = 1 }\n[designs]\nlength_over_t = 1\nslant_deg = 45\n[goal]\nmaximize = 'coverage'",
+    ));
+    let expected = [
+        ("`designs.csv`", columns(&design_columns(&sweep("name = 'x'")))),
+        ("`designs.csv`, with imperfections in addition", columns(with_imperfections)),
+        (
+            "`designs.csv`, with `puncture.critical_tilt_deg = [5, 10]` in addition",
+            columns(at_tilts),
+        ),
+        ("`designs.csv`, with a material in addition", columns(in_physical_units)),
+        ("Statuses", statuses),
+        (
+            "`failures.csv`, after the columns that say which design it is",
+            columns(&failure_detail_columns()),
+        ),
+        ("`sensitivity.csv`", columns(DERIVATIVE_COLUMNS)),
+        ("`reruns.csv`", columns(RERUN_COLUMNS)),
+        ("`measures.csv`", columns(MEASURE_COLUMNS)),
+        ("`path.csv`", columns(&path_columns(true, true))),
+        ("`path.csv`, of a round tip in addition", columns(&tip_force_columns(&[vec![(0, 0.0)]]))),
+        ("`events.csv`", columns(EVENTS)),
+        ("`scales.csv`", columns(SCALES)),
+        ("`steps.csv`", columns(STEPS)),
+        ("`flexure_path.csv`", columns(&flexure_path_columns(true))),
+        ("`flexure_events.csv`", columns(FLEXURE_EVENTS)),
+        ("`flexure_scales.csv`", columns(FLEXURE_SCALES)),
+        ("`flexure_steps.csv`", columns(FLEXURE_STEPS)),
+        ("`ranking.csv`", columns(&ranking_columns(geometry, &paper))),
+        ("`pareto.csv`", columns(&pareto_columns(geometry, &paper))),
+        ("`winners.csv`", columns(&winner_columns(geometry, &paper))),
+        ("`quaternary.csv`", columns(&quaternary_columns(geometry, &paper))),
+        (
+            "`optimum.csv` and `front.csv`, after the columns of `designs.csv`",
+            columns(&best[known..]),
+        ),
+        (
+            "`history.csv`, between `stage` and `shortfall` the variables and the objectives",
+            columns(&history),
+        ),
+        ("`compare.csv`", columns(COMPARISON_COLUMNS)),
+        ("`differences.csv`", columns(&difference_columns(geometry))),
+    ];
+    let expected = expected.map(|(title, table)| format!("### {title}\n\n{table}"));
+    let expected = expected.join("\n");
+    if std::env::var_os("UPDATE_GUIDE").is_some() {
+        let file = root().join("results/README.md");
+        let before = text("results/README.md").replace(&guide, "");
+        std::fs::write(file, before + &expected).expect("writable");
+    }
+    assert_eq!(guide, expected);
+}
+
+#[test]
+fn the_paper_sweep_writes_every_key_with_its_default() {
+    let paper = text("sweeps/paper.toml");
+    for parameter in PARAMETERS {
+        // What is not given by default stands there as a remark.
+        let is_given = parameter.is_given(&sweep::Case::default());
+        let remark = if is_given { "" } else { "# " };
+        let line = format!("\n{remark}{} = ", parameter.key);
+        // A list of the lengths in mm is enough: each stands in the place of the same over the thickness.
+        let listed = format!(" {}", parameter.key);
+        let stands = paper.contains(if parameter.is_in_mm() { &listed } else { &line });
+        assert!(stands, "{} is missing", parameter.path());
+    }
+    assert_eq!(read("sweeps/paper.toml").to_toml(), sweep("name = 'paper'").to_toml());
+}
+
+#[test]
+fn the_other_sweeps_are_what_they_say() {
+    assert_eq!(read("sweeps/paper-as-written.toml").grid().len(), 720);
+    assert_eq!(read("sweeps/paper-neo-hookean.toml").grid().len(), 720);
+    assert_eq!(read("sweeps/smoke.toml").grid().len(), 12);
+    assert_eq!(read("sweeps/sensitivity/coupling.toml").grid().len(), 2 * 6 * 8 * 6);
+    assert_eq!(read("sweeps/imperfection.toml").grid().len(), 18);
+    assert!(read("sweeps/imperfection.toml").is_imperfect());
+    assert!(!read("sweeps/paper.toml").is_imperfect());
+    let strong = DesignGoal::read(&root().join("sweeps/goals/strong-and-covered.toml"), &[]);
+    assert_eq!(strong.expect("a goal").space.intervals().len(), 3);
+    // What gives advice has a needle that moves straight down.
+    let guided = DesignGoal::read(&root().join("sweeps/goals/strong-under-a-needle.toml"), &[]);
+    let of_goal = guided.expect("a goal").space.sweep().grid().case(0).punctured();
+    let of_sweep = |file: &str| read(file).grid().case(0).punctured();
+    for puncture in [of_goal, of_sweep("sweeps/glove.toml"), of_sweep("sweeps/smoke.toml")] {
+        assert_eq!(puncture.needle, Needle::Guided { friction: 0.3 });
+        assert!(puncture.load_position < 1.0);
+    }
+    assert!(!read("sweeps/paper.toml").is_guided());
+}

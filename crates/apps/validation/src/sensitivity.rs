@@ -1,0 +1,218 @@
+//! The dependence of the main results on the choices that the paper leaves open.
+
+use ranking::{Ranking, TetrahedralGrid, Weights};
+use results::columns::name;
+use sweep::{Axis, Setting, Sweep};
+
+use crate::claims::{self, CheckedClaim, DesignValue, digits, named};
+use crate::study::{Study, is_geometry};
+
+/// Sweeps over one open choice each: the files of `sweeps/sensitivity/`.
+const SWEEPS: [(&str, &str); 11] = [
+    ("base", include_str!("../../../../sweeps/sensitivity/base.toml")),
+    ("width", include_str!("../../../../sweeps/sensitivity/width.toml")),
+    ("row-length", include_str!("../../../../sweeps/sensitivity/row-length.toml")),
+    (COUPLING, include_str!("../../../../sweeps/sensitivity/coupling.toml")),
+    (FRICTION, include_str!("../../../../sweeps/sensitivity/friction.toml")),
+    ("contact-law", include_str!("../../../../sweeps/sensitivity/contact-law.toml")),
+    (
+        "contact-modulus-puncture",
+        include_str!("../../../../sweeps/sensitivity/contact-modulus-puncture.toml"),
+    ),
+    (
+        "contact-modulus-flexure",
+        include_str!("../../../../sweeps/sensitivity/contact-modulus-flexure.toml"),
+    ),
+    ("membrane-thickness", include_str!("../../../../sweeps/sensitivity/membrane-thickness.toml")),
+    ("strip-length", include_str!("../../../../sweeps/sensitivity/strip-length.toml")),
+    ("end-rotation", include_str!("../../../../sweeps/sensitivity/end-rotation.toml")),
+];
+
+/// The sweeps over the coupling of the substrate, and over the friction between scales.
+const COUPLING: &str = "coupling";
+const FRICTION: &str = "friction";
+
+/// The main results with one setting of an open choice.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sensitivity {
+    /// The name of the sweep.
+    pub sweep: &'static str,
+    /// The setting, as `key = value`.
+    pub setting: String,
+    /// The results.
+    pub headlines: Headlines,
+}
+
+/// The results that a reader remembers, as text.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Headlines {
+    /// `F_c*` at the paper's best design.
+    pub force: String,
+    /// The best design with equal weights.
+    pub balanced: String,
+    /// The best designs by coverage, critical force, penetration resistance and compliance alone.
+    pub corners: [String; 4],
+}
+
+/// The change of a measure, design by design, from the first setting of an open choice to another.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChoiceEffect {
+    /// The other setting, as `key = value`.
+    pub setting: String,
+    /// The measure.
+    pub measure: &'static str,
+    /// The number of designs that have the measure with either setting.
+    pub designs: usize,
+    /// The number of designs that lack the measure with the other setting alone.
+    pub lost: usize,
+    /// The smallest, the median and the largest relative change.
+    pub changes: [f64; 3],
+    /// How well the ranks of the designs by the measure agree (Spearman).
+    pub ranks: Option<f64>,
+}
+
+/// The effects of the choices that are compared design by design.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ChoiceEffects {
+    /// Of the whole substrate coupled.
+    pub coupling: Vec<ChoiceEffect>,
+    /// Of scales that rub.
+    pub friction: Vec<ChoiceEffect>,
+}
+
+/// One setting of a sweep over open choices.
+pub(crate) struct OpenSetting {
+    sweep: &'static str,
+    label: String,
+    definition: Sweep,
+}
+
+/// Returns every setting of every sweep, as a sweep of its own over the geometry.
+///
+/// # Errors
+/// If a definition is not valid.
+pub(crate) fn settings() -> anyhow::Result<Vec<OpenSetting>> {
+    let mut all = Vec::new();
+    for (name, text) in SWEEPS {
+        let whole = Sweep::parse(text, name, &[])?;
+        let open: Vec<&Axis> =
+            whole.grid().axes().iter().filter(|axis| !is_geometry(axis.parameter())).collect();
+        for values in combinations(&open) {
+            let label: Vec<_> =
+                values.iter().map(|(key, value)| format!("{key} = {value}")).collect();
+            let fixed = values.iter().map(|(key, value)| {
+                Setting::parse(&format!("designs.{key}=[{}]", value.to_toml()))
+            });
+            let fixed: Vec<_> = fixed.collect::<Result<_, _>>()?;
+            let definition = Sweep::parse(text, name, &fixed)?;
+            all.push(OpenSetting { sweep: name, label: label.join(", "), definition });
+        }
+    }
+    Ok(all)
+}
+
+/// The value of each open parameter, by its key.
+type OpenValues = Vec<(&'static str, sweep::Scalar)>;
+
+/// Returns every combination of the values of the axes, the last axis fastest.
+fn combinations(axes: &[&Axis]) -> Vec<OpenValues> {
+    axes.iter().fold(vec![Vec::new()], |known, axis| {
+        let longer = known.iter().flat_map(|values: &OpenValues| {
+            (0..axis.len()).map(|index| {
+                let mut longer = values.clone();
+                longer.push((axis.parameter().key, axis.value(index)));
+                longer
+            })
+        });
+        longer.collect()
+    })
+}
+
+/// The claims with each friction between scales.
+type ClaimsByFriction = Vec<Vec<CheckedClaim>>;
+
+/// Compares the main results of all settings, and the measures of the choices that are compared design by design, and checks the claims
+/// with each friction between scales.
+///
+/// Settings that are part of the studies `known` are not solved again. `begin` is called with the name of each setting.
+///
+/// # Errors
+/// If the temporary folder cannot be written.
+pub(crate) fn sensitivity(
+    settings: Vec<OpenSetting>,
+    known: &[Study],
+    mut begin: impl FnMut(&str),
+) -> anyhow::Result<(Vec<Sensitivity>, ChoiceEffects, ClaimsByFriction)> {
+    let (mut all, mut couplings, mut frictions) = (Vec::new(), Vec::new(), Vec::new());
+    for OpenSetting { sweep, label, definition } in settings {
+        begin(&label);
+        // The default setting is a part of the sweeps of the paper, and need not be solved again.
+        let part = known.iter().find_map(|study| study.part(&definition));
+        let study = part.map_or_else(|| Study::run(definition), Ok)?;
+        let setting = label.clone();
+        all.push(Sensitivity { sweep, setting, headlines: Headlines::of(&study) });
+        match sweep {
+            COUPLING => couplings.push((label, study)),
+            FRICTION => frictions.push((label, study)),
+            _ => {}
+        }
+    }
+    // The first has none, and the claims of the paper.
+    let rubbing = frictions.iter().skip(1).map(|(_, study)| claims::check([study; 2]));
+    let rubbing = rubbing.collect::<Result<_, _>>()?;
+    let [coupling, friction] = [couplings, frictions].map(|studies| {
+        let others = studies.iter().skip(1);
+        others.flat_map(|other| ChoiceEffect::of(&studies[0].1, other)).collect()
+    });
+    Ok((all, ChoiceEffects { coupling, friction }, rubbing))
+}
+
+impl ChoiceEffect {
+    fn of(first: &Study, (setting, other): &(String, Study)) -> Vec<Self> {
+        let measures: [(&str, DesignValue); 4] = [
+            // From a coverage of 0 there is no relative change.
+            (name::COVERAGE, |design| design.coverage.filter(|coverage| *coverage > 0.0)),
+            ("critical force", |design| design.critical_force),
+            (name::PENETRATION, |design| design.penetration),
+            (name::COMPLIANCE, |design| design.compliance),
+        ];
+        let effect = |(measure, value): (&'static str, DesignValue)| {
+            // All settings of a sweep have the same geometries in the same order.
+            let pairs = first.designs.iter().zip(&other.designs);
+            let pairs: Vec<_> = pairs.map(|(a, b)| (value(a), value(b))).collect();
+            let change = |pair: &(Option<f64>, Option<f64>)| Some(pair.1? / pair.0? - 1.0);
+            let mut changes: Vec<f64> = pairs.iter().filter_map(change).collect();
+            changes.sort_by(f64::total_cmp);
+            // Not those that only the other has: the page tells what a choice makes fail.
+            let lost = pairs.iter().filter(|(a, b)| a.is_some() && b.is_none()).count();
+            let designs = changes.len();
+            let at = |place: usize| changes.get(place).copied().unwrap_or(f64::NAN);
+            let changes = [at(0), at(designs / 2), at(designs.saturating_sub(1))];
+            let both: Vec<_> = pairs.iter().filter_map(|pair| Some([pair.0?, pair.1?])).collect();
+            let (setting, ranks) = (setting.clone(), ranking::rank_correlation(&both));
+            Self { setting, measure, designs, lost, changes, ranks }
+        };
+        measures.into_iter().map(effect).collect()
+    }
+}
+
+impl Headlines {
+    /// Returns the main results of a study.
+    pub(crate) fn of(study: &Study) -> Self {
+        let nothing = || "none".to_owned();
+        let best = study.design(0.1, 0.1, 75.0);
+        let force = best.and_then(|design| design.critical_force).map_or_else(nothing, digits);
+        // Where nothing can be ranked the row says so: a setting that fails is a result, too.
+        let ranking = Ranking::new(&study.results, TetrahedralGrid::default()).ok();
+        let winner = |weights| {
+            let winner = ranking.as_ref().map(|ranking| ranking.winner(weights).row());
+            winner.map_or_else(nothing, |row| named(&study.designs[row]))
+        };
+        let mut alone = Weights::alone().map(winner);
+        Self {
+            force,
+            balanced: winner(Weights::BALANCED),
+            corners: std::array::from_fn(|_| alone.next().unwrap_or_default()),
+        }
+    }
+}

@@ -1,0 +1,170 @@
+//! What a page is told, as it asks.
+
+use serde_json::{Value, json};
+use wasm::Solver;
+
+/// A sweep of overlapping scales, in millimetres and newtons.
+const DEFINITION: &str = "name = 'x'\n[designs]\ngap_over_t = [0.1, 0.2, 0.4]\nlength_over_t = 0.5\nslant_deg = [30, 60]\n[puncture]\nscales = 21\n\
+                          [material]\nthickness_mm = 2\nsubstrate_modulus_MPa = 1";
+
+fn ask(request: &Value) -> Value {
+    let answer = Solver::default().answer(&request.to_string());
+    serde_json::from_str(&answer).expect("JSON")
+}
+
+fn number(answer: &Value, column: &str) -> f64 {
+    let values = answer["values"].as_array().expect("values");
+    let value = values.iter().find(|value| value["name"] == column).expect(column);
+    value["value"].as_f64().expect("a number")
+}
+
+#[test]
+fn what_is_wrong_is_answered_with_its_reason() {
+    let refused = |set: Value, require: &[&str]| {
+        ask(&json!({ "id": 7, "definition": DEFINITION, "set": set, "require": require }))
+    };
+    let answers = [
+        (refused(json!({ "gap": 1 }), &[]), "gap: no such parameter"),
+        (refused(json!({ "slant_deg": 90 }), &[]), "slant_deg: 90"),
+        (refused(json!({}), &["coverage"]), "coverage is not accepted"),
+        (
+            refused(json!({ "tissue_thickness_over_t": 2 }), &[]),
+            "tissue_thickness_over_t: a page solves skins on a half-space alone",
+        ),
+    ];
+    for (answer, reason) in answers {
+        assert_eq!(answer["id"], 7);
+        let error = answer["error"].as_str().expect("an error");
+        assert!(error.starts_with(reason), "{error}");
+    }
+    let answer = Solver::default().answer("{");
+    assert!(answer.contains("the request: "), "{answer}");
+}
+
+#[test]
+fn requirements_are_judged_and_the_tightest_limits() {
+    let require = ["coverage >= 0.1", "penetration_mm <= 0.001", "critical_force_N >= 0.001"];
+    let answer =
+        ask(&json!({ "definition": DEFINITION, "set": { "slant_deg": 50 }, "require": require }));
+    let required = answer["requirements"].as_array().expect("requirements");
+    let of = |key: &str| required.iter().map(|one| one[key] == true).collect::<Vec<_>>();
+    assert_eq!(of("met"), [true, false, true]);
+    assert_eq!(of("limits"), [false, true, false]);
+}
+
+#[test]
+fn the_state_that_is_drawn_lies_on_the_path() {
+    let answer = ask(&json!({ "definition": DEFINITION, "drawn": [0.5, 1.0] }));
+    let row = &answer["puncture"];
+    let punctured = row["scales"].as_array().expect("scales").iter().find(|scale| scale[0] == 0.0);
+    let tilt = -punctured.expect("the punctured scale")[3].as_f64().expect("degrees");
+    assert!((tilt - 5.0).abs() < 1e-4, "half of 10°: {tilt}");
+    let last = |load: &str| {
+        answer[load]["path"].as_array().expect("a path").last().expect("points").clone()
+    };
+    let force = |point: &Value| point[1].as_f64().expect("a force");
+    assert!(force(&row["at"]) < force(&last("puncture")));
+    assert!((force(&answer["flexure"]["at"]) - force(&last("flexure"))).abs() < 1e-9);
+    assert_eq!(answer["flexure"]["scales"].as_array().map(Vec::len), Some(13));
+}
+
+const GUIDED: &str =
+    "[puncture]\nneedle = 'guided'\nneedle_friction = 0.3\nload_inset_over_t = 0.05";
+
+/// Finer steps come to the end with another last digit: where the curve was then thought too short, it went on to twice the tilt.
+#[test]
+fn the_curve_under_a_guided_needle_ends_where_it_is_critical() {
+    let definition = DEFINITION.replace("[puncture]", GUIDED);
+    for slant in [25.0, 30.0, 40.0, 46.5, 55.0] {
+        let set = json!({ "slant_deg": slant, "length_over_t": 0.6 });
+        let request =
+            json!({ "definition": definition, "set": set, "drawn": [1.0, 0.0], "fine": true });
+        let answer = ask(&request);
+        let force = number(&answer, "critical_force");
+        let path = answer["puncture"]["path"].as_array().expect("a path");
+        let [_, end, share] =
+            [0, 1, 2].map(|k| path.last().expect("points")[k].as_f64().expect("a number"));
+        let drawn = answer["puncture"]["at"][1].as_f64().expect("a force");
+        assert!((end / force - 1.0).abs() < 1e-6, "{slant}: the curve to {end}, {force} measured");
+        assert!((drawn, share) == (end, 1.0), "{slant}: {drawn} drawn at {share}");
+    }
+}
+
+/// A sharp tip that comes to the corner goes on from there; a round one touches the next scale at once, and stands where it was.
+#[test]
+fn a_needle_that_passes_is_told_of_if_it_is_sharp() {
+    let set = json!({ "gap_over_t": 0.1, "length_over_t": 1, "slant_deg": 75 });
+    let warned = |more: &str| {
+        let guided = "[puncture]\nneedle = 'guided'\n";
+        let definition = DEFINITION.replace("[puncture]", &format!("{guided}{more}"));
+        let answer = ask(&json!({ "definition": definition, "set": set }));
+        assert!(number(&answer, "passing_force") > 0.0);
+        answer["warnings"].to_string().contains("end of the face that it was set down on")
+    };
+    assert!(warned("") && !warned("needle_radius_over_t = 0.5"));
+}
+
+/// A needle that stands inside the corner is drawn there, and with the forces that the measures tell: it was solved once more at the corner.
+#[test]
+fn a_needle_inside_the_corner_is_drawn_with_its_own_force() {
+    let definition = DEFINITION.replace(
+        "[puncture]",
+        "[puncture]\nneedle = 'guided'\nneedle_friction = 0.3\nload_inset_over_t = 0.1\nneedle_radius_over_t = 0.3",
+    );
+    let answer = ask(&json!({ "definition": definition, "drawn": [1.0, 0.0], "fine": true }));
+    let (row, force) = (&answer["puncture"], number(&answer, "critical_force"));
+    let drawn = row["at"][1].as_f64().expect("a force");
+    assert!((drawn / force - 1.0).abs() < 1e-6, "{drawn}, and {force} among the measures");
+    let [x, y, radius] = [0, 1, 2].map(|k| row["tip"][k].as_f64().expect("a place"));
+    let depth = row["at"][0].as_f64().expect("a depth");
+    // A tenth of the thickness inside the corner of a top that is half as long as the scale is thick.
+    assert!((row["load_position"].as_f64().expect("a place") - 0.8).abs() < 1e-12);
+    assert!(radius == 0.3 && y < 1.0 && depth > 0.0, "{x} {y} {depth}");
+}
+
+#[test]
+fn the_closest_design_and_the_command_of_one_between() {
+    let set = json!({ "gap_over_t": 0.17, "slant_deg": 50, "width_over_t": 2 });
+    let answer = ask(&json!({ "definition": DEFINITION, "set": set }));
+    assert_eq!(answer["closest"]["design"], "0004");
+    let settings: Vec<_> =
+        answer["settings"].as_array().into_iter().flatten().filter_map(Value::as_str).collect();
+    assert_eq!(
+        settings,
+        ["--gap 0.17", "--length 0.5", "--slant 50", "--set scale.width_over_t=2"]
+    );
+    let toml = answer["toml"].as_str().expect("a definition");
+    let again = ask(&json!({ "definition": toml }));
+    assert_eq!(number(&again, "critical_force"), number(&answer, "critical_force"));
+}
+
+#[test]
+fn a_parameter_is_followed_to_what_limits_it() {
+    let follow = |to: f64, require: &[&str]| {
+        let follow = json!({ "key": "gap_over_t", "to": to, "measure": "compliance" });
+        ask(&json!({ "definition": DEFINITION, "require": require, "follow": follow }))["follow"]
+            .clone()
+    };
+    // Wider gaps bend more easily, and cover less: a gap of 0.32 leaves 1 − 0.32/0.82 of coverage at most.
+    let covered = follow(0.4, &["coverage >= 0.61"]);
+    assert_eq!(covered["reason"], "coverage >= 0.61 limits");
+    let request = json!({ "definition": DEFINITION, "set": { "gap_over_t": covered["value"] } });
+    let coverage = number(&ask(&request), "coverage");
+    assert!((0.61..0.6105).contains(&coverage), "{coverage}");
+    assert_eq!(follow(0.1001, &[])["value"].as_f64(), Some(0.1001));
+}
+
+#[test]
+fn slopes_say_which_way_is_better() {
+    let answer =
+        ask(&json!({ "definition": DEFINITION, "set": { "slant_deg": 50 }, "fine": true }));
+    let better = |measure: &str, parameter: &str| {
+        let slopes = answer["slopes"].as_array().expect("slopes");
+        let slope = slopes
+            .iter()
+            .find(|slope| slope["measure"] == measure && slope["parameter"] == parameter);
+        slope.expect("a slope")["better"].as_i64()
+    };
+    assert_eq!(better("coverage", "gap_over_t"), Some(-1));
+    assert_eq!(better("contact_curvature", "gap_over_t"), Some(1));
+}

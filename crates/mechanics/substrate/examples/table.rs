@@ -1,0 +1,146 @@
+//! Makes `src/table.bin`, the coefficients of the Chebyshev polynomials that [`substrate`] takes its springs from:
+//!
+//! ```text
+//! nice cargo run --release -p substrate --example table -- crates/mechanics/substrate/src/table.bin
+//! ```
+//!
+//! Four minutes of processor time. The layout is written out in `src/table.rs`.
+
+use std::error::Error;
+use std::f64::consts::PI;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::{env, fs, thread};
+
+use substrate::boundary_element::{RowReactions, Unresolved, row_reactions_at};
+use substrate::table::{GAPS, NEAREST, RATIOS, ROW, WIDTHS, poisson_ratio};
+use substrate::{Footprint, NEIGHBOURS};
+
+/// Cells a side of the three meshes of rows of three, and of the three of long rows, of which the table has the small
+/// difference to those of three alone.
+const FINE: [usize; 3] = [12, 16, 20];
+const COARSE: [usize; 3] = [6, 8, 10];
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let path = env::args().nth(1).ok_or("the path of the table is missing")?;
+    let mut numbers = coefficients(NEAREST, &|footprint| nearest(footprint))?;
+    numbers.extend(coefficients(ROW, &|footprint| row(footprint))?);
+    let bytes: Vec<u8> = numbers.iter().flat_map(|&number| (number as f32).to_le_bytes()).collect();
+    fs::write(path, bytes)?;
+    Ok(())
+}
+
+/// A number of the table as a function of the footprint.
+type Solve<'a> = &'a (dyn Fn(&Footprint) -> Result<Vec<f64>, Unresolved> + Sync);
+
+/// The coefficients of polynomials through `nodes × nodes` places, polynomial after polynomial.
+fn coefficients(nodes: usize, solve: Solve<'_>) -> Result<Vec<f64>, Unresolved> {
+    let place = |number: usize| {
+        let [gap, width] = [(number / nodes, GAPS), (number % nodes, WIDTHS)];
+        let at = |(k, [low, high]): (usize, [f64; 2])| {
+            low * (high / low).powf(0.5 + 0.5 * node(k, nodes))
+        };
+        Footprint::new(at(gap), at(width), 0.5).expect("lengths are positive")
+    };
+    let next = AtomicUsize::new(0);
+    let work = || -> Result<Vec<(usize, Vec<f64>)>, Unresolved> {
+        let take = || Some(next.fetch_add(1, Ordering::Relaxed)).filter(|k| *k < nodes * nodes);
+        std::iter::from_fn(take).map(|number| Ok((number, solve(&place(number))?))).collect()
+    };
+    let workers = thread::available_parallelism().map_or(1, usize::from);
+    let mut solved = thread::scope(|scope| {
+        let threads: Vec<_> = (0..workers).map(|_| scope.spawn(work)).collect();
+        let found = threads.into_iter().map(|thread| thread.join().expect("no panic"));
+        found.collect::<Result<Vec<_>, _>>().map(|parts| parts.concat())
+    })?;
+    solved.sort_by_key(|(number, _)| *number);
+    let functions = solved[0].1.len();
+    let of = |function: usize| {
+        let values: Vec<f64> = solved.iter().map(|(_, values)| values[function]).collect();
+        transposed(&transform(&transposed(&transform(&values, nodes), nodes), nodes), nodes)
+    };
+    Ok((0..functions).flat_map(of).collect())
+}
+
+/// The values in the rows of a square become the coefficients of their polynomials.
+fn transform(values: &[f64], nodes: usize) -> Vec<f64> {
+    let of_row = |row: &[f64]| -> Vec<f64> {
+        let coefficient = |order: usize| {
+            let waves = |k: usize| (order as f64 * (k as f64 + 0.5) * PI / nodes as f64).cos();
+            let sum: f64 = row.iter().enumerate().map(|(k, value)| value * waves(k)).sum();
+            sum * if order == 0 { 1.0 } else { 2.0 } / nodes as f64
+        };
+        (0..nodes).map(coefficient).collect()
+    };
+    values.chunks(nodes).flat_map(of_row).collect()
+}
+
+fn transposed(values: &[f64], nodes: usize) -> Vec<f64> {
+    (0..nodes * nodes).map(|i| values[i % nodes * nodes + i / nodes]).collect()
+}
+
+/// A root of the Chebyshev polynomial of the order `nodes`.
+fn node(k: usize, nodes: usize) -> f64 {
+    ((k as f64 + 0.5) * PI / nodes as f64).cos()
+}
+
+/// `ln α_y, ln α_φ, β_y/α_y, β_φ/α_φ`, then `ln α_x` and `β_x/α_x`, each as a polynomial in `log(1 − ν)`.
+fn nearest(footprint: &Footprint) -> Result<Vec<f64>, Unresolved> {
+    let rows = extrapolated(footprint, 1, FINE)?;
+    let part =
+        |ratio: usize, direction: usize| -rows[ratio][3 + direction] / rows[ratio][direction];
+    let normal = [rows[0][1].ln(), rows[0][2].ln(), part(0, 1), part(0, 2)];
+    let direct = transform(&rows.iter().map(|row| row[0].ln()).collect::<Vec<_>>(), RATIOS);
+    let coupling = transform(&(0..RATIOS).map(|ratio| part(ratio, 0)).collect::<Vec<_>>(), RATIOS);
+    Ok(normal.into_iter().chain(direct).chain(coupling).collect())
+}
+
+/// What a long row has more than one of three, over `α`: in `y` and then in `φ` the scale itself and its neighbours, then `c` over
+/// `√(α_y α_φ)`, then in `x` polynomials in `log(1 − ν)`.
+fn row(footprint: &Footprint) -> Result<Vec<f64>, Unresolved> {
+    let long = extrapolated(footprint, NEIGHBOURS, COARSE)?;
+    let short = extrapolated(footprint, 1, COARSE)?;
+    // Of the scale itself, or of a neighbour.
+    let number = |row: &[f64], scale: usize, direction: usize| match scale {
+        0 => row[direction],
+        _ => row.get(3 + 5 * (scale - 1) + direction).copied().unwrap_or(0.0),
+    };
+    let more = |ratio: usize, scale: usize, direction: usize| {
+        let (long, short) = (&long[ratio], &short[ratio]);
+        (number(long, scale, direction) - number(short, scale, direction)) / short[direction]
+    };
+    let size = (short[0][1] * short[0][2]).sqrt();
+    let cross =
+        |scale| f64::midpoint(number(&long[0], scale, 3), number(&long[0], scale, 4)) / size;
+    let scales = 0..=NEIGHBOURS;
+    let normal = [1, 2].into_iter().flat_map(|k| scales.clone().map(move |scale| (scale, k)));
+    let mut numbers: Vec<f64> = normal.map(|(scale, k)| more(0, scale, k)).collect();
+    numbers.extend((1..=NEIGHBOURS).map(cross));
+    for scale in scales {
+        let by_ratio: Vec<f64> = (0..RATIOS).map(|ratio| more(ratio, scale, 0)).collect();
+        numbers.extend(transform(&by_ratio, RATIOS));
+    }
+    Ok(numbers)
+}
+
+/// The numbers of rows for the Poisson's ratios of the table, from three meshes: the error falls with the third power of the cells, what
+/// is left of it with the fourth.
+fn extrapolated(
+    footprint: &Footprint,
+    neighbours: usize,
+    cells: [usize; 3],
+) -> Result<Vec<Vec<f64>>, Unresolved> {
+    let ratios: Vec<f64> = (0..RATIOS).map(|k| poisson_ratio(node(k, RATIOS))).collect();
+    let on = |n| row_reactions_at(footprint, &ratios, neighbours, n);
+    let [coarse, medium, fine] = [on(cells[0])?, on(cells[1])?, on(cells[2])?];
+    let limit = |from: &[f64], to: &[f64], finer: [usize; 2], order: i32| -> Vec<f64> {
+        let share = 1.0 / ((finer[1] as f64 / finer[0] as f64).powi(order) - 1.0);
+        from.iter().zip(to).map(|(from, to)| to + (to - from) * share).collect()
+    };
+    let of_ratio = |k: usize| {
+        let [coarse, medium, fine] = [&coarse[k], &medium[k], &fine[k]].map(RowReactions::numbers);
+        let check = limit(&coarse, &medium, [cells[0], cells[1]], 3);
+        let best = limit(&medium, &fine, [cells[1], cells[2]], 3);
+        limit(&check, &best, [cells[1], cells[2]], 4)
+    };
+    Ok((0..RATIOS).map(of_ratio).collect())
+}

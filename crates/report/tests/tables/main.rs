@@ -1,9 +1,0 @@
-//! Tests of the guide to the tables, and of the workbook.
-
-mod documentation;
-
-#[cfg(feature = "xlsx")]
-#[path = "../../../results/tests/samples/mod.rs"]
-mod samples;
-#[cfg(feature = "xlsx")]
-mod workbooks;

@@ -1,0 +1,223 @@
+//! Evaluations of points and of samples of their designs: each solved once, and kept in a journal.
+
+mod evaluation_journal;
+
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use journal::Journal;
+use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
+use results::{DesignResult, DesignRow, OutputError};
+use run::{Evaluator, Program};
+use sweep::{Case, DesignNumber, Measure};
+use uncertainty::Sampler;
+
+use crate::error::OptimisationError;
+use crate::goal::DesignGoal;
+use crate::meter::SearchMeter;
+use crate::sample::{SampleJudge, Samples};
+use crate::space::{DesignSpace, Interval, SpacePoint};
+use evaluation_journal::{EvaluationKey, JournalLine, Known, PointKey, SamplesLine, SolvedLine};
+
+/// Samples that no search sees: those of `squama tolerance` have numbers from 1 on, and are a test of what a search has chosen.
+const BEFORE: u64 = 1 << 32;
+
+/// Why no more is evaluated.
+#[derive(Debug)]
+pub(crate) enum Halt {
+    /// The process is asked to end.
+    Interrupted,
+    /// The journal cannot be written.
+    Output(OutputError),
+    /// A climb does not move any more.
+    Stalled,
+}
+
+/// Solves points of a space, each once: what an earlier session has solved is read from its journal.
+pub(crate) struct Evaluations<'a> {
+    space: &'a DesignSpace,
+    plain: Evaluator,
+    differentiating: Evaluator,
+    sampler: Sampler,
+    journal: Mutex<Journal<Known>>,
+    stop: &'a AtomicBool,
+    meter: &'a SearchMeter,
+}
+
+impl<'a> Evaluations<'a> {
+    /// The evaluations of `goal` by `program`, with the journal in `folder`.
+    pub fn begin(
+        goal: &'a DesignGoal,
+        folder: &Path,
+        start: run::Start,
+        program: &Program,
+        (stop, meter): (&'a AtomicBool, &'a SearchMeter),
+    ) -> Result<Self, OptimisationError> {
+        let journal = evaluation_journal::begin(folder, goal.to_toml(), program, start)?;
+        let measures = goal.space.sweep().plain_measures();
+        let all = [measures.as_slice(), &[Measure::Sensitivity]].concat();
+        Ok(Self {
+            space: &goal.space,
+            plain: Evaluator::new(&measures),
+            differentiating: Evaluator::new(&all),
+            sampler: Sampler::new(&measures, goal.space.sweep().deviations()),
+            journal: Mutex::new(journal),
+            stop,
+            meter,
+        })
+    }
+
+    /// The intervals of parameters that no measure depends on: they only scale columns in physical units.
+    pub fn scaling_intervals(&self) -> Vec<usize> {
+        let measures = self.space.sweep().measures();
+        let is_measured = |section: &str| measures.iter().any(|m| m.sections().contains(&section));
+        let intervals = self.space.intervals().iter().enumerate();
+        // A thickness does more where lengths are given in mm, and a modulus beside that of the scales.
+        let scaling = intervals.filter(|(_, Interval { parameter, .. })| {
+            !(is_measured(parameter.section) || self.space.sweep().has_followers(parameter))
+        });
+        scaling.map(|(j, _)| j).collect()
+    }
+
+    /// The point that stands for all whose designs only scale each other, and have one result.
+    fn unscaled(&self, point: &SpacePoint) -> SpacePoint {
+        let mut unscaled = point.clone();
+        for j in self.scaling_intervals() {
+            // Any share would do, as long as it is always the same.
+            unscaled.shares[j] = 0.0;
+        }
+        unscaled
+    }
+
+    /// The row of the design at `point`, as number `index` of a table.
+    pub fn row(&self, index: u64, point: &SpacePoint, result: &DesignResult) -> DesignRow {
+        let number = self.number(index);
+        DesignRow { number, case: self.space.case(point), result: result.clone() }
+    }
+
+    fn number(&self, index: u64) -> DesignNumber {
+        self.space.sweep().grid().number(index)
+    }
+
+    /// The result of the design at `point`.
+    ///
+    /// # Errors
+    /// If the process is asked to end, or the journal cannot be written.
+    pub fn solve(
+        &self,
+        point: &SpacePoint,
+        differentiated: bool,
+    ) -> Result<Arc<DesignResult>, Halt> {
+        let evaluator = if differentiated { &self.differentiating } else { &self.plain };
+        let point = self.unscaled(point);
+        self.known_or(&point, differentiated, None, &self.space.case(&point), evaluator)
+    }
+
+    /// As [`Self::solve`] with derivatives, of the sample of that number, but for its scatter from scale to scale; `None` if there is no
+    /// such sample.
+    pub fn even_sample(
+        &self,
+        point: &SpacePoint,
+        sample: u64,
+    ) -> Result<Option<Arc<DesignResult>>, Halt> {
+        let case = self.even_case(&self.space.case(point), sample);
+        let solved =
+            case.map(|case| self.known_or(point, true, Some(sample), &case, &self.differentiating));
+        solved.transpose()
+    }
+
+    /// The case of the sample of that number of the design of `nominal`, but for its scatter from scale to scale.
+    pub fn even_case(&self, nominal: &Case, sample: u64) -> Option<Case> {
+        self.sampler.even_case(nominal, BEFORE + sample)
+    }
+
+    /// The result of a case that belongs to a point, solved if it is not known.
+    fn known_or(
+        &self,
+        point: &SpacePoint,
+        differentiated: bool,
+        sample: Option<u64>,
+        case: &Case,
+        evaluator: &Evaluator,
+    ) -> Result<Arc<DesignResult>, Halt> {
+        // A result with derivatives and one without are two: derivatives cost more, and many looks do without.
+        let key = EvaluationKey { differentiated, sample, point: PointKey::of(point) };
+        if let Some(known) = self.journal().records().solved.get(&key) {
+            return Ok(Arc::clone(known));
+        }
+        self.go_on()?;
+        // Unlocked meanwhile: two threads may solve one point, and write the same line twice.
+        let solve = || evaluator.row(self.number(0), case);
+        let mut result = self.meter.slow().told("a design of the search", solve).result;
+        // Lengths in mm move others, over the thickness. Where material varies, a sample with another thickness or modulus moves in other parameters, too.
+        let has_material = self.space.parameters().any(|p| p.section == "material");
+        let is_variable = |key| self.space.parameters().any(|p| p.key == key);
+        let sweep = self.space.sweep();
+        let moves =
+            sweep.gives_millimetres() || self.space.parameters().any(|p| sweep.has_followers(p));
+        let moves_more = moves || (sample.is_some() && has_material);
+        result.sensitivity.retain(|d| moves_more || is_variable(d.parameter));
+        // Few of the parameters vary, and every result is kept to the end.
+        result.sensitivity.shrink_to_fit();
+        let SpacePoint { shares, chosen } = point.clone();
+        let line = SolvedLine { differentiated, sample, shares, chosen, result };
+        let mut journal = self.journal();
+        journal.append(JournalLine::Solved(Box::new(line))).map_err(Halt::Output)?;
+        Ok(Arc::clone(&journal.records().solved[&key]))
+    }
+
+    /// The values by which `judge` judges `count` samples of the design at `point`, from number `first` on, solved in parallel.
+    ///
+    /// # Errors
+    /// As [`Self::solve`].
+    pub fn samples(
+        &self,
+        point: &SpacePoint,
+        first: u64,
+        count: usize,
+        judge: &SampleJudge,
+    ) -> Result<Arc<Samples>, Halt> {
+        // The point as it is, not unscaled: samples of a scaled design are other samples.
+        let key = (PointKey::of(point), first, count);
+        if let Some(known) = self.journal().records().sampled.get(&key) {
+            return Ok(Arc::clone(known));
+        }
+        let (case, last) = (self.space.case(point), first + count as u64);
+        let values = (first..last).into_par_iter().map(|sample| {
+            self.go_on()?;
+            let solve = || self.sampler.solve(self.number(0), &case, BEFORE + sample);
+            let sampled = self.meter.slow().told("a sample of the search", solve);
+            Ok(sampled.map_or_else(|| judge.no_values(), |sampled| judge.values(&sampled.row)))
+        });
+        let values: Vec<Vec<Option<f64>>> = values.collect::<Result<_, Halt>>()?;
+        let SpacePoint { shares, chosen } = point.clone();
+        let line = SamplesLine { first, shares, chosen, values: Samples(values) };
+        let mut journal = self.journal();
+        journal.append(JournalLine::Samples(line)).map_err(Halt::Output)?;
+        Ok(Arc::clone(&journal.records().sampled[&key]))
+    }
+
+    /// Refuses to go on once the process is asked to end.
+    fn go_on(&self) -> Result<(), Halt> {
+        if self.stop.load(Ordering::Relaxed) { Err(Halt::Interrupted) } else { Ok(()) }
+    }
+
+    /// Forces the journal to the disk.
+    pub fn sync(&self) -> Result<(), OutputError> {
+        self.journal().sync()
+    }
+
+    /// The number of points that were solved, in this session and before, and of samples.
+    pub fn count(&self) -> usize {
+        let journal = self.journal();
+        let known = journal.records();
+        let samples: usize = known.sampled.values().map(|samples| samples.0.len()).sum();
+        known.solved.len() + samples
+    }
+
+    /// What is known, and where more is noted; nothing that is done under this lock leaves it half-done.
+    fn journal(&self) -> MutexGuard<'_, Journal<Known>> {
+        self.journal.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}

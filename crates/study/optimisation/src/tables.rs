@@ -1,0 +1,324 @@
+//! The tables of what was found: the best designs, and every design that was looked at.
+
+use journal::JournalError;
+use results::columns::{Cell, design_columns};
+use results::{
+    Claim, Column, CsvFormat, DesignRow, Maker, RunFolder, WrittenTable, finite, write_rows,
+};
+
+use crate::answer::Answer;
+use crate::best::BestDesign;
+use crate::candidate::Candidate;
+use crate::column::NumberColumn;
+use crate::goal::DesignGoal;
+use crate::judge::Judge;
+use crate::margin::has_folded;
+use crate::search::Found;
+use crate::statistic::Statistic;
+use crate::words::Words;
+use crate::worth::Judgement;
+
+/// The table of the best design.
+pub const OPTIMUM: &str = "optimum.csv";
+/// The definition of the best design, which every command reads.
+pub const OPTIMUM_DEFINITION: &str = "optimum.toml";
+/// The definition of the design that comes nearest where none meets all requirements.
+pub const NEAREST_DEFINITION: &str = "nearest.toml";
+/// The table of the designs that none beats.
+pub const FRONT: &str = "front.csv";
+/// The table of every design that was looked at.
+pub const HISTORY: &str = "history.csv";
+/// The goal, with what took the place of what was written.
+pub const GOAL: &str = "goal.toml";
+
+const FITNESS_MEANING: &str = "weighted geometric mean of the rescaled criteria (Eq. 7), by the weights and scales of the goal, which names it";
+
+/// A row of cells.
+type Cells = Vec<Cell>;
+
+/// The columns of `optimum.csv` and `front.csv` of a goal: those of `designs.csv`, the fitness if the goal names it, then what binds
+/// and what it costs.
+pub fn optimum_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
+    let known = design_columns(goal.space.sweep()).into_iter();
+    let known = known.map(|column| (column.name.to_string(), column.unit, column.meaning));
+    let known = known.chain(fitness_column(goal));
+    let own = [
+        (
+            "binding",
+            "-",
+            "what keeps the design from being better: requirements, ends of variables, floors of other objectives",
+        ),
+        (
+            "prices",
+            "-",
+            "what each of these costs, by its multiplier; empty where no multipliers balance the slopes, as on a kink",
+        ),
+    ];
+    let own = own.map(|(name, unit, meaning)| (name.to_owned(), unit, meaning));
+    cells(known.chain(own).chain(statistic_columns(goal)))
+}
+
+/// The columns of what other samples say of a design, if the goal is about them.
+fn statistic_columns(goal: &DesignGoal) -> Vec<(String, &'static str, &'static str)> {
+    let known = design_columns(goal.space.sweep());
+    let mut columns = Vec::new();
+    for (name, statistic) in Judge::new(goal).statistics() {
+        let unit = unit_of(&known, &name);
+        columns.extend([
+            (name.clone(), unit, statistic.meaning()),
+            (format!("{name}_low"), unit, "lower end of its 95 % interval, if there is one"),
+            (format!("{name}_high"), unit, "upper end of that interval, if there is one"),
+            (format!("{name}_seen"), unit, "what the search saw, with the samples that it knew"),
+        ]);
+    }
+    if !columns.is_empty() {
+        let fresh = "samples of the design, others than the search knew, that these values are of";
+        columns.push(("fresh_samples".to_owned(), "-", fresh));
+    }
+    columns
+}
+
+/// The cells of those columns.
+fn statistic_cells(goal: &DesignGoal, best: &BestDesign) -> Cells {
+    let Some(confirmation) = &best.confirmation else { return Vec::new() };
+    let mut cells: Cells = Vec::new();
+    for (name, _) in Judge::new(goal).statistics() {
+        let of = confirmation.estimate(&name);
+        let [low, high] = of.map(|of| of.interval).unwrap_or_default();
+        let values = [of.and_then(|of| of.value), low, high, of.and_then(|of| of.seen)];
+        cells.extend(values.map(Cell::from));
+    }
+    cells.push(confirmation.fresh.into());
+    cells
+}
+
+/// The unit of a statistic: that of the column that it is of.
+fn unit_of(known: &[Column<DesignRow>], name: &str) -> &'static str {
+    let base = Statistic::base(name);
+    known.iter().find(|column| column.name == base).map_or("-", |column| column.unit)
+}
+
+/// The column of the fitness, if the goal names it.
+fn fitness_column(goal: &DesignGoal) -> Option<(String, &'static str, &'static str)> {
+    goal.fitness.is_some().then(|| (NumberColumn::FITNESS.to_owned(), "-", FITNESS_MEANING))
+}
+
+/// The columns of `history.csv` of a goal.
+pub fn history_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
+    let plain = |name: &str, meaning| (name.to_owned(), "-", meaning);
+    let first = [
+        plain("evaluation", "place among the designs that were looked at"),
+        plain(
+            "stage",
+            "sample: points that fill the space; gradient: a step along derivatives; ridge: a step along those on both sides of a kink; polish: a step without; tolerance: the first look at the samples of a design",
+        ),
+    ];
+    let parameters = goal.space.parameters().map(|p| (p.key.to_owned(), p.unit, p.meaning));
+    let known = design_columns(goal.space.sweep());
+    let explained = |name: &str| {
+        let column = known.iter().find(|column| column.name == name);
+        let column = column.map(|column| (column.name.to_string(), column.unit, column.meaning));
+        let statistic = || {
+            let statistic = goal.statistic(name)?;
+            Some((name.to_owned(), unit_of(&known, name), statistic.meaning()))
+        };
+        column.or_else(statistic).or_else(|| fitness_column(goal))
+    };
+    let objectives = goal.objectives.iter().filter_map(|o| explained(&o.column));
+    let last = [
+        plain(
+            "shortfall",
+            "largest shortfall, relative to the limit; 0 where every requirement is met",
+        ),
+        plain(
+            "verdict",
+            "met, short, folded, nominal: it was not sampled; or why it cannot be judged",
+        ),
+        plain(
+            "best",
+            "best value of the first objective so far among the designs that meet every requirement",
+        ),
+    ];
+    cells(first.into_iter().chain(parameters).chain(objectives).chain(last))
+}
+
+fn cells(
+    columns: impl Iterator<Item = (String, &'static str, &'static str)>,
+) -> Vec<Column<Cells>> {
+    let column = |(index, (name, unit, meaning)): (usize, (String, _, _))| {
+        Column::made(name.into(), unit, meaning, move |row: &Cells| row[index].clone())
+    };
+    columns.enumerate().map(column).collect()
+}
+
+/// Writes what was found into `folder`: the goal, the history, the optimum or the front, and `figures`, each with its name; returns
+/// the names of the files.
+///
+/// # Errors
+/// If the search found something else before in the same journal, or the folder or the disk does not take them.
+pub fn write_found(
+    folder: &RunFolder,
+    goal: &DesignGoal,
+    found: &Found,
+    figures: &[(String, String)],
+    format: CsvFormat,
+) -> Result<Vec<String>, JournalError> {
+    let tables = found_tables(goal, found);
+    refuse_edited(folder, &tables)?;
+    let mut files = vec![GOAL];
+    // Before any table is written: the claim removes those of an earlier search.
+    let mut claim = Claim::take(folder, Maker::Search)?;
+    folder.write_text(GOAL, goal.to_toml())?;
+    for FoundTable { name, columns, rows } in &tables {
+        write_rows(folder, name, format, columns, rows)?;
+        files.push(name);
+    }
+    let definition = match &found.answer {
+        Answer::Optimum(best) => Some((OPTIMUM_DEFINITION, best.row.case)),
+        Answer::Front(_) => None,
+        Answer::Infeasible(nearest) => nearest
+            .and_then(|index| found.history.get(index))
+            .map(|nearest| (NEAREST_DEFINITION, goal.space.case(&nearest.point))),
+    };
+    if let Some((name, case)) = definition {
+        folder.write_text(name, &goal.space.sweep().at(&case).to_toml())?;
+        files.push(name);
+    }
+    let mut files: Vec<String> = files.into_iter().map(str::to_owned).collect();
+    for (name, svg) in figures {
+        claim.add(name)?;
+        folder.write_text(name, svg)?;
+        files.push(name.clone());
+    }
+    claim.state(&files)?;
+    Ok(files)
+}
+
+/// A table of what was found.
+struct FoundTable {
+    name: &'static str,
+    columns: Vec<Column<Cells>>,
+    rows: Vec<Cells>,
+}
+
+/// The history, and the best designs if there are any.
+fn found_tables(goal: &DesignGoal, found: &Found) -> Vec<FoundTable> {
+    let rows = history(goal, found).collect();
+    let history = FoundTable { name: HISTORY, columns: history_columns(goal), rows };
+    let (name, best) = match &found.answer {
+        Answer::Optimum(best) => (OPTIMUM, std::slice::from_ref(best.as_ref())),
+        Answer::Front(front) => (FRONT, front.designs.as_slice()),
+        Answer::Infeasible(_) => return vec![history],
+    };
+    let (columns, rows) = (optimum_columns(goal), best_rows(goal, best));
+    vec![history, FoundTable { name, columns, rows }]
+}
+
+/// Refuses tables that say something else than those of the same search in `folder` that are as they were written: it finds the same
+/// again in a journal that is as it was.
+fn refuse_edited(folder: &RunFolder, tables: &[FoundTable]) -> Result<(), JournalError> {
+    let Some(stated) = Claim::stated(folder, Maker::Search) else { return Ok(()) };
+    for FoundTable { name, columns, rows } in tables {
+        let Some(table) = WrittenTable::as_stated(folder, name, &stated) else { continue };
+        let mut rows = rows.iter();
+        // A row that is not there any more is empty now.
+        let row = |_: &_| {
+            let row = rows.next().cloned();
+            Ok(Some(row.unwrap_or_else(|| vec![Cell::Empty; columns.len()])))
+        };
+        let changed: Result<Vec<String>, JournalError> = table.changed(columns, row);
+        let first = changed?.into_iter().next();
+        if let Some(line) = first.or_else(|| rows.next().map(|row| row[0].to_string())) {
+            return Err(JournalError::Edited {
+                path: folder.file(RunFolder::EVALUATIONS),
+                line: format!("{} {line}", columns[0].name),
+                table: (*name).to_owned(),
+                again: "with --fresh",
+            });
+        }
+    }
+    Ok(())
+}
+
+/// The rows of `optimum.csv` or `front.csv`.
+fn best_rows(goal: &DesignGoal, designs: &[BestDesign]) -> Vec<Cells> {
+    let sweep = goal.space.sweep();
+    let (words, known) = (Words::new(goal), design_columns(sweep));
+    let row = |(index, best): (usize, &BestDesign)| {
+        // By its place in the front: `--design 3` chooses a design of the folder by this number.
+        let row = DesignRow { number: sweep.grid().number(index as u64), ..best.row.clone() };
+        let mut cells: Cells = known.iter().map(|column| column.cell(&row)).collect();
+        cells.extend(
+            goal.fitness.as_ref().map(|_| value(goal, &best.candidate, NumberColumn::FITNESS)),
+        );
+        cells.push(words.bindings(&best.bindings, &best.target).into());
+        cells.push(words.prices(&best.bindings, &best.target).into());
+        cells.extend(statistic_cells(goal, best));
+        cells
+    };
+    designs.iter().enumerate().map(row).collect()
+}
+
+/// The rows of `history.csv`.
+fn history<'a>(goal: &'a DesignGoal, found: &'a Found) -> impl Iterator<Item = Cells> + 'a {
+    let known = design_columns(goal.space.sweep());
+    let sign = if goal.objectives[0].goal == ranking::Goal::Maximize { 1.0 } else { -1.0 };
+    let mut best: Option<f64> = None;
+    found.history.iter().enumerate().map(move |(index, candidate)| {
+        let row = row(goal, candidate);
+        if let Judgement::Judged(worth) = &candidate.verdict
+            && worth.met
+            && best.is_none_or(|best| sign * worth.objectives[0] > sign * best)
+        {
+            best = Some(worth.objectives[0]);
+        }
+        let mut cells: Cells = vec![(index + 1).into(), candidate.stage.word().into()];
+        cells.extend(goal.space.parameters().map(|p| Cell::from(p.get(&row.case))));
+        cells.extend(goal.objectives.iter().map(|objective| {
+            let column = known.iter().find(|column| column.name == objective.column);
+            let own = || value(goal, candidate, &objective.column);
+            column.map_or_else(own, |column| column.cell(&row))
+        }));
+        cells.extend(verdict(candidate, &row));
+        cells.push(best.into());
+        cells
+    })
+}
+
+/// The value that a design is judged by in a column of the goal.
+fn value(goal: &DesignGoal, candidate: &Candidate, column: &str) -> Cell {
+    let Judgement::Judged(worth) = &candidate.verdict else { return Cell::Empty };
+    goal.values(worth).find(|(name, _)| *name == column).map(|(_, value)| value).into()
+}
+
+fn row(goal: &DesignGoal, candidate: &Candidate) -> DesignRow {
+    let number = goal.space.sweep().grid().number(0);
+    let case = goal.space.case(&candidate.point);
+    DesignRow { number, case, result: candidate.result.as_ref().clone() }
+}
+
+/// Shortfall and verdict of a design.
+fn verdict(candidate: &Candidate, row: &DesignRow) -> [Cell; 2] {
+    match &candidate.verdict {
+        Judgement::Judged(worth) => {
+            let word = match (worth.met, has_folded(row)) {
+                (true, _) => "met",
+                (false, true) => "folded",
+                (false, false) => "short",
+            };
+            // A shortfall without end is that of samples that fail.
+            [finite(if worth.met { 0.0 } else { worth.shortfall() }).into(), word.into()]
+        }
+        Judgement::Nominal(worth) => {
+            let word = match (worth.shortfall > 0.0, has_folded(row)) {
+                (false, _) => "nominal",
+                (true, true) => "folded",
+                (true, false) => "short",
+            };
+            [worth.shortfall.into(), word.into()]
+        }
+        Judgement::Folded => [Cell::Empty, "folded".into()],
+        Judgement::Failed(outcome) => [Cell::Empty, outcome.text().into()],
+        Judgement::Missing(column) => [Cell::Empty, format!("no {column}").into()],
+    }
+}

@@ -1,0 +1,387 @@
+//! A results folder whose contents are checked: what every command reads is read through it.
+
+use std::collections::BTreeSet;
+use std::fs::{self, File};
+use std::io::{ErrorKind, Read as _, Seek as _};
+use std::path::{Path, PathBuf};
+
+use journal::{read_text, sha256, sha256_of};
+use sweep::reason;
+
+use super::derivation::Derivation;
+use super::{Contents, JournalExtent};
+use crate::folder::{FileEntry, Maker, RunFolder};
+use crate::shell::shell_word;
+
+/// Whether results are used that are not whole.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Completeness {
+    /// Only results of all designs, as the journal has them.
+    #[default]
+    Whole,
+    /// Results of those designs, too, that are done so far.
+    Partial,
+}
+
+/// A results folder whose contents are as its run states them. A folder with neither contents nor journal holds tables
+/// alone, of which nobody states anything.
+#[derive(Clone, Debug)]
+pub struct VerifiedFolder {
+    folder: RunFolder,
+    contents: Option<Contents>,
+    /// Whether the journal goes on beyond the tables.
+    behind: bool,
+}
+
+/// A results folder that is not as its run states it, in one line that says what mends it.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}: {problem}", path.display())]
+pub struct InvalidFolder {
+    /// The folder, or the file in it that is at fault.
+    pub path: PathBuf,
+    /// What is wrong with it, and what mends it.
+    pub problem: String,
+}
+
+impl InvalidFolder {
+    fn new(path: impl Into<PathBuf>, problem: impl Into<String>) -> Self {
+        Self { path: path.into(), problem: problem.into() }
+    }
+
+    fn unreadable(path: &Path, reason: &str) -> Self {
+        let problem =
+            format!("cannot be read ({reason}), expected the file that squama run writes");
+        Self::new(path, problem)
+    }
+}
+
+/// The command that writes tables and contents of a folder again, from its journal.
+fn mend(folder: &Path) -> String {
+    let folder = shell_word(&folder.display().to_string());
+    format!("squama merge {folder} --out {folder}")
+}
+
+impl VerifiedFolder {
+    /// The results in `folder`; what its contents name is checked when it is opened.
+    ///
+    /// # Errors
+    /// If the contents are missing though there is a journal, are damaged or do not fit the journal; and, unless partial
+    /// results will do, if designs are missing or the journal goes on beyond the tables.
+    pub fn open(folder: &Path, completeness: Completeness) -> Result<Self, InvalidFolder> {
+        let folder = RunFolder::new(folder);
+        let contents = read(&folder)?;
+        // Tables that are sound by themselves would hide the designs that are in the journal alone.
+        let behind = match &contents {
+            Some(contents) => is_behind(&folder, &contents.journal)?,
+            None => false,
+        };
+        let opened = Self { folder, contents, behind };
+        if completeness == Completeness::Whole {
+            opened.require_whole()?;
+        }
+        Ok(opened)
+    }
+
+    fn require_whole(&self) -> Result<(), InvalidFolder> {
+        match &self.contents {
+            Some(contents) if !contents.is_whole() => {
+                let Contents { done, designs, .. } = contents;
+                Err(InvalidFolder::new(
+                    self.path(),
+                    format!(
+                        "holds {done} of {designs} designs; squama run --resume solves the others, --partial uses those that are there"
+                    ),
+                ))
+            }
+            _ => self.behind().map_or(Ok(()), Err),
+        }
+    }
+
+    /// The message if the journal goes on beyond the tables.
+    pub fn behind(&self) -> Option<InvalidFolder> {
+        let problem = || {
+            format!(
+                "the journal has more designs than the tables, because a run is going on or was ended before it wrote them; {} writes them, --partial uses the designs of the tables",
+                mend(self.path())
+            )
+        };
+        self.behind.then(|| InvalidFolder::new(self.path(), problem()))
+    }
+
+    /// The path of the folder.
+    pub fn path(&self) -> &Path {
+        self.folder.path()
+    }
+
+    /// Whether it holds anything of the name `name`: what is no file is refused when it is opened.
+    pub fn holds(&self, name: &str) -> bool {
+        self.folder.file(name).exists()
+    }
+
+    /// The names of the tables that are there, and of those that should be, in the order in which people read them.
+    pub fn tables(&self) -> Vec<String> {
+        let stated = self.contents.iter().flat_map(|contents| contents.files.keys());
+        let ranking = Derivation::read(&self.folder, RunFolder::RANKING_RECORD);
+        // A ranking that was removed as a whole is not missed.
+        let ranking = ranking.filter(|made| self.contents.is_some() && made.is_there(&self.folder));
+        let ranked = ranking.iter().flat_map(|made| made.files.keys());
+        let expected: BTreeSet<&str> = stated.chain(ranked).map(String::as_str).collect();
+        let tables = RunFolder::tables().filter(|name| expected.contains(name) || self.holds(name));
+        tables.map(str::to_owned).collect()
+    }
+
+    /// The tables as one SHA-256, if the run states it.
+    pub fn digest(&self) -> Option<String> {
+        self.contents.as_ref().map(Contents::digest)
+    }
+
+    /// How much of the run it holds, in words, if it is not the whole: `24 of 720 designs`.
+    pub fn shortfall(&self) -> Option<String> {
+        let contents = self.contents.as_ref()?;
+        let Contents { done, designs, .. } = contents;
+        let behind = if self.behind { ", before the journal went on" } else { "" };
+        let is_short = !contents.is_whole() || self.behind;
+        is_short.then(|| format!("{done} of {designs} designs{behind}"))
+    }
+
+    /// Opens the file `name`, once its bytes are checked.
+    ///
+    /// # Errors
+    /// If it cannot be read, or is not as its run has written it.
+    pub fn file(&self, name: &str) -> Result<File, InvalidFolder> {
+        let path = self.folder.file(name);
+        let unreadable = |error| InvalidFolder::unreadable(&path, &reason(&error));
+        // A pipe of that name would never come to its end.
+        if fs::metadata(&path).is_ok_and(|metadata| !metadata.is_file() && !metadata.is_dir()) {
+            return Err(InvalidFolder::unreadable(&path, "it is no regular file"));
+        }
+        // One handle for checking and reading: a file that is replaced in between is not read.
+        let mut file = File::open(&path).map_err(unreadable)?;
+        if let Some(expected) = self.expected(name)? {
+            let found = sha256_of(&file).map_err(unreadable)?;
+            if found != expected {
+                return Err(self.changed(name));
+            }
+            file.rewind().map_err(unreadable)?;
+        }
+        Ok(file)
+    }
+
+    /// The text of the file `name`, once its bytes are checked.
+    ///
+    /// # Errors
+    /// If it cannot be read, or is not as its run has written it.
+    pub fn text(&self, name: &str) -> Result<String, InvalidFolder> {
+        let mut text = String::new();
+        let read = self.file(name)?.read_to_string(&mut text);
+        let unreadable =
+            |error| InvalidFolder::unreadable(&self.folder.file(name), &reason(&error));
+        read.map_err(unreadable)?;
+        Ok(text)
+    }
+
+    /// The SHA-256 that the file `name` must have, if anybody states it.
+    fn expected(&self, name: &str) -> Result<Option<String>, InvalidFolder> {
+        let entry = FileEntry::of(name).filter(|file| file.is_stated);
+        // The contents are those of a run: other commands have records of their own.
+        if let Some(file) = entry.filter(|file| !matches!(file.maker, Maker::Run | Maker::Ranking))
+        {
+            return self.claimed(file);
+        }
+        // Tables alone are used as they are: nobody states what they have to be.
+        let Some(contents) = &self.contents else { return Ok(None) };
+        if let Some(digest) = contents.files.get(name) {
+            return Ok(Some(digest.clone()));
+        }
+        match entry.map(|file| file.maker) {
+            None => Ok(None),
+            Some(Maker::Ranking) => self.ranked(name, contents).map(Some),
+            // Of a run that was ended before it stated it, or of one that never made it.
+            Some(_) => Err(self.changed(name)),
+        }
+    }
+
+    /// The SHA-256 that a file of the ranking must have.
+    fn ranked(&self, name: &str, contents: &Contents) -> Result<String, InvalidFolder> {
+        let ranking = Derivation::read(&self.folder, RunFolder::RANKING_RECORD);
+        let unrecorded = || {
+            let problem =
+                "no record in derived says that squama rank wrote it; move it out of the folder";
+            InvalidFolder::new(self.folder.file(name), problem)
+        };
+        let ranking = ranking.ok_or_else(unrecorded)?;
+        // Its tables may be sound, and still rank designs that were solved again since.
+        if ranking.from != contents.digest() {
+            return Err(self.refusal(name, Maker::Ranking, "was made from other tables"));
+        }
+        let stated = ranking.files.get(name).cloned();
+        stated.ok_or_else(|| {
+            self.refusal(name, Maker::Ranking, "is no file of the ranking beside it")
+        })
+    }
+
+    /// The SHA-256 that a file must have that a command has claimed. A folder without a journal of a search and without a record
+    /// holds tables alone.
+    fn claimed(&self, file: &FileEntry) -> Result<Option<String>, InvalidFolder> {
+        let made = Derivation::read(&self.folder, file.maker.key());
+        // A search has its journal from the beginning, and a record only once it writes what it has
+        // found: a journal without a record is that of a search that was ended.
+        if made.is_none() && !self.folder.file(RunFolder::EVALUATIONS).exists() {
+            return Ok(None);
+        }
+        let stated = made.and_then(|made| made.files.get(file.name).cloned());
+        // Without a digest the command was ended before it stated what it had written.
+        let stated = stated.filter(|digest| !digest.is_empty());
+        let ended = "its command did not come to its end";
+        stated.map(Some).ok_or_else(|| self.refusal(file.name, file.maker, ended))
+    }
+
+    /// The error of a file with what its maker would write again.
+    fn refusal(&self, name: &str, maker: Maker, problem: &str) -> InvalidFolder {
+        let again = match maker {
+            Maker::Run => mend(self.path()),
+            Maker::Ranking => format!("squama rank {}", shell_word(&self.path().to_string_lossy())),
+            // Without it a search refuses a folder in which its journal stands.
+            Maker::Search => "the same command with --resume".to_owned(),
+            _ => "the same command".to_owned(),
+        };
+        InvalidFolder::new(self.folder.file(name), format!("{problem}; {again} writes it again"))
+    }
+
+    fn changed(&self, name: &str) -> InvalidFolder {
+        let maker = FileEntry::of(name).map_or(Maker::Run, |entry| entry.maker);
+        self.refusal(name, maker, "was changed after squama wrote it")
+    }
+
+    /// The faults of any of the files that the contents name.
+    pub fn problems(&self) -> Vec<InvalidFolder> {
+        let names = self.contents.iter().flat_map(|contents| contents.files.keys());
+        names.filter_map(|name| self.file(name).err()).collect()
+    }
+
+    /// The products of the folder that are out of date: each, and the command that makes it again.
+    pub fn outdated(&self) -> Vec<Derivation> {
+        let Some(digest) = self.digest() else { return Vec::new() };
+        let all = Derivation::all(&self.folder).into_iter();
+        // What was made from a definition does not grow old when tables are written again.
+        let is_older = |made: &Derivation| !made.from.is_empty() && made.from != digest;
+        all.filter(|made| is_older(made) && made.is_there(&self.folder)).collect()
+    }
+}
+
+/// Refuses the definition in the file `path` if it is the record of a run, and not as the run wrote it.
+///
+/// # Errors
+/// If it is.
+pub fn verify_record(path: &Path) -> Result<(), InvalidFolder> {
+    let (Some(name), Some(folder)) = (path.file_name(), path.parent()) else { return Ok(()) };
+    // Under another name a copy is a definition of its own, as the message advises.
+    let is_record = name == RunFolder::RUN_INFO && path.is_file();
+    let stated = is_record.then(|| Contents::stated_in(&RunFolder::new(folder))).flatten();
+    let expected = stated.and_then(|contents| contents.files.get(RunFolder::RUN_INFO).cloned());
+    let found = expected.is_some().then(|| fs::read(path).map(sha256).ok()).flatten();
+    if found == expected {
+        return Ok(());
+    }
+    let mend = mend(folder);
+    let problem = format!(
+        "was edited; copy it under another name to use it as a definition; {mend} writes it again"
+    );
+    Err(InvalidFolder::new(folder.join(RunFolder::RUN_INFO), problem))
+}
+
+/// The contents of `folder`; `None` if it holds tables alone.
+fn read(folder: &RunFolder) -> Result<Option<Contents>, InvalidFolder> {
+    let mend = mend(folder.path());
+    let path = folder.file(RunFolder::CONTENTS);
+    let parsed = match read_text(&path) {
+        Ok(text) => Contents::parse(&text),
+        Err(error) if error.kind() == ErrorKind::NotFound && folder.journal().exists() => {
+            let problem = format!(
+                "holds a journal but no {}, which a run writes last; {mend} writes the tables of the designs that are solved",
+                RunFolder::CONTENTS
+            );
+            return Err(InvalidFolder::new(folder.path(), problem));
+        }
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
+        Err(error) => Err(reason(&error)),
+    };
+    let changed = |problem| {
+        let problem =
+            format!("was changed after squama wrote it ({problem}); {mend} writes it again");
+        InvalidFolder::new(path, problem)
+    };
+    parsed.map(Some).map_err(changed)
+}
+
+/// Whether the journal in `folder` goes on beyond `extent`. Tables may be copied without their journal.
+fn is_behind(folder: &RunFolder, extent: &JournalExtent) -> Result<bool, InvalidFolder> {
+    let path = folder.journal();
+    let Ok(metadata) = fs::metadata(&path) else { return Ok(false) };
+    let refuse = |problem: &str| {
+        let problem = format!(
+            "is not the journal from which the tables beside it were written ({problem}); {} writes the tables of the designs that it has",
+            mend(folder.path())
+        );
+        InvalidFolder::new(&path, problem)
+    };
+    if !metadata.is_file() {
+        return Err(refuse("it is no regular file"));
+    }
+    if metadata.len() < extent.bytes {
+        return Err(refuse(&format!("it had {} bytes and has {}", extent.bytes, metadata.len())));
+    }
+    // A run that goes on appends to it: only what the tables were written from must not change.
+    let found = JournalExtent::of(&path, extent.bytes, extent.lines);
+    let found = found.map_err(|error| refuse(&reason(&error)))?;
+    if found != *extent {
+        return Err(refuse("its beginning has changed"));
+    }
+    Ok(metadata.len() > extent.bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use super::*;
+    use crate::folder::FILES;
+
+    /// A folder whose run states these files.
+    fn folder(place: &Path, files: BTreeMap<String, String>) -> RunFolder {
+        let folder = RunFolder::new(place);
+        let journal = JournalExtent { bytes: 0, lines: 0, sha256: sha256("") };
+        let program = "0 (none)".to_owned();
+        let contents = Contents { program, designs: 0, done: 0, journal, files };
+        contents.write(&folder).expect("writable");
+        folder
+    }
+
+    #[test]
+    fn of_every_file_whose_maker_states_it_no_other_is_read() {
+        for file in FILES.iter().filter(|file| file.is_stated) {
+            let place = tempfile::tempdir().expect("a folder");
+            let folder = folder(place.path(), BTreeMap::new());
+            fs::write(folder.file(file.name), "forged").expect("writable");
+            fs::write(folder.file(RunFolder::EVALUATIONS), "").expect("writable");
+            let open = || VerifiedFolder::open(folder.path(), Completeness::Whole);
+            let refused = open().and_then(|folder| folder.text(file.name)).expect_err(file.name);
+            assert!(refused.to_string().contains(file.name), "{refused}");
+            let written = BTreeMap::from([(file.name.to_owned(), sha256("as it was written"))]);
+            if file.maker == Maker::Run {
+                self::folder(place.path(), written);
+            } else {
+                let from = open().expect("a folder").digest().expect("a digest");
+                let (product, command) = file.maker.names();
+                let (product, command) = (product.to_owned(), command.to_owned());
+                let made = Derivation { product, command, from, made_from: None, files: written };
+                made.write(&folder, file.maker.key()).expect("writable");
+            }
+            let refused = open().and_then(|folder| folder.text(file.name)).expect_err(file.name);
+            assert!(refused.to_string().contains("was changed after"), "{refused}");
+            fs::write(folder.file(file.name), "as it was written").expect("writable");
+            let read = open().and_then(|folder| folder.text(file.name)).expect("a text");
+            assert_eq!(read, "as it was written", "{}", file.name);
+        }
+    }
+}

@@ -1,0 +1,47 @@
+//! The measures of one design: a row each, to be read from top to bottom.
+
+use journal::OutputError;
+use std::borrow::Cow;
+
+use crate::columns;
+use crate::columns::{Cell, Column};
+use crate::design::row::DesignRow;
+use crate::folder::RunFolder;
+use crate::tables::csv_file::write_rows;
+use crate::tables::csv_format::CsvFormat::Plain;
+
+/// A cell of `designs.csv` with all that is to be known of its column.
+#[derive(Clone, Debug)]
+pub struct DesignMeasure {
+    name: Cow<'static, str>,
+    value: Cell,
+    unit: &'static str,
+    meaning: &'static str,
+}
+
+/// The columns of `measures.csv`.
+pub static MEASURE_COLUMNS: &[Column<DesignMeasure>] = &columns! { DesignMeasure:
+    "measure", "-", |m| m.name.clone().into_owned(), "column of `designs.csv`";
+    "value", "-", |m| m.value.clone(), "value, in its unit";
+    "unit", "-", |m| m.unit, "unit, `-` if it has none";
+    "meaning", "-", |m| m.meaning, "meaning, in half a sentence";
+};
+
+/// Writes every column of a row of `designs.csv` as a row of `measures.csv` in `folder`; returns the name of the file.
+///
+/// # Errors
+/// If the folder or the disk does not take it.
+pub fn write_measures(
+    folder: &RunFolder,
+    columns: &[Column<DesignRow>],
+    row: &DesignRow,
+) -> Result<&'static str, OutputError> {
+    let measure = |column: &Column<DesignRow>| DesignMeasure {
+        name: column.name.clone(),
+        value: column.cell(row),
+        unit: column.unit,
+        meaning: column.meaning,
+    };
+    write_rows(folder, RunFolder::MEASURES, Plain, MEASURE_COLUMNS, columns.iter().map(measure))?;
+    Ok(RunFolder::MEASURES)
+}

@@ -1,0 +1,112 @@
+//! The path tables of one design: its paths, events, scales and Newton iterations.
+
+use journal::OutputError;
+use skin::flexure::Flexure;
+use skin::puncture::{Instability, Puncture};
+
+use crate::columns::{
+    BentScale, Cell, Column, DERIVATIVE_COLUMNS, EVENTS, FLEXURE_EVENTS, FLEXURE_SCALES,
+    FLEXURE_STEPS, LOADED_PLACES, PunctureEvent, SCALES, STEPS, flexure_path_columns, path_columns,
+    tip_force_columns,
+};
+use crate::design::row::SolvedDesign;
+use crate::folder::RunFolder;
+use crate::tables::csv_file::write_rows;
+use crate::tables::csv_format::CsvFormat::Plain;
+
+/// A table of the paths of one design.
+pub struct PathTable {
+    /// The name of its file.
+    pub file: &'static str,
+    /// Its columns, whose rows are numbered from 0.
+    pub columns: Vec<Column<usize>>,
+    /// The number of its rows.
+    pub rows: usize,
+}
+
+impl PathTable {
+    fn new<R>(file: &'static str, columns: &[Column<R>], rows: &[R]) -> Self {
+        // Rows of these tables are of many types. With their cells made all tables are of one, for
+        // files and for Python.
+        let filled = |column: &Column<R>| {
+            let cells: Vec<Cell> = rows.iter().map(|row| column.cell(row)).collect();
+            let cell = move |&row: &usize| cells[row].clone();
+            Column::made(column.name.clone(), column.unit, column.meaning, cell)
+        };
+        Self { file, columns: columns.iter().map(filled).collect(), rows: rows.len() }
+    }
+}
+
+/// Returns the path tables of a design: those of what was solved.
+pub fn path_tables(solved: &SolvedDesign) -> Vec<PathTable> {
+    let SolvedDesign { row, puncture, flexure } = solved;
+    let mut tables = Vec::new();
+    if let Some(puncture) = puncture {
+        tables.extend(of_puncture(puncture));
+    }
+    if let Some(flexure) = flexure {
+        tables.extend(of_flexure(flexure));
+    }
+    if !row.result.sensitivity.is_empty() {
+        let rows: Vec<_> = row.derivatives().collect();
+        tables.push(PathTable::new(RunFolder::SENSITIVITY, DERIVATIVE_COLUMNS, &rows));
+    }
+    tables
+}
+
+/// Writes the path tables of a design to `folder` and returns the names of the files.
+///
+/// # Errors
+/// If the folder or the disk does not take them.
+pub fn write_path_tables(
+    folder: &RunFolder,
+    solved: &SolvedDesign,
+) -> Result<Vec<&'static str>, OutputError> {
+    let write = |PathTable { file, columns, rows }: PathTable| {
+        write_rows(folder, file, Plain, &columns, 0..rows).map(|_| file)
+    };
+    path_tables(solved).into_iter().map(write).collect()
+}
+
+fn of_puncture(puncture: &Puncture) -> Vec<PathTable> {
+    let [path, events, scales, steps] = RunFolder::PUNCTURE;
+    let mut columns = path_columns(!puncture.measures.passage.is_none(), puncture.rubs());
+    let points = puncture.path.iter().copied().zip(puncture.instability.iter().copied());
+    let mut tables = vec![
+        PathTable::new(path, &columns, &points.collect::<Vec<_>>()),
+        PathTable::new(events, EVENTS, &PunctureEvent::all(puncture)),
+        PathTable::new(scales, SCALES, &puncture.scales),
+        PathTable::new(steps, STEPS, &puncture.history),
+    ];
+    // Which scales a tip touches, and so which columns there are, only the whole path tells.
+    tables[0].columns.extend(tip_force_columns(&puncture.tip_forces));
+    if let Some(back) = &puncture.way_back {
+        // Nothing is known of the stability of a row whose load is taken away.
+        columns.retain(|column| !column.name.starts_with("unstable"));
+        let points = back.path.iter().map(|&point| (point, Instability::default()));
+        let points: Vec<_> = points.collect();
+        tables.push(PathTable::new(RunFolder::WAY_BACK[0], &columns, &points));
+    }
+    if !puncture.places.is_empty() {
+        tables.push(PathTable::new(RunFolder::PLACES, LOADED_PLACES, &puncture.places));
+    }
+    tables
+}
+
+fn of_flexure(flexure: &Flexure) -> Vec<PathTable> {
+    let [path, events, scales, steps] = RunFolder::FLEXURE;
+    let columns = flexure_path_columns(flexure.rubs());
+    // A path that never began has no shape, and its table no rows.
+    let shape = flexure.shape(flexure.path.len().saturating_sub(1)).unwrap_or_default();
+    let shape: Vec<BentScale> = shape.into_iter().enumerate().collect();
+    let mut tables = vec![
+        PathTable::new(path, &columns, &flexure.path),
+        PathTable::new(events, FLEXURE_EVENTS, &flexure.events),
+        PathTable::new(scales, FLEXURE_SCALES, &shape),
+        PathTable::new(steps, FLEXURE_STEPS, &flexure.history),
+    ];
+    if let Some(back) = &flexure.way_back {
+        tables.push(PathTable::new(RunFolder::WAY_BACK[1], &columns, &back.path));
+    }
+    tables
+}

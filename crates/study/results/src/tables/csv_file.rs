@@ -1,0 +1,130 @@
+//! Tables as CSV files, the only place where rows become cells of a file.
+
+use std::borrow::Borrow;
+use std::fmt::Write as _;
+use std::io::{self, BufWriter, Write as _};
+
+use journal::{AtomicFile, OutputError};
+
+use super::csv_format::CsvFormat;
+use crate::columns::Column;
+use crate::folder::RunFolder;
+
+/// Rows whose lines are in memory at a time.
+const PORTION: usize = 1024;
+
+/// A table that grows row by row and appears when it is complete.
+pub struct CsvFile<'c, R> {
+    file: BufWriter<AtomicFile>,
+    format: CsvFormat,
+    columns: &'c [Column<R>],
+}
+
+impl<'c, R> CsvFile<'c, R> {
+    /// Begins the file `name` in `folder` with its header.
+    ///
+    /// # Errors
+    /// If the folder or the disk does not take it.
+    pub fn create(
+        folder: &RunFolder,
+        name: &str,
+        format: CsvFormat,
+        columns: &'c [Column<R>],
+    ) -> Result<Self, OutputError> {
+        let file = BufWriter::with_capacity(1 << 16, folder.create(name)?);
+        let mut table = Self { file, format, columns };
+        let mut header = format.writer(Vec::new());
+        let written = header.write_record(columns.iter().map(|column| column.name.as_ref()));
+        let header = table.text(header, written)?;
+        let begun = table.file.write_all(format.mark());
+        table.checked(begun)?;
+        table.append(&header)?;
+        Ok(table)
+    }
+
+    /// The lines of some rows, as they stand in the file.
+    ///
+    /// # Errors
+    /// If a row is not as long as the header, which no table of columns has.
+    pub fn lines(
+        &self,
+        rows: impl IntoIterator<Item = impl Borrow<R>>,
+    ) -> Result<Vec<u8>, OutputError> {
+        // In memory and without changing the table: a run has all its threads make lines of it.
+        let mut csv = self.format.writer(Vec::new());
+        let mut cell = String::new();
+        let written = rows.into_iter().try_for_each(|row| {
+            for column in self.columns {
+                cell.clear();
+                // Writing to a string cannot fail.
+                let _ = write!(cell, "{}", column.cell(row.borrow()));
+                csv.write_field(self.format.cell(&cell).as_bytes())?;
+            }
+            csv.write_record(None::<&[u8]>)
+        });
+        self.text(csv, written)
+    }
+
+    /// Adds lines.
+    ///
+    /// # Errors
+    /// If the disk does not take them.
+    pub fn append(&mut self, lines: &[u8]) -> Result<(), OutputError> {
+        let written = self.file.write_all(lines);
+        self.checked(written)
+    }
+
+    /// Adds a row.
+    ///
+    /// # Errors
+    /// If the disk does not take it.
+    pub fn write(&mut self, row: &R) -> Result<(), OutputError> {
+        let lines = self.lines([row])?;
+        self.append(&lines)
+    }
+
+    /// Puts the table in its place and returns its SHA-256.
+    ///
+    /// # Errors
+    /// If the disk does not take it.
+    pub fn finish(self) -> Result<String, OutputError> {
+        let path = self.file.get_ref().path().to_owned();
+        // This writes the last bytes and tells of a full disk; a dropped buffer keeps silent.
+        let file = self.file.into_inner();
+        file.map_err(|error| OutputError::file(&path, error.error()))?.finish()
+    }
+
+    /// What was written to memory.
+    fn text(
+        &self,
+        csv: csv::Writer<Vec<u8>>,
+        written: Result<(), csv::Error>,
+    ) -> Result<Vec<u8>, OutputError> {
+        let text = csv.into_inner().map_err(|error| io::Error::other(error.to_string()));
+        self.checked(written.map_err(io::Error::from).and(text))
+    }
+
+    fn checked<T>(&self, result: io::Result<T>) -> Result<T, OutputError> {
+        result.map_err(|error| OutputError::file(self.file.get_ref().path(), &error))
+    }
+}
+
+/// Writes `rows` as the file `name` in `folder`, in any format.
+///
+/// # Errors
+/// If the folder or the disk does not take it.
+pub fn write_rows<R>(
+    folder: &RunFolder,
+    name: &str,
+    format: CsvFormat,
+    columns: &[Column<R>],
+    rows: impl IntoIterator<Item = impl Borrow<R>>,
+) -> Result<String, OutputError> {
+    let mut table = CsvFile::create(folder, name, format, columns)?;
+    let mut rows = rows.into_iter().peekable();
+    while rows.peek().is_some() {
+        let lines = table.lines(rows.by_ref().take(PORTION))?;
+        table.append(&lines)?;
+    }
+    table.finish()
+}

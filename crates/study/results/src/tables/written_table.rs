@@ -1,0 +1,64 @@
+//! A table that was written before, beside what its journal makes of its rows now.
+//!
+//! Whoever changes a line of a journal and seals it again leaves no checksum that fails: the tables that were written from it tell.
+
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{BufRead as _, BufReader};
+
+use csv::StringRecord;
+use journal::sha256_of;
+
+use super::csv_format::CsvFormat;
+use crate::columns::Column;
+use crate::folder::RunFolder;
+
+/// A table that was written before.
+pub struct WrittenTable {
+    format: CsvFormat,
+    rows: csv::Reader<BufReader<File>>,
+}
+
+impl WrittenTable {
+    /// The table `name` in `folder`; `None` if there is none.
+    pub fn open(folder: &RunFolder, name: &str) -> Option<Self> {
+        let path = folder.file(name);
+        // Opening a pipe may never return.
+        path.is_file().then_some(())?;
+        let mut file = BufReader::new(File::open(path).ok()?);
+        let (format, start) = CsvFormat::of(file.fill_buf().ok()?);
+        file.consume(start);
+        Some(Self { format, rows: format.reader(file) })
+    }
+
+    /// The table `name` in `folder`, if its SHA-256 is the one that is `stated` of files by their names.
+    pub fn as_stated(
+        folder: &RunFolder,
+        name: &str,
+        stated: &BTreeMap<String, String>,
+    ) -> Option<Self> {
+        let table = Self::open(folder, name)?;
+        let digest = sha256_of(File::open(folder.file(name)).ok()?).ok()?;
+        (stated.get(name) == Some(&digest)).then_some(table)
+    }
+
+    /// The first cells of the rows that have other cells now: `row` makes a row anew, and nothing of one that is not to be compared.
+    ///
+    /// # Errors
+    /// If a row cannot be made.
+    pub fn changed<R, E>(
+        self,
+        columns: &[Column<R>],
+        mut row: impl FnMut(&StringRecord) -> Result<Option<R>, E>,
+    ) -> Result<Vec<String>, E> {
+        let mut changed = Vec::new();
+        for record in self.rows.into_records().filter_map(Result::ok) {
+            let Some(row) = row(&record)? else { continue };
+            let cells = columns.iter().map(|column| column.cell(&row).to_string());
+            if !cells.zip(&record).all(|(cell, written)| self.format.cell(&cell) == written) {
+                changed.push(record[0].to_owned());
+            }
+        }
+        Ok(changed)
+    }
+}

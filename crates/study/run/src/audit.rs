@@ -1,0 +1,257 @@
+//! The audit of a run: a share of its designs is solved again by another way, and the largest differences are told.
+//!
+//! Two ways: with steps a tenth as large, which nothing that a path finds may depend on; and bending as a chain of all gaps
+//! against one gap for all, for strips of a whole number of gaps, which are then one problem solved in two ways.
+
+use std::path::Path;
+
+use results::columns::design_columns;
+use results::{Cell, Column, DesignRow, RunFolder};
+use skin::flexure::{self, Method};
+use sweep::{Case, DesignNumber, Measure, Sweep};
+
+use crate::options::Options;
+use crate::progress::RunError;
+use crate::run_journal::{Archive, JournalEntry};
+use crate::solve::evaluator::Evaluator;
+use crate::solve::groups::Groups;
+use crate::solve::workers;
+
+/// How many times smaller the steps of the second computation are.
+// Ten and not two: an error of first order shows at once, one of second order by a factor of a hundred.
+const SMALLER: f64 = 10.0;
+
+/// Values that vanish but for round-off have no digits to compare.
+// Measures are of the order of one; what is left where symmetry makes them vanish is rounding.
+const NOTHING: f64 = 1e-9;
+
+/// The larger part of the golden section.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
+
+/// Gaps of the longest chain that an audit solves.
+// A longer chain is no other problem, and takes as much longer.
+const LONGEST_CHAIN: usize = 1000;
+
+/// The second way in which a design was solved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SecondWay {
+    /// With steps a tenth as large.
+    SmallerSteps,
+    /// As a chain of all gaps.
+    Chain,
+}
+
+/// The largest difference that an audit found in one column.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LargestDifference {
+    /// The column of `designs.csv`.
+    pub column: String,
+    /// The second way.
+    pub way: SecondWay,
+    /// The difference, relative to the larger value.
+    pub relative: f64,
+    /// The design that has it.
+    pub design: DesignNumber,
+    /// The value of the run, or of the unit cell, and that of the second way.
+    pub values: [f64; 2],
+}
+
+/// The findings of an audit.
+#[derive(Clone, Debug, Default)]
+pub struct Audit {
+    /// The number of designs that were solved again.
+    pub designs: u64,
+    /// The largest difference of each column and way, the largest first.
+    pub differences: Vec<LargestDifference>,
+    /// Cells that two ways fill differently in words, or what only one of them has: column, design and both texts.
+    pub contradictions: Vec<(String, DesignNumber, [String; 2])>,
+}
+
+/// A design that was solved again.
+struct Audited {
+    index: u64,
+    /// Rows of which the two of a pair are to be equal. The first of the first pair is in the journal.
+    finer: DesignRow,
+    chain: Option<[DesignRow; 2]>,
+}
+
+impl Audit {
+    /// Solves a `share`, from 0 to 1, of the designs in the run in `folder` again and compares.
+    ///
+    /// # Errors
+    /// If the journal cannot be read or threads cannot be started.
+    pub fn of(folder: &Path, share: f64, options: &Options<'_>) -> Result<Self, RunError> {
+        let archive = Archive::open(&RunFolder::new(folder))?;
+        let sweep = archive.sweep();
+        let columns = design_columns(sweep);
+        // The designs are known before the threads begin: groups must see neighbours, of which a share is far apart.
+        let chosen: Vec<_> = every(share, archive.held()).collect();
+        let mut entries = archive.entries()?;
+        let mut audit = Self::default();
+        let groups = Groups::new(sweep.grid(), chosen.into_iter());
+        let auditor = Auditor::new(sweep);
+        let solve = |index| auditor.solve(index);
+        workers::solve(options.threads, options.stop, groups, solve, |audited: Audited| {
+            let position = archive.designs().position(audited.index);
+            let entry = position.map(|position| entries.last(position)).transpose()?.flatten();
+            // A design with settings of its own is not what the sweep says.
+            let is_own = |entry: &JournalEntry| entry.result.settings.is_empty();
+            if let Some(entry) = entry.filter(is_own) {
+                audit.compare(
+                    &columns,
+                    [&archive.row(entry), &audited.finer],
+                    SecondWay::SmallerSteps,
+                );
+                audit.designs += 1;
+            }
+            if let Some([cell, chain]) = &audited.chain {
+                audit.compare(&columns, [cell, chain], SecondWay::Chain);
+            }
+            Ok(())
+        })?;
+        audit.differences.sort_by(|a, b| b.relative.total_cmp(&a.relative));
+        Ok(audit)
+    }
+
+    /// Takes the differences between two rows of one design into account.
+    fn compare(&mut self, columns: &[Column<DesignRow>], rows: [&DesignRow; 2], way: SecondWay) {
+        for column in columns.iter().filter(|column| is_physical(&column.name)) {
+            let design = rows[0].number;
+            match rows.map(|row| column.cell(row)) {
+                [Cell::Number(first), Cell::Number(second)] => {
+                    // Both are numbers: how far apart they are is told, whatever they are of.
+                    let relative = relative(first, second);
+                    let (column, values) = (column.name.to_string(), [first, second]);
+                    self.note(LargestDifference { column, way, relative, design, values });
+                }
+                // A status or a reason that differs has no size: it is told as it is.
+                cells if cells[0] != cells[1] => {
+                    let texts = cells.map(|cell| cell.to_string());
+                    self.contradictions.push((column.name.to_string(), design, texts));
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// Keeps a difference if it is the largest of its column and way.
+    fn note(&mut self, new: LargestDifference) {
+        // Some twenty columns and two ways: a list is searched faster than a map is built.
+        let same = |old: &&mut LargestDifference| old.column == new.column && old.way == new.way;
+        match self.differences.iter_mut().find(same) {
+            Some(old) if new.relative > old.relative => *old = new,
+            Some(_) => {}
+            None => self.differences.push(new),
+        }
+    }
+}
+
+/// Solves designs by the second ways.
+struct Auditor<'s> {
+    sweep: &'s Sweep,
+    evaluator: Evaluator,
+    flexure: Evaluator,
+}
+
+impl<'s> Auditor<'s> {
+    fn new(sweep: &'s Sweep) -> Self {
+        let evaluator = Evaluator::new(sweep.measures());
+        Self { sweep, evaluator, flexure: Evaluator::new(&[Measure::Flexure]) }
+    }
+
+    fn solve(&self, index: u64) -> Audited {
+        let (number, case) = (self.sweep.grid().number(index), self.sweep.grid().case(index));
+        let finer = self.evaluator.row(number, &finer(case));
+        let bends = self.sweep.measures().contains(&Measure::Flexure);
+        let whole = bends.then(|| whole(case)).flatten();
+        let bend = |case: Case| self.flexure.row(number, &case);
+        Audited { index, finer, chain: whole.map(|cases| cases.map(bend)) }
+    }
+}
+
+/// The case with smaller steps. What a path may cost grows with its steps.
+fn finer(mut case: Case) -> Case {
+    let solver = &mut case.common.solver;
+    solver.first_step /= SMALLER;
+    solver.max_step /= SMALLER;
+    solver.min_step /= SMALLER;
+    // Without this a path of smaller steps would end at the limit and differ by its status.
+    solver.max_points = solver.max_points.saturating_mul(SMALLER as usize);
+    case
+}
+
+/// The case with a whole number of gaps, as a unit cell and as a chain.
+fn whole(mut case: Case) -> Option<[Case; 2]> {
+    let gaps = flexure::whole_gaps(&case.design.row().ok()?, &case.flexure);
+    // The unit cell knows no unequal gaps, so only the perfect strip is one problem in two ways.
+    case.imperfection = skin::Imperfection::default();
+    case.flexure.gaps = Some(gaps);
+    let by = |method| {
+        let mut case = case;
+        case.flexure.method = method;
+        case
+    };
+    (gaps <= LONGEST_CHAIN).then(|| [by(Method::UnitCell), by(Method::Chain)])
+}
+
+/// A `share` of `designs`, spread evenly over them and over any period in them, as the multiples of the golden section are.
+fn every(share: f64, designs: impl Iterator<Item = u64>) -> impl Iterator<Item = u64> {
+    let chosen = move |(place, _): &(usize, u64)| (*place as f64 * GOLDEN).fract() < share;
+    designs.enumerate().filter(chosen).map(|(_, design)| design)
+}
+
+/// Whether a column holds a property of the design, and not of the way in which it was solved.
+fn is_physical(column: &str) -> bool {
+    // Steps and iterations are what the second way changes, not what it must keep.
+    let of_the_way = ["_points", "_iterations", "_error"];
+    !of_the_way.iter().any(|end| column.ends_with(end)) && column != "scales"
+}
+
+/// The difference of two numbers relative to the larger; none if both vanish.
+fn relative(first: f64, second: f64) -> f64 {
+    let larger = first.abs().max(second.abs());
+    if larger < NOTHING { 0.0 } else { (first - second).abs() / larger }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_share_is_spread_evenly() {
+        let chosen = |share| every(share, 0..720).collect::<Vec<_>>();
+        let tenth = chosen(0.1);
+        assert!(tenth.len().abs_diff(72) <= 1, "{}", tenth.len());
+        assert_eq!((chosen(1.0).len(), chosen(0.0).len()), (720, 0));
+        // Every slant of a grid of six is among them: 12 times on the average, none a third more or less often.
+        for slant in 0..6 {
+            let count = tenth.iter().filter(|index| **index % 6 == slant).count();
+            assert!((8..=16).contains(&count), "{count} of slant {slant}");
+        }
+    }
+
+    #[test]
+    fn the_largest_difference_of_a_column_is_kept() {
+        let sweep =
+            Sweep::parse("name = 'x'\nmeasures = 'coverage'", "x.toml", &[]).expect("a sweep");
+        let columns = design_columns(&sweep);
+        let row = |index, coverage| {
+            let (number, case) = (sweep.grid().number(index), sweep.grid().case(index));
+            let result = results::DesignResult { coverage, ..results::DesignResult::default() };
+            DesignRow { number, case, result }
+        };
+        let mut audit = Audit::default();
+        for (index, values) in [(0, [0.5, 0.4]), (1, [0.5, 0.25]), (2, [0.5, 0.5])] {
+            let rows = values.map(|coverage| row(index, Some(coverage)));
+            audit.compare(&columns, [&rows[0], &rows[1]], SecondWay::SmallerSteps);
+        }
+        audit.compare(&columns, [&row(3, Some(0.5)), &row(3, None)], SecondWay::SmallerSteps);
+        let found: Vec<_> =
+            audit.differences.iter().filter(|found| found.column == "coverage").collect();
+        assert_eq!((found.len(), found[0].relative), (1, 0.5));
+        assert_eq!(found[0].design.to_string(), "0002");
+        let [(column, design, texts)] = audit.contradictions.as_slice() else { panic!("one") };
+        assert_eq!((column.as_str(), design.to_string().as_str()), ("coverage", "0004"));
+        assert_eq!(texts, &["0.5".to_owned(), String::new()]);
+    }
+}

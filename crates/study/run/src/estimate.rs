@@ -1,0 +1,101 @@
+//! The time and the room that a sweep takes, judged by a few of its designs.
+
+use std::time::{Duration, Instant};
+
+use journal::Seal;
+use results::DesignRow;
+use results::columns::tables;
+use sweep::Sweep;
+
+use crate::run_journal::{JournalEntry, Line};
+use crate::solve::evaluator::Evaluator;
+
+/// Places of the grid at which designs are solved, and how many neighbours at each: neighbours share their springs.
+// Several places, as designs are quick in one part of a grid and slow in another; neighbours, as those share their springs.
+const PLACES: u64 = 8;
+const NEIGHBOURS: u64 = 6;
+
+/// The order of the places, of which any beginning is spread too.
+const ORDER: [u64; PLACES as usize] = [0, 4, 2, 6, 1, 5, 3, 7];
+
+/// An estimate takes no longer than this, and the design in hand.
+// Longer than this nobody waits for a guess.
+const PATIENCE: Duration = Duration::from_secs(2);
+
+/// The time and the room that a sweep takes, about.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estimate {
+    /// The number of designs that were solved for it.
+    pub solved: u64,
+    /// Seconds on one thread.
+    pub seconds: f64,
+    /// Bytes of journal and tables.
+    pub bytes: f64,
+}
+
+impl Estimate {
+    /// Solves a few designs of `sweep`, evenly spread, and judges all by them.
+    pub fn of(sweep: &Sweep) -> Self {
+        let (evaluator, grid) = (Evaluator::new(sweep.measures()), sweep.grid());
+        let (begun, mut solved, mut bytes) = (Instant::now(), 0, 0);
+        // On one thread: how threads share springs and memory is not guessed, `--threads` divides what is told.
+        for index in spread(grid.len()) {
+            let row = evaluator.row(grid.number(index), &grid.case(index));
+            bytes += room(sweep, &row);
+            solved += 1;
+            if begun.elapsed() > PATIENCE {
+                break;
+            }
+        }
+        let share = grid.len() as f64 / solved as f64;
+        let seconds = begun.elapsed().as_secs_f64() * share;
+        Self { solved, seconds, bytes: bytes as f64 * share }
+    }
+}
+
+/// Designs of a grid: neighbours at a few places.
+fn spread(designs: u64) -> impl Iterator<Item = u64> {
+    let first = move |place: u64| (2 * place + 1) * (designs / (2 * PLACES));
+    let neighbours = move |place| (0..NEIGHBOURS).map(move |neighbour| first(place) + neighbour);
+    ORDER.into_iter().flat_map(neighbours).filter(move |index| *index < designs)
+}
+
+/// Bytes of a design in journal and tables.
+fn room(sweep: &Sweep, row: &DesignRow) -> usize {
+    let (design, result) = (row.number.index() + 1, row.result.clone());
+    // Times of six digits, as most have.
+    let entry = JournalEntry { design, rerun: 0, at: 0.123_456, seconds: 0.123_456, result };
+    let journal = Seal::default().seal(&Line::Design(Box::new(entry))).len();
+    let layouts = tables(sweep);
+    let columns = layouts.iter().flat_map(|layout| &layout.columns);
+    // Every cell and the comma or line end behind it.
+    journal + columns.map(|column| column.cell(row).to_string().len() + 1).sum::<usize>()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn designs_of_all_parts_of_a_grid_are_solved() {
+        let chosen: Vec<_> = spread(16_000).collect();
+        assert_eq!(chosen.len(), 48);
+        let mut places: Vec<_> = chosen.iter().map(|index| index / 2000).collect();
+        places.dedup();
+        assert_eq!(places.len(), 8);
+        places.sort_unstable();
+        assert_eq!(places, [0, 1, 2, 3, 4, 5, 6, 7]);
+    }
+
+    #[test]
+    fn a_sweep_twice_as_large_takes_twice_the_room() {
+        let bytes = |values: u32| {
+            let text = format!(
+                "name = 'x'\nmeasures = 'coverage'\n[designs]\ngap_over_t = {{ from = 1, to = {values}, step = 1 }}"
+            );
+            Estimate::of(&Sweep::parse(&text, "x.toml", &[]).expect("a sweep")).bytes
+        };
+        let ratio = bytes(200) / bytes(100);
+        assert!((ratio - 2.0).abs() < 0.1, "{ratio}");
+    }
+}

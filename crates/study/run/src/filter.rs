@@ -1,0 +1,153 @@
+//! Filters of the designs of a run: failed ones, some by number, those with certain values.
+
+use std::str::FromStr;
+
+use journal::JournalError;
+use results::columns::design_columns;
+use results::{Cell, Column, DesignRow};
+use sweep::{NoSuchDesign, nearest};
+
+use crate::run_journal::{Archive, JournalEntry};
+
+/// A filter of the designs of a run: those pass for which everything holds that is set.
+#[derive(Clone, Debug, Default)]
+pub struct Filter {
+    /// Only designs that lack a value.
+    pub failed: bool,
+    /// Only designs with these numbers, each one design or some in a row, as `1-12`.
+    pub numbers: Option<Vec<String>>,
+    /// Only designs whose rows in `designs.csv` have these values.
+    pub columns: Vec<ColumnFilter>,
+}
+
+/// A column of `designs.csv` and the value that a row must have there.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ColumnFilter {
+    column: String,
+    value: String,
+}
+
+/// A text that is no condition on a column.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0:?} is not a condition, expected COLUMN=VALUE, e.g. slant_deg=75")]
+pub struct InvalidColumnFilter(String);
+
+/// A filter that makes no sense for a run.
+#[derive(Debug, thiserror::Error)]
+pub enum InvalidFilter {
+    /// A number that is no design of the sweep.
+    #[error("--design: {0}")]
+    Number(NoSuchDesign),
+    /// A design that is not done.
+    #[error("--design {0}: the design is not solved yet; squama run --resume solves it")]
+    NotDone(String),
+    /// A column that does not exist.
+    #[error("--where {column}: there is no such column in designs.csv, {suggestion}")]
+    Column {
+        /// The column.
+        column: String,
+        /// The column that may be meant.
+        suggestion: String,
+    },
+    /// The journal cannot be read.
+    #[error(transparent)]
+    Journal(#[from] JournalError),
+}
+
+impl FromStr for ColumnFilter {
+    type Err = InvalidColumnFilter;
+
+    fn from_str(text: &str) -> Result<Self, InvalidColumnFilter> {
+        let invalid = || InvalidColumnFilter(text.to_owned());
+        let (column, value) = text.split_once('=').ok_or_else(invalid)?;
+        let (column, value) = (column.trim().to_owned(), value.trim().to_owned());
+        if column.is_empty() { Err(invalid()) } else { Ok(Self { column, value }) }
+    }
+}
+
+impl ColumnFilter {
+    /// The column among `columns`.
+    fn find<'c>(
+        &self,
+        columns: &'c [Column<DesignRow>],
+    ) -> Result<&'c Column<DesignRow>, InvalidFilter> {
+        let found = columns.iter().find(|column| column.name == self.column);
+        found.ok_or_else(|| {
+            let known: Vec<_> = columns.iter().map(|column| column.name.as_ref()).collect();
+            // A near name is a slip of the pen; with none near, all that there are help more.
+            let suggestion = match nearest(&self.column, &known) {
+                Some(near) => format!("did you mean {near}?"),
+                None => format!("expected one of {}", known.join(", ")),
+            };
+            InvalidFilter::Column { column: self.column.clone(), suggestion }
+        })
+    }
+
+    /// Whether `cell` has the value: as text, or as a number.
+    fn passes(&self, cell: &Cell) -> bool {
+        let cell = cell.to_string();
+        let number = |text: &str| text.parse::<f64>().ok();
+        // As text first: `0010` is a number of a design, and not the tenth value.
+        cell == self.value || number(&cell).is_some_and(|cell| Some(cell) == number(&self.value))
+    }
+}
+
+impl Filter {
+    /// The designs of `archive` that pass, as indices of its grid, in order.
+    ///
+    /// # Errors
+    /// If a number or a column does not exist, or the journal cannot be read.
+    pub fn designs(&self, archive: &Archive) -> Result<Vec<u64>, InvalidFilter> {
+        let columns = design_columns(archive.sweep());
+        let found = self.columns.iter().map(|filter| Ok((filter, filter.find(&columns)?)));
+        let found = found.collect::<Result<Vec<_>, InvalidFilter>>()?;
+        let passes = |row: &DesignRow| {
+            (row.result.failed() || !self.failed)
+                && found.iter().all(|(filter, column)| filter.passes(&column.cell(row)))
+        };
+        let mut designs = Vec::new();
+        let mut visit = |entry| {
+            let row = archive.row(entry);
+            designs.extend(passes(&row).then(|| row.number.index()));
+        };
+        match &self.numbers {
+            // A few numbered designs are read where they stand, without a look at all others.
+            Some(numbers) => numbered(archive, numbers)?.into_iter().for_each(visit),
+            None => archive.entries()?.in_order().try_for_each(|entry| entry.map(&mut visit))?,
+        }
+        Ok(designs)
+    }
+}
+
+/// The entries of the designs with these numbers, in order, each once.
+fn numbered(archive: &Archive, numbers: &[String]) -> Result<Vec<JournalEntry>, InvalidFilter> {
+    let grid = archive.sweep().grid();
+    let range = |text: &String| grid.parse_numbers(text.trim()).map_err(InvalidFilter::Number);
+    let ranges = numbers.iter().map(range).collect::<Result<Vec<_>, _>>()?;
+    let mut indices: Vec<_> = ranges.into_iter().flatten().collect();
+    // In the order of the designs, whatever the order on the command line: reruns are told in it.
+    indices.sort_unstable();
+    indices.dedup();
+    let mut entries = archive.entries()?;
+    let mut entry = |index: u64| {
+        let position = archive.designs().position(index);
+        let entry = position.map(|position| entries.last(position)).transpose()?.flatten();
+        entry.ok_or_else(|| InvalidFilter::NotDone(grid.number(index).to_string()))
+    };
+    indices.into_iter().map(&mut entry).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn conditions_compare_numbers_as_numbers() {
+        let filter: ColumnFilter = "slant_deg = 75".parse().expect("a condition");
+        assert!(filter.passes(&75.0.into()) && !filter.passes(&7.0.into()));
+        assert!("x=75.0".parse::<ColumnFilter>().expect("a condition").passes(&75.0.into()));
+        assert!("base=2L".parse::<ColumnFilter>().expect("a condition").passes(&"2L".into()));
+        let text = "=3".parse::<ColumnFilter>().expect_err("none").to_string();
+        assert_eq!(text, "\"=3\" is not a condition, expected COLUMN=VALUE, e.g. slant_deg=75");
+    }
+}

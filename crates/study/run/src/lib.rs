@@ -1,0 +1,89 @@
+//! Runs: how the designs of a sweep are solved, and how their results come into a folder.
+//!
+//! Designs are solved in parallel, each by one thread, and noted in a journal as they are done. The
+//! tables are written from the journal, in the order of the designs, one row at a time: so they are
+//! the same for any number of threads, shards and interruptions, and memory hardly grows with the
+//! grid.
+//!
+//! ```text
+//! Sweep ─► Groups ─► workers ─► Evaluator ─► JournalEntry ─► Journal ─► TableWriter ─► tables
+//! ```
+//!
+//! | Type | Role |
+//! |---|---|
+//! | [`run()`] | solves the designs of a sweep and writes the tables |
+//! | [`Options`], [`Program`], [`Progress`], [`Finished`] | how, by which program, how far, with what result |
+//! | [`Evaluator`] | solves one design, or its curve at chosen places |
+//! | [`CurvePoints`] | such a curve, with its derivatives |
+//! | [`WorkMeter`] | how much of the work is done, within designs too |
+//! | [`Start`] | what a run does with results that are there, and what it trusts of them |
+//! | [`Archive`], [`JournalEntry`], [`Line`] | every finished design, a line each in a journal |
+//! | [`Rerun`], [`Filter`], [`ColumnFilter`] | some designs solved again, with other settings |
+//! | [`RunStatus`] | how far a run is |
+//! | [`merge()`] | puts shards together |
+//! | [`Estimate`] | time and room that a sweep takes, about |
+//! | [`Audit`], [`LargestDifference`], [`SecondWay`] | a share of the designs solved again by another way |
+//! | [`Summary`], [`Best`] | counts and best values |
+//! | [`GapChange`], [`MeasureChange`] | the measures of a design where its gap comes out 10 % smaller and larger |
+//! | [`CouplingChange`], [`CoupledMeasure`] | the measures of a design with the whole substrate coupled |
+//!
+//! ```
+//! use std::sync::atomic::AtomicBool;
+//! use std::time::Duration;
+//!
+//! use run::{Options, Program, Start, WorkMeter};
+//! use sweep::{Subset, Sweep};
+//!
+//! let text = "name = 'two'\nmeasures = 'coverage'\n[designs]\ngap_over_t = 0.1\nlength_over_t = 1\n\
+//!             slant_deg = [0, 45]";
+//! let sweep = Sweep::parse(text, "two.toml", &[])?;
+//! let folder = tempfile::tempdir()?;
+//! let stop = AtomicBool::new(false);
+//! let options = Options {
+//!     threads: 1,
+//!     format: None,
+//!     fail_fast: false,
+//!     tables_every: Duration::MAX,
+//!     stop: &stop,
+//!     work: &WorkMeter::default(),
+//! };
+//! let program = Program { version: "1.0", revision: "none" };
+//! let all = Subset::default();
+//! let finished = run::run(&sweep, all, folder.path(), Start::New, &options, &program, |_| ())?;
+//! assert_eq!((finished.summary.designs, finished.missing), (2, 0));
+//! assert!(folder.path().join("coverage.csv").exists());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod audit;
+mod coupling_change;
+mod estimate;
+mod filter;
+mod gap_change;
+mod merge;
+mod options;
+mod progress;
+mod rerun;
+mod run;
+mod run_journal;
+mod solve;
+mod status;
+mod tables;
+
+pub use audit::{Audit, LargestDifference, SecondWay};
+pub use coupling_change::{CoupledMeasure, CouplingChange};
+pub use estimate::Estimate;
+pub use filter::{ColumnFilter, Filter, InvalidColumnFilter, InvalidFilter};
+pub use gap_change::{GapChange, MeasureChange};
+pub use journal::{JournalError, JournalHeader, Program, Start};
+pub use merge::{MergeError, Merged, merge};
+pub use options::Options;
+pub use progress::{Finished, Progress, RunError};
+pub use rerun::{InvalidRerun, Rerun};
+pub use run::run;
+pub use run_journal::{Archive, JournalEntry, LatestSession, Line, SessionStart};
+pub use solve::curve::CurvePoints;
+pub use solve::evaluator::Evaluator;
+pub use solve::work::{WorkMeter, WorkPiece, told};
+pub use status::RunStatus;
+pub use tables::summary::{Best, Summary};

@@ -1,0 +1,320 @@
+//! Putting the shards of a sweep together.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
+use std::time::{Duration, Instant};
+
+use journal::{JournalError, Program, Start};
+use results::{CsvFormat, RunFolder};
+use sweep::{SubsetDesigns, Sweep};
+
+use crate::options::Options;
+use crate::progress::{Finished, RunError};
+use crate::run::Run;
+use crate::run_journal::{self, Archive, Entries, Journal, JournalEntry, Line, SessionStart};
+use crate::solve::work::WorkMeter;
+use crate::tables::run_info::RunInfo;
+
+/// The advice to shards that do not belong together.
+const ALIKE: &str = "shards of one sweep by one program";
+
+/// Shards that cannot be put together.
+#[derive(Debug, thiserror::Error)]
+pub enum MergeError {
+    /// No folder of a shard was given.
+    #[error("there is nothing to merge; give the folders of shards")]
+    Nothing,
+    /// A journal cannot be used.
+    #[error(transparent)]
+    Journal(#[from] JournalError),
+    /// The results cannot be written.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// Two shards have different results for the same design.
+    #[error("{}: design {design} differs from that in {}; solve it again in one of them with squama rerun", second.display(), first.display())]
+    Conflict {
+        /// Number of the design.
+        design: u64,
+        /// A folder that has it.
+        first: PathBuf,
+        /// Another folder that has it.
+        second: PathBuf,
+    },
+}
+
+/// A merger that was done.
+#[derive(Clone, Debug)]
+pub struct Merged {
+    /// The results after the merger.
+    pub finished: Finished,
+    /// The number of designs that the merger brought.
+    pub added: u64,
+    /// The designs that are in none of the shards.
+    pub missing: Vec<std::ops::RangeInclusive<u64>>,
+    /// The sweep.
+    pub sweep: Sweep,
+}
+
+/// Puts the results in `folders`, shards of one sweep, into the folder `out`, and writes the tables of
+/// the whole. What is there already stays, so that merging twice is merging once. If `out` is the only one of the folders,
+/// its tables are written again from its journal.
+///
+/// # Errors
+/// If the folders hold results of different definitions or programs, one is in use, or the disk
+/// does not take the results.
+pub fn merge(
+    folders: &[PathBuf],
+    out: &Path,
+    format: Option<CsvFormat>,
+    program: &Program,
+) -> Result<Merged, MergeError> {
+    let clock = Instant::now();
+    let out = RunFolder::new(out);
+    let sources = open(folders, &out)?;
+    if sources.is_empty() {
+        return if folders.is_empty() {
+            Err(MergeError::Nothing)
+        } else {
+            written_again(out, format, program)
+        };
+    }
+    // All sources are of one sweep, so any of them names it.
+    let header = sources[0].archive.header().clone().of_all_shards();
+    out.make().map_err(RunError::from)?;
+    // Resumed, not new: merging twice is merging once, and a merger that was killed goes on.
+    let mut journal = run_journal::begin(&out, header, Start::Resume)?;
+    // What is asked for, else what the folder has, else what the shards have.
+    let formats = [journal.records(), &sources[0].archive].map(Archive::format);
+    let format = formats.into_iter().fold(format, Option::or);
+    let added = gather(&mut journal, &sources, &out, format.unwrap_or_default())?;
+    finish(journal, out, format, added, program, clock)
+}
+
+/// The tables in `out`, written again from the journal there.
+fn written_again(
+    out: RunFolder,
+    format: Option<CsvFormat>,
+    program: &Program,
+) -> Result<Merged, MergeError> {
+    let journal = run_journal::resume(&out)?;
+    out.make().map_err(RunError::from)?;
+    finish(journal, out, format, 0, program, Instant::now())
+}
+
+fn finish(
+    journal: Journal,
+    out: RunFolder,
+    format: Option<CsvFormat>,
+    added: u64,
+    program: &Program,
+    clock: Instant,
+) -> Result<Merged, MergeError> {
+    let archive = journal.records();
+    let (sweep, missing) =
+        (archive.sweep().clone(), numbers(archive.designs(), &archive.missing()));
+    let (stop, work) = (AtomicBool::new(false), WorkMeter::default());
+    let options = Options {
+        threads: 1,
+        format,
+        fail_fast: false,
+        tables_every: Duration::MAX,
+        stop: &stop,
+        work: &work,
+    };
+    let info = RunInfo::new(program, &options, clock);
+    let finished = Run::new(journal, out, &options, info).finish()?;
+    Ok(Merged { finished, added, missing, sweep })
+}
+
+/// The results of one folder.
+struct ShardResults {
+    folder: RunFolder,
+    archive: Archive,
+}
+
+/// Opens the folders other than `out`, all of one sweep.
+fn open(folders: &[PathBuf], out: &RunFolder) -> Result<Vec<ShardResults>, MergeError> {
+    let same = |folder: &&PathBuf| match (folder.canonicalize(), out.path().canonicalize()) {
+        // By their real paths, as `results/x` and `./results/x/` are one folder.
+        (Ok(folder), Ok(out)) => folder == out,
+        _ => false,
+    };
+    let mut sources: Vec<ShardResults> = Vec::new();
+    for folder in folders.iter().filter(|folder| !same(folder)).map(RunFolder::new) {
+        // A shard that is still being solved would be merged short of its last designs, and nobody would notice.
+        if journal::in_use(&folder.journal()) {
+            return Err(JournalError::InUse(folder.path().to_owned()).into());
+        }
+        let archive = Archive::open(&folder)?;
+        // A copy that was cut short looks like a shard with less to do.
+        archive.require_all_lines(&folder)?;
+        if let Some(first) = sources.first() {
+            let wanted = first.archive.header().clone().of_all_shards();
+            let header = archive.header().clone().of_all_shards();
+            header.require(&wanted, &folder.journal(), ALIKE)?;
+        }
+        sources.push(ShardResults { folder, archive });
+    }
+    Ok(sources)
+}
+
+/// Appends to `journal` what it lacks; returns how many designs that were.
+fn gather(
+    journal: &mut Journal,
+    sources: &[ShardResults],
+    out: &RunFolder,
+    format: CsvFormat,
+) -> Result<u64, MergeError> {
+    let designs = journal.records().designs().clone();
+    let mut readers = Vec::new();
+    for source in sources {
+        readers.push((source, source.archive.entries()?));
+    }
+    // As it was: what is appended now belongs to other designs.
+    let before = Archive::open(out)?;
+    // Read beside the journal that grows: entries are found by where they stand, and what is appended stands behind.
+    let mut there = before.entries()?;
+    let mut added = 0;
+    for (design, holders) in Held::by(sources.iter().map(|source| source.archive.held())) {
+        // A shard of the whole grid may hold designs that a sample leaves out.
+        let Some(position) = designs.position(design) else { continue };
+        let known = there.last(position)?;
+        let best = choose(design, known, &mut readers, &holders, out)?;
+        // A merger that brings nothing leaves no trace in the journal.
+        if added == 0 && !best.is_empty() {
+            let session = Line::Session(SessionStart::now(1, format));
+            journal.append(session).map_err(RunError::from)?;
+        }
+        added += u64::from(!best.is_empty());
+        for entry in best {
+            journal.append(Line::Design(Box::new(entry))).map_err(RunError::from)?;
+        }
+    }
+    Ok(added)
+}
+
+/// The designs that any of several sources holds, in order, each with the places of those that hold it.
+struct Held<I> {
+    sources: Vec<I>,
+    /// The next design of each source, and the place of the source; the smallest first.
+    next: BinaryHeap<Reverse<(u64, usize)>>,
+}
+
+impl<I: Iterator<Item = u64>> Held<I> {
+    fn by(sources: impl Iterator<Item = I>) -> Self {
+        let mut held = Self { sources: sources.collect(), next: BinaryHeap::new() };
+        for place in 0..held.sources.len() {
+            held.advance(place);
+        }
+        held
+    }
+
+    fn advance(&mut self, place: usize) {
+        let next = self.sources[place].next();
+        self.next.extend(next.map(|design| Reverse((design, place))));
+    }
+}
+
+impl<I: Iterator<Item = u64>> Iterator for Held<I> {
+    type Item = (u64, Vec<usize>);
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let Reverse((design, _)) = *self.next.peek()?;
+        let mut holders = Vec::new();
+        while let Some(&Reverse((other, place))) = self.next.peek()
+            && other == design
+        {
+            self.next.pop();
+            holders.push(place);
+            self.advance(place);
+        }
+        holders.sort_unstable();
+        Some((design, holders))
+    }
+}
+
+/// The entries of the design `index`, which the readers at the places `holders` have, that are to be added to the one that
+/// is there.
+fn choose(
+    index: u64,
+    there: Option<JournalEntry>,
+    readers: &mut [(&ShardResults, Entries<'_>)],
+    holders: &[usize],
+    out: &RunFolder,
+) -> Result<Vec<JournalEntry>, MergeError> {
+    let known = there.as_ref().map(|entry| entry.rerun);
+    let mut best = there.map(|entry| (entry, out.path()));
+    let mut added = Vec::new();
+    for place in holders {
+        let (source, entries) = &mut readers[*place];
+        let Some(position) = source.archive.designs().position(index) else { continue };
+        let Some(entry) = entries.last(position)? else { continue };
+        match &best {
+            // Equal reruns of one program must agree to the last bit: if they do not, neither is to be believed.
+            Some((other, first)) if other.rerun == entry.rerun && other.result != entry.result => {
+                let (first, second) = (first.to_path_buf(), source.folder.path().to_owned());
+                return Err(MergeError::Conflict { design: entry.design, first, second });
+            }
+            Some((other, _)) if other.rerun >= entry.rerun => {}
+            _ => {
+                // With all its reruns, so that `reruns.csv` tells of them after the merger too.
+                added = entries.history(position)?;
+                best = Some((entry, source.folder.path()));
+            }
+        }
+    }
+    // What the folder has is not written a second time.
+    added.retain(|entry| known.is_none_or(|known| entry.rerun > known));
+    Ok(added)
+}
+
+/// The numbers of the designs at some positions.
+fn numbers(
+    designs: &SubsetDesigns,
+    positions: &[std::ops::Range<u64>],
+) -> Vec<std::ops::RangeInclusive<u64>> {
+    let mut numbers: Vec<std::ops::RangeInclusive<u64>> = Vec::new();
+    for part in positions.iter().flat_map(|range| consecutive(designs, range)) {
+        match numbers.last_mut() {
+            Some(last) if last.end() + 1 == *part.start() => *last = *last.start()..=*part.end(),
+            _ => numbers.push(part),
+        }
+    }
+    numbers
+}
+
+/// The numbers of the designs at consecutive positions: one range where they are consecutive too, as in a whole grid.
+fn consecutive(
+    designs: &SubsetDesigns,
+    positions: &std::ops::Range<u64>,
+) -> Vec<std::ops::RangeInclusive<u64>> {
+    let number = |position| designs.design(position) + 1;
+    let Some(last) = positions.clone().next_back() else { return Vec::new() };
+    let (first, last) = (number(positions.start), number(last));
+    // The whole range at once: a grid may have 10⁹ designs, and a list of them takes all memory.
+    if last - first == positions.end - positions.start - 1 {
+        return vec![first..=last];
+    }
+    positions.clone().map(|position| number(position)..=number(position)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn designs_come_in_order_with_those_that_hold_them() {
+        let sources: [&[u64]; 3] = [&[1, 4, 9], &[4, 5], &[]];
+        let held: Vec<_> = Held::by(sources.iter().map(|source| source.iter().copied())).collect();
+        assert_eq!(held, [(1, vec![0]), (4, vec![0, 1]), (5, vec![1]), (9, vec![0])]);
+    }
+
+    #[test]
+    fn ranges_of_a_billion_designs_are_named_at_once() {
+        let designs = SubsetDesigns::new(1_000_000_000, sweep::Subset::default()).expect("designs");
+        let named = numbers(&designs, &[0..5, 6..999_999_999]);
+        assert_eq!(named, [1..=5, 7..=999_999_999]);
+    }
+}

@@ -1,0 +1,65 @@
+//! The progress of a run, and its end.
+
+use std::time::Duration;
+
+use journal::{JournalError, OutputError};
+use sweep::{InvalidDefinition, SampleTooLarge};
+
+use crate::tables::summary::Summary;
+
+/// An error that keeps a sweep from running to its end.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// The results cannot be written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// The journal cannot be used.
+    #[error(transparent)]
+    Journal(#[from] JournalError),
+    /// The subset is larger than the grid.
+    #[error(transparent)]
+    Sample(#[from] SampleTooLarge),
+    /// The settings of a rerun are not right.
+    #[error(transparent)]
+    Definition(#[from] InvalidDefinition),
+    /// The threads cannot be started.
+    #[error("{count} threads cannot be started ({reason}), expected fewer")]
+    Threads {
+        /// The number of threads that were asked for.
+        count: usize,
+        /// The message of the system.
+        reason: String,
+    },
+}
+
+/// A run that came to its end.
+#[derive(Clone, Debug)]
+pub struct Finished {
+    /// Counts and best values.
+    pub summary: Summary,
+    /// The number of designs that are not done.
+    pub missing: u64,
+    /// The duration.
+    pub duration: Duration,
+    /// Names of the tables.
+    pub tables: Vec<String>,
+    /// News for the person besides: what was cut off, lost or removed.
+    pub notes: Vec<String>,
+}
+
+/// The progress of a run.
+#[derive(Clone, Copy, Debug)]
+pub enum Progress {
+    /// The run begins.
+    Begun {
+        /// The number of designs.
+        designs: u64,
+        /// The number of designs that are done.
+        done: u64,
+    },
+    /// A design is done.
+    Done {
+        /// Whether it lacks a value.
+        failed: bool,
+    },
+}

@@ -1,0 +1,151 @@
+//! Solving designs of a run again, with other settings.
+
+use std::path::Path;
+use std::time::Instant;
+
+use journal::{JournalError, Program};
+use results::{RunFolder, SEPARATOR};
+use sweep::{DesignNumber, PARAMETERS, Setting, Sweep};
+
+use crate::filter::{Filter, InvalidFilter};
+use crate::options::Options;
+use crate::progress::{Finished, Progress, RunError};
+use crate::run::Run;
+use crate::run_journal::{self, Archive};
+use crate::solve::task::Task;
+use crate::tables::run_info::RunInfo;
+
+/// Designs of a run, and what they are to be solved with.
+#[derive(Debug)]
+pub struct Rerun {
+    folder: RunFolder,
+    sweep: Sweep,
+    settings: String,
+    designs: Vec<u64>,
+}
+
+/// A re-run that cannot begin.
+#[derive(Debug, thiserror::Error)]
+pub enum InvalidRerun {
+    /// The journal cannot be used.
+    #[error(transparent)]
+    Journal(#[from] JournalError),
+    /// The designs that are meant do not exist.
+    #[error(transparent)]
+    Filter(#[from] InvalidFilter),
+    /// The settings are not right.
+    #[error(transparent)]
+    Definition(#[from] sweep::InvalidDefinition),
+    /// A setting that would make another design of it.
+    #[error(
+        "{0}: cannot be set for single designs, because they keep their numbers in the grid; set another key, e.g. solver.max_step=0.01"
+    )]
+    Axis(String),
+    /// Settings that would give the tables other columns.
+    #[error(
+        "imperfections are {before} in the run and {after} in the settings; they must be the same, because a run keeps its columns"
+    )]
+    Imperfection {
+        /// Whether the run has them: on or off.
+        before: &'static str,
+        /// Whether the settings have them.
+        after: &'static str,
+    },
+}
+
+impl Rerun {
+    /// Plans to solve the designs of the run in `folder` that pass `filter`, with `settings` in place
+    /// of what the sweep says.
+    ///
+    /// # Errors
+    /// If there is no such run, another program has solved it, or filter or settings make no sense.
+    pub fn plan(
+        folder: &Path,
+        filter: &Filter,
+        settings: &[Setting],
+        program: &Program,
+    ) -> Result<Self, InvalidRerun> {
+        let folder = RunFolder::new(folder);
+        let archive = Archive::open(&folder)?;
+        // Two programs in one table would differ for reasons that no setting explains.
+        require_program(&archive, &folder, program)?;
+        let (sweep, settings) = changed(archive.sweep(), settings)?;
+        let designs = filter.designs(&archive)?;
+        Ok(Self { folder, sweep, settings, designs })
+    }
+
+    /// The settings that are not those of the sweep, as `key=value` with spaces between.
+    pub fn settings(&self) -> &str {
+        &self.settings
+    }
+
+    /// The designs that are solved again.
+    pub fn designs(&self) -> impl ExactSizeIterator<Item = DesignNumber> {
+        self.designs.iter().map(|index| self.sweep.grid().number(*index))
+    }
+
+    /// Solves them, replaces their rows in every table, and tells what has changed in `reruns.csv`.
+    /// Reports `progress` as soon as a design is done, in any order.
+    ///
+    /// # Errors
+    /// If the folder is in use or the disk does not take the results.
+    pub fn run(
+        &self,
+        options: &Options<'_>,
+        program: &Program,
+        mut progress: impl FnMut(Progress),
+    ) -> Result<Finished, RunError> {
+        let clock = Instant::now();
+        let folder = self.folder.clone();
+        // Locked from here on; what was planned may have changed since, which only adds designs and reruns.
+        let journal = run_journal::resume(&folder)?;
+        require_program(journal.records(), &folder, program)?;
+        folder.make()?;
+        progress(Progress::Begun { designs: self.designs.len() as u64, done: 0 });
+        // One number for all designs of this rerun, so that the table of changes tells which belong together.
+        let rerun = journal.records().reruns() + 1;
+        let settings = self.settings.clone();
+        let task = Task::new(&self.sweep, settings, rerun, clock, options.work);
+        let mut run = Run::new(journal, folder, options, RunInfo::new(program, options, clock));
+        run.solve(&task, self.designs.iter().copied(), progress)?;
+        run.finish()
+    }
+}
+
+fn require_program(
+    archive: &Archive,
+    folder: &RunFolder,
+    program: &Program,
+) -> Result<(), JournalError> {
+    let header = archive.header();
+    let wanted = run_journal::header(archive.sweep(), header.subset(), program);
+    header.require(&wanted, &folder.journal(), "the program that solved the others")
+}
+
+/// `sweep` with `settings` in place of what it says, and what is then different.
+fn changed(sweep: &Sweep, settings: &[Setting]) -> Result<(Sweep, String), InvalidRerun> {
+    let changed = Sweep::parse(&sweep.to_toml(), "definition", settings)?;
+    for setting in settings {
+        let is_shared = |parameter: &sweep::Parameter| {
+            // An axis that is set would give every design another place in the grid.
+            sweep.grid().axis(parameter.key).is_none()
+                && changed.grid().axis(parameter.key).is_none()
+        };
+        if !setting.parameter().is_some_and(is_shared) {
+            return Err(InvalidRerun::Axis(setting.place().to_string()));
+        }
+    }
+    let on_or_off = |sweep: &Sweep| if sweep.is_imperfect() { "on" } else { "off" };
+    // Imperfections bring columns of their own, and a table has one header.
+    let (before, after) = (on_or_off(sweep), on_or_off(&changed));
+    if before != after {
+        return Err(InvalidRerun::Imperfection { before, after });
+    }
+    let (old, new) = (sweep.grid().base(), changed.grid().base());
+    // Only what differs is noted: a setting to the value that the sweep has anyway is none.
+    let different = PARAMETERS.iter().filter(|p| p.get(old) != p.get(new));
+    // A list is written without its spaces, which separate settings.
+    let text = |p: &sweep::Parameter| format!("{}={}", p.path(), p.get(new)).replace(SEPARATOR, "");
+    let texts: Vec<_> = different.map(text).collect();
+    Ok((changed, texts.join(&SEPARATOR.to_string())))
+}

@@ -1,0 +1,141 @@
+//! Running a sweep: every design solved, noted in the journal, written to the tables.
+
+use std::path::Path;
+use std::sync::atomic::Ordering;
+use std::time::Instant;
+
+use journal::{Program, Start};
+use results::{CsvFormat, Derivation, RunFolder};
+use sweep::{Subset, SubsetDesigns, Sweep};
+
+use crate::options::Options;
+use crate::progress::{Finished, Progress, RunError};
+use crate::run_journal::{self, Journal, JournalEntry, Line, SessionStart};
+use crate::solve::groups::Groups;
+use crate::solve::task::Task;
+use crate::solve::workers;
+use crate::tables::run_info::RunInfo;
+use crate::tables::table_writer::TableWriter;
+
+/// Solves the designs of `subset` of `sweep` that are not done yet and writes the tables to `folder`.
+/// Reports `progress` as soon as a design is done, in any order.
+///
+/// The tables are the same, byte by byte, for any number of threads, however often the run was
+/// ended and resumed.
+///
+/// # Errors
+/// If the folder or the disk does not take the results, there are results that `start` says nothing
+/// of, or the threads cannot be started. A design that fails is a row, not an error.
+pub fn run(
+    sweep: &Sweep,
+    subset: Subset,
+    folder: &Path,
+    start: Start,
+    options: &Options<'_>,
+    program: &Program,
+    mut progress: impl FnMut(Progress),
+) -> Result<Finished, RunError> {
+    let clock = Instant::now();
+    // A subset that does not exist leaves no folder behind.
+    SubsetDesigns::new(sweep.grid().len(), subset)?;
+    let folder = RunFolder::new(folder);
+    folder.make()?;
+    let journal = run_journal::begin(&folder, run_journal::header(sweep, subset, program), start)?;
+    let removed = if start == Start::Fresh { Derivation::remove_all(&folder) } else { Vec::new() };
+    let archive = journal.records();
+    let (subset, missing) = (archive.designs().clone(), archive.missing());
+    progress(Progress::Begun { designs: subset.len(), done: archive.done() });
+    // Tables of an earlier run must not stand beside a journal that knows nothing of them.
+    if archive.done() == 0 {
+        folder.remove_results();
+    }
+    let mut run = Run::new(journal, folder, options, RunInfo::new(program, options, clock));
+    let designs = missing.into_iter().flatten().map(|position| subset.design(position));
+    let mut designs = designs.peekable();
+    if designs.peek().is_some() {
+        let task = Task::new(sweep, String::new(), 0, clock, options.work);
+        run.solve(&task, designs, progress)?;
+    }
+    let mut finished = run.finish()?;
+    finished.notes.extend(removal(&removed));
+    Ok(finished)
+}
+
+/// The message about files that were made from earlier results.
+fn removal(files: &[String]) -> Option<String> {
+    let files = files.join(" ");
+    (!files.is_empty()).then(|| format!("removed, because made from the earlier results: {files}"))
+}
+
+/// A run of the designs of one journal.
+pub(crate) struct Run<'a> {
+    journal: Journal,
+    options: &'a Options<'a>,
+    format: CsvFormat,
+    tables: TableWriter<'a>,
+}
+
+impl<'a> Run<'a> {
+    /// A run that has solved nothing yet, and leaves no trace in `journal`, which is in `folder`.
+    pub fn new(
+        journal: Journal,
+        folder: RunFolder,
+        options: &'a Options<'a>,
+        info: RunInfo<'a>,
+    ) -> Self {
+        // A run that goes on keeps the format of its tables, unless it is told another one.
+        let format = options.format.or(journal.records().format()).unwrap_or_default();
+        let tables = TableWriter::new(folder, format, options, info);
+        Self { journal, options, format, tables }
+    }
+
+    /// Solves `designs`, notes each in the journal, and then reports `progress`.
+    pub fn solve(
+        &mut self,
+        task: &Task<'_>,
+        designs: impl Iterator<Item = u64> + Send + Clone,
+        mut progress: impl FnMut(Progress),
+    ) -> Result<(), RunError> {
+        let Options { threads, stop, fail_fast, .. } = *self.options;
+        self.journal.append(Line::Session(SessionStart::now(threads, self.format)))?;
+        task.measure(designs.clone());
+        let groups = Groups::new(task.grid(), designs);
+        workers::solve(
+            threads,
+            stop,
+            groups,
+            |design| {
+                let entry = task.solve(design);
+                if fail_fast && entry.result.failed() {
+                    // By the thread that sees it: the one that notes designs may be far behind. Designs in hand are finished, as after a signal.
+                    stop.store(true, Ordering::Relaxed);
+                }
+                entry
+            },
+            |entry| self.take(entry, &mut progress),
+        )
+    }
+
+    /// Takes a design that is done.
+    fn take(
+        &mut self,
+        entry: JournalEntry,
+        progress: &mut impl FnMut(Progress),
+    ) -> Result<(), RunError> {
+        let failed = entry.result.failed();
+        // In the journal first: what is told as done survives a kill.
+        self.journal.append(Line::Design(Box::new(entry)))?;
+        progress(Progress::Done { failed });
+        if self.tables.are_due() {
+            self.tables.write(&mut self.journal)?;
+        }
+        Ok(())
+    }
+
+    /// Writes the tables for the last time.
+    pub fn finish(mut self) -> Result<Finished, RunError> {
+        let mut finished = self.tables.write(&mut self.journal)?;
+        finished.notes.extend_from_slice(self.journal.notes());
+        Ok(finished)
+    }
+}

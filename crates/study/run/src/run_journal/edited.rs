@@ -1,0 +1,44 @@
+//! Journals that somebody has changed and sealed again: every checksum holds, and the results are not those of the run.
+
+use journal::JournalError;
+use results::columns::{design_columns, name};
+use results::{Contents, JournalExtent, RunFolder, WrittenTable};
+
+use super::archive::Archive;
+
+/// Refuses the journal in `folder` if a design in it is not what the table of designs says that was written from it.
+///
+/// Nothing is compared as long as the journal begins as it did then. Lines that were removed, doubled or swapped change no design.
+pub(super) fn refuse(archive: &Archive, folder: &RunFolder) -> Result<(), JournalError> {
+    let Some(contents) = Contents::stated_in(folder) else { return Ok(()) };
+    let stated = &contents.journal;
+    let found = JournalExtent::of(&folder.journal(), stated.bytes, stated.lines);
+    if found.is_ok_and(|found| found == *stated) {
+        return Ok(());
+    }
+    let table = WrittenTable::as_stated(folder, RunFolder::DESIGNS, &contents.files);
+    let Some(table) = table else { return Ok(()) };
+    let (columns, grid) = (design_columns(archive.sweep()), archive.sweep().grid());
+    let settings = columns.iter().position(|column| column.name == name::SETTINGS);
+    let is_whole = archive.lost_lines(folder).is_none();
+    let mut entries = archive.entries()?;
+    let changed = table.changed(&columns, |record| {
+        let index = record.get(0).and_then(|number| grid.parse_number(number).ok());
+        let position = index.and_then(|index| archive.designs().position(index));
+        // What stands behind what the tables were written from may be a rerun that they know nothing of.
+        let old = position.filter(|position| archive.stands_before(*position, stated.bytes));
+        let entry = old.map(|position| entries.last(position)).transpose()?.flatten();
+        let row = entry.map(|entry| archive.row(entry));
+        // A rerun that was lost with the end of the journal has left the result before it, with the settings of that.
+        Ok::<_, JournalError>(row.filter(|row| {
+            is_whole || settings.is_none_or(|place| record.get(place) == Some(&row.result.settings))
+        }))
+    })?;
+    let Some(design) = changed.into_iter().next() else { return Ok(()) };
+    Err(JournalError::Edited {
+        path: folder.journal(),
+        line: format!("design {design}"),
+        table: RunFolder::DESIGNS.to_owned(),
+        again: "with --fresh",
+    })
+}

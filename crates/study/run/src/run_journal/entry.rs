@@ -1,0 +1,104 @@
+//! The contents of the lines of a journal.
+
+use std::time::SystemTime;
+
+use results::{CsvFormat, DesignResult};
+use serde::{Deserialize, Serialize};
+
+/// A line of the journal of a run, behind the first.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Line {
+    /// A session begins.
+    Session(SessionStart),
+    /// A design is done.
+    Design(Box<JournalEntry>),
+}
+
+/// A finished design.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct JournalEntry {
+    /// The 1-based position of the design in the grid.
+    pub design: u64,
+    /// The number of the rerun: 0 for the first solution, then counting up. The largest counts,
+    /// wherever its line stands.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub rerun: u64,
+    /// Seconds since its session began.
+    pub at: f64,
+    /// Seconds that it took.
+    pub seconds: f64,
+    /// The result of the design.
+    pub result: DesignResult,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands over a reference")]
+fn is_zero(number: &u64) -> bool {
+    *number == 0
+}
+
+impl JournalEntry {
+    /// The index of the design in the grid, from 0.
+    pub(crate) fn index(&self) -> Option<u64> {
+        self.design.checked_sub(1)
+    }
+}
+
+/// The beginning of a run, of its continuation, of a rerun or of a merger.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SessionStart {
+    /// The moment at which it began, in UTC.
+    pub started: String,
+    /// The number of threads.
+    pub threads: usize,
+    /// The format of the tables.
+    pub csv: CsvFormat,
+}
+
+impl SessionStart {
+    /// A session that begins now.
+    pub(crate) fn now(threads: usize, csv: CsvFormat) -> Self {
+        let started = humantime::format_rfc3339_seconds(SystemTime::now()).to_string();
+        Self { started, threads, csv }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use journal::Seal;
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn line(result: DesignResult) -> Line {
+        let entry = JournalEntry { design: 417, rerun: 1, at: 1.5, seconds: 0.25, result };
+        Line::Design(Box::new(entry))
+    }
+
+    #[test]
+    fn a_line_is_json_and_reads_back() {
+        let settings = "solver.max_step=0.01".to_owned();
+        let coverage = Some(0.1 + 0.2);
+        let line = line(DesignResult { coverage, settings, ..DesignResult::default() });
+        let mut bytes = Seal::default().seal(&line);
+        insta::assert_snapshot!(String::from_utf8_lossy(&bytes), @r#"
+        {"crc":"bbd5f1e4","design":{"design":417,"rerun":1,"at":1.5,"seconds":0.25,"result":{"coverage":0.30000000000000004,"settings":"solver.max_step=0.01"}}}
+        "#);
+        assert_eq!(Seal::default().read(&mut bytes), Ok(line));
+    }
+
+    proptest! {
+        /// Every number of a result comes back with all its bits.
+        #[test]
+        fn numbers_are_read_back_bit_by_bit(number in any::<f64>().prop_filter("finite", |x| x.is_finite())) {
+            let result = DesignResult { coverage: Some(number), ..DesignResult::default() };
+            let mut bytes = Seal::default().seal(&line(result));
+            let Ok(Line::Design(entry)) = Seal::default().read(&mut bytes) else {
+                return Err(TestCaseError::fail("no design"));
+            };
+            prop_assert_eq!(entry.result.coverage.map(f64::to_bits), Some(number.to_bits()));
+        }
+    }
+}

@@ -1,0 +1,72 @@
+//! The task of the workers: each design becomes an entry of the journal.
+
+use std::time::{Duration, Instant};
+
+use sweep::{Grid, Sweep};
+
+use super::evaluator::Evaluator;
+use super::work::{WorkMeter, work_of};
+use crate::run_journal::JournalEntry;
+
+/// Solves designs of one sweep as entries of a journal.
+pub(crate) struct Task<'a> {
+    sweep: &'a Sweep,
+    evaluator: Evaluator,
+    /// The settings that are not those of the run.
+    settings: String,
+    rerun: u64,
+    clock: Instant,
+    work: &'a WorkMeter,
+}
+
+impl<'a> Task<'a> {
+    /// The designs of `sweep`, solved for the `rerun`-th time; `clock` began with the session, and `work` is
+    /// told of what is done.
+    pub fn new(
+        sweep: &'a Sweep,
+        settings: String,
+        rerun: u64,
+        clock: Instant,
+        work: &'a WorkMeter,
+    ) -> Self {
+        let evaluator = Evaluator::new(sweep.measures());
+        Self { sweep, evaluator, settings, rerun, clock, work }
+    }
+
+    /// Tells how much work `designs` are.
+    pub fn measure(&self, designs: impl Iterator<Item = u64>) {
+        let work = |index| work_of(&self.grid().case(index), self.sweep.measures());
+        // Saturating: 10⁹ designs of many samples are more than 2⁶⁴ paths only on paper.
+        self.work.begin(designs.map(work).fold(0, u64::saturating_add));
+    }
+
+    /// The designs of the sweep.
+    pub fn grid(&self) -> &'a Grid {
+        self.sweep.grid()
+    }
+
+    /// The entry of design `index`.
+    pub fn solve(&self, index: u64) -> JournalEntry {
+        let begun = self.clock.elapsed();
+        let grid = self.grid();
+        let number = grid.number(index);
+        let solve = || self.evaluator.row_metered(number, &grid.case(index), self.work);
+        let mut result = self.work.told(&format!("design {number}"), solve).result;
+        result.settings.clone_from(&self.settings);
+        let at = self.clock.elapsed();
+        let seconds = seconds(at.saturating_sub(begun));
+        JournalEntry {
+            design: index + 1,
+            rerun: self.rerun,
+            at: self::seconds(at),
+            seconds,
+            result,
+        }
+    }
+}
+
+/// Seconds to the microsecond.
+fn seconds(duration: Duration) -> f64 {
+    // Digits beyond are noise, and a tenth of the length of a line.
+    (duration.as_secs_f64() * 1e6).round() / 1e6
+}

@@ -1,0 +1,51 @@
+//! The table of what reruns have changed.
+
+use journal::JournalError;
+use results::columns::{design_columns, name};
+use results::{Cell, Column, CsvFile, CsvFormat, DesignRow, RERUN_COLUMNS, RerunChange, RunFolder};
+
+use crate::run_journal::Archive;
+
+/// Writes the table of what reruns have changed if there is anything to tell, and returns its name and its SHA-256.
+pub(super) fn write(
+    archive: &Archive,
+    folder: &RunFolder,
+    format: CsvFormat,
+) -> Result<Option<(String, String)>, JournalError> {
+    let mut pairs = archive.entries()?.replaced().peekable();
+    // No empty table: its absence says that nothing was solved again.
+    if pairs.peek().is_none() {
+        return Ok(None);
+    }
+    let columns = design_columns(archive.sweep());
+    let mut table = CsvFile::create(folder, RunFolder::RERUNS, format, RERUN_COLUMNS)?;
+    for pair in pairs {
+        let (old, new) = pair?;
+        let rerun = new.rerun;
+        let rows = [archive.row(old), archive.row(new)];
+        changes(&columns, rerun, &rows).iter().try_for_each(|change| table.write(change))?;
+    }
+    Ok(Some((RunFolder::RERUNS.to_owned(), table.finish()?)))
+}
+
+/// Every value that changed; one change without a column if none did.
+fn changes(columns: &[Column<DesignRow>], rerun: u64, rows: &[DesignRow; 2]) -> Vec<RerunChange> {
+    let change = |column, values| RerunChange {
+        design: rows[1].number,
+        rerun,
+        settings: rows.each_ref().map(|row| row.result.settings.clone()),
+        column,
+        values,
+    };
+    // The settings have columns of their own.
+    let columns = columns.iter().filter(|column| column.name != name::SETTINGS);
+    let values =
+        columns.map(|column| (column.name.clone(), rows.each_ref().map(|row| column.cell(row))));
+    let changed = values.filter(|(_, [old, new])| old != new);
+    let mut changes: Vec<_> = changed.map(|(name, values)| change(name, values)).collect();
+    // A rerun that changes nothing is worth a row: it says that the settings do not matter.
+    if changes.is_empty() {
+        changes.push(change("".into(), [Cell::Empty, Cell::Empty]));
+    }
+    changes
+}

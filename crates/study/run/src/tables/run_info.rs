@@ -1,0 +1,87 @@
+//! The record of a run, `run.toml`.
+
+use std::fmt::Write as _;
+use std::time::{Duration, Instant};
+
+use journal::{OutputError, Program};
+use results::RunFolder;
+use sweep::toml_source::quoted;
+
+use super::summary::Summary;
+use crate::options::Options;
+use crate::run_journal::Archive;
+
+/// The information on a run that is neither its sweep nor its results.
+pub(crate) struct RunInfo<'a> {
+    program: &'a Program,
+    threads: usize,
+    clock: Instant,
+}
+
+impl<'a> RunInfo<'a> {
+    pub fn new(program: &'a Program, options: &Options<'_>, clock: Instant) -> Self {
+        Self { program, threads: options.threads, clock }
+    }
+
+    /// The program, in words.
+    pub fn program(&self) -> String {
+        format!("{} ({})", self.program.version, self.program.revision)
+    }
+
+    /// The time since the session began.
+    pub fn elapsed(&self) -> Duration {
+        self.clock.elapsed()
+    }
+
+    /// Writes the file to `folder`; returns its SHA-256.
+    pub fn write(
+        &self,
+        archive: &Archive,
+        folder: &RunFolder,
+        summary: &Summary,
+    ) -> Result<String, OutputError> {
+        let definition = archive.sweep().to_toml_under("definition");
+        let text = format!("{}{}\n{definition}", self.run(archive, summary), statuses(summary));
+        folder.write_text(RunFolder::RUN_INFO, &text)
+    }
+
+    fn run(&self, archive: &Archive, summary: &Summary) -> String {
+        let subset = archive.header().subset();
+        let started = archive.sessions().first().map(|session| session.started.as_str());
+        let designs = archive.designs().len();
+        let mut text = format!(
+            "# What this run was. This file is a sweep definition too: running it repeats the run.\n\
+             [run]\nversion = {}\ngit_revision = {}\nstarted = {}\nduration_s = {:.3}\nthreads = {}\n\
+             sessions = {}\ndesigns = {designs}\ndone = {}\nfailed = {}\nmissing = {}\n",
+            quoted(self.program.version),
+            quoted(self.program.revision),
+            // A run that was killed before its first design has no session.
+            started.unwrap_or("1970-01-01T00:00:00Z"),
+            self.elapsed().as_secs_f64(),
+            self.threads,
+            archive.sessions().len(),
+            summary.designs,
+            summary.failed,
+            designs - summary.designs,
+        );
+        // Writing to a string cannot fail.
+        if let Some(sample) = subset.sample {
+            let _ = writeln!(text, "sample = {}\nseed = {}", sample.designs, sample.seed);
+        }
+        if let Some(shard) = subset.shard {
+            let _ = writeln!(text, "shard = {}", quoted(&shard.to_string()));
+        }
+        text
+    }
+}
+
+fn statuses(summary: &Summary) -> String {
+    let mut text = String::new();
+    for (measure, counts) in &summary.statuses {
+        let _ = write!(text, "\n[run.{}_status]\n", measure.key());
+        for (status, count) in counts {
+            let _ = writeln!(text, "{} = {count}", quoted(status));
+        }
+    }
+    text
+}

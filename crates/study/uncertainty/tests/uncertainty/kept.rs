@@ -1,0 +1,78 @@
+//! Samples that are kept: an interruption loses none but those in hand.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use uncertainty::NoAnalysis;
+
+use crate::{QUICK, analysed, sweep};
+
+#[test]
+fn an_analysis_goes_on_where_it_was() {
+    let place = tempfile::tempdir().expect("a folder");
+    let (whole, parts) = (place.path().join("whole"), place.path().join("parts"));
+    let sweep = sweep(
+        QUICK,
+        "gap_over_t = 0.2\nlength_over_t = 0.5\nslant_deg = 45",
+        "[tolerance]\ngap_over_t = { batch_sd = 0.01, scale_sd = 0.01 }",
+    );
+    let at_once = analysed(&sweep, &[], 250, &whole, false).expect("tolerances");
+    // Told to stop before the first sample, then after 150, then not at all.
+    let stopped = analysed(&sweep, &[], 250, &parts, true).expect_err("stopped");
+    assert!(matches!(stopped, NoAnalysis::Stopped { done: 0, of: 250 }));
+    analysed(&sweep, &[], 150, &parts, false).expect("tolerances");
+    let stopped = analysed(&sweep, &[], 250, &parts, true).expect_err("stopped");
+    assert!(matches!(stopped, NoAnalysis::Stopped { done: 150, of: 250 }));
+    let again = analysed(&sweep, &[], 250, &parts, false).expect("tolerances");
+    assert_eq!((&again.samples, &again.measures), (&at_once.samples, &at_once.measures));
+    let [table] = files(&parts, "csv").try_into().expect("one table");
+    let file =
+        |folder: &Path| fs::read(folder.join(table.file_name().expect("a name"))).expect("a table");
+    assert_eq!(file(&whole), file(&parts));
+    // A table that was changed is not believed: the journal is.
+    let damaged = String::from_utf8(file(&parts)).expect("text").replacen("0.2", "0.3", 1);
+    fs::write(&table, damaged).expect("written");
+    let again = analysed(&sweep, &[], 250, &parts, false).expect("tolerances");
+    assert_eq!(again.samples, at_once.samples);
+    assert_eq!(file(&whole), file(&parts));
+    // A damaged line before intact ones is refused, and nothing is thrown away.
+    let [journal] = files(&parts, "jsonl").try_into().expect("one journal");
+    let sound = fs::read_to_string(&journal).expect("text");
+    let third = sound.lines().nth(2).expect("a line");
+    let damaged = sound.replace(third, &third.replace("\"number\"", "\"numbar\""));
+    fs::write(&journal, &damaged).expect("written");
+    let refused = analysed(&sweep, &[], 250, &parts, false).expect_err("damaged").to_string();
+    assert!(refused.contains(".jsonl:3: damaged line"), "{refused}");
+    assert_eq!(fs::read_to_string(&journal).expect("text"), damaged);
+    // What a kill has torn at the end is solved again.
+    fs::write(&journal, &sound[..sound.len() - 20]).expect("written");
+    let again = analysed(&sweep, &[], 250, &parts, false).expect("tolerances");
+    assert_eq!(again.samples, at_once.samples);
+}
+
+/// The files in a folder of a certain extension.
+fn files(folder: &Path, extension: &str) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).expect("a folder");
+    let paths = entries.map(|entry| entry.expect("an entry").path());
+    paths.filter(|path| path.extension().is_some_and(|found| found == extension)).collect()
+}
+
+#[test]
+fn other_deviations_are_other_samples() {
+    let place = tempfile::tempdir().expect("a folder");
+    let sampled = |sd: &str| {
+        let lines = format!("[tolerance]\ngap_over_t = {{ batch_sd = {sd} }}");
+        let sweep = sweep(QUICK, "gap_over_t = 0.2\nlength_over_t = 0.5\nslant_deg = 45", &lines);
+        analysed(&sweep, &[], 2, place.path(), false).expect("tolerances").samples
+    };
+    let first = sampled("0.01");
+    assert_ne!(first, sampled("0.02"));
+    // Whoever comes back to a definition finds its samples.
+    let kept = || -> Vec<Vec<u8>> {
+        files(place.path(), "jsonl").iter().map(|path| fs::read(path).expect("bytes")).collect()
+    };
+    let before = kept();
+    assert_eq!(before.len(), 2);
+    assert_eq!(first, sampled("0.01"));
+    assert_eq!(before, kept(), "nothing is solved again");
+}

@@ -1,0 +1,92 @@
+//! Linear spreads, and those of solved samples.
+
+use uncertainty::{DesignTolerance, MeasureTolerance};
+
+use crate::{sweep, tolerance};
+
+const ALL: &str = "'coverage', 'puncture', 'flexure'";
+
+const DESIGN: &str = "gap_over_t = 0.23\nlength_over_t = 0.7\nslant_deg = 52";
+
+fn measure<'d>(design: &'d DesignTolerance, name: &str) -> &'d MeasureTolerance {
+    design.measures.iter().find(|measure| measure.name == name).expect("a measure")
+}
+
+/// The prediction and the samples agree within four standard errors and one per cent.
+fn assert_agree(measure: &MeasureTolerance) {
+    let sampled = measure.sampled.as_ref().expect("samples");
+    let allowed = 0.01 + 4.0 * sampled.spread_error / sampled.spread;
+    let off = measure.discrepancy().expect("both");
+    assert!(off.abs() < allowed, "{}: off by {off}, {measure:?}", measure.name);
+}
+
+#[test]
+fn small_deviations_of_a_batch_spread_as_the_derivatives_say() {
+    let lines = "[puncture]\nscales = 21\n[material]\nthickness_mm = 8\nsubstrate_modulus_MPa = 0.31\n\
+                 membrane_modulus_MPa = 4.5\nscale_density_kg_m3 = 1200\n[tolerance]\n\
+                 gap_mm = { batch_sd = 0.002 }\nlength_over_t = { batch_within = 0.0005 }\n\
+                 slant_deg = { batch_sd = 0.01 }\nthickness_mm = { batch_sd = 0.002 }\n\
+                 substrate_modulus_MPa = { batch_sd = 1e-4 }\nmembrane_modulus_MPa = { batch_sd = 1e-3 }\n\
+                 scale_density_kg_m3 = { batch_sd = 1 }\nc1 = { batch_sd = 1e-3 }";
+    let design = tolerance(&sweep(ALL, DESIGN, lines), &[], 300);
+    let compared: Vec<_> = design.measures.iter().filter(|m| m.discrepancy().is_some()).collect();
+    // Dimensionless, in mm and newtons, and the mass.
+    assert!(compared.len() > 25, "{}", compared.len());
+    for measure in compared {
+        assert_agree(measure);
+    }
+    let force = measure(&design, "critical_force_N").linear.as_ref().expect("a spread");
+    assert_eq!(force.sources.len(), 8);
+    let shares: f64 = force.sources.iter().map(|source| source.share).sum();
+    assert!((shares - 1.0).abs() < 1e-12);
+    // Neither gap nor slant changes the mass, but for the length of a pitch.
+    let mass = measure(&design, "areal_mass_kg_m2").linear.as_ref().expect("a spread");
+    let share = |key: &str| mass.sources.iter().find(|s| s.source == key).expect("a source").share;
+    assert_eq!((share("slant_deg"), share("c1")), (0.0, 0.0));
+    assert!(share("scale_density_kg_m3") > 0.1);
+}
+
+#[test]
+fn small_deviations_from_scale_to_scale_spread_as_the_derivatives_say() {
+    for scales in ["\"auto\"", "9"] {
+        let lines = format!(
+            "[puncture]\nscales = {scales}\n[flexure]\ngaps = 8\nmax_end_rotation_deg = 1\n[tolerance]\n\
+             gap_over_t = {{ scale_sd = 0.0005 }}\nslant_deg = {{ scale_sd = 0.004 }}"
+        );
+        let design = tolerance(&sweep(ALL, DESIGN, &lines), &[], 300);
+        let names =
+            ["critical_force", "penetration", "critical_displacement", "initial_compliance"];
+        for name in names {
+            assert_agree(measure(&design, name));
+        }
+        let force = measure(&design, "critical_force").linear.as_ref().expect("a spread");
+        assert!(force.sources.iter().all(|source| source.share > 0.001), "{force:?}");
+    }
+}
+
+#[test]
+fn the_same_deviation_of_one_scale_is_less_than_of_all() {
+    let of = |level: &str| {
+        let lines = format!("[tolerance]\ngap_over_t = {{ {level} = 0.001 }}");
+        let design = tolerance(&sweep(ALL, DESIGN, &lines), &[], 0);
+        measure(&design, "initial_compliance").linear.as_ref().expect("a spread").spread
+    };
+    // 107 gaps of a strip of 100 t at a pitch of 0.93 t.
+    let ratio = of("batch_sd") / of("scale_sd");
+    assert!((ratio - 108.0_f64.sqrt()).abs() < 0.06, "{ratio}");
+}
+
+#[test]
+fn yields_count_the_samples_that_meet() {
+    let sweep = sweep("'coverage'", DESIGN, "[tolerance]\ngap_over_t = { batch_sd = 0.02 }");
+    let design = tolerance(&sweep, &["coverage >= 0.62", "gap_over_t <= 0.23"], 400);
+    let [coverage, gap, all] = design.yields.as_slice() else { panic!("three yields") };
+    let shares = [coverage, gap, all].map(|of| of.proportion.expect("samples").share());
+    // Half of the gaps are narrower than drawn, and the coverage falls with the gap.
+    let [low, high] = gap.proportion.expect("samples").interval();
+    assert!(low < 0.5 && 0.5 < high, "{low} {high}");
+    assert!(shares[2] <= shares[0].min(shares[1]) && shares[2] > 0.2, "{shares:?}");
+    let [low, high] = coverage.proportion.expect("samples").interval();
+    let predicted = coverage.linear.expect("a prediction");
+    assert!(low < predicted && predicted < high, "{predicted} {low} {high}");
+}

@@ -1,0 +1,56 @@
+// Compares the module that pages carry with the native solver: node live.mjs ANSWERS, where ANSWERS is the example of the crate `live`.
+import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
+import { readFileSync } from "node:fs";
+import { gunzipSync } from "node:zlib";
+
+const DESIGNS = 200;
+/** The largest difference of two numbers, over the larger one or 1. */
+const DIFFERENCE = 1e-9;
+/** Estimates of errors and counts of steps: what compilers do with the last digit shows in them first, and no measure depends on them. */
+const OF_THE_SOLUTION = /_error$|_iterations$|_points$/;
+
+const packed = readFileSync(new URL("../../crates/apps/report/assets/explore/solver.wasm.gz", import.meta.url));
+const solver = (await WebAssembly.instantiate(gunzipSync(packed), {})).instance.exports;
+const answer = (request) => {
+  const text = new TextEncoder().encode(request);
+  const room = solver.squama_room(text.length);
+  new Uint8Array(solver.memory.buffer, room, text.length).set(text);
+  const length = solver.squama_answer(text.length);
+  return new TextDecoder().decode(new Uint8Array(solver.memory.buffer, solver.squama_room(0), length));
+};
+
+/** Number `k` of a sequence that fills the interval from 0 to 1, the same at every call. */
+const share = (k, base) => (k === 0 ? 0 : ((k % base) + share(Math.floor(k / base), base)) / base);
+const definition = "name = 'x'\nmeasures = ['coverage', 'puncture', 'flexure']\ndesigns.gap_over_t = 0.5\ndesigns.length_over_t = 0.5\ndesigns.slant_deg = 30";
+// Every second needle is guided, as a hand holds it: it rubs, sticks and slides.
+const guided = (k) => (k % 2 ? { needle: "guided", needle_friction: 0.6 * share(k + 1, 7) } : {});
+// Scales rub in every second row, too, under needles of both kinds.
+const rubbing = (k) => (k % 4 < 2 ? { friction: 0.4 * share(k + 1, 11) } : {});
+const requests = Array.from({ length: DESIGNS }, (_, k) => JSON.stringify({
+  id: k, definition, drawn: [1, 0.5],
+  set: { gap_over_t: 0.05 + 0.95 * share(k + 1, 2), length_over_t: 0.1 + 0.9 * share(k + 1, 3), slant_deg: 70 * share(k + 1, 5), ...guided(k), ...rubbing(k) },
+}));
+
+const { status, stdout, stderr } = spawnSync(process.argv[2], { input: requests.join("\n"), encoding: "utf8", maxBuffer: 1 << 30 });
+assert.equal(status, 0, stderr);
+const lines = stdout.trim().split("\n");
+assert.equal(lines.length, DESIGNS);
+
+let largest = 0, where = "", numbers = 0;
+for (const [k, request] of requests.entries()) {
+  const [here, there] = [answer(request), lines[k]].map((text) => JSON.parse(text));
+  assert.equal(here.error, undefined);
+  const values = (one) => one.values.filter(({ name }) => !OF_THE_SOLUTION.test(name));
+  assert.deepEqual(values(here).map(({ name }) => name), values(there).map(({ name }) => name), request);
+  values(here).forEach(({ name, value, text }, place) => {
+    const other = values(there)[place];
+    if (value === null) return assert.equal(text, other.text, `${name} of ${request}`);
+    numbers += 1;
+    const difference = Math.abs(value - other.value) / Math.max(1, Math.abs(value), Math.abs(other.value));
+    if (difference > largest) [largest, where] = [difference, `${name} of ${request}`];
+  });
+}
+assert.ok(numbers > 20 * DESIGNS, `${numbers} numbers`);
+assert.ok(largest <= DIFFERENCE, `numbers differ by ${largest}: ${where}; make the module anew with scripts/wasm`);
+console.log(`${DESIGNS} designs, ${numbers} numbers: the module and the native solver differ by at most ${largest.toExponential(1)}`);
