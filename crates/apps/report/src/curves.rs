@@ -161,7 +161,7 @@ impl FigureText {
 fn puncture(solved: &DesignCurves) -> Option<CurveValues> {
     let puncture = solved.puncture?;
     let place = |p: &PuncturePoint| [p.displacement, p.force];
-    let back = puncture.way_back.iter().flat_map(|back| &back.path);
+    let back = puncture.unloading.iter().flat_map(|back| &back.path);
     let crosses = puncture.events.iter().map(|e| [e.point.displacement, e.point.force]);
     // Counted under a held depth, since what is stable under that a needle can follow.
     let unstable = puncture.instability.iter().map(|instability| instability.depth > 0);
@@ -196,7 +196,7 @@ fn places(solved: &DesignCurves) -> Option<CurveValues> {
 fn flexure(solved: &DesignCurves) -> Option<CurveValues> {
     let flexure = solved.flexure?;
     let place = |p: &FlexurePoint| [p.curvature, p.moment];
-    let back = flexure.way_back.iter().flat_map(|back| &back.path);
+    let back = flexure.unloading.iter().flat_map(|back| &back.path);
     let crosses = flexure.events.iter().map(|e| [e.point.curvature, e.point.moment]);
     Some(CurveValues {
         points: flexure.path.iter().map(place).collect(),

@@ -4,17 +4,17 @@ mod assembly;
 mod audit;
 mod change;
 mod closed;
+mod friction;
 mod mode;
 mod pair_unknowns;
-mod rubbing;
 mod stick_slip;
 mod stiffness;
 
 pub use change::ContactChange;
 pub use closed::Contact;
+pub(crate) use friction::product_integral;
+use friction::{Rub, WAY};
 pub(crate) use mode::SkinMode;
-pub(crate) use rubbing::product_integral;
-use rubbing::{Rub, WAY};
 
 use contact::{
     ContactLaw, CornerContact, CornerEdge, Corners, Equation, FORCES, Force, Level, Pair, Pose,

@@ -1,8 +1,9 @@
 //! Pure bending of a membrane that carries scales.
 
 mod accuracy;
-mod first_touch;
+mod first_contact;
 mod frame;
+mod gap_by_gap;
 mod gap_curve;
 mod measures;
 mod mesh;
@@ -13,7 +14,6 @@ mod snapshot;
 mod strip;
 #[cfg(test)]
 mod tests;
-mod uneven;
 
 use std::collections::HashSet;
 
@@ -23,15 +23,15 @@ use problem::FlexureProblem;
 
 use crate::arrangement::Arrangement;
 use crate::record::{ContactEvent, Iteration};
-use crate::{Common, ContactChange, Design, Sample, Status, WayBack};
+use crate::{Common, ContactChange, Design, Sample, Status, Unloading};
 
-pub use first_touch::contact_curvature;
+pub use first_contact::contact_curvature;
+pub use gap_by_gap::BentSample;
 pub use measures::FlexureMeasures;
 pub use mesh::MembraneMesh;
 pub use point::FlexurePoint;
 pub use sensitivity::{FlexureInput, differentiate, moment_curve};
 pub use snapshot::{StripSnapshot, snapshots};
-pub use uneven::BentSample;
 
 /// The part of a strip that is solved for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -98,7 +98,7 @@ pub struct Flexure {
     /// Every Newton iteration.
     pub history: Vec<Iteration>,
     /// The way back, where it is asked for and the path came to its end.
-    pub way_back: Option<WayBack<FlexurePoint>>,
+    pub unloading: Option<Unloading<FlexurePoint>>,
     /// Gaps of the strip, rounded to a whole number.
     pub gaps: usize,
     /// The gaps that were solved for, at every point of the path.
@@ -173,7 +173,7 @@ pub fn bend_sample(
 ) -> Result<BentSample, OutOfRange> {
     let problem = FlexureProblem::sample(design, common, parameters, sample)?;
     let is_apart = parameters.method == Method::UnitCell && !parameters.unload;
-    if let Some(bent) = is_apart.then(|| uneven::solve(&problem)).transpose()?.flatten() {
+    if let Some(bent) = is_apart.then(|| gap_by_gap::solve(&problem)).transpose()?.flatten() {
         return Ok(bent);
     }
     Ok(BentSample::from(&problem.solve()?))

@@ -16,9 +16,9 @@
 //! | [`Common`] | contact law and solver settings, of puncture and bending |
 //! | [`puncture::PunctureParameters`] | moduli, row length, load, critical tilt |
 //! | [`puncture::RowLength`] | how many scales are solved for: a number, or as many as contact reaches |
-//! | [`puncture::OddScale`] | one scale of a row that differs from all others, for derivatives with respect to single scales |
+//! | [`puncture::PerturbedScale`] | one scale of a row that differs from all others, for derivatives with respect to single scales |
 //! | [`puncture::Snap`], [`puncture::Instability`], [`puncture::TiltMeasures`] | snaps and losses of stability along the path; measures at other critical tilts |
-//! | [`puncture::LoadedPlace`], [`puncture::Weakest`] | the puncture at other places of the load, and the weakest of them |
+//! | [`puncture::LoadPosition`], [`puncture::Weakest`] | the puncture at other places of the load, and the weakest of them |
 //! | [`puncture::Puncture`], [`puncture::PunctureMeasures`] | its path, events, scales and measures |
 //! | [`puncture::Fold`], [`puncture::GapStretch`] | a gap in which the surface of the substrate folds over; how far gaps are stretched |
 //! | [`puncture::snapshots`] | the row at chosen places of the path |
@@ -53,15 +53,15 @@
 mod arrangement;
 mod common;
 mod contacts;
-mod crossing;
 mod design;
 pub mod flexure;
 mod imperfection;
+mod path_location;
 pub mod puncture;
 mod record;
 mod sensitivity;
 mod status;
-mod way_back;
+mod unloading;
 
 pub use common::Common;
 pub use contacts::{Contact, ContactChange};
@@ -71,4 +71,4 @@ pub use record::{ContactEvent, Iteration};
 pub use sensitivity::{CurvePoint, Derivative};
 pub use solver::Neighbours;
 pub use status::Status;
-pub use way_back::{Remains, WayBack};
+pub use unloading::{Remains, Unloading};

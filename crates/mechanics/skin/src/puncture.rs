@@ -1,55 +1,55 @@
 //! Puncture of a row of scales on an elastic half-space.
 
-mod bars;
+mod adaptive_row;
 mod ending;
-mod fold;
-mod growing;
+mod load_positions;
 mod measures;
 mod needle;
+mod neo_hookean;
 mod number_list;
-mod odd_scale;
-mod places;
+mod observers;
 mod point;
+mod row_exterior;
 mod sensitivity;
+mod single_scale;
 mod snap;
 mod snapshot;
 mod stability;
-mod surroundings;
+mod surface_fold;
 mod system;
 #[cfg(test)]
 mod tests;
 mod tilts;
-mod watch;
 
+use adaptive_row::AdaptiveRowPath;
 use contact::ContactLaw;
-use fold::FoldWatch;
 use geometry::{OutOfRange, Row};
-use growing::GrowingPath;
 use needle::NEEDLE_UNKNOWNS;
+use observers::PathObservers;
 use point::scales;
+use row_exterior::{Beyond, RowExterior};
 use solver::{Path, Settings, Stop};
 use substrate::{FarField, RowStiffness, SubstrateLaw};
-use surroundings::{Beyond, Surroundings};
+use surface_fold::FoldObserver;
 use system::{Chain, Layout};
-use watch::PathWatch;
 
 use crate::arrangement::Arrangement;
 use crate::contacts::{SkinPoint, pair_constraints};
 use crate::record::{ContactEvent, Iteration, PathFunction, Record};
-use crate::{Common, Design, Sample, Status, WayBack};
+use crate::{Common, Design, Sample, Status, Unloading};
 
-pub use fold::{Fold, GapStretch};
+pub use load_positions::{LoadPosition, Weakest, load_positions};
 pub use measures::PunctureMeasures;
 pub(crate) use needle::NeedleMode;
 pub use needle::{CriticalEvent, Needle, Passage, TipForces};
 pub use number_list::{MOST_NUMBERS, NumberList};
-pub use odd_scale::OddScale;
-pub use places::{LoadedPlace, Weakest, loaded_places};
 pub use point::{PuncturePoint, ScaleState};
 pub use sensitivity::{PunctureInput, differentiate, force_curve};
+pub use single_scale::PerturbedScale;
 pub use snap::Snap;
 pub use snapshot::{At, RowSnapshot, Snapshots, snapshots, snapshots_to_end};
 pub use stability::Instability;
+pub use surface_fold::{Fold, GapStretch};
 pub use tilts::TiltMeasures;
 
 /// Tilt below which a scale under a guided needle is pushed straight down, degrees: round-off of a symmetric row.
@@ -148,9 +148,9 @@ pub struct Puncture {
     /// Every Newton iteration.
     pub history: Vec<Iteration>,
     /// The way back, where it is asked for and the path came to its end.
-    pub way_back: Option<WayBack<PuncturePoint>>,
+    pub unloading: Option<Unloading<PuncturePoint>>,
     /// The puncture at each of so many places of the load as [`PunctureParameters::places`] says.
-    pub places: Vec<LoadedPlace>,
+    pub places: Vec<LoadPosition>,
 }
 
 impl Puncture {
@@ -194,7 +194,7 @@ pub fn solve_sample(
 #[derive(Clone, Copy)]
 enum Rows<'a> {
     Even(Row),
-    Odd(Row, OddScale),
+    Odd(Row, PerturbedScale),
     Sample(&'a Sample),
 }
 
@@ -250,7 +250,7 @@ impl PunctureParameters {
 
 /// A path that was followed to its end.
 struct Followed {
-    watch: PathWatch,
+    watch: PathObservers,
     passage: Passage,
     path: Path<Chain>,
     status: Status,
@@ -260,8 +260,8 @@ impl Followed {
     /// The result of the puncture; with `unload` the path is turned back at its end.
     fn puncture(self, unload: bool) -> Puncture {
         let Self { watch, passage, mut path, status } = self;
-        let PathWatch { record, needle, folds, passage: at_tip, tilts, depth, .. } = watch;
-        let FoldWatch { folds, .. } = folds;
+        let PathObservers { record, needle, folds, passage: at_tip, tilts, depth, .. } = watch;
+        let FoldObserver { folds, .. } = folds;
         let path = &mut path;
         let mut measures = PunctureMeasures::new(&record, &folds, path);
         measures.passage = passage;
@@ -285,9 +285,10 @@ impl Followed {
         let at_tilts = tilts.found.into_iter().map(at_tilt).collect();
         let Record { path: points, events, history, work, .. } = record;
         // The way back moves the path, so all that is told of the end has been taken before.
-        let way_back = (unload && status == Status::Complete).then(|| WayBack::follow(path, work));
-        if let Some(way_back) = &way_back {
-            measures.remains = way_back.remains(|point: &PuncturePoint| point.displacement);
+        let unloading =
+            (unload && status == Status::Complete).then(|| Unloading::follow(path, work));
+        if let Some(unloading) = &unloading {
+            measures.remains = unloading.remains(|point: &PuncturePoint| point.displacement);
         }
         Puncture {
             status,
@@ -301,7 +302,7 @@ impl Followed {
             folds,
             scales,
             history,
-            way_back,
+            unloading,
             places: Vec::new(),
         }
     }
@@ -364,7 +365,7 @@ impl<'a> Problem<'a> {
 
     fn solve(&self) -> Result<Puncture, OutOfRange> {
         let puncture = self.follow(&[], &[])?.puncture(self.parameters.unload);
-        Ok(puncture.with_places(self.loaded_places()?))
+        Ok(puncture.with_places(self.load_positions()?))
     }
 
     /// The system with which the path begins, in which a scale may meet as many on its right as `contact_reach` says, and the longest
@@ -447,8 +448,8 @@ impl<'a> Problem<'a> {
         functions: &[PathFunction<Chain>],
         places: &[At],
     ) -> Result<Followed, OutOfRange> {
-        let mut growing = GrowingPath::new(self, chain, longest);
-        let mut watch = PathWatch::new(&growing.path, self.parameters, functions, places);
+        let mut growing = AdaptiveRowPath::new(self, chain, longest);
+        let mut watch = PathObservers::new(&growing.path, self.parameters, functions, places);
         while let Some(segment) = growing.next()? {
             watch.follow(&mut growing.path, &segment);
         }
@@ -486,10 +487,10 @@ impl<'a> Problem<'a> {
                 Some(Beyond { far: self.far_field(scales)?, scales })
             }
         });
-        let surroundings = Surroundings::new(self.rows, layout, beyond)?;
+        let exterior = RowExterior::new(self.rows, layout, beyond)?;
         let (row, length) = (self.rows.row(layout)?, self.design.length);
         let Self { stiffness, law, parameters, .. } = self;
-        let mut chain = Chain::new(row, stiffness, *law, layout, surroundings, parameters, length);
+        let mut chain = Chain::new(row, stiffness, *law, layout, exterior, parameters, length);
         chain.whole_path = self.whole_path;
         Ok(chain)
     }

@@ -6,7 +6,7 @@
 //! are solved for, each with its active set.
 
 mod curve;
-mod places;
+mod measured_points;
 
 use solver::{AnchoredPoint, Change, Linearisation, Moved, Neighbours, Settings};
 
@@ -16,7 +16,7 @@ use crate::record::Skin;
 
 pub use curve::CurvePoint;
 pub(crate) use curve::{Curve, curve_point};
-pub(crate) use places::{end, first_contact, is_held, rest, summit, turn, vanished};
+pub(crate) use measured_points::{end, first_contact, is_held, rest, summit, turn, vanished};
 
 /// The derivative of a measure with respect to a parameter.
 #[derive(Clone, Debug, PartialEq)]

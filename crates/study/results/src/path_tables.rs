@@ -80,7 +80,7 @@ fn of_puncture(puncture: &Puncture) -> Vec<PathTable> {
     ];
     // Which scales a tip touches, and so which columns there are, only the whole path tells.
     tables[0].columns.extend(tip_force_columns(&puncture.tip_forces));
-    if let Some(back) = &puncture.way_back {
+    if let Some(back) = &puncture.unloading {
         // Nothing is known of the stability of a row whose load is taken away.
         columns.retain(|column| !column.name.starts_with("unstable"));
         let points = back.path.iter().map(|&point| (point, Instability::default()));
@@ -105,7 +105,7 @@ fn of_flexure(flexure: &Flexure) -> Vec<PathTable> {
         PathTable::new(scales, FLEXURE_SCALES, &shape),
         PathTable::new(steps, FLEXURE_STEPS, &flexure.history),
     ];
-    if let Some(back) = &flexure.way_back {
+    if let Some(back) = &flexure.unloading {
         tables.push(PathTable::new(RunFolder::WAY_BACK[1], &columns, &back.path));
     }
     tables

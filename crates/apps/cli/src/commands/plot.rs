@@ -261,7 +261,8 @@ fn solve(case: &Case, to: Option<f64>) -> anyhow::Result<(Puncture, Flexure)> {
         Some(to) => puncture::snapshots(&case.design, &substrate, &common, &alone, &[to])?.puncture,
     };
     // The steps of the definition are enough, because a place is shown by its critical force alone.
-    puncture.places = puncture::loaded_places(&case.design, &substrate, &case.common, &parameters)?;
+    puncture.places =
+        puncture::load_positions(&case.design, &substrate, &case.common, &parameters)?;
     if let Some(to) = to {
         let beyond = puncture.path.iter().position(|point| point.displacement > to);
         // One point beyond, so that the line reaches the end.

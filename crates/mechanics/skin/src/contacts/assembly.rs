@@ -3,7 +3,7 @@
 use contact::{CornerContact, CornerResponse, FORCES};
 use solver::{Residual, Tangent};
 
-use super::rubbing::Rub;
+use super::friction::Rub;
 use super::{Contacts, LEVELS, SkinState};
 
 impl Contacts {

@@ -2,7 +2,7 @@
 
 use contact::CornerContact;
 
-use super::rubbing::Rub;
+use super::friction::Rub;
 use crate::puncture::NeedleMode;
 
 /// The mode of a skin: the state of every contact, its friction, and that of a guided needle.

@@ -2,7 +2,7 @@
 
 use contact::{CornerContact, CornerEdge, Force};
 
-use super::rubbing::{GRIP, NO_FORCE, Rub, WAY};
+use super::friction::{GRIP, NO_FORCE, Rub, WAY};
 use super::{Contacts, SkinState};
 
 impl Contacts {

@@ -6,16 +6,16 @@ use membrane::{Membrane, Section, Span};
 use solver::{Path, Stop};
 
 use super::accuracy::change;
-use super::first_touch::{contact_curvature, first_of_gaps};
+use super::first_contact::{contact_curvature, first_of_gaps};
 use super::frame::Step;
 use super::mesh::Resolution;
 use super::strip::{Strip, StripExtent};
 use super::{Flexure, FlexureMeasures, FlexureParameters, FlexurePoint, Method, gaps, whole_gaps};
 use crate::arrangement::Arrangement;
 use crate::contacts::{Contacts, SkinPoint, SkinState};
-use crate::crossing::{Crossing, PlaceWatch};
+use crate::path_location::{Crossing, PointLocator};
 use crate::record::{PathFunction, Record};
-use crate::{Common, Design, Sample, Status, WayBack};
+use crate::{Common, Design, Sample, Status, Unloading};
 
 /// A strip that was bent to the end of its path.
 pub(crate) struct Bent {
@@ -208,7 +208,7 @@ impl<'a> FlexureProblem<'a> {
             quantity: |strip: &Strip, state| strip.rotation(&state.z),
             value: 2.0 * rotation / repeats,
         };
-        let mut places = PlaceWatch::new(&path, end_rotations.iter().map(turned));
+        let mut places = PointLocator::new(&path, end_rotations.iter().map(turned));
         let mut flush = false;
         loop {
             let from = path.point_shared();
@@ -252,11 +252,11 @@ impl<'a> FlexureProblem<'a> {
         let Record { path: points, events, history, work, .. } = record;
         let unload = self.parameters.unload && status == Status::Complete;
         // The way back leaves the end at which measures are taken, so it comes last.
-        let way_back = unload.then(|| WayBack::follow(&mut path, work));
+        let unloading = unload.then(|| Unloading::follow(&mut path, work));
         let remains =
-            way_back.as_ref().map(|back| back.remains(|point: &FlexurePoint| point.curvature));
+            unloading.as_ref().map(|back| back.remains(|point: &FlexurePoint| point.curvature));
         let measures = FlexureMeasures { remains: remains.unwrap_or_default(), ..measures };
-        Flexure { status, measures, path: points, events, history, way_back, gaps, steps, row }
+        Flexure { status, measures, path: points, events, history, unloading, gaps, steps, row }
     }
 
     /// The largest change of any measure with a finer resolution; `None` where there is none.

@@ -3,7 +3,7 @@
 use geometry::OutOfRange;
 use solver::{Neighbours, Path};
 
-use super::first_touch::{curvature_derivatives, touches};
+use super::first_contact::{curvature_derivatives, touches};
 use super::measures::larger;
 use super::mesh::Resolution;
 use super::problem::{Bent, FlexureProblem};

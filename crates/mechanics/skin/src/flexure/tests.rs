@@ -1,6 +1,6 @@
 //! Tests of the assembled system: the balance of energy along a path.
 
-mod uneven;
+mod gap_by_gap;
 
 use contact::Law;
 use solver::{Path, Settings};

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use solver::Path;
 
-use super::fold::Fold;
+use super::surface_fold::Fold;
 use super::system::Chain;
 use super::{Passage, PuncturePoint, Weakest};
 use crate::Remains;

@@ -1,7 +1,7 @@
 //! Equilibria of a row as they are recorded.
 
-use super::fold::GapStretch;
 use super::needle::GuidedNeedle;
+use super::surface_fold::GapStretch;
 use super::system::Chain;
 use crate::contacts::{Contacts, SkinPoint, SkinState};
 use crate::record::Skin;
@@ -120,6 +120,6 @@ pub(super) fn scales(chain: &Chain, state: &SkinState) -> Vec<ScaleState> {
             reaction: if is_free { 0.0 } else { chain.reaction(&state.z, i)[1] },
         }
     };
-    let [left, right] = chain.surroundings.scales_to_ends().map(usize::cast_signed);
+    let [left, right] = chain.exterior.scales_to_ends().map(usize::cast_signed);
     (-left..solved_for.end + right).map(scale).collect()
 }

@@ -4,12 +4,12 @@ use geometry::OutOfRange;
 use solver::{AnchoredPoint, Neighbours, Path, PathAnchor};
 use substrate::RowStiffness;
 
-use super::fold::{Fold, FoldWatch};
 use super::needle::{Kept, anchors, event_before, history, with};
+use super::observers::PathObservers;
 use super::snapshot::farther;
+use super::surface_fold::{Fold, FoldObserver};
 use super::system::{Chain, DEPTH_MARK, DEPTH_RATE, LOAD_RATE, Layout};
-use super::watch::PathWatch;
-use super::{At, Followed, OddScale, Problem, Puncture, PunctureParameters, Rows};
+use super::{At, Followed, PerturbedScale, Problem, Puncture, PunctureParameters, Rows};
 use crate::contacts::{SkinMode, SkinPoint, SkinState};
 use crate::record::{PathFunction, Skin};
 use crate::sensitivity::{
@@ -30,7 +30,7 @@ pub struct PunctureInput {
     /// The other parameters.
     pub parameters: PunctureParameters,
     /// The scale that differs from all others, if one does.
-    pub odd: Option<OddScale>,
+    pub odd: Option<PerturbedScale>,
 }
 
 /// Functions whose largest values are measures besides the stiffness.
@@ -53,7 +53,7 @@ pub fn differentiate(
     let rows = Rows::Even(design.row()?);
     let problem = Problem::new(rows, design, stiffness.clone(), common, parameters)?;
     let (followed, mut derivatives) = problem.differentiated(variations)?;
-    let puncture = followed.puncture(parameters.unload).with_places(problem.loaded_places()?);
+    let puncture = followed.puncture(parameters.unload).with_places(problem.load_positions()?);
     derivatives.extend(problem.at_weakest(&puncture.places, variations)?);
     Ok((puncture, derivatives))
 }
@@ -159,9 +159,9 @@ impl Problem<'_> {
     }
 
     /// The places of the path at which measures are taken.
-    fn spots(&self, watch: &PathWatch, path: &mut Path<Chain>) -> Vec<MeasuredPoint<Chain>> {
-        let PathWatch { record, needle, passage, depth: marked, .. } = watch;
-        let FoldWatch { folds, first } = &watch.folds;
+    fn spots(&self, watch: &PathObservers, path: &mut Path<Chain>) -> Vec<MeasuredPoint<Chain>> {
+        let PathObservers { record, needle, passage, depth: marked, .. } = watch;
+        let FoldObserver { folds, first } = &watch.folds;
         let settings = &self.settings;
         let stiffest = record.stiffness_summit(path);
         let stiffest = sensitivity::summit(stiffest, path, Chain::stiffness, settings);

@@ -8,7 +8,7 @@ use super::{
     Problem, Puncture, PunctureParameters, RowStiffness, Rows, ScaleState, Status, scales,
 };
 use crate::contacts::{Contact, SkinState};
-use crate::crossing::Crossing;
+use crate::path_location::Crossing;
 use crate::record::Skin;
 use crate::{Common, Design};
 
@@ -129,7 +129,7 @@ pub fn snapshots_to_end(
 
 fn snapshot(chain: &Chain, pitch: f64, state: &SkinState) -> RowSnapshot {
     // Contacts count from the first scale that is solved for, a snapshot from the first of the row.
-    let [before, _] = chain.surroundings.scales_to_ends();
+    let [before, _] = chain.exterior.scales_to_ends();
     let in_row = |contact: Contact| {
         let [x, y] = contact.point;
         let point = [x + before as f64 * pitch, y];

@@ -9,7 +9,7 @@ use substrate::{Neighbour, RowStiffness, SubstrateLaw};
 
 use super::PunctureParameters;
 use super::needle::{GuidedNeedle, Needle, NeedleMode};
-use super::surroundings::Surroundings;
+use super::row_exterior::RowExterior;
 use crate::arrangement::Arrangement;
 use crate::contacts::{Contacts, SkinMode, SkinState};
 
@@ -134,7 +134,7 @@ pub(crate) struct Chain {
     /// `a β_x`, the stiffness of the bars that take the place of the springs along the row; `None` where these stay linear.
     pub(super) bars: Option<f64>,
     /// The row beyond the ends, if this one is a part of a longer row; forces as above.
-    pub(super) surroundings: Surroundings,
+    pub(super) exterior: RowExterior,
     /// From the node of the punctured scale to the loaded point.
     load_arm: Vec2,
     /// Depth at which the force is measured besides.
@@ -167,7 +167,7 @@ impl Chain {
         stiffness: &RowStiffness,
         law: ContactLaw,
         layout: Layout,
-        surroundings: Surroundings,
+        exterior: RowExterior,
         parameters: &PunctureParameters,
         length: f64,
     ) -> Self {
@@ -224,7 +224,7 @@ impl Chain {
             blocks: has_blocks.then(|| layout.blocks(reach)),
             neighbours,
             bars,
-            surroundings,
+            exterior,
             load_arm,
             marked_depth: parameters.depth,
             needle,
@@ -312,7 +312,7 @@ impl Chain {
             }
         }
         // Scales beyond an end give way, and take so much stiffness from those at it.
-        for (row, column, values) in &self.surroundings.relief {
+        for (row, column, values) in &self.exterior.relief {
             part(*row, *column, Part::Block(values));
         }
     }

@@ -1,10 +1,10 @@
 //! Tests of the inside of the model: its tangent, its energy balance, the limit of `Auto`.
 
-mod bars;
+mod friction;
 mod layers;
 mod needle;
+mod neo_hookean;
 mod reach;
-mod rubbing;
 
 use std::collections::HashSet;
 
@@ -15,8 +15,8 @@ use solver::{BandMatrix, Path, Settings, System, check_tangent};
 use substrate::{Coupling, RowStiffness, calibrate};
 
 use self::needle::integral;
+use super::row_exterior::{Beyond, Reach, RowExterior};
 use super::stability::Instability;
-use super::surroundings::{Beyond, Reach, Surroundings};
 use super::system::{Chain, Layout};
 use super::{Problem, PunctureParameters, Rows};
 use crate::arrangement::Arrangement;
@@ -88,7 +88,7 @@ fn whole(
     parameters: &PunctureParameters,
 ) -> Chain {
     let row = Arrangement::Even(design.row().unwrap());
-    Chain::new(row, stiffness, law, layout, Surroundings::default(), parameters, design.length)
+    Chain::new(row, stiffness, law, layout, RowExterior::default(), parameters, design.length)
 }
 
 /// Shows every segment of a path.
@@ -471,9 +471,9 @@ fn negative_eigenvalues_are_those_of_the_dense_stiffness() {
         let endless = |stiffness: &RowStiffness| {
             let far = stiffness.with_lengths_over(design.half_base()).far_field(None).unwrap();
             let beyond = [(); 2].map(|()| Some(Beyond { far: far.clone(), scales: None }));
-            let surroundings = Surroundings::new(rows, layout, beyond).unwrap();
+            let exterior = RowExterior::new(rows, layout, beyond).unwrap();
             let row = rows.row(layout).unwrap();
-            Chain::new(row, stiffness, law, layout, surroundings, parameters, design.length)
+            Chain::new(row, stiffness, law, layout, exterior, parameters, design.length)
         };
         for chain in [chain(&nearest), chain(&full), endless(&nearest), endless(&full)] {
             let rest = SkinState::at_rest(&chain);

@@ -15,11 +15,11 @@
 mod chain;
 mod closed_forms;
 mod elastica;
-mod first_touch;
+mod first_contact;
+mod friction;
+mod gap_by_gap;
 mod locking;
 mod robustness;
-mod rubbing;
 #[path = "../samples/mod.rs"]
 mod samples;
 mod steps;
-mod uneven;

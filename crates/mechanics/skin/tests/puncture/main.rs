@@ -25,15 +25,15 @@ mod ends;
 mod enumerated;
 mod first_contact;
 mod folds;
+mod friction;
 mod isolated_scale;
 mod layers;
+mod load_positions;
 mod neo_hookean;
 mod outputs;
-mod places;
 mod robustness;
 mod round_tip;
 mod rows;
-mod rubbing;
 #[path = "../samples/mod.rs"]
 mod samples;
 mod scaling;

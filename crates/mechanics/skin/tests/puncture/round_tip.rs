@@ -157,11 +157,11 @@ fn places_cover_the_pitch() {
     let parameters = PunctureParameters { places: Some(3), ..parameters(Some(0.5)) };
     let springs = springs(&design, &parameters, &known);
     let common = Common::default();
-    let places = puncture::loaded_places(&design, &springs, &common, &parameters).unwrap();
+    let places = puncture::load_positions(&design, &springs, &common, &parameters).unwrap();
     let positions: Vec<_> = places.iter().map(|place| place.position).collect();
     assert_eq!(positions, [0.0, 0.5, 1.0]);
     let parameters = PunctureParameters { places: Some(4), ..parameters };
-    let between = puncture::loaded_places(&design, &springs, &common, &parameters).unwrap()[3];
+    let between = puncture::load_positions(&design, &springs, &common, &parameters).unwrap()[3];
     assert_relative_eq!(between.position, 1.125);
     let at = |load_position: f64| {
         let parameters = PunctureParameters { load_position, places: None, ..parameters };

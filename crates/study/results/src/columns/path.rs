@@ -2,7 +2,7 @@
 
 use skin::flexure;
 use skin::puncture::{
-    CriticalEvent, Fold, Instability, LoadedPlace, Puncture, PuncturePoint, ScaleState, Snap,
+    CriticalEvent, Fold, Instability, LoadPosition, Puncture, PuncturePoint, ScaleState, Snap,
     TipForces,
 };
 use skin::{ContactEvent, Iteration};
@@ -145,7 +145,7 @@ pub static SCALES: &[Column<ScaleState>] = &columns! { ScaleState:
 };
 
 /// The columns of `places.csv`.
-pub static LOADED_PLACES: &[Column<LoadedPlace>] = &columns! { LoadedPlace:
+pub static LOADED_PLACES: &[Column<LoadPosition>] = &columns! { LoadPosition:
     "place", "-", |p| p.position,
         "place of the load: 0 the left corner of the top, 1 the right; beyond, a round tip between two scales";
     name::CRITICAL_FORCE, "E_s L t/(1-nu^2)", |p| p.force,

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use skin::flexure::{self, BentSample, Flexure};
 use skin::puncture::{self, Puncture, TiltMeasures};
-use skin::{Status, WayBack};
+use skin::{Status, Unloading};
 use solver::Stop;
 
 use super::failure::{Failure, finite};
@@ -116,7 +116,7 @@ impl PunctureResult {
             iterations: puncture.history.len(),
             calibration_error: finite(calibration_error),
             weakest: (!puncture.places.is_empty()).then(weakest),
-            way_back: puncture.way_back.as_ref().map(back_to_zero),
+            way_back: puncture.unloading.as_ref().map(back_to_zero),
         }
     }
 }
@@ -148,7 +148,7 @@ impl FlexureResult {
     /// The result of a solved bending; if one of its numbers is not finite, all are left out.
     pub fn new(flexure: &Flexure) -> Self {
         let Flexure { status, measures, path, history, .. } = flexure;
-        let way_back = flexure.way_back.as_ref().map(back_to_zero);
+        let way_back = flexure.unloading.as_ref().map(back_to_zero);
         Self { way_back, ..Self::checked(*status, *measures, path.len(), history.len()) }
     }
 
@@ -173,7 +173,7 @@ impl FlexureResult {
 }
 
 /// The outcome of a way back.
-fn back_to_zero<P>(back: &WayBack<P>) -> Outcome {
+fn back_to_zero<P>(back: &Unloading<P>) -> Outcome {
     match back.stop {
         Stop::Unloaded => Outcome::Complete,
         stop => stop.into(),
@@ -217,7 +217,7 @@ mod tests {
             folds,
             scales,
             history,
-            way_back: None,
+            unloading: None,
             places: vec![],
             tip_forces: vec![],
         }

@@ -5,7 +5,7 @@ use results::ParameterDerivative;
 use results::columns::name;
 use skin::Neighbours;
 use skin::flexure::whole_gaps;
-use skin::puncture::{self, OddScale, PunctureInput};
+use skin::puncture::{self, PerturbedScale, PunctureInput};
 use substrate::RowStiffness;
 use sweep::{Case, Parameter};
 
@@ -53,8 +53,8 @@ fn one_scale(
 ) -> Option<Neighbours<PunctureInput>> {
     let step = STEP * parameter.size(case)?;
     let odd = |by: f64| match parameter.key {
-        "gap_over_t" => OddScale { place, gap: by, slant_deg: 0.0 },
-        _ => OddScale { place, gap: 0.0, slant_deg: by },
+        "gap_over_t" => PerturbedScale { place, gap: by, slant_deg: 0.0 },
+        _ => PerturbedScale { place, gap: 0.0, slant_deg: by },
     };
     let [below, above] =
         [-step, step].map(|by| PunctureInput { odd: Some(odd(by)), ..input.clone() });

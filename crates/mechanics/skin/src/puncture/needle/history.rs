@@ -16,7 +16,7 @@ use solver::{AnchoredPoint, Linearisation, Neighbours, Path, PathAnchor};
 use super::GuidedNeedle;
 use super::mode::{Rub, Touch};
 use crate::contacts::{Contacts, SkinMode, SkinPoint, SkinState};
-use crate::puncture::growing::Segment;
+use crate::puncture::adaptive_row::Segment;
 use crate::puncture::system::Chain;
 use crate::sensitivity::vanished;
 

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::mode::{Place, Rub, Touch};
 use crate::contacts::{SkinPoint, SkinState};
-use crate::puncture::growing::Segment;
+use crate::puncture::adaptive_row::Segment;
 use crate::puncture::system::Chain;
 use crate::record::Skin;
 

@@ -1,7 +1,7 @@
 //! Other places of the load, and the weakest of them.
 
 use approx::assert_relative_eq;
-use skin::puncture::{self, LoadedPlace, Needle, Puncture, PunctureParameters, Weakest};
+use skin::puncture::{self, LoadPosition, Needle, Puncture, PunctureParameters, Weakest};
 use skin::{Base, Common, Design, Status};
 use solver::Stop;
 use substrate::{Calibrations, SubstrateLaw};
@@ -86,7 +86,7 @@ fn a_place_that_may_be_weaker_is_not_passed_over() {
     assert_eq!(Weakest::of(&places), Err(places[0].status));
     assert!(places[0].force.is_none() && places[1..].iter().all(|place| place.force.is_some()));
 
-    let place = |force, borne, status| LoadedPlace {
+    let place = |force, borne, status| LoadPosition {
         position: 0.5,
         status,
         force,

@@ -130,8 +130,8 @@ fn gaps_that_rub_by_themselves_are_the_chain_of_all() {
 #[test]
 fn gaps_that_act_on_each_other_are_solved_as_a_chain() {
     let slanted = slanted();
-    let way_back = FlexureParameters { unload: true, ..slanted.parameters };
-    let [gaps, chain] = Uneven { parameters: way_back, ..slanted }.bent(3);
+    let unloading = FlexureParameters { unload: true, ..slanted.parameters };
+    let [gaps, chain] = Uneven { parameters: unloading, ..slanted }.bent(3);
     assert_eq!(gaps.measures, chain.measures);
     assert!(gaps.measures.remains.loop_work.is_some());
     // Forces that begin soft, and are stiff soon after: the strip is stiffest between events. Steep scales slide off each other, and

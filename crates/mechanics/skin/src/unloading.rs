@@ -10,7 +10,7 @@ use crate::record::{Skin, Work};
 
 /// The way back from the end of a path.
 #[derive(Clone, Debug)]
-pub struct WayBack<P> {
+pub struct Unloading<P> {
     /// Its equilibria, from the end of the path on.
     pub path: Vec<P>,
     /// Why it ended: [`Stop::Unloaded`] where the load came to zero.
@@ -29,7 +29,7 @@ pub struct Remains {
     pub displacement: Option<f64>,
 }
 
-impl<P> WayBack<P> {
+impl<P> Unloading<P> {
     /// Turns a path back where it stands, after friction has taken `work`.
     pub(crate) fn follow<S: Skin<PathPoint = P>>(path: &mut Path<S>, mut work: Work) -> Self {
         path.turn_back();

@@ -41,7 +41,7 @@ pub(super) struct Beyond {
 
 /// The row beyond the ends of the part that is solved for; nothing, for a row that is solved whole.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Surroundings {
+pub(crate) struct RowExterior {
     /// Beyond the left and the right end.
     sides: [Option<Side>; 2],
     /// What the row beyond adds to the stiffness of the substrate, which it takes down: row and column of the tangent, and entries.
@@ -64,7 +64,7 @@ fn mirrored([x, y, rotation]: [f64; 3], side: usize) -> [f64; 3] {
     if side == 0 { [-x, y, -rotation] } else { [x, y, rotation] }
 }
 
-impl Surroundings {
+impl RowExterior {
     /// The surroundings of a part of the `rows`, with what lies beyond its left and its right end.
     ///
     /// # Errors
@@ -130,7 +130,7 @@ fn relief(layout: Layout, sides: &[Option<Side>; 2]) -> Vec<(usize, usize, [[f64
 impl Chain {
     /// Number of scales in the row: of one without ends those that are solved for.
     pub(super) fn row_length(&self) -> usize {
-        let [left, right] = self.surroundings.scales_to_ends();
+        let [left, right] = self.exterior.scales_to_ends();
         left + self.layout.scales() + right
     }
 
@@ -154,7 +154,7 @@ impl Chain {
         let last = self.layout.scales().cast_signed() - 1;
         let nearest = scale.clamp(0, last);
         let number = usize::from(scale > 0);
-        match (&self.surroundings.sides[number], scale.abs_diff(nearest)) {
+        match (&self.exterior.sides[number], scale.abs_diff(nearest)) {
             (_, 0) => self.displacement(z, nearest.cast_unsigned()),
             (Some(side), distance) => {
                 mirrored(side.beyond.far.displacement(self.at_end(z, number), distance), number)
@@ -191,7 +191,7 @@ impl Chain {
     pub(crate) fn reach(&self, state: &SkinState) -> [Reach; 2] {
         let touching = self.contacts.touching_at_ends(state);
         [0, 1].map(|number| {
-            let Some(side) = &self.surroundings.sides[number] else { return Reach::Short };
+            let Some(side) = &self.exterior.sides[number] else { return Reach::Short };
             match self.part_closed(&state.z, number, side) {
                 1.0.. => Reach::Beyond,
                 EARLY.. => Reach::Near,
@@ -207,7 +207,7 @@ impl Chain {
     fn part_closed(&self, z: &[f64], number: usize, side: &Side) -> f64 {
         let displacements = self.displacements_beyond(z, number, side);
         let size =
-            |[x, y, rotation]: [f64; 3]| x.abs() + y.abs() + self.surroundings.arm * rotation.abs();
+            |[x, y, rotation]: [f64; 3]| x.abs() + y.abs() + self.exterior.arm * rotation.abs();
         let pairs = displacements.windows(2).zip(&side.clearances);
         // Both scales may move straight towards each other: the sum of their motions is a bound.
         let parts = pairs.map(|(pair, clearance)| (size(pair[0]) + size(pair[1])) / clearance);
@@ -220,7 +220,7 @@ impl Chain {
     /// row that is solved whole. Beyond those that are looked at all are closer to that of the last.
     pub(super) fn stretches_beyond(&self, z: &[f64]) -> Vec<f64> {
         let mut stretches = Vec::new();
-        for (number, side) in self.surroundings.sides.iter().enumerate() {
+        for (number, side) in self.exterior.sides.iter().enumerate() {
             let Some(side) = side else { continue };
             let displacements = self.displacements_beyond(z, number, side);
             for (pair, &width) in displacements.windows(2).zip(&side.gaps) {

@@ -4,7 +4,7 @@ use approx::assert_relative_eq;
 use geometry::{Parallelogram, UnevenRow};
 
 use super::super::problem::FlexureProblem;
-use super::super::{BentSample, Flexure, FlexureParameters, MembraneMesh, Method, uneven};
+use super::super::{BentSample, Flexure, FlexureParameters, MembraneMesh, Method, gap_by_gap};
 use crate::arrangement::Arrangement;
 use crate::{Base, Common, ContactChange, Design, Status};
 
@@ -43,7 +43,7 @@ fn both(gaps: &[f64], slants_deg: &[f64]) -> (Flexure, BentSample) {
         FlexureProblem::new(&design, &common, &parameters, row, gaps as f64, gaps).unwrap();
     let flexure = problem.solve().unwrap();
     assert_eq!(flexure.status, Status::Complete);
-    (flexure, uneven::solve(&problem).unwrap().expect("gaps that are solved apart"))
+    (flexure, gap_by_gap::solve(&problem).unwrap().expect("gaps that are solved apart"))
 }
 
 fn close(a: Option<f64>, b: Option<f64>, max_relative: f64) {

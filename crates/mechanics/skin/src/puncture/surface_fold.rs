@@ -53,12 +53,12 @@ struct Crossing {
 
 /// The folds of a path, and the equilibrium of the first.
 #[derive(Default)]
-pub(super) struct FoldWatch {
+pub(super) struct FoldObserver {
     pub(super) folds: Vec<Fold>,
     pub(super) first: Option<SkinPoint>,
 }
 
-impl FoldWatch {
+impl FoldObserver {
     /// Looks for folds on the segment between two neighbouring points of a path; `events_before` contact events were before it.
     pub(super) fn follow(
         &mut self,

@@ -2,31 +2,31 @@
 
 use solver::Path;
 
-use super::fold::FoldWatch;
-use super::growing::{GrowingPath, Segment};
+use super::adaptive_row::{AdaptiveRowPath, Segment};
 use super::needle::{HistoryWatch, PassageWatch};
 use super::snap::SnapWatch;
+use super::surface_fold::FoldObserver;
 use super::system::Chain;
 use super::{At, PunctureParameters};
 use crate::contacts::SkinPoint;
-use crate::crossing::PlaceWatch;
+use crate::path_location::PointLocator;
 use crate::record::{PathFunction, Record};
 
 /// All that is looked for along the path of a puncture.
-pub(super) struct PathWatch {
+pub(super) struct PathObservers {
     pub(super) record: Record<Chain>,
     pub(super) needle: SnapWatch,
-    pub(super) folds: FoldWatch,
+    pub(super) folds: FoldObserver,
     pub(super) history: HistoryWatch,
     pub(super) passage: PassageWatch,
-    pub(super) tilts: PlaceWatch<Chain>,
+    pub(super) tilts: PointLocator<Chain>,
     /// The depth at which the force is measured besides, if there is one.
-    pub(super) depth: PlaceWatch<Chain>,
+    pub(super) depth: PointLocator<Chain>,
     /// Of snapshots.
-    pub(super) places: PlaceWatch<Chain>,
+    pub(super) places: PointLocator<Chain>,
 }
 
-impl PathWatch {
+impl PathObservers {
     pub(super) fn new(
         path: &Path<Chain>,
         parameters: &PunctureParameters,
@@ -38,12 +38,12 @@ impl PathWatch {
         Self {
             record: Record::new(path, functions),
             needle: SnapWatch::default(),
-            folds: FoldWatch::default(),
+            folds: FoldObserver::default(),
             history: HistoryWatch::default(),
             passage: PassageWatch::default(),
-            tilts: PlaceWatch::new(path, tilts),
-            depth: PlaceWatch::new(path, depth),
-            places: PlaceWatch::new(path, places.iter().map(|place| place.crossing())),
+            tilts: PointLocator::new(path, tilts),
+            depth: PointLocator::new(path, depth),
+            places: PointLocator::new(path, places.iter().map(|place| place.crossing())),
         }
     }
 
@@ -63,7 +63,7 @@ impl PathWatch {
     }
 
     /// Takes the points that were kept to the row as it is in the end.
-    pub(super) fn lengthen(&mut self, path: &GrowingPath) {
+    pub(super) fn lengthen(&mut self, path: &AdaptiveRowPath) {
         let longer = |point: &SkinPoint| path.lengthened(point);
         // Whatever keeps points has to be named here, or keeps some of a shorter row.
         let SnapWatch { load_limit, depth_limit, .. } = &mut self.needle;

@@ -6,7 +6,7 @@ use super::system::Layout;
 
 /// One scale of a row, and by how much it differs from all others.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct OddScale {
+pub struct PerturbedScale {
     /// Its place, from the punctured scale to the right.
     pub place: i32,
     /// Difference of the gap on its right, over `t`.
@@ -15,7 +15,7 @@ pub struct OddScale {
     pub slant_deg: f64,
 }
 
-impl OddScale {
+impl PerturbedScale {
     /// The scales of a `layout` cut out of an endless `row` in which one scale is odd.
     ///
     /// # Errors

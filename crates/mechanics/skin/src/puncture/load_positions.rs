@@ -22,7 +22,7 @@ const SAME: f64 = 1e-6;
 
 /// A puncture with the load at one of several places.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LoadedPlace {
+pub struct LoadPosition {
     /// Place of the load on the top: 0 its left, 1 its right corner; of a round tip also beyond.
     pub position: f64,
     /// How its path ended.
@@ -54,11 +54,11 @@ impl Weakest {
     /// # Errors
     /// The status of the first place whose path ended early, before it had borne as much as the weakest of the others: there the skin
     /// may be weaker than anywhere else.
-    pub fn of(places: &[LoadedPlace]) -> Result<Self, Status> {
+    pub fn of(places: &[LoadPosition]) -> Result<Self, Status> {
         let Some(force) = places.iter().filter_map(|place| place.force).reduce(f64::min) else {
             return places.first().map_or(Ok(Self::default()), |place| Err(place.status));
         };
-        let is_open = |place: &&LoadedPlace| {
+        let is_open = |place: &&LoadPosition| {
             place.force.is_none() && place.borne.is_some_and(|borne| borne < force)
         };
         match places.iter().find(is_open) {
@@ -72,7 +72,7 @@ impl Weakest {
 }
 
 /// The places with that force.
-fn tied(places: &[LoadedPlace], force: f64) -> impl Iterator<Item = &LoadedPlace> {
+fn tied(places: &[LoadPosition], force: f64) -> impl Iterator<Item = &LoadPosition> {
     places.iter().filter(move |place| place.force.is_some_and(|of| of <= force * (1.0 + TIE)))
 }
 
@@ -101,19 +101,19 @@ impl PunctureParameters {
 ///
 /// # Errors
 /// As [`solve`](super::solve).
-pub fn loaded_places(
+pub fn load_positions(
     design: &Design,
     substrate: impl Into<RowStiffness>,
     common: &Common,
     parameters: &PunctureParameters,
-) -> Result<Vec<LoadedPlace>, OutOfRange> {
+) -> Result<Vec<LoadPosition>, OutOfRange> {
     let rows = Rows::Even(design.row()?);
-    Problem::new(rows, design, substrate.into(), common, parameters)?.loaded_places()
+    Problem::new(rows, design, substrate.into(), common, parameters)?.load_positions()
 }
 
 impl Puncture {
     /// The puncture with what was found at other places of the load.
-    pub(super) fn with_places(mut self, places: Vec<LoadedPlace>) -> Self {
+    pub(super) fn with_places(mut self, places: Vec<LoadPosition>) -> Self {
         self.measures.weakest = Weakest::of(&places).unwrap_or_default();
         Self { places, ..self }
     }
@@ -121,7 +121,7 @@ impl Puncture {
 
 impl Problem<'_> {
     /// The puncture at each of the places that are asked for.
-    pub(super) fn loaded_places(&self) -> Result<Vec<LoadedPlace>, OutOfRange> {
+    pub(super) fn load_positions(&self) -> Result<Vec<LoadPosition>, OutOfRange> {
         let count = self.parameters.places.unwrap_or(0);
         // A round tip may stand anywhere. A pitch further right it stands as before, on the next scale: that place is not tried again.
         let pitch = 1.0 + self.design.gap / (2.0 * self.design.half_base());
@@ -133,7 +133,7 @@ impl Problem<'_> {
         (0..count).map(|k| self.at_place(k as f64 * width / last)).collect()
     }
 
-    fn at_place(&self, position: f64) -> Result<LoadedPlace, OutOfRange> {
+    fn at_place(&self, position: f64) -> Result<LoadPosition, OutOfRange> {
         let clockwise = self.pushed(position, CLOCKWISE)?;
         // A load left of the middle may tilt the scale the other way from the first step on: clockwise it would have to pull.
         let pulls = clockwise.status == Status::Stopped(Stop::Unloaded);
@@ -143,7 +143,7 @@ impl Problem<'_> {
         Ok(clockwise)
     }
 
-    fn pushed(&self, position: f64, sense: f64) -> Result<LoadedPlace, OutOfRange> {
+    fn pushed(&self, position: f64, sense: f64) -> Result<LoadPosition, OutOfRange> {
         let parameters = self.parameters.at_place(position, sense);
         // These parameters are not checked: nobody may ask for a tilt below zero.
         let problem = self.with(&parameters);
@@ -161,7 +161,7 @@ impl Problem<'_> {
         let end = path.system().path_point(tilted.unwrap_or(path.point()));
         let end = (status == Status::Complete).then_some(end);
         let tilts_nothing = status == Status::Untilted && points.len() == 1;
-        Ok(LoadedPlace {
+        Ok(LoadPosition {
             position,
             status,
             force: end.map(|point| point.force),
@@ -186,7 +186,7 @@ impl Problem<'_> {
     /// one of them the weakest, so that the sides differ.
     pub(super) fn at_weakest(
         &self,
-        places: &[LoadedPlace],
+        places: &[LoadPosition],
         variations: &[Neighbours<PunctureInput>],
     ) -> Result<Vec<Derivative>, OutOfRange> {
         let Ok(Weakest { force: Some(force), .. }) = Weakest::of(places) else {
@@ -206,7 +206,7 @@ impl Problem<'_> {
 
     fn slopes_at(
         &self,
-        place: &LoadedPlace,
+        place: &LoadPosition,
         variations: &[Neighbours<PunctureInput>],
     ) -> Result<Vec<Derivative>, OutOfRange> {
         let is_other_way = !self.parameters.needle.is_guided() && place.tilt_deg < Some(0.0);

@@ -82,7 +82,7 @@ fn the_mirror_image_of_a_row_has_the_mirror_image_of_its_forces() {
         let law = law(&LIVELY, Law::PRINTED, HARD);
         let parameters =
             PunctureParameters { substrate_law: of_substrate, ..PunctureParameters::default() };
-        let beyond = Surroundings::default();
+        let beyond = RowExterior::default();
         Chain::new(row, &stiffness, law, layout, beyond, &parameters, LIVELY.length)
     };
     let forces = |chain: &Chain, displacement: &dyn Fn(usize) -> [f64; 3]| {

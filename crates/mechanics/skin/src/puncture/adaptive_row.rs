@@ -11,7 +11,7 @@ use solver::{Change, Event, Path};
 use substrate::{FarField, SubstrateLaw};
 
 use super::Problem;
-use super::surroundings::Reach;
+use super::row_exterior::Reach;
 use super::system::{Chain, Layout};
 use crate::contacts::{SkinPoint, SkinState};
 
@@ -22,7 +22,7 @@ use crate::contacts::{SkinPoint, SkinState};
 ///            ▲                     │ yes
 ///            └── on a longer row ◄─┘ from the point before
 /// ```
-pub(super) struct GrowingPath<'a> {
+pub(super) struct AdaptiveRowPath<'a> {
     problem: &'a Problem<'a>,
     pub(super) path: Path<Chain>,
     longest: usize,
@@ -44,7 +44,7 @@ pub(super) struct Segment {
     pub(super) left: Arc<SkinPoint>,
 }
 
-impl<'a> GrowingPath<'a> {
+impl<'a> AdaptiveRowPath<'a> {
     pub(super) fn new(problem: &'a Problem<'a>, chain: Chain, longest: usize) -> Self {
         let rest = chain.at_rest();
         let path = Path::new(chain, rest, problem.settings);

@@ -215,7 +215,7 @@ fn the_load_is_taken_away_again() {
         let solver = Settings { first_step: 1.5e-4, max_step: 1.5e-4, ..Settings::default() };
         let common = Common { solver, ..rubbing(friction) };
         let puncture = solve_as(&Calibrations::default(), &design, &common, &parameters);
-        let back = puncture.way_back.as_ref().unwrap();
+        let back = puncture.unloading.as_ref().unwrap();
         assert_eq!((puncture.status, back.stop), (Status::Complete, Stop::Unloaded), "{design:?}");
         let work = |path: &[puncture::PuncturePoint]| -> f64 {
             let steps = path.windows(2).map(|pair| {
@@ -255,7 +255,7 @@ fn the_way_back_leads_through_changes_that_happen_at_once() {
         let parameters =
             PunctureParameters { needle, unload: true, load_position, ..Default::default() };
         let puncture = solve_as(&Calibrations::default(), &design, &rubbing(friction), &parameters);
-        let back = puncture.way_back.as_ref().unwrap();
+        let back = puncture.unloading.as_ref().unwrap();
         assert_eq!((puncture.status, back.stop), (Status::Complete, Stop::Unloaded), "{design:?}");
     }
 }

@@ -57,13 +57,13 @@ impl<S: System> Crossing<S> {
 }
 
 /// Looks along a path for the equilibria at which it first comes to some places.
-pub(crate) struct PlaceWatch<S: System> {
+pub(crate) struct PointLocator<S: System> {
     places: Vec<Crossing<S>>,
     /// `None` where the path has not got there.
     pub(crate) found: Vec<Option<Point<S::Mode>>>,
 }
 
-impl<S: System> PlaceWatch<S> {
+impl<S: System> PointLocator<S> {
     /// Begins at the start of a path.
     pub(crate) fn new(path: &Path<S>, places: impl IntoIterator<Item = Crossing<S>>) -> Self {
         let places: Vec<_> = places.into_iter().collect();
