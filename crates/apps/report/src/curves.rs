@@ -183,7 +183,7 @@ fn puncture(solved: &DesignCurves) -> Option<CurveValues> {
 fn places(solved: &DesignCurves) -> Option<CurveValues> {
     let all = &solved.puncture?.places;
     let known: Vec<_> = all.iter().filter_map(|p| Some([p.position, p.force?])).collect();
-    let weakest = Weakest::of(all).ok().and_then(|of| Some([of.place?, of.force?]));
+    let weakest = Weakest::from_positions(all).ok().and_then(|of| Some([of.place?, of.force?]));
     let open = || all.iter().filter(|p| p.force.is_none());
     let is_across =
         |ends: &[[f64; 2]]| open().any(|p| (ends[0][0]..ends[1][0]).contains(&p.position));

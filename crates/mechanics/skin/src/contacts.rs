@@ -13,7 +13,7 @@ mod stiffness;
 pub use change::ContactChange;
 pub use closed::Contact;
 pub(crate) use friction::product_integral;
-use friction::{Rub, WAY};
+use friction::{FrictionState, SLIP_DISTANCE};
 pub(crate) use mode::SkinMode;
 
 use contact::{
@@ -69,9 +69,9 @@ pub(crate) struct Contacts {
     /// Unknown of each constraint: these are the constraints of the system.
     pub(crate) forces: Vec<usize>,
     /// Numbers of the ways that contacts slip, which only grow.
-    pub(crate) growing: Vec<usize>,
+    pub(crate) slip_distances: Vec<usize>,
     /// Contacts whose anchor differs from that of a row of which this is a neighbour, and by how much.
-    moved: Vec<(usize, f64)>,
+    anchor_shifts: Vec<(usize, f64)>,
 }
 
 impl Contacts {
@@ -88,8 +88,8 @@ impl Contacts {
         let reach = forces.len().checked_div(neighbours).unwrap_or(1);
         debug_assert_eq!(forces.len(), reach * neighbours);
         let pair_shapes = arrangement.pairs(reach);
-        let ways = (0..forces.len()).filter(|number| number % slots == WAY);
-        let growing = ways.collect();
+        let slip_distances = (0..forces.len()).filter(|number| number % slots == SLIP_DISTANCE);
+        let slip_distances = slip_distances.collect();
         Self {
             arrangement,
             pair_shapes,
@@ -99,16 +99,20 @@ impl Contacts {
             relative,
             slots,
             forces,
-            growing,
-            moved: Vec::new(),
+            slip_distances,
+            anchor_shifts: Vec::new(),
         }
     }
 
     /// The state of rest of all contacts.
     pub(crate) fn open(&self) -> SkinMode {
         let contacts = vec![CornerContact::Open; self.forces.len() / self.slots];
-        let rubs = if self.rub() { vec![Rub::None; contacts.len()] } else { Vec::new() };
-        SkinMode { contacts, rubs, ..SkinMode::default() }
+        let friction_states = if self.has_friction() {
+            vec![FrictionState::None; contacts.len()]
+        } else {
+            Vec::new()
+        };
+        SkinMode { contacts, friction_states, ..SkinMode::default() }
     }
 
     /// The contact that a constraint belongs to, and its number there.
@@ -118,7 +122,7 @@ impl Contacts {
 
     /// The constraints of the pair that a constraint belongs to, where scales rub: each of them may begin to slip with it.
     pub(crate) fn companions(&self, constraint: usize) -> std::ops::Range<usize> {
-        if !self.rub() {
+        if !self.has_friction() {
             return constraint..constraint + 1;
         }
         let pair = LEVELS.len() * self.slots;
@@ -300,7 +304,7 @@ impl Contacts {
             self.forces_of(&state.z, contact),
         )?;
         // Only friction asks what was before, and without it the copy is saved.
-        let before = self.rub().then(|| state.clone());
+        let before = self.has_friction().then(|| state.clone());
         state.mode.contacts[contact] = next.contact;
         for (unknown, force) in self.unknowns_of(contact).into_iter().zip(next.forces) {
             state.z[unknown] = force;

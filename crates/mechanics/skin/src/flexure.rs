@@ -108,7 +108,7 @@ pub struct Flexure {
 
 impl Flexure {
     /// Whether scales rub on each other.
-    pub fn rubs(&self) -> bool {
+    pub fn has_friction(&self) -> bool {
         self.path.iter().any(|point| point.friction_work.is_some())
     }
 

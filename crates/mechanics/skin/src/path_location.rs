@@ -9,14 +9,14 @@ const CLOSE: f64 = 1e-12;
 const EVALUATIONS: usize = 100;
 
 /// A place of a path: where a quantity first takes a value.
-pub(crate) struct Crossing<S: System> {
+pub(crate) struct PathLocation<S: System> {
     /// The quantity, a function of system and state.
     pub(crate) quantity: fn(&S, &State<S::Mode>) -> f64,
     /// The value that the quantity takes there.
     pub(crate) value: f64,
 }
 
-impl<S: System> Crossing<S> {
+impl<S: System> PathLocation<S> {
     fn off(&self, system: &S, state: &State<S::Mode>) -> f64 {
         (self.quantity)(system, state) - self.value
     }
@@ -58,20 +58,24 @@ impl<S: System> Crossing<S> {
 
 /// Looks along a path for the equilibria at which it first comes to some places.
 pub(crate) struct PointLocator<S: System> {
-    places: Vec<Crossing<S>>,
+    locations: Vec<PathLocation<S>>,
     /// `None` where the path has not got there.
-    pub(crate) found: Vec<Option<Point<S::Mode>>>,
+    pub(crate) points: Vec<Option<Point<S::Mode>>>,
 }
 
 impl<S: System> PointLocator<S> {
     /// Begins at the start of a path.
-    pub(crate) fn new(path: &Path<S>, places: impl IntoIterator<Item = Crossing<S>>) -> Self {
-        let places: Vec<_> = places.into_iter().collect();
+    pub(crate) fn new(
+        path: &Path<S>,
+        locations: impl IntoIterator<Item = PathLocation<S>>,
+    ) -> Self {
+        let locations: Vec<_> = locations.into_iter().collect();
         let start = path.point();
         // A place at the very beginning, such as a load of zero, has no segment before it.
-        let is_start = |place: &Crossing<S>| place.is_at(path.system(), &start.state);
-        let found = places.iter().map(|place| is_start(place).then(|| start.clone())).collect();
-        Self { places, found }
+        let is_start = |location: &PathLocation<S>| location.is_at(path.system(), &start.state);
+        let points =
+            locations.iter().map(|location| is_start(location).then(|| start.clone())).collect();
+        Self { locations, points }
     }
 
     /// Looks between two points of the path.
@@ -81,10 +85,10 @@ impl<S: System> PointLocator<S> {
         from: &Point<S::Mode>,
         to: &Point<S::Mode>,
     ) {
-        for (place, found) in self.places.iter().zip(&mut self.found) {
+        for (location, found) in self.locations.iter().zip(&mut self.points) {
             // A path that turns back passes a value again: the first time counts.
             if found.is_none() {
-                *found = place.between(path, from, to);
+                *found = location.between(path, from, to);
             }
         }
     }

@@ -31,7 +31,7 @@ use row_exterior::{Beyond, RowExterior};
 use solver::{Path, Settings, Stop};
 use substrate::{FarField, RowStiffness, SubstrateLaw};
 use surface_fold::FoldObserver;
-use system::{Chain, Layout};
+use system::{Chain, RowLayout};
 
 use crate::arrangement::Arrangement;
 use crate::contacts::{SkinPoint, pair_constraints};
@@ -155,7 +155,7 @@ pub struct Puncture {
 
 impl Puncture {
     /// Whether scales rub on each other.
-    pub fn rubs(&self) -> bool {
+    pub fn has_friction(&self) -> bool {
         self.path.iter().any(|point| point.friction_work.is_some())
     }
 }
@@ -199,7 +199,7 @@ enum Rows<'a> {
 }
 
 impl Rows<'_> {
-    fn row(self, layout: Layout) -> Result<Arrangement, OutOfRange> {
+    fn row(self, layout: RowLayout) -> Result<Arrangement, OutOfRange> {
         Ok(match self {
             Self::Even(row) => Arrangement::Even(row),
             Self::Odd(row, odd) => Arrangement::Uneven(odd.within(&row, layout)?),
@@ -266,7 +266,7 @@ impl Followed {
         let mut measures = PunctureMeasures::new(&record, &folds, path);
         measures.passage = passage;
         // The outer option says whether a depth was asked for, the inner whether it was reached.
-        let deep = depth.found.first().map(|found| found.as_ref().map(|deep| &deep.state));
+        let deep = depth.points.first().map(|found| found.as_ref().map(|deep| &deep.state));
         // A skin that gives way before it is so deep bears no more than it does there.
         let end = || (status == Status::Complete).then(|| &path.point().state);
         measures.force_at_depth =
@@ -282,7 +282,7 @@ impl Followed {
         let mut tip_forces = at_tip.tip_forces;
         tip_forces.extend(chain.tip_forces(&path.point().state));
         let at_tilt = |point: Option<SkinPoint>| Some(TiltMeasures::new(chain, &point?.state));
-        let at_tilts = tilts.found.into_iter().map(at_tilt).collect();
+        let at_tilts = tilts.points.into_iter().map(at_tilt).collect();
         let Record { path: points, events, history, work, .. } = record;
         // The way back moves the path, so all that is told of the end has been taken before.
         let unloading =
@@ -374,9 +374,9 @@ impl<'a> Problem<'a> {
         let contacts = contact_reach * pair_constraints(&self.law);
         let law = self.parameters.substrate_law;
         let first = |far: &FarField| {
-            let layout = Layout::first(far, self.stiffness.neighbours.len(), law);
+            let layout = RowLayout::first(far, self.stiffness.neighbours.len(), law);
             let layout = layout.at_least(self.reach().map_or(0, |reach| reach + 1));
-            Layout { needle: self.needle_unknowns(), contacts, ..layout }
+            RowLayout { needle: self.needle_unknowns(), contacts, ..layout }
         };
         let Some(whole) = self.whole() else {
             let first = self.endless.as_ref().map(first);
@@ -385,13 +385,13 @@ impl<'a> Problem<'a> {
         // Bars are as good as springs to a part of the displacements only, and far couplings have no closed form before an end.
         let far = self.far_field(Some(1)).filter(|_| law == SubstrateLaw::Linear);
         let layout = far.map_or(whole, |far| first(&far).within(whole));
-        Ok((self.part(Layout { contacts, ..layout })?, whole.scales()))
+        Ok((self.part(RowLayout { contacts, ..layout })?, whole.scales()))
     }
 
     /// Unknowns of the needle behind the load.
     fn needle_unknowns(&self) -> usize {
         match self.reach() {
-            Some(reach) => needle::unknowns(reach, self.parameters.needle.rubs()),
+            Some(reach) => needle::unknowns(reach, self.parameters.needle.has_friction()),
             None if self.parameters.needle.is_guided() => NEEDLE_UNKNOWNS,
             None => 0,
         }
@@ -404,13 +404,13 @@ impl<'a> Problem<'a> {
     }
 
     /// All of a row that ends.
-    fn whole(&self) -> Option<Layout> {
+    fn whole(&self) -> Option<RowLayout> {
         match self.parameters.scales {
             RowLength::Scales(scales) => {
                 // Of an even number one more stands on the right.
                 let left = (scales - 1) / 2;
                 let (needle, contacts) = (self.needle_unknowns(), 0);
-                Some(Layout { left, right: scales - 1 - left, needle, contacts })
+                Some(RowLayout { left, right: scales - 1 - left, needle, contacts })
             }
             RowLength::Auto => None,
         }
@@ -469,7 +469,7 @@ impl<'a> Problem<'a> {
             Status::Stopped(Stop::NoConvergence | Stop::Jumps) if is_untilted && is_straight() => {
                 Status::Untilted
             }
-            status => ending::judged(status, &watch.record.path),
+            status => ending::classify(status, &watch.record.path),
         };
         // A load that comes back to zero at the foot of a face ends the path before the needle is through.
         passage.critical_event = passage.critical_event.filter(|_| status == Status::Complete);
@@ -477,9 +477,9 @@ impl<'a> Problem<'a> {
     }
 
     /// The system of a part of the row.
-    fn part(&self, layout: Layout) -> Result<Chain, OutOfRange> {
+    fn part(&self, layout: RowLayout) -> Result<Chain, OutOfRange> {
         let whole = self.whole();
-        let scales = |side: fn(Layout) -> usize| whole.map(|whole| side(whole) - side(layout));
+        let scales = |side: fn(RowLayout) -> usize| whole.map(|whole| side(whole) - side(layout));
         let beyond = [scales(|row| row.left), scales(|row| row.right)].map(|scales| {
             if scales == Some(0) {
                 None

@@ -52,8 +52,8 @@ pub(crate) trait Skin: System<Mode = SkinMode> {
     fn note_friction(&self, point: &mut Self::PathPoint, work: f64);
 
     /// Whether friction acts anywhere on the path.
-    fn rubs(&self) -> bool {
-        self.contacts().rub()
+    fn has_friction(&self) -> bool {
+        self.contacts().has_friction()
     }
 
     /// What friction at the tip of a needle takes between two neighbouring points, as [`Contacts::friction_work`] does.
@@ -100,7 +100,7 @@ impl Work {
     /// Adds what is taken between two neighbouring points.
     pub(crate) fn add<S: Skin>(&mut self, path: &Path<S>, from: &SkinPoint, to: &SkinPoint) {
         let skin = path.system();
-        if skin.rubs() {
+        if skin.has_friction() {
             let spans = path.spans(from, to);
             self.between_scales += skin.contacts().friction_work(from, to, spans);
             self.at_tip += skin.tip_work(from, to, spans);
@@ -109,7 +109,7 @@ impl Work {
 
     /// Notes in the numbers of a point what neighbours have taken up to there.
     pub(crate) fn note<S: Skin>(&self, skin: &S, point: &mut S::PathPoint) {
-        if skin.contacts().rub() {
+        if skin.contacts().has_friction() {
             skin.note_friction(point, skin.repeats() * self.between_scales);
         }
     }
@@ -227,7 +227,7 @@ impl<S: Skin> Record<S> {
             right_scale: skin.number(right),
             // A contact that has opened had its corner and edge before.
             corner_edge: corner_edge(&after.mode).or_else(|| corner_edge(&before.mode))?,
-            change: ContactChange::of(contacts, after, change),
+            change: ContactChange::classify(contacts, after, change),
         })
     }
 

@@ -229,7 +229,7 @@ impl<S: Skin> Linearised<'_, S> {
             (Some(left), Some(right)) => format!(" of scales {left} and {right}"),
             _ => String::new(),
         };
-        format!("{edge}{scales} {}", ContactChange::of(contacts, after, change).name())
+        format!("{edge}{scales} {}", ContactChange::classify(contacts, after, change).name())
     }
 }
 

@@ -70,7 +70,7 @@ pub fn write_path_tables(
 
 fn of_puncture(puncture: &Puncture) -> Vec<PathTable> {
     let [path, events, scales, steps] = RunFolder::PUNCTURE;
-    let mut columns = path_columns(!puncture.measures.passage.is_none(), puncture.rubs());
+    let mut columns = path_columns(!puncture.measures.passage.is_none(), puncture.has_friction());
     let points = puncture.path.iter().copied().zip(puncture.instability.iter().copied());
     let mut tables = vec![
         PathTable::new(path, &columns, &points.collect::<Vec<_>>()),
@@ -95,7 +95,7 @@ fn of_puncture(puncture: &Puncture) -> Vec<PathTable> {
 
 fn of_flexure(flexure: &Flexure) -> Vec<PathTable> {
     let [path, events, scales, steps] = RunFolder::FLEXURE;
-    let columns = flexure_path_columns(flexure.rubs());
+    let columns = flexure_path_columns(flexure.has_friction());
     // A path that never began has no shape, and its table no rows.
     let shape = flexure.shape(flexure.path.len().saturating_sub(1)).unwrap_or_default();
     let shape: Vec<BentScale> = shape.into_iter().enumerate().collect();

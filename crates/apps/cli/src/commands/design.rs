@@ -145,7 +145,7 @@ impl SolvedChoice {
     /// What is known of the places of the load, if one of them keeps the weakest from being known.
     fn places(&self) -> String {
         let Some(puncture) = &self.solved.puncture else { return String::new() };
-        let Err(status) = Weakest::of(&puncture.places) else { return String::new() };
+        let Err(status) = Weakest::from_positions(&puncture.places) else { return String::new() };
         let known = puncture.places.iter().filter_map(|place| Some((place.force?, place)));
         let Some((force, place)) = known.min_by(|one, other| one.0.total_cmp(&other.0)) else {
             return String::new();

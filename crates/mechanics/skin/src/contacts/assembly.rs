@@ -3,7 +3,7 @@
 use contact::{CornerContact, CornerResponse, FORCES};
 use solver::{Residual, Tangent};
 
-use super::friction::Rub;
+use super::friction::FrictionState;
 use super::{Contacts, LEVELS, SkinState};
 
 impl Contacts {
@@ -27,15 +27,17 @@ impl Contacts {
                 }
                 let corners = self.corners(contact, &poses);
                 let (forces, held) =
-                    (self.forces_of(&state.z, contact), self.held(&state.mode, contact));
+                    (self.forces_of(&state.z, contact), self.locked_ratio(&state.mode, contact));
                 let response = mode.acting_response(&corners, &self.law, forces, held);
                 self.add_response(contact, mode.acting(), &response, residual, matrix);
             }
         }
         // Friction is looked at apart: without it this pass costs nothing.
-        if self.rub() {
+        if self.has_friction() {
             for pair in self.whole_pairs() {
-                if Self::contacts_of(pair).any(|contact| state.mode.rubs[contact] != Rub::None) {
+                if Self::contacts_of(pair)
+                    .any(|contact| state.mode.friction_states[contact] != FrictionState::None)
+                {
                     let poses = self.poses_of(&state.z, pair, &mut None);
                     self.add_friction(state, pair, &poses, residual, matrix);
                 }

@@ -22,7 +22,7 @@ impl Contacts {
     /// Forces of a contact on the left scale of its pair, with their friction: of its corners, and of its flush contact.
     pub(super) fn forces_on_left(&self, state: &SkinState, contact: usize) -> [Vec2; 2] {
         let [on_corners, on_flush] = self.normal_forces_on_left(state, contact);
-        if self.rub() {
+        if self.has_friction() {
             [on_corners + self.traction_on_left(state, contact, on_corners), on_flush]
         } else {
             [on_corners, on_flush]

@@ -39,11 +39,11 @@ impl ContactChange {
     }
 
     /// The change of a contact of which a force has changed sides, from the state after the event.
-    pub(crate) fn of(contacts: &Contacts, state: &SkinState, change: solver::Change) -> Self {
+    pub(crate) fn classify(contacts: &Contacts, state: &SkinState, change: solver::Change) -> Self {
         let acts = state.active[change.constraint];
         let (contact, slot) = contacts.contact_of(change.constraint);
         let Some(&force) = Force::ALL.get(slot) else {
-            let [sticks, _] = state.mode.rubs[contact].acting();
+            let [sticks, _] = state.mode.friction_states[contact].acting();
             return if sticks { Self::Sticks } else { Self::Slips };
         };
         match (force, change.activated) {

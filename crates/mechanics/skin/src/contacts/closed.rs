@@ -38,7 +38,7 @@ impl Contacts {
         let [own, flush] = state.mode.contacts[contact].carrying();
         let [on_corners, on_flush] = self.forces_on_left(state, contact);
         let approach = self.approach(state, contact);
-        let slips = self.rub().then(|| Self::is_slipping(&state.mode, contact));
+        let slips = self.has_friction().then(|| Self::is_slipping(&state.mode, contact));
         [(own, on_corners), (flush, on_flush)].map(|(corner_edge, force)| {
             let corner_edge = corner_edge?;
             let point = self.corner(&state.z, contact, corner_edge).into();

@@ -2,7 +2,7 @@
 
 use contact::CornerContact;
 
-use super::friction::Rub;
+use super::friction::FrictionState;
 use crate::puncture::NeedleMode;
 
 /// The mode of a skin: the state of every contact, its friction, and that of a guided needle.
@@ -10,16 +10,16 @@ use crate::puncture::NeedleMode;
 pub(crate) struct SkinMode {
     pub(crate) contacts: Vec<CornerContact>,
     /// How each contact rubs; nothing without friction.
-    pub(crate) rubs: Vec<Rub>,
+    pub(crate) friction_states: Vec<FrictionState>,
     pub(crate) needle: NeedleMode,
 }
 
 impl SkinMode {
     /// Whether contacts do and rub alike in two modes.
     pub(crate) fn is_same_form(&self, other: &Self) -> bool {
-        let rubs = self.rubs.iter().zip(&other.rubs);
+        let friction_states = self.friction_states.iter().zip(&other.friction_states);
         self.contacts == other.contacts
             && self.needle == other.needle
-            && rubs.into_iter().all(|(one, other)| one.is_same_form(*other))
+            && friction_states.into_iter().all(|(one, other)| one.is_same_form(*other))
     }
 }

@@ -2,7 +2,7 @@
 
 use contact::{CornerContact, CornerEdge, Force};
 
-use super::friction::{GRIP, NO_FORCE, Rub, WAY};
+use super::friction::{FrictionState, NO_FORCE, SLIP_DISTANCE, STICK_MULTIPLIER};
 use super::{Contacts, SkinState};
 
 impl Contacts {
@@ -15,68 +15,77 @@ impl Contacts {
         contact: usize,
         is_back: bool,
     ) {
-        let pair = [contact, Self::beside(contact)];
+        let pair = [contact, Self::other_contact(contact)];
         // All of this is asked of the state before: behind the change forces stand elsewhere.
         let ratios = pair.map(|contact| self.ratio(before, contact));
-        let mut rubs = pair.map(|contact| self.own_rub(before, contact, state));
+        let mut friction_states =
+            pair.map(|contact| self.inherited_friction(before, contact, state));
         match (before.mode.contacts[contact], state.mode.contacts[contact].edge()) {
-            (_, None) => rubs[0] = Rub::None,
+            (_, None) => friction_states[0] = FrictionState::None,
             (CornerContact::Open, Some(edge)) => {
                 // What has just closed has not slid: the rates tell whether it slips at once.
-                rubs[0] = Rub::Stick { at: self.way(state, edge, contact) };
+                friction_states[0] =
+                    FrictionState::Stick { anchor: self.slip_coordinate(state, edge, contact) };
             }
             (CornerContact::Corner(_), Some(edge)) => {
-                let here = self.way(state, edge, contact);
+                let here = self.slip_coordinate(state, edge, contact);
                 // A corner that goes on with the ratio of sliding slips on along the next edge. One
                 // that goes back, or whose ratio is smaller, sticks at the end of its edge.
-                rubs[0] = if self.is_sliding(ratios[0]) && !is_back {
-                    Rub::Slip { sign: -ratios[0].signum(), from: here }
+                friction_states[0] = if self.is_sliding(ratios[0]) && !is_back {
+                    FrictionState::Slip { sign: -ratios[0].signum(), start: here }
                 } else {
-                    Rub::Stick { at: here }
+                    FrictionState::Stick { anchor: here }
                 };
             }
             _ => {}
         }
         if let CornerContact::Corner(_) = state.mode.contacts[contact] {
-            rubs[0] = Rub::Held { ratio: ratios[0] };
+            friction_states[0] = FrictionState::Locked { ratio: ratios[0] };
         }
-        if rubs.iter().all(|rub| rub.is_host()) && Self::slide_along_one_line(state, contact) {
+        if friction_states.iter().all(|friction_state| friction_state.carries_friction())
+            && Self::slide_along_one_line(state, contact)
+        {
             // The contact that bore friction before goes on bearing it, since its anchor is known.
-            let guest = usize::from(before.mode.rubs[contact].is_host());
-            rubs[guest] = Rub::None;
+            let shared = usize::from(before.mode.friction_states[contact].carries_friction());
+            friction_states[shared] = FrictionState::None;
         }
         // Both modes are set first: the pressure that bounds a grip depends on who is a guest.
-        for (contact, rub) in pair.into_iter().zip(rubs) {
-            state.mode.rubs[contact] = rub;
+        for (contact, friction_state) in pair.into_iter().zip(friction_states) {
+            state.mode.friction_states[contact] = friction_state;
         }
-        for (k, (contact, rub)) in pair.into_iter().zip(rubs).enumerate() {
+        for (k, (contact, friction_state)) in pair.into_iter().zip(friction_states).enumerate() {
             let share = |k: usize| {
                 let forces = self.forces_of(&state.z, pair[k]);
                 let normal = forces[Force::Own as usize] + forces[Force::Flush as usize];
                 (ratios[k] + self.law.friction()) * normal
             };
             // The host takes over the tangential force of its guest, so that the sum stays.
-            let guest = if Self::is_guest(&state.mode, pair[1 - k]) { share(1 - k) } else { 0.0 };
-            let is_new = before.mode.rubs[contact] != rub;
-            self.set_friction(state, contact, share(k) + guest, is_new);
+            let shared = if Self::is_shared(&state.mode, pair[1 - k]) { share(1 - k) } else { 0.0 };
+            let is_new = before.mode.friction_states[contact] != friction_state;
+            self.set_friction(state, contact, share(k) + shared, is_new);
         }
     }
 
     /// How a contact rubs by itself, on the edge on which it is in the state `now`.
-    fn own_rub(&self, before: &SkinState, contact: usize, now: &SkinState) -> Rub {
-        let is_guest = Self::is_guest(&before.mode, contact);
-        let from = if is_guest { Self::beside(contact) } else { contact };
-        let rub = before.mode.rubs[from];
-        let Some(edge) = now.mode.contacts[contact].edge() else { return Rub::None };
+    fn inherited_friction(
+        &self,
+        before: &SkinState,
+        contact: usize,
+        now: &SkinState,
+    ) -> FrictionState {
+        let is_shared = Self::is_shared(&before.mode, contact);
+        let from = if is_shared { Self::other_contact(contact) } else { contact };
+        let friction_state = before.mode.friction_states[from];
+        let Some(edge) = now.mode.contacts[contact].edge() else { return FrictionState::None };
         // On the same edge the anchor, or the beginning of the way, stays what it was.
-        if !is_guest && before.mode.contacts[contact].edge() == Some(edge) {
-            return rub;
+        if !is_shared && before.mode.contacts[contact].edge() == Some(edge) {
+            return friction_state;
         }
         // On another edge the way is counted from elsewhere.
-        let here = self.way(now, edge, contact);
-        match rub {
-            Rub::Stick { .. } => Rub::Stick { at: here },
-            Rub::Slip { sign, .. } => Rub::Slip { sign, from: here },
+        let here = self.slip_coordinate(now, edge, contact);
+        match friction_state {
+            FrictionState::Stick { .. } => FrictionState::Stick { anchor: here },
+            FrictionState::Slip { sign, .. } => FrictionState::Slip { sign, start: here },
             other => other,
         }
     }
@@ -90,7 +99,7 @@ impl Contacts {
             }
             _ => false,
         };
-        is_side(contact) && is_side(Self::beside(contact))
+        is_side(contact) && is_side(Self::other_contact(contact))
     }
 
     /// Sets what acts of grip and way of a contact.
@@ -98,19 +107,20 @@ impl Contacts {
         &self,
         state: &mut SkinState,
         contact: usize,
-        grip: f64,
+        multiplier: f64,
         is_new: bool,
     ) {
-        let [sticks, slips] = state.mode.rubs[contact].acting();
+        let [sticks, slips] = state.mode.friction_states[contact].acting();
         let first = self.slots * contact;
-        [state.active[first + GRIP], state.active[first + WAY]] = [sticks, slips];
+        [state.active[first + STICK_MULTIPLIER], state.active[first + SLIP_DISTANCE]] =
+            [sticks, slips];
         // Between 0 and `2 μ Λ` the contact sticks: round-off must not put the grip outside.
-        let largest = 2.0 * self.law.friction() * self.pressure(state, contact);
-        state.z[self.unknown(contact, GRIP)] =
-            if sticks { grip.clamp(0.0, largest.max(0.0)) } else { 0.0 };
+        let largest = 2.0 * self.law.friction() * self.normal_force(state, contact);
+        state.z[self.unknown(contact, STICK_MULTIPLIER)] =
+            if sticks { multiplier.clamp(0.0, largest.max(0.0)) } else { 0.0 };
         // A contact that slips on keeps its way, which only grows.
         if is_new || !slips {
-            state.z[self.unknown(contact, WAY)] = 0.0;
+            state.z[self.unknown(contact, SLIP_DISTANCE)] = 0.0;
         }
     }
 
@@ -129,23 +139,30 @@ impl Contacts {
         slot: usize,
         acts: bool,
     ) -> Option<usize> {
-        let here = self.way(state, state.mode.contacts[contact].edge()?, contact);
-        let has_force = self.pressure(state, contact) > NO_FORCE;
-        let (rub, valid) = match (state.mode.rubs[contact], slot, acts) {
-            (Rub::Stick { .. }, GRIP, false) => (Rub::Slip { sign: 1.0, from: here }, WAY),
-            (Rub::Stick { .. }, WAY, true) => (Rub::Slip { sign: -1.0, from: here }, WAY),
-            (Rub::Slip { sign, .. }, WAY, false) => {
+        let here = self.slip_coordinate(state, state.mode.contacts[contact].edge()?, contact);
+        let has_force = self.normal_force(state, contact) > NO_FORCE;
+        let (friction_state, valid) = match (state.mode.friction_states[contact], slot, acts) {
+            (FrictionState::Stick { .. }, STICK_MULTIPLIER, false) => {
+                (FrictionState::Slip { sign: 1.0, start: here }, SLIP_DISTANCE)
+            }
+            (FrictionState::Stick { .. }, SLIP_DISTANCE, true) => {
+                (FrictionState::Slip { sign: -1.0, start: here }, SLIP_DISTANCE)
+            }
+            (FrictionState::Slip { sign, .. }, SLIP_DISTANCE, false) => {
                 // What slid forward has no grip left, what slid backward the largest: that limit
                 // has to hold where it comes to rest.
-                (Rub::Stick { at: here }, if sign > 0.0 { GRIP } else { WAY })
+                (
+                    FrictionState::Stick { anchor: here },
+                    if sign > 0.0 { STICK_MULTIPLIER } else { SLIP_DISTANCE },
+                )
             }
             _ => return None,
         };
         // The grip that keeps `T` is taken while the mode still tells the ratio.
-        let grip =
-            (self.ratio(state, contact) + self.law.friction()) * self.pressure(state, contact);
-        state.mode.rubs[contact] = rub;
-        self.set_friction(state, contact, grip, true);
+        let multiplier =
+            (self.ratio(state, contact) + self.law.friction()) * self.normal_force(state, contact);
+        state.mode.friction_states[contact] = friction_state;
+        self.set_friction(state, contact, multiplier, true);
         // A contact that has just closed has to press, however it rubs.
         Some(if has_force { valid } else { Force::Own as usize })
     }

@@ -11,10 +11,10 @@ use super::{FlexureInput, FlexureParameters};
 use crate::{Derivative, Design};
 
 /// Rotations at which a gap is looked at before the one at which it closes is narrowed down.
-const LOOKS: u32 = 512;
+const SAMPLES: u32 = 512;
 
 /// Largest rotation of a gap: beyond it the arc of the membrane turns back.
-const LARGEST: f64 = PI;
+const LARGEST_ROTATION: f64 = PI;
 
 /// Returns `κ₁*`, the curvature at which neighbours first touch when the strip bends to the inside, the scales being on the inside.
 /// `None` if the gap does not close before its membrane has turned by half a circle.
@@ -35,8 +35,8 @@ pub fn contact_curvature(
     design: &Design,
     parameters: &FlexureParameters,
 ) -> Result<Option<f64>, OutOfRange> {
-    let gap = BareGap::of_row(&design.row()?, parameters);
-    Ok(gap.closing_rotation(LARGEST).map(|rotation| rotation / gap.pair.pitch()))
+    let gap = BareGap::from_row(&design.row()?, parameters);
+    Ok(gap.closing_rotation(LARGEST_ROTATION).map(|rotation| rotation / gap.pair.pitch()))
 }
 
 /// Returns the curvature at which the first of the gaps of an imperfect strip closes. The moment is the same everywhere, so the gaps are
@@ -50,7 +50,7 @@ pub(super) fn first_of_gaps(row: &UnevenRow, parameters: &FlexureParameters) -> 
     let arc = (0..row.gaps().len()).fold(f64::INFINITY, |first, i| {
         let scales = [row.scales()[i], row.scales()[i + 1]];
         let gap = BareGap::new(scales, [row.pitch(i), row.gaps()[i]], parameters);
-        let closing = gap.closing_rotation(LARGEST.min(first * gap.width));
+        let closing = gap.closing_rotation(LARGEST_ROTATION.min(first * gap.width));
         closing.map_or(first, |rotation| first.min(rotation / gap.width))
     });
     arc.is_finite().then(|| arc * row.gaps().iter().sum::<f64>() / row.length())
@@ -58,10 +58,12 @@ pub(super) fn first_of_gaps(row: &UnevenRow, parameters: &FlexureParameters) -> 
 
 /// Whether the scales of a strip touch before its bending ends.
 pub(super) fn touches(input: &FlexureInput) -> Result<bool, OutOfRange> {
-    let (gap, FlexureInput { design, common, parameters }) = (BareGap::of(input)?, input);
+    let (gap, FlexureInput { design, common, parameters }) = (BareGap::from_input(input)?, input);
     let row = design.leaning_row()?;
     let end = FlexureProblem::of_row(row, design, common, parameters)?.end_curvature();
-    Ok(gap.closing_rotation(LARGEST).is_some_and(|rotation| rotation / gap.pair.pitch() <= end))
+    Ok(gap
+        .closing_rotation(LARGEST_ROTATION)
+        .is_some_and(|rotation| rotation / gap.pair.pitch() <= end))
 }
 
 /// Returns the derivatives of [`contact_curvature`], which follow from the gap `g(θ, q)` that vanishes there:
@@ -75,11 +77,11 @@ pub(super) fn curvature_derivatives(
     input: &FlexureInput,
     variations: &[Neighbours<FlexureInput>],
 ) -> Result<Vec<Derivative>, OutOfRange> {
-    let gap = BareGap::of(input)?;
-    let Some(rotation) = gap.closing_rotation(LARGEST) else { return Ok(Vec::new()) };
+    let gap = BareGap::from_input(input)?;
+    let Some(rotation) = gap.closing_rotation(LARGEST_ROTATION) else { return Ok(Vec::new()) };
     let derivative = |(parameter, variation): (usize, &Neighbours<FlexureInput>)| {
         let Neighbours { below, above, step } = variation;
-        let neighbours = [BareGap::of(below)?, BareGap::of(above)?];
+        let neighbours = [BareGap::from_input(below)?, BareGap::from_input(above)?];
         // The corners of upright scales meet, and neither may face an edge.
         let own = gap.meeting(rotation).unwrap_or(CornerEdge::TopRightOnLeftEdge);
         let meetings = neighbours.each_ref().map(|side| side.meeting(rotation).unwrap_or(own));
@@ -115,12 +117,12 @@ impl BareGap {
         Self { pair: Pair::of(scales, pitch), width, offset }
     }
 
-    fn of_row(row: &Row, parameters: &FlexureParameters) -> Self {
+    fn from_row(row: &Row, parameters: &FlexureParameters) -> Self {
         Self::new([*row.scale(); 2], [row.pitch(), row.gap()], parameters)
     }
 
-    fn of(input: &FlexureInput) -> Result<Self, OutOfRange> {
-        Ok(Self::of_row(&input.design.leaning_row()?, &input.parameters))
+    fn from_input(input: &FlexureInput) -> Result<Self, OutOfRange> {
+        Ok(Self::from_row(&input.design.leaning_row()?, &input.parameters))
     }
 
     /// Derivative of the curvature at which a corner meets its edge, between two `neighbours` that differ by `2 step` in a
@@ -161,11 +163,12 @@ impl BareGap {
         // search for a corner that faces an edge would not see it.
         let upright = self.width / (1.0 + self.offset);
         let stands = self.pair.scales().iter().all(|scale| scale.slant() == 0.0);
-        if stands && self.offset > -1.0 && upright <= LARGEST {
+        if stands && self.offset > -1.0 && upright <= LARGEST_ROTATION {
             return (upright <= farthest).then_some(upright);
         }
         // The first look is not at zero, where the arc has no radius.
-        let looks = (1..=LOOKS).map(|look| LARGEST * f64::from(look) / f64::from(LOOKS));
+        let looks =
+            (1..=SAMPLES).map(|look| LARGEST_ROTATION * f64::from(look) / f64::from(SAMPLES));
         let mut open = 0.0;
         for rotation in looks.take_while(|look| *look < farthest).chain([farthest]) {
             if self.touches(rotation) {

@@ -5,7 +5,7 @@ use membrane::GapEnergies;
 use solver::{Bracket, Newton};
 
 use super::accuracy::{Quantities, largest_change};
-use super::gap_curve::{GapCurve, Knot, Side};
+use super::gap_curve::{GapCurve, KinkSide, Knot};
 use super::mesh::Resolution;
 use super::problem::{FlexureProblem, LOCKED};
 use super::strip::Strip;
@@ -155,7 +155,7 @@ impl<'a> UnevenStrip<'a> {
         let gaps = self.gaps.iter();
         let measures = FlexureMeasures {
             compliance: Some(of_strip(self.least_compliance(stiffest))),
-            initial_compliance: Some(of_strip(self.compliance(0.0, Side::Behind))),
+            initial_compliance: Some(of_strip(self.compliance(0.0, KinkSide::Behind))),
             contact: Some(first.is_some()),
             first_contact_curvature: curvature(first),
             max_moment: Some(self.direction() * end / problem.bending_stiffness()),
@@ -176,11 +176,11 @@ impl<'a> UnevenStrip<'a> {
     /// The moment under which the strip has turned as far as it is to be bent.
     fn end(&mut self) -> Option<f64> {
         let whole = self.problem.end_rotation().abs();
-        let mut highest = whole / self.compliance(0.0, Side::Behind);
+        let mut highest = whole / self.compliance(0.0, KinkSide::Behind);
         for _ in 0..ROUNDS {
-            self.gaps.iter_mut().try_for_each(|gap| gap.bear(highest))?;
+            self.gaps.iter_mut().try_for_each(|gap| gap.follow_to(highest))?;
             let moment = self.moment_at(whole, highest);
-            let compliance = self.compliance(moment, Side::Behind);
+            let compliance = self.compliance(moment, KinkSide::Behind);
             if whole - self.rotation(moment) > CLOSE * moment * compliance {
                 // Even the highest moment does not turn it so far.
                 let missing = (whole - self.rotation(moment)) / compliance;
@@ -189,7 +189,7 @@ impl<'a> UnevenStrip<'a> {
             }
             self.solve_at(moment)?;
             let off = whole - self.rotation(moment);
-            if off.abs() <= CLOSE * moment * self.compliance(moment, Side::Behind) {
+            if off.abs() <= CLOSE * moment * self.compliance(moment, KinkSide::Behind) {
                 return Some(moment);
             }
         }
@@ -236,7 +236,7 @@ impl<'a> UnevenStrip<'a> {
         let places = self.places(end);
         let before = places.iter().rfind(|place| **place < best.0);
         let behind = places.iter().find(|place| **place > best.0);
-        for (side, place) in [(Side::Before, before), (Side::Behind, behind)] {
+        for (side, place) in [(KinkSide::Before, before), (KinkSide::Behind, behind)] {
             // At an event the strip may be softer on one side anyway.
             let is_stiff = self.compliance(best.0, side) <= best.1 * (1.0 + FLAT);
             if let Some(place) = place.filter(|_| is_stiff) {
@@ -278,7 +278,7 @@ impl<'a> UnevenStrip<'a> {
     /// The least compliance between two neighbouring moments of the gaps, by golden sections.
     fn least_within(&self, [mut low, mut high]: [f64; 2]) -> (f64, f64) {
         let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
-        let value = |moment: f64| (moment, self.compliance(moment, Side::Before));
+        let value = |moment: f64| (moment, self.compliance(moment, KinkSide::Before));
         let mut inner = [high - golden * (high - low), low + golden * (high - low)].map(value);
         for _ in 0..SECTIONS {
             if inner[0].1 < inner[1].1 {
@@ -294,8 +294,10 @@ impl<'a> UnevenStrip<'a> {
 
     /// The moment of the last change of a contact, if contacts stick at the end and hold the strip.
     fn locking(&self, end: f64) -> Option<f64> {
-        let sticks = self.knots(end).any(|(_, knot)| Contacts::rubbing(&knot.point.state)[0] > 0);
-        let stiffened = self.compliance(0.0, Side::Behind) / self.compliance(end, Side::Behind);
+        let sticks =
+            self.knots(end).any(|(_, knot)| Contacts::stick_slip_counts(&knot.point.state)[0] > 0);
+        let stiffened =
+            self.compliance(0.0, KinkSide::Behind) / self.compliance(end, KinkSide::Behind);
         let knots = self.gaps.iter().flat_map(|gap| gap.knots_to(end));
         let changes = knots.filter(|knot| knot.is_event()).map(|knot| knot.moment);
         changes.reduce(f64::max).filter(|_| sticks && stiffened >= LOCKED)
@@ -338,13 +340,13 @@ impl<'a> UnevenStrip<'a> {
         self.gaps.iter().map(|gap| gap.rotation(moment)).sum()
     }
 
-    fn compliance(&self, moment: f64, side: Side) -> f64 {
+    fn compliance(&self, moment: f64, side: KinkSide) -> f64 {
         self.gaps.iter().map(|gap| gap.compliance(moment, side)).sum()
     }
 
     /// The lesser of the compliances on either side of a moment.
     fn least_compliance(&self, moment: f64) -> f64 {
-        self.compliance(moment, Side::Before).min(self.compliance(moment, Side::Behind))
+        self.compliance(moment, KinkSide::Before).min(self.compliance(moment, KinkSide::Behind))
     }
 
     /// The gaps with their equilibria under a moment that was solved for.

@@ -15,7 +15,7 @@ const ESTIMATED: f64 = 1e-6;
 
 /// Which side of a moment, where the curve has a kink.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Side {
+pub(super) enum KinkSide {
     Before,
     Behind,
 }
@@ -85,7 +85,7 @@ impl GapCurve {
 
     /// Follows the path until the gap bears a moment. `None` where it does not come to it, or moment or rotation fall before: then the
     /// moment alone does not tell how the gap stands.
-    pub(super) fn bear(&mut self, moment: f64) -> Option<()> {
+    pub(super) fn follow_to(&mut self, moment: f64) -> Option<()> {
         loop {
             let last = self.knots.last()?;
             if last.moment >= moment {
@@ -138,7 +138,8 @@ impl GapCurve {
         let contacts = self.strip().contacts();
         let closes = |knot: &&Knot| match &knot.point.event {
             Some(Event::Changed(changes)) => changes.iter().any(|&change| {
-                ContactChange::of(contacts, &knot.point.state, change) == ContactChange::Closed
+                ContactChange::classify(contacts, &knot.point.state, change)
+                    == ContactChange::Closed
             }),
             _ => false,
         };
@@ -154,10 +155,10 @@ impl GapCurve {
     }
 
     /// `dθ/dM` at a moment, by (F8), or as solved.
-    pub(super) fn compliance(&self, moment: f64, side: Side) -> f64 {
+    pub(super) fn compliance(&self, moment: f64, side: KinkSide) -> f64 {
         match (self.place(moment), side) {
-            (Ok([knot, _]), Side::Before) => knot.compliances[0],
-            (Ok([_, knot]), Side::Behind) => knot.compliances[1],
+            (Ok([knot, _]), KinkSide::Before) => knot.compliances[0],
+            (Ok([_, knot]), KinkSide::Behind) => knot.compliances[1],
             (Err(segment), _) => segment.compliance(moment),
         }
     }

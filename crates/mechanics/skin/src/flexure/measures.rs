@@ -108,7 +108,7 @@ impl FlexureMeasures {
 
 /// The curvature of the last change of a contact, if contacts stick from there on and hold the strip.
 fn locking(record: &Record<Strip>, path: &Path<Strip>) -> Option<f64> {
-    let [sticking, _] = Contacts::rubbing(&path.point().state);
+    let [sticking, _] = Contacts::stick_slip_counts(&path.point().state);
     let (start, end) = record.path.first().zip(record.path.last())?;
     // Contacts that stick are not enough: a strip may bend on while some of them do.
     let is_locked = sticking > 0 && end.stiffness.abs() >= LOCKED * start.stiffness;

@@ -13,7 +13,7 @@ use super::strip::{Strip, StripExtent};
 use super::{Flexure, FlexureMeasures, FlexureParameters, FlexurePoint, Method, gaps, whole_gaps};
 use crate::arrangement::Arrangement;
 use crate::contacts::{Contacts, SkinPoint, SkinState};
-use crate::path_location::{Crossing, PointLocator};
+use crate::path_location::{PathLocation, PointLocator};
 use crate::record::{PathFunction, Record};
 use crate::{Common, Design, Sample, Status, Unloading};
 
@@ -26,7 +26,7 @@ pub(crate) struct Bent {
     error: Option<f64>,
     steps: Vec<Vec<Step>>,
     /// The equilibria at the end rotations that were asked for.
-    pub(crate) places: Vec<Option<SkinPoint>>,
+    pub(crate) requested_points: Vec<Option<SkinPoint>>,
 }
 
 /// A strip to be bent.
@@ -204,11 +204,11 @@ impl<'a> FlexureProblem<'a> {
         let mut path = Path::new(strip, rest, self.common.solver);
         let mut record = Record::new(&path, functions);
         let repeats = path.system().repeats;
-        let turned = |&rotation: &f64| Crossing {
+        let turned = |&rotation: &f64| PathLocation {
             quantity: |strip: &Strip, state| strip.rotation(&state.z),
             value: 2.0 * rotation / repeats,
         };
-        let mut places = PointLocator::new(&path, end_rotations.iter().map(turned));
+        let mut locator = PointLocator::new(&path, end_rotations.iter().map(turned));
         let mut flush = false;
         loop {
             let from = path.point_shared();
@@ -219,7 +219,7 @@ impl<'a> FlexureProblem<'a> {
             if flush {
                 break;
             }
-            places.follow(&mut path, &from, &point);
+            locator.follow(&mut path, &from, &point);
             record.visit(&mut path, &from, &point);
             steps.push(path.system().steps(&point.state.z));
         }
@@ -232,7 +232,7 @@ impl<'a> FlexureProblem<'a> {
             status => status,
         };
         let error = self.error(resolution, &path, &record)?;
-        Ok(Bent { record, path, status, error, steps, places: places.found })
+        Ok(Bent { record, path, status, error, steps, requested_points: locator.points })
     }
 
     /// The result of a strip that was bent.

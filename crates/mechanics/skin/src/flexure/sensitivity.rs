@@ -102,13 +102,14 @@ pub fn moment_curve(
     let point = |found: Option<SkinPoint>| {
         let point = found?;
         // How an anchor of a contact that sticks moves with a parameter is not known in bending.
-        let known = if Contacts::rubbing(&point.state)[0] > 0 { &[][..] } else { &strips };
+        let known =
+            if Contacts::stick_slip_counts(&point.state)[0] > 0 { &[][..] } else { &strips };
         let mut on_curve =
             curve_point(system, &point, known, &common.solver, MOMENT_OVER_CURVATURE);
         on_curve.rates.resize(strips.len(), None);
         Some(on_curve)
     };
-    Ok(bent.places.into_iter().map(point).collect())
+    Ok(bent.requested_points.into_iter().map(point).collect())
 }
 
 /// The strip of a design, with this resolution.
@@ -124,12 +125,14 @@ impl FlexureProblem<'_> {
         resolution: Resolution,
         variations: &[Neighbours<FlexureInput>],
     ) -> Result<Vec<Derivative>, OutOfRange> {
-        let spots = self.spots(&bent.record, &mut bent.path);
+        let spots = self.measured_points(&bent.record, &mut bent.path);
         let strip = |input: &FlexureInput| strip(input, resolution);
         let strips = Neighbours::map_all(variations, strip)?;
         let strip = bent.path.system();
         let sticks = |spot: &MeasuredPoint<Strip>| {
-            spot.place.as_ref().is_some_and(|place| Contacts::rubbing(&place.state)[0] > 0)
+            spot.place
+                .as_ref()
+                .is_some_and(|place| Contacts::stick_slip_counts(&place.state)[0] > 0)
         };
         let (sticking, free): (Vec<_>, Vec<_>) = spots.into_iter().partition(sticks);
         let unknown = missing(strip, &sticking, variations.len());
@@ -164,7 +167,11 @@ impl FlexureProblem<'_> {
     }
 
     /// The places of the path at which measures are taken.
-    fn spots(&self, record: &Record<Strip>, path: &mut Path<Strip>) -> Vec<MeasuredPoint<Strip>> {
+    fn measured_points(
+        &self,
+        record: &Record<Strip>,
+        path: &mut Path<Strip>,
+    ) -> Vec<MeasuredPoint<Strip>> {
         let settings = &self.common.solver;
         let touching =
             record.touching.as_ref().and_then(|point| first_contact(path.system(), point));
@@ -238,7 +245,7 @@ fn measured(
     if bent.status != Status::Complete {
         return Ok(Vec::new());
     }
-    let spots = problem.spots(&bent.record, &mut bent.path);
+    let spots = problem.measured_points(&bent.record, &mut bent.path);
     let strip = bent.path.system();
     let of_spot = |spot: &MeasuredPoint<Strip>| {
         let value =

@@ -51,7 +51,7 @@ pub fn snapshots(
     let (bent, _) = problem.resolved(&[], &rotations)?;
     let (row, strip) = (&problem.row, bent.path.system());
     let snapshot = |point: Option<SkinPoint>| Some(snapshot(row, strip, &point?.state));
-    Ok(bent.places.into_iter().map(snapshot).collect())
+    Ok(bent.requested_points.into_iter().map(snapshot).collect())
 }
 
 /// The whole strip, from a state of the gaps that are solved for.

@@ -19,7 +19,7 @@ use crate::contacts::{Contacts, SkinMode, SkinState, pair_constraints};
 /// The interior are the unknowns of the gap's membrane. They and the positions `x y` are those in the frame of the scale to
 /// the left of the gap; the rotation `φ` of a scale is counted from the first scale.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Layout {
+struct StripLayout {
     gaps: usize,
     /// Unknowns of the membrane of a gap.
     interior: usize,
@@ -27,7 +27,7 @@ struct Layout {
     pair: usize,
 }
 
-impl Layout {
+impl StripLayout {
     fn block(self) -> usize {
         self.pair + self.interior + 3
     }
@@ -89,7 +89,7 @@ pub(crate) struct StripExtent {
 /// `E_m t³` and `E_m t²`.
 #[derive(Clone, Debug)]
 pub(crate) struct Strip {
-    layout: Layout,
+    layout: StripLayout,
     /// The membrane of each gap, or one for all where they are alike.
     membranes: Vec<Membrane>,
     pub(crate) contacts: Contacts,
@@ -116,7 +116,7 @@ impl Strip {
         StripExtent { gaps, repeats, rotation, farthest }: StripExtent,
     ) -> Self {
         let layout =
-            Layout { gaps, interior: membranes[0].interior(), pair: pair_constraints(&law) };
+            StripLayout { gaps, interior: membranes[0].interior(), pair: pair_constraints(&law) };
         let scales = (0..=gaps).map(|scale| layout.scale(scale)).collect();
         let forces = (0..layout.pair * gaps).map(|force| layout.force(force)).collect();
         // The equations of a fine mesh round off in proportion to the stiffness of its elements,
@@ -338,7 +338,7 @@ impl System for Strip {
     }
 
     fn growing(&self) -> &[usize] {
-        &self.contacts.growing
+        &self.contacts.slip_distances
     }
 
     fn stop_sliding(&self, state: &mut SkinState) {

@@ -12,7 +12,7 @@ use substrate::{FarField, SubstrateLaw};
 
 use super::Problem;
 use super::row_exterior::Reach;
-use super::system::{Chain, Layout};
+use super::system::{Chain, RowLayout};
 use crate::contacts::{SkinPoint, SkinState};
 
 /// A path of a part of a row, which grows as far as the deformation reaches.
@@ -33,7 +33,7 @@ pub(super) struct AdaptiveRowPath<'a> {
     /// The shorter rows that the path has left, in order.
     shorter: Vec<Chain>,
     /// The point from which the path goes on on a longer row, as the shorter one left it.
-    left: Option<SkinPoint>,
+    arrived: Option<SkinPoint>,
 }
 
 /// A step of a path; all its points are on the row as it is now.
@@ -49,7 +49,7 @@ impl<'a> AdaptiveRowPath<'a> {
         let rest = chain.at_rest();
         let path = Path::new(chain, rest, problem.settings);
         let (has_room, reach, shorter) = (true, [Reach::Short; 2], Vec::new());
-        Self { problem, path, longest, has_room, reach, shorter, left: None }
+        Self { problem, path, longest, has_room, reach, shorter, arrived: None }
     }
 
     /// The next segment of the path, both its ends on the row as it is now; `None` where the path ends, or the row may not grow
@@ -67,7 +67,7 @@ impl<'a> AdaptiveRowPath<'a> {
             let reach = self.path.system().reach(&to.state);
             if !reach.contains(&Reach::Beyond) {
                 self.reach = reach;
-                let left = self.left.take().map_or_else(|| Arc::clone(&from), Arc::new);
+                let left = self.arrived.take().map_or_else(|| Arc::clone(&from), Arc::new);
                 return Ok(Some(Segment { from, to, left }));
             }
             // What lies beyond may have touched within the step: it is taken again.
@@ -90,8 +90,8 @@ impl<'a> AdaptiveRowPath<'a> {
             let chain = self.problem.part(longer)?;
             let from = chain.extended(self.path.system(), from);
             // A row may grow twice at one point: what the path left is the first form of it.
-            let left = self.left.take().map(|left| chain.extended(self.path.system(), &left));
-            self.left = left.or_else(|| Some(from.clone()));
+            let left = self.arrived.take().map(|left| chain.extended(self.path.system(), &left));
+            self.arrived = left.or_else(|| Some(from.clone()));
             self.shorter.push(self.path.go_on(chain, from));
         }
         Ok(())
@@ -122,7 +122,7 @@ const GROWTH_PART: usize = 8;
 const DECAYED: f64 = 1e-3;
 const LONGEST_DECAY: usize = 50;
 
-impl Layout {
+impl RowLayout {
     /// The row with which a path begins, in which no scale feels more than `neighbours` on each side.
     pub(super) fn first(far: &FarField, neighbours: usize, law: SubstrateLaw) -> Self {
         // With full coupling what lies beyond acts on as many scales at an end as one feels there.
@@ -192,8 +192,8 @@ impl Chain {
         copy_to(&mut state.active, contacts[1], of_needle);
         let before = self.contacts.contacts_before(added);
         copy_to(&mut state.mode.contacts, before, &point.state.mode.contacts);
-        if self.contacts.rub() {
-            copy_to(&mut state.mode.rubs, before, &point.state.mode.rubs);
+        if self.contacts.has_friction() {
+            copy_to(&mut state.mode.friction_states, before, &point.state.mode.friction_states);
         }
         state.mode.needle = point.state.mode.needle.clone();
         SkinPoint {

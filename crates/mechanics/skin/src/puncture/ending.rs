@@ -9,7 +9,7 @@ use crate::Status;
 /// lands on the path again where one of the three comes to its largest value again, however far the load has fallen by then
 /// (drops by up to nine tenths recover). A path that ends numerically without any of that, say because sides come to
 /// lie flush in the middle of the fold, has no place where the row could stand under the needle.
-pub(super) fn judged(status: Status, path: &[PuncturePoint]) -> Status {
+pub(super) fn classify(status: Status, path: &[PuncturePoint]) -> Status {
     match status {
         Status::Stopped(stop) if stop.is_numerical() && has_turned_back(path) => Status::LimitPoint,
         other => other,
@@ -51,16 +51,16 @@ mod tests {
     fn a_path_that_stops_on_its_way_back_has_a_limit_point() {
         let stopped = Status::Stopped(Stop::Singular);
         let back = path(&[[0.0, 0.0, 0.0], [2.0, 1.0, 5.0], [1.0, 0.9, 4.0]]);
-        assert_eq!(judged(stopped, &back), Status::LimitPoint);
+        assert_eq!(classify(stopped, &back), Status::LimitPoint);
         let many = Status::Stopped(Stop::TooManyPoints);
         assert_eq!(
-            (judged(many, &back), judged(Status::Complete, &back)),
+            (classify(many, &back), classify(Status::Complete, &back)),
             (many, Status::Complete)
         );
         // The tilt goes on, the load has recovered, the path has not left its fold.
         for last in [[1.0, 0.9, 6.0], [2.5, 0.9, 4.0], [2.0, 1.0, 5.0]] {
             let path = path(&[[0.0, 0.0, 0.0], [2.0, 1.0, 5.0], last]);
-            assert_eq!(judged(stopped, &path), stopped);
+            assert_eq!(classify(stopped, &path), stopped);
         }
     }
 }

@@ -54,7 +54,7 @@ impl Weakest {
     /// # Errors
     /// The status of the first place whose path ended early, before it had borne as much as the weakest of the others: there the skin
     /// may be weaker than anywhere else.
-    pub fn of(places: &[LoadPosition]) -> Result<Self, Status> {
+    pub fn from_positions(places: &[LoadPosition]) -> Result<Self, Status> {
         let Some(force) = places.iter().filter_map(|place| place.force).reduce(f64::min) else {
             return places.first().map_or(Ok(Self::default()), |place| Err(place.status));
         };
@@ -114,7 +114,7 @@ pub fn load_positions(
 impl Puncture {
     /// The puncture with what was found at other places of the load.
     pub(super) fn with_places(mut self, places: Vec<LoadPosition>) -> Self {
-        self.measures.weakest = Weakest::of(&places).unwrap_or_default();
+        self.measures.weakest = Weakest::from_positions(&places).unwrap_or_default();
         Self { places, ..self }
     }
 }
@@ -152,7 +152,7 @@ impl Problem<'_> {
         let markers = if parameters.needle.is_guided() { &[][..] } else { &other_way };
         let followed = problem.follow(&[], markers)?;
         let (points, path) = (&followed.watch.record.path, &followed.path);
-        let tilted = followed.watch.places.found.first().and_then(Option::as_ref);
+        let tilted = followed.watch.requested.points.first().and_then(Option::as_ref);
         // The path went on behind that place, and its status tells of another state.
         let status = match tilted {
             Some(point) => Status::audited(path.system(), &point.state),
@@ -189,7 +189,7 @@ impl Problem<'_> {
         places: &[LoadPosition],
         variations: &[Neighbours<PunctureInput>],
     ) -> Result<Vec<Derivative>, OutOfRange> {
-        let Ok(Weakest { force: Some(force), .. }) = Weakest::of(places) else {
+        let Ok(Weakest { force: Some(force), .. }) = Weakest::from_positions(places) else {
             return Ok(Vec::new());
         };
         let mut weakest = Vec::new();

@@ -118,7 +118,7 @@ impl PunctureMeasures {
             fold_tilt_deg: fold.map(|fold| fold.tilt_deg),
             sound_force: Some(fold.map_or(end.force, |fold| fold.force)),
             friction_work: record.path.last().and_then(|point| point.friction_work),
-            unique: chain.contacts.rub().then(|| path.is_unique()),
+            unique: chain.contacts.has_friction().then(|| path.is_unique()),
             ..Self::default()
         }
     }

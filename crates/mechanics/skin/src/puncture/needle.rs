@@ -28,15 +28,15 @@ use geometry::Vec2;
 use solver::{Condition, Newton};
 
 use super::PunctureParameters;
-use super::system::{Chain, Layout};
+use super::system::{Chain, RowLayout};
 use crate::contacts::SkinState;
 
-pub(super) use history::{HistoryWatch, Kept, anchors, event_before, history, with};
+pub(super) use history::{HistoryObserver, HistoryVariable, anchors, event_before, history, with};
 pub(crate) use mode::NeedleMode;
-pub(super) use mode::Place;
+pub(super) use mode::OutlinePart;
 use mode::{SHARP_SLOTS, Touch};
 use outline::{Face, Meeting, Tip};
-pub(super) use passage::PassageWatch;
+pub(super) use passage::PassageObserver;
 pub use passage::{CriticalEvent, Passage, TipForces};
 use round::of_scale;
 pub(super) use round::{reach, unknowns};
@@ -61,7 +61,7 @@ impl Needle {
     }
 
     /// Whether it is guided and rubs.
-    pub fn rubs(self) -> bool {
+    pub fn has_friction(self) -> bool {
         matches!(self, Self::Guided { friction } if friction > 0.0)
     }
 }
@@ -70,21 +70,21 @@ impl Needle {
 pub(super) const FARTHEST: usize = 8;
 
 /// Unknowns of a touch: `N`, `T`, the ways slid forward and backward, and those of two conditions that never act.
-const OF_TOUCH: usize = 6;
+const UNKNOWNS_PER_TOUCH: usize = 6;
 
 /// Constraints of a touch, in this order.
-const CONSTRAINTS: usize = 5;
-const PUSH: usize = 0;
+const CONSTRAINTS_PER_TOUCH: usize = 5;
+const NORMAL: usize = 0;
 const FORWARD: usize = 1;
 const BACKWARD: usize = 2;
-const LOW: usize = 3;
-const HIGH: usize = 4;
+const FACE_START: usize = 3;
+const FACE_END: usize = 4;
 
 /// Conditions that end the path, behind those of all touches: a tilt, and coming through.
 const ENDINGS: usize = 2;
 
 /// Unknowns of a guided needle with a sharp tip, behind the load: its depth, those of two touches, and those of its endings.
-pub(super) const NEEDLE_UNKNOWNS: usize = 1 + SHARP_SLOTS * OF_TOUCH + ENDINGS;
+pub(super) const NEEDLE_UNKNOWNS: usize = 1 + SHARP_SLOTS * UNKNOWNS_PER_TOUCH + ENDINGS;
 
 /// A guided needle on a row.
 #[derive(Clone, Debug)]
@@ -100,15 +100,15 @@ pub(crate) struct GuidedNeedle {
     /// Constraints of the row that are not the needle's: they come first.
     contacts: usize,
     /// Numbers of the constraints that only grow.
-    pub(super) growing: Vec<usize>,
+    pub(super) slip_distances: Vec<usize>,
     /// Touches that there may be.
     pub(super) slots: usize,
     /// Unknowns of a touch, and how many of them are constraints: of a round tip those of its place are the last.
-    unknowns: usize,
-    of_touch: usize,
+    unknowns_per_touch: usize,
+    constraints_per_touch: usize,
     /// Touches that keep something else of the way to a neighbour of a row than that row does, for a parameter that differs, and by how
     /// much.
-    moved: Vec<(Touch, f64)>,
+    anchor_shifts: Vec<(Touch, f64)>,
 }
 
 impl GuidedNeedle {
@@ -116,24 +116,24 @@ impl GuidedNeedle {
         friction: f64,
         parameters: &PunctureParameters,
         tip: Vec2,
-        layout: Layout,
+        layout: RowLayout,
         contacts: usize,
     ) -> Self {
         let radius = parameters.needle_radius.unwrap_or(0.0);
-        let (slots, unknowns, of_touch) = if radius > 0.0 {
+        let (slots, unknowns_per_touch, constraints_per_touch) = if radius > 0.0 {
             let of_scale = of_scale(friction > 0.0);
             // All but the tangential force.
             let constraints = if friction > 0.0 { of_scale - 1 } else { of_scale };
             // Read backwards, the number of unknowns gives that of the touches that there may be.
             ((layout.needle - 1 - ENDINGS) / of_scale, of_scale, constraints)
         } else {
-            (SHARP_SLOTS, OF_TOUCH, CONSTRAINTS)
+            (SHARP_SLOTS, UNKNOWNS_PER_TOUCH, CONSTRAINTS_PER_TOUCH)
         };
         // A round tip that does not rub has no ways to count.
         let slides = radius == 0.0 || friction > 0.0;
         let ways = (0..slots)
             .filter(|_| slides)
-            .flat_map(|slot| [FORWARD, BACKWARD].map(|way| of_touch * slot + way));
+            .flat_map(|slot| [FORWARD, BACKWARD].map(|xi| constraints_per_touch * slot + xi));
         Self {
             friction,
             radius,
@@ -141,11 +141,11 @@ impl GuidedNeedle {
             critical_tilt: parameters.critical_tilt_deg.to_radians(),
             depth: layout.load() + 1,
             contacts,
-            growing: ways.map(|number| contacts + number).collect(),
+            slip_distances: ways.map(|number| contacts + number).collect(),
             slots,
-            unknowns,
-            of_touch,
-            moved: Vec::new(),
+            unknowns_per_touch,
+            constraints_per_touch,
+            anchor_shifts: Vec::new(),
         }
     }
 
@@ -165,45 +165,53 @@ impl GuidedNeedle {
     }
 
     /// Whether its tip rubs.
-    pub(super) fn rubs(&self) -> bool {
+    pub(super) fn has_friction(&self) -> bool {
         self.friction > 0.0
     }
 
     /// The unknowns of its constraints, in their order.
     pub(super) fn constraints(&self) -> Vec<usize> {
-        let behind = self.push(self.slots);
+        let behind = self.normal_force(self.slots);
         // A tangential force that is an unknown has an equation in every state: no constraint.
-        let drag = |first: usize| (self.of_touch < self.unknowns).then_some(first + 1);
+        let tangential_force = |first: usize| {
+            (self.constraints_per_touch < self.unknowns_per_touch).then_some(first + 1)
+        };
         let of_slot = |slot: usize| {
-            let first = self.push(slot);
-            (first..first + self.unknowns).filter(move |unknown| Some(*unknown) != drag(first))
+            let first = self.normal_force(slot);
+            (first..first + self.unknowns_per_touch)
+                .filter(move |unknown| Some(*unknown) != tangential_force(first))
         };
         (0..self.slots).flat_map(of_slot).chain(behind..behind + ENDINGS).collect()
     }
 
     /// Unknown of the normal force of a touch; that of the tangential one is the next.
-    fn push(&self, touch: usize) -> usize {
-        self.depth + 1 + self.unknowns * touch
+    fn normal_force(&self, touch: usize) -> usize {
+        self.depth + 1 + self.unknowns_per_touch * touch
     }
 
     /// Number of a constraint of a touch among those of the row.
     fn number(&self, touch: usize, constraint: usize) -> usize {
-        self.contacts + self.of_touch * touch + constraint
+        self.contacts + self.constraints_per_touch * touch + constraint
     }
 
     /// Those of the push and of the slip of a tip that rubs: as it comes off a face it holds to, its friction goes with it.
     pub(super) fn companions(&self, constraint: usize) -> Range<usize> {
         let number = constraint - self.contacts;
-        let first = constraint - number % self.of_touch;
-        let is_of_touch = number < self.tilt_number() && number % self.of_touch <= BACKWARD;
-        if is_of_touch && self.rubs() { first..first + 3 } else { constraint..constraint + 1 }
+        let first = constraint - number % self.constraints_per_touch;
+        let is_of_touch =
+            number < self.tilt_number() && number % self.constraints_per_touch <= BACKWARD;
+        if is_of_touch && self.has_friction() {
+            first..first + 3
+        } else {
+            constraint..constraint + 1
+        }
     }
 
     /// The constraint at which a path has ended.
     pub(super) fn ended_at(&self, chain: &Chain, end: &SkinState) -> Option<usize> {
         let mut conditions = Vec::new();
         chain.needle_conditions(self, end, &mut conditions);
-        let touches = (0..self.slots).map(|slot| self.of_touch * slot + PUSH);
+        let touches = (0..self.slots).map(|slot| self.constraints_per_touch * slot + NORMAL);
         let touches = touches.filter(|&number| chain.meets_tilted(self, end, number));
         let mut ends = self.endings().chain(touches);
         // It has vanished to the tolerance of Newton's method.
@@ -221,7 +229,7 @@ impl GuidedNeedle {
 
     /// Number of the first constraint behind those of the touches: that on tilts.
     fn tilt_number(&self) -> usize {
-        self.of_touch * self.slots
+        self.constraints_per_touch * self.slots
     }
 
     /// The constraints that end a path, among its own: that on tilts, and that of coming through.
@@ -238,29 +246,31 @@ impl Chain {
         if needle.is_round() {
             return self.round_at_rest(needle, rest);
         }
-        rest.active[needle.number(0, PUSH)] = true;
+        rest.active[needle.number(0, NORMAL)] = true;
         // Scale 0 is in every row.
-        let Some(Tip { way: at, .. }) = self.tip(&rest.z, 0, Place::Top) else { return rest };
-        let rub = needle.resting(at);
-        rest.mode.needle.touches[0] = Some(Touch { scale: 0, place: Place::Top, rub });
+        let Some(Tip { xi: anchor, .. }) = self.tip(&rest.z, 0, OutlinePart::Top) else {
+            return rest;
+        };
+        let tip_state = needle.resting(anchor);
+        rest.mode.needle.touches[0] = Some(Touch { scale: 0, place: OutlinePart::Top, tip_state });
         if needle.friction == 0.0 {
             return rest;
         }
         let control = self.controls[0];
         let condition = Condition::new(vec![(control.index, 1.0 / control.scale)], 0.0);
         // The tip is tried as sticking: the rates tell whether that takes more than there is.
-        let push = needle.push(0);
+        let normal_force = needle.normal_force(0);
         if let Ok(rates) = Newton::new(self).tangent(self, &rest, &condition) {
-            let [normal, tangential] = [rates[push], rates[push + 1]];
+            let [normal, tangential] = [rates[normal_force], rates[normal_force + 1]];
             if tangential.abs() > needle.friction * normal {
-                needle.slide(&mut rest, 0, tangential > 0.0, at);
+                needle.slide(&mut rest, 0, tangential > 0.0, anchor);
             }
         }
         rest
     }
 
     /// The tip at a place of a scale; `None` of a free needle, and of a scale that is not solved for or too far away.
-    fn tip(&self, z: &[f64], scale: i64, place: Place) -> Option<Tip> {
+    fn tip(&self, z: &[f64], scale: i64, place: OutlinePart) -> Option<Tip> {
         let needle = self.needle.as_ref()?;
         let number = self.scale_numbered(scale)?;
         let away = self.contacts.arrangement.place(number)
@@ -271,10 +281,10 @@ impl Chain {
     }
 
     /// The tip where it touches a scale, at this place.
-    fn meeting(&self, z: &[f64], scale: i64, place: Place) -> Option<Meeting> {
+    fn meeting(&self, z: &[f64], scale: i64, place: OutlinePart) -> Option<Meeting> {
         let (needle, tip) = (self.needle.as_ref()?, self.tip(z, scale, place)?);
         let shape = self.contacts.arrangement.scale(self.scale_numbered(scale)?);
-        let behind = [Place::Left, Place::Top].into_iter().filter(|face| *face < place);
+        let behind = [OutlinePart::Left, OutlinePart::Top].into_iter().filter(|face| *face < place);
         let before = behind.map(|face| Face::new(&shape, face).length).sum();
         Some(Meeting::new(tip, needle.radius, before))
     }
@@ -300,19 +310,21 @@ impl Chain {
     }
 
     /// The face that the needle would come to next besides the one that it touches: a neighbour's.
-    fn next_touch(touch: &Touch) -> Option<(i64, Place)> {
+    fn next_touch(touch: &Touch) -> Option<(i64, OutlinePart)> {
         match touch.place {
-            Place::Left => Some((touch.scale - 1, Place::Top)),
-            Place::TopLeft => None,
-            Place::Top | Place::TopRight | Place::Right => Some((touch.scale + 1, Place::Left)),
+            OutlinePart::Left => Some((touch.scale - 1, OutlinePart::Top)),
+            OutlinePart::TopLeft => None,
+            OutlinePart::Top | OutlinePart::TopRight | OutlinePart::Right => {
+                Some((touch.scale + 1, OutlinePart::Left))
+            }
         }
     }
 
     /// Whether a constraint of the needle is that of coming to touch a scale that its neighbours have tilted critically before.
     fn meets_tilted(&self, needle: &GuidedNeedle, state: &SkinState, number: usize) -> bool {
-        let slot = number / needle.of_touch;
+        let slot = number / needle.constraints_per_touch;
         if number >= needle.tilt_number()
-            || number % needle.of_touch != PUSH
+            || number % needle.constraints_per_touch != NORMAL
             || state.mode.needle.touches[slot].is_some()
         {
             return false;

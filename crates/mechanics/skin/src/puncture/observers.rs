@@ -3,8 +3,8 @@
 use solver::Path;
 
 use super::adaptive_row::{AdaptiveRowPath, Segment};
-use super::needle::{HistoryWatch, PassageWatch};
-use super::snap::SnapWatch;
+use super::needle::{HistoryObserver, PassageObserver};
+use super::snap::SnapObserver;
 use super::surface_fold::FoldObserver;
 use super::system::Chain;
 use super::{At, PunctureParameters};
@@ -15,15 +15,15 @@ use crate::record::{PathFunction, Record};
 /// All that is looked for along the path of a puncture.
 pub(super) struct PathObservers {
     pub(super) record: Record<Chain>,
-    pub(super) needle: SnapWatch,
+    pub(super) needle: SnapObserver,
     pub(super) folds: FoldObserver,
-    pub(super) history: HistoryWatch,
-    pub(super) passage: PassageWatch,
+    pub(super) history: HistoryObserver,
+    pub(super) passage: PassageObserver,
     pub(super) tilts: PointLocator<Chain>,
     /// The depth at which the force is measured besides, if there is one.
     pub(super) depth: PointLocator<Chain>,
     /// Of snapshots.
-    pub(super) places: PointLocator<Chain>,
+    pub(super) requested: PointLocator<Chain>,
 }
 
 impl PathObservers {
@@ -33,17 +33,17 @@ impl PathObservers {
         functions: &[PathFunction<Chain>],
         places: &[At],
     ) -> Self {
-        let tilts = parameters.tilts_deg().map(|tilt| At::Tilt(tilt).crossing());
-        let depth = parameters.depth.map(|depth| At::Displacement(depth).crossing());
+        let tilts = parameters.tilts_deg().map(|tilt| At::Tilt(tilt).location());
+        let depth = parameters.depth.map(|depth| At::Displacement(depth).location());
         Self {
             record: Record::new(path, functions),
-            needle: SnapWatch::default(),
+            needle: SnapObserver::default(),
             folds: FoldObserver::default(),
-            history: HistoryWatch::default(),
-            passage: PassageWatch::default(),
+            history: HistoryObserver::default(),
+            passage: PassageObserver::default(),
             tilts: PointLocator::new(path, tilts),
             depth: PointLocator::new(path, depth),
-            places: PointLocator::new(path, places.iter().map(|place| place.crossing())),
+            requested: PointLocator::new(path, places.iter().map(|place| place.location())),
         }
     }
 
@@ -57,7 +57,7 @@ impl PathObservers {
         self.needle.follow(path, [from, to], events_before);
         self.tilts.follow(path, from, to);
         self.depth.follow(path, from, to);
-        self.places.follow(path, from, to);
+        self.requested.follow(path, from, to);
         self.folds.follow(path, [from, to], events_before);
         self.record.visit(path, left, to);
     }
@@ -66,11 +66,11 @@ impl PathObservers {
     pub(super) fn lengthen(&mut self, path: &AdaptiveRowPath) {
         let longer = |point: &SkinPoint| path.lengthened(point);
         // Whatever keeps points has to be named here, or keeps some of a shorter row.
-        let SnapWatch { load_limit, depth_limit, .. } = &mut self.needle;
+        let SnapObserver { load_limit, depth_limit, .. } = &mut self.needle;
         let single = [load_limit, depth_limit, &mut self.folds.first, &mut self.record.touching];
-        let places = [&mut self.tilts, &mut self.depth, &mut self.places];
-        let places = places.into_iter().flat_map(|places| &mut places.found);
-        let points = single.into_iter().chain(places).flatten();
+        let located = [&mut self.tilts, &mut self.depth, &mut self.requested];
+        let located = located.into_iter().flat_map(|located| &mut located.points);
+        let points = single.into_iter().chain(located).flatten();
         let segments = self.history.segments.iter_mut().chain(&mut self.passage.passed);
         for point in points.chain(segments.flatten()) {
             *point = longer(point);

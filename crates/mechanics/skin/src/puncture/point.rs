@@ -65,8 +65,8 @@ impl Skin for Chain {
         }
     }
 
-    fn rubs(&self) -> bool {
-        self.contacts.rub() || self.needle.as_ref().is_some_and(GuidedNeedle::rubs)
+    fn has_friction(&self) -> bool {
+        self.contacts.has_friction() || self.needle.as_ref().is_some_and(GuidedNeedle::has_friction)
     }
 
     fn tip_work(&self, from: &SkinPoint, to: &SkinPoint, spans: [f64; 2]) -> f64 {

@@ -6,7 +6,7 @@ use geometry::{Corner, OutOfRange, Vec2};
 use substrate::{FarField, Relief, SurfaceStrip};
 
 use super::Rows;
-use super::system::{Chain, Layout};
+use super::system::{Chain, RowLayout};
 use crate::contacts::SkinState;
 
 /// Scales beyond an end whose gaps are looked at. What moves the end hardly moves farther ones.
@@ -43,7 +43,7 @@ pub(super) struct Beyond {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct RowExterior {
     /// Beyond the left and the right end.
-    sides: [Option<Side>; 2],
+    sides: [Option<ExteriorSide>; 2],
     /// What the row beyond adds to the stiffness of the substrate, which it takes down: row and column of the tangent, and entries.
     pub(super) relief: Vec<(usize, usize, [[f64; 3]; 3])>,
     /// Distance of the farthest corner of a scale from its node.
@@ -51,7 +51,7 @@ pub(crate) struct RowExterior {
 }
 
 #[derive(Clone, Debug)]
-struct Side {
+struct ExteriorSide {
     beyond: Beyond,
     /// Widths of the gaps, from the nearest on.
     gaps: Vec<f64>,
@@ -71,7 +71,7 @@ impl RowExterior {
     /// If a sample has no scales there.
     pub(super) fn new(
         rows: Rows,
-        layout: Layout,
+        layout: RowLayout,
         beyond: [Option<Beyond>; 2],
     ) -> Result<Self, OutOfRange> {
         let looked_at = |side: &Option<Beyond>| {
@@ -80,12 +80,15 @@ impl RowExterior {
         };
         let [left, right] = [looked_at(&beyond[0]), looked_at(&beyond[1])];
         // A longer row keeps its middle, so that its outer scales are those that stand beyond.
-        let row =
-            rows.row(Layout { left: layout.left + left, right: layout.right + right, ..layout })?;
+        let row = rows.row(RowLayout {
+            left: layout.left + left,
+            right: layout.right + right,
+            ..layout
+        })?;
         let end = left + layout.scales() - 1;
         let pairs: [Vec<usize>; 2] = [(0..left).rev().collect(), (end..end + right).collect()];
         let side = |(beyond, pairs): (Option<Beyond>, Vec<usize>)| {
-            Some(Side {
+            Some(ExteriorSide {
                 beyond: beyond?,
                 gaps: pairs.iter().map(|&pair| row.gap(pair)).collect(),
                 clearances: pairs.iter().map(|&pair| row.clearance(pair)).collect(),
@@ -104,15 +107,18 @@ impl RowExterior {
 
     /// How many scales of a row that ends lie beyond its left and its right end.
     pub(super) fn scales_to_ends(&self) -> [usize; 2] {
-        let scales = |side: &Option<Side>| side.as_ref()?.beyond.scales;
+        let scales = |side: &Option<ExteriorSide>| side.as_ref()?.beyond.scales;
         self.sides.each_ref().map(|side| scales(side).unwrap_or(0))
     }
 }
 
 /// The relief of both ends in the unknowns of a row.
-fn relief(layout: Layout, sides: &[Option<Side>; 2]) -> Vec<(usize, usize, [[f64; 3]; 3])> {
+fn relief(
+    layout: RowLayout,
+    sides: &[Option<ExteriorSide>; 2],
+) -> Vec<(usize, usize, [[f64; 3]; 3])> {
     let last = layout.scales() - 1;
-    let of_side = |(number, side): (usize, &Option<Side>)| {
+    let of_side = |(number, side): (usize, &Option<ExteriorSide>)| {
         let parts = side.as_ref().map_or(&[][..], |side| &side.beyond.far.relief);
         let unknown =
             move |scale: usize| layout.scale(if number == 0 { scale } else { last - scale });
@@ -142,7 +148,7 @@ impl Chain {
     }
 
     /// Displacements of the end and of scales beyond it whose gaps are looked at, as those at the right end of a row.
-    fn displacements_beyond(&self, z: &[f64], number: usize, side: &Side) -> Vec<[f64; 3]> {
+    fn displacements_beyond(&self, z: &[f64], number: usize, side: &ExteriorSide) -> Vec<[f64; 3]> {
         let end = self.at_end(z, number);
         let mut displacements = vec![end(0)];
         displacements.extend(side.beyond.far.displacements(end, side.gaps.len()));
@@ -204,7 +210,7 @@ impl Chain {
 
     /// The largest part of the distance of two scales beyond an end that their displacements can close, or of the force that lets bars
     /// count as springs.
-    fn part_closed(&self, z: &[f64], number: usize, side: &Side) -> f64 {
+    fn part_closed(&self, z: &[f64], number: usize, side: &ExteriorSide) -> f64 {
         let displacements = self.displacements_beyond(z, number, side);
         let size =
             |[x, y, rotation]: [f64; 3]| x.abs() + y.abs() + self.exterior.arm * rotation.abs();

@@ -4,11 +4,11 @@ use geometry::OutOfRange;
 use solver::{AnchoredPoint, Neighbours, Path, PathAnchor};
 use substrate::RowStiffness;
 
-use super::needle::{Kept, anchors, event_before, history, with};
+use super::needle::{HistoryVariable, anchors, event_before, history, with};
 use super::observers::PathObservers;
 use super::snapshot::farther;
 use super::surface_fold::{Fold, FoldObserver};
-use super::system::{Chain, DEPTH_MARK, DEPTH_RATE, LOAD_RATE, Layout};
+use super::system::{Chain, DEPTH_MARK, DEPTH_RATE, LOAD_RATE, RowLayout};
 use super::{At, Followed, PerturbedScale, Problem, Puncture, PunctureParameters, Rows};
 use crate::contacts::{SkinMode, SkinPoint, SkinState};
 use crate::record::{PathFunction, Skin};
@@ -80,7 +80,7 @@ pub fn force_curve(
         let rows = Rows::Even(design.row()?);
         let problem = Problem::new(rows, design, stiffness.clone(), common, &parameters)?;
         let mut followed = problem.follow(&[], &at)?;
-        let is_short = followed.watch.places.found.iter().any(Option::is_none);
+        let is_short = followed.watch.requested.points.iter().any(Option::is_none);
         if farther(&mut tilt, followed.status, is_short) {
             continue;
         }
@@ -129,7 +129,7 @@ impl Problem<'_> {
             on_curve.rates.resize(variations.len(), None);
             Some(on_curve)
         };
-        Ok(watch.places.found.iter().map(point).collect())
+        Ok(watch.requested.points.iter().map(point).collect())
     }
 
     fn derivatives(
@@ -144,7 +144,7 @@ impl Problem<'_> {
         let anchors = anchors(path, &watch.history.segments, &variations);
         let mut found = Vec::new();
         // Neighbours are made once for all places that keep the same of the way.
-        for spots in by_history(self.spots(watch, path)) {
+        for spots in group_by_history(self.measured_points(watch, path)) {
             let state = spots.iter().find_map(|spot| Some(&spot.place.as_ref()?.state));
             // Nothing can be said of a place that is not known.
             let Some(state) = state else { continue };
@@ -159,7 +159,11 @@ impl Problem<'_> {
     }
 
     /// The places of the path at which measures are taken.
-    fn spots(&self, watch: &PathObservers, path: &mut Path<Chain>) -> Vec<MeasuredPoint<Chain>> {
+    fn measured_points(
+        &self,
+        watch: &PathObservers,
+        path: &mut Path<Chain>,
+    ) -> Vec<MeasuredPoint<Chain>> {
         let PathObservers { record, needle, passage, depth: marked, .. } = watch;
         let FoldObserver { folds, first } = &watch.folds;
         let settings = &self.settings;
@@ -180,11 +184,11 @@ impl Problem<'_> {
         let spot = |place, quantities| MeasuredPoint { place, quantities };
         let folded = first.as_ref().zip(folds.first());
         let folded = folded.map(|(point, fold)| chain.folded_at(point, fold));
-        let deep = marked.found.iter().flatten().next();
+        let deep = marked.points.iter().flatten().next();
         let deep = deep.map(|p| AnchoredPoint::arriving(p, PathAnchor::Marker(DEPTH_MARK)));
         let (mut end_quantities, fold_quantities) = at_end_and_fold(folded.is_some());
         // A path that ends before it is so deep has the force of its end as the measure.
-        if !marked.found.is_empty() && deep.is_none() {
+        if !marked.points.is_empty() && deep.is_none() {
             end_quantities.push(force("force_at_depth"));
         }
         let mut passing =
@@ -216,7 +220,7 @@ impl Problem<'_> {
 
 impl PunctureInput {
     /// The system of a row of so many scales.
-    fn chain(&self, layout: Layout) -> Result<Chain, OutOfRange> {
+    fn chain(&self, layout: RowLayout) -> Result<Chain, OutOfRange> {
         let Self { design, stiffness, common, parameters, odd } = self;
         // The neighbour of an upright design leans to the left.
         let row = design.leaning_row()?;
@@ -228,8 +232,8 @@ impl PunctureInput {
 }
 
 /// The spots, together where the equations keep the same of the way to them.
-fn by_history(spots: Vec<MeasuredPoint<Chain>>) -> Vec<Vec<MeasuredPoint<Chain>>> {
-    let mut groups: Vec<(Vec<Kept>, Vec<MeasuredPoint<Chain>>)> = Vec::new();
+fn group_by_history(spots: Vec<MeasuredPoint<Chain>>) -> Vec<Vec<MeasuredPoint<Chain>>> {
+    let mut groups: Vec<(Vec<HistoryVariable>, Vec<MeasuredPoint<Chain>>)> = Vec::new();
     for spot in spots {
         let kept = spot.place.as_ref().map(|place| history(&place.state)).unwrap_or_default();
         match groups.iter_mut().find(|(other, _)| *other == kept) {

@@ -2,7 +2,7 @@
 
 use geometry::{OutOfRange, Parallelogram, Row, UnevenRow};
 
-use super::system::Layout;
+use super::system::RowLayout;
 
 /// One scale of a row, and by how much it differs from all others.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -20,7 +20,7 @@ impl PerturbedScale {
     ///
     /// # Errors
     /// If it does not stand clear of its neighbours.
-    pub(super) fn within(self, row: &Row, layout: Layout) -> Result<UnevenRow, OutOfRange> {
+    pub(super) fn within(self, row: &Row, layout: RowLayout) -> Result<UnevenRow, OutOfRange> {
         let mut scales = vec![*row.scale(); layout.scales()];
         let mut gaps = vec![row.gap(); layout.scales() - 1];
         let place = usize::try_from(layout.left as i64 + i64::from(self.place));

@@ -29,7 +29,7 @@ pub struct Snap {
 
 /// Follows along a path how far a needle can follow it.
 #[derive(Debug, Default)]
-pub(super) struct SnapWatch {
+pub(super) struct SnapObserver {
     /// Whether the load has turned back: before that a row is stable.
     has_unloaded: bool,
     /// Of every point that the path has left.
@@ -41,7 +41,7 @@ pub(super) struct SnapWatch {
     snaps: Vec<Snap>,
 }
 
-impl SnapWatch {
+impl SnapObserver {
     /// Follows the path from one point to the next.
     ///
     /// On a path that leaves a stable state the load rises as long as the stiffness has an even number of negative eigenvalues. So
@@ -74,7 +74,7 @@ impl SnapWatch {
     /// The instability of a point; that of the last one where its stiffness is singular.
     fn at(&self, chain: &Chain, point: &SkinPoint) -> Instability {
         let SkinPoint { state, leaving, .. } = point;
-        if chain.rubs(state) {
+        if chain.is_nonconservative(state) {
             // What rubs has no symmetric stiffness: that something gives way shows where load or depth fall, and nowhere else.
             let falls = |rate: f64| usize::from(rate < 0.0);
             let [load, depth] =
@@ -124,8 +124,9 @@ impl SnapWatch {
         };
         self.instability.push(end);
         // Behind a fall of the load a load that rises says nothing where the needle rubs: two motions may give way.
-        let is_known =
-            !self.has_unloaded || end.load > 0 || !path.system().rubs(&path.point().state);
+        let is_known = !self.has_unloaded
+            || end.load > 0
+            || !path.system().is_nonconservative(&path.point().state);
         measures.stable_under_load = is_known.then_some(end.load == 0);
         // A snap that has not landed leaves the needle off the path.
         measures.stable_under_depth = Some(end.depth == 0 && self.open_snap().is_none());
@@ -155,8 +156,8 @@ impl Snap {
                 is_below(path, &point).then_some(point)
             })
         };
-        let crossing = At::Displacement(depth).crossing();
-        let landed = below.and_then(|below| crossing.between(path, &below, to));
+        let location = At::Displacement(depth).location();
+        let landed = below.and_then(|below| location.between(path, &below, to));
         // A dip that is lost in round-off is none.
         let landed = landed.as_ref().unwrap_or(to);
         self.drop = Some(self.point.force - path.system().force(&landed.state));

@@ -8,7 +8,7 @@ use super::{
     Problem, Puncture, PunctureParameters, RowStiffness, Rows, ScaleState, Status, scales,
 };
 use crate::contacts::{Contact, SkinState};
-use crate::path_location::Crossing;
+use crate::path_location::PathLocation;
 use crate::record::Skin;
 use crate::{Common, Design};
 
@@ -38,14 +38,14 @@ pub enum At {
 
 impl At {
     /// The quantity that has a value at this place, and the value.
-    pub(super) fn crossing(self) -> Crossing<Chain> {
+    pub(super) fn location(self) -> PathLocation<Chain> {
         let quantity: fn(&Chain, &SkinState) -> f64 = match self {
             Self::Displacement(_) => |chain, state| chain.depth(&state.z),
             Self::Force(_) => |chain, state| chain.force(state),
             Self::Tilt(_) => |chain, state| chain.angle_deg(state),
         };
         let (Self::Displacement(value) | Self::Force(value) | Self::Tilt(value)) = self;
-        Crossing { quantity, value }
+        PathLocation { quantity, value }
     }
 }
 
@@ -117,7 +117,7 @@ pub fn snapshots_to_end(
     let row = design.row()?;
     let problem = Problem::new(Rows::Even(row), design, substrate.into(), common, parameters)?;
     let mut followed = problem.follow(&[], at)?;
-    let found = std::mem::take(&mut followed.watch.places.found);
+    let found = std::mem::take(&mut followed.watch.requested.points);
     let chain = followed.path.system();
     let snapshot = |state: &SkinState| snapshot(chain, row.pitch(), state);
     let at = found.iter().map(|point| Some(snapshot(&point.as_ref()?.state))).collect();

@@ -29,7 +29,7 @@ impl Chain {
     /// `eᵀ K⁻¹ e` is negative (P5). Corners that meet on a ridge of the energy are held together by their contact, but not by the energy, and count as
     /// one more.
     pub(super) fn instability(&self, state: &SkinState) -> Option<Instability> {
-        if self.rubs(state) {
+        if self.is_nonconservative(state) {
             return None;
         }
         let kept = self.kept(state);

@@ -43,7 +43,7 @@ impl Fold {
 }
 
 /// A sign change of the stretch of a gap within a segment of the path.
-struct Crossing {
+struct FoldCrossing {
     /// Left scale of the gap.
     pair: usize,
     folds: bool,
@@ -71,11 +71,11 @@ impl FoldObserver {
             return;
         }
         let crossings = crossings(path, from, to);
-        let located = |crossing: Crossing| (crossing.locate(path, from, to), crossing);
+        let located = |crossing: FoldCrossing| (crossing.locate(path, from, to), crossing);
         let mut places: Vec<_> = crossings.into_iter().map(located).collect();
         // Gaps were looked at one by one, and the path meets their folds in an order of its own.
         places.sort_by(|a, b| a.0.0.total_cmp(&b.0.0));
-        for ((_, point), Crossing { pair, folds, .. }) in places {
+        for ((_, point), FoldCrossing { pair, folds, .. }) in places {
             let chain = path.system();
             let (left_scale, here) = (chain.layout.number(pair), chain.path_point(&point));
             self.folds.push(Fold { point: here, left_scale, folds, events_before });
@@ -86,7 +86,7 @@ impl FoldObserver {
 
 /// The sign changes of all gaps between two neighbouring points: by the stretch at both, and, where it has the same sign, where
 /// its slopes say that it changes in between and back.
-fn crossings(path: &mut Path<Chain>, from: &SkinPoint, to: &SkinPoint) -> Vec<Crossing> {
+fn crossings(path: &mut Path<Chain>, from: &SkinPoint, to: &SkinPoint) -> Vec<FoldCrossing> {
     let spans = path.spans(from, to);
     let mut crossings = Vec::new();
     for pair in 0..path.system().layout.scales() - 1 {
@@ -94,7 +94,7 @@ fn crossings(path: &mut Path<Chain>, from: &SkinPoint, to: &SkinPoint) -> Vec<Cr
         let [start, end] = [&from.state, &to.state].map(|state| chain.gap_stretch(state, pair));
         if is_folded(start) != is_folded(end) {
             let bracket = Bracket::new((0.0, start), (1.0, end));
-            crossings.push(Crossing { pair, folds: is_folded(end), bracket });
+            crossings.push(FoldCrossing { pair, folds: is_folded(end), bracket });
             continue;
         }
         // A dip is one towards zero from above, so that a folded gap is looked at upside down.
@@ -113,8 +113,8 @@ fn crossings(path: &mut Path<Chain>, from: &SkinPoint, to: &SkinPoint) -> Vec<Cr
             let inside = (place, stretch);
             let [before, after] =
                 [Bracket::new((0.0, start), inside), Bracket::new(inside, (1.0, end))];
-            crossings.push(Crossing { pair, folds: is_folded(stretch), bracket: before });
-            crossings.push(Crossing { pair, folds: is_folded(end), bracket: after });
+            crossings.push(FoldCrossing { pair, folds: is_folded(stretch), bracket: before });
+            crossings.push(FoldCrossing { pair, folds: is_folded(end), bracket: after });
         }
     }
     crossings
@@ -124,7 +124,7 @@ fn is_folded(stretch: f64) -> bool {
     stretch <= 0.0
 }
 
-impl Crossing {
+impl FoldCrossing {
     /// The equilibrium at which the gap vanishes, and its place. If Newton's method fails, the last equilibrium that was found.
     fn locate(&self, path: &mut Path<Chain>, from: &SkinPoint, to: &SkinPoint) -> (f64, SkinPoint) {
         let mut bracket = self.bracket;

@@ -37,7 +37,7 @@ pub(super) const DEPTH_RATE: usize = 1;
 ///
 /// Where scales rub each contact has its grip and its way besides. The unknowns of a guided needle follow the load.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Layout {
+pub(crate) struct RowLayout {
     /// Scales to the left of the punctured one.
     pub(crate) left: usize,
     /// Scales to the right of the punctured one.
@@ -48,7 +48,7 @@ pub(crate) struct Layout {
     pub(crate) contacts: usize,
 }
 
-impl Layout {
+impl RowLayout {
     /// Unknowns of a scale and of its contacts with those on its right.
     fn block(self) -> usize {
         3 + self.contacts
@@ -117,7 +117,7 @@ impl Layout {
 /// Unknowns are the displacements and rotations, the force of each contact, and the load `F`.
 #[derive(Clone, Debug)]
 pub(crate) struct Chain {
-    pub(crate) layout: Layout,
+    pub(crate) layout: RowLayout,
     pub(crate) contacts: Contacts,
     /// `L/t`.
     pub(crate) length: f64,
@@ -166,7 +166,7 @@ impl Chain {
         arrangement: Arrangement,
         stiffness: &RowStiffness,
         law: ContactLaw,
-        layout: Layout,
+        layout: RowLayout,
         exterior: RowExterior,
         parameters: &PunctureParameters,
         length: f64,
@@ -205,8 +205,8 @@ impl Chain {
             SubstrateLaw::NeoHookean => neighbours.first().map(|nearest| -nearest.direct[0]),
         };
         let contacts = Contacts::new(arrangement, law, scales, forces, false);
-        let of_needle = needle.iter().flat_map(|needle| needle.growing.iter().copied());
-        let growing = contacts.growing.iter().copied().chain(of_needle).collect();
+        let of_needle = needle.iter().flat_map(|needle| needle.slip_distances.iter().copied());
+        let growing = contacts.slip_distances.iter().copied().chain(of_needle).collect();
         // A round tip that touches several scales couples them across the blocks, and contacts may reach farther than the substrate: the
         // band elimination takes both.
         let reach = neighbours.len().max(1);

@@ -17,7 +17,7 @@ use substrate::{Coupling, RowStiffness, calibrate};
 use self::needle::integral;
 use super::row_exterior::{Beyond, Reach, RowExterior};
 use super::stability::Instability;
-use super::system::{Chain, Layout};
+use super::system::{Chain, RowLayout};
 use super::{Problem, PunctureParameters, Rows};
 use crate::arrangement::Arrangement;
 use crate::contacts::{SkinPoint, SkinState, pair_constraints};
@@ -72,7 +72,7 @@ fn path_on(
     law: ContactLaw,
     load_position: f64,
 ) -> Path<Chain> {
-    let layout = Layout { left: 10, right: 10, needle: 0, contacts: pair_constraints(&law) };
+    let layout = RowLayout { left: 10, right: 10, needle: 0, contacts: pair_constraints(&law) };
     let parameters = PunctureParameters { load_position, ..PunctureParameters::default() };
     let chain = whole(stiffness, design, law, layout, &parameters);
     let rest = SkinState::at_rest(&chain);
@@ -84,7 +84,7 @@ fn whole(
     stiffness: &RowStiffness,
     design: &Design,
     law: ContactLaw,
-    layout: Layout,
+    layout: RowLayout,
     parameters: &PunctureParameters,
 ) -> Chain {
     let row = Arrangement::Even(design.row().unwrap());
@@ -311,9 +311,9 @@ fn soft_contacts_store_their_part_of_the_work() {
 #[test]
 fn rows_grow_as_far_as_there_is_room() {
     use Reach::{Beyond, Near, Short};
-    let layout = Layout { left: 14, right: 17, needle: 0, contacts: 6 };
+    let layout = RowLayout { left: 14, right: 17, needle: 0, contacts: 6 };
     let grown = |reach, longest| {
-        let Layout { left, right, .. } = layout.grown(reach, longest);
+        let RowLayout { left, right, .. } = layout.grown(reach, longest);
         [left, right]
     };
     assert_eq!(grown([Near, Short], 100), [22, 17]);
@@ -464,7 +464,7 @@ fn negative_eigenvalues_are_those_of_the_dense_stiffness() {
         let full = RowStiffness::of(&design.footprint(0.5).unwrap(), Coupling::Full).unwrap();
         let parameters =
             &PunctureParameters { critical_tilt_deg: 40.0, ..PunctureParameters::default() };
-        let layout = Layout { left: 7, right: 9, needle: 0, contacts: 6 };
+        let layout = RowLayout { left: 7, right: 9, needle: 0, contacts: 6 };
         let chain = |stiffness| whole(stiffness, &design, law, layout, parameters);
         let nearest: RowStiffness = (&springs).into();
         let rows = Rows::Even(design.row().unwrap());

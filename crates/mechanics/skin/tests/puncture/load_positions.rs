@@ -83,7 +83,7 @@ fn a_place_that_may_be_weaker_is_not_passed_over() {
     let slippery = parameters(Needle::Guided { friction: 0.0 }, 11);
     let Puncture { status, places, measures, .. } = solve(&lost, &slippery);
     assert_eq!((status, measures.weakest), (Status::Complete, Weakest::default()));
-    assert_eq!(Weakest::of(&places), Err(places[0].status));
+    assert_eq!(Weakest::from_positions(&places), Err(places[0].status));
     assert!(places[0].force.is_none() && places[1..].iter().all(|place| place.force.is_some()));
 
     let place = |force, borne, status| LoadPosition {
@@ -97,12 +97,12 @@ fn a_place_that_may_be_weaker_is_not_passed_over() {
     };
     let (held, unloaded) = (place(Some(1.0), Some(2.0), Status::Complete), Stop::Unloaded);
     let stopped = |borne| place(None, borne, Status::Stopped(unloaded));
-    let found = |other| Weakest::of(&[held, other]).map(|weakest| weakest.force);
+    let found = |other| Weakest::from_positions(&[held, other]).map(|weakest| weakest.force);
     assert_eq!(found(stopped(Some(0.9))), Err(Status::Stopped(unloaded)));
     assert_eq!(found(stopped(Some(1.1))), Ok(Some(1.0)));
     assert_eq!(found(place(None, None, Status::Untilted)), Ok(Some(1.0)));
-    assert_eq!(Weakest::of(&[stopped(Some(1.0))]), Err(Status::Stopped(unloaded)));
-    assert_eq!(Weakest::of(&[]), Ok(Weakest::default()));
+    assert_eq!(Weakest::from_positions(&[stopped(Some(1.0))]), Err(Status::Stopped(unloaded)));
+    assert_eq!(Weakest::from_positions(&[]), Ok(Weakest::default()));
 }
 
 #[test]

@@ -103,7 +103,7 @@ impl PunctureResult {
         };
         let finite_all = VALUES.iter().all(|value| value.is_finite_in_puncture(&mut measures));
         let (outcome, measures) = finite_or(finite_all, puncture.status.into(), measures, few);
-        let weakest = || match puncture::Weakest::of(&puncture.places) {
+        let weakest = || match puncture::Weakest::from_positions(&puncture.places) {
             // Measures that were left out lack the weakest place, though the places have one.
             Ok(weakest) if weakest == measures.weakest => Outcome::Complete,
             Ok(_) => Outcome::NotFinite,

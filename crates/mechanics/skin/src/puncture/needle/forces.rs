@@ -2,9 +2,9 @@
 
 use solver::{Residual, Tangent};
 
-use super::mode::{Place, Rub, Touch};
+use super::mode::{OutlinePart, TipState, Touch};
 use super::outline::{COORDINATES, Meeting};
-use super::{BACKWARD, CONSTRAINTS, FORWARD, GuidedNeedle, HIGH, LOW, PUSH};
+use super::{BACKWARD, CONSTRAINTS_PER_TOUCH, FACE_END, FACE_START, FORWARD, GuidedNeedle, NORMAL};
 use crate::contacts::{Contacts, HOLDS, SkinPoint, SkinState, product_integral};
 use crate::puncture::system::Chain;
 
@@ -30,39 +30,39 @@ impl Chain {
         // The row of the depth is the balance of the needle itself.
         residual.add(needle.depth, state.z[load]);
         matrix.add(needle.depth, load, 1.0);
-        if needle.of_touch < needle.unknowns {
+        if needle.constraints_per_touch < needle.unknowns_per_touch {
             // A touch that is not there has no tangential force.
             let touches = &state.mode.needle.touches;
             for slot in (0..needle.slots).filter(|&slot| touches[slot].is_none()) {
-                let drag = needle.push(slot) + 1;
-                residual.add(drag, state.z[drag]);
-                matrix.add(drag, drag, 1.0);
+                let tangential_force = needle.normal_force(slot) + 1;
+                residual.add(tangential_force, state.z[tangential_force]);
+                matrix.add(tangential_force, tangential_force, 1.0);
             }
         }
         for (slot, touch, scale, meeting) in self.touches(state) {
             let at = self.layout.scale(scale);
             let rows = [at, at + 1, at + 2, needle.depth];
-            let push = needle.push(slot);
-            add_balance(&meeting, rows, push, &state.z, residual, matrix);
-            residual.add(push, meeting.gap());
-            add_row(push, rows, 1.0, meeting.tip.gap_slopes(), matrix);
+            let normal_force = needle.normal_force(slot);
+            add_balance(&meeting, rows, normal_force, &state.z, residual, matrix);
+            residual.add(normal_force, meeting.gap());
+            add_row(normal_force, rows, 1.0, meeting.tip.gap_slopes(), matrix);
             // A round tip that does not rub has no tangential force, and no law for it.
-            if needle.of_touch == needle.unknowns {
+            if needle.constraints_per_touch == needle.unknowns_per_touch {
                 continue;
             }
-            add_law(needle, (touch, push), &meeting, rows, &state.z, residual, matrix);
+            add_law(needle, (touch, normal_force), &meeting, rows, &state.z, residual, matrix);
             for (constraint, sign) in [(FORWARD, 1.0), (BACKWARD, -1.0)] {
                 // How far the tip has slid: it only counts, and tells the path where it turns back.
-                let (Rub::Slip { from, .. }, true) =
-                    (touch.rub, state.active[needle.number(slot, constraint)])
+                let (TipState::Slip { start, .. }, true) =
+                    (touch.tip_state, state.active[needle.number(slot, constraint)])
                 else {
                     continue;
                 };
-                let slid = push + 1 + constraint;
+                let slid = normal_force + 1 + constraint;
                 residual.add(slid, state.z[slid]);
-                residual.add(slid, sign * (from - meeting.way()));
+                residual.add(slid, sign * (start - meeting.xi()));
                 matrix.add(slid, slid, 1.0);
-                add_row(slid, rows, -sign, meeting.way_slopes(), matrix);
+                add_row(slid, rows, -sign, meeting.xi_slopes(), matrix);
             }
         }
     }
@@ -83,8 +83,8 @@ impl Chain {
             values[tilt] = values[tilt].min(needle.critical_tilt - rotation.abs());
             // The foot is where the left face begins and where the right one ends.
             let to_foot = match touch.place {
-                Place::Left => meeting.tip.way,
-                Place::Right => meeting.tip.length - meeting.tip.way,
+                OutlinePart::Left => meeting.tip.xi,
+                OutlinePart::Right => meeting.tip.length - meeting.tip.xi,
                 _ => HOLDS,
             };
             values[tilt + 1] = values[tilt + 1].min(to_foot);
@@ -95,11 +95,11 @@ impl Chain {
         for (number, touch) in state.mode.needle.touches.iter().enumerate() {
             let other = state.mode.needle.touches[1 - number].filter(|_| touch.is_none());
             if let Some(other) = other {
-                values[CONSTRAINTS * number + PUSH] = self.gap_of_next(state, &other);
+                values[CONSTRAINTS_PER_TOUCH * number + NORMAL] = self.gap_of_next(state, &other);
             }
         }
         for (number, touch, _, meeting) in self.touches(state) {
-            let of_touch = &mut values[CONSTRAINTS * number..][..CONSTRAINTS];
+            let of_touch = &mut values[CONSTRAINTS_PER_TOUCH * number..][..CONSTRAINTS_PER_TOUCH];
             self.touch_conditions(needle, state, (number, touch), &meeting, of_touch);
         }
     }
@@ -115,20 +115,21 @@ impl Chain {
     ) {
         let (tip, forces) = (&meeting.tip, needle.forces(&state.z, number));
         let friction = needle.friction;
-        values[PUSH] = tip.gap;
-        needle.rub_conditions(state, number, touch, meeting, values);
-        match touch.rub {
-            Rub::Slip { .. } => {
+        values[NORMAL] = tip.gap;
+        needle.stick_slip_conditions(state, number, touch, meeting, values);
+        match touch.tip_state {
+            TipState::Slip { .. } => {
                 // The outer end of a side face is its foot, and to come there is to come through.
-                if touch.place != Place::Left {
-                    values[LOW] = tip.way;
+                if touch.place != OutlinePart::Left {
+                    values[FACE_START] = tip.xi;
                 }
-                let is_stopped = touch.place == Place::Top && self.is_notched(state, touch.scale);
-                if touch.place != Place::Right && !is_stopped {
-                    values[HIGH] = tip.length - tip.way;
+                let is_stopped =
+                    touch.place == OutlinePart::Top && self.is_notched(state, touch.scale);
+                if touch.place != OutlinePart::Right && !is_stopped {
+                    values[FACE_END] = tip.length - tip.xi;
                 }
             }
-            Rub::Passing { forward } => {
+            TipState::Passing { forward } => {
                 let force = tip.force(forces);
                 let seen = |onward: bool| {
                     let beside = self.tip(&state.z, touch.scale, touch.place.next(onward)?)?;
@@ -136,13 +137,13 @@ impl Chain {
                 };
                 let [before, after] = [false, true].map(|onward| seen(onward).unwrap_or(forces));
                 // The force turns from that of a tip which slides onto the corner to that of one which slides away from it.
-                [values[LOW], values[HIGH]] = if forward {
+                [values[FACE_START], values[FACE_END]] = if forward {
                     [friction * before[0] - before[1], after[1] - friction * after[0]]
                 } else {
                     [-friction * before[0] - before[1], after[1] + friction * after[0]]
                 };
             }
-            Rub::Stick { .. } | Rub::Held { .. } => {}
+            TipState::Stick { .. } | TipState::Locked { .. } => {}
         }
     }
 
@@ -152,15 +153,16 @@ impl Chain {
     /// force alone, until the tip slides.
     fn gap_of_next(&self, state: &SkinState, touch: &Touch) -> f64 {
         let here = self.tip(&state.z, touch.scale, touch.place);
-        if let (Rub::Stick { .. }, Place::Top, Some(here)) = (touch.rub, touch.place, here)
-            && here.way > here.length - BESIDE
+        if let (TipState::Stick { .. }, OutlinePart::Top, Some(here)) =
+            (touch.tip_state, touch.place, here)
+            && here.xi > here.length - BESIDE
         {
             // Whether the contact of the corner is closed already does not matter: which of the two comes first would be round-off.
             return HOLDS;
         }
         let next = Self::next_touch(touch);
         let tip = next.and_then(|(scale, place)| self.tip(&state.z, scale, place));
-        let faced = tip.filter(|tip| (-BESIDE..=tip.length + BESIDE).contains(&tip.way));
+        let faced = tip.filter(|tip| (-BESIDE..=tip.length + BESIDE).contains(&tip.xi));
         faced.map_or(HOLDS, |tip| tip.gap)
     }
 
@@ -176,8 +178,8 @@ impl Chain {
         let next = Self::next_touch(touch);
         let tip = next.and_then(|(scale, place)| self.tip(&state.z, scale, place));
         tip.is_some_and(|tip| {
-            let way = tip.way.min(tip.length - tip.way);
-            tip.gap < -BESIDE && way.abs() < AT_AN_END
+            let xi = tip.xi.min(tip.length - tip.xi);
+            tip.gap < -BESIDE && xi.abs() < AT_AN_END
         })
     }
 
@@ -202,15 +204,15 @@ impl Chain {
 
     /// Whether the needle slides with friction, or is held in a notch with a force that does not turn with the row, or scales rub: their
     /// forces have no energy then.
-    pub(in crate::puncture) fn rubs(&self, state: &SkinState) -> bool {
-        if Contacts::rubs(state) {
+    pub(in crate::puncture) fn is_nonconservative(&self, state: &SkinState) -> bool {
+        if Contacts::friction_acts(state) {
             return true;
         }
         let Some(needle) = &self.needle else { return false };
-        state.mode.needle.all().any(|(_, touch)| match touch.rub {
-            Rub::Slip { sign, .. } => sign * needle.friction != 0.0,
-            Rub::Held { ratio } => ratio != 0.0,
-            Rub::Stick { .. } | Rub::Passing { .. } => false,
+        state.mode.needle.all().any(|(_, touch)| match touch.tip_state {
+            TipState::Slip { sign, .. } => sign * needle.friction != 0.0,
+            TipState::Locked { ratio } => ratio != 0.0,
+            TipState::Stick { .. } | TipState::Passing { .. } => false,
         })
     }
 
@@ -219,9 +221,9 @@ impl Chain {
         let Some(needle) = &self.needle else { return Vec::new() };
         let mut unknowns = vec![needle.depth];
         for (slot, touch, ..) in self.touches(state) {
-            unknowns.push(needle.push(slot));
+            unknowns.push(needle.normal_force(slot));
             if touch.is_at_a_place() {
-                unknowns.push(needle.push(slot) + 1);
+                unknowns.push(needle.normal_force(slot) + 1);
             }
         }
         unknowns
@@ -238,16 +240,16 @@ impl Chain {
         for (slot, touch, scale, meeting) in self.touches(state) {
             let at = self.layout.scale(scale);
             let unknowns = [at, at + 1, at + 2, needle.depth];
-            let push = needle.push(slot);
+            let normal_force = needle.normal_force(slot);
             let curvature = meeting.curvature(needle.forces(&state.z, slot));
             for (row, curvature) in unknowns.into_iter().zip(curvature) {
                 for (column, value) in unknowns.into_iter().zip(curvature) {
                     entry(row, column, value);
                 }
             }
-            let gap = (push, meeting.tip.gap_slopes().map(|slope| -slope));
-            let way = touch.is_at_a_place().then(|| (push + 1, meeting.way_slopes()));
-            for (force, slopes) in std::iter::once(gap).chain(way) {
+            let gap = (normal_force, meeting.tip.gap_slopes().map(|slope| -slope));
+            let xi = touch.is_at_a_place().then(|| (normal_force + 1, meeting.xi_slopes()));
+            for (force, slopes) in std::iter::once(gap).chain(xi) {
                 for (unknown, slope) in unknowns.into_iter().zip(slopes) {
                     entry(unknown, force, slope);
                     entry(force, unknown, slope);
@@ -272,18 +274,18 @@ impl Chain {
     ) -> f64 {
         let Some(needle) = &self.needle else { return 0.0 };
         let of_touch = |(slot, touch, ..): (usize, &Touch, usize, Meeting)| {
-            let Rub::Slip { sign, from: start } = touch.rub else { return 0.0 };
+            let TipState::Slip { sign, start } = touch.tip_state else { return 0.0 };
             let Some(end) = self.meeting(&to.state.z, touch.scale, touch.place) else { return 0.0 };
             if sign == 0.0 {
                 return 0.0;
             }
-            let slid = needle.push(slot) + 1 + if sign > 0.0 { FORWARD } else { BACKWARD };
-            let push = needle.push(slot);
+            let slid = needle.normal_force(slot) + 1 + if sign > 0.0 { FORWARD } else { BACKWARD };
+            let normal_force = needle.normal_force(slot);
             let along = |of: usize| [spans[0] * from.leaving[of], spans[1] * to.arriving[of]];
             // The tip may have come to rest at the second point: its way is taken from the poses.
-            let pushes = [from.state.z[push], to.state.z[push]];
-            let ways = [from.state.z[slid], sign * (end.way() - start)];
-            needle.friction * product_integral([pushes, along(push)], [ways, along(slid)])
+            let pushes = [from.state.z[normal_force], to.state.z[normal_force]];
+            let ways = [from.state.z[slid], sign * (end.xi() - start)];
+            needle.friction * product_integral([pushes, along(normal_force)], [ways, along(slid)])
         };
         self.touches(&from.state).map(of_touch).sum()
     }
@@ -294,7 +296,7 @@ impl Chain {
         let Some(needle) = &self.needle else { return Vec::new() };
         let mut all = vec![[0.0; 2]; needle.slots];
         for (slot, _, _, meeting) in self.touches(state) {
-            all[slot] = [needle.forces(&state.z, slot)[1], meeting.way()];
+            all[slot] = [needle.forces(&state.z, slot)[1], meeting.xi()];
         }
         all
     }
@@ -303,13 +305,13 @@ impl Chain {
 impl GuidedNeedle {
     /// `N` and `T` of a touch.
     fn forces(&self, z: &[f64], slot: usize) -> [f64; 2] {
-        let push = self.push(slot);
-        let rubs = self.of_touch < self.unknowns;
-        [z[push], if rubs { z[push + 1] } else { 0.0 }]
+        let normal_force = self.normal_force(slot);
+        let rubs = self.constraints_per_touch < self.unknowns_per_touch;
+        [z[normal_force], if rubs { z[normal_force + 1] } else { 0.0 }]
     }
 
     /// The conditions of a touch that sticks (L2), and of one that slides.
-    pub(super) fn rub_conditions(
+    pub(super) fn stick_slip_conditions(
         &self,
         state: &SkinState,
         slot: usize,
@@ -317,21 +319,21 @@ impl GuidedNeedle {
         meeting: &Meeting,
         values: &mut [f64],
     ) {
-        let [push, drag] = self.forces(&state.z, slot);
-        match touch.rub {
-            Rub::Slip { from, .. } => {
+        let [normal_force, tangential_force] = self.forces(&state.z, slot);
+        match touch.tip_state {
+            TipState::Slip { start, .. } => {
                 for (constraint, sign) in [(FORWARD, 1.0), (BACKWARD, -1.0)] {
                     if state.active[self.number(slot, constraint)] {
-                        let slid = state.z[self.push(slot) + 1 + constraint];
-                        values[constraint] = slid + sign * (from - meeting.way());
+                        let slid = state.z[self.normal_force(slot) + 1 + constraint];
+                        values[constraint] = slid + sign * (start - meeting.xi());
                     }
                 }
             }
-            Rub::Stick { .. } => {
-                values[FORWARD] = self.friction * push - drag;
-                values[BACKWARD] = self.friction * push + drag;
+            TipState::Stick { .. } => {
+                values[FORWARD] = self.friction * normal_force - tangential_force;
+                values[BACKWARD] = self.friction * normal_force + tangential_force;
             }
-            Rub::Passing { .. } | Rub::Held { .. } => {}
+            TipState::Passing { .. } | TipState::Locked { .. } => {}
         }
     }
 }
@@ -340,58 +342,58 @@ impl GuidedNeedle {
 fn add_balance(
     meeting: &Meeting,
     rows: [usize; COORDINATES],
-    push: usize,
+    normal_force: usize,
     z: &[f64],
     residual: &mut Residual,
     matrix: &mut impl Tangent,
 ) {
     // Of a round tip that does not rub the next unknown is one that stays 0.
-    let forces = [z[push], z[push + 1]];
-    let (by_gap, by_way) = (meeting.tip.gap_slopes(), meeting.way_slopes());
+    let forces = [z[normal_force], z[normal_force + 1]];
+    let (by_gap, by_xi) = (meeting.tip.gap_slopes(), meeting.xi_slopes());
     let curvature = meeting.curvature(forces);
     for (i, row) in rows.into_iter().enumerate() {
         let sign = if i + 1 == COORDINATES { -1.0 } else { 1.0 };
         residual.add(row, -sign * forces[0] * by_gap[i]);
-        residual.add(row, sign * forces[1] * by_way[i]);
+        residual.add(row, sign * forces[1] * by_xi[i]);
         add_row(row, rows, sign, curvature[i], matrix);
-        matrix.add(row, push, -sign * by_gap[i]);
-        matrix.add(row, push + 1, sign * by_way[i]);
+        matrix.add(row, normal_force, -sign * by_gap[i]);
+        matrix.add(row, normal_force + 1, sign * by_xi[i]);
     }
 }
 
 /// The law of the tangential force, in its row.
 fn add_law(
     needle: &GuidedNeedle,
-    (touch, push): (&Touch, usize),
+    (touch, normal_force): (&Touch, usize),
     meeting: &Meeting,
     rows: [usize; COORDINATES],
     z: &[f64],
     residual: &mut Residual,
     matrix: &mut impl Tangent,
 ) {
-    let row = push + 1;
-    match touch.rub {
-        Rub::Slip { .. } | Rub::Held { .. } => {
-            let ratio = match touch.rub {
-                Rub::Slip { sign, .. } => sign * needle.friction,
-                Rub::Held { ratio } => needle.keeps(touch, ratio),
-                Rub::Stick { .. } | Rub::Passing { .. } => 0.0,
+    let row = normal_force + 1;
+    match touch.tip_state {
+        TipState::Slip { .. } | TipState::Locked { .. } => {
+            let ratio = match touch.tip_state {
+                TipState::Slip { sign, .. } => sign * needle.friction,
+                TipState::Locked { ratio } => needle.shifted_anchor(touch, ratio),
+                TipState::Stick { .. } | TipState::Passing { .. } => 0.0,
             };
             residual.add(row, z[row]);
-            residual.add(row, -ratio * z[push]);
+            residual.add(row, -ratio * z[normal_force]);
             matrix.add(row, row, 1.0);
-            matrix.add(row, push, -ratio);
+            matrix.add(row, normal_force, -ratio);
         }
-        Rub::Stick { .. } | Rub::Passing { .. } => {
-            let at = match touch.rub {
-                Rub::Stick { at } => needle.keeps(touch, at),
+        TipState::Stick { .. } | TipState::Passing { .. } => {
+            let at = match touch.tip_state {
+                TipState::Stick { anchor } => needle.shifted_anchor(touch, anchor),
                 _ => 0.0,
             };
             // With this sign the determinant keeps its own where a tip that slides comes to rest. With the other one the path would
             // take the equilibria behind that place for another branch, and stop there.
             residual.add(row, at);
-            residual.add(row, -meeting.way());
-            add_row(row, rows, -1.0, meeting.way_slopes(), matrix);
+            residual.add(row, -meeting.xi());
+            add_row(row, rows, -1.0, meeting.xi_slopes(), matrix);
         }
     }
 }

@@ -14,7 +14,7 @@ use std::borrow::Cow;
 use solver::{AnchoredPoint, Linearisation, Neighbours, Path, PathAnchor};
 
 use super::GuidedNeedle;
-use super::mode::{Rub, Touch};
+use super::mode::{TipState, Touch};
 use crate::contacts::{Contacts, SkinMode, SkinPoint, SkinState};
 use crate::puncture::adaptive_row::Segment;
 use crate::puncture::system::Chain;
@@ -22,7 +22,7 @@ use crate::sensitivity::vanished;
 
 /// What the equations keep of the way to a state.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::puncture) enum Kept {
+pub(in crate::puncture) enum HistoryVariable {
     /// Where a touch of the needle sticks, or how it is held.
     Touch(Touch),
     /// Where a contact, by its number, sticks, or how it is held.
@@ -31,11 +31,11 @@ pub(in crate::puncture) enum Kept {
 
 /// The segments of a path at whose ends the row comes to keep something of its way.
 #[derive(Debug, Default)]
-pub(in crate::puncture) struct HistoryWatch {
+pub(in crate::puncture) struct HistoryObserver {
     pub(in crate::puncture) segments: Vec<[SkinPoint; 2]>,
 }
 
-impl HistoryWatch {
+impl HistoryObserver {
     pub(in crate::puncture) fn follow(&mut self, Segment { from, to, .. }: &Segment) {
         // What is kept is copied bit by bit along the path, so that equality tells what is new.
         if history(&to.state).iter().any(|kept| !history(&from.state).contains(kept)) {
@@ -46,7 +46,7 @@ impl HistoryWatch {
 
 /// Something that is kept, and its rates of change with each parameter; `None` where that is not known.
 pub(in crate::puncture) struct Anchor {
-    kept: Kept,
+    kept: HistoryVariable,
     rates: Vec<Option<f64>>,
 }
 
@@ -61,7 +61,7 @@ pub(in crate::puncture) fn anchors(
     for kept in history(&rest) {
         // The needle is set down: its first anchor is a matter of the design alone.
         let of = |neighbours: &Neighbours<Chain>| {
-            let at = |chain: &Chain| chain.keeps(&rest, kept, &rest);
+            let at = |chain: &Chain| chain.history_value(&rest, kept, &rest);
             let (below, above) = (at(&neighbours.below)?, at(&neighbours.above)?);
             Some((above - below) / (2.0 * neighbours.step))
         };
@@ -83,7 +83,7 @@ pub(in crate::puncture) fn anchors(
         for kept in new {
             let rate = |(at, neighbours): (&Option<[SkinState; 2]>, &Neighbours<Chain>)| {
                 let [below, above] = at.as_ref()?;
-                let value = |chain: &Chain, state| chain.keeps(state, kept, &to.state);
+                let value = |chain: &Chain, state| chain.history_value(state, kept, &to.state);
                 let rise = value(&neighbours.above, above)? - value(&neighbours.below, below)?;
                 Some(rise / (2.0 * neighbours.step)).filter(|rate| rate.is_finite())
             };
@@ -106,20 +106,22 @@ pub(in crate::puncture) fn with<'v>(
         let anchor = anchors.iter().rev().find(|anchor| anchor.kept == kept)?;
         for (neighbours, rate) in varied.to_mut().iter_mut().zip(&anchor.rates) {
             let change = neighbours.step * (*rate)?;
-            neighbours.below.move_kept(kept, -change);
-            neighbours.above.move_kept(kept, change);
+            neighbours.below.shift_anchor(kept, -change);
+            neighbours.above.shift_anchor(kept, change);
         }
     }
     Some(varied)
 }
 
 /// What the equations of a state keep of the way to it.
-pub(in crate::puncture) fn history(state: &SkinState) -> Vec<Kept> {
+pub(in crate::puncture) fn history(state: &SkinState) -> Vec<HistoryVariable> {
     let mode = &state.mode.needle;
     let touches = mode.all().filter(|(_, touch)| touch.has_history());
-    let touches = touches
-        .map(|(_, touch)| Kept::Touch(if mode.is_round() { touch.anywhere() } else { *touch }));
-    let contacts = Contacts::kept(state).map(|(contact, kept)| Kept::Contact(contact, kept));
+    let touches = touches.map(|(_, touch)| {
+        HistoryVariable::Touch(if mode.is_round() { touch.anywhere() } else { *touch })
+    });
+    let contacts =
+        Contacts::anchors(state).map(|(contact, kept)| HistoryVariable::Contact(contact, kept));
     touches.chain(contacts).collect()
 }
 
@@ -155,15 +157,22 @@ fn moved_to(
 
 impl Chain {
     /// What will be kept, in the state `to`, of a state in which it is not yet: a place, or a ratio of forces.
-    fn keeps(&self, state: &SkinState, kept: Kept, to: &SkinState) -> Option<f64> {
+    fn history_value(
+        &self,
+        state: &SkinState,
+        kept: HistoryVariable,
+        to: &SkinState,
+    ) -> Option<f64> {
         let touch = match kept {
-            Kept::Contact(contact, _) => return self.contacts.keeps(state, contact, to),
-            Kept::Touch(touch) => touch,
+            HistoryVariable::Contact(contact, _) => {
+                return self.contacts.anchor_value(state, contact, to);
+            }
+            HistoryVariable::Touch(touch) => touch,
         };
-        let Rub::Held { .. } = touch.rub else {
+        let TipState::Locked { .. } = touch.tip_state else {
             // A round tip may roll on after the event: it counts where it touches there.
             let place = to.mode.needle.place(touch.scale).unwrap_or(touch.place);
-            return Some(self.meeting(&state.z, touch.scale, place)?.way());
+            return Some(self.meeting(&state.z, touch.scale, place)?.xi());
         };
         let before = &state.mode.needle.touches;
         let is_there = |before: &Touch| (before.scale, before.place) == (touch.scale, touch.place);
@@ -172,25 +181,25 @@ impl Chain {
             // The corner has come to the tip: it is held without a tangential force.
             return Some(0.0);
         };
-        let push = self.needle.as_ref()?.push(slot);
-        Some(state.z[push + 1] / state.z[push])
+        let normal_force = self.needle.as_ref()?.normal_force(slot);
+        Some(state.z[normal_force + 1] / state.z[normal_force])
     }
 
     /// Takes what is kept to that of a neighbour.
-    fn move_kept(&mut self, kept: Kept, by: f64) {
+    fn shift_anchor(&mut self, kept: HistoryVariable, by: f64) {
         match (kept, &mut self.needle) {
-            (Kept::Touch(touch), Some(needle)) => needle.moved.push((touch, by)),
-            (Kept::Touch(..), None) => {}
-            (Kept::Contact(contact, _), _) => self.contacts.move_kept(contact, by),
+            (HistoryVariable::Touch(touch), Some(needle)) => needle.anchor_shifts.push((touch, by)),
+            (HistoryVariable::Touch(..), None) => {}
+            (HistoryVariable::Contact(contact, _), _) => self.contacts.shift_anchor(contact, by),
         }
     }
 }
 
 impl GuidedNeedle {
     /// The anchor of a touch, or its ratio of forces, on the way to this row.
-    pub(super) fn keeps(&self, touch: &Touch, of_mode: f64) -> f64 {
+    pub(super) fn shifted_anchor(&self, touch: &Touch, of_mode: f64) -> f64 {
         let touch = if self.is_round() { touch.anywhere() } else { *touch };
-        let moved = self.moved.iter().find(|(moved, _)| *moved == touch);
+        let moved = self.anchor_shifts.iter().find(|(moved, _)| *moved == touch);
         of_mode + moved.map_or(0.0, |(_, by)| *by)
     }
 }

@@ -2,7 +2,7 @@
 
 /// A place on the outline of a scale, in the order in which one goes along it, from the left foot over the top to the right foot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd)]
-pub(crate) enum Place {
+pub(crate) enum OutlinePart {
     /// The left face.
     Left,
     /// The corner between the left face and the top.
@@ -15,7 +15,7 @@ pub(crate) enum Place {
     Right,
 }
 
-impl Place {
+impl OutlinePart {
     const ALL: [Self; 5] = [Self::Left, Self::TopLeft, Self::Top, Self::TopRight, Self::Right];
 
     /// The next place along the outline, forward or backward; `None` at a foot.
@@ -29,15 +29,15 @@ impl Place {
 /// How the tip of a needle moves at the place that it touches: the law of its tangential force `T`, with its normal force `N` and its
 /// coordinate `ξ` along the face.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Rub {
+pub(crate) enum TipState {
     /// It slides: `T = sign μ N` with the sign of `ξ̇`, 0 without friction. It has done so since `ξ` was `from`.
-    Slip { sign: f64, from: f64 },
+    Slip { sign: f64, start: f64 },
     /// It sticks: `ξ = at`, its anchor, and `T` is unknown.
-    Stick { at: f64 },
+    Stick { anchor: f64 },
     /// It passes over a corner, forward or backward along the outline: `ξ = 0` in the frame of the corner, and `T` is unknown.
     Passing { forward: bool },
     /// It is held in a notch by the neighbour's face: nothing moves, and `T = ratio N` stays what it was.
-    Held { ratio: f64 },
+    Locked { ratio: f64 },
 }
 
 /// A scale that the needle touches.
@@ -45,28 +45,28 @@ pub(crate) enum Rub {
 pub(crate) struct Touch {
     /// Number of the scale, from the punctured one to the right.
     pub(crate) scale: i64,
-    pub(crate) place: Place,
-    pub(crate) rub: Rub,
+    pub(crate) place: OutlinePart,
+    pub(crate) tip_state: TipState,
 }
 
 impl Touch {
-    pub(crate) fn is_held(&self) -> bool {
-        matches!(self.rub, Rub::Held { .. })
+    pub(crate) fn is_locked(&self) -> bool {
+        matches!(self.tip_state, TipState::Locked { .. })
     }
 
     /// The same wherever a round tip touches the scale: it rolls from place to place without sliding.
     pub(crate) fn anywhere(&self) -> Self {
-        Self { place: Place::Top, ..*self }
+        Self { place: OutlinePart::Top, ..*self }
     }
 
     /// Whether its tangential force is unknown, since it stays at a place.
     pub(crate) fn is_at_a_place(&self) -> bool {
-        matches!(self.rub, Rub::Stick { .. } | Rub::Passing { .. })
+        matches!(self.tip_state, TipState::Stick { .. } | TipState::Passing { .. })
     }
 
     /// Whether the equations keep something of the way to the state: where the tip sticks, or with what force it is held.
     pub(crate) fn has_history(&self) -> bool {
-        matches!(self.rub, Rub::Stick { .. } | Rub::Held { .. })
+        matches!(self.tip_state, TipState::Stick { .. } | TipState::Locked { .. })
     }
 }
 
@@ -87,7 +87,7 @@ impl NeedleMode {
     }
 
     /// Where the tip touches a scale, counted from the punctured one.
-    pub(super) fn place(&self, scale: i64) -> Option<Place> {
+    pub(super) fn place(&self, scale: i64) -> Option<OutlinePart> {
         self.all().find(|(_, touch)| touch.scale == scale).map(|(_, touch)| touch.place)
     }
 

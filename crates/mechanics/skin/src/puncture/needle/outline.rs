@@ -3,7 +3,7 @@
 use contact::Pose;
 use geometry::{Corner, Parallelogram, Vec2};
 
-use super::mode::Place;
+use super::mode::OutlinePart;
 
 /// A face of a scale, in the frame of the scale; a corner is one without length, whose direction is half-way between its neighbours'.
 pub(super) struct Face {
@@ -13,7 +13,7 @@ pub(super) struct Face {
 }
 
 impl Face {
-    pub(super) fn new(scale: &Parallelogram, place: Place) -> Self {
+    pub(super) fn new(scale: &Parallelogram, place: OutlinePart) -> Self {
         let between = |from: Corner, to: Corner| {
             let (origin, end) = (scale.corner(from), scale.corner(to));
             let length = (end - origin).norm();
@@ -28,11 +28,11 @@ impl Face {
             length: 0.0,
         };
         match place {
-            Place::Left => left(),
-            Place::TopLeft => corner(left(), top()),
-            Place::Top => top(),
-            Place::TopRight => corner(top(), right()),
-            Place::Right => right(),
+            OutlinePart::Left => left(),
+            OutlinePart::TopLeft => corner(left(), top()),
+            OutlinePart::Top => top(),
+            OutlinePart::TopRight => corner(top(), right()),
+            OutlinePart::Right => right(),
         }
     }
 }
@@ -53,7 +53,7 @@ pub(super) struct Tip {
     /// `g`.
     pub(super) gap: f64,
     /// `ξ`.
-    pub(super) way: f64,
+    pub(super) xi: f64,
     pub(super) length: f64,
 }
 
@@ -72,48 +72,51 @@ impl Tip {
         // The outline goes from left to right over the top, so that outward is to its left.
         let normal = Vec2::new(-along.y, along.x);
         let from_origin = arm - pose.turn(face.origin);
-        let (gap, way) = (from_origin.dot(&normal), from_origin.dot(&along));
-        Self { arm, normal, along, gap, way, length: face.length }
+        let (gap, xi) = (from_origin.dot(&normal), from_origin.dot(&along));
+        Self { arm, normal, along, gap, xi, length: face.length }
     }
 
     /// The tip in the frame of the line from a corner to it, which is the normal of a round one there.
     pub(super) fn at_corner(self) -> Self {
-        let away = self.gap * self.normal + self.way * self.along;
+        let away = self.gap * self.normal + self.xi * self.along;
         let gap = away.norm();
         // The gap is about the radius where the tip touches, and so not zero.
         let normal = away / gap;
-        Self { normal, along: Vec2::new(normal.y, -normal.x), gap, way: 0.0, ..self }
+        Self { normal, along: Vec2::new(normal.y, -normal.x), gap, xi: 0.0, ..self }
     }
 
     /// From the tip to a place on the face.
-    pub(super) fn to_end(&self, way: f64) -> Vec2 {
-        (way - self.way) * self.along - self.gap * self.normal
+    pub(super) fn to_end(&self, xi: f64) -> Vec2 {
+        (xi - self.xi) * self.along - self.gap * self.normal
     }
 
     pub(super) fn gap_slopes(&self) -> [f64; COORDINATES] {
         [-self.normal.x, -self.normal.y, -self.arm.dot(&self.along), -self.normal.y]
     }
 
-    pub(super) fn way_slopes(&self) -> [f64; COORDINATES] {
+    pub(super) fn xi_slopes(&self) -> [f64; COORDINATES] {
         [-self.along.x, -self.along.y, self.arm.dot(&self.normal), -self.along.y]
     }
 
     /// Second derivatives of `−N g + T ξ`.
-    pub(super) fn curvature(&self, [push, drag]: [f64; 2]) -> [[f64; COORDINATES]; COORDINATES] {
+    pub(super) fn curvature(
+        &self,
+        [normal_force, tangential_force]: [f64; 2],
+    ) -> [[f64; COORDINATES]; COORDINATES] {
         let mut curvature = [[0.0; COORDINATES]; COORDINATES];
-        let turning = -push * self.along - drag * self.normal;
+        let turning = -normal_force * self.along - tangential_force * self.normal;
         for (i, value) in [(0, turning.x), (1, turning.y), (DEPTH, turning.y)] {
             curvature[i][TURN] = value;
             curvature[TURN][i] = value;
         }
-        curvature[TURN][TURN] =
-            push * self.arm.dot(&self.normal) - drag * self.arm.dot(&self.along);
+        curvature[TURN][TURN] = normal_force * self.arm.dot(&self.normal)
+            - tangential_force * self.arm.dot(&self.along);
         curvature
     }
 
     /// The force on the scale under the normal force `N` and the tangential one `T`.
-    pub(super) fn force(&self, [push, drag]: [f64; 2]) -> Vec2 {
-        drag * self.along - push * self.normal
+    pub(super) fn force(&self, [normal_force, tangential_force]: [f64; 2]) -> Vec2 {
+        tangential_force * self.along - normal_force * self.normal
     }
 
     /// `N` and `T` of a force on the scale.
@@ -151,16 +154,16 @@ impl Meeting {
     }
 
     /// `ξ`.
-    pub(super) fn way(&self) -> f64 {
+    pub(super) fn xi(&self) -> f64 {
         if self.radius == 0.0 {
-            return self.tip.way;
+            return self.tip.xi;
         }
-        self.before + self.tip.way + self.radius * self.tip.normal.x.atan2(self.tip.normal.y)
+        self.before + self.tip.xi + self.radius * self.tip.normal.x.atan2(self.tip.normal.y)
     }
 
     /// `∂ξ`.
-    pub(super) fn way_slopes(&self) -> [f64; COORDINATES] {
-        let mut slopes = self.tip.way_slopes();
+    pub(super) fn xi_slopes(&self) -> [f64; COORDINATES] {
+        let mut slopes = self.tip.xi_slopes();
         if !self.is_corner {
             // The normal turns with the scale, `∂ψ/∂φ = −1`.
             slopes[TURN] -= self.radius;
@@ -172,21 +175,24 @@ impl Meeting {
     }
 
     /// Second derivatives of `−N g + T ξ` (L8).
-    pub(super) fn curvature(&self, [push, drag]: [f64; 2]) -> [[f64; COORDINATES]; COORDINATES] {
+    pub(super) fn curvature(
+        &self,
+        [normal_force, tangential_force]: [f64; 2],
+    ) -> [[f64; COORDINATES]; COORDINATES] {
         let tip = &self.tip;
         if !self.is_corner {
-            return tip.curvature([push, drag]);
+            return tip.curvature([normal_force, tangential_force]);
         }
-        let (off, mut along) = (tip.gap_slopes(), tip.way_slopes());
+        let (off, mut along) = (tip.gap_slopes(), tip.xi_slopes());
         along[TURN] -= tip.gap;
-        let rolled = drag * self.radius / tip.gap;
+        let rolled = tangential_force * self.radius / tip.gap;
         let entry = |i: usize, j: usize| {
             let turning = off[i] * along[j] + along[i] * off[j];
-            -(push * along[i] * along[j] + rolled * turning) / tip.gap
+            -(normal_force * along[i] * along[j] + rolled * turning) / tip.gap
         };
         let mut curvature: [[f64; COORDINATES]; COORDINATES] =
             std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)));
-        curvature[TURN][TURN] += rolled * tip.arm.dot(&tip.along) - push * along[TURN];
+        curvature[TURN][TURN] += rolled * tip.arm.dot(&tip.along) - normal_force * along[TURN];
         curvature
     }
 }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::mode::{Place, Rub, Touch};
+use super::mode::{OutlinePart, TipState, Touch};
 use crate::contacts::{SkinPoint, SkinState};
 use crate::puncture::adaptive_row::Segment;
 use crate::puncture::system::Chain;
@@ -55,14 +55,14 @@ pub type TipForces = Vec<(i64, f64)>;
 
 /// Watches a path for the place at which the needle comes to touch more than its face, and notes the forces of a round tip.
 #[derive(Debug, Default)]
-pub(in crate::puncture) struct PassageWatch {
+pub(in crate::puncture) struct PassageObserver {
     /// Of every point that the path has left.
     pub(in crate::puncture) tip_forces: Vec<TipForces>,
     /// The segment at whose end it does.
     pub(in crate::puncture) passed: Option<[SkinPoint; 2]>,
 }
 
-impl PassageWatch {
+impl PassageObserver {
     pub(in crate::puncture) fn follow(
         &mut self,
         chain: &Chain,
@@ -95,7 +95,9 @@ impl PassageWatch {
 /// Whether the needle touches nothing but the face on which it was set down.
 fn is_on_its_face(state: &SkinState) -> bool {
     let on_top = |(_, touch): (usize, &Touch)| {
-        touch.scale == 0 && touch.place == Place::Top && !matches!(touch.rub, Rub::Held { .. })
+        touch.scale == 0
+            && touch.place == OutlinePart::Top
+            && !matches!(touch.tip_state, TipState::Locked { .. })
     };
     state.mode.needle.all().all(on_top)
 }
@@ -103,7 +105,7 @@ fn is_on_its_face(state: &SkinState) -> bool {
 impl Chain {
     /// How far the tip has moved inward on the top of the punctured scale.
     pub(in crate::puncture) fn shift(&self, state: &SkinState) -> Option<f64> {
-        let at = |z: &[f64]| Some(self.tip(z, 0, Place::Top)?.way);
+        let at = |z: &[f64]| Some(self.tip(z, 0, OutlinePart::Top)?.xi);
         Some(at(&vec![0.0; state.z.len()])? - at(&state.z)?)
     }
 }

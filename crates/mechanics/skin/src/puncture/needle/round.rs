@@ -8,10 +8,10 @@ use geometry::Vec2;
 use solver::{Change, Condition, Newton};
 
 use super::forces::STEP;
-use super::mode::{Place, Rub, Touch};
+use super::mode::{OutlinePart, TipState, Touch};
 use super::outline::Face;
 use super::passage::TipForces;
-use super::{ENDINGS, GuidedNeedle, PUSH};
+use super::{ENDINGS, GuidedNeedle, NORMAL};
 use crate::contacts::{HOLDS, SkinState};
 use crate::puncture::system::Chain;
 
@@ -27,7 +27,7 @@ const AT_REST: f64 = 1e-10;
 /// Set down on two scales a tip is on one of them alone, sticks or slides, after fewer trials than this.
 const SETTLES: usize = 8;
 
-const FACES: [Place; 3] = [Place::Left, Place::Top, Place::Right];
+const FACES: [OutlinePart; 3] = [OutlinePart::Left, OutlinePart::Top, OutlinePart::Right];
 
 /// Scales on each side of the punctured one that a round tip may come to on a row of this pitch; `None` if they are too many.
 pub(in crate::puncture) fn reach(radius: f64, pitch: f64) -> Option<usize> {
@@ -61,12 +61,12 @@ impl GuidedNeedle {
     /// Lets the tip touch a scale, or let go of it.
     fn set_touch(&self, state: &mut SkinState, scale: i64, touch: Option<Touch>) {
         let slot = (scale + self.reach() as i64) as usize;
-        if touch.is_none() && self.rubs() {
+        if touch.is_none() && self.has_friction() {
             self.end_sliding(state, slot);
-            state.z[self.push(slot) + 1] = 0.0;
+            state.z[self.normal_force(slot) + 1] = 0.0;
         }
         state.mode.needle.touches[slot] = touch;
-        state.active[self.number(slot, PUSH)] = touch.is_some();
+        state.active[self.number(slot, NORMAL)] = touch.is_some();
     }
 }
 
@@ -87,7 +87,7 @@ impl Chain {
     }
 
     /// The place of a scale that is nearest to the centre of the tip, and its distance; negative within the scale.
-    fn nearest(&self, z: &[f64], scale: i64) -> Option<(Place, f64)> {
+    fn nearest(&self, z: &[f64], scale: i64) -> Option<(OutlinePart, f64)> {
         let [left, top, right] = FACES.map(|place| self.tip(z, scale, place));
         let faces = [left?, top?, right?];
         let places = || FACES.into_iter().zip(&faces);
@@ -97,13 +97,13 @@ impl Chain {
             return gaps.reduce(|a, b| if b.1 > a.1 { b } else { a });
         }
         let distances = places().map(|(place, face)| {
-            let beyond = face.way - face.way.clamp(0.0, face.length);
+            let beyond = face.xi - face.xi.clamp(0.0, face.length);
             // Only beyond a top corner the outline goes on: below the bases there is no model.
             let at_end = match (place, beyond) {
-                (Place::Top, ..0.0) => Place::TopLeft,
-                (Place::Left, 0.0..) if beyond > 0.0 => Place::TopLeft,
-                (Place::Right, ..0.0) => Place::TopRight,
-                (Place::Top, 0.0..) if beyond > 0.0 => Place::TopRight,
+                (OutlinePart::Top, ..0.0) => OutlinePart::TopLeft,
+                (OutlinePart::Left, 0.0..) if beyond > 0.0 => OutlinePart::TopLeft,
+                (OutlinePart::Right, ..0.0) => OutlinePart::TopRight,
+                (OutlinePart::Top, 0.0..) if beyond > 0.0 => OutlinePart::TopRight,
                 _ => place,
             };
             (at_end, face.gap.hypot(beyond))
@@ -129,19 +129,20 @@ impl Chain {
             let ahead = rest.moved(STEP / largest, &rates);
             let before = rest.clone();
             for (slot, touch) in before.mode.needle.all() {
-                let [push, drag] = [0, 1].map(|k| rates[needle.push(slot) + k]);
+                let [normal_force, tangential_force] =
+                    [0, 1].map(|k| rates[needle.normal_force(slot) + k]);
                 // A touch that would have to pull is none.
-                if push <= 0.0 {
+                if normal_force <= 0.0 {
                     needle.set_touch(&mut rest, touch.scale, None);
                     continue;
                 }
                 if let Some((place, _)) = self.nearest(&ahead.z, touch.scale) {
                     needle.set_touch(&mut rest, touch.scale, Some(Touch { place, ..*touch }));
                 }
-                if let Rub::Stick { at } = touch.rub
-                    && drag.abs() > needle.friction * push
+                if let TipState::Stick { anchor } = touch.tip_state
+                    && tangential_force.abs() > needle.friction * normal_force
                 {
-                    needle.slide(&mut rest, slot, drag > 0.0, at);
+                    needle.slide(&mut rest, slot, tangential_force > 0.0, anchor);
                 }
             }
             if rest.active == before.active {
@@ -154,8 +155,8 @@ impl Chain {
     /// A round tip that has come to rest on the nearest place of a scale.
     fn round_touch(&self, needle: &GuidedNeedle, z: &[f64], scale: i64) -> Option<Touch> {
         let (place, _) = self.nearest(z, scale)?;
-        let at = if needle.rubs() { self.meeting(z, scale, place)?.way() } else { 0.0 };
-        Some(Touch { scale, place, rub: needle.resting(at) })
+        let at = if needle.has_friction() { self.meeting(z, scale, place)?.xi() } else { 0.0 };
+        Some(Touch { scale, place, tip_state: needle.resting(at) })
     }
 
     /// Writes the conditions of the constraints of a round tip.
@@ -167,35 +168,37 @@ impl Chain {
     ) {
         let through = needle.tilt_number() + 1;
         for (slot, scale) in needle.scales() {
-            let of_scale = &mut values[needle.of_touch * slot..][..needle.of_touch];
+            let of_scale =
+                &mut values[needle.constraints_per_touch * slot..][..needle.constraints_per_touch];
             if state.mode.needle.touches[slot].is_none() {
                 let nearest = self.nearest(&state.z, scale);
-                of_scale[PUSH] = nearest.map_or(HOLDS, |(_, distance)| distance - needle.radius);
+                of_scale[NORMAL] = nearest.map_or(HOLDS, |(_, distance)| distance - needle.radius);
             }
         }
         for (slot, touch, _, meeting) in self.touches(state) {
-            let of_scale = &mut values[needle.of_touch * slot..][..needle.of_touch];
-            of_scale[PUSH] = meeting.gap();
+            let of_scale =
+                &mut values[needle.constraints_per_touch * slot..][..needle.constraints_per_touch];
+            of_scale[NORMAL] = meeting.gap();
             let [before, after] = self.to_ends(state, touch.scale, touch.place);
             // One condition serves both ends: which one has come is asked at the event.
-            of_scale[needle.of_touch - 1] = before.min(after);
-            if needle.rubs() {
-                needle.rub_conditions(state, slot, touch, &meeting, of_scale);
+            of_scale[needle.constraints_per_touch - 1] = before.min(after);
+            if needle.has_friction() {
+                needle.stick_slip_conditions(state, slot, touch, &meeting, of_scale);
             }
         }
         values[through] = values[through].min(self.above_surface(needle, state));
     }
 
     /// How far a tip is from the two ends of the place at which it touches a scale; feet are no ends.
-    fn to_ends(&self, state: &SkinState, scale: i64, place: Place) -> [f64; 2] {
-        let seen = |place: Place| self.tip(&state.z, scale, place);
+    fn to_ends(&self, state: &SkinState, scale: i64, place: OutlinePart) -> [f64; 2] {
+        let seen = |place: OutlinePart| self.tip(&state.z, scale, place);
         let is_corner = !FACES.contains(&place);
         [false, true].map(|onward| {
             let face =
                 place.next(onward).and_then(|next| seen(if is_corner { next } else { place }));
             let Some(face) = face else { return HOLDS };
             // A corner lies at the end of the face before it, and at the beginning of that behind it.
-            let inside = if is_corner == onward { face.way } else { face.length - face.way };
+            let inside = if is_corner == onward { face.xi } else { face.length - face.xi };
             if is_corner { -inside } else { inside }
         })
     }
@@ -204,12 +207,12 @@ impl Chain {
     fn above_surface(&self, needle: &GuidedNeedle, state: &SkinState) -> f64 {
         let mut least = HOLDS;
         for (_, scale) in needle.scales() {
-            let foot = |scale: i64, place: Place, at_end: bool| {
+            let foot = |scale: i64, place: OutlinePart, at_end: bool| {
                 let tip = self.tip(&state.z, scale, place)?;
                 Some(tip.to_end(if at_end { tip.length } else { 0.0 }))
             };
-            let from = foot(scale, Place::Right, true);
-            let to = foot(scale + 1, Place::Left, false);
+            let from = foot(scale, OutlinePart::Right, true);
+            let to = foot(scale + 1, OutlinePart::Left, false);
             let (Some(from), Some(to)) = (from, to) else { continue };
             let along = to - from;
             let part = (-from.dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
@@ -226,9 +229,9 @@ impl Chain {
         change: Change,
     ) -> Option<usize> {
         let number = change.constraint - needle.contacts;
-        let slot = number / needle.of_touch;
+        let slot = number / needle.constraints_per_touch;
         let scale = slot as i64 - needle.reach() as i64;
-        if number % needle.of_touch == needle.of_touch - 1 {
+        if number % needle.constraints_per_touch == needle.constraints_per_touch - 1 {
             // It has no force: it never acts.
             state.active[change.constraint] = false;
             let place = state.mode.needle.touches[slot]?.place;
@@ -248,7 +251,7 @@ impl Chain {
     pub(in crate::puncture) fn tip_forces(&self, state: &SkinState) -> Option<TipForces> {
         let needle = self.needle.as_ref().filter(|needle| self.whole_path && needle.is_round())?;
         let of = |(slot, touch): (usize, &Touch)| {
-            (touch.scale, state.z[needle.push(slot)] / self.length)
+            (touch.scale, state.z[needle.normal_force(slot)] / self.length)
         };
         Some(state.mode.needle.all().map(of).collect())
     }
@@ -258,9 +261,9 @@ impl Chain {
 fn height_above(face: &Face, x: f64, radius: f64) -> f64 {
     let normal = Vec2::new(-face.along.y, face.along.x);
     let on_face = face.origin.y + (radius - (x - face.origin.x) * normal.x) / normal.y;
-    let way = (Vec2::new(x, on_face) - face.origin).dot(&face.along);
+    let xi = (Vec2::new(x, on_face) - face.origin).dot(&face.along);
     // A face that looks down holds nothing that comes from above.
-    if normal.y > 0.0 && (0.0..=face.length).contains(&way) {
+    if normal.y > 0.0 && (0.0..=face.length).contains(&xi) {
         return on_face;
     }
     let ends = [face.origin, face.origin + face.length * face.along];

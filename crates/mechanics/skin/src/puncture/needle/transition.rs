@@ -2,8 +2,8 @@
 
 use solver::Change;
 
-use super::mode::{Place, Rub, Touch};
-use super::{BACKWARD, FORWARD, GuidedNeedle, HIGH, LOW, PUSH};
+use super::mode::{OutlinePart, TipState, Touch};
+use super::{BACKWARD, FACE_END, FACE_START, FORWARD, GuidedNeedle, NORMAL};
 use crate::contacts::SkinState;
 use crate::puncture::system::Chain;
 
@@ -30,29 +30,30 @@ impl Chain {
         if number >= needle.tilt_number() {
             return None;
         }
-        let (slot, constraint) = (number / needle.of_touch, number % needle.of_touch);
+        let (slot, constraint) =
+            (number / needle.constraints_per_touch, number % needle.constraints_per_touch);
         let slides = (FORWARD..=BACKWARD).contains(&constraint);
         // Where it sticks and slides a round tip is like a sharp one: only its places differ.
-        if needle.is_round() && !(slides && needle.rubs()) {
+        if needle.is_round() && !(slides && needle.has_friction()) {
             return self.round_transition(needle, state, change);
         }
         let valid = match (constraint, change.activated) {
-            (PUSH, true) => self.enter_notch(needle, state, slot)?,
-            (PUSH, false) => return self.leave(needle, state, slot),
+            (NORMAL, true) => self.enter_notch(needle, state, slot)?,
+            (NORMAL, false) => return self.leave(needle, state, slot),
             (FORWARD | BACKWARD, true) => {
-                let at = self.way(state, slot)?;
-                needle.slide(state, slot, constraint == FORWARD, at);
+                let anchor = self.touch_xi(state, slot)?;
+                needle.slide(state, slot, constraint == FORWARD, anchor);
                 constraint
             }
             (FORWARD | BACKWARD, false) => {
-                let at = self.way(state, slot)?;
-                state.mode.needle.touches[slot].as_mut()?.rub = Rub::Stick { at };
+                let anchor = self.touch_xi(state, slot)?;
+                state.mode.needle.touches[slot].as_mut()?.tip_state = TipState::Stick { anchor };
                 constraint
             }
-            (LOW | HIGH, _) => {
+            (FACE_START | FACE_END, _) => {
                 // These have no force: they never act.
                 state.active[change.constraint] = false;
-                self.turn_corner(needle, state, slot, constraint == HIGH)?
+                self.turn_corner(needle, state, slot, constraint == FACE_END)?
             }
             _ => return None,
         };
@@ -65,27 +66,36 @@ impl Chain {
         let top = state.mode.needle.touches[1 - face];
         if top.is_some_and(|top| !self.is_notched(state, top.scale)) {
             // The notch is known by the touch that it holds, so this comes before the touch moves.
-            self.free_corner(state);
-            self.move_to(needle, state, 1 - face, Place::TopRight, Rub::Passing { forward: true });
+            self.release_corner(state);
+            self.move_to(
+                needle,
+                state,
+                1 - face,
+                OutlinePart::TopRight,
+                TipState::Passing { forward: true },
+            );
             self.come_to_rest(needle, state, face);
         }
     }
 
     /// Lets the tip stick where it slides.
     pub(in crate::puncture) fn stop_tip(&self, needle: &GuidedNeedle, state: &mut SkinState) {
-        for slot in (0..needle.slots).filter(|_| needle.rubs()) {
+        for slot in (0..needle.slots).filter(|_| needle.has_friction()) {
             let touch = state.mode.needle.touches[slot];
-            let slides = touch.filter(|touch| matches!(touch.rub, Rub::Slip { .. }));
-            let (Some(touch), Some(at)) = (slides, self.way(state, slot)) else { continue };
+            let slides = touch.filter(|touch| matches!(touch.tip_state, TipState::Slip { .. }));
+            let (Some(touch), Some(anchor)) = (slides, self.touch_xi(state, slot)) else {
+                continue;
+            };
             needle.end_sliding(state, slot);
-            state.mode.needle.touches[slot] = Some(Touch { rub: Rub::Stick { at }, ..touch });
+            state.mode.needle.touches[slot] =
+                Some(Touch { tip_state: TipState::Stick { anchor }, ..touch });
         }
     }
 
     /// `ξ` of a touch.
-    fn way(&self, state: &SkinState, slot: usize) -> Option<f64> {
+    fn touch_xi(&self, state: &SkinState, slot: usize) -> Option<f64> {
         let touch = state.mode.needle.touches[slot]?;
-        Some(self.meeting(&state.z, touch.scale, touch.place)?.way())
+        Some(self.meeting(&state.z, touch.scale, touch.place)?.xi())
     }
 
     /// The tip meets the next scale.
@@ -97,31 +107,33 @@ impl Chain {
     ) -> Option<usize> {
         let other = state.mode.needle.touches[1 - slot]?;
         let (scale, place) = Self::next_touch(&other)?;
-        let at = self.tip(&state.z, scale, place)?.way;
-        let is_held = |scale, place| place == Place::Top && self.is_notched(state, scale);
+        let anchor = self.tip(&state.z, scale, place)?.xi;
+        let is_locked = |scale, place| place == OutlinePart::Top && self.is_notched(state, scale);
         let (new_is_held, other_is_held) =
-            (is_held(scale, place), is_held(other.scale, other.place));
-        let rub = if new_is_held { Rub::Held { ratio: 0.0 } } else { needle.resting(at) };
-        state.mode.needle.touches[slot] = Some(Touch { scale, place, rub });
+            (is_locked(scale, place), is_locked(other.scale, other.place));
+        let tip_state =
+            if new_is_held { TipState::Locked { ratio: 0.0 } } else { needle.resting(anchor) };
+        state.mode.needle.touches[slot] = Some(Touch { scale, place, tip_state });
         if other_is_held {
-            let push = needle.push(1 - slot);
-            let ratio = state.z[push + 1] / state.z[push];
+            let normal_force = needle.normal_force(1 - slot);
+            let ratio = state.z[normal_force + 1] / state.z[normal_force];
             // A tip that does not press has no ratio, and no friction to hold.
             let ratio = if ratio.is_finite() { ratio } else { 0.0 };
             needle.end_sliding(state, 1 - slot);
-            state.mode.needle.touches[1 - slot] = Some(Touch { rub: Rub::Held { ratio }, ..other });
+            state.mode.needle.touches[1 - slot] =
+                Some(Touch { tip_state: TipState::Locked { ratio }, ..other });
         }
         if let Some([_, corner]) = self.notch(state).filter(|_| needle.friction > 0.0) {
             // At one place of the face the tip says whether both stick: with an equation each they would hold to it twice.
-            self.contacts.hold(state, corner);
+            self.contacts.lock(state, corner);
         }
-        Some(PUSH)
+        Some(NORMAL)
     }
 
     /// The touch of the face of a notch, and the contact of the corner that lies on it.
     fn notch(&self, state: &SkinState) -> Option<[usize; 2]> {
         let touches = &state.mode.needle.touches;
-        let is_top = |touch: &Touch| touch.place == Place::Top && touch.is_held();
+        let is_top = |touch: &Touch| touch.place == OutlinePart::Top && touch.is_locked();
         let top = touches.iter().position(|touch| touch.as_ref().is_some_and(is_top))?;
         Some([1 - top, self.corner_of_notch(touches[top]?.scale)?])
     }
@@ -131,35 +143,35 @@ impl Chain {
         // The last touch cannot let go: nothing would be left to follow.
         state.mode.needle.touches[1 - slot]?;
         // The notch is known by both touches, so this comes before one of them is gone.
-        self.free_corner(state);
+        self.release_corner(state);
         needle.end_sliding(state, slot);
-        state.z[needle.push(slot) + 1] = 0.0;
+        state.z[needle.normal_force(slot) + 1] = 0.0;
         state.mode.needle.touches[slot] = None;
-        if !state.mode.needle.touches[1 - slot]?.is_held() {
-            return Some(needle.number(slot, PUSH));
+        if !state.mode.needle.touches[1 - slot]?.is_locked() {
+            return Some(needle.number(slot, NORMAL));
         }
         self.come_to_rest(needle, state, 1 - slot);
         // The corner still lies on the face, and the tip at the corner, so no gap opens: what tells which way the path goes is the friction
         // that was full there.
-        let is_forward = state.z[needle.push(1 - slot) + 1] >= 0.0;
+        let is_forward = state.z[needle.normal_force(1 - slot) + 1] >= 0.0;
         Some(needle.number(1 - slot, if is_forward { FORWARD } else { BACKWARD }))
     }
 
     /// Lets the corner of a notch rub by itself again, as the tip leaves its place.
-    fn free_corner(&self, state: &mut SkinState) {
+    fn release_corner(&self, state: &mut SkinState) {
         let Some([face, corner]) = self.notch(state) else { return };
         let touch = state.mode.needle.touches[face];
-        let slides = touch.is_some_and(|touch| matches!(touch.rub, Rub::Slip { .. }));
-        self.contacts.let_go(state, corner, slides);
+        let slides = touch.is_some_and(|touch| matches!(touch.tip_state, TipState::Slip { .. }));
+        self.contacts.release(state, corner, slides);
     }
 
     /// Lets a touch that was held in a notch stick by itself.
     fn come_to_rest(&self, needle: &GuidedNeedle, state: &mut SkinState, slot: usize) {
-        let at = self.way(state, slot);
-        if let (Some(touch), Some(at)) = (&mut state.mode.needle.touches[slot], at)
-            && touch.is_held()
+        let anchor = self.touch_xi(state, slot);
+        if let (Some(touch), Some(anchor)) = (&mut state.mode.needle.touches[slot], anchor)
+            && touch.is_locked()
         {
-            touch.rub = needle.resting(at);
+            touch.tip_state = needle.resting(anchor);
         }
     }
 
@@ -174,27 +186,27 @@ impl Chain {
         let touch = state.mode.needle.touches[slot]?;
         let next = touch.place.next(onward)?;
         needle.end_sliding(state, slot);
-        let Rub::Passing { forward } = touch.rub else {
-            self.move_to(needle, state, slot, next, Rub::Passing { forward: onward });
+        let TipState::Passing { forward } = touch.tip_state else {
+            self.move_to(needle, state, slot, next, TipState::Passing { forward: onward });
             // The force is still that of the face behind: the limit on this side has to hold.
-            return Some(if onward { LOW } else { HIGH });
+            return Some(if onward { FACE_START } else { FACE_END });
         };
         let face_length = self.tip(&state.z, touch.scale, next)?.length;
-        let at = if onward { 0.0 } else { face_length };
-        let inward = if onward { LOW } else { HIGH };
+        let anchor = if onward { 0.0 } else { face_length };
+        let inward = if onward { FACE_START } else { FACE_END };
         // Without friction the tip slides on both faces alike, whichever way it goes.
         if needle.friction == 0.0 {
-            self.move_to(needle, state, slot, next, needle.resting(at));
+            self.move_to(needle, state, slot, next, needle.resting(anchor));
             return Some(inward);
         }
         if forward == onward {
             let (sign, sliding) = if onward { (1.0, FORWARD) } else { (-1.0, BACKWARD) };
-            self.move_to(needle, state, slot, next, Rub::Slip { sign, from: at });
+            self.move_to(needle, state, slot, next, TipState::Slip { sign, start: anchor });
             state.active[needle.number(slot, sliding)] = true;
             return Some(inward);
         }
         // The force is still that of sliding onto the corner: whether the tip sticks there shows at once.
-        self.move_to(needle, state, slot, next, Rub::Stick { at });
+        self.move_to(needle, state, slot, next, TipState::Stick { anchor });
         Some(if onward { BACKWARD } else { FORWARD })
     }
 
@@ -204,30 +216,34 @@ impl Chain {
         needle: &GuidedNeedle,
         state: &mut SkinState,
         slot: usize,
-        place: Place,
-        rub: Rub,
+        place: OutlinePart,
+        tip_state: TipState,
     ) {
         let Some(touch) = state.mode.needle.touches[slot] else { return };
         let seen = |place| self.tip(&state.z, touch.scale, place);
         let (Some(before), Some(after)) = (seen(touch.place), seen(place)) else { return };
-        let push = needle.push(slot);
-        let force = before.force([state.z[push], state.z[push + 1]]);
-        [state.z[push], state.z[push + 1]] = after.parts(force);
-        state.mode.needle.touches[slot] = Some(Touch { place, rub, ..touch });
+        let normal_force = needle.normal_force(slot);
+        let force = before.force([state.z[normal_force], state.z[normal_force + 1]]);
+        [state.z[normal_force], state.z[normal_force + 1]] = after.parts(force);
+        state.mode.needle.touches[slot] = Some(Touch { place, tip_state, ..touch });
     }
 }
 
 impl GuidedNeedle {
     /// How a tip rubs that has come to rest at a place.
-    pub(super) fn resting(&self, at: f64) -> Rub {
-        if self.friction == 0.0 { Rub::Slip { sign: 0.0, from: at } } else { Rub::Stick { at } }
+    pub(super) fn resting(&self, anchor: f64) -> TipState {
+        if self.friction == 0.0 {
+            TipState::Slip { sign: 0.0, start: anchor }
+        } else {
+            TipState::Stick { anchor }
+        }
     }
 
     /// Lets a touch slide forward or backward.
-    pub(super) fn slide(&self, state: &mut SkinState, slot: usize, forward: bool, from: f64) {
+    pub(super) fn slide(&self, state: &mut SkinState, slot: usize, forward: bool, start: f64) {
         let (sign, constraint) = if forward { (1.0, FORWARD) } else { (-1.0, BACKWARD) };
         if let Some(touch) = &mut state.mode.needle.touches[slot] {
-            touch.rub = Rub::Slip { sign, from };
+            touch.tip_state = TipState::Slip { sign, start };
             state.active[self.number(slot, constraint)] = true;
         }
     }
@@ -236,7 +252,7 @@ impl GuidedNeedle {
     pub(super) fn end_sliding(&self, state: &mut SkinState, slot: usize) {
         for constraint in [FORWARD, BACKWARD] {
             state.active[self.number(slot, constraint)] = false;
-            state.z[self.push(slot) + 1 + constraint] = 0.0;
+            state.z[self.normal_force(slot) + 1 + constraint] = 0.0;
         }
     }
 }

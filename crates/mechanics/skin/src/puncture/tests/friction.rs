@@ -20,7 +20,7 @@ fn the_tangent_agrees_with_finite_differences_where_contacts_stick_and_slip() {
             let law = law(&design, constants, HARD).with_friction(friction).unwrap();
             for_segments(path(&design, law, 1.0), |path, from, to| {
                 let Some(point) = path.between(from, to, 0.5) else { return };
-                let [sticking, slipping] = Contacts::rubbing(&point.state);
+                let [sticking, slipping] = Contacts::stick_slip_counts(&point.state);
                 seen.extend(
                     [("sticks", sticking), ("slips", slipping)]
                         .iter()

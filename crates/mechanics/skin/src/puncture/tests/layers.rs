@@ -9,7 +9,7 @@ use super::{BLOCKS, Balance, DOMINO, HARD, LIVELY, balance, law, whole};
 use crate::Design;
 use crate::contacts::SkinState;
 use crate::puncture::PunctureParameters;
-use crate::puncture::system::{Chain, Layout};
+use crate::puncture::system::{Chain, RowLayout};
 
 const CASES: [(Design, Coupling, SubstrateLaw); 5] = [
     (LIVELY, Coupling::Nearest, SubstrateLaw::Linear),
@@ -23,7 +23,7 @@ const CASES: [(Design, Coupling, SubstrateLaw); 5] = [
 fn layer_path((design, coupling, substrate_law): &(Design, Coupling, SubstrateLaw)) -> Path<Chain> {
     let layer = design.footprint(0.5).unwrap().on_layer(1.0 / design.half_base()).unwrap();
     let stiffness = RowStiffness::of(&layer, *coupling).unwrap();
-    let layout = Layout { left: 10, right: 10, needle: 0, contacts: 6 };
+    let layout = RowLayout { left: 10, right: 10, needle: 0, contacts: 6 };
     let parameters =
         PunctureParameters { substrate_law: *substrate_law, ..PunctureParameters::default() };
     let law = law(design, Law::PRINTED, HARD);

@@ -31,7 +31,7 @@ fn guided(design: &Design, friction: f64, inside: f64) -> Puncture {
 
 /// The path of a row of 21 scales, in steps of at most this part of its way.
 fn guided_path(design: &Design, friction: f64, inside: f64, step: f64) -> Path<Chain> {
-    let layout = Layout { left: 10, right: 10, needle: NEEDLE_UNKNOWNS, contacts: 6 };
+    let layout = RowLayout { left: 10, right: 10, needle: NEEDLE_UNKNOWNS, contacts: 6 };
     let stiffness = (&springs(design)).into();
     let law = law(design, Law::PRINTED, HARD);
     let chain = whole(&stiffness, design, law, layout, &parameters(design, friction, inside));
@@ -180,7 +180,7 @@ fn negative_eigenvalues_are_those_of_the_dense_stiffness() {
         [(0.6, 1.0, 60.0, 0.0), (0.6, 1.0, 60.0, 1e9), (0.1, 1.0, 60.0, 0.0), (0.2, 0.5, 30.0, 0.3)]
     {
         let design = design(gap, length, slant);
-        let layout = Layout { left: 7, right: 9, needle: NEEDLE_UNKNOWNS, contacts: 6 };
+        let layout = RowLayout { left: 7, right: 9, needle: NEEDLE_UNKNOWNS, contacts: 6 };
         let parameters =
             PunctureParameters { critical_tilt_deg: 40.0, ..parameters(&design, friction, 0.05) };
         let law = law(&design, Law::EXCHANGED, HARD);
@@ -189,7 +189,7 @@ fn negative_eigenvalues_are_those_of_the_dense_stiffness() {
         for_segments(Path::new(chain, rest, Settings::default()), |path, from, to| {
             let Some(point) = path.between(from, to, 0.5) else { return };
             let (chain, state) = (path.system(), &point.state);
-            if chain.rubs(state) {
+            if chain.is_nonconservative(state) {
                 return assert_eq!(chain.instability(state), None);
             }
             let dense = dense_stiffness(chain, state);

@@ -73,7 +73,7 @@ fn at_rest_bars_are_the_springs_that_they_replace() {
 /// A row that leans to the left is displaced as the mirror image of one that leans to the right.
 #[test]
 fn the_mirror_image_of_a_row_has_the_mirror_image_of_its_forces() {
-    let layout = Layout { left: 3, right: 3, needle: 0, contacts: 6 };
+    let layout = RowLayout { left: 3, right: 3, needle: 0, contacts: 6 };
     let last = layout.scales() - 1;
     let stiffness = RowStiffness::of(&LIVELY.footprint(0.5).unwrap(), Coupling::Nearest).unwrap();
     let chain = |slant_deg: f64, of_substrate: SubstrateLaw| {

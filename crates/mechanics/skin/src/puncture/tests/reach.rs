@@ -6,7 +6,7 @@ use substrate::{Coupling, RowStiffness};
 
 use super::{Balance, DOMINO, HARD, balance, for_segments, law, whole};
 use crate::contacts::{SkinState, pair_constraints};
-use crate::puncture::system::Layout;
+use crate::puncture::system::RowLayout;
 use crate::puncture::{Problem, Puncture, PunctureParameters, Rows};
 use crate::{Base, Common, Design, Status};
 
@@ -61,7 +61,7 @@ fn scales_stop_at_their_second_neighbours() {
 fn their_work_is_stored_and_their_tangent_agrees_with_differences() {
     let design = &MEETING[1];
     let law = law(design, Law::PRINTED, HARD);
-    let layout = Layout { left: 20, right: 20, needle: 0, contacts: 2 * pair_constraints(&law) };
+    let layout = RowLayout { left: 20, right: 20, needle: 0, contacts: 2 * pair_constraints(&law) };
     let chain = whole(&full(design), design, law, layout, &PunctureParameters::default());
     let path = || Path::new(chain.clone(), SkinState::at_rest(&chain), Settings::default());
     let Balance { work, off, .. } = balance(path());

@@ -1,7 +1,7 @@
 //! Rows under a guided needle with a round tip.
 
 use super::*;
-use crate::puncture::needle::{Place, reach, unknowns};
+use crate::puncture::needle::{OutlinePart, reach, unknowns};
 
 /// Gap, length and slant, radius, friction, and the place: tips that roll from face to corner and come to several scales, stick and slide
 /// both ways.
@@ -39,7 +39,10 @@ fn the_tangent_of_a_round_tip() {
             }
             let Some(between) = path.between(from, to, 0.5) else { return };
             for touch in between.state.mode.needle.touches.iter().flatten() {
-                rubs.insert((touch.place == Place::Top, std::mem::discriminant(&touch.rub)));
+                rubs.insert((
+                    touch.place == OutlinePart::Top,
+                    std::mem::discriminant(&touch.tip_state),
+                ));
             }
             check_tangent(path.system(), &between.state, 1e-5).unwrap();
         });
@@ -86,7 +89,7 @@ fn round_path(
     let design = design(gap, length, slant);
     let reach = reach(radius, 2.0 * design.half_base() + design.gap).unwrap();
     let needle = unknowns(reach, friction > 0.0);
-    let layout = Layout { left: 10, right: 10, needle, contacts: 6 };
+    let layout = RowLayout { left: 10, right: 10, needle, contacts: 6 };
     let law = law(&design, Law::PRINTED, HARD);
     let parameters = PunctureParameters {
         load_position,
