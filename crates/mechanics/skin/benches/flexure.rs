@@ -1,5 +1,5 @@
-//! Cost of bending: the reference study as unit cells, on all cores; and chains of 100 to 800 gaps through
-//! their whole path, which should grow with the chain and no faster.
+//! Run time of bending: the reference study as unit cells on all cores, and chains of 100 to 800
+//! gaps along their whole path. The cost of a chain should grow linearly with its length.
 
 #[path = "../tests/samples/mod.rs"]
 mod samples;
@@ -27,7 +27,7 @@ fn reference_study(c: &mut Criterion) {
 }
 
 fn chain_length(c: &mut Criterion) {
-    // Touches early, and slides on.
+    // This design touches early and then slides.
     let design = samples::design(0.1, 0.1, 75.0, Base::L);
     let pitch = design.row().expect("a row").pitch();
     let mut group = c.benchmark_group("chain");

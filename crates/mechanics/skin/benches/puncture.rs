@@ -1,5 +1,5 @@
-//! Cost of punctures: the reference study, calibrations included, on all cores; and one design on rows
-//! of 41 to 4001 scales, which should grow with the row and no faster.
+//! Run time of punctures: the reference study with calibration on all cores, and one design on rows
+//! of 41 to 4001 scales. The cost of a row should grow at most linearly with its length.
 
 #[path = "../tests/samples/mod.rs"]
 mod samples;

@@ -3,7 +3,7 @@
 use contact::Pair;
 use geometry::{OutOfRange, Parallelogram, Row, UnevenRow, clearance};
 
-/// Scales that are alike at a constant gap, however many, or each with a slant and a gap of its own.
+/// Equal scales at a constant gap, or scales with individual slants and gaps.
 #[derive(Clone, Debug)]
 pub(crate) enum Arrangement {
     Even(Row),
@@ -18,7 +18,7 @@ impl Arrangement {
         }
     }
 
-    /// The gap between the bases of the scales `i` and `i + 1`.
+    /// Returns the gap between the bases of scales `i` and `i + 1`.
     pub(crate) fn gap(&self, i: usize) -> f64 {
         match self {
             Self::Even(row) => row.gap(),
@@ -26,7 +26,7 @@ impl Arrangement {
         }
     }
 
-    /// Distance of the nodes of the scales `i` and `i + 1`.
+    /// Returns the distance between the nodes of scales `i` and `i + 1`.
     pub(crate) fn pitch(&self, i: usize) -> f64 {
         match self {
             Self::Even(row) => row.pitch(),
@@ -34,16 +34,16 @@ impl Arrangement {
         }
     }
 
-    /// The scales `i` and `i + 1` alone.
+    /// Extracts scales `i` and `i + 1` as a row of two.
     ///
     /// # Errors
-    /// None: they stood clear of each other in the row.
+    /// None in practice: the two scales do not overlap in the full row.
     pub(crate) fn pair(&self, i: usize) -> Result<Self, OutOfRange> {
         let scales = vec![self.scale(i), self.scale(i + 1)];
         UnevenRow::new(scales, vec![self.gap(i)]).map(Self::Uneven)
     }
 
-    /// Distance of the node of scale `i` from that of the first.
+    /// Returns the distance from the node of the first scale to the node of scale `i`.
     pub(crate) fn place(&self, i: usize) -> f64 {
         match self {
             Self::Even(row) => i as f64 * row.pitch(),
@@ -51,16 +51,16 @@ impl Arrangement {
         }
     }
 
-    /// The narrowest distance of the scales `i` and `i + 1` across the steeper of their sides.
+    /// Bounds the distance between scales `i` and `i + 1` from below.
     pub(crate) fn clearance(&self, i: usize) -> f64 {
         let [left, right] = [self.scale(i), self.scale(i + 1)];
-        // The distance along the row, times the cosine of a side, is that across it: the steeper
-        // side gives the lower bound. Single scales may lean to the left.
+        // The distance along the row times the cosine of a side is the distance across it; the
+        // steeper side gives the lower bound. Single scales may lean to the left.
         let steepest = left.slant().abs().max(right.slant().abs());
         clearance(&left, &right, self.gap(i)) * steepest.cos()
     }
 
-    /// Mean distance of neighbouring nodes.
+    /// Returns the mean distance between neighbouring nodes.
     pub(crate) fn mean_pitch(&self) -> f64 {
         match self {
             Self::Even(row) => row.pitch(),
@@ -68,7 +68,9 @@ impl Arrangement {
         }
     }
 
-    /// The gaps over the length that they and the bases of the scales have, `Σd/Σp`: the compliance of a strip without contact.
+    /// Returns the fraction of the length in gaps, `Σd/Σp`.
+    ///
+    /// This is the compliance of a strip without contact.
     pub(crate) fn share_of_gaps(&self) -> f64 {
         match self {
             Self::Even(row) => row.gap() / row.pitch(),
@@ -76,8 +78,9 @@ impl Arrangement {
         }
     }
 
-    /// The pairs of scales with up to `reach` pitches between them, by their left scale and then by their distance; of scales that are
-    /// alike one for each distance.
+    /// Lists the pairs of scales up to `reach` pitches apart.
+    ///
+    /// Pairs are ordered by left scale, then by distance. An even row has one entry per distance.
     pub(crate) fn pairs(&self, reach: usize) -> Vec<Pair> {
         match self {
             Self::Even(row) => (1..=reach)
@@ -89,7 +92,8 @@ impl Arrangement {
                     let pitch = (left..right).map(|i| row.pitch(i)).sum();
                     Pair::of([row.scales()[left], row.scales()[right]], pitch)
                 };
-                // Beyond the end of the row the last scale stands for those that are not there: nothing asks for these pairs.
+                // Pairs that reach beyond the end get the last scale as a placeholder. They are
+                // never evaluated.
                 let of =
                     |left| (1..=reach).map(move |pitches| pair(left, last.min(left + pitches)));
                 (0..last).flat_map(of).collect()

@@ -1,30 +1,30 @@
-//! Parameters that puncture and bending share.
+//! Parameters shared by puncture and bending.
 
 use contact::Law;
 use solver::Settings;
 
-/// Parameters that the puncture and the bending of a design share: the contact law and the solver's settings.
+/// Contact law, friction and solver settings shared by puncture and bending.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Common {
     /// Contact law between scales.
     pub law: Law,
-    /// Coefficient of friction `μ` between two scales.
+    /// Coefficient of friction `μ` between scales.
     pub friction: f64,
-    /// Steps and tolerances with which paths are followed.
+    /// Step sizes and tolerances of path following.
     pub solver: Settings,
-    /// Whether everything is noted that a table or a drawing of the path shows. Measures need neither the stretches of the gaps at
-    /// every point nor the folds behind the first.
+    /// Whether to record everything that path tables and drawings show: the gap stretches at every
+    /// point and all folds. Measures need only the first fold.
     pub whole_path: bool,
 }
 
 impl Default for Common {
-    /// The law as Shafiei et al. (2021) print it.
+    /// Uses the contact law as printed by Shafiei et al. (2021).
     fn default() -> Self {
         Self { law: Law::PRINTED, friction: 0.0, solver: Settings::default(), whole_path: true }
     }
 }
 
-/// Whether nothing is known: such a part of measures is not written.
+/// Returns true if all fields are empty; such a group of measures is not written.
 pub(crate) fn is_default<T: Default + PartialEq>(part: &T) -> bool {
     *part == T::default()
 }

@@ -3,7 +3,7 @@
 use geometry::{OutOfRange, Parallelogram, Row};
 use substrate::Footprint;
 
-/// Meaning of the `L` in `L/t`: the base of a scale, or half of it.
+/// Meaning of `L` in `L/t`: the base of a scale, or half of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Base {
     /// The base is `L` long (`a = L/2`).
@@ -36,7 +36,7 @@ impl Design {
         }
     }
 
-    /// The undeformed row.
+    /// Returns the undeformed row.
     ///
     /// # Errors
     /// If a length is not positive or the slant is outside `[0°, 90°)`.
@@ -44,17 +44,19 @@ impl Design {
         Row::new(Parallelogram::new(self.half_base(), self.slant_deg)?, self.gap)
     }
 
-    /// The undeformed row, whose slant may also be below zero: that of a design near an upright one.
+    /// Returns the undeformed row, also for a negative slant.
+    ///
+    /// Perturbing an upright design gives negative slants.
     pub(crate) fn leaning_row(&self) -> Result<Row, OutOfRange> {
         Row::new(Parallelogram::leaning(self.half_base(), self.slant_deg)?, self.gap)
     }
 
-    /// The footprint of the bases on a substrate of this Poisson's ratio.
+    /// Returns the footprint of the bases on a substrate with this Poisson's ratio.
     ///
     /// # Errors
     /// If a length is not positive or Poisson's ratio is outside `[0, 0.5]`.
     pub fn footprint(&self, poisson_ratio: f64) -> Result<Footprint, OutOfRange> {
-        // A footprint has its lengths over the half-width of a base, a design over `t`.
+        // Footprint lengths are over the half-width of a base, design lengths over `t`.
         let a = self.half_base();
         Footprint::new(self.gap / a, self.width / a, poisson_ratio)
     }

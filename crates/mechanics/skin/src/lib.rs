@@ -1,37 +1,38 @@
-//! Scaled skins under load: puncture of scales on a soft substrate, bending of scales on a membrane.
+//! Scaled skins under load: puncture on a soft substrate, bending on a membrane.
 //!
-//! Rigid parallelogram scales stand in a row. Their bases are bonded to something soft, and their sides
-//! meet in contacts that give way by a power law. Here the parts come together: shape ([`geometry`]),
-//! substrate springs ([`substrate`]), membrane ([`membrane`]) and contacts ([`contact`]) make a mixed
-//! complementarity system, whose equilibrium path ([`solver`]) is followed from rest to a critical
-//! tilt or rotation, and comes down to a few measures.
+//! Rigid parallelogram scales stand in a row. Their bases are bonded to a soft substrate or to a
+//! membrane, and their sides meet in compliant contacts that follow a power law. This crate
+//! assembles the geometry ([`geometry`]), substrate springs ([`substrate`]), membrane
+//! ([`membrane`]) and contacts ([`contact`]) into a mixed complementarity system. The solver
+//! ([`solver`]) follows its equilibrium path from rest to a critical tilt or rotation, and the
+//! measures are computed from that path.
 //!
-//! Lengths are in units of the scale thickness `t`. Forces on the substrate are in units of `E* t²` with
-//! `E* = E_s/(1−ν²)`, those in the membrane in units of `E_m t²`.
+//! Lengths are in units of the scale thickness `t`. Forces on the substrate are in units of `E* t²`
+//! with `E* = E_s/(1−ν²)`, membrane forces in units of `E_m t²`.
 //!
 //! | Type | Role |
 //! |---|---|
 //! | [`Design`], [`Base`] | the geometry of one design |
 //! | [`puncture::solve`] | a row of scales under a point load, until the loaded one tilts by 10° |
-//! | [`Common`] | contact law and solver settings, of puncture and bending |
+//! | [`Common`] | contact law and solver settings, for puncture and bending |
 //! | [`puncture::PunctureParameters`] | moduli, row length, load, critical tilt |
-//! | [`puncture::RowLength`] | how many scales are solved for: a number, or as many as contact reaches |
-//! | [`puncture::PerturbedScale`] | one scale of a row that differs from all others, for derivatives with respect to single scales |
-//! | [`puncture::Snap`], [`puncture::Instability`], [`puncture::TiltMeasures`] | snaps and losses of stability along the path; measures at other critical tilts |
-//! | [`puncture::LoadPosition`], [`puncture::Weakest`] | the puncture at other places of the load, and the weakest of them |
-//! | [`puncture::Puncture`], [`puncture::PunctureMeasures`] | its path, events, scales and measures |
-//! | [`puncture::Fold`], [`puncture::GapStretch`] | a gap in which the surface of the substrate folds over; how far gaps are stretched |
-//! | [`puncture::snapshots`] | the row at chosen places of the path |
+//! | [`puncture::RowLength`] | number of scales: given, or as many as contact reaches |
+//! | [`puncture::PerturbedScale`] | one scale that differs from the rest of its row, for derivatives with respect to single scales |
+//! | [`puncture::Snap`], [`puncture::Instability`], [`puncture::TiltMeasures`] | snap-through and loss of stability along the path; measures at intermediate tilts |
+//! | [`puncture::LoadPosition`], [`puncture::Weakest`] | the puncture at other load positions, and the weakest position |
+//! | [`puncture::Puncture`], [`puncture::PunctureMeasures`] | path, events, scales and measures of a puncture |
+//! | [`puncture::Fold`], [`puncture::GapStretch`] | a gap where the substrate surface folds over; stretch of the gaps |
+//! | [`puncture::snapshots`] | the row at chosen points of the path |
 //! | [`flexure::solve`] | a strip of membrane with scales in pure bending |
 //! | [`flexure::FlexureParameters`] | moduli, strip, resolution of the membrane, largest rotation |
-//! | [`flexure::Flexure`], [`flexure::FlexureMeasures`] | its path, events and measures |
-//! | [`flexure::contact_curvature`] | the curvature at which scales touch, in closed form |
-//! | [`puncture::differentiate`], [`flexure::differentiate`] | the same with the derivatives of all measures |
-//! | [`puncture::PunctureInput`], [`flexure::FlexureInput`], [`Neighbours`], [`Derivative`] | all that a path depends on, near a value of a parameter, and what comes of it |
-//! | [`Imperfection`], [`Sample`] | random gaps and slants, and one row that has them |
+//! | [`flexure::Flexure`], [`flexure::FlexureMeasures`] | path, events and measures of a bent strip |
+//! | [`flexure::contact_curvature`] | curvature of first contact, in closed form |
+//! | [`puncture::differentiate`], [`flexure::differentiate`] | solve and return the derivatives of all measures |
+//! | [`puncture::PunctureInput`], [`flexure::FlexureInput`], [`Neighbours`], [`Derivative`] | complete input of a path, inputs with one parameter perturbed, and the resulting derivative |
+//! | [`Imperfection`], [`Sample`] | random gaps and slants, and one row drawn from them |
 //! | [`puncture::solve_sample`], [`flexure::bend_sample`] | puncture and bending of an imperfect row |
-//! | [`Status`], [`Iteration`] | how a path ended; one Newton iteration of it |
-//! | [`ContactEvent`], [`ContactChange`], [`Contact`] | a change of a contact along the path; a contact of a state |
+//! | [`Status`], [`Iteration`] | outcome of a path; one Newton iteration |
+//! | [`ContactEvent`], [`ContactChange`], [`Contact`] | a change of a contact along the path; a closed contact in a state |
 //!
 //! ```
 //! use skin::puncture::{self, PunctureParameters};
@@ -43,9 +44,9 @@
 //! let puncture = puncture::solve(&design, &springs, &Common::default(), &parameters)?;
 //! assert_eq!(puncture.status, Status::Complete);
 //!
-//! // More scales share the load than the one that carries it.
+//! Several scales share the load, not only the punctured one.
 //! assert!(puncture.measures.engaged_scales > Some(2));
-//! // The load at the critical tilt is the largest: no instability before.
+//! The load at the critical tilt is the largest: no instability precedes it.
 //! assert_eq!(puncture.measures.peak_force, puncture.measures.critical_force);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

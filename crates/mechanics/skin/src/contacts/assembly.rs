@@ -1,4 +1,4 @@
-//! What the closed contacts of a row add to its equations and to their tangent.
+//! Contributions of the closed contacts to residual and tangent.
 
 use contact::{CornerContact, CornerResponse, FORCES};
 use solver::{Residual, Tangent};
@@ -7,7 +7,7 @@ use super::friction::FrictionState;
 use super::{Contacts, LEVELS, SkinState};
 
 impl Contacts {
-    /// Adds what the closed contacts contribute to the equations and to the tangent.
+    /// Adds the closed contacts to the residual and the tangent.
     pub(crate) fn linearise(
         &self,
         state: &SkinState,
@@ -16,7 +16,7 @@ impl Contacts {
     ) {
         let mut turned = None;
         for (pair, modes) in state.mode.contacts.chunks_exact(LEVELS.len()).enumerate() {
-            // Most pairs are open, and add nothing that would need their poses.
+            // Most pairs are open: skip them before computing poses.
             if modes.iter().all(|mode| *mode == CornerContact::Open) {
                 continue;
             }
@@ -32,7 +32,7 @@ impl Contacts {
                 self.add_response(contact, mode.acting(), &response, residual, matrix);
             }
         }
-        // Friction is looked at apart: without it this pass costs nothing.
+        // Separate loop, so that rows without friction pay nothing for it.
         if self.has_friction() {
             for pair in self.whole_pairs() {
                 if Self::contacts_of(pair)
@@ -45,7 +45,7 @@ impl Contacts {
         }
     }
 
-    /// Adds the response of a closed contact, of whose forces some are `acting`.
+    /// Adds the response of a closed contact with the given `acting` forces.
     fn add_response(
         &self,
         contact: usize,
@@ -61,7 +61,7 @@ impl Contacts {
         for force in acting() {
             pair.add_column(matrix, unknowns[force], &balance.map(|own| own.by_force[force]));
         }
-        // The condition of a force stands in the row of its own unknown.
+        // The condition of a force is the equation in the row of its own unknown.
         for force in acting() {
             let Some(condition) = &conditions[force] else { continue };
             residual.add(unknowns[force], condition.value);

@@ -1,25 +1,29 @@
-//! Energy of the contacts, and the audit of a final state.
+//! Contact energy, and the audit of the final state.
 
 use contact::{CornerContact, Overlap, overlaps};
 use geometry::Vec2;
 
 use super::{Contacts, SkinPoint, SkinState};
 
-/// Overlap (over `t`) by which the audit may differ from the contact law: round-off of the
-/// collision query.
+/// Overlap (over `t`) by which the audit may exceed the contact law: round-off of the collision
+/// query.
 const AUDIT_TOLERANCE: f64 = 1e-8;
 
-/// Part of an edge by which a foot may lie beyond its end: round-off of the path.
+/// Fraction of an edge by which a foot may exceed its end: round-off of the path.
 const OFF_EDGE: f64 = 1e-6;
 
-/// How far ahead a path that has ended is looked at, in units of it: steps were cut down to 1e-9 before it ended.
+/// Extrapolation distances beyond the end of a path, in path units.
+///
+/// Step sizes were reduced to 1e-9 before the path stopped.
 const AHEAD: [f64; 4] = [1e-8, 1e-7, 1e-6, 1e-5];
 
-/// A corner farther behind an edge than this (over `t`) has not come there within such a step: its gap has jumped.
+/// A penetration jump larger than this (over `t`) within such a step means that a corner passed the
+/// end of an edge.
 const BEHIND: f64 = 1e-3;
 
 impl Contacts {
-    /// Forces of a contact on the left scale of its pair, with their friction: of its corners, and of its flush contact.
+    /// Computes the forces of a contact on its left scale, with friction: at the corners and at the
+    /// flush contact.
     pub(super) fn forces_on_left(&self, state: &SkinState, contact: usize) -> [Vec2; 2] {
         let [on_corners, on_flush] = self.normal_forces_on_left(state, contact);
         if self.has_friction() {
@@ -29,46 +33,49 @@ impl Contacts {
         }
     }
 
-    /// The parts of these forces along the normals, for which the law holds.
+    /// Computes the normal components of the contact forces, which the contact law relates to the
+    /// approach.
     fn normal_forces_on_left(&self, state: &SkinState, contact: usize) -> [Vec2; 2] {
         let poses = self.pair_poses(&state.z, contact);
         let forces = self.forces_of(&state.z, contact);
         state.mode.contacts[contact].forces_on_left(&self.corners(contact, &poses), forces)
     }
 
-    /// Sum of the forces of a contact, for which the law holds.
+    /// Computes the total normal force of a contact, the argument of the contact law.
     fn force(&self, state: &SkinState, contact: usize) -> f64 {
         match state.mode.contacts[contact] {
             CornerContact::Open => 0.0,
-            // The law holds for the size of the force that turns at a corner (C5), and for the sum
-            // of the two forces of flush edges (C7).
+            // The law uses the magnitude of the rotating force at a corner (C5), and the sum of
+            // both forces on flush edges (C7).
             _ => self.normal_forces_on_left(state, contact).map(|force| force.norm()).iter().sum(),
         }
     }
 
-    /// Approach of the scales at a contact, over `t`.
+    /// Computes the approach of the scales at a contact, over `t`.
     pub(super) fn approach(&self, state: &SkinState, contact: usize) -> f64 {
         self.law.approach(self.force(state, contact)).value
     }
 
-    /// Elastic energy of all contacts.
+    /// Computes the elastic energy of all contacts.
     pub(crate) fn energy(&self, state: &SkinState) -> f64 {
         let energy = |contact| self.law.energy(self.force(state, contact));
         (0..state.mode.contacts.len()).map(energy).sum()
     }
 
-    /// Whether any contact carries beyond an end of its edge: at the end where the corners meet it would not be on its
-    /// edge any more, and at the other one the model has no contact to go on with.
+    /// Returns true if any contact carries force beyond an end of its edge.
+    ///
+    /// Beyond the end near the partner corner the contact would have left its edge; beyond the
+    /// other end the model has no contact to continue with.
     pub(crate) fn off_edge(&self, state: &SkinState) -> bool {
         let contacts = state.mode.contacts.iter().enumerate();
         contacts.into_iter().any(|(contact, mode)| {
-            // Corners that are together stand at the end of the edge, where (C5) goes on.
+            // Coinciding corners are at the end of the edge, where (C5) applies.
             if let CornerContact::Open | CornerContact::Corner(_) = mode {
                 return false;
             }
             let [left, right] = self.pair_poses(&state.z, contact);
             let pair = self.pair(Self::pair_of(contact));
-            // A foot is a part of its edge, from 0 at the one end to 1 at the other.
+            // A foot is a fraction of its edge, from 0 at one end to 1 at the other.
             let feet = mode
                 .carrying()
                 .into_iter()
@@ -78,13 +85,15 @@ impl Contacts {
         })
     }
 
-    /// Whether a corner passes round the end of an edge as the path goes on from `point`: it comes to face the edge from behind, and
-    /// the model has no contact for the edge that it went through, or for what lies below the bases.
+    /// Returns true if a corner passes an end of an edge just beyond `point`.
+    ///
+    /// The corner then faces the edge from behind, and the model has no contact for the edge that
+    /// it crossed or for the region below the bases.
     pub(crate) fn passes_an_end(&self, point: &SkinPoint) -> bool {
         let facing = |state: &SkinState| {
             let mut gaps = vec![None; state.mode.contacts.len()];
             self.for_each(state, |contact, corners| {
-                // A closed contact keeps to its edge: `off_edge` looks at it.
+                // Closed contacts stay on their edge; `off_edge` checks them.
                 let is_open = state.mode.contacts[contact] == CornerContact::Open;
                 gaps[contact] = corners.facing().filter(|_| is_open).map(|(_, gap)| gap);
             });
@@ -94,41 +103,46 @@ impl Contacts {
         AHEAD.iter().any(|&step| {
             let ahead = facing(&point.state.moved(step, &point.leaving));
             let comes_from_behind = |(here, ahead): (&Option<f64>, &Option<f64>)| {
-                // A small gap that goes below zero is a contact that closes. A wide or absent one
-                // that is far below zero a step later belongs to a corner that came round the end.
+                // A small gap that becomes negative is a closing contact. A wide or missing gap
+                // that is strongly negative one step later belongs to a corner that passed the end
+                // of an edge.
                 ahead.is_some_and(|gap| gap < -BEHIND && here.is_none_or(|here| here > BEHIND))
             };
             here.iter().zip(&ahead).any(comes_from_behind)
         })
     }
 
-    /// How many pitches apart scales are that have come into each other without a contact; `None` of neighbours, and where a
-    /// contact is so soft that a scale is pushed half through its neighbour: what it meets behind it is not to be trusted either.
+    /// Returns the distance in pitches of scales that overlap without a contact between them.
+    ///
+    /// `None` for direct neighbours, and if a contact is so soft that a scale is pushed half
+    /// through its neighbour: overlaps behind it are then not meaningful.
     pub(crate) fn meeting_beyond(&self, state: &SkinState) -> Option<usize> {
         let scale = self.arrangement.scale(0);
         let half_breadth = scale.half_base() * scale.slant().cos();
         let mut contacts = 0..state.mode.contacts.len();
         let is_soft = contacts.any(|contact| self.approach(state, contact) > half_breadth);
-        // The farthest counts: contacts that reach it reach all that are nearer.
+        // Use the largest distance: a contact reach that covers it covers all shorter ones.
         self.overlapping(state).max().filter(|&pitches| pitches > self.reach && !is_soft)
     }
 
-    /// How many pitches apart scales are that overlap by more than the approach of their contacts, of each two.
+    /// Iterates over the distances in pitches of scales that overlap by more than their contact
+    /// approach.
     pub(crate) fn overlapping(&self, state: &SkinState) -> impl Iterator<Item = usize> {
         let standing = |i| (self.arrangement.scale(i), self.arrangement.place(i));
         let found = overlaps(standing, &self.poses(&state.z));
         found.into_iter().filter_map(|Overlap { left, right, depth }| {
             let pitches = right - left;
-            // The numbering of pairs is that of `ends`, read backwards.
+            // Inverse of the pair numbering in `ends`.
             let pair = self.reach * left + pitches - 1;
-            // Scales beyond the reach have no contact that would let them approach.
+            // Scales beyond the reach have no contact, so no overlap is allowed.
             let allowed = if pitches <= self.reach { self.pair_approach(state, pair) } else { 0.0 };
             (depth > allowed + AUDIT_TOLERANCE).then_some(pitches)
         })
     }
 
-    /// Whether any two neighbours overlap by more than the approach of their contacts. A strip that is bent to a ring
-    /// may meet its own other end.
+    /// Returns true if two neighbours overlap by more than their contact approach.
+    ///
+    /// Only neighbours are checked, because a strip bent to a ring may overlap its other end.
     pub(crate) fn neighbours_interpenetrate(&self, state: &SkinState) -> bool {
         self.pairs(&state.z).any(|(pair, poses)| {
             let allowed = self.pair_approach(state, pair) + AUDIT_TOLERANCE;
@@ -138,7 +152,7 @@ impl Contacts {
         })
     }
 
-    /// The largest approach of the contacts of a pair.
+    /// Returns the largest approach of the contacts of a pair.
     fn pair_approach(&self, state: &SkinState, pair: usize) -> f64 {
         Self::contacts_of(pair).map(|contact| self.approach(state, contact)).fold(0.0, f64::max)
     }

@@ -1,10 +1,10 @@
-//! Changes of contacts at events.
+//! Changes of contact state at events.
 
 use contact::Force;
 
 use super::{Contacts, SkinState};
 
-/// A change of a contact at an event.
+/// Change of the state of a contact at an event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ContactChange {
     /// The contact closes.
@@ -13,19 +13,19 @@ pub enum ContactChange {
     Opened,
     /// The corner reaches the end of its edge and stays at the other corner.
     ReachedCorner,
-    /// The contact leaves the corner on the edge on which it came.
+    /// The contact leaves the corner along the edge on which it arrived.
     LeftCorner,
-    /// The contact passes the corner as its partner, the corners having changed their parts; or the contact at the other
-    /// end of flush edges carries alone.
+    /// The contact passes the corner and continues as its partner, with corner and edge exchanged;
+    /// or on flush edges the contact at the other end carries all the force.
     HandedOver,
-    /// The contact begins to slip.
+    /// The contact starts to slip.
     Slips,
-    /// The contact ceases to slip, and sticks.
+    /// The contact stops slipping and sticks.
     Sticks,
 }
 
 impl ContactChange {
-    /// Short name, as in tables.
+    /// Returns the short name used in tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::Closed => "closed",
@@ -38,7 +38,7 @@ impl ContactChange {
         }
     }
 
-    /// The change of a contact of which a force has changed sides, from the state after the event.
+    /// Classifies the change of a force from the state after the event.
     pub(crate) fn classify(contacts: &Contacts, state: &SkinState, change: solver::Change) -> Self {
         let acts = state.active[change.constraint];
         let (contact, slot) = contacts.contact_of(change.constraint);
@@ -48,11 +48,12 @@ impl ContactChange {
         };
         match (force, change.activated) {
             (Force::Own | Force::Flush, true) => Self::Closed,
-            // The force that stays takes over the flag of the own one.
+            // The remaining partner force takes over the active flag of the contact.
             (Force::Own, false) if acts => Self::HandedOver,
             (Force::Own | Force::Flush, false) => Self::Opened,
             (Force::Partner, true) if acts => Self::ReachedCorner,
-            // Between parallel sides no force has to turn: the partner carries alone at once.
+            // Between parallel sides no force has to rotate, so the partner carries all force at
+            // once.
             (Force::Partner, true) => Self::HandedOver,
             (Force::Partner, false) => Self::LeftCorner,
         }

@@ -1,4 +1,4 @@
-//! The closed contacts of a state, for drawings and reports.
+//! Closed contacts of a state, for drawings and reports.
 
 use contact::{CornerContact, CornerEdge};
 use geometry::Vec2;
@@ -10,30 +10,32 @@ use super::{Contacts, SkinState};
 pub struct Contact {
     /// The left scale of the pair, from 0 at the left end of the row.
     pub left: usize,
-    /// The right scale of the pair: the next one in nearly every row.
+    /// Right scale of the pair: nearly always the neighbour.
     pub right: usize,
     /// Which corner meets which edge.
     pub corner_edge: CornerEdge,
-    /// The corner that touches, deformed, from the node of the first scale at rest; over `t`.
+    /// Position of the touching corner in the deformed state, relative to the node of the first
+    /// scale at rest; over `t`.
     pub point: [f64; 2],
-    /// Force on the left scale; the right one takes its opposite.
+    /// Force on the left scale; the right scale carries the opposite force.
     pub force: [f64; 2],
     /// Approach `δ` of the scales, over `t`.
     pub approach: f64,
-    /// Whether it slips; `None` without friction.
+    /// Whether the contact slips; `None` without friction.
     pub slips: Option<bool>,
 }
 
 impl Contacts {
-    /// Every closed contact, from the left; where poses are relative, as the left scale of its pair
-    /// sees it.
+    /// Lists the closed contacts from the left.
+    ///
+    /// With relative poses, points and forces are in the frame of the left scale of each pair.
     pub(crate) fn closed_contacts(&self, state: &SkinState) -> Vec<Contact> {
         let is_closed = |&contact: &usize| state.mode.contacts[contact] != CornerContact::Open;
         let contacts = (0..state.mode.contacts.len()).filter(is_closed);
         contacts.flat_map(|contact| self.closed_at(state, contact)).flatten().collect()
     }
 
-    /// The closed contacts at one level of a pair: of the corners with each other's edge, and the flush one.
+    /// Returns the closed contacts at one level of a pair: corner contact and flush contact.
     fn closed_at(&self, state: &SkinState, contact: usize) -> [Option<Contact>; 2] {
         let [own, flush] = state.mode.contacts[contact].carrying();
         let [on_corners, on_flush] = self.forces_on_left(state, contact);
@@ -47,14 +49,16 @@ impl Contacts {
         })
     }
 
-    /// Place of the corner that touches, from the node of the first scale at rest.
+    /// Returns the position of the touching corner, relative to the node of the first scale at
+    /// rest.
     fn corner(&self, z: &[f64], contact: usize, corner_edge: CornerEdge) -> Vec2 {
         let of_right = usize::from(!corner_edge.corner_is_left());
         let pose = self.pair_poses(z, contact)[of_right];
         let pair = Self::pair_of(contact);
         let (ends, pair) = (self.ends(pair), self.pair(pair));
         let arm = pose.turn(pair.scales()[of_right].corner(corner_edge.corner()));
-        // In relative poses places count from the left scale of the pair, not from the first one.
+        // With relative poses, positions count from the left scale of the pair instead of the first
+        // scale.
         let place = if self.relative {
             of_right as f64 * pair.pitch()
         } else {

@@ -1,23 +1,28 @@
-//! Friction between neighbours: scales that stick and slip on each other.
+//! Friction between neighbouring scales, with stick and slip.
 //!
-//! On an edge the contact force has a part `T` along it, on the left scale in the direction of the normal force turned counter-clockwise
-//! by a quarter. With the normal forces `Λ` that bear on the edge and the way `s` that the left scale has slid in that direction
+//! The contact force has a component `T` along its edge. On the left scale it acts in the direction
+//! of the normal force rotated counter-clockwise by a quarter turn. With the normal forces `Λ` on
+//! the edge and the slip coordinate `s` of the left scale in that direction
 //!
 //! ```text
 //! |T| ≤ μ Λ,    stick:  s = s₀, T unknown,    slip:  T = −μ Λ sign ṡ                          (R1)
 //! ```
 //!
-//! Sticking is an equality. Its unknown is the *grip* `a = T + μ Λ`, which vanishes where the contact begins to slip forward; backward it
-//! slips where `2 μ Λ − a` does. A contact that slips has the way that it has come as an unknown that only grows: where it turns back the
-//! contact sticks (R2). So a contact that rubs has two constraints more than one that does not:
+//! Sticking is an equality constraint. Its unknown is the *stick multiplier* `a = T + μ Λ`, which
+//! vanishes where the contact starts to slip forward; backward slip starts where `2 μ Λ − a`
+//! vanishes. The unknown of a slipping contact is its slip distance, which only grows: where it
+//! would decrease the contact sticks (R2). Friction thus adds two constraints per contact:
 //!
 //! ```text
-//! 0 ≤ a   where it sticks          0 ≤ σ (s − s₀)  ⟂  2 μ Λ − a ≥ 0
+//! 0 ≤ a   while sticking          0 ≤ σ (s − s₀)  ⟂  2 μ Λ − a ≥ 0
 //! ```
 //!
-//! Two contacts of a pair whose sides lie on each other slide along one line: only the sum of their friction counts, and one of them, the
-//! *host*, bears it for both. Corners that are together keep the ratio of `T` and `Λ` with which they came; it is that of sliding on, on
-//! the edge behind the corner. So does a corner on whose place the tip of a needle stands: of one motion the needle then says how it rubs.
+//! If the sides of a pair lie on each other, its two contacts slide along one line and only the sum
+//! of their friction matters. One of them, the *carrier*, then carries the friction of both; the
+//! other one is *shared*. Coinciding corners are *locked*: they keep the ratio `T/Λ` with which
+//! they met, which is the ratio for sliding on along the edge behind the corner. A corner at the
+//! position of a needle tip is locked, too, because the friction law of the needle determines their
+//! common motion.
 
 use contact::{CornerContact, CornerEdge, FORCES, Force, Gap, Pose, quarter};
 use geometry::Vec2;
@@ -25,35 +30,35 @@ use solver::{Residual, Tangent};
 
 use super::{Contacts, LEVELS, SkinMode, SkinPoint, SkinState};
 
-/// Constraints of a contact that rubs, behind those of its forces.
+/// Slots of the friction constraints of a contact, behind those of its forces.
 pub(super) const STICK_MULTIPLIER: usize = FORCES;
 pub(super) const SLIP_DISTANCE: usize = FORCES + 1;
 
-/// A normal force smaller than this has just begun to act.
+/// Normal forces below this belong to a contact that has just closed.
 pub(super) const NO_FORCE: f64 = 1e-12;
 
-/// A ratio this near to the coefficient of friction is that of sliding.
+/// Relative tolerance within which `|T/Λ|` equals the coefficient of friction.
 const SLIDES: f64 = 1e-9;
 
-/// How a contact rubs.
+/// Friction state of a contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) enum FrictionState {
-    /// Not at all: it is open, or the other contact of the pair bears its friction.
+    /// Open, or the other contact of the pair carries its friction.
     #[default]
     None,
-    /// It sticks where `s` is `at`, its anchor.
+    /// Sticks at the slip coordinate `anchor`.
     Stick {
         /// `s₀`.
         anchor: f64,
     },
-    /// It slips with this sign of `ṡ`, since `s` was `from`.
+    /// Slips with the sign of `ṡ`, since `s` was `start`.
     Slip {
         /// `σ`, 1 or −1.
         sign: f64,
-        /// `s` where it began to.
+        /// `s` at the start of slip.
         start: f64,
     },
-    /// The corners are together, or the tip of a needle is where the corner is, with this ratio of `T` and `Λ`.
+    /// Locked with a constant ratio `T/Λ`: the corners coincide, or a needle tip is at the corner.
     Locked {
         /// `T/Λ`.
         ratio: f64,
@@ -61,12 +66,12 @@ pub(crate) enum FrictionState {
 }
 
 impl FrictionState {
-    /// Whether the contact bears friction of its own.
+    /// Returns true if the contact carries friction itself.
     pub(super) fn carries_friction(self) -> bool {
         self != Self::None
     }
 
-    /// Whether both stick, or slip the same way.
+    /// Returns true if both stick, both are locked, or both slip in the same direction.
     pub(super) fn is_same_form(self, other: Self) -> bool {
         match (self, other) {
             (Self::Slip { sign, .. }, Self::Slip { sign: of_other, .. }) => sign == of_other,
@@ -74,28 +79,28 @@ impl FrictionState {
         }
     }
 
-    /// Whether it sticks, and whether it slips.
+    /// Tells whether the stick and the slip constraint are active.
     pub(super) fn acting(self) -> [bool; 2] {
         [matches!(self, Self::Stick { .. }), matches!(self, Self::Slip { .. })]
     }
 }
 
-/// How a closed contact slides: its friction, and the way with its derivatives.
+/// Friction of a closed contact: state, traction, and slip coordinate with derivatives.
 struct Sliding {
     friction_state: FrictionState,
     traction: f64,
-    /// `∂T/∂Λ`, with the grip held.
+    /// `∂T/∂Λ` at a constant stick multiplier.
     by_normal_force: f64,
     slide: Gap,
 }
 
 impl Contacts {
-    /// Whether neighbours rub.
+    /// Returns true if the contact law has friction.
     pub(crate) fn has_friction(&self) -> bool {
         self.law.friction() > 0.0
     }
 
-    /// Whether friction acts anywhere.
+    /// Returns true if friction acts at any contact.
     pub(crate) fn friction_acts(state: &SkinState) -> bool {
         state
             .mode
@@ -104,7 +109,7 @@ impl Contacts {
             .any(|friction_state| *friction_state != FrictionState::None)
     }
 
-    /// Numbers of contacts that stick and that slip.
+    /// Counts the sticking and the slipping contacts.
     pub(crate) fn stick_slip_counts(state: &SkinState) -> [usize; 2] {
         let count = |k: usize| {
             state
@@ -117,19 +122,19 @@ impl Contacts {
         [0, 1].map(count)
     }
 
-    /// Whether a constraint is one of friction.
+    /// Returns true if a constraint belongs to friction.
     pub(crate) fn is_friction(&self, constraint: usize) -> bool {
         constraint < self.forces.len() && self.contact_of(constraint).1 >= FORCES
     }
 
-    /// Whether a constraint is one of friction of a contact that slips.
+    /// Returns true if a constraint is a friction constraint of a slipping contact.
     pub(crate) fn slips(&self, state: &SkinState, constraint: usize) -> bool {
-        // A guest and a contact that is held have constraints of friction, too, but none that acts.
+        // Shared and locked contacts have friction constraints, too, but none of them is active.
         self.is_friction(constraint)
             && state.mode.friction_states[self.contact_of(constraint).0].acting() == [false, true]
     }
 
-    /// What contacts keep of the way to a state: where they stick, or the ratio with which they are held.
+    /// Iterates over the history variables of contacts: anchors, and ratios of locked contacts.
     pub(crate) fn anchors(state: &SkinState) -> impl Iterator<Item = (usize, f64)> {
         let friction_states = state.mode.friction_states.iter().enumerate();
         friction_states.filter_map(|(contact, friction_state)| match friction_state {
@@ -140,7 +145,7 @@ impl Contacts {
         })
     }
 
-    /// What a contact will keep in the state `to`, seen from the state before.
+    /// Evaluates in `state` the anchor or ratio that a contact will have in state `to`.
     pub(crate) fn anchor_value(
         &self,
         state: &SkinState,
@@ -153,18 +158,19 @@ impl Contacts {
         }
     }
 
-    /// Moves what a contact keeps to that of a neighbour of a row which has come to the same state on its own way.
+    /// Shifts the anchor of a contact, for a perturbed row that reaches the same state with another
+    /// history.
     pub(crate) fn shift_anchor(&mut self, contact: usize, by: f64) {
         self.anchor_shifts.push((contact, by));
     }
 
-    /// What a contact keeps on the way to this row, if it does so with this value.
+    /// Returns the anchor of a contact, given its value in the mode.
     fn shifted_anchor(&self, contact: usize, of_mode: f64) -> f64 {
         let moved = self.anchor_shifts.iter().find(|(moved, _)| *moved == contact);
         of_mode + moved.map_or(0.0, |(_, by)| *by)
     }
 
-    /// The ratio with which a contact is held; 0 if it is not.
+    /// Returns the friction ratio of a locked contact; 0 for other contacts.
     pub(super) fn locked_ratio(&self, mode: &SkinMode, contact: usize) -> f64 {
         match mode.friction_states.get(contact) {
             Some(FrictionState::Locked { ratio }) => self.shifted_anchor(contact, *ratio),
@@ -172,7 +178,7 @@ impl Contacts {
         }
     }
 
-    /// Lets all contacts stick that slide, where they are.
+    /// Makes all slipping contacts stick at their current position.
     pub(crate) fn stop_sliding(&self, state: &mut SkinState) {
         for contact in 0..state.mode.friction_states.len() {
             let (FrictionState::Slip { sign, .. }, Some(edge)) =
@@ -180,7 +186,8 @@ impl Contacts {
             else {
                 continue;
             };
-            // `T` stays as it was: the grip is 0 where it slid forward and `2 μ Λ` where backward.
+            // Keep `T` continuous: the multiplier is 0 after forward slip and `2 μ Λ` after
+            // backward slip.
             let multiplier = (1.0 - sign) * self.law.friction() * self.normal_force(state, contact);
             state.mode.friction_states[contact] =
                 FrictionState::Stick { anchor: self.slip_coordinate(state, edge, contact) };
@@ -188,7 +195,7 @@ impl Contacts {
         }
     }
 
-    /// Lets the friction of a contact on an edge keep its ratio, since the tip of a needle has come to the place of the corner.
+    /// Locks the friction of a contact because a needle tip has reached the position of its corner.
     pub(crate) fn lock(&self, state: &mut SkinState, contact: usize) {
         if !self.has_friction() {
             return;
@@ -196,11 +203,13 @@ impl Contacts {
         let carrier = Self::carrier_of(&state.mode, contact);
         let ratio = self.ratio(state, carrier);
         state.mode.friction_states[carrier] = FrictionState::Locked { ratio };
-        // A ratio that is held leaves no unknown for the friction.
+        // A locked contact has no friction unknown.
         self.set_friction(state, carrier, 0.0, true);
     }
 
-    /// Gives the friction of a contact that was held on an edge back to it. Of a tip that slides the corner slides on, too.
+    /// Releases a locked contact on its edge.
+    ///
+    /// `slides` tells whether the needle tip slides; then the corner keeps sliding, too.
     pub(crate) fn release(&self, state: &mut SkinState, contact: usize, slides: bool) {
         if !self.has_friction() {
             return;
@@ -212,10 +221,10 @@ impl Contacts {
             return;
         };
         let position = self.slip_coordinate(state, edge, carrier);
-        // `T` stays as it was while the contact was held, and the grip is `T + μ Λ`.
+        // Keep `T` continuous: it was `ratio Λ` while locked, and the multiplier is `T + μ Λ`.
         let multiplier = (ratio + self.law.friction()) * self.normal_force(state, carrier);
         state.mode.friction_states[carrier] = if slides && self.is_sliding(ratio) {
-            // Friction opposes the motion, so the way has the other sign.
+            // Friction opposes the motion, so the slip has the opposite sign of the ratio.
             FrictionState::Slip { sign: -ratio.signum(), start: position }
         } else {
             FrictionState::Stick { anchor: position }
@@ -223,7 +232,7 @@ impl Contacts {
         self.set_friction(state, carrier, multiplier, true);
     }
 
-    /// Adds the friction of a pair to its balance, and the equations of grips and ways.
+    /// Adds the friction of a pair to its balance, and the stick and slip equations.
     pub(super) fn add_friction(
         &self,
         state: &SkinState,
@@ -248,26 +257,30 @@ impl Contacts {
             }
             match friction_state {
                 FrictionState::Stick { anchor } => {
-                    // `T = a − μ Λ` where the contact sticks, so its derivative by the grip is 1.
+                    // While sticking `T = a − μ Λ`, so its derivative with respect to the
+                    // multiplier is 1.
                     pair.add_column(matrix, multiplier, &along.map(|slope| -slope));
                     residual.add(multiplier, slide.value - self.shifted_anchor(contact, anchor));
                     pair.add_row(matrix, multiplier, &along);
                 }
                 FrictionState::Slip { sign, start } => {
-                    // Counted from where slipping began, the way is zero there and only grows.
+                    // Counted from the start of slip, so the slip distance starts at zero and only
+                    // grows.
                     residual.add(slip, -sign * (slide.value - start));
                     residual.add(slip, state.z[slip]);
                     pair.add_row(matrix, slip, &along.map(|slope| -sign * slope));
                     matrix.add(slip, slip, 1.0);
                 }
-                // Neither constraint acts here, so neither has an equation.
+                // No active constraint, hence no equation.
                 FrictionState::None | FrictionState::Locked { .. } => {}
             }
         }
     }
 
-    /// The condition of a grip or a way that does not act, or with a direction for `z` its derivative: that of the way of a contact that
-    /// sticks alone may be violated.
+    /// Evaluates the condition of an inactive friction constraint; with a direction for `z` its
+    /// derivative.
+    ///
+    /// Only the slip condition of a sticking contact can be violated.
     pub(super) fn slot_condition(
         &self,
         state: &SkinState,
@@ -280,13 +293,13 @@ impl Contacts {
         if slot != SLIP_DISTANCE {
             return None;
         }
-        // This is linear in the unknowns: a direction in the place of `z` gives the derivative.
+        // Linear in the unknowns, so a direction in place of `z` gives the derivative.
         let normal_force: f64 =
             self.normal_force_unknowns(mode, contact).map(|force| z[force]).sum();
         Some(2.0 * self.law.friction() * normal_force - z[self.unknown(contact, STICK_MULTIPLIER)])
     }
 
-    /// The derivative of the equation of a grip or a way that acts, or of the condition of one that does not.
+    /// Evaluates the directional derivative of a friction equation or condition.
     pub(super) fn slot_slope(
         &self,
         state: &SkinState,
@@ -307,7 +320,9 @@ impl Contacts {
         }
     }
 
-    /// Replaces the conditions of ways, or with a direction for `z` their derivatives: where there is none by `otherwise`.
+    /// Fills in the slip conditions, or with a direction for `z` their derivatives.
+    ///
+    /// Contacts without such a condition get `otherwise`.
     pub(super) fn friction_conditions(
         &self,
         state: &SkinState,
@@ -321,21 +336,25 @@ impl Contacts {
         }
     }
 
-    /// What friction takes between two neighbouring points of a path, `∫ μ Λ |ds|`. `spans` are the units of the directions in which the
-    /// path leaves the one and comes to the other ([`solver::Path::spans`]): with them both factors are known to the third order.
+    /// Computes the frictional dissipation between two neighbouring path points, `∫ μ Λ |ds|`.
+    ///
+    /// `spans` are the lengths of the segment in units of the outgoing direction at `from` and of
+    /// the incoming direction at `to` ([`solver::Path::spans`]). With them both factors are
+    /// accurate to third order.
     pub(crate) fn friction_work(&self, from: &SkinPoint, to: &SkinPoint, spans: [f64; 2]) -> f64 {
         let slips = from.state.mode.friction_states.iter().enumerate();
         let work = |(contact, friction_state): (usize, &FrictionState)| {
             let FrictionState::Slip { sign, start } = *friction_state else { return 0.0 };
             let Some(edge) = from.state.mode.contacts[contact].edge() else { return 0.0 };
             let normal_force = |z: &[f64]| -> f64 {
-                // A force may have been handed on at the second point.
+                // The force may have been handed over to another contact at the second point.
                 let both = Self::sharing_contacts(&from.state.mode, contact);
                 let both = both.map(|contact| self.forces_of(z, contact));
                 both.map(|forces| forces[Force::Own as usize] + forces[Force::Flush as usize]).sum()
             };
             let slip = self.unknown(contact, SLIP_DISTANCE);
-            // The contact may slip no more at the second point: its way is taken from the poses.
+            // The contact may have stopped slipping at the second point, so compute its slip from
+            // the poses.
             let end = sign * (self.slip_coordinate(&to.state, edge, contact) - start);
             let slip_distances = [from.state.z[slip], end];
             let rates = [spans[0] * from.leaving[slip], spans[1] * to.arriving[slip]];
@@ -347,31 +366,31 @@ impl Contacts {
         slips.map(work).sum()
     }
 
-    /// Whether the other contact of the pair bears the friction of this one.
+    /// Returns true if the other contact of the pair carries the friction of this one.
     pub(super) fn is_shared(mode: &SkinMode, contact: usize) -> bool {
         mode.friction_states[contact] == FrictionState::None
             && mode.contacts[contact] != CornerContact::Open
             && mode.friction_states[Self::other_contact(contact)].carries_friction()
     }
 
-    /// The contact that bears the friction of a contact.
+    /// Returns the contact that carries the friction of a contact.
     fn carrier_of(mode: &SkinMode, contact: usize) -> usize {
         if Self::is_shared(mode, contact) { Self::other_contact(contact) } else { contact }
     }
 
-    /// Whether a contact slips, or that which bears its friction.
+    /// Returns true if the contact, or the carrier of its friction, slips.
     pub(super) fn is_slipping(mode: &SkinMode, contact: usize) -> bool {
         matches!(mode.friction_states[Self::carrier_of(mode, contact)], FrictionState::Slip { .. })
     }
 
-    /// A contact that bears friction, and the one whose friction it bears besides its own.
+    /// Iterates over a carrier and the contact that shares it, if any.
     fn sharing_contacts(mode: &SkinMode, carrier: usize) -> impl Iterator<Item = usize> {
         let shared =
             Some(Self::other_contact(carrier)).filter(|&other| Self::is_shared(mode, other));
         std::iter::once(carrier).chain(shared)
     }
 
-    /// Friction on the left scale at a contact whose normal force has this direction.
+    /// Computes the friction on the left scale at a contact with the given normal force.
     pub(super) fn traction_on_left(
         &self,
         state: &SkinState,
@@ -380,8 +399,8 @@ impl Contacts {
     ) -> Vec2 {
         let poses = self.pair_poses(&state.z, contact);
         match (self.friction_of(state, contact, &poses), normal_force.norm()) {
-            // Without a force there is no direction to take. Corners that are together have no edge
-            // to slide on: their friction is the ratio with which they are held.
+            // Without a force the direction is undefined. Coinciding corners have no edge to slide
+            // on; their friction follows from the locked ratio.
             (Some(sliding), size) if size > 0.0 => sliding.traction * quarter(normal_force) / size,
             _ => self.locked_ratio(&state.mode, contact) * quarter(normal_force),
         }
@@ -399,7 +418,7 @@ impl Contacts {
         let slide = self.slide(edge, contact, poses);
         let normal_force: f64 =
             self.normal_force_unknowns(&state.mode, contact).map(|force| state.z[force]).sum();
-        // A grip that does not act is zero, so that this holds for all ways to rub.
+        // Inactive multipliers are zero, so this holds in every friction state.
         let multiplier = state.z[self.unknown(contact, STICK_MULTIPLIER)];
         Some(Sliding {
             friction_state,
@@ -409,7 +428,9 @@ impl Contacts {
         })
     }
 
-    /// The edge that a contact slides on; `None` where corners are together, whose force the law of the contact turns.
+    /// Returns the edge on which a contact slides; `None` for coinciding corners.
+    ///
+    /// The contact law rotates the force of coinciding corners.
     fn edge_of(mode: &SkinMode, contact: usize) -> Option<CornerEdge> {
         let contact = mode.contacts[contact];
         contact.edge().filter(|_| !matches!(contact, CornerContact::Corner(_)))
@@ -419,12 +440,13 @@ impl Contacts {
         self.pair(Self::pair_of(contact)).slide(edge, left, right)
     }
 
-    /// Unknown of a constraint of a contact.
+    /// Returns the unknown of a constraint of a contact.
     pub(super) fn unknown(&self, contact: usize, slot: usize) -> usize {
         self.forces[self.slots * contact + slot]
     }
 
-    /// Unknowns of the normal forces that bear on the edge of a contact: its own, and those of a contact whose friction it bears.
+    /// Iterates over the unknowns of the normal forces on the edge of a carrier, shared contact
+    /// included.
     fn normal_force_unknowns(
         &self,
         mode: &SkinMode,
@@ -438,14 +460,14 @@ impl Contacts {
         })
     }
 
-    /// The other contact of a pair.
+    /// Returns the other contact of the pair.
     pub(super) fn other_contact(contact: usize) -> usize {
-        // Contacts of a pair follow each other: the sum of their numbers gives the other one.
+        // The two contacts of a pair are consecutive, so their numbers add up to a known sum.
         let first = Self::contacts_of(Self::pair_of(contact)).start;
         2 * first + LEVELS.len() - 1 - contact
     }
 
-    /// `T/Λ` of a contact.
+    /// Computes `T/Λ` of a contact.
     pub(super) fn ratio(&self, state: &SkinState, contact: usize) -> f64 {
         match state.mode.friction_states[contact] {
             FrictionState::Locked { ratio } => ratio,
@@ -453,7 +475,7 @@ impl Contacts {
             FrictionState::Stick { .. } => {
                 let normal_force = self.normal_force(state, contact);
                 let multiplier = state.z[self.unknown(contact, STICK_MULTIPLIER)];
-                // Without pressure the ratio would be round-off over round-off.
+                // Without normal force the ratio would be a quotient of round-off errors.
                 if normal_force > NO_FORCE {
                     multiplier / normal_force - self.law.friction()
                 } else {
@@ -461,24 +483,24 @@ impl Contacts {
                 }
             }
             FrictionState::None if Self::is_shared(&state.mode, contact) => {
-                // Both slide along one line, so that the guest has the ratio of its host.
+                // Both slide along one line, so the shared contact has the ratio of its carrier.
                 self.ratio(state, Self::other_contact(contact))
             }
             FrictionState::None => 0.0,
         }
     }
 
-    /// Whether a ratio is that of sliding.
+    /// Returns true if the ratio equals the coefficient of friction.
     pub(super) fn is_sliding(&self, ratio: f64) -> bool {
         ratio.abs() >= self.law.friction() * (1.0 - SLIDES)
     }
 
-    /// The normal forces on the edge of a contact that bears its friction.
+    /// Computes the total normal force on the edge of a carrier.
     pub(super) fn normal_force(&self, state: &SkinState, contact: usize) -> f64 {
         self.normal_force_unknowns(&state.mode, contact).map(|force| state.z[force]).sum()
     }
 
-    /// `s` of a contact.
+    /// Computes the slip coordinate `s` of a contact.
     pub(super) fn slip_coordinate(
         &self,
         state: &SkinState,
@@ -489,7 +511,9 @@ impl Contacts {
     }
 }
 
-/// `∫ f dg` over a unit interval, of cubics through values and slopes at both ends: exact with three points of Gauss.
+/// Computes `∫ f dg` over a unit interval for cubics given by values and slopes at both ends.
+///
+/// Exact with three Gauss points.
 pub(crate) fn product_integral(
     [values, slopes]: [[f64; 2]; 2],
     [of_g, slopes_of_g]: [[f64; 2]; 2],

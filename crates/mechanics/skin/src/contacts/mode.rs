@@ -1,21 +1,21 @@
-//! The mode of a skin: what contacts and needle do.
+//! The discrete state of a skin: contacts, friction and needle.
 
 use contact::CornerContact;
 
 use super::friction::FrictionState;
 use crate::puncture::NeedleMode;
 
-/// The mode of a skin: the state of every contact, its friction, and that of a guided needle.
+/// Discrete state of all contacts, of their friction, and of a guided needle.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct SkinMode {
     pub(crate) contacts: Vec<CornerContact>,
-    /// How each contact rubs; nothing without friction.
+    /// Friction state of each contact; empty without friction.
     pub(crate) friction_states: Vec<FrictionState>,
     pub(crate) needle: NeedleMode,
 }
 
 impl SkinMode {
-    /// Whether contacts do and rub alike in two modes.
+    /// Returns true if contacts, friction states and needle agree, whatever their anchors.
     pub(crate) fn is_same_form(&self, other: &Self) -> bool {
         let friction_states = self.friction_states.iter().zip(&other.friction_states);
         self.contacts == other.contacts

@@ -1,4 +1,4 @@
-//! The unknowns that the coordinates of a pair of scales are made of, and what an equation of these coordinates adds there.
+//! Maps the coordinates of a pair of scales to the unknowns of the system.
 
 use std::array;
 
@@ -7,10 +7,10 @@ use solver::{Residual, Tangent};
 
 use super::Contacts;
 
-/// A number of each coordinate.
+/// One number per coordinate of a pair.
 type OfEach = [f64; COORDINATES];
 
-/// An unknown of a system as a part of a coordinate: the coordinate is the sum of such parts.
+/// Signed contribution of an unknown to a coordinate; a coordinate is the sum of such terms.
 #[derive(Clone, Copy)]
 pub(super) struct Part {
     unknown: usize,
@@ -19,23 +19,25 @@ pub(super) struct Part {
     sign: f64,
 }
 
-/// The unknowns that the coordinates of a pair are made of.
+/// The unknowns that form the coordinates of a pair.
 #[derive(Clone, Copy)]
 #[expect(clippy::large_enum_variant, reason = "one lives at a time, on the stack")]
 pub(super) enum PairUnknowns {
-    /// In a row the coordinates are unknowns, three of each scale in succession from these on: whole blocks are added.
+    /// Row: each scale has three consecutive unknowns from this index, so whole blocks are added.
     Blocks([usize; 2]),
-    /// In a strip a rotation is the difference of two unknowns: entries are added one by one.
+    /// Strip: a rotation is the difference of two unknowns, so entries are added one by one.
     Parts([Option<Part>; COORDINATES + 1]),
 }
 
 impl Contacts {
-    /// The unknowns of the pair of a contact. In a row of relative poses the rotation of the right scale has a second part, that of
-    /// the frame.
+    /// Returns the unknowns of the pair of a contact.
+    ///
+    /// With relative poses the rotation of the right scale has a second term: the rotation of its
+    /// frame.
     pub(super) fn pair_unknowns(&self, contact: usize) -> PairUnknowns {
         let ends = self.ends(Self::pair_of(contact));
         let right = self.scales[ends[1]];
-        // In relative poses the left scale is the origin, so its coordinates are no unknowns.
+        // With relative poses the left scale is the origin, so it has no unknowns here.
         let left = self.scales[ends[0]].filter(|_| !self.relative);
         if let (Some(left), Some(right)) = (left, right) {
             return PairUnknowns::Blocks([left, right]);
@@ -43,7 +45,8 @@ impl Contacts {
         PairUnknowns::Parts(array::from_fn(|k| match k {
             0..3 => Some(Part { unknown: left? + k, coordinate: k, sign: 1.0 }),
             3..COORDINATES => Some(Part { unknown: right? + k - 3, coordinate: k, sign: 1.0 }),
-            // The coordinate is the rotation against the left scale, so the frame's is subtracted.
+            // The coordinate is the rotation relative to the left scale, so the rotation of the
+            // frame is subtracted.
             _ => {
                 let (unknown, coordinate) = (self.frame(ends[1])?, COORDINATES - 1);
                 Some(Part { unknown, coordinate, sign: -1.0 })
@@ -53,7 +56,7 @@ impl Contacts {
 }
 
 impl PairUnknowns {
-    /// The sum over all coordinates of a factor of each, times its value in `z`.
+    /// Computes the dot product of coordinate `factors` with the coordinates of the pair in `z`.
     pub(super) fn sum(self, factors: &OfEach, z: &[f64]) -> f64 {
         match self {
             Self::Blocks([left, right]) => {
@@ -67,7 +70,7 @@ impl PairUnknowns {
         }
     }
 
-    /// Adds the balance of each coordinate to the rows of all unknowns that it is made of.
+    /// Adds the balance of each coordinate to the residual rows of its unknowns.
     pub(super) fn add_balance(self, residual: &mut Residual, balance: &OfEach) {
         match self {
             Self::Blocks(scales) => {
@@ -83,7 +86,7 @@ impl PairUnknowns {
         }
     }
 
-    /// Adds the derivative of the balance of each coordinate by each.
+    /// Adds the derivatives of the balance with respect to the coordinates.
     pub(super) fn add_square(self, matrix: &mut impl Tangent, slopes: &[OfEach; COORDINATES]) {
         match self {
             Self::Blocks(scales) => {
@@ -106,7 +109,7 @@ impl PairUnknowns {
         }
     }
 
-    /// Adds the derivative of the balance of each coordinate by the unknown of `column`.
+    /// Adds the derivatives of the balance with respect to the unknown of `column`.
     pub(super) fn add_column(self, matrix: &mut impl Tangent, column: usize, slopes: &OfEach) {
         match self {
             Self::Blocks(scales) => {
@@ -122,7 +125,7 @@ impl PairUnknowns {
         }
     }
 
-    /// Adds the derivative of the equation of `row` by each coordinate.
+    /// Adds the derivatives of the equation of `row` with respect to the coordinates.
     pub(super) fn add_row(self, matrix: &mut impl Tangent, row: usize, slopes: &OfEach) {
         match self {
             Self::Blocks(scales) => {

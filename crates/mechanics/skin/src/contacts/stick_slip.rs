@@ -1,4 +1,4 @@
-//! What contacts that rub do next where something changes (R2).
+//! Transitions of contacts with friction at events (R2).
 
 use contact::{CornerContact, CornerEdge, Force};
 
@@ -6,8 +6,10 @@ use super::friction::{FrictionState, NO_FORCE, SLIP_DISTANCE, STICK_MULTIPLIER};
 use super::{Contacts, SkinState};
 
 impl Contacts {
-    /// Takes friction along where a force of a contact has changed sides: `before` is the state in which it did. `is_back` tells of corners
-    /// that part whether they do so the way they came.
+    /// Updates the friction of a pair after a force of `contact` changed sides.
+    ///
+    /// `before` is the state at the event. `is_back` tells whether parting corners return the way
+    /// they came.
     pub(super) fn carry_friction(
         &self,
         state: &mut SkinState,
@@ -16,21 +18,22 @@ impl Contacts {
         is_back: bool,
     ) {
         let pair = [contact, Self::other_contact(contact)];
-        // All of this is asked of the state before: behind the change forces stand elsewhere.
+        // Evaluate ratios before the change, because afterwards the forces are in other unknowns.
         let ratios = pair.map(|contact| self.ratio(before, contact));
         let mut friction_states =
             pair.map(|contact| self.inherited_friction(before, contact, state));
         match (before.mode.contacts[contact], state.mode.contacts[contact].edge()) {
             (_, None) => friction_states[0] = FrictionState::None,
             (CornerContact::Open, Some(edge)) => {
-                // What has just closed has not slid: the rates tell whether it slips at once.
+                // A newly closed contact has not slid yet; the rates decide whether it slips at
+                // once.
                 friction_states[0] =
                     FrictionState::Stick { anchor: self.slip_coordinate(state, edge, contact) };
             }
             (CornerContact::Corner(_), Some(edge)) => {
                 let here = self.slip_coordinate(state, edge, contact);
-                // A corner that goes on with the ratio of sliding slips on along the next edge. One
-                // that goes back, or whose ratio is smaller, sticks at the end of its edge.
+                // A corner that continues with the sliding ratio slips on along the next edge. A
+                // corner that returns, or has a smaller ratio, sticks at the end of its edge.
                 friction_states[0] = if self.is_sliding(ratios[0]) && !is_back {
                     FrictionState::Slip { sign: -ratios[0].signum(), start: here }
                 } else {
@@ -45,11 +48,12 @@ impl Contacts {
         if friction_states.iter().all(|friction_state| friction_state.carries_friction())
             && Self::slide_along_one_line(state, contact)
         {
-            // The contact that bore friction before goes on bearing it, since its anchor is known.
+            // The previous carrier stays the carrier, because its anchor is known.
             let shared = usize::from(before.mode.friction_states[contact].carries_friction());
             friction_states[shared] = FrictionState::None;
         }
-        // Both modes are set first: the pressure that bounds a grip depends on who is a guest.
+        // Set both states first: the normal force that bounds a multiplier depends on which contact
+        // is shared.
         for (contact, friction_state) in pair.into_iter().zip(friction_states) {
             state.mode.friction_states[contact] = friction_state;
         }
@@ -59,14 +63,15 @@ impl Contacts {
                 let normal = forces[Force::Own as usize] + forces[Force::Flush as usize];
                 (ratios[k] + self.law.friction()) * normal
             };
-            // The host takes over the tangential force of its guest, so that the sum stays.
+            // The carrier takes over the tangential force of the shared contact, so their sum is
+            // continuous.
             let shared = if Self::is_shared(&state.mode, pair[1 - k]) { share(1 - k) } else { 0.0 };
             let is_new = before.mode.friction_states[contact] != friction_state;
             self.set_friction(state, contact, share(k) + shared, is_new);
         }
     }
 
-    /// How a contact rubs by itself, on the edge on which it is in the state `now`.
+    /// Returns the friction state that a contact inherits, on its edge in the state `now`.
     fn inherited_friction(
         &self,
         before: &SkinState,
@@ -77,11 +82,11 @@ impl Contacts {
         let from = if is_shared { Self::other_contact(contact) } else { contact };
         let friction_state = before.mode.friction_states[from];
         let Some(edge) = now.mode.contacts[contact].edge() else { return FrictionState::None };
-        // On the same edge the anchor, or the beginning of the way, stays what it was.
+        // On the same edge the anchor, or the start of slip, is unchanged.
         if !is_shared && before.mode.contacts[contact].edge() == Some(edge) {
             return friction_state;
         }
-        // On another edge the way is counted from elsewhere.
+        // On another edge the slip coordinate has another origin.
         let here = self.slip_coordinate(now, edge, contact);
         match friction_state {
             FrictionState::Stick { .. } => FrictionState::Stick { anchor: here },
@@ -90,11 +95,11 @@ impl Contacts {
         }
     }
 
-    /// Whether the contacts of a pair are both between its sides, which then lie on each other.
+    /// Returns true if both contacts of a pair are between its sides, which then lie on each other.
     fn slide_along_one_line(state: &SkinState, contact: usize) -> bool {
         let is_side = |contact: usize| match state.mode.contacts[contact] {
             CornerContact::Edge(edge) => {
-                // A tip on the neighbour's top or base slides along that, and not along the sides.
+                // A tip on the top or base of its neighbour slides along that, not along the sides.
                 !matches!(edge, CornerEdge::TopRightOnTop | CornerEdge::BottomLeftOnBase)
             }
             _ => false,
@@ -102,7 +107,7 @@ impl Contacts {
         is_side(contact) && is_side(Self::other_contact(contact))
     }
 
-    /// Sets what acts of grip and way of a contact.
+    /// Sets active flags and values of the friction unknowns of a contact.
     pub(super) fn set_friction(
         &self,
         state: &mut SkinState,
@@ -114,24 +119,26 @@ impl Contacts {
         let first = self.slots * contact;
         [state.active[first + STICK_MULTIPLIER], state.active[first + SLIP_DISTANCE]] =
             [sticks, slips];
-        // Between 0 and `2 μ Λ` the contact sticks: round-off must not put the grip outside.
+        // While sticking the multiplier is in `[0, 2 μ Λ]`; clamp it against round-off.
         let largest = 2.0 * self.law.friction() * self.normal_force(state, contact);
         state.z[self.unknown(contact, STICK_MULTIPLIER)] =
             if sticks { multiplier.clamp(0.0, largest.max(0.0)) } else { 0.0 };
-        // A contact that slips on keeps its way, which only grows.
+        // A contact that keeps slipping keeps its slip distance.
         if is_new || !slips {
             state.z[self.unknown(contact, SLIP_DISTANCE)] = 0.0;
         }
     }
 
-    /// Takes a contact that begins to slip, or ceases to, to its next state. Returns the constraint of the contact whose condition has to
-    /// hold as the path goes on, or `None` if there is no such change.
+    /// Moves a contact to its next friction state where it starts or stops slipping.
+    ///
+    /// Returns the constraint whose condition must hold on the outgoing branch, or `None` if there
+    /// is no such transition.
     ///
     /// | Before | Condition | After |
     /// |---|---|---|
     /// | sticks | `T = −μ Λ` | slips forward |
     /// | sticks | `T = μ Λ` | slips backward |
-    /// | slips | `s` turns back | sticks where it is |
+    /// | slips | `s` reverses | sticks at its current position |
     pub(super) fn change_friction(
         &self,
         state: &mut SkinState,
@@ -149,8 +156,8 @@ impl Contacts {
                 (FrictionState::Slip { sign: -1.0, start: here }, SLIP_DISTANCE)
             }
             (FrictionState::Slip { sign, .. }, SLIP_DISTANCE, false) => {
-                // What slid forward has no grip left, what slid backward the largest: that limit
-                // has to hold where it comes to rest.
+                // After forward slip the multiplier is zero, after backward slip it is at its
+                // maximum: that limit has to hold after the contact has stopped.
                 (
                     FrictionState::Stick { anchor: here },
                     if sign > 0.0 { STICK_MULTIPLIER } else { SLIP_DISTANCE },
@@ -158,12 +165,14 @@ impl Contacts {
             }
             _ => return None,
         };
-        // The grip that keeps `T` is taken while the mode still tells the ratio.
+        // Compute the multiplier that keeps `T` continuous while the mode still holds the old
+        // ratio.
         let multiplier =
             (self.ratio(state, contact) + self.law.friction()) * self.normal_force(state, contact);
         state.mode.friction_states[contact] = friction_state;
         self.set_friction(state, contact, multiplier, true);
-        // A contact that has just closed has to press, however it rubs.
+        // A contact that has just closed must carry a compressive force, whatever its friction
+        // state.
         Some(if has_force { valid } else { Force::Own as usize })
     }
 }

@@ -1,11 +1,11 @@
-//! The stiffness of closed contacts as a symmetric matrix.
+//! Symmetric stiffness matrix of the closed contacts.
 
 use contact::{CornerContact, FORCES};
 
 use super::{Contacts, SkinState};
 
 impl Contacts {
-    /// The unknowns in whose places the components of contact forces (C8) stand in the stiffness: those of the forces that act.
+    /// Iterates over the active contact forces (C8), which stay unknowns of the stiffness matrix.
     pub(crate) fn forces_in_stiffness(&self, state: &SkinState) -> impl Iterator<Item = usize> {
         let contacts = state.mode.contacts.iter().enumerate();
         contacts.flat_map(|(contact, mode)| self.acting_unknowns(contact, *mode))
@@ -20,9 +20,11 @@ impl Contacts {
         (0..FORCES).filter(move |&force| acting[force]).map(move |force| unknowns[force])
     }
 
-    /// Shows every entry of the symmetric stiffness of the closed contacts: row, column, value. It has a negative eigenvalue for each
-    /// component of a force, besides those of the stiffness in the displacements alone (Haynsworth 1968,
-    /// doi 10.1016/0024-3795(68)90050-5).
+    /// Calls `entry` for each entry (row, column, value) of the symmetric stiffness of the closed
+    /// contacts.
+    ///
+    /// The matrix has one negative eigenvalue per force unknown in addition to those of the
+    /// condensed stiffness (Haynsworth 1968, doi 10.1016/0024-3795(68)90050-5).
     pub(crate) fn for_stiffness(
         &self,
         state: &SkinState,
@@ -37,7 +39,7 @@ impl Contacts {
             let stiffness = mode.stiffness(&self.corners(contact, &poses), &self.law, forces);
             let pair = self.pair_unknowns(contact);
             pair.add_square(&mut entry, &stiffness.by_coordinate);
-            // The force stays an unknown, since its compliance vanishes at first touch.
+            // Keep the force as an unknown, because its compliance vanishes at first contact.
             let unknowns: Vec<_> = self.acting_unknowns(contact, *mode).collect();
             for (i, (force, balance)) in unknowns.iter().zip(&stiffness.by_force).enumerate() {
                 pair.add_column(&mut entry, *force, balance);
@@ -49,7 +51,7 @@ impl Contacts {
         }
     }
 
-    /// Number of contacts whose corners stand on a ridge of the energy.
+    /// Counts the contacts with corners on a ridge of the energy.
     pub(crate) fn ridges(&self, state: &SkinState) -> usize {
         let is_ridge = |(contact, mode): &(usize, &CornerContact)| {
             let at_corner = || self.pair_poses(&state.z, *contact);
