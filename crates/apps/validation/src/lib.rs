@@ -13,11 +13,11 @@
 //! |---|---|
 //! | [`benchmarks()`], [`Benchmark`] | problems with known answers (their closed forms are in [`analytical`]) |
 //! | [`claims()`], [`Claim`], [`CheckedClaim`], [`CheckedStatement`], [`Verdict`] | the statements of the paper, and their verdicts |
-//! | [`BetweenPoints`], [`FittestDesign`], [`FrontOverGrid`] | what a search between the points of the grid finds |
-//! | [`GapCount`] | the claims on the most compliant designs, for strips with the same number of gaps |
+//! | [`GridGapSearch`], [`FittestDesign`], [`FrontOverGrid`] | what a search between the points of the grid finds |
+//! | [`StripLength`] | the claims on the most compliant designs, for strips with the same number of gaps |
 //! | [`Sensitivity`], [`Headlines`], [`ChoiceEffects`], [`ChoiceEffect`] | the dependence of the main results on the open choices |
-//! | [`Soundness`] | folds of the surface, and the claims on a substrate that cannot fold |
-//! | [`TurnedClaims`] | the claims under a needle that is guided, and where scales rub |
+//! | [`SurfaceFolds`] | folds of the surface, and the claims on a substrate that cannot fold |
+//! | [`ChangedVerdicts`] | the claims under a needle that is guided, and where scales rub |
 //! | [`SettingSearch`], [`ScoredSetting`] | combinations of open choices, by the number of claims that they reproduce |
 //! | [`Validation`], [`PartProgress`] | all parts, one after the other, and the page in Markdown |
 //!
@@ -29,27 +29,27 @@
 //! ```
 
 mod benchmarks;
-mod between;
+mod changed_verdicts;
 mod claims;
-mod gap_counts;
+mod grid_gap_search;
 mod page;
 mod search;
 mod sensitivity;
-mod soundness;
+mod strip_lengths;
 mod study;
-mod turned;
+mod surface_folds;
 
 use sweep::Sweep;
 
 pub use benchmarks::{Benchmark, benchmarks};
-pub use between::{BetweenPoints, FittestDesign, FrontOverGrid};
+pub use changed_verdicts::ChangedVerdicts;
 pub use claims::{CheckedClaim, CheckedStatement, Claim, Finding, Verdict, claims};
-pub use gap_counts::GapCount;
+pub use grid_gap_search::{FittestDesign, FrontOverGrid, GridGapSearch};
 pub use search::{ScoredSetting, SettingSearch};
 pub use sensitivity::{ChoiceEffect, ChoiceEffects, Headlines, Sensitivity};
-pub use soundness::Soundness;
+pub use strip_lengths::StripLength;
 use study::Study;
-pub use turned::TurnedClaims;
+pub use surface_folds::SurfaceFolds;
 
 /// The sweeps on which claims are checked: the paper's 720 designs with either meaning of the length.
 // The text of the paper says 2L, and the coverage and first contacts that it prints follow from L.
@@ -77,15 +77,15 @@ pub struct Validation {
     /// The claims of the paper with their verdicts.
     pub claims: Vec<CheckedClaim>,
     /// Where the model holds, and the claims on a substrate that cannot fold.
-    pub soundness: Soundness,
+    pub soundness: SurfaceFolds,
     /// The claims under a needle that is guided.
-    pub needle: TurnedClaims,
+    pub needle: ChangedVerdicts,
     /// The claims where scales rub.
-    pub friction: TurnedClaims,
+    pub friction: ChangedVerdicts,
     /// The best designs between the points of the grid, if they were searched for.
-    pub between: Option<BetweenPoints>,
+    pub between: Option<GridGapSearch>,
     /// The claims on the most compliant designs, for strips with the same number of gaps in every design.
-    pub gap_counts: Vec<GapCount>,
+    pub gap_counts: Vec<StripLength>,
     /// The main results for each value of each open choice.
     pub sensitivity: Vec<Sensitivity>,
     /// The effects on the measures of the paper's simplified coupling through the substrate, and of friction between scales.
@@ -138,19 +138,19 @@ impl Validation {
         let [claims, on_neo_hookean, under_needle] =
             [&paper, &neo_hookean, &guided].map(|of| claims::check(of.each_ref()));
         let claims = claims?;
-        let soundness = Soundness::of(&paper, &neo_hookean, [&claims, &on_neo_hookean?]);
-        let needle = TurnedClaims::of(&claims, &[&under_needle?], BASES.len());
+        let soundness = SurfaceFolds::compare(&paper, &neo_hookean, [&claims, &on_neo_hookean?]);
+        let needle = ChangedVerdicts::compare(&claims, &[&under_needle?], BASES.len());
         let between = searches.then(|| {
             begin("between the grid points");
-            BetweenPoints::of(&paper[0])
+            GridGapSearch::run(&paper[0])
         });
         let between = between.transpose()?;
         begin("strips of equal gaps");
-        let gap_counts = GapCount::all()?;
+        let gap_counts = StripLength::all()?;
         let (sensitivity, effects, rubbing) = sensitivity::sensitivity(settings, &paper, begin)?;
         let rubbing: Vec<_> = rubbing.iter().map(Vec::as_slice).collect();
         // The sweep over friction has the base L alone.
-        let friction = TurnedClaims::of(&claims, &rubbing, 1);
+        let friction = ChangedVerdicts::compare(&claims, &rubbing, 1);
         Ok(Self {
             benchmarks,
             claims,

@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 
 use crate::{
-    Benchmark, CheckedClaim, CheckedStatement, ChoiceEffect, Claim, Finding, GapCount, Headlines,
-    Sensitivity, Validation, Verdict,
+    Benchmark, CheckedClaim, CheckedStatement, ChoiceEffect, Claim, Finding, Headlines,
+    Sensitivity, StripLength, Validation, Verdict,
 };
 
 /// The page, with a name in braces for every table and number.
@@ -21,7 +21,7 @@ impl Validation {
             ("counts L", self.counts(0)),
             ("counts 2L", self.counts(1)),
             ("claims", self.claims.iter().map(CheckedClaim::rows).collect()),
-            ("gap counts", lines(&self.gap_counts, GapCount::row)),
+            ("gap counts", lines(&self.gap_counts, StripLength::row)),
             ("sensitivity", lines(&self.sensitivity, Sensitivity::row)),
             ("coupling", lines(&self.effects.coupling, ChoiceEffect::row)),
             ("friction", lines(&self.effects.friction, ChoiceEffect::row)),

@@ -10,9 +10,9 @@ use sweep::Case;
 
 use super::DONE;
 use super::figure_file::{FigureFiles, FigureOutput, check_sizes, joined};
+use super::options::decimal;
 use super::selection::{SelectedDesign, Selection, select};
 use super::source::{Definition, folder_within};
-use super::work::decimal;
 
 /// Arguments of `squama draw`.
 #[derive(Debug, Args)]

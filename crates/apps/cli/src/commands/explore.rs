@@ -13,7 +13,7 @@ use results::shell_word;
 use sweep::{Sweep, key};
 
 use super::figure_file::write_file;
-use super::required::Required;
+use super::requirement_args::RequirementArgs;
 use super::source::{Defined, Definition, defined, require_folder_of};
 use super::{DONE, PROGRAM};
 use crate::print::{note, print};
@@ -34,7 +34,7 @@ pub struct Arguments {
     pub definition: Definition,
 
     #[command(flatten)]
-    pub required: Required,
+    pub required: RequirementArgs,
 
     /// Page to write
     #[arg(long, value_name = "FILE", default_value = "explore.html")]

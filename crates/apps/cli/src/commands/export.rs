@@ -10,7 +10,7 @@ use uncertainty::{INDEX_COLUMNS, SOURCE_COLUMNS, TOLERANCE_COLUMNS, YIELD_COLUMN
 
 use super::fit::{ESTIMATES, FILES, POINTS};
 use super::source::{Partial, require_folder_of, verified_folder};
-use super::{DONE, derived};
+use super::{DONE, derivation};
 use crate::print::{aligned, counted, print, shortfall};
 
 /// Arguments of `squama export`.
@@ -54,7 +54,7 @@ pub fn export(arguments: &Arguments) -> anyhow::Result<u8> {
     let exported = report::export(&results, &others(&results)?, &arguments.xlsx)?;
     let (folder, name) = (arguments.xlsx.parent(), arguments.xlsx.file_name());
     let name = name.unwrap_or_default().to_string_lossy();
-    derived::note(&results, "workbook", folder.unwrap_or(Path::new("")), &[name])?;
+    derivation::record(&results, "workbook", folder.unwrap_or(Path::new("")), &[name])?;
     let row = |(table, rows): &(String, u32)| [table.clone(), counted(u64::from(*rows), "row")];
     let rows: Vec<_> = exported.tables.iter().map(row).collect();
     let from = shortfall(&results);

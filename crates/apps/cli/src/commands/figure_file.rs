@@ -10,8 +10,8 @@ use clap::Args;
 use report::{resized, smallest_letters, untitled};
 use results::{AtomicFile, VerifiedFolder};
 
-use super::derived;
-use super::work::decimal;
+use super::derivation;
+use super::options::decimal;
 use crate::print::{note, print};
 
 /// Where figures go, and as what.
@@ -98,7 +98,7 @@ impl<'a> FigureFiles<'a> {
 
     /// Notes in a folder of results that the figures are made from its tables.
     pub fn note(&self, results: &VerifiedFolder) -> anyhow::Result<()> {
-        derived::note(results, "figures", &self.folder, &self.names)
+        derivation::record(results, "figures", &self.folder, &self.names)
     }
 
     /// Prints a line for each file.

@@ -12,8 +12,8 @@ use results::{Claim, Column, CsvFormat, Maker, RunFolder, columns, write_rows};
 use run::WorkMeter;
 use serde_json::{Value, json};
 
+use super::options::SolveOptions;
 use super::source::{folder_of, question, settings};
-use super::work::Solving;
 use super::{DONE, INCOMPLETE};
 use crate::interrupt::Interrupt;
 use crate::json;
@@ -53,7 +53,7 @@ pub struct Arguments {
     pub out: Option<PathBuf>,
 
     #[command(flatten)]
-    pub solving: Solving,
+    pub solving: SolveOptions,
 }
 
 /// Files that it writes.

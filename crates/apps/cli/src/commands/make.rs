@@ -11,9 +11,9 @@ use sweep::Case;
 use uncertainty::{Analysis, SampleStore};
 
 use super::figure_file::write_file;
+use super::options::decimal;
 use super::selection::{SelectedDesign, Selection, select};
 use super::source::{Definition, require_folder_of};
-use super::work::decimal;
 use super::{DONE, PROGRAM};
 use crate::interrupt::Interrupt;
 use crate::print::{aligned, note, print, rounded};

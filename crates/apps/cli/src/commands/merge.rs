@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::options::TableFormat;
 use super::run::{conclude, summary};
-use super::work::Format;
 use super::{DONE, INCOMPLETE, PROGRAM};
 use crate::print::{counted, print};
 
@@ -34,7 +34,7 @@ pub struct Arguments {
     pub quiet: bool,
 
     #[command(flatten)]
-    pub format: Format,
+    pub format: TableFormat,
 }
 
 /// Runs of missing designs that are named before the list is cut short.

@@ -1,10 +1,10 @@
 //! `squama optimise`.
 
-mod elsewhere;
 mod figures;
 mod record;
 mod report;
-mod skins;
+mod samples;
+mod weakest_place;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -16,9 +16,9 @@ use optimisation::{Answer, DesignGoal, Found, SearchMeter, SearchOptions, write_
 use ranking::TILTING_ONLY;
 use results::RunFolder;
 
-use super::required::Required;
+use super::options::{EarlierResults, SolveOptions, TableFormat};
+use super::requirement_args::RequirementArgs;
 use super::source::{folder_of, question, settings};
-use super::work::{Earlier, Format, Solving};
 use super::{DONE, INCOMPLETE, PROGRAM};
 use crate::interrupt::Interrupt;
 use crate::json;
@@ -69,20 +69,20 @@ pub struct Arguments {
     pub settings: Vec<String>,
 
     #[command(flatten)]
-    pub required: Required,
+    pub required: RequirementArgs,
 
     /// Results folder [default: results/NAME]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 
     #[command(flatten)]
-    pub earlier: Earlier,
+    pub earlier: EarlierResults,
 
     #[command(flatten)]
-    pub solving: Solving,
+    pub solving: SolveOptions,
 
     #[command(flatten)]
-    pub format: Format,
+    pub format: TableFormat,
 }
 
 /// Finds the best designs of a goal and writes them down.

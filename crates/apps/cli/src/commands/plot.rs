@@ -13,10 +13,10 @@ use sweep::{Case, PARAMETERS};
 
 use super::draw::{check_place, substrate};
 use super::figure_file::{FigureFiles, FigureOutput, check_sizes, joined};
+use super::options::decimal;
 use super::results_folder::ResultsFolder;
 use super::selection::{SelectedDesign, Selection, select};
 use super::source::{Definition, Partial, folder_within, verified_folder};
-use super::work::decimal;
 use super::{DONE, INCOMPLETE};
 use crate::progress::with_bar;
 

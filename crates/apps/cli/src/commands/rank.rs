@@ -14,10 +14,10 @@ use results::columns::name;
 use results::{Results, RunFolder};
 use serde_json::json;
 
-use super::required::Required;
+use super::options::whole;
+use super::requirement_args::RequirementArgs;
 use super::source::{Partial, verified_folder};
-use super::work::whole;
-use super::{DONE, INCOMPLETE, derived};
+use super::{DONE, INCOMPLETE, derivation};
 use crate::json;
 use gap_changes::{couplings, gap_changes};
 use record::{ranking_record, unmet_record};
@@ -53,7 +53,7 @@ pub struct Arguments {
     pub results: PathBuf,
 
     #[command(flatten)]
-    pub required: Required,
+    pub required: RequirementArgs,
 
     /// Column to maximize (several give the Pareto front and its knee)
     #[arg(long, value_name = "COLUMN", conflicts_with = "criteria")]
@@ -123,7 +123,7 @@ fn ranked(arguments: &Arguments, results: &Results, ranking: &Ranking<'_>) -> an
     let folder = arguments.out.as_deref().unwrap_or(results.folder());
     // Held until the files are noted: another ranking would remove them in between.
     let (files, lock) = ranking::write_ranking(folder, ranking)?;
-    derived::note(results.verified_folder(), RunFolder::RANKING_RECORD, folder, &files)?;
+    derivation::record(results.verified_folder(), RunFolder::RANKING_RECORD, folder, &files)?;
     drop(lock);
     let changes = gap_changes(results, ranking);
     let couplings = couplings(results, ranking);
@@ -148,7 +148,7 @@ fn none_meets(
     let folder = arguments.out.as_deref().unwrap_or(results.folder());
     // Preferences alone are kept: an earlier ranking would pass for one by these requirements.
     let (file, lock) = ranking::write_unmet(folder, preferences)?;
-    derived::note(results.verified_folder(), RunFolder::RANKING_RECORD, folder, &[file])?;
+    derivation::record(results.verified_folder(), RunFolder::RANKING_RECORD, folder, &[file])?;
     drop(lock);
     let (record, text) =
         (|| unmet_record(results, unmet), || unmet_report(results, preferences, unmet));

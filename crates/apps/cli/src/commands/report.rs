@@ -19,7 +19,7 @@ use super::draw::substrate;
 use super::figure_file::write;
 use super::results_folder::ResultsFolder;
 use super::source::{Partial, require_folder_of, verified_folder};
-use super::{DONE, PROGRAM, derived};
+use super::{DONE, PROGRAM, derivation};
 use crate::print::print;
 use crate::progress::with_bar;
 
@@ -83,7 +83,7 @@ pub fn report(arguments: &Arguments) -> anyhow::Result<u8> {
     // A page of some megabytes that a kill has left half-written goes with the next one.
     results::make_folder(&folder)?;
     write(&folder, &name, |file| page.write(file))?;
-    derived::note(results.verified(), "page", &folder, &[&name])?;
+    derivation::record(results.verified(), "page", &folder, &[&name])?;
     print(&format!("{}\n", folder.join(&*name).display()))?;
     Ok(DONE)
 }

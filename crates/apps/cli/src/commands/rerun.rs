@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use clap::Args;
 use run::{Filter, Rerun};
 
+use super::options::{RunOptions, TableFormat};
 use super::run::{behind_bar, conclude, exit_code, summary};
 use super::source::{results_folder, settings};
-use super::work::{Format, Work};
 use super::{DONE, PROGRAM};
 use crate::interrupt::Interrupt;
 use crate::print::{counted, print};
@@ -53,10 +53,10 @@ pub struct Arguments {
     pub dry_run: bool,
 
     #[command(flatten)]
-    pub work: Work,
+    pub work: RunOptions,
 
     #[command(flatten)]
-    pub format: Format,
+    pub format: TableFormat,
 }
 
 /// Designs that are named before the list is cut short.

@@ -11,8 +11,8 @@ use results::{Completeness, VerifiedFolder};
 use run::{Best, Finished, Options, Progress};
 use sweep::{RandomSample, Subset, Sweep};
 
+use super::options::{EarlierResults, RunOptions, TableFormat, whole};
 use super::source::{Definition, folder_of, read};
-use super::work::{Earlier, Format, Work, whole};
 use super::{DONE, INCOMPLETE, PROGRAM, audit};
 use crate::interrupt::Interrupt;
 use crate::print::{aligned, counted, note, print, time};
@@ -51,7 +51,7 @@ pub struct Arguments {
     pub out: Option<PathBuf>,
 
     #[command(flatten)]
-    pub earlier: Earlier,
+    pub earlier: EarlierResults,
 
     /// Solve a random subset of this many designs
     #[arg(long, allow_hyphen_values = true, value_name = "DESIGNS", value_parser = whole::<1, { u64::MAX }>)]
@@ -80,10 +80,10 @@ pub struct Arguments {
     pub audit: Option<f64>,
 
     #[command(flatten)]
-    pub work: Work,
+    pub work: RunOptions,
 
     #[command(flatten)]
-    pub format: Format,
+    pub format: TableFormat,
 }
 
 /// How often the tables are written while a run goes on.
@@ -158,7 +158,7 @@ fn subset(arguments: &Arguments) -> Subset {
 
 /// Solves designs as the arguments have it, behind a bar that is told of each.
 pub(super) fn behind_bar<T>(
-    (work, format): (&Work, &Format),
+    (work, format): (&RunOptions, &TableFormat),
     interrupt: &Interrupt,
     solve: impl FnOnce(&Options<'_>, &dyn Fn(Progress)) -> T,
 ) -> T {

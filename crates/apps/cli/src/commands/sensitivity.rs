@@ -12,9 +12,9 @@ use uncertainty::{
     GlobalAnalysis, GlobalSensitivity, INDEX_COLUMNS, IndexEstimate, MeasureIndices, SobolIndices,
 };
 
-use super::sampled::{Sampled, SampledFolder};
+use super::options::whole;
+use super::sample_args::{SampleArgs, SampleFolder};
 use super::source::{Definition, read};
-use super::work::whole;
 use super::{DONE, INCOMPLETE, PROGRAM};
 use crate::interrupt::Interrupt;
 use crate::json;
@@ -49,7 +49,7 @@ pub struct Arguments {
     pub samples: u64,
 
     #[command(flatten)]
-    pub sampled: Sampled,
+    pub sampled: SampleArgs,
 }
 
 const TABLE: &str = "sobol.csv";
@@ -59,7 +59,7 @@ pub fn sensitivity(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Resu
     let sweep = read(&arguments.definition)?;
     check(&sweep, &arguments.definition.path)?;
     let command = ("sensitivity", Maker::Sensitivity);
-    let sampled = SampledFolder::new((&arguments.definition, &sweep), &arguments.sampled, command)?;
+    let sampled = SampleFolder::new((&arguments.definition, &sweep), &arguments.sampled, command)?;
     let (samples, stop) = (arguments.samples as usize, interrupt.stop());
     let analysis = GlobalAnalysis { sweep: &sweep, samples, stop, program: PROGRAM };
     let Some((found, claim)) =

@@ -8,8 +8,8 @@ use results::{make_folder, quoted, shell_word, write_text};
 use sweep::Sweep;
 
 use super::DONE;
+use super::options::whole;
 use super::source::{Definition, folder_of, read};
-use super::work::whole;
 use crate::print::print;
 
 /// Arguments of `squama slurm`.

@@ -17,11 +17,11 @@ use uncertainty::{
     YIELD_COLUMNS,
 };
 
-use super::required::Required;
-use super::sampled::{Sampled, SampledFolder};
+use super::options::whole;
+use super::requirement_args::RequirementArgs;
+use super::sample_args::{SampleArgs, SampleFolder};
 use super::selection::ranges;
 use super::source::{Definition, read};
-use super::work::whole;
 use super::{DONE, INCOMPLETE, PROGRAM};
 use crate::interrupt::Interrupt;
 use crate::json;
@@ -54,14 +54,14 @@ pub struct Arguments {
     pub numbers: Vec<String>,
 
     #[command(flatten)]
-    pub required: Required,
+    pub required: RequirementArgs,
 
     /// Number of samples of each design; 0 gives the linear prediction alone
     #[arg(long, value_name = "N", default_value_t = 1000, allow_hyphen_values = true, value_parser = whole::<0, 1_000_000>)]
     pub samples: u64,
 
     #[command(flatten)]
-    pub sampled: Sampled,
+    pub sampled: SampleArgs,
 }
 
 /// Designs that are analysed at a time: each holds some kilobytes until the tables are written.
@@ -74,7 +74,7 @@ pub fn tolerance(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result
     let requirements = arguments.required.read()?;
     let designs = designs(arguments, &sweep)?;
     let command = ("tolerance", Maker::Tolerance);
-    let sampled = SampledFolder::new((&arguments.definition, &sweep), &arguments.sampled, command)?;
+    let sampled = SampleFolder::new((&arguments.definition, &sweep), &arguments.sampled, command)?;
     let samples = arguments.samples as usize;
     let work = designs.len() as u64 * arguments.samples;
     let analysis = Analysis::new(&sweep, &requirements, samples, PROGRAM, interrupt.stop());

@@ -11,8 +11,8 @@ use run::CouplingChange;
 
 use super::super::couplings::{couplings_report, measured};
 use super::super::rank::obstacle;
-use super::elsewhere::elsewhere;
-use super::skins;
+use super::samples;
+use super::weakest_place::weakest_place_note;
 use crate::print::{aligned, counted, digits, rounded, time};
 
 /// The answer of a search, for people.
@@ -89,9 +89,9 @@ impl SearchReport<'_> {
                 aligned(&rows)
             );
         }
-        text += &elsewhere(self.goal, &best.candidate).unwrap_or_default();
+        text += &weakest_place_note(self.goal, &best.candidate).unwrap_or_default();
         text += &self.coupled(&best.candidate);
-        text + &best.confirmation.as_ref().map(skins::text).unwrap_or_default()
+        text + &best.confirmation.as_ref().map(samples::text).unwrap_or_default()
     }
 
     /// What the best design is with the whole substrate coupled, in the columns that the goal asks for.
@@ -179,7 +179,7 @@ impl SearchReport<'_> {
         let (title, designs) = (self.title(front), &front.designs);
         let Some(first) = designs.first() else { return title };
         let named = |best: &BestDesign| {
-            let made = best.confirmation.as_ref().map(skins::row).unwrap_or_default();
+            let made = best.confirmation.as_ref().map(samples::row).unwrap_or_default();
             [self.variables(&best.candidate), self.values(best), made].concat()
         };
         let mut header: Vec<String> = named(first).into_iter().map(|[name, _]| name).collect();
@@ -199,7 +199,7 @@ impl SearchReport<'_> {
         let is_unknown = rows[1..].iter().all(|row| row.last().is_some_and(String::is_empty));
         let unknown = "  No price is known: no multipliers balance the slopes, as on a kink\n";
         let prices = if is_unknown { unknown } else { "" };
-        title + &aligned(&rows) + prices + &skins::of_all(designs)
+        title + &aligned(&rows) + prices + &samples::of_all(designs)
     }
 
     fn infeasible(&self, nearest: Option<usize>) -> String {
@@ -207,8 +207,11 @@ impl SearchReport<'_> {
         let requirements: Vec<Requirement> = words.requirements().into_iter().cloned().collect();
         let unmet = unmet(self.goal, self.found, &requirements, nearest);
         // Requirements of columns act within a yield, too: what is left without one, nobody has looked at.
-        let obstacle =
-            if self.goal.is_about_samples() { skins::shortfalls(&unmet) } else { obstacle(&unmet) };
+        let obstacle = if self.goal.is_about_samples() {
+            samples::shortfalls(&unmet)
+        } else {
+            obstacle(&unmet)
+        };
         let mut text = format!("No design meets all requirements\n{obstacle}");
         if let Some(nearest) = nearest {
             let rows = self.variables(&self.found.history[nearest]);

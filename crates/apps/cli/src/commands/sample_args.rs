@@ -8,39 +8,39 @@ use results::{Claim, Maker, RunFolder};
 use sweep::Sweep;
 use uncertainty::{NoAnalysis, SampleStore};
 
+use super::options::SolveOptions;
 use super::source::{Definition, folder_within};
-use super::work::Solving;
 use crate::interrupt::Interrupt;
 use crate::print::note;
 use crate::progress::Display;
 
 /// How samples are solved, and where they are kept.
 #[derive(Debug, Args)]
-pub struct Sampled {
+pub struct SampleArgs {
     /// Folder for the tables [default: one of the command's name in the results of the sweep]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 
     #[command(flatten)]
-    pub solving: Solving,
+    pub solving: SolveOptions,
 }
 
 /// What is said when the first signal has come.
 const ENDING: &str = "ending after the samples in progress; a second signal ends at once, and the same command continues";
 
 /// The folder in which samples are kept and tables are written.
-pub struct SampledFolder<'a> {
+pub struct SampleFolder<'a> {
     definition: &'a Definition,
-    arguments: &'a Sampled,
+    arguments: &'a SampleArgs,
     maker: Maker,
     pub folder: RunFolder,
 }
 
-impl<'a> SampledFolder<'a> {
+impl<'a> SampleFolder<'a> {
     /// The folder of the command called `name`. One that holds files of others is refused before hours of work, and not behind them.
     pub fn new(
         (definition, sweep): (&'a Definition, &Sweep),
-        arguments: &'a Sampled,
+        arguments: &'a SampleArgs,
         (name, maker): (&str, Maker),
     ) -> anyhow::Result<Self> {
         let default = || folder_within(definition, sweep, name);

@@ -8,7 +8,7 @@ use run::Start;
 
 /// Whether a command goes on with earlier results or throws them away; it refuses to touch them if neither is said.
 #[derive(Clone, Copy, Debug, Args)]
-pub struct Earlier {
+pub struct EarlierResults {
     /// Continue from earlier results in the folder, if it has any
     #[arg(long, conflicts_with = "fresh")]
     resume: bool,
@@ -18,7 +18,7 @@ pub struct Earlier {
     fresh: bool,
 }
 
-impl Earlier {
+impl EarlierResults {
     /// The start of the journal.
     pub fn start(self) -> Start {
         match (self.resume, self.fresh) {
@@ -31,7 +31,7 @@ impl Earlier {
 
 /// How designs are solved.
 #[derive(Debug, Args)]
-pub struct Work {
+pub struct RunOptions {
     #[command(flatten)]
     pub threads: Threads,
 
@@ -46,7 +46,7 @@ pub struct Work {
 
 /// How the work of an answer is done, and as what it is printed.
 #[derive(Debug, Args)]
-pub struct Solving {
+pub struct SolveOptions {
     #[command(flatten)]
     pub threads: Threads,
 
@@ -61,7 +61,7 @@ pub struct Solving {
 
 /// The format of the tables.
 #[derive(Debug, Args)]
-pub struct Format {
+pub struct TableFormat {
     /// Format of the tables: plain (`,` between cells, `.` in decimals) or excel-eu (`;`, `,` and a
     /// byte-order mark) [default: the folder's present format, else plain]
     #[arg(long, value_name = "FORMAT")]

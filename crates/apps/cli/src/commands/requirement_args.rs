@@ -8,13 +8,13 @@ use crate::print::note;
 
 /// Requirements on columns.
 #[derive(Debug, Args)]
-pub struct Required {
+pub struct RequirementArgs {
     /// Requirement: >=, <=, >, < or == in any column of numbers, or a level of a standard, e.g. 'needle 2' (may be repeated: all must hold)
     #[arg(long = "require", value_name = "REQUIREMENT")]
     pub texts: Vec<String>,
 }
 
-impl Required {
+impl RequirementArgs {
     /// The requirements, once they are understood. Says what a level of a standard asks for, and what it leaves out.
     pub fn read(&self) -> anyhow::Result<Vec<Requirement>> {
         let read = |text: &String| text.parse().with_context(|| format!("--require {text}"));

@@ -11,7 +11,7 @@ const DIGITS: usize = 8;
 
 /// Notes in the folder `results` that the files `names` in `folder` are a `product` of its tables, made by the command that
 /// this process is.
-pub fn note(
+pub fn record(
     results: &VerifiedFolder,
     product: &str,
     folder: &Path,
@@ -19,7 +19,7 @@ pub fn note(
 ) -> anyhow::Result<()> {
     // Without a statement of the tables nobody could tell later whether they have changed.
     let Some(mut derivation) = Derivation::of(results, product, command()) else { return Ok(()) };
-    let inside = own_place(results.path(), folder);
+    let inside = path_within(results.path(), folder);
     for name in names.iter().map(AsRef::as_ref) {
         let path = folder.join(name);
         let bytes =
@@ -29,7 +29,7 @@ pub fn note(
     // Readers check the tables of a ranking by this one record; one that was written elsewhere is
     // a product like others.
     let is_ranking = product == RunFolder::RANKING_RECORD && inside.as_deref() == Some("");
-    let record = if is_ranking { product.to_owned() } else { record(product, &derivation) };
+    let record = if is_ranking { product.to_owned() } else { record_name(product, &derivation) };
     let written = derivation.write(&RunFolder::new(results.path()), &record);
     // Results that belong to somebody else can be used all the same.
     written.or_else(|error: OutputError| if inside.is_some() { Err(error.into()) } else { Ok(()) })
@@ -43,7 +43,7 @@ fn command() -> String {
 }
 
 /// The path of `folder` from within the folder `results`, if it is inside of it.
-fn own_place(results: &Path, folder: &Path) -> Option<String> {
+fn path_within(results: &Path, folder: &Path) -> Option<String> {
     // Links are resolved, since a folder may be named in one way here and in another there.
     let (results, folder) = (absolute(results).ok()?, absolute(folder).ok()?);
     Some(folder.strip_prefix(results).ok()?.to_string_lossy().into_owned())
@@ -65,7 +65,7 @@ fn key(inside: Option<&str>, folder: &Path, name: &str) -> String {
 }
 
 /// The name of the record of a product, which depends on where its first file is.
-fn record(product: &str, derivation: &Derivation) -> String {
+fn record_name(product: &str, derivation: &Derivation) -> String {
     let first = derivation.files.keys().next().map_or("", String::as_str);
     let digest = sha256(first);
     format!("{product}-{}", digest.get(..DIGITS).unwrap_or_default())

@@ -28,7 +28,7 @@ const NO_OPTIMUM: &str = "a search between the grid points has no optimum";
 
 /// The best designs on the grid and between its points.
 #[derive(Clone, Debug)]
-pub struct BetweenPoints {
+pub struct GridGapSearch {
     /// The best design for each of some weights.
     pub fittest: Vec<FittestDesign>,
     /// The front of critical force and coverage.
@@ -63,12 +63,12 @@ pub struct FrontOverGrid {
     pub undominated: usize,
 }
 
-impl BetweenPoints {
+impl GridGapSearch {
     /// Searches in the box of the grid of `study`.
     ///
     /// # Errors
     /// If the grid cannot be ranked or the temporary folder cannot be written.
-    pub(crate) fn of(study: &Study) -> anyhow::Result<Self> {
+    pub(crate) fn run(study: &Study) -> anyhow::Result<Self> {
         let rows: Vec<usize> =
             (0..study.designs.len()).filter(|&row| is_sound(&study.designs[row])).collect();
         let sound = study.results.only(&rows);
@@ -82,7 +82,7 @@ impl BetweenPoints {
             let on_grid = named(&study.designs[rows[winner.row()]]);
             fittest(weights, &ends, (winner.fitness, on_grid))
         });
-        Ok(Self { fittest: fittest.collect::<Result<_, _>>()?, front: FrontOverGrid::of(study)? })
+        Ok(Self { fittest: fittest.collect::<Result<_, _>>()?, front: FrontOverGrid::run(study)? })
     }
 
     /// Returns the parts of the page in Markdown, by their names.
@@ -117,7 +117,7 @@ impl FittestDesign {
 }
 
 impl FrontOverGrid {
-    fn of(study: &Study) -> anyhow::Result<Self> {
+    fn run(study: &Study) -> anyhow::Result<Self> {
         let found = search(&format!("{BOX}{FRONT}"))?;
         let Answer::Front(front) = &found.answer else { bail!(NO_OPTIMUM) };
         let front: Vec<&[f64]> = front.designs.iter().filter_map(objectives).collect();

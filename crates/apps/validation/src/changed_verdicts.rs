@@ -5,16 +5,20 @@ use crate::{CheckedClaim, Finding};
 
 /// The claims whose verdict another model changes.
 #[derive(Clone, Debug)]
-pub struct TurnedClaims {
+pub struct ChangedVerdicts {
     /// The statements with another verdict, as rows of their table.
     turned: Vec<String>,
     /// How many of the statements keep theirs.
     kept: usize,
 }
 
-impl TurnedClaims {
+impl ChangedVerdicts {
     /// Compares the claims of the paper's model with those of `others`, with a base of `L` and, if there are two `bases`, of `2L`.
-    pub(crate) fn of(paper: &[CheckedClaim], others: &[&[CheckedClaim]], bases: usize) -> Self {
+    pub(crate) fn compare(
+        paper: &[CheckedClaim],
+        others: &[&[CheckedClaim]],
+        bases: usize,
+    ) -> Self {
         // All come from one table of claims, and so in one order.
         let turned = paper.iter().enumerate().flat_map(|(k, claim)| {
             let others: Vec<_> = others.iter().map(|claims| &claims[k]).collect();

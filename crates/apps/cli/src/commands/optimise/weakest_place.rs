@@ -16,7 +16,7 @@ const WEAKER: f64 = 0.99;
 
 /// A sentence about the weakest place of the best design, if the goal asks for the force of a guided needle at one place, and
 /// another is weaker. A needle that slides takes the force of its place; a dead load hangs on the corner and is meant to.
-pub fn elsewhere(goal: &DesignGoal, best: &Candidate) -> Option<String> {
+pub fn weakest_place_note(goal: &DesignGoal, best: &Candidate) -> Option<String> {
     let sweep = goal.space.sweep();
     let case = goal.space.case(&best.point);
     let columns = goal.objectives.iter().map(|objective| &*objective.column);

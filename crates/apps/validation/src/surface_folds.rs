@@ -12,7 +12,7 @@ const STRONGEST: usize = 60;
 
 /// The folds of both laws of the substrate, and the claims that they concern.
 #[derive(Clone, Debug)]
-pub struct Soundness {
+pub struct SurfaceFolds {
     /// The text of the page in a row: what is counted, and with a base of `L` and `2L`, linear and neo-Hookean in turn.
     rows: Vec<[String; 5]>,
     /// Likewise the statements of the claims concerned, as rows of their table.
@@ -21,10 +21,10 @@ pub struct Soundness {
     turned: Vec<String>,
 }
 
-impl Soundness {
+impl SurfaceFolds {
     /// Compares studies on a linear substrate with those on a neo-Hookean one, in each with a base of `L` and of `2L`; `claims` are those
     /// of either.
-    pub(crate) fn of(
+    pub(crate) fn compare(
         linear: &[Study; 2],
         neo_hookean: &[Study; 2],
         claims: [&[CheckedClaim]; 2],

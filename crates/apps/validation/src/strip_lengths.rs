@@ -16,14 +16,14 @@ const CLAIMS: [&str; 3] = ["C22", "C23", "C26"];
 
 /// The fate of the claims on the most compliant designs on strips of one setting.
 #[derive(Clone, Debug)]
-pub struct GapCount {
+pub struct StripLength {
     /// The setting, as `key = value`.
     pub setting: String,
     /// Whether each claim is reproduced, or in part.
     pub verdicts: [String; CLAIMS.len()],
 }
 
-impl GapCount {
+impl StripLength {
     /// Solves the strips and checks the claims on them.
     ///
     /// # Errors
