@@ -33,36 +33,37 @@ pub use point::FlexurePoint;
 pub use sensitivity::{FlexureInput, differentiate, moment_curve};
 pub use snapshot::{StripSnapshot, snapshots};
 
-/// The part of a strip that is solved for.
+/// How many gaps of a strip are solved for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
-    /// One gap: in pure bending every gap deforms alike. Of gaps that differ each by itself, under the moment that all share.
+    /// One gap: in pure bending equal gaps deform alike. Gaps that differ are solved separately,
+    /// under the moment that all share.
     UnitCell,
-    /// Every gap of the strip, assembled.
+    /// All gaps of the strip, assembled.
     Chain,
 }
 
-/// Parameters of bending besides the design.
+/// Parameters of bending other than the design.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FlexureParameters {
     /// `E_ct / E_m`.
     pub contact_modulus_over_membrane: f64,
-    /// One gap or all.
+    /// Unit cell or chain.
     pub method: Method,
-    /// Length `L_whole/t` of the strip, unless its gaps are given.
+    /// Length `L_whole/t` of the strip, unless the number of gaps is given.
     pub membrane_length: f64,
     /// Number of gaps of the strip; `None` for as many as its length holds.
     pub gaps: Option<usize>,
     /// Thickness `h/t` of the membrane.
     pub membrane_thickness: f64,
-    /// Depth of the membrane's axis below the bases of the scales, over `t`.
+    /// Depth of the membrane axis below the bases of the scales, over `t`.
     pub membrane_axis_offset: f64,
-    /// How the membrane of a gap is resolved.
+    /// Discretisation of the membrane in a gap.
     pub elements_per_gap: MembraneMesh,
-    /// Rotation of each end at which bending ends, degrees. Below zero the strip bends the other way, the scales on the
-    /// outside.
+    /// Rotation of each end at which bending ends, degrees. Negative: the strip bends the other
+    /// way, with the scales on the outside.
     pub max_end_rotation_deg: f64,
-    /// Whether the moment is taken away again at the end.
+    /// Whether to remove the moment again at the end.
     pub unload: bool,
 }
 
@@ -84,10 +85,10 @@ impl Default for FlexureParameters {
     }
 }
 
-/// A strip that was bent.
+/// A strip after bending.
 #[derive(Clone, Debug)]
 pub struct Flexure {
-    /// How the path ended, and whether its end can be trusted.
+    /// How the path ended, and whether its end is valid.
     pub status: Status,
     /// The measures of the bending.
     pub measures: FlexureMeasures,
@@ -97,45 +98,49 @@ pub struct Flexure {
     pub events: Vec<ContactEvent<FlexurePoint>>,
     /// Every Newton iteration.
     pub history: Vec<Iteration>,
-    /// The way back, where it is asked for and the path came to its end.
+    /// The unloading path, if requested and if the loading path was completed.
     pub unloading: Option<Unloading<FlexurePoint>>,
-    /// Gaps of the strip, rounded to a whole number.
+    /// Number of gaps of the strip, rounded.
     pub gaps: usize,
-    /// The gaps that were solved for, at every point of the path.
+    /// Relative poses of the solved gaps at every point of the path.
     steps: Vec<Vec<Step>>,
     row: Arrangement,
 }
 
 impl Flexure {
-    /// Whether scales rub on each other.
+    /// Returns true if friction acts between the scales.
     pub fn has_friction(&self) -> bool {
         self.path.iter().any(|point| point.friction_work.is_some())
     }
 
-    /// Range of `κ*` over which the gaps close: from the first contact in any of them to the first contact
-    /// in the last of those that close. 0 in a perfect strip, `None` without contact.
+    /// Returns the range of `κ*` over which the gaps close.
+    ///
+    /// It extends from the first contact in any gap to the first contact in the gap that closes
+    /// last. 0 in a perfect strip, `None` without contact.
     pub fn closing_range(&self) -> Option<f64> {
         let mut closed = HashSet::new();
         let closings = self.events.iter().filter(|event| event.change == ContactChange::Closed);
-        // A gap may close at both levels, and again after it has opened: its first closing counts.
+        // A gap may close at both levels, and again after opening: keep its first closing.
         let first = closings.filter(|event| closed.insert(event.left_scale));
         let mut curvatures = first.map(|event| event.point.curvature);
         let start = curvatures.next()?;
         Some(curvatures.last().unwrap_or(start) - start)
     }
 
-    /// Displacement (over `t`) and rotation (radians, counter-clockwise) of every scale of the
-    /// strip at a point of the path, the first scale at rest. `None` if there is no such point.
+    /// Returns the displacement (over `t`) and rotation (radians, counter-clockwise) of every
+    /// scale.
+    ///
+    /// The first scale is at rest. `None` if the path has no such point.
     pub fn shape(&self, point: usize) -> Option<Vec<[f64; 3]>> {
         let frames = frames(self.steps.get(point)?, self.gaps, &self.row);
         Some(displacements(&frames, &self.row))
     }
 }
 
-/// Returns the number of gaps `n = L_whole/p` of a strip, or the number that is given; at least 1.
+/// Returns the number of gaps `n = L_whole/p` of a strip, or the given number; at least 1.
 ///
-/// In pure bending every gap turns by the same angle, so the unit cell needs no whole number: the angle between its scales is
-/// `2 Φ/n`. A chain, and a strip of imperfect gaps, has [`whole_gaps`].
+/// In pure bending every gap turns by the same angle, so the unit cell does not need an integer:
+/// the angle between its scales is `2 Φ/n`. Chains and imperfect strips have [`whole_gaps`].
 pub fn gaps(row: &Row, parameters: &FlexureParameters) -> f64 {
     let by_length = parameters.membrane_length / row.pitch();
     parameters.gaps.map_or(by_length, |gaps| gaps as f64).max(1.0)
@@ -143,11 +148,11 @@ pub fn gaps(row: &Row, parameters: &FlexureParameters) -> f64 {
 
 /// Returns the number of gaps of a chain: [`gaps`], rounded.
 pub fn whole_gaps(row: &Row, parameters: &FlexureParameters) -> usize {
-    // Saturates; a strip with more gaps than a machine word counts does not exist.
+    // The cast saturates, which does not matter for strips that fit in memory.
     gaps(row, parameters).round() as usize
 }
 
-/// Bends the strip of a `design` from rest until its ends have turned by the largest rotation.
+/// Bends the strip of a `design` from rest to the largest rotation of its ends.
 ///
 /// # Errors
 /// If a length, a modulus, or a constant of the contact law is not positive.
@@ -159,12 +164,15 @@ pub fn solve(
     FlexureProblem::even(design, common, parameters)?.solve()
 }
 
-/// Bends an imperfect strip as [`solve`] does: gaps and slants are those of `sample`. There are as many gaps as in the chain of the
-/// design, and the curvature counts over the length that they have. By [`Method::UnitCell`] each gap is solved by itself; where that does
-/// not do, because moments fall or are taken away again, the chain of all is.
+/// Bends an imperfect strip with the gaps and slants of `sample`.
+///
+/// It has as many gaps as the chain of the design, and curvature is measured over its actual
+/// length. With [`Method::UnitCell`] each gap is solved separately; where that fails, because
+/// moments decrease along the path or unloading is requested, the assembled chain is solved
+/// instead.
 ///
 /// # Errors
-/// As [`solve`], or if the scales cannot be made to stand clear of each other.
+/// As [`solve`], or if no sample without overlapping scales is found.
 pub fn bend_sample(
     design: &Design,
     common: &Common,
@@ -179,7 +187,7 @@ pub fn bend_sample(
     Ok(BentSample::from(&problem.solve()?))
 }
 
-/// The chain of all gaps of an imperfect strip, bent as [`bend_sample`] does, with its path.
+/// Bends the assembled chain of an imperfect strip, and returns its path.
 ///
 /// # Errors
 /// As [`bend_sample`].

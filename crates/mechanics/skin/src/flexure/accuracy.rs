@@ -1,4 +1,4 @@
-//! How far the measures of a bent strip are from those of a strip that is resolved better.
+//! Discretisation error of the measures of a bent strip.
 
 use solver::{Newton, Settings};
 
@@ -6,13 +6,14 @@ use super::strip::Strip;
 use crate::contacts::SkinState;
 use crate::record::Skin;
 
-/// A quantity below this, in its own unit, counts as this much where its relative change is taken: it is round-off.
+/// Floor of the denominator of relative changes; smaller values are round-off.
 const NEGLIGIBLE: f64 = 1e-9;
 
-/// Moment, its slope, axial share of the energy and largest strain of a state of a strip: what a finer membrane may change.
+/// Moment, its slope, axial fraction of the energy and largest strain of a state: the quantities
+/// that a finer membrane may change.
 pub(super) type Quantities = [f64; 4];
 
-/// The largest relative change of any to those of a finer membrane. `None` if one of them is not finite.
+/// Returns the largest relative change against a finer membrane; `None` if not finite.
 pub(super) fn largest_change(ours: Quantities, finer: Quantities) -> Option<f64> {
     let relative =
         |(ours, theirs): (f64, f64)| (ours - theirs).abs() / theirs.abs().max(NEGLIGIBLE);
@@ -20,7 +21,8 @@ pub(super) fn largest_change(ours: Quantities, finer: Quantities) -> Option<f64>
     changes.reduce(f64::max).filter(|largest| largest.is_finite())
 }
 
-/// Solves the strip for the rotation that `state` has, with its contacts. `None` if Newton's method does not get there.
+/// Solves the strip at the rotation and with the contacts of `state`; `None` if Newton's method
+/// fails.
 fn quantities(strip: &Strip, mut state: SkinState, settings: &Settings) -> Option<Quantities> {
     let condition = strip.same_rotation(&state);
     let direction = Newton::new(strip).solve(strip, &mut state, &condition, settings).ok()?;
@@ -28,15 +30,17 @@ fn quantities(strip: &Strip, mut state: SkinState, settings: &Settings) -> Optio
     Some([moment, stiffness, strip.axial_energy_share(&state), strip.largest_strain(&state)])
 }
 
-/// Returns the largest relative change of moment, slope of the moment, axial share of the energy and strain when the state
-/// is solved again with a finer membrane, at the same rotation of the ends and with the same contacts. `None` if it cannot be.
+/// Returns the largest relative change of the quantities with a finer membrane.
+///
+/// Moment, slope of the moment, axial energy fraction and strain are compared at the same end
+/// rotation and with the same contacts. `None` if the state cannot be solved again.
 pub(crate) fn change(
     strip: &Strip,
     finer: &Strip,
     state: &SkinState,
     settings: &Settings,
 ) -> Option<f64> {
-    // Both are solved in the same way, so that both slopes belong to the contacts of the state.
+    // Solve both in the same way, so that both slopes belong to the contacts of the state.
     let ours = quantities(strip, state.clone(), settings)?;
     let theirs = quantities(finer, strip.transferred(state, finer)?, settings)?;
     largest_change(ours, theirs)

@@ -1,4 +1,4 @@
-//! The curvature at which the scales of a strip first touch, wherever the bending ends.
+//! Curvature at which the scales of a strip first touch, independent of the end of the path.
 
 use std::f64::consts::PI;
 
@@ -10,24 +10,26 @@ use super::problem::FlexureProblem;
 use super::{FlexureInput, FlexureParameters};
 use crate::{Derivative, Design};
 
-/// Rotations at which a gap is looked at before the one at which it closes is narrowed down.
+/// Sample rotations used to bracket the rotation at which a gap closes.
 const SAMPLES: u32 = 512;
 
 /// Largest rotation of a gap: beyond it the arc of the membrane turns back.
 const LARGEST_ROTATION: f64 = PI;
 
-/// Returns `κ₁*`, the curvature at which neighbours first touch when the strip bends to the inside, the scales being on the inside.
+/// Returns `κ₁*`, the curvature at which neighbours first touch in bending with the scales inside.
+///
 /// `None` if the gap does not close before its membrane has turned by half a circle.
 ///
-/// Until then no force goes through the membrane and it is an arc of length `d`, whatever its stiffness. Seen from the left
-/// scale, with the depth `z₀` of the axis below the bases and the rotation `θ`, the node of the right one stands at
+/// Before contact no force acts in the membrane, so it is an arc of length `d` whatever its
+/// stiffness. With the depth `z₀` of the axis below the bases and the rotation `θ`, the node of the
+/// right scale in the frame of the left one is at
 ///
 /// ```text
 /// (a, −z₀) + d/θ (sin θ, 1 − cos θ) + R(θ) (a, z₀),   κ₁* = θ₁/p                           (F5)
 /// ```
 ///
-/// and `θ₁` is the first rotation at which a corner of one scale meets an edge of the other. For upright scales their tops
-/// meet at `θ₁ = d/(1 + z₀)`.
+/// `θ₁` is the first rotation at which a corner of one scale meets an edge of the other. For
+/// upright scales the tops meet at `θ₁ = d/(1 + z₀)`.
 ///
 /// # Errors
 /// If a length is not positive or the slant is outside `[0°, 90°)`.
@@ -39,14 +41,16 @@ pub fn contact_curvature(
     Ok(gap.closing_rotation(LARGEST_ROTATION).map(|rotation| rotation / gap.pair.pitch()))
 }
 
-/// Returns the curvature at which the first of the gaps of an imperfect strip closes. The moment is the same everywhere, so the gaps are
-/// arcs of one curvature `θ/d` until then, and those of the strip together turn by it times `Σd`:
+/// Returns the curvature at which the first gap of an imperfect strip closes.
+///
+/// All gaps carry the same moment, so before contact they are arcs of one curvature `θ/d`, and the
+/// strip as a whole turns by that curvature times `Σd`:
 ///
 /// ```text
 /// κ₁* = minᵢ(θ₁ᵢ/dᵢ) Σd/Σp                                                                  (F9)
 /// ```
 pub(super) fn first_of_gaps(row: &UnevenRow, parameters: &FlexureParameters) -> Option<f64> {
-    // A gap that would close after another, or would have turned by half a circle, has no part in it.
+    // Gaps that would close later, or only after half a circle, do not matter.
     let arc = (0..row.gaps().len()).fold(f64::INFINITY, |first, i| {
         let scales = [row.scales()[i], row.scales()[i + 1]];
         let gap = BareGap::new(scales, [row.pitch(i), row.gaps()[i]], parameters);
@@ -56,7 +60,7 @@ pub(super) fn first_of_gaps(row: &UnevenRow, parameters: &FlexureParameters) -> 
     arc.is_finite().then(|| arc * row.gaps().iter().sum::<f64>() / row.length())
 }
 
-/// Whether the scales of a strip touch before its bending ends.
+/// Returns true if the scales of a strip touch before its bending ends.
 pub(super) fn touches(input: &FlexureInput) -> Result<bool, OutOfRange> {
     let (gap, FlexureInput { design, common, parameters }) = (BareGap::from_input(input)?, input);
     let row = design.leaning_row()?;
@@ -66,13 +70,14 @@ pub(super) fn touches(input: &FlexureInput) -> Result<bool, OutOfRange> {
         .is_some_and(|rotation| rotation / gap.pair.pitch() <= end))
 }
 
-/// Returns the derivatives of [`contact_curvature`], which follow from the gap `g(θ, q)` that vanishes there:
+/// Returns the derivatives of [`contact_curvature`] from the gap `g(θ, q)` that vanishes there:
 ///
 /// ```text
 /// dκ₁/dq = d(θ₁/p)/dq,   dθ₁/dq = −(∂g/∂q)/(∂g/∂θ)                                          (F6)
 /// ```
 ///
-/// where of several corners the one counts that is the nearest to its edge on that side of the parameter.
+/// If several corners compete, the derivative on each side of the parameter belongs to the corner
+/// nearest to its edge there.
 pub(super) fn curvature_derivatives(
     input: &FlexureInput,
     variations: &[Neighbours<FlexureInput>],
@@ -82,7 +87,7 @@ pub(super) fn curvature_derivatives(
     let derivative = |(parameter, variation): (usize, &Neighbours<FlexureInput>)| {
         let Neighbours { below, above, step } = variation;
         let neighbours = [BareGap::from_input(below)?, BareGap::from_input(above)?];
-        // The corners of upright scales meet, and neither may face an edge.
+        // For upright scales corners meet corners, and neither may face an edge.
         let own = gap.meeting(rotation).unwrap_or(CornerEdge::TopRightOnLeftEdge);
         let meetings = neighbours.each_ref().map(|side| side.meeting(rotation).unwrap_or(own));
         let rate = |meeting| Some(gap.closing_rate(meeting, rotation, &neighbours, *step));
@@ -93,17 +98,17 @@ pub(super) fn curvature_derivatives(
     variations.iter().enumerate().map(derivative).collect()
 }
 
-/// A corner that is as close to its edge as this is about to meet it.
+/// Distance within which a corner is about to meet its edge.
 const CLOSE: f64 = 1e-3;
 
-/// Part of the rotation over which the derivative of a gap is a difference.
+/// Step of the difference in rotation, relative to the rotation.
 const STEP: f64 = 1e-6;
 
-/// A gap whose membrane carries no force.
+/// A gap with a force-free membrane.
 struct BareGap {
     pair: Pair,
     width: f64,
-    /// Depth of the axis of the membrane below the bases.
+    /// Depth of the membrane axis below the bases.
     offset: f64,
 }
 
@@ -125,8 +130,9 @@ impl BareGap {
         Ok(Self::from_row(&input.design.leaning_row()?, &input.parameters))
     }
 
-    /// Derivative of the curvature at which a corner meets its edge, between two `neighbours` that differ by `2 step` in a
-    /// parameter.
+    /// Computes the derivative of the curvature at which a corner meets its edge.
+    ///
+    /// The `neighbours` differ by `2 step` in a parameter.
     fn closing_rate(
         &self,
         meeting: CornerEdge,
@@ -141,32 +147,32 @@ impl BareGap {
         let [below, above] = neighbours.each_ref().map(|gap| gap.opening(meeting, rotation));
         let turned = -(above - below) / (2.0 * step) / by_rotation;
         let [below, above] = neighbours.each_ref().map(|gap| gap.pair.pitch());
-        // `κ₁* = θ₁/p`, and the pitch moves with the parameter, too.
+        // `κ₁* = θ₁/p`, and the pitch depends on the parameter, too.
         let pitch = self.pair.pitch();
         (turned - rotation / pitch * (above - below) / (2.0 * step)) / pitch
     }
 
-    /// The distance of a corner from its edge.
+    /// Computes the distance of a corner from its edge.
     fn opening(&self, corner_edge: CornerEdge, rotation: f64) -> f64 {
         self.pair.distance(corner_edge, &Pose::new(0.0, 0.0, 0.0), &self.right(rotation))
     }
 
-    /// The corner that is about to meet the edge that it faces.
+    /// Returns the corner that is about to meet the edge it faces.
     fn meeting(&self, rotation: f64) -> Option<CornerEdge> {
         let close = self.facing(rotation).filter(|(_, gap)| gap.abs() < CLOSE);
         close.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(meeting, _)| meeting)
     }
 
-    /// The first rotation at which the neighbours touch, at most `farthest`.
+    /// Returns the first rotation up to `farthest` at which the neighbours touch.
     fn closing_rotation(&self, farthest: f64) -> Option<f64> {
-        // Tops of upright scales meet corner on corner, where neither foot lies within an edge: a
-        // search for a corner that faces an edge would not see it.
+        // Upright scales meet corner on corner, where no foot is within an edge, so a search for a
+        // corner that faces an edge would miss the contact.
         let upright = self.width / (1.0 + self.offset);
         let stands = self.pair.scales().iter().all(|scale| scale.slant() == 0.0);
         if stands && self.offset > -1.0 && upright <= LARGEST_ROTATION {
             return (upright <= farthest).then_some(upright);
         }
-        // The first look is not at zero, where the arc has no radius.
+        // Start behind zero, where the arc has an infinite radius.
         let looks =
             (1..=SAMPLES).map(|look| LARGEST_ROTATION * f64::from(look) / f64::from(SAMPLES));
         let mut open = 0.0;
@@ -179,7 +185,7 @@ impl BareGap {
         None
     }
 
-    /// The rotation between `open` and `closed` at which the neighbours touch, to the last digit.
+    /// Bisects for the rotation between `open` and `closed` at which the neighbours touch.
     fn narrowed(&self, mut open: f64, mut closed: f64) -> f64 {
         loop {
             let middle = f64::midpoint(open, closed);
@@ -194,12 +200,12 @@ impl BareGap {
         }
     }
 
-    /// Whether a corner of one scale has reached an edge of the other.
+    /// Returns true if a corner of one scale has reached an edge of the other.
     fn touches(&self, rotation: f64) -> bool {
         self.facing(rotation).any(|(_, gap)| gap <= 0.0)
     }
 
-    /// The corners that face an edge, with their distances from it.
+    /// Iterates over the corners that face an edge, with their gaps.
     fn facing(&self, rotation: f64) -> impl Iterator<Item = (CornerEdge, f64)> {
         let (left, right) = (Pose::new(0.0, 0.0, 0.0), self.right(rotation));
         [Level::Upper, Level::Lower]
@@ -207,12 +213,12 @@ impl BareGap {
             .filter_map(move |level| Corners::new(level, &self.pair, [&left, &right]).facing())
     }
 
-    /// The pose of the right scale (F5).
+    /// Computes the pose of the right scale (F5).
     fn right(&self, rotation: f64) -> Pose {
         let (sin, cos) = rotation.sin_cos();
-        // Single scales differ in their slants, not in their bases.
+        // Scales of a sample differ in slant, not in base.
         let (a, z0) = (self.pair.scales()[0].half_base(), self.offset);
-        // 1 − cos θ without loss of digits.
+        // 1 − cos θ without cancellation.
         let versine = 2.0 * (0.5 * rotation).sin().powi(2);
         let chord = self.width / rotation;
         let x = a + chord * sin + cos * a - sin * z0;

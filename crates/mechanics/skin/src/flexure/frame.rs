@@ -1,15 +1,17 @@
-//! From scales seen by their neighbours to the whole strip.
+//! Poses of the whole strip from relative poses of neighbours.
 
 use contact::Pose;
 use geometry::Vec2;
 
 use crate::arrangement::Arrangement;
 
-/// Displacement and rotation of a scale, seen from its left neighbour.
+/// Displacement and rotation of a scale relative to its left neighbour.
 pub(crate) type Step = [f64; 3];
 
-/// The frames of the scales of a strip of `gaps` gaps that repeat the `steps`, the first scale at rest: where the node of each stands, from that
-/// of the first scale, and how far it has turned.
+/// Computes the frames of all scales of a strip of `gaps` gaps that repeat the `steps`.
+///
+/// The first scale is at rest. A frame holds the node position relative to the node of the first
+/// scale, and the rotation.
 pub(crate) fn frames(steps: &[Step], gaps: usize, row: &Arrangement) -> Vec<Pose> {
     let first = Pose::new(0.0, 0.0, 0.0);
     let steps = steps.iter().cycle().take(gaps).enumerate();
@@ -21,7 +23,7 @@ pub(crate) fn frames(steps: &[Step], gaps: usize, row: &Arrangement) -> Vec<Pose
     std::iter::once(first).chain(others).collect()
 }
 
-/// Displacements from rest, and rotations, of scales that stand in these frames.
+/// Converts frames to displacements from rest and rotations.
 pub(crate) fn displacements(frames: &[Pose], row: &Arrangement) -> Vec<Step> {
     let displacement = |(i, frame): (usize, &Pose)| {
         let node = frame.displacement;
@@ -30,7 +32,7 @@ pub(crate) fn displacements(frames: &[Pose], row: &Arrangement) -> Vec<Step> {
     frames.iter().enumerate().map(displacement).collect()
 }
 
-/// A point that is known in a frame.
+/// Maps a point from a frame to the frame of the strip.
 pub(crate) fn place(frame: &Pose, point: Vec2) -> Vec2 {
     frame.displacement + frame.turn(point)
 }

@@ -1,4 +1,4 @@
-//! The rotation of one gap over its moment, solved for as far as it is asked for.
+//! Rotation of one gap over its moment, solved on demand.
 
 use solver::{Event, Newton, Path, Settings};
 
@@ -7,26 +7,28 @@ use crate::ContactChange;
 use crate::contacts::{SkinPoint, SkinState};
 use crate::record::{Skin, Work};
 
-/// By how much a moment may fall from one equilibrium to the next, relative to it: that is round-off.
+/// Relative decrease of the moment between equilibria that still counts as round-off.
 const ROUND_OFF: f64 = 1e-12;
 
-/// Newton's method ends here for a state of another resolution, whose distance is only estimated. It doubles its digits once more.
+/// Tolerance of Newton's method for states of a finer resolution.
+///
+/// They only serve an error estimate; the quadratic convergence still doubles the digits once.
 const ESTIMATED: f64 = 1e-6;
 
-/// Which side of a moment, where the curve has a kink.
+/// Side of a moment at which the curve has a kink.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum KinkSide {
     Before,
     Behind,
 }
 
-/// An equilibrium of a gap. Moment and rotation are counted in the direction of bending.
+/// Equilibrium of a gap, with moment and rotation counted in the direction of bending.
 #[derive(Debug)]
 pub(super) struct Knot {
     pub(super) point: SkinPoint,
     pub(super) moment: f64,
     pub(super) rotation: f64,
-    /// `dθ/dM` of the path that arrives, and of the path that goes on.
+    /// `dθ/dM` of the incoming and of the outgoing branch.
     compliances: [f64; 2],
 }
 
@@ -42,27 +44,29 @@ impl Knot {
         }
     }
 
-    /// `dθ/dM` of the path that goes on.
+    /// Returns `dθ/dM` of the outgoing branch.
     pub(super) fn compliance(&self) -> f64 {
         self.compliances[1]
     }
 
-    /// Whether a contact changes here.
+    /// Returns true if a contact changes here.
     pub(super) fn is_event(&self) -> bool {
         matches!(self.point.event, Some(Event::Changed(_)))
     }
 }
 
-/// The curve of a gap: the equilibria of its path, and those that were solved for between them, by their moments.
+/// The curve of a gap: equilibria of its path and equilibria solved for between them, sorted by
+/// moment.
 ///
-/// Between two of them, with the rotations `θ`, the compliances `c = dθ/dM` and the secant `s = Δθ/ΔM`, the rotation is about
+/// Between two knots, with the rotations `θ`, the compliances `c = dθ/dM` and the secant `s =
+/// Δθ/ΔM`, the rotation is approximately
 ///
 /// ```text
 /// θ₁ + Δθ [s x² + c₁ x (1 − x)]/[s + (c₁ + c₂ − 2s) x (1 − x)],    x = (M − M₁)/ΔM           (F8)
 /// ```
 ///
-/// which rises from end to end however much stiffer the gap becomes (Gregory & Delbourgo 1982, doi 10.1093/imanum/2.2.123). It
-/// tells where to solve, and is no part of any result.
+/// This rational interpolant is monotone however much the gap stiffens (Gregory & Delbourgo 1982,
+/// doi 10.1093/imanum/2.2.123). It only predicts where to solve and does not enter any result.
 #[derive(Debug)]
 pub(super) struct GapCurve {
     path: Path<Strip>,
@@ -71,7 +75,7 @@ pub(super) struct GapCurve {
 }
 
 impl GapCurve {
-    /// The curve at rest.
+    /// Starts the curve at rest.
     pub(super) fn new(strip: Strip, settings: Settings) -> Self {
         let rest = SkinState::at_rest(&strip);
         let path = Path::new(strip, rest, settings);
@@ -83,8 +87,10 @@ impl GapCurve {
         self.path.system()
     }
 
-    /// Follows the path until the gap bears a moment. `None` where it does not come to it, or moment or rotation fall before: then the
-    /// moment alone does not tell how the gap stands.
+    /// Follows the path until the gap carries a moment.
+    ///
+    /// `None` if the path ends earlier, or if moment or rotation decrease: then the moment does not
+    /// determine the state of the gap.
     pub(super) fn follow_to(&mut self, moment: f64) -> Option<()> {
         loop {
             let last = self.knots.last()?;
@@ -107,7 +113,7 @@ impl GapCurve {
         }
     }
 
-    /// Solves for the equilibrium under a moment that the gap has borne. `None` where Newton's method does not get there.
+    /// Solves for the equilibrium under a moment already covered; `None` if Newton's method fails.
     pub(super) fn solve_at(&mut self, moment: f64) -> Option<()> {
         let next = self.knots.partition_point(|knot| knot.moment < moment);
         let [from, to] = [self.knots.get(next.checked_sub(1)?)?, self.knots.get(next)?];
@@ -119,21 +125,21 @@ impl GapCurve {
         let condition = self.strip().under_moment(moment);
         let point = self.path.solved(guess, &condition)?;
         let knot = Knot { moment, ..Knot::new(self.path.system(), point) };
-        // Newton's method may come to a state of another branch.
+        // Newton's method may converge to a state on another branch.
         range.contains(&knot.rotation).then(|| self.knots.insert(next, knot))
     }
 
-    /// The equilibria up to a moment.
+    /// Returns the equilibria up to a moment.
     pub(super) fn knots_to(&self, moment: f64) -> &[Knot] {
         &self.knots[..self.knots.partition_point(|knot| knot.moment <= moment)]
     }
 
-    /// The equilibrium under a moment that was solved for, as the path goes on from there.
+    /// Returns the last equilibrium under a moment that was solved for.
     pub(super) fn knot(&self, moment: f64) -> Option<&Knot> {
         self.knots_to(moment).last().filter(|knot| knot.moment == moment)
     }
 
-    /// The moment at which the gap first closes.
+    /// Returns the moment at which the gap first closes.
     pub(super) fn first_closing(&self) -> Option<f64> {
         let contacts = self.strip().contacts();
         let closes = |knot: &&Knot| match &knot.point.event {
@@ -146,7 +152,7 @@ impl GapCurve {
         self.knots.iter().find(closes).map(|knot| knot.moment)
     }
 
-    /// The rotation under a moment, about (F8), or as solved.
+    /// Returns the rotation under a moment, as solved or interpolated by (F8).
     pub(super) fn rotation(&self, moment: f64) -> f64 {
         match self.place(moment) {
             Ok([knot, _]) => knot.rotation,
@@ -154,7 +160,7 @@ impl GapCurve {
         }
     }
 
-    /// `dθ/dM` at a moment, by (F8), or as solved.
+    /// Returns `dθ/dM` at a moment, as solved or interpolated by (F8).
     pub(super) fn compliance(&self, moment: f64, side: KinkSide) -> f64 {
         match (self.place(moment), side) {
             (Ok([knot, _]), KinkSide::Before) => knot.compliances[0],
@@ -163,7 +169,7 @@ impl GapCurve {
         }
     }
 
-    /// The first and the last equilibrium at a moment, or the segment around it.
+    /// Finds the first and the last equilibrium at a moment, or the segment around it.
     fn place(&self, moment: f64) -> Result<[&Knot; 2], Segment<'_>> {
         let next = self.knots.partition_point(|knot| knot.moment < moment);
         let here = self.knots[next..].partition_point(|knot| knot.moment <= moment);
@@ -173,7 +179,7 @@ impl GapCurve {
         }
     }
 
-    /// What friction has taken up to a moment that was solved for.
+    /// Computes the frictional dissipation up to a moment that was solved for.
     pub(super) fn friction_work(&self, moment: f64) -> f64 {
         let mut work = Work::default();
         for pair in self.knots_to(moment).windows(2) {
@@ -182,13 +188,13 @@ impl GapCurve {
         work.taken()
     }
 
-    /// The largest strain of the membrane up to a moment.
+    /// Returns the largest membrane strain up to a moment.
     pub(super) fn largest_strain(&self, moment: f64) -> f64 {
         let knots = self.knots_to(moment).iter();
         knots.map(|knot| self.strip().largest_strain(&knot.point.state)).fold(0.0, f64::max)
     }
 
-    /// The equilibrium under a moment that was solved for, as a strip of a finer resolution has it. `None` if it has none.
+    /// Solves the equilibrium under a moment again on a finer strip; `None` if that fails.
     pub(super) fn resolved(&self, moment: f64, finer: &Strip, newton: &mut Newton) -> Option<Knot> {
         let mut state = self.strip().transferred(&self.knot(moment)?.point.state, finer)?;
         let condition = finer.under_moment(moment);
@@ -199,20 +205,20 @@ impl GapCurve {
     }
 }
 
-/// A part of a curve between two equilibria.
+/// Part of a curve between two equilibria.
 struct Segment<'a> {
     from: &'a Knot,
     to: &'a Knot,
 }
 
 impl Segment<'_> {
-    /// `ΔM`, `Δθ`, and the place `x` of a moment.
+    /// Returns `ΔM`, `Δθ`, and the coordinate `x` of a moment.
     fn place(&self, moment: f64) -> [f64; 3] {
         let width = self.to.moment - self.from.moment;
         [width, self.to.rotation - self.from.rotation, (moment - self.from.moment) / width]
     }
 
-    /// `s`, `c₁`, `c₂` and the denominator of (F8).
+    /// Returns `s`, `c₁`, `c₂` and the denominator of (F8).
     fn terms(&self, [width, turn, x]: [f64; 3]) -> [f64; 4] {
         let [secant, start, end] = [turn / width, self.from.compliances[1], self.to.compliances[0]];
         [secant, start, end, secant + (start + end - 2.0 * secant) * x * (1.0 - x)]
@@ -231,7 +237,9 @@ impl Segment<'_> {
         (secant / below).powi(2) * (end * x * x + 2.0 * secant * x * y + start * y * y)
     }
 
-    /// About the state under a moment: a cubic of the rotation in each unknown, in which curves that stiffen are smooth.
+    /// Predicts the state under a moment by a cubic of the rotation in each unknown.
+    ///
+    /// Stiffening curves are smooth as functions of the rotation.
     fn state(&self, strip: &Strip, moment: f64) -> SkinState {
         let Self { from, to } = self;
         let turn = to.rotation - from.rotation;

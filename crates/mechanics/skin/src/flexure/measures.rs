@@ -1,4 +1,4 @@
-//! The numbers that bending comes down to.
+//! Measures of bending.
 
 use serde::{Deserialize, Serialize};
 use solver::Path;
@@ -11,7 +11,7 @@ use crate::common::is_default;
 use crate::contacts::Contacts;
 use crate::record::Record;
 
-/// The measures of bending; `None` where the value does not exist.
+/// The measures of bending; `None` if the value does not exist.
 ///
 /// The moment is `M* = M t/(E_m I_m)`, the curvature `κ* = κ t` with `κ` the rotation of one end
 /// against the other over the length `n p` of the strip.
@@ -21,40 +21,43 @@ pub struct FlexureMeasures {
     pub compliance: Option<f64>,
     /// `1/(dM*/dκ*)` at rest.
     pub initial_compliance: Option<f64>,
-    /// Whether scales touched.
+    /// Whether scales touch.
     pub contact: Option<bool>,
     /// `κ*` at the first contact.
     pub first_contact_curvature: Option<f64>,
     /// `M*` of the largest size; negative on a path to the outside.
     pub max_moment: Option<f64>,
-    /// Part of the axial energy in the elastic energy at the end of the path.
+    /// Axial fraction of the elastic energy at the end of the path.
     pub axial_energy_share: Option<f64>,
     /// Largest strain `|ε| + ½ h |κ|` at the surface of the membrane, anywhere on the path.
     pub membrane_strain_max: Option<f64>,
-    /// Largest relative error of the measures that the discretisation of the membrane makes, estimated; `None` for a given
-    /// number of elements.
+    /// Estimated largest relative error of the measures due to the discretisation of the membrane;
+    /// `None` for a given number of elements.
     pub error: Option<f64>,
-    /// Gaps `n` of the strip, a whole number in a chain.
+    /// Number of gaps `n` of the strip, an integer in a chain.
     pub gaps: f64,
-    /// What friction between scales has taken at the end of the path, over `E_m t³`, of the whole strip.
+    /// Frictional dissipation between scales at the end of the path, over `E_m t³`, for the whole
+    /// strip.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction_work: Option<f64>,
-    /// `κ*` at which friction locks the strip: from there on contacts stick, and next to nothing turns.
+    /// `κ*` at which friction locks the strip: beyond it contacts stick and the rotation hardly
+    /// grows.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub locking_curvature: Option<f64>,
-    /// What is left once the moment is gone.
+    /// Residual state after unloading.
     #[serde(default, skip_serializing_if = "is_default")]
     pub remains: Remains,
-    /// `κ*` at which scales would touch, whether or not the path goes so far, of an imperfect strip in the gap that closes first; `None`
-    /// where none can close.
+    /// `κ*` at which scales would touch, even if the path ends earlier; in an imperfect strip for
+    /// the gap that closes first. `None` if no gap can close.
     pub contact_curvature: Option<f64>,
 }
 
 impl FlexureMeasures {
-    /// The measures of a path that came to its end.
+    /// Computes the measures of a completed path.
     pub(crate) fn new(record: &Record<Strip>, path: &mut Path<Strip>) -> Self {
         let first = record.first_contact();
-        // Before scales touch the strip bends to arcs, as stiff everywhere as at rest: there is no maximum to look for.
+        // Before contact the strip bends to arcs with constant stiffness, so there is no maximum to
+        // search.
         let stiffest = match first {
             Some(_) => record.stiffness_summit(path).map(|summit| summit.value),
             None => Some(record.initial_stiffness),
@@ -79,12 +82,13 @@ impl FlexureMeasures {
         }
     }
 
-    /// The measures with what is known in closed form in the place of what was computed: before contact the compliance is
-    /// `Σd/Σp`, and no energy stretches the membrane.
+    /// Replaces computed values by closed forms where these exist.
+    ///
+    /// Before contact the compliance is `Σd/Σp`, and no energy stretches the membrane.
     pub(crate) fn in_closed_form(self, free_compliance: f64) -> Self {
         let bare = self.contact == Some(false);
         Self {
-            // What was not found stays unknown: a closed form does not make up for a failed path.
+            // Missing values stay missing: a closed form does not make up for a failed path.
             initial_compliance: self.initial_compliance.map(|_| free_compliance),
             compliance: self.compliance.map(|found| if bare { free_compliance } else { found }),
             axial_energy_share: self.axial_energy_share.map(|found| if bare { 0.0 } else { found }),
@@ -92,12 +96,12 @@ impl FlexureMeasures {
         }
     }
 
-    /// The measures of the beginning of a path, for one that did not end as it should.
+    /// Keeps only the measures of the start of a path, for a path that failed.
     pub(crate) fn without_final_values(self) -> Self {
         Self {
             initial_compliance: self.initial_compliance,
             first_contact_curvature: self.first_contact_curvature,
-            // That nothing has touched so far does not tell what would have touched later.
+            // No contact so far does not exclude a later contact.
             contact: self.first_contact_curvature.map(|_| true),
             contact_curvature: self.contact_curvature,
             gaps: self.gaps,
@@ -106,21 +110,21 @@ impl FlexureMeasures {
     }
 }
 
-/// The curvature of the last change of a contact, if contacts stick from there on and hold the strip.
+/// Returns the curvature of the last contact change, if contacts then stick and lock the strip.
 fn locking(record: &Record<Strip>, path: &Path<Strip>) -> Option<f64> {
     let [sticking, _] = Contacts::stick_slip_counts(&path.point().state);
     let (start, end) = record.path.first().zip(record.path.last())?;
-    // Contacts that stick are not enough: a strip may bend on while some of them do.
+    // Sticking contacts alone are not enough: a strip may continue to bend with some of them.
     let is_locked = sticking > 0 && end.stiffness.abs() >= LOCKED * start.stiffness;
     record.events.last().filter(|_| is_locked).map(|event| event.point.curvature)
 }
 
-/// The number of the larger size.
+/// Returns the number of larger magnitude.
 pub(super) fn larger(a: f64, b: f64) -> f64 {
     if b.abs() > a.abs() { b } else { a }
 }
 
-/// Part of the axial energy in the elastic energy; not a number at rest.
+/// Computes the axial fraction of the elastic energy; NaN at rest.
 fn axial_energy_share(point: &FlexurePoint) -> f64 {
     point.axial_energy / (point.bending_energy + point.axial_energy + point.contact_energy)
 }

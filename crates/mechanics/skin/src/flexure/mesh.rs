@@ -1,25 +1,25 @@
-//! How the membrane of a gap is resolved.
+//! Discretisation of the membrane of a gap.
 
 use geometry::OutOfRange;
 use membrane::{Elastica, GapMembrane, Membrane, Section, Span};
 
-/// How finely the membrane between two scales is resolved.
+/// Resolution of the membrane between two scales.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MembraneMesh {
-    /// As finely as the measures need: the extensible elastica, by a spectral element whose order is raised until they
-    /// change by less than a ten-thousandth.
+    /// As fine as the measures need: the extensible elastica by a spectral element, with increasing
+    /// order until the measures change by less than 1e-4.
     #[default]
     Auto,
-    /// So many co-rotational beam elements of equal length.
+    /// This many co-rotational beam elements of equal length.
     Elements(usize),
 }
 
-/// A resolution of the membrane.
+/// Resolution of a membrane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Resolution {
-    /// Co-rotational elements, so many.
+    /// This many co-rotational elements.
     Elements(usize),
-    /// A spectral element of this order for the elastica.
+    /// Spectral element of this order for the elastica.
     Order(usize),
 }
 
@@ -31,15 +31,17 @@ impl Resolution {
         })
     }
 
-    /// The next finer one, if the largest relative change of any measure with it, the `error`, is too large, and none is used that is finer
-    /// than a membrane can need.
+    /// Returns the next finer resolution if the `error` is too large.
+    ///
+    /// `error` is the largest relative change of any measure with that resolution. `None` also
+    /// beyond the largest useful order.
     pub(crate) fn better(self, error: Option<f64>) -> Option<Self> {
         let suffices = error.is_none_or(|error| error <= TOLERANCE);
         let is_usual = |finer: &Self| !matches!(finer, Self::Order(order) if *order > LAST_ORDER);
         self.finer().filter(|finer| !suffices && is_usual(finer))
     }
 
-    /// The next finer order; `None` for elements.
+    /// Returns the next finer order; `None` for elements.
     pub(crate) fn finer(self) -> Option<Self> {
         match self {
             Self::Elements(_) => None,
@@ -48,21 +50,24 @@ impl Resolution {
     }
 }
 
-/// Largest relative change of any measure between two resolutions at which the coarser one suffices.
+/// Largest relative change of any measure at which the coarser resolution suffices.
 const TOLERANCE: f64 = 1e-4;
 
-/// Order with which [`MembraneMesh::Auto`] begins. It resolves layers at the bases of a hundredth of the gap, and is within 1e-4 for
+/// Initial order of [`MembraneMesh::Auto`].
+///
+/// It resolves boundary layers at the bases of a hundredth of the gap, and is within 1e-4 for
 /// nearly all designs of the reference study.
 const FIRST_ORDER: usize = 12;
 
-/// By how much the order is raised.
+/// Increment of the order.
 const ORDER_STEP: usize = 6;
 
-/// Largest order. Beyond, layers are thinner than a thousandth of the gap, and the membrane is no beam.
+/// Largest order. Beyond it, boundary layers are thinner than a thousandth of the gap and beam
+/// theory does not apply.
 const LAST_ORDER: usize = 48;
 
 impl MembraneMesh {
-    /// The resolution to begin with.
+    /// Returns the initial resolution.
     pub(crate) fn coarsest(self) -> Resolution {
         match self {
             Self::Auto => Resolution::Order(FIRST_ORDER),

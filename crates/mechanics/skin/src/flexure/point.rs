@@ -1,4 +1,4 @@
-//! Equilibria of a strip as they are recorded.
+//! Recorded equilibria of a strip.
 
 use super::strip::Strip;
 use crate::contacts::{Contacts, SkinPoint, SkinState};
@@ -11,7 +11,7 @@ pub struct FlexurePoint {
     pub curvature: f64,
     /// `M*`.
     pub moment: f64,
-    /// `dM*/dκ*` of the path that goes on from here.
+    /// `dM*/dκ*` of the outgoing branch.
     pub stiffness: f64,
     /// Rotation of each end, degrees.
     pub end_rotation_deg: f64,
@@ -21,9 +21,10 @@ pub struct FlexurePoint {
     pub axial_energy: f64,
     /// Energy of the contacts, over `E_m t³`.
     pub contact_energy: f64,
-    /// What friction between scales has taken up to here, over `E_m t³`, of the whole strip; `None` without friction.
+    /// Frictional dissipation up to here, over `E_m t³`, for the whole strip; `None` without
+    /// friction.
     pub friction_work: Option<f64>,
-    /// Closed contacts of the strip, rounded to whole gaps.
+    /// Closed contacts of the strip, scaled to the rounded number of gaps.
     pub contacts: usize,
     /// Largest strain `|ε| + ½ h |κ|` at the surface of the membrane.
     pub membrane_strain: f64,
@@ -48,7 +49,7 @@ impl Skin for Strip {
             bending_energy: membrane.bending * repeats,
             axial_energy: membrane.axial * repeats,
             contact_energy: self.contacts.energy(state) * repeats,
-            // The work up to here is noted afterwards: it takes the point before, too.
+            // Filled in later, because the work depends on the previous point, too.
             friction_work: None,
             contacts: self.whole_gaps() / self.gaps() * Contacts::closed(state),
             membrane_strain: self.largest_strain(state),
@@ -69,11 +70,11 @@ impl Skin for Strip {
     }
 
     fn angle_deg(&self, state: &SkinState) -> f64 {
-        // Each end turns by half of what they turn against each other.
+        // Each end turns by half of the relative rotation of the ends.
         0.5 * (self.rotation(&state.z) * self.repeats).to_degrees()
     }
 
-    /// `dM/dΦ` of the gaps that are solved for.
+    /// `dM/dΦ` of the solved gaps.
     fn stiffness(&self, _state: &SkinState, direction: &[f64]) -> f64 {
         self.moment(direction) / self.rotation(direction)
     }
@@ -82,7 +83,7 @@ impl Skin for Strip {
         (self.whole_gaps() == self.gaps()).then_some(scale as i64)
     }
 
-    /// A strip that is bent to a ring may meet its own other end: neighbours count alone.
+    /// Checks neighbours only, because a strip bent to a ring may overlap its other end.
     fn interpenetrates(&self, state: &SkinState) -> bool {
         self.contacts.neighbours_interpenetrate(state)
     }

@@ -1,4 +1,4 @@
-//! The problem of bending a strip, and its solution with a resolution that suffices.
+//! Setup and solution of a bending problem with adaptive resolution.
 
 use contact::ContactLaw;
 use geometry::{OutOfRange, Row};
@@ -17,19 +17,19 @@ use crate::path_location::{PathLocation, PointLocator};
 use crate::record::{PathFunction, Record};
 use crate::{Common, Design, Sample, Status, Unloading};
 
-/// A strip that was bent to the end of its path.
+/// A strip bent to the end of its path.
 pub(crate) struct Bent {
     pub(crate) record: Record<Strip>,
     pub(crate) path: Path<Strip>,
     pub(crate) status: Status,
-    /// The largest change of any measure with a finer resolution; `None` where there is none.
+    /// Largest change of any measure with a finer resolution; `None` if there is none.
     error: Option<f64>,
     steps: Vec<Vec<Step>>,
-    /// The equilibria at the end rotations that were asked for.
+    /// Equilibria at the requested end rotations.
     pub(crate) requested_points: Vec<Option<SkinPoint>>,
 }
 
-/// A strip to be bent.
+/// A bending problem.
 pub(crate) struct FlexureProblem<'a> {
     pub(crate) common: &'a Common,
     parameters: &'a FlexureParameters,
@@ -37,16 +37,16 @@ pub(crate) struct FlexureProblem<'a> {
     half_base: f64,
     section: Section,
     law: ContactLaw,
-    /// Gaps `n` of the whole strip.
+    /// Number of gaps `n` of the whole strip.
     pub(crate) gaps: f64,
-    /// Gaps that are solved for.
+    /// Number of gaps that are solved for.
     pub(super) solved: usize,
-    /// The curvature of first contact of a design whose measures are asked for, or of a sample.
+    /// Curvature of first contact, if it is a requested measure.
     pub(super) contact_curvature: Option<f64>,
 }
 
 impl<'a> FlexureProblem<'a> {
-    /// The strip of a design.
+    /// Sets up the strip of a design.
     pub(crate) fn even(
         design: &Design,
         common: &'a Common,
@@ -56,7 +56,7 @@ impl<'a> FlexureProblem<'a> {
         Ok(Self { contact_curvature, ..Self::of_row(design.row()?, design, common, parameters)? })
     }
 
-    /// The strip of a design with this row.
+    /// Sets up the strip of a design with the given row.
     pub(crate) fn of_row(
         row: Row,
         design: &Design,
@@ -73,7 +73,7 @@ impl<'a> FlexureProblem<'a> {
         Self::new(design, common, parameters, Arrangement::Even(row), gaps, solved)
     }
 
-    /// A sample of the strip, with all its gaps.
+    /// Sets up a sample of the strip with all its gaps.
     pub(crate) fn sample(
         design: &Design,
         common: &'a Common,
@@ -111,17 +111,17 @@ impl<'a> FlexureProblem<'a> {
         })
     }
 
-    /// The mean curvature at the end of bending.
+    /// Returns the mean curvature at the end of bending.
     pub(super) fn end_curvature(&self) -> f64 {
         self.end_rotation() / self.length()
     }
 
-    /// Length of the strip, from the node of the first scale to that of the last.
+    /// Returns the length of the strip between the nodes of the first and the last scale.
     pub(super) fn length(&self) -> f64 {
         self.gaps * self.row.mean_pitch()
     }
 
-    /// The rotation of the ends against each other at the end of bending, radians.
+    /// Returns the relative rotation of the ends at the end of bending, radians.
     pub(super) fn end_rotation(&self) -> f64 {
         // The parameter is the rotation of each end.
         2.0 * self.parameters.max_end_rotation_deg.to_radians()
@@ -132,9 +132,9 @@ impl<'a> FlexureProblem<'a> {
         self.section.bending_stiffness()
     }
 
-    /// The strip with this resolution.
+    /// Builds the strip with this resolution.
     pub(crate) fn strip(&self, resolution: Resolution) -> Result<Strip, OutOfRange> {
-        // Gaps that are alike share one membrane.
+        // Equal gaps share one membrane.
         let unlike = match &self.row {
             Arrangement::Even(_) => 1,
             Arrangement::Uneven(_) => self.solved,
@@ -147,7 +147,7 @@ impl<'a> FlexureProblem<'a> {
         Ok(Strip::new(self.row.clone(), membranes, self.law, self.section, extent))
     }
 
-    /// One of the gaps of a strip in which they differ, with its two scales.
+    /// Builds one gap of an uneven strip, with its two scales.
     pub(super) fn gap(&self, gap: usize, resolution: Resolution) -> Result<Strip, OutOfRange> {
         let membranes = vec![self.membrane(gap, resolution)?];
         // Without contact every gap turns in proportion to its length.
@@ -163,18 +163,20 @@ impl<'a> FlexureProblem<'a> {
         resolution.membrane(self.section, Span { half_base, gap: self.row.gap(gap), axis_offset })
     }
 
-    /// Bends the strip, with finer and finer resolution until it suffices.
+    /// Bends the strip, with increasing resolution until the error is acceptable.
     pub(crate) fn solve(&self) -> Result<Flexure, OutOfRange> {
         Ok(self.flexure(self.resolved(&[], &[])?.0))
     }
 
-    /// The resolution to begin with.
+    /// Returns the initial resolution.
     pub(super) fn coarsest(&self) -> Resolution {
         self.parameters.elements_per_gap.coarsest()
     }
 
-    /// The strip bent with the resolution that suffices, the largest values of some functions followed, with the equilibria at some
-    /// rotations of each end.
+    /// Bends the strip with a sufficient resolution.
+    ///
+    /// Follows the largest values of some `functions`, and locates the equilibria at some
+    /// `end_rotations`.
     pub(crate) fn resolved(
         &self,
         functions: &[PathFunction<Strip>],
@@ -183,9 +185,9 @@ impl<'a> FlexureProblem<'a> {
         let mut resolution = self.coarsest();
         loop {
             let bent = self.bend(resolution, functions, end_rotations)?;
-            // A path that stopped early has no error, and no finer membrane is tried for it.
+            // A path that stopped early has no error estimate and is not refined.
             let error = bent.error.filter(|_| bent.status == Status::Complete);
-            // At the finest usual resolution the error stays, and is told with the measures.
+            // At the largest order the remaining error is reported with the measures.
             let Some(finer) = resolution.better(error) else { return Ok((bent, resolution)) };
             resolution = finer;
         }
@@ -213,8 +215,8 @@ impl<'a> FlexureProblem<'a> {
         loop {
             let from = path.point_shared();
             let Some(point) = path.next() else { break };
-            // Where a side lies flush in every gap at once, the moment moves the force from one end of it to the
-            // other and nothing else moves: the path stands still in all that measures it.
+            // If a side is flush in every gap at once, the moment only shifts the force from one
+            // end of the side to the other, and no control parameter changes along the path.
             flush = alike && Contacts::flush(&point.state);
             if flush {
                 break;
@@ -223,7 +225,7 @@ impl<'a> FlexureProblem<'a> {
             record.visit(&mut path, &from, &point);
             steps.push(path.system().steps(&point.state.z));
         }
-        // The path was left while it could have gone on, so it has no reason of its own.
+        // The path was left before it ended, so it has no stop reason of its own.
         let stop = if flush { Some(Stop::Singular) } else { path.stop() };
         let status = match Status::of(&path, stop.unwrap_or(Stop::Reached)) {
             Status::Stopped(stop) if stop.is_numerical() && (flush || locks(&record.path)) => {
@@ -235,11 +237,11 @@ impl<'a> FlexureProblem<'a> {
         Ok(Bent { record, path, status, error, steps, requested_points: locator.points })
     }
 
-    /// The result of a strip that was bent.
+    /// Builds the result of a bent strip.
     pub(crate) fn flexure(&self, bent: Bent) -> Flexure {
         let Bent { record, mut path, status, error, steps, .. } = bent;
-        // Computed values agree with the closed forms up to round-off, and designs that do not
-        // touch shall have `d/p` to the last bit.
+        // Computed values agree with the closed forms up to round-off, but designs without contact
+        // should have exactly `d/p`.
         let measures =
             FlexureMeasures::new(&record, &mut path).in_closed_form(self.row.share_of_gaps());
         let measures =
@@ -251,7 +253,7 @@ impl<'a> FlexureProblem<'a> {
         let (gaps, row) = (path.system().whole_gaps(), self.row.clone());
         let Record { path: points, events, history, work, .. } = record;
         let unload = self.parameters.unload && status == Status::Complete;
-        // The way back leaves the end at which measures are taken, so it comes last.
+        // Unload last: unloading moves the path away from the end at which measures are taken.
         let unloading = unload.then(|| Unloading::follow(&mut path, work));
         let remains =
             unloading.as_ref().map(|back| back.remains(|point: &FlexurePoint| point.curvature));
@@ -259,7 +261,8 @@ impl<'a> FlexureProblem<'a> {
         Flexure { status, measures, path: points, events, history, unloading, gaps, steps, row }
     }
 
-    /// The largest change of any measure with a finer resolution; `None` where there is none.
+    /// Estimates the largest change of any measure with a finer resolution; `None` if there is
+    /// none.
     fn error(
         &self,
         resolution: Resolution,
@@ -273,7 +276,7 @@ impl<'a> FlexureProblem<'a> {
         }
         let finer = self.strip(finer)?;
         let settings = &self.common.solver;
-        // A state that cannot be solved with the finer resolution is not resolved.
+        // A state without a solution on the finer membrane counts as not resolved.
         let change =
             |state| change(path.system(), &finer, state, settings).unwrap_or(f64::INFINITY);
         let end = &path.point().state;
@@ -284,17 +287,19 @@ impl<'a> FlexureProblem<'a> {
     }
 }
 
-/// A strip that is so many times as stiff as at rest is held by its scales alone.
+/// Stiffness relative to rest beyond which a strip counts as held by its scales alone.
 pub(super) const LOCKED: f64 = 100.0;
 
-/// A strain of a membrane of which its law, for small strains, says nothing.
+/// Membrane strain beyond the validity of the small-strain law.
 const BEYOND_LAW: f64 = 1.0;
 
-/// Whether scales lock a strip at the end of its path: next to nothing turns there, or only by a membrane that is torn.
+/// Returns true if scales lock a strip at the end of its path.
+///
+/// Then the rotation hardly changes, or only by straining the membrane beyond its law.
 fn locks(path: &[FlexurePoint]) -> bool {
     let ends = path.first().zip(path.last());
     ends.is_some_and(|(first, last)| {
-        // What turns back turns next to nothing, too: the sign of the stiffness does not matter.
+        // The stiffness of a reversing path is large, too, so ignore its sign.
         last.stiffness.abs() >= LOCKED * first.stiffness || last.membrane_strain >= BEYOND_LAW
     })
 }

@@ -17,7 +17,7 @@ use crate::sensitivity::{
 };
 use crate::{Common, Design, Status};
 
-/// Everything that bending depends on.
+/// Complete input of a bending problem.
 #[derive(Clone, Debug)]
 pub struct FlexureInput {
     /// The design.
@@ -28,7 +28,7 @@ pub struct FlexureInput {
     pub parameters: FlexureParameters,
 }
 
-/// Functions whose largest values are measures besides the stiffness.
+/// Functions with a maximum that is a measure, in addition to the stiffness.
 pub(super) const FOLLOWED: [PathFunction<Strip>; 2] = [
     |strip, state, _| strip.normalised_moment(&state.z),
     |strip, state, _| strip.largest_strain(state),
@@ -36,12 +36,16 @@ pub(super) const FOLLOWED: [PathFunction<Strip>; 2] = [
 const MOMENT: usize = 0;
 const STRAIN: usize = 1;
 
-/// A strip that touches farther than this share before or behind its end does not touch otherwise within the step of a difference, some
-/// millionths of a parameter.
+/// Relative distance between first contact and end of bending beyond which a parameter step does
+/// not change whether scales touch.
+///
+/// Steps are a few millionths of a parameter.
 const NEARLY: f64 = 1e-3;
 
-/// Bends a strip as [`solve`](super::solve) does, and returns the derivatives of its measures with respect to the parameter of
-/// each variation as well. There are none where the path did not come to its end.
+/// Bends a strip like [`solve`](super::solve), and differentiates its measures.
+///
+/// Returns the derivatives with respect to the parameter of each variation; none if the path was
+/// not completed.
 ///
 /// # Errors
 /// As [`solve`](super::solve).
@@ -63,14 +67,15 @@ pub fn differentiate(
     Ok((problem.flexure(bent), derivatives))
 }
 
-/// The moment over the curvature.
+/// Moment over curvature.
 const MOMENT_OVER_CURVATURE: Curve<Strip> = [
     |strip, state, _, _| strip.curvature(&state.z),
     |strip, state, _, _| strip.normalised_moment(&state.z),
 ];
 
-/// Bends a strip as far as `curvatures` ask for, and returns its moment at each of them, with the derivatives with respect to the
-/// parameter of each variation; `None` where the path does not come.
+/// Computes the moment at given curvatures, with derivatives for each variation.
+///
+/// Follows the path as far as needed; `None` where it does not reach a curvature.
 ///
 /// # Errors
 /// As [`solve`](super::solve).
@@ -81,15 +86,15 @@ pub fn moment_curve(
 ) -> Result<Vec<Option<CurvePoint>>, OutOfRange> {
     let FlexureInput { design, common, parameters } = input;
     let problem = FlexureProblem::even(design, common, parameters)?;
-    // `κ*` is the rotation of one end against the other over this length, twice that of each end.
+    // `κ*` is the relative rotation of the ends over this length, twice the rotation of each end.
     let length = problem.length();
     let rotations: Vec<_> = curvatures.iter().map(|curvature| 0.5 * curvature * length).collect();
     let farthest =
-        // A strip may also bend to the outside: the largest size counts, with its sign.
+        // A strip may also bend to the outside: take the largest magnitude, with its sign.
         rotations.iter().copied().fold(0.0, larger);
-    // A little farther, so that round-off does not put the last place beyond the end.
+    // Go slightly beyond, so that round-off does not put the last curvature past the end.
     let end = (1.001 * farthest.to_degrees()).clamp(-180.0, 180.0);
-    // The end scales the control, by which neighbours are to be measured alike.
+    // The end scales the control parameter, so use the same end for the perturbed inputs.
     let as_far = |input: &FlexureInput| {
         let parameters = FlexureParameters { max_end_rotation_deg: end, ..input.parameters };
         FlexureInput { parameters, ..input.clone() }
@@ -101,7 +106,7 @@ pub fn moment_curve(
     let (strips, system) = (Neighbours::map_all(variations, strip)?, bent.path.system());
     let point = |found: Option<SkinPoint>| {
         let point = found?;
-        // How an anchor of a contact that sticks moves with a parameter is not known in bending.
+        // In bending the derivative of a stick anchor with respect to a parameter is not available.
         let known =
             if Contacts::stick_slip_counts(&point.state)[0] > 0 { &[][..] } else { &strips };
         let mut on_curve =
@@ -112,7 +117,7 @@ pub fn moment_curve(
     Ok(bent.requested_points.into_iter().map(point).collect())
 }
 
-/// The strip of a design, with this resolution.
+/// Builds the strip of a design with this resolution.
 fn strip(input: &FlexureInput, resolution: Resolution) -> Result<Strip, OutOfRange> {
     let FlexureInput { design, common, parameters } = input;
     FlexureProblem::of_row(design.leaning_row()?, design, common, parameters)?.strip(resolution)
@@ -144,14 +149,16 @@ impl FlexureProblem<'_> {
         Ok(derivatives)
     }
 
-    /// Takes the derivatives of the compliance away where scales are about to touch at the end of bending: it jumps where they do,
-    /// and a place at rest shows nothing of it.
+    /// Removes derivatives of the compliance if scales are about to touch at the end of bending.
+    ///
+    /// The compliance jumps at contact, which its value at rest does not show.
     fn mark_touching(
         &self,
         derivatives: &mut [Derivative],
         variations: &[Neighbours<FlexureInput>],
     ) -> Result<(), OutOfRange> {
-        // Far from the end no step of a difference brings scales into contact, and looking for it would take as long as bending.
+        // Far from the end no step of a difference causes contact; checking would cost as much as
+        // bending.
         let share = self.contact_curvature.map(|curvature| curvature / self.end_curvature());
         if !share.is_some_and(|share| (share - 1.0).abs() < NEARLY) {
             return Ok(());
@@ -166,7 +173,7 @@ impl FlexureProblem<'_> {
         Ok(())
     }
 
-    /// The places of the path at which measures are taken.
+    /// Lists the points of the path at which measures are taken.
     fn measured_points(
         &self,
         record: &Record<Strip>,
@@ -180,7 +187,7 @@ impl FlexureProblem<'_> {
                 let stiffest = record.stiffness_summit(path);
                 sensitivity::summit(stiffest, path, Strip::stiffness, settings)
             }
-            // Without contact a strip is as stiff everywhere as at rest.
+            // Without contact the stiffness is the stiffness at rest.
             None => Some(rest(path.system())),
         };
         let highest = record.highest_point(MOMENT);
@@ -206,8 +213,9 @@ impl FlexureProblem<'_> {
     }
 }
 
-/// Fills derivatives that are not known, of places where something sticks, with those of whole solutions on either side: how the anchor of
-/// a contact that sticks moves with a parameter is not known in bending.
+/// Fills unknown derivatives at sticking points by differences of whole solutions.
+///
+/// In bending the derivative of a stick anchor with respect to a parameter is not available.
 fn differences(
     mut unknown: Vec<Derivative>,
     variations: &[Neighbours<FlexureInput>],
@@ -217,7 +225,7 @@ fn differences(
         return Ok(unknown);
     };
     for (parameter, variation) in variations.iter().enumerate().take(last + 1) {
-        // Another resolution of the neighbours would show in the difference.
+        // A change of resolution would dominate the difference.
         let (below, above) =
             (measured(&variation.below, resolution)?, measured(&variation.above, resolution)?);
         for derivative in unknown.iter_mut().filter(|of| of.parameter == parameter) {
@@ -233,7 +241,7 @@ fn differences(
     Ok(unknown)
 }
 
-/// The measures of a strip that is bent with this resolution; none where the path does not come to its end.
+/// Solves a strip with this resolution and returns its measures; none if its path is incomplete.
 fn measured(
     input: &FlexureInput,
     resolution: Resolution,
@@ -241,7 +249,7 @@ fn measured(
     let FlexureInput { design, common, parameters } = input;
     let problem = FlexureProblem::of_row(design.leaning_row()?, design, common, parameters)?;
     let mut bent = problem.bend(resolution, &FOLLOWED, &[])?;
-    // A neighbour that does not come to its end leaves this side without a derivative.
+    // An incomplete neighbour leaves this side without a derivative.
     if bent.status != Status::Complete {
         return Ok(Vec::new());
     }

@@ -1,4 +1,4 @@
-//! A strip of membrane with scales as it stands at chosen curvatures.
+//! Snapshots of a bent strip at chosen curvatures.
 
 use contact::Pose;
 use geometry::OutOfRange;
@@ -12,7 +12,7 @@ use crate::contacts::{Contact, SkinPoint, SkinState};
 use crate::record::Skin;
 use crate::{Common, Design};
 
-/// Points of the membrane's axis that are kept of each element, or of each gap.
+/// Sample intervals of the membrane axis per element, or per gap.
 const INTERVALS: usize = 12;
 
 /// A strip in equilibrium.
@@ -24,18 +24,18 @@ pub struct StripSnapshot {
     pub moment: f64,
     /// Rotation of each end, degrees.
     pub end_rotation_deg: f64,
-    /// Displacement (over `t`) and rotation (radians, counter-clockwise) of every scale of the
-    /// strip, the first at rest.
+    /// Displacement (over `t`) and rotation (radians, counter-clockwise) of every scale; the first
+    /// is at rest.
     pub scales: Vec<[f64; 3]>,
-    /// Axis of the membrane in every gap, deformed, from the node of the first scale; over `t`.
+    /// Deformed membrane axis in every gap, relative to the node of the first scale; over `t`.
     pub membrane: Vec<Vec<[f64; 2]>>,
     /// Every closed contact; forces over `E_m t²`.
     pub contacts: Vec<Contact>,
 }
 
-/// Solves the bending of `design` where each end has turned by each of the angles
-/// `end_rotations_deg`; `None` where the path does not get there. Each is an equilibrium of its own, not
-/// interpolated.
+/// Solves the bending of `design` at given end rotations.
+///
+/// Each snapshot is an equilibrium, not an interpolation; `None` if the path does not reach it.
 ///
 /// # Errors
 /// If a length, a modulus, or a constant of the contact law is not positive.
@@ -47,14 +47,14 @@ pub fn snapshots(
 ) -> Result<Vec<Option<StripSnapshot>>, OutOfRange> {
     let problem = FlexureProblem::even(design, common, parameters)?;
     let rotations: Vec<f64> = end_rotations_deg.iter().map(|angle| angle.to_radians()).collect();
-    // The resolution is that of the measures, so that a picture belongs to the numbers beside it.
+    // Use the resolution of the measures, so that drawings match the reported numbers.
     let (bent, _) = problem.resolved(&[], &rotations)?;
     let (row, strip) = (&problem.row, bent.path.system());
     let snapshot = |point: Option<SkinPoint>| Some(snapshot(row, strip, &point?.state));
     Ok(bent.requested_points.into_iter().map(snapshot).collect())
 }
 
-/// The whole strip, from a state of the gaps that are solved for.
+/// Builds the snapshot of the whole strip from a state of the solved gaps.
 fn snapshot(row: &Arrangement, strip: &Strip, state: &SkinState) -> StripSnapshot {
     let (solved, gaps) = (strip.gaps(), strip.whole_gaps());
     let frames = frames(&strip.steps(&state.z), gaps, row);
@@ -63,7 +63,7 @@ fn snapshot(row: &Arrangement, strip: &Strip, state: &SkinState) -> StripSnapsho
         axes[i % solved].iter().map(|&point| place(frame, point).into()).collect()
     };
     let contacts = strip.contacts.closed_contacts(state);
-    // A chain is solved as a whole, and only the one gap of a unit cell has copies.
+    // A chain is solved as a whole; only the gap of a unit cell is repeated.
     let copies = (0..gaps / solved).flat_map(|copy| {
         let left = move |contact: &Contact| copy * solved + contact.left;
         contacts.iter().map(move |contact| (left(contact), contact))
@@ -79,7 +79,7 @@ fn snapshot(row: &Arrangement, strip: &Strip, state: &SkinState) -> StripSnapsho
     }
 }
 
-/// A contact that is known in the frame of its left scale, in the frame of the strip.
+/// Transforms a contact from the frame of its left scale to the frame of the strip.
 fn placed(frame: &Pose, left: usize, contact: &Contact) -> Contact {
     Contact {
         left,

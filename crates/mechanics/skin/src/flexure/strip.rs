@@ -1,4 +1,4 @@
-//! A strip of membrane with scales, bent by a moment, as a mixed complementarity system.
+//! A bent strip of membrane and scales, as a mixed complementarity system.
 
 use contact::ContactLaw;
 use geometry::Vec2;
@@ -9,21 +9,22 @@ use super::frame::Step;
 use crate::arrangement::Arrangement;
 use crate::contacts::{Contacts, SkinMode, SkinState, pair_constraints};
 
-/// The order of the unknowns of a strip of `n` gaps. The first scale is held.
+/// Layout of the unknowns of a strip of `n` gaps. The first scale is fixed.
 ///
 /// ```text
 /// λ λ' λ" λ λ' λ" · interior · x y φ | … | λ λ' λ" λ λ' λ" · interior · x y φ · M
 /// └──────── gap 0 and scale 1 ───────┘     └──── gap n − 1 and scale n ────┘
 /// ```
 ///
-/// The interior are the unknowns of the gap's membrane. They and the positions `x y` are those in the frame of the scale to
-/// the left of the gap; the rotation `φ` of a scale is counted from the first scale.
+/// `interior` stands for the unknowns of the membrane of a gap. They and the positions `x y` are in
+/// the frame of the scale to the left of the gap; the rotation `φ` of a scale is counted from the
+/// first scale.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct StripLayout {
     gaps: usize,
-    /// Unknowns of the membrane of a gap.
+    /// Membrane unknowns per gap.
     interior: usize,
-    /// Unknowns of the contacts of a gap.
+    /// Contact unknowns per gap.
     pair: usize,
 }
 
@@ -36,17 +37,17 @@ impl StripLayout {
         self.gaps * self.block() + 1
     }
 
-    /// First unknown of a scale; the first scale has none.
+    /// Returns the first unknown of a scale; the first scale has none.
     fn scale(self, scale: usize) -> Option<usize> {
         Some(self.block() * scale.checked_sub(1)? + self.block() - 3)
     }
 
-    /// Rotation of a scale; the first scale has none.
+    /// Returns the rotation unknown of a scale; the first scale has none.
     fn rotation(self, scale: usize) -> Option<usize> {
         Some(self.scale(scale)? + 2)
     }
 
-    /// First unknown of a gap's membrane.
+    /// Returns the first membrane unknown of a gap.
     fn membrane(self, gap: usize) -> usize {
         self.block() * gap + self.pair
     }
@@ -55,12 +56,14 @@ impl StripLayout {
         self.block() * (force / self.pair) + force % self.pair
     }
 
-    /// A block for each scale that is not held, with the forces of its contacts with the next one. The first has those with
-    /// the scale that is held, too. Unknowns within the gaps would make blocks too large.
+    /// Returns one block per free scale, with the contact forces towards the next scale.
+    ///
+    /// The first block also holds the contacts with the fixed scale. `None` with interior membrane
+    /// unknowns, because blocks would become too large.
     fn blocks(self) -> Option<Blocks> {
         let links: Vec<_> = (1..=self.gaps).filter_map(|scale| self.scale(scale)).collect();
         let starts = [0].into_iter().chain(links.iter().copied().skip(1)).collect();
-        // The moment acts on the last scale, and the block of load and controls has to be the root.
+        // The moment acts on the last scale, and the block with load and controls must be the root.
         (self.interior == 0).then_some(Blocks { starts, links, root: self.gaps - 1, reach: 1 })
     }
 
@@ -69,31 +72,32 @@ impl StripLayout {
     }
 }
 
-/// The part of a strip that is solved for, and the rotation to which it is bent.
+/// Solved part of a strip, and the rotation to which it is bent.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct StripExtent {
-    /// Gaps that are solved for.
+    /// Number of gaps that are solved for.
     pub(crate) gaps: usize,
-    /// Gaps `n` of the whole strip for each gap that is solved for, a whole number in a chain alone.
+    /// Gaps of the whole strip per solved gap; an integer for a chain.
     pub(crate) repeats: f64,
-    /// Rotation (radians) of the ends of what is solved for against each other at which the bending ends.
+    /// Relative rotation (radians) of the ends of the solved part at which bending ends.
     pub(crate) rotation: f64,
-    /// That rotation times this is where the path ends: 1, but for one of several unlike gaps, which may turn by more than its share.
+    /// End of the path as a multiple of that rotation: 1, except for one of several unequal gaps,
+    /// which may take more than its share.
     pub(crate) farthest: f64,
 }
 
-/// A strip of gaps in pure bending, the first scale held, a moment on the last.
+/// Gaps in pure bending: the first scale fixed, a moment on the last.
 ///
-/// One gap is the unit cell: every cut of a strip in pure bending carries the same moment and no
-/// force, so every gap deforms alike. Unknowns are in `t` and radians, the moment and the contact forces in
-/// `E_m t³` and `E_m t²`.
+/// One gap is the unit cell: in pure bending every cut carries the same moment and no force, so
+/// equal gaps deform alike. Unknowns are in `t` and radians, moment and contact forces in `E_m t³`
+/// and `E_m t²`.
 #[derive(Clone, Debug)]
 pub(crate) struct Strip {
     layout: StripLayout,
-    /// The membrane of each gap, or one for all where they are alike.
+    /// Membrane of each gap, or one for all if they are equal.
     membranes: Vec<Membrane>,
     pub(crate) contacts: Contacts,
-    /// Gaps of the whole strip for each gap that is solved for.
+    /// Gaps of the whole strip per solved gap.
     pub(super) repeats: f64,
     /// Mean pitch `p` of the scales.
     pitch: f64,
@@ -106,8 +110,9 @@ pub(crate) struct Strip {
 }
 
 impl Strip {
-    /// A strip of a membrane of this `section`, of the given extent. `membranes` are those of the gaps, all of equally many
-    /// unknowns, or one for all.
+    /// Assembles a strip; `membranes` holds one membrane per gap, or one for all.
+    ///
+    /// All membranes have the same number of unknowns.
     pub(crate) fn new(
         row: Arrangement,
         membranes: Vec<Membrane>,
@@ -119,8 +124,8 @@ impl Strip {
             StripLayout { gaps, interior: membranes[0].interior(), pair: pair_constraints(&law) };
         let scales = (0..=gaps).map(|scale| layout.scale(scale)).collect();
         let forces = (0..layout.pair * gaps).map(|force| layout.force(force)).collect();
-        // The equations of a fine mesh round off in proportion to the stiffness of its elements,
-        // which is their unit.
+        // The round-off of the equations of a fine mesh is proportional to the stiffness of its
+        // elements, so use that as their unit.
         let mut units = vec![1.0; layout.size()];
         for gap in 0..gaps {
             let of_gap = membranes[gap.min(membranes.len() - 1)].units();
@@ -128,7 +133,8 @@ impl Strip {
         }
         let last = layout.moment() - 3;
         let control = |k: usize, scale| Control { index: last + k, scale };
-        // The last scale is placed in the frame of the one before: their pitch is the measure.
+        // The last scale is placed in the frame of its neighbour, so their pitch is the length
+        // unit.
         let pitch = row.pitch(gaps - 1);
         Self {
             layout,
@@ -138,34 +144,35 @@ impl Strip {
             bending_stiffness: section.bending_stiffness(),
             contacts: Contacts::new(row, law, scales, forces, true),
             blocks: layout.blocks(),
-            // The rotation comes first, because it is what the bending has to reach.
+            // The rotation comes first, because it is the control parameter that bending must
+            // reach.
             controls: [control(2, rotation), control(0, pitch), control(1, pitch)],
             farthest,
             units,
         }
     }
 
-    /// Number of gaps.
+    /// Returns the number of solved gaps.
     pub(crate) fn gaps(&self) -> usize {
         self.layout.gaps
     }
 
-    /// Rotation of the last scale against the first, radians.
+    /// Returns the rotation of the last scale relative to the first, radians.
     pub(crate) fn rotation(&self, z: &[f64]) -> f64 {
         z[self.controls[0].index]
     }
 
-    /// The moment `M`, over `E_m t³`.
+    /// Returns the moment `M`, over `E_m t³`.
     pub(crate) fn moment(&self, z: &[f64]) -> f64 {
         z[self.layout.moment()]
     }
 
-    /// Gaps of the whole strip, rounded.
+    /// Returns the number of gaps of the whole strip, rounded.
     pub(crate) fn whole_gaps(&self) -> usize {
         (self.repeats * self.layout.gaps as f64).round() as usize
     }
 
-    /// `κ*`, from the rotation and the length of the gaps that are solved for.
+    /// Returns `κ*`, from rotation and length of the solved gaps.
     pub(crate) fn curvature(&self, z: &[f64]) -> f64 {
         self.rotation(z) / (self.layout.gaps as f64 * self.pitch)
     }
@@ -175,18 +182,20 @@ impl Strip {
         self.moment(z) / self.bending_stiffness
     }
 
-    /// `dM*/dκ*` from `dM/dΦ` of the gaps that are solved for: `M* = M/(E_m I_m)` and `κ* = Φ/(n p)`, in units of `t`.
+    /// Converts `dM/dΦ` of the solved gaps to `dM*/dκ*`.
+    ///
+    /// `M* = M/(E_m I_m)` and `κ* = Φ/(n p)`, in units of `t`.
     pub(crate) fn normalised_stiffness(&self, stiffness: f64) -> f64 {
         stiffness * self.layout.gaps as f64 * self.pitch / self.bending_stiffness
     }
 
-    /// Displacement and rotation of the right scale of each gap, seen from the left one.
+    /// Returns the pose of the right scale of each gap relative to the left one.
     pub(crate) fn steps(&self, z: &[f64]) -> Vec<Step> {
         let poses = (1..=self.layout.gaps).map(|scale| self.contacts.pose(z, scale));
         poses.map(|pose| [pose.displacement.x, pose.displacement.y, pose.rotation]).collect()
     }
 
-    /// Energy of the membrane of the gaps that are solved for.
+    /// Computes the membrane energy of the solved gaps.
     pub(crate) fn membrane_energy(&self, state: &SkinState) -> GapEnergies {
         let mut energy = GapEnergies { axial: 0.0, bending: 0.0 };
         for gap in 0..self.layout.gaps {
@@ -197,26 +206,28 @@ impl Strip {
         energy
     }
 
-    /// Part of the axial energy in the elastic energy.
+    /// Computes the axial fraction of the elastic energy.
     pub(crate) fn axial_energy_share(&self, state: &SkinState) -> f64 {
         let GapEnergies { axial, bending } = self.membrane_energy(state);
         axial / (bending + axial + self.contacts.energy(state))
     }
 
-    /// The largest strain at the surface of the membrane of any gap.
+    /// Computes the largest strain at the surface of the membrane of any gap.
     pub(crate) fn largest_strain(&self, state: &SkinState) -> f64 {
         let strain = |gap: usize| self.membrane(gap).largest_strain(&self.acting(state, gap));
         (0..self.layout.gaps).map(strain).fold(0.0, f64::max)
     }
 
-    /// The deformed axis of the membrane in a gap, in intervals of its elements, from the node of the
-    /// left scale and seen from it.
+    /// Samples the deformed membrane axis in a gap, in the frame of the left scale.
+    ///
+    /// Each element is divided into `intervals`; points are relative to the node of the left scale.
     pub(crate) fn axis(&self, state: &SkinState, gap: usize, intervals: usize) -> Vec<Vec2> {
         self.membrane(gap).axis(&self.acting(state, gap), intervals)
     }
 
-    /// Returns a state of this strip as a state of `finer`, the same strip with more unknowns in each gap. `None` if their
-    /// membranes are elements, which have no other resolution.
+    /// Transfers a state to `finer`, the same strip with more unknowns per gap.
+    ///
+    /// `None` for beam elements, which have no other resolution.
     pub(crate) fn transferred(&self, state: &SkinState, finer: &Self) -> Option<SkinState> {
         let mut z = Vec::with_capacity(finer.layout.size());
         for gap in 0..self.layout.gaps {
@@ -226,21 +237,21 @@ impl Strip {
             z.extend(self.membrane(gap).transferred(membrane, finer.membrane(gap))?);
         }
         z.push(state.z[self.layout.moment()]);
-        // Constraints are those of the contacts, whatever the resolution.
+        // Constraints belong to contacts and do not depend on the resolution.
         Some(SkinState { z, active: state.active.clone(), mode: state.mode.clone() })
     }
 
-    /// The condition that the ends have turned against each other as they have in `state`.
+    /// Returns the condition that the ends keep the relative rotation of `state`.
     pub(crate) fn same_rotation(&self, state: &SkinState) -> Condition {
         Condition::through(vec![(self.controls[0].index, 1.0)], &state.z)
     }
 
-    /// The condition that a moment of this size acts, which turns the ends in the direction of bending.
+    /// Returns the condition that a moment of this magnitude acts in the direction of bending.
     pub(crate) fn under_moment(&self, size: f64) -> Condition {
         Condition::new(vec![(self.layout.moment(), self.direction())], size)
     }
 
-    /// 1, or −1 where the strip bends to the outside.
+    /// Returns 1, or −1 for bending to the outside.
     pub(crate) fn direction(&self) -> f64 {
         self.controls[0].scale.signum()
     }
@@ -252,15 +263,18 @@ impl Strip {
         }
     }
 
-    /// Number of leading unknowns of a gap's membrane that vanish. Where no contact force acts in a gap no force goes
-    /// through its membrane, for none goes through any cut of a strip in pure bending, and it bends to an arc.
+    /// Counts the leading membrane unknowns of a gap that vanish.
+    ///
+    /// In pure bending no cut of the strip carries a force. Without contact force the membrane of a
+    /// gap is therefore force-free and bends to an arc.
     fn straight(&self, active: &[bool], gap: usize) -> usize {
         let forces = &active[self.layout.pair * gap..][..self.layout.pair];
-        // A flag for each constraint of the gap: one contact force is enough to load the membrane.
+        // One flag per constraint of the gap: one contact force is enough to load the membrane.
         if forces.contains(&true) { 0 } else { self.membrane(gap).vanishing() }
     }
 
-    /// The state of a gap's membrane, seen from its left scale, without the unknowns that vanish.
+    /// Returns the membrane state of a gap in the frame of its left scale, without vanishing
+    /// unknowns.
     fn acting(&self, state: &SkinState, gap: usize) -> Vec<f64> {
         let start = self.layout.membrane(gap);
         let end = start + self.layout.interior + 3;
@@ -272,7 +286,7 @@ impl Strip {
         seen
     }
 
-    /// Adds the equations of a gap's membrane, and their derivatives.
+    /// Adds the membrane equations of a gap, and their derivatives.
     fn add_membrane(
         &self,
         state: &SkinState,
@@ -284,7 +298,7 @@ impl Strip {
         let Derivatives { gradient, hessian } = self.membrane(gap).derivatives(&acting);
         let last = acting.len() - 1;
         let first = self.layout.membrane(gap) + self.layout.interior + 2 - last;
-        // The rotation that acts is that of the right scale less that of the left one, the frame.
+        // The membrane sees the rotation of the right scale minus the rotation of the left one.
         let frame = self.layout.rotation(gap).map(|frame| (frame, last, -1.0));
         let own = (0..=last).map(|k| (first + k, k, 1.0));
         for (unknown, row, sign) in own.chain(frame) {
@@ -306,7 +320,7 @@ impl System for Strip {
     }
 
     fn half_bandwidth(&self) -> usize {
-        // From φ of a scale to φ of the next.
+        // Distance from φ of a scale to φ of the next.
         self.layout.block()
     }
 
@@ -362,7 +376,7 @@ impl System for Strip {
         for gap in 0..self.layout.gaps {
             self.add_membrane(state, gap, residual, matrix);
         }
-        // The moment works on the last rotation alone: `M` stands against the gradient of (F1).
+        // The moment works on the last rotation only: `M` balances the gradient of (F1).
         let (moment, turned) = (self.layout.moment(), self.controls[0].index);
         residual.add(turned, -state.z[moment]);
         matrix.add(turned, moment, -1.0);

@@ -1,4 +1,4 @@
-//! Tests of the assembled system: the balance of energy along a path.
+//! Tests of the assembled system: energy balance along a path.
 
 mod gap_by_gap;
 
@@ -11,7 +11,7 @@ use super::{FlexureParameters, Method};
 use crate::contacts::{SkinPoint, SkinState};
 use crate::{Base, Common, Design};
 
-/// `∫ M dΦ` between two points: the rule of Boole on five equilibria, evenly apart in `Φ`.
+/// Integrates `M dΦ` between two points by Boole's rule on five equilibria, equidistant in `Φ`.
 fn work(path: &mut Path<Strip>, from: &SkinPoint, to: &SkinPoint) -> f64 {
     let inner = [0.25, 0.5, 0.75].map(|x| path.between(from, to, x).unwrap().state);
     let states = [&from.state, &inner[0], &inner[1], &inner[2], &to.state];
@@ -21,8 +21,10 @@ fn work(path: &mut Path<Strip>, from: &SkinPoint, to: &SkinPoint) -> f64 {
     mean * (strip.rotation(&to.state.z) - strip.rotation(&from.state.z))
 }
 
-/// The largest difference between work and energy along a path, relative to the largest energy, and the parts of
-/// the membrane's stretching and of the contacts in the energy at its end.
+/// Computes the largest difference between work and energy along a path, relative to the final
+/// energy.
+///
+/// Also returns the axial and the contact fraction of the energy at the end.
 fn balance(design: &Design, common: &Common, parameters: &FlexureParameters) -> [f64; 3] {
     let problem = FlexureProblem::even(design, common, parameters).unwrap();
     let strip = problem.resolved(&[], &[]).unwrap().0.path.system().clone();
@@ -51,7 +53,7 @@ fn the_work_of_the_moment_is_stored() {
     for (gap, length, slant_deg) in
         [(0.1, 1.0, 75.0), (0.1, 0.1, 45.0), (0.3, 0.5, 60.0), (1.0, 0.2, 75.0), (0.5, 1.0, 0.0)]
     {
-        // The last contacts are so soft that they take a part of the energy.
+        // The last contacts are so soft that they store a significant part of the energy.
         for (law, modulus) in
             [(Law::PRINTED, 667.0), (Law::EXCHANGED, 667.0), (Law::EXCHANGED, 1.0)]
         {
