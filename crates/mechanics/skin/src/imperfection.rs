@@ -1,4 +1,4 @@
-//! Rows that are not perfect: random gaps and slants.
+//! Imperfect rows: random gaps and slants.
 
 use geometry::{OutOfRange, Parallelogram, UnevenRow, clearance};
 use rand_chacha::ChaCha8Rng;
@@ -8,13 +8,13 @@ use sha2::{Digest as _, Sha256};
 
 use crate::{Base, Design};
 
-/// Slants of single scales stay below this, to either side, degrees.
+/// Limit of the slant of single scales to either side, degrees.
 const STEEPEST_DEG: f64 = 89.0;
 
-/// Draws after which a scale that would stand clear of its neighbour is no longer looked for.
+/// Maximum number of draws for a scale that does not overlap its neighbour.
 const DRAWS: usize = 100_000;
 
-/// Scatter of the gaps and slants of a row.
+/// Random scatter of the gaps and slants of a row.
 ///
 /// With independent standard normal numbers `z`, a gap and a slant are
 ///
@@ -23,16 +23,17 @@ const DRAWS: usize = 100_000;
 /// α_i = α + sd z'                                                                  (I2)
 /// ```
 ///
-/// A gap is log-normal: positive, with the mean `d` and the coefficient of variation `cv`. Scales do
-/// not overlap at rest: gap and slant of a scale are drawn again, together, until
+/// A gap is log-normal: positive, with mean `d` and coefficient of variation `cv`. Scales must not
+/// overlap at rest, so gap and slant of a scale are redrawn together until
 ///
 /// ```text
 /// d_i + t (tan α_right − tan α_left) > 0,   |α_i| < 89°                            (I3)
 /// ```
 ///
-/// from the middle of a row outwards, so of the rows that (I1) and (I2) would give only some remain that
-/// can be made. Where the slants scatter by more than the gap is wide (`d < sd/cos² α`) these lean
-/// more to the right of the middle than to its left, and where they scatter by much more, none is found.
+/// Scales are drawn from the middle of the row outwards, so rows are conditioned on being feasible.
+/// If the slants scatter by more than the gap allows (`d < sd/cos² α`), scales lean more to the
+/// right on the right of the middle than on its left, and with much larger scatter no feasible row
+/// is found.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Imperfection {
     /// Coefficient of variation `cv` of the gaps.
@@ -42,16 +43,16 @@ pub struct Imperfection {
 }
 
 impl Imperfection {
-    /// Whether nothing scatters.
+    /// Returns true if nothing scatters.
     pub fn is_none(&self) -> bool {
         self.gap_cv == 0.0 && self.slant_sd_deg == 0.0
     }
 
-    /// Sample `number` of the rows of `design`.
+    /// Returns sample `number` of the rows of `design`.
     ///
-    /// A sample depends on the seed, the number and the geometry of the design alone, not on where
-    /// or in which order samples are drawn. The normal numbers do not depend on how far the row
-    /// scatters: they are the same for another `cv` or `sd`, but where (I3) refuses them.
+    /// A sample depends only on the seed, the number and the geometry of the design, not on the
+    /// place or order of drawing. The normal deviates do not depend on the amount of scatter:
+    /// another `cv` or `sd` scales the same deviates, except where (I3) rejects them.
     ///
     /// # Errors
     /// If a number is negative or not finite, or the design has no geometrical meaning.
@@ -59,8 +60,9 @@ impl Imperfection {
         self.drawn(design, key(Some(design), seed, number))
     }
 
-    /// As [`Self::sample`], with normal numbers that do not depend on the design either: what differs between the samples of
-    /// that number of two designs is what the designs make of it.
+    /// Returns a sample with normal deviates that do not depend on the design either.
+    ///
+    /// Samples of the same number then differ between designs only through the designs themselves.
     ///
     /// # Errors
     /// As [`Self::sample`].
@@ -82,32 +84,33 @@ impl Imperfection {
             let is_legal = value >= 0.0 && value.is_finite();
             OutOfRange::unless(is_legal, quantity, value, "a number of at least 0")?;
         }
-        // Only the check.
+        // Validate only.
         design.row()?;
         Ok(Sample { imperfection: *self, design: *design, key })
     }
 }
 
-/// The key of the random numbers of a sample, of one design or of all.
+/// Derives the random key of a sample, for one design or for all.
 fn key(design: Option<&Design>, seed: u64, number: u64) -> [u8; 32] {
-    // `L` and `2L` are different designs, with samples of their own.
+    // `L` and `2L` are different designs with separate samples.
     let base = |design: &Design| match design.base {
         Base::L => 1.0,
         Base::TwoL => 2.0,
     };
     let numbers =
         |design: &Design| [design.gap, design.length, design.slant_deg, base(design), design.width];
-    // A zero is added to each below: of −0 the bits differ, and the same design would have other samples.
+    // Adding zero below turns −0 into +0, which has other bits; the same design would get other
+    // samples.
     let numbers = design.into_iter().flat_map(numbers);
     let mut digest = Sha256::new();
     for word in [seed, number].into_iter().chain(numbers.map(|x| (x + 0.0).to_bits())) {
-        // The byte order is fixed, so that a sample is the same on every machine.
+        // Fix the byte order, so that a sample is the same on every machine.
         digest.update(word.to_le_bytes());
     }
     digest.finalize().into()
 }
 
-/// One imperfect row, as long as one wants it.
+/// One imperfect row of any length.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sample {
     imperfection: Imperfection,
@@ -115,7 +118,7 @@ pub struct Sample {
     key: [u8; 32],
 }
 
-/// Which of the random numbers of a sample.
+/// Random stream of a part of a row.
 #[derive(Clone, Copy)]
 enum Stream {
     Centre,
@@ -124,16 +127,17 @@ enum Stream {
 }
 
 impl Sample {
-    /// A scale with `left` scales to its left and `right` to its right. A longer row has the same scales
-    /// in its middle.
+    /// Builds the row with `left` scales on the left and `right` on the right of the centre.
+    ///
+    /// A longer row has the same scales in its middle.
     ///
     /// # Errors
-    /// If no scale is found that stands clear of its neighbour.
+    /// If no scale is found that does not overlap its neighbour.
     pub fn row(&self, left: usize, right: usize) -> Result<UnevenRow, OutOfRange> {
         let centre = self.centre()?;
         let to_right = self.side(Stream::Right, centre, right)?;
         let mut to_left = self.side(Stream::Left, centre, left)?;
-        // Scales were drawn from the centre outwards, and a row is listed from the left.
+        // Scales were drawn from the centre outwards, but a row is listed from the left.
         to_left.reverse();
         let scales = to_left.iter().map(|(scale, _)| *scale).chain([centre]);
         let scales = scales.chain(to_right.iter().map(|(scale, _)| *scale)).collect();
@@ -148,7 +152,7 @@ impl Sample {
         drawn.ok_or_else(|| self.crowded())
     }
 
-    /// The next scales on one side of the centre, from it outwards, each with the gap before it.
+    /// Draws the scales on one side, from the centre outwards, each with its inner gap.
     fn side(
         &self,
         stream: Stream,
@@ -167,14 +171,15 @@ impl Sample {
         Ok(side)
     }
 
-    /// A scale beside `last` and the gap between them; `None` if they would overlap (I3).
+    /// Draws a scale beside `last` and the gap between them; `None` if they overlap (I3).
     fn next(
         &self,
         random: &mut ChaCha8Rng,
         stream: Stream,
         last: &Parallelogram,
     ) -> Option<(Parallelogram, f64)> {
-        // Both before either is judged: a draw that is refused takes as many numbers as one that stands.
+        // Draw both numbers before checking: a rejected draw must consume as many numbers as an
+        // accepted one.
         let (for_gap, for_slant) = (normal(random), normal(random));
         let gap = self.gap(for_gap);
         let scale = self.slanted(for_slant)?;
@@ -185,17 +190,17 @@ impl Sample {
         (between > 0.0).then_some((scale, gap))
     }
 
-    /// (I1).
+    /// Computes a gap by (I1).
     fn gap(&self, z: f64) -> f64 {
-        // Lognormal: no gap is drawn below zero, and their mean is that of the design.
+        // Log-normal: no gap is negative, and the mean is the gap of the design.
         let variance = self.imperfection.gap_cv.powi(2).ln_1p();
         self.design.gap * (variance.sqrt() * z - 0.5 * variance).exp()
     }
 
-    /// (I2); `None` if it leans too far.
+    /// Computes a slant by (I2); `None` if the scale leans too far.
     fn slanted(&self, z: f64) -> Option<Parallelogram> {
         let slant = self.design.slant_deg + self.imperfection.slant_sd_deg * z;
-        // A design may itself be steeper than that: without scatter its slant stays.
+        // A design may itself be steeper than the limit: without scatter its slant is kept.
         let leans_too_far = slant.abs() >= STEEPEST_DEG && self.imperfection.slant_sd_deg > 0.0;
         let scale = Parallelogram::leaning(self.design.half_base(), slant).ok();
         scale.filter(|_| !leans_too_far)
@@ -203,7 +208,8 @@ impl Sample {
 
     fn random(&self, stream: Stream) -> ChaCha8Rng {
         let mut random = ChaCha8Rng::from_seed(self.key);
-        // A stream for each side, so that a row that grows to one side keeps what was drawn for the other.
+        // Separate streams per side, so that a row growing on one side keeps the scales of the
+        // other.
         random.set_stream(stream as u64);
         random
     }

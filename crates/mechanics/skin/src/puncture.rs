@@ -52,27 +52,29 @@ pub use stability::Instability;
 pub use surface_fold::{Fold, GapStretch};
 pub use tilts::TiltMeasures;
 
-/// Tilt below which a scale under a guided needle is pushed straight down, degrees: round-off of a symmetric row.
+/// Tilt below which a scale under a guided needle counts as not tilted, degrees: round-off of a
+/// symmetric row.
 const STRAIGHT_DEG: f64 = 1e-6;
 
-/// Longest row that [`RowLength::Auto`] takes.
+/// Longest row of [`RowLength::Auto`].
 pub const LONGEST_ROW: usize = 4001;
 
-/// How many pitches apart scales may be that meet. None were seen beyond 3, and each pitch takes another six unknowns of every scale.
+/// Largest distance in pitches of touching scales. None beyond 3 were observed, and each pitch adds
+/// six unknowns per scale.
 const FARTHEST_CONTACT: usize = 8;
 
 /// Number of scales in the row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RowLength {
-    /// A row without ends: as many scales are solved for as contact reaches, more as it spreads along the path, and those beyond
-    /// move as a linear chain does, in closed form. Where nothing is known of those beyond, the row grows until its ends move by
-    /// no more than `1e-6`.
+    /// A row without ends. The scales within reach of contact are unknowns, more as contact spreads
+    /// along the path; the scales beyond follow in closed form as a linear chain. Without such a
+    /// closed form the row grows until its ends move by at most `1e-6`.
     Auto,
-    /// This many, the middle one (of an even number the left of the two) punctured.
+    /// This many, with the middle one (the left of two) punctured.
     Scales(usize),
 }
 
-/// Parameters of a puncture besides the design and its substrate.
+/// Parameters of a puncture other than design and substrate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PunctureParameters {
     /// Poisson's ratio `ν` of the substrate.
@@ -81,24 +83,26 @@ pub struct PunctureParameters {
     pub contact_modulus_over_substrate: f64,
     /// Row length.
     pub scales: RowLength,
-    /// Place of the load on the top of the punctured scale: 0 its left, 1 its right corner. A round tip may stand beyond, between two scales.
+    /// Load position on the top of the punctured scale: 0 the left, 1 the right corner. A round tip
+    /// may be beyond, between two scales.
     pub load_position: f64,
-    /// Tilt `φ_c` of the punctured scale at which the puncture ends, degrees.
+    /// Critical tilt `φ_c` of the punctured scale at which the puncture ends, degrees.
     pub critical_tilt_deg: f64,
-    /// How the substrate answers where the surface between two bases is stretched.
+    /// Constitutive law of the substrate surface between two bases.
     pub substrate_law: SubstrateLaw,
-    /// Tilts on the way to the critical one, degrees, at which measures are taken, as at that one; `None`: measures at no tilt are asked for.
+    /// Intermediate tilts at which measures are taken, degrees, in addition to the critical one;
+    /// `None`: no measures at tilts.
     pub tilts_before_deg: Option<NumberList>,
-    /// How the needle is held.
+    /// Constraint on the needle.
     pub needle: Needle,
-    /// Radius of the tip of a guided needle, over `t`; `None` of a sharp one.
+    /// Tip radius of a guided needle, over `t`; `None` for a sharp one.
     pub needle_radius: Option<f64>,
-    /// Depth `u*` at which the force is measured besides.
+    /// Depth `u*` at which to report the force as well.
     pub depth: Option<f64>,
-    /// Whether the load is taken away again at the end.
+    /// Whether to remove the load again at the end.
     pub unload: bool,
-    /// Places of the load that are tried besides, from the left corner of the top to the right one, or over a pitch with a round tip: at
-    /// least two.
+    /// Number of load positions to compare, at least two: from the left corner of the top to the
+    /// right one, or over one pitch for a round tip.
     pub places: Option<usize>,
 }
 
@@ -122,46 +126,49 @@ impl Default for PunctureParameters {
     }
 }
 
-/// A solved puncture.
+/// Result of a puncture.
 #[derive(Clone, Debug)]
 pub struct Puncture {
-    /// How the path ended, and whether its end can be trusted.
+    /// How the path ended, and whether its end is valid.
     pub status: Status,
     /// The measures of the puncture.
     pub measures: PunctureMeasures,
-    /// The measures at each of [`PunctureParameters::tilts_deg()`]; `None` where the path did not get there.
+    /// Measures at each of [`PunctureParameters::tilts_deg()`]; `None` if the path did not reach
+    /// the tilt.
     pub at_tilts: Vec<Option<TiltMeasures>>,
     /// Every equilibrium of the path, from rest.
     pub path: Vec<PuncturePoint>,
-    /// The instability of every equilibrium of the path, with the contacts with which the path leaves it.
+    /// Instability at every point of the path, evaluated with the contacts of the outgoing branch.
     pub instability: Vec<Instability>,
-    /// The forces of a round tip at every equilibrium of the path; nothing of another needle.
+    /// Forces of a round tip at every point of the path; empty for other needles.
     pub tip_forces: Vec<TipForces>,
     /// Every contact event, in order.
     pub events: Vec<ContactEvent<PuncturePoint>>,
-    /// Every snap of a row under a needle that only goes deeper, in order.
+    /// Every snap of a row under a monotonically descending needle, in order.
     pub snaps: Vec<Snap>,
-    /// Every gap in which the surface folds over or unfolds, in order.
+    /// Every folding or unfolding of the surface in a gap, in order.
     pub folds: Vec<Fold>,
     /// Every scale at the end of the path.
     pub scales: Vec<ScaleState>,
     /// Every Newton iteration.
     pub history: Vec<Iteration>,
-    /// The way back, where it is asked for and the path came to its end.
+    /// The unloading path, if requested and if the loading path was completed.
     pub unloading: Option<Unloading<PuncturePoint>>,
-    /// The puncture at each of so many places of the load as [`PunctureParameters::places`] says.
+    /// The puncture at each of the [`PunctureParameters::places`] load positions.
     pub places: Vec<LoadPosition>,
 }
 
 impl Puncture {
-    /// Whether scales rub on each other.
+    /// Returns true if friction acts between the scales.
     pub fn has_friction(&self) -> bool {
         self.path.iter().any(|point| point.friction_work.is_some())
     }
 }
 
-/// Follows the puncture of the middle scale of a row of `design` from rest to the critical tilt, on a
-/// `substrate` that is given by its [`Springs`](substrate::Springs) or by the stiffness of the whole row.
+/// Solves the puncture of the middle scale of a row, from rest to the critical tilt.
+///
+/// The `substrate` is given by its [`Springs`](substrate::Springs) or by the stiffness of a whole
+/// row.
 ///
 /// # Errors
 /// If a length, a modulus or a constant of the contact law is not positive, or another parameter
@@ -175,11 +182,12 @@ pub fn solve(
     Problem::new(Rows::Even(design.row()?), design, substrate.into(), common, parameters)?.solve()
 }
 
-/// Follows the puncture of an imperfect row as [`solve`] does: gaps and slants are those of `sample`, the substrate stays
-/// that of the design.
+/// Solves the puncture of an imperfect row with the gaps and slants of `sample`.
+///
+/// The substrate is the one of the design.
 ///
 /// # Errors
-/// As [`solve`], or if the scales cannot be made to stand clear of each other.
+/// As [`solve`], or if no sample without overlapping scales is found.
 pub fn solve_sample(
     design: &Design,
     substrate: impl Into<RowStiffness>,
@@ -209,7 +217,7 @@ impl Rows<'_> {
 }
 
 impl PunctureParameters {
-    /// The tilts at which measures are taken, degrees, the critical one last.
+    /// Iterates over the tilts at which measures are taken, degrees, with the critical one last.
     pub fn tilts_deg(&self) -> impl Iterator<Item = f64> {
         let before = self.tilts_before_deg.iter().flat_map(NumberList::as_slice).copied();
         before.chain(self.tilts_before_deg.map(|_| self.critical_tilt_deg))
@@ -225,7 +233,7 @@ impl PunctureParameters {
         let depth = self.depth.unwrap_or(1.0);
         let radius = self.needle_radius.unwrap_or(0.0);
         let places = self.places.unwrap_or(2) as f64;
-        // Each rule says what holds, so that a value which is no number breaks it.
+        // Each rule states the valid range, so that NaN violates it.
         let rules = [
             (tilt > 0.0 && tilt < 90.0, "critical tilt", tilt, "an angle between 0° and 90°"),
             ((0.0..=0.5).contains(&ratio), "poisson's ratio", ratio, "a ratio from 0 to 0.5"),
@@ -248,7 +256,7 @@ impl PunctureParameters {
     }
 }
 
-/// A path that was followed to its end.
+/// A path followed to its end.
 struct Followed {
     watch: PathObservers,
     passage: Passage,
@@ -257,7 +265,7 @@ struct Followed {
 }
 
 impl Followed {
-    /// The result of the puncture; with `unload` the path is turned back at its end.
+    /// Builds the result of the puncture; with `unload` also follows the unloading path.
     fn puncture(self, unload: bool) -> Puncture {
         let Self { watch, passage, mut path, status } = self;
         let PathObservers { record, needle, folds, passage: at_tip, tilts, depth, .. } = watch;
@@ -265,9 +273,10 @@ impl Followed {
         let path = &mut path;
         let mut measures = PunctureMeasures::new(&record, &folds, path);
         measures.passage = passage;
-        // The outer option says whether a depth was asked for, the inner whether it was reached.
+        // The outer option tells whether a depth was requested, the inner one whether it was
+        // reached.
         let deep = depth.points.first().map(|found| found.as_ref().map(|deep| &deep.state));
-        // A skin that gives way before it is so deep bears no more than it does there.
+        // A skin that fails before this depth bears no more than its final force.
         let end = || (status == Status::Complete).then(|| &path.point().state);
         measures.force_at_depth =
             deep.and_then(|deep| Some(path.system().force(deep.or_else(end)?)));
@@ -278,13 +287,13 @@ impl Followed {
         };
         let chain = path.system();
         let scales = scales(chain, &path.point().state);
-        // The watch notes points that the path leaves: the last one it never left.
+        // Observers record points when the path leaves them, so the last point is missing.
         let mut tip_forces = at_tip.tip_forces;
         tip_forces.extend(chain.tip_forces(&path.point().state));
         let at_tilt = |point: Option<SkinPoint>| Some(TiltMeasures::new(chain, &point?.state));
         let at_tilts = tilts.points.into_iter().map(at_tilt).collect();
         let Record { path: points, events, history, work, .. } = record;
-        // The way back moves the path, so all that is told of the end has been taken before.
+        // Unload last: unloading moves the path away from the end, which has been evaluated above.
         let unloading =
             (unload && status == Status::Complete).then(|| Unloading::follow(path, work));
         if let Some(unloading) = &unloading {
@@ -312,7 +321,8 @@ struct Problem<'a> {
     rows: Rows<'a>,
     design: &'a Design,
     stiffness: RowStiffness,
-    /// Beyond the ends of a part of an endless row, lengths over `t`; `None` for a row that ends.
+    /// Far field beyond the solved part of an endless row, lengths over `t`; `None` for a finite
+    /// row.
     endless: Option<FarField>,
     law: ContactLaw,
     settings: Settings,
@@ -332,7 +342,7 @@ impl<'a> Problem<'a> {
         Self::unchecked(rows, design, stiffness, common, parameters)
     }
 
-    /// The problem with parameters that may lie a little beyond the ends of their ranges.
+    /// Sets up the problem with parameters that may slightly exceed their ranges.
     fn unchecked(
         rows: Rows<'a>,
         design: &'a Design,
@@ -340,7 +350,7 @@ impl<'a> Problem<'a> {
         common: &Common,
         parameters: &'a PunctureParameters,
     ) -> Result<Self, OutOfRange> {
-        // The ratio of moduli is over `E_s`, forces are over `E* = E_s/(1 − ν²)`.
+        // The modulus ratio refers to `E_s`, forces to `E* = E_s/(1 − ν²)`.
         let plane_modulus = 1.0 - parameters.poisson_ratio.powi(2);
         let modulus = parameters.contact_modulus_over_substrate * plane_modulus;
         let law = ContactLaw::new(common.law, design.length, design.width, modulus)?
@@ -368,8 +378,9 @@ impl<'a> Problem<'a> {
         Ok(puncture.with_places(self.load_positions()?))
     }
 
-    /// The system with which the path begins, in which a scale may meet as many on its right as `contact_reach` says, and the longest
-    /// row that it may grow to.
+    /// Builds the initial system and returns it with the longest row that it may grow to.
+    ///
+    /// A scale may touch up to `contact_reach` scales on its right.
     fn start(&self, contact_reach: usize) -> Result<(Chain, usize), OutOfRange> {
         let contacts = contact_reach * pair_constraints(&self.law);
         let law = self.parameters.substrate_law;
@@ -382,13 +393,14 @@ impl<'a> Problem<'a> {
             let first = self.endless.as_ref().map(first);
             return Ok((self.part(first.unwrap_or_default())?, LONGEST_ROW));
         };
-        // Bars are as good as springs to a part of the displacements only, and far couplings have no closed form before an end.
+        // The far field of bars matches that of springs only approximately, and far couplings have
+        // no closed form in front of an end.
         let far = self.far_field(Some(1)).filter(|_| law == SubstrateLaw::Linear);
         let layout = far.map_or(whole, |far| first(&far).within(whole));
         Ok((self.part(RowLayout { contacts, ..layout })?, whole.scales()))
     }
 
-    /// Unknowns of the needle behind the load.
+    /// Counts the unknowns of the needle behind the load.
     fn needle_unknowns(&self) -> usize {
         match self.reach() {
             Some(reach) => needle::unknowns(reach, self.parameters.needle.has_friction()),
@@ -397,17 +409,18 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Scales on each side of the punctured one that a round tip may come to; `None` of another needle.
+    /// Returns the number of scales on each side that a round tip may reach; `None` for other
+    /// needles.
     fn reach(&self) -> Option<usize> {
         let pitch = 2.0 * self.design.half_base() + self.design.gap;
         self.parameters.needle_radius.and_then(|radius| needle::reach(radius, pitch))
     }
 
-    /// All of a row that ends.
+    /// Returns the layout of a whole finite row.
     fn whole(&self) -> Option<RowLayout> {
         match self.parameters.scales {
             RowLength::Scales(scales) => {
-                // Of an even number one more stands on the right.
+                // With an even number one more scale is on the right.
                 let left = (scales - 1) / 2;
                 let (needle, contacts) = (self.needle_unknowns(), 0);
                 Some(RowLayout { left, right: scales - 1 - left, needle, contacts })
@@ -416,10 +429,12 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Follows the path until it ends, and notes where it comes to `places`.
+    /// Follows the path until it ends, and locates the points requested in `places`.
     ///
-    /// Each scale may meet its neighbours. Where another one is found to have come into it, which a row does once in a hundred at most, the
-    /// path is followed again with contacts as far as that: with them from the start each path would take several times as long.
+    /// Initially each scale may touch its direct neighbours. If the audit finds overlap with a more
+    /// distant scale, which happens in at most one row in a hundred, the path is followed again
+    /// with a larger contact reach. Using the larger reach from the start would multiply the run
+    /// time of every path.
     fn follow(
         &self,
         functions: &[PathFunction<Chain>],
@@ -433,14 +448,14 @@ impl<'a> Problem<'a> {
             let beyond = || path.system().contacts.meeting_beyond(&path.point().state);
             let beyond = (followed.status == Status::Interpenetration).then(beyond).flatten();
             match beyond.filter(|&pitches| pitches <= FARTHEST_CONTACT) {
-                // What was found lies beyond the reach, so the reach grows with every turn.
+                // Overlaps found lie beyond the reach, so it grows in every iteration.
                 Some(pitches) => contact_reach = pitches,
                 None => return Ok(followed),
             }
         }
     }
 
-    /// Follows the path of a row until it ends. A part of a longer row may grow up to the `longest`.
+    /// Follows the path of a row until it ends; the solved part may grow up to `longest`.
     fn follow_row(
         &self,
         chain: Chain,
@@ -453,17 +468,18 @@ impl<'a> Problem<'a> {
         while let Some(segment) = growing.next()? {
             watch.follow(&mut growing.path, &segment);
         }
-        // What was kept of shorter rows is looked at, from here on, on the row as it is in the end.
+        // Extend the points recorded on shorter rows, because they are evaluated on the final row
+        // from here on.
         watch.lengthen(&growing);
         let path = growing.path;
         let mut passage = watch.passage.finish(path.system(), &path.point().state);
         let is_untilted = self.parameters.needle.is_guided() && passage.critical_event.is_none();
-        // A scale that is pushed in its middle may go either way from some load on: there its path branches.
+        // At some load the path of a scale pushed in its middle bifurcates.
         let is_straight = || watch.record.path.iter().all(|at| at.tilt_deg.abs() < STRAIGHT_DEG);
         let status = match Status::of(&path, path.stop().unwrap_or(Stop::Reached)) {
-            // A row that should have grown further ends where mechanics says nothing.
+            // A row that should have grown further has no valid end.
             _ if !growing.has_room => Status::RowLimit,
-            // Not even the first step tilts a scale that is upright and loaded in its middle.
+            // An upright scale loaded in its middle does not tilt even in the first step.
             Status::Stopped(Stop::Singular) if watch.record.path.len() == 1 => Status::Untilted,
             Status::Complete if is_untilted => Status::Untilted,
             Status::Stopped(Stop::NoConvergence | Stop::Jumps) if is_untilted && is_straight() => {
@@ -471,12 +487,12 @@ impl<'a> Problem<'a> {
             }
             status => ending::classify(status, &watch.record.path),
         };
-        // A load that comes back to zero at the foot of a face ends the path before the needle is through.
+        // A load that vanishes at the foot of a face ends the path before the needle is through.
         passage.critical_event = passage.critical_event.filter(|_| status == Status::Complete);
         Ok(Followed { watch, passage, path, status })
     }
 
-    /// The system of a part of the row.
+    /// Builds the system of a part of the row.
     fn part(&self, layout: RowLayout) -> Result<Chain, OutOfRange> {
         let whole = self.whole();
         let scales = |side: fn(RowLayout) -> usize| whole.map(|whole| side(whole) - side(layout));
@@ -495,17 +511,17 @@ impl<'a> Problem<'a> {
         Ok(chain)
     }
 
-    /// The effect of so many scales beyond an end, or of a row without end.
+    /// Computes the far field of `scales` scales beyond an end, or of an infinite row.
     fn far_field(&self, scales: Option<usize>) -> Option<FarField> {
         match scales {
-            // It does not depend on the part that is solved for, so it is made once.
+            // The infinite far field does not depend on the solved part, so it is computed once.
             None => self.endless.clone(),
             _ => far_field(self.design, &self.stiffness, scales),
         }
     }
 }
 
-/// The far field of a row of so many scales, or of one without end, with lengths over `t`.
+/// Computes the far field with lengths over `t`, of a finite or infinite row.
 fn far_field(design: &Design, stiffness: &RowStiffness, scales: Option<usize>) -> Option<FarField> {
     stiffness.with_lengths_over(design.half_base()).far_field(scales)
 }

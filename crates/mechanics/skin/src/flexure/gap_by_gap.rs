@@ -1,4 +1,4 @@
-//! A strip whose gaps differ, bent gap by gap.
+//! Bending of a strip with unequal gaps, gap by gap.
 
 use geometry::OutOfRange;
 use membrane::GapEnergies;
@@ -13,41 +13,42 @@ use super::{Flexure, FlexureMeasures};
 use crate::Status;
 use crate::contacts::Contacts;
 
-/// The moment is known where a correction of its rotation would change it by less than this part.
+/// Tolerance of the moment: largest remaining relative correction.
 const CLOSE: f64 = 1e-12;
 
-/// A search for the largest stiffness ends where it promises to gain less than this part of it.
+/// The search for the largest stiffness stops when the predicted relative gain is below this.
 const FLAT: f64 = 1e-11;
 
-/// Part of the way to the next place at which it is looked whether the strip becomes stiffer still beside the stiffest one, and by which
-/// part of it that counts.
+/// Relative distance to the next breakpoint at which to check for a larger stiffness beside the
+/// stiffest point, and the relative gain that counts as larger.
 const BESIDE: f64 = 1e-3;
 const STIFFER: f64 = 1e-9;
 
-/// Rounds after which a search has failed. Few need a quarter of them.
+/// Maximum number of iterations of a search; most need less than a quarter of them.
 const ROUNDS: usize = 50;
 
-/// By how much the moment is raised at most before the gaps are asked again: where they close, their slopes say too much.
+/// Largest factor by which the moment is raised at once. Where gaps close, extrapolation along
+/// their slopes overshoots.
 const FARTHER: f64 = 2.0;
 
-/// Steps of gaps that rub are so many times as short.
+/// Divisor of the step size of gaps with friction.
 const RUBBING: f64 = 4.0;
 
-/// Places within a segment at which the largest stiffness is looked for, before it is solved for: golden sections.
+/// Golden-section steps within a segment before the predicted stiffest point is solved for.
 const SECTIONS: usize = 30;
 
-/// A sample of an imperfect strip that was bent.
+/// Result of bending a sample of an imperfect strip.
 #[derive(Clone, Copy, Debug)]
 pub struct BentSample {
-    /// How the path ended, and whether its end can be trusted.
+    /// How the path ended, and whether its end is valid.
     pub status: Status,
     /// The measures of the bending.
     pub measures: FlexureMeasures,
-    /// As [`Flexure::closing_range`].
+    /// See [`Flexure::closing_range`].
     pub closing_range: Option<f64>,
-    /// Equilibria of the path of the strip, or of the paths of its gaps.
+    /// Number of equilibria on the path of the strip, or on the paths of its gaps.
     pub points: usize,
-    /// Newton iterations along them.
+    /// Number of Newton iterations along them.
     pub iterations: usize,
 }
 
@@ -63,15 +64,17 @@ impl From<&Flexure> for BentSample {
     }
 }
 
-/// Bends a strip gap by gap. In pure bending every cut carries the same moment and no force, so a gap knows of the others by the moment
-/// alone, and under a moment that only grows their rotations and compliances add up:
+/// Bends a strip gap by gap.
+///
+/// In pure bending every cut carries the same moment and no force, so gaps interact through the
+/// moment alone. As long as the moment only grows, their rotations and compliances add up:
 ///
 /// ```text
 /// Φ(M) = Σ θᵢ(M),    dΦ/dM = Σ dθᵢ/dM                                                       (F7)
 /// ```
 ///
-/// `None` where a gap does not bear the moment to which the strip bends, or turns back before: then the gaps act on each other, and the
-/// chain of all has to be solved.
+/// `None` if a gap does not reach the final moment or turns back before: then gaps interact, and
+/// the assembled chain has to be solved.
 pub(super) fn solve(problem: &FlexureProblem) -> Result<Option<BentSample>, OutOfRange> {
     let mut resolution = problem.coarsest();
     loop {
@@ -82,7 +85,7 @@ pub(super) fn solve(problem: &FlexureProblem) -> Result<Option<BentSample>, OutO
     }
 }
 
-/// The gaps of a strip, and the sums over them.
+/// The curves of all gaps of a strip.
 struct UnevenStrip<'a> {
     problem: &'a FlexureProblem<'a>,
     resolution: Resolution,
@@ -93,7 +96,8 @@ impl<'a> UnevenStrip<'a> {
     fn new(problem: &'a FlexureProblem, resolution: Resolution) -> Result<Self, OutOfRange> {
         let mut settings = problem.common.solver;
         if problem.common.friction > 0.0 {
-            // The work of friction is as good as steps are short. The chain of all has a point for every event of any gap.
+            // The accuracy of the dissipation depends on the step size. The assembled chain has
+            // more points, one for every event of any gap.
             settings.max_step /= RUBBING;
         }
         let curve = |gap| Ok(GapCurve::new(problem.gap(gap, resolution)?, settings));
@@ -101,7 +105,7 @@ impl<'a> UnevenStrip<'a> {
         Ok(Self { problem, resolution, gaps })
     }
 
-    /// Bends the strip to its end. `None` where the gaps cannot be solved apart.
+    /// Bends the strip to its end; `None` if the gaps cannot be solved separately.
     fn bend(&mut self) -> Option<BentSample> {
         let end = self.end()?;
         let (measures, closing_range) = self.measures(end)?;
@@ -116,18 +120,19 @@ impl<'a> UnevenStrip<'a> {
         })
     }
 
-    /// The status of the strip under a moment at which its bending ends.
+    /// Audits all gaps under the final moment.
     fn status(&self, end: f64) -> Status {
         let audited =
             self.knots(end).map(|(gap, knot)| Status::audited(gap.strip(), &knot.point.state));
-        // As of the chain of all: that scales are within each other says more than that one is beyond an edge.
+        // Same precedence as for the chain: interpenetration is worse than a contact off its edge.
         let worst = |one, other| {
             if one == Status::Complete || other == Status::Interpenetration { other } else { one }
         };
         audited.fold(Status::Complete, worst)
     }
 
-    /// The measures of a strip that bends up to a moment, and the range of curvatures over which its gaps close.
+    /// Computes the measures of a strip bent up to a moment, and the range of curvatures over which
+    /// its gaps close.
     fn measures(&mut self, end: f64) -> Option<(FlexureMeasures, Option<f64>)> {
         let problem = self.problem;
         let closings = self.gaps.iter().filter_map(GapCurve::first_closing);
@@ -139,7 +144,8 @@ impl<'a> UnevenStrip<'a> {
             .into_iter()
             .flatten()
             .try_for_each(|moment| self.solve_at(moment))?;
-        // Before scales touch the strip bends to arcs, as stiff everywhere as at rest: there is no maximum to look for.
+        // Before contact the strip bends to arcs with constant stiffness, so there is no maximum to
+        // search.
         let stiffest = if first.is_some() { self.stiffest(end)? } else { 0.0 };
         let error = match self.resolution.finer() {
             // Arcs are exact in every resolution.
@@ -173,7 +179,7 @@ impl<'a> UnevenStrip<'a> {
         Some((measures.in_closed_form(problem.row.share_of_gaps()), closing_range))
     }
 
-    /// The moment under which the strip has turned as far as it is to be bent.
+    /// Finds the moment at which the strip reaches its final rotation.
     fn end(&mut self) -> Option<f64> {
         let whole = self.problem.end_rotation().abs();
         let mut highest = whole / self.compliance(0.0, KinkSide::Behind);
@@ -182,7 +188,7 @@ impl<'a> UnevenStrip<'a> {
             let moment = self.moment_at(whole, highest);
             let compliance = self.compliance(moment, KinkSide::Behind);
             if whole - self.rotation(moment) > CLOSE * moment * compliance {
-                // Even the highest moment does not turn it so far.
+                // Even the highest moment so far does not reach the rotation.
                 let missing = (whole - self.rotation(moment)) / compliance;
                 highest += missing.min((FARTHER - 1.0) * highest);
                 continue;
@@ -196,7 +202,7 @@ impl<'a> UnevenStrip<'a> {
         None
     }
 
-    /// The moment of a rotation, about (F8); the highest one where that does not turn the strip so far.
+    /// Inverts (F8) for the moment of a rotation; returns `highest` if that moment is too small.
     fn moment_at(&self, rotation: f64, highest: f64) -> f64 {
         let off = |moment: f64| self.rotation(moment) - rotation;
         let at_highest = off(highest);
@@ -204,7 +210,8 @@ impl<'a> UnevenStrip<'a> {
             return highest;
         }
         let mut bracket = Bracket::new((0.0, -rotation), (highest, at_highest));
-        // The false position nears from one side: it is done where it stands still, not where the bracket is narrow.
+        // Regula falsi converges from one side: stop when the iterate no longer moves, not when the
+        // bracket is narrow.
         let mut moment = highest;
         for _ in 0..ROUNDS {
             let next = bracket.secant();
@@ -218,8 +225,9 @@ impl<'a> UnevenStrip<'a> {
         moment
     }
 
-    /// The moment at which the strip is stiffest, solved for. `None` where that is no event and not the end, but a place between, which
-    /// (F8) does not find.
+    /// Finds and solves the moment at which the strip is stiffest.
+    ///
+    /// `None` if the maximum lies between breakpoints, where (F8) does not resolve it.
     fn stiffest(&mut self, end: f64) -> Option<f64> {
         let mut best = (0.0, f64::INFINITY);
         for _ in 0..ROUNDS {
@@ -237,7 +245,7 @@ impl<'a> UnevenStrip<'a> {
         let before = places.iter().rfind(|place| **place < best.0);
         let behind = places.iter().find(|place| **place > best.0);
         for (side, place) in [(KinkSide::Before, before), (KinkSide::Behind, behind)] {
-            // At an event the strip may be softer on one side anyway.
+            // At an event the strip may be softer on one side.
             let is_stiff = self.compliance(best.0, side) <= best.1 * (1.0 + FLAT);
             if let Some(place) = place.filter(|_| is_stiff) {
                 let beside = best.0 + BESIDE * (place - best.0);
@@ -250,8 +258,10 @@ impl<'a> UnevenStrip<'a> {
         Some(best.0)
     }
 
-    /// Moments between which the compliance is smooth. Between events the sum is as smooth as one of its terms: the equilibria of one gap
-    /// are places enough.
+    /// Returns the breakpoints between which the compliance is smooth.
+    ///
+    /// Between events the sum is as smooth as each of its terms, so the equilibria of one gap and
+    /// the events of all gaps suffice.
     fn places(&self, end: f64) -> Vec<f64> {
         let one = self.gaps.first().into_iter().flat_map(|gap| gap.knots_to(end));
         let all = self.gaps.iter().flat_map(|gap| gap.knots_to(end));
@@ -262,7 +272,7 @@ impl<'a> UnevenStrip<'a> {
         places
     }
 
-    /// Where the compliance is least, about (F8), and how large it is there.
+    /// Predicts by (F8) the moment of least compliance and the compliance there.
     fn promising(&self, end: f64) -> (f64, f64) {
         let places = self.places(end);
         let less = |one: (f64, f64), other: (f64, f64)| if other.1 < one.1 { other } else { one };
@@ -271,11 +281,11 @@ impl<'a> UnevenStrip<'a> {
         let number = places.partition_point(|moment| *moment < best.0);
         let beside = places[number.saturating_sub(1)..].windows(2).take(2);
         let inside = beside.map(|segment| self.least_within([segment[0], segment[1]]));
-        // Of what is the same up to round-off the place that is known.
+        // Prefer a solved point if the predictions agree up to round-off.
         inside.filter(|(_, value)| *value < best.1 * (1.0 - FLAT)).fold(best, less)
     }
 
-    /// The least compliance between two neighbouring moments of the gaps, by golden sections.
+    /// Minimises the compliance between two neighbouring breakpoints by golden sections.
     fn least_within(&self, [mut low, mut high]: [f64; 2]) -> (f64, f64) {
         let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
         let value = |moment: f64| (moment, self.compliance(moment, KinkSide::Before));
@@ -292,7 +302,8 @@ impl<'a> UnevenStrip<'a> {
         if inner[0].1 < inner[1].1 { inner[0] } else { inner[1] }
     }
 
-    /// The moment of the last change of a contact, if contacts stick at the end and hold the strip.
+    /// Returns the moment of the last contact change, if contacts stick at the end and lock the
+    /// strip.
     fn locking(&self, end: f64) -> Option<f64> {
         let sticks =
             self.knots(end).any(|(_, knot)| Contacts::stick_slip_counts(&knot.point.state)[0] > 0);
@@ -303,10 +314,10 @@ impl<'a> UnevenStrip<'a> {
         changes.reduce(f64::max).filter(|_| sticks && stiffened >= LOCKED)
     }
 
-    /// The largest change of any measure with a finer resolution, under the moment at which the strip is stiffest and at its end.
+    /// Estimates the discretisation error at the stiffest point and at the end.
     fn error(&self, finer: Resolution, stiffest: f64, end: f64) -> f64 {
         let moments = [stiffest, end].into_iter().skip(usize::from(stiffest == end));
-        // A state that cannot be solved with the finer resolution is not resolved.
+        // A state without a solution on the finer membrane counts as not resolved.
         moments
             .map(|moment| self.change(finer, moment).unwrap_or(f64::INFINITY))
             .fold(0.0, f64::max)
@@ -321,17 +332,17 @@ impl<'a> UnevenStrip<'a> {
             theirs.add(&strip, &knot);
             ours.add(gap.strip(), gap.knot(moment)?);
         }
-        // Both are compared where the ends have turned alike.
+        // Compare both at the same rotation of the ends.
         let theirs_there = moment - (theirs.rotation - ours.rotation) / theirs.compliance;
         largest_change(ours.quantities(moment), theirs.quantities(theirs_there))
     }
 
-    /// Solves all gaps under a moment that they have borne.
+    /// Solves all gaps under a moment that their paths have covered.
     fn solve_at(&mut self, moment: f64) -> Option<()> {
         self.gaps.iter_mut().try_for_each(|gap| gap.solve_at(moment))
     }
 
-    /// 1, or −1 where the strip bends to the outside.
+    /// Returns 1, or −1 for bending to the outside.
     fn direction(&self) -> f64 {
         self.problem.end_rotation().signum()
     }
@@ -344,18 +355,18 @@ impl<'a> UnevenStrip<'a> {
         self.gaps.iter().map(|gap| gap.compliance(moment, side)).sum()
     }
 
-    /// The lesser of the compliances on either side of a moment.
+    /// Returns the smaller of the compliances on both sides of a moment.
     fn least_compliance(&self, moment: f64) -> f64 {
         self.compliance(moment, KinkSide::Before).min(self.compliance(moment, KinkSide::Behind))
     }
 
-    /// The gaps with their equilibria under a moment that was solved for.
+    /// Iterates over the gaps with their equilibria under a solved moment.
     fn knots(&self, moment: f64) -> impl Iterator<Item = (&GapCurve, &Knot)> {
         self.gaps.iter().filter_map(move |gap| Some((gap, gap.knot(moment)?)))
     }
 }
 
-/// What adds up over the gaps under one moment; of the strain the largest counts.
+/// Sums over the gaps under one moment; of the strain, the largest value.
 #[derive(Default)]
 struct Sums {
     rotation: f64,

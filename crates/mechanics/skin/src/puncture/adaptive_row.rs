@@ -1,8 +1,8 @@
-//! A path of a row that grows.
+//! Path of a row that grows as contact spreads.
 //!
-//! Contact reaches some scales of a row. Beyond the last of them the row is linear, and its scales follow those at the end
-//! ([`FarField`](substrate::FarField)): they are not solved for. As contact spreads the row grows, at the point of the path where it
-//! has to.
+//! Only the scales within reach of contact are unknowns. Beyond the last of them the row is linear,
+//! and its scales follow from the end scale in closed form ([`FarField`](substrate::FarField)). As
+//! contact spreads the row is extended at the current point of the path.
 
 use std::sync::Arc;
 
@@ -15,32 +15,33 @@ use super::row_exterior::Reach;
 use super::system::{Chain, RowLayout};
 use crate::contacts::{SkinPoint, SkinState};
 
-/// A path of a part of a row, which grows as far as the deformation reaches.
+/// Path of a part of a row, which is extended when deformation reaches its ends.
 ///
 /// ```text
 /// next ─► the next step ─► does it reach beyond an end?  no ─► it is yielded
-///            ▲                     │ yes
-///            └── on a longer row ◄─┘ from the point before
+///             ▲                     │ yes
+///             └── on a longer row ◄─┘ from the point before
+/// ```
 /// ```
 pub(super) struct AdaptiveRowPath<'a> {
     problem: &'a Problem<'a>,
     pub(super) path: Path<Chain>,
     longest: usize,
-    /// Whether the row was as long as it had to be.
+    /// False if the row had to grow beyond its limit.
     pub(super) has_room: bool,
-    /// How near the point that was yielded last has come to the ends.
+    /// Proximity of the last yielded point to the ends.
     reach: [Reach; 2],
-    /// The shorter rows that the path has left, in order.
+    /// Shorter rows that the path has left, in order.
     shorter: Vec<Chain>,
-    /// The point from which the path goes on on a longer row, as the shorter one left it.
+    /// Point at which the row was extended, as it was on the shorter row.
     arrived: Option<SkinPoint>,
 }
 
-/// A step of a path; all its points are on the row as it is now.
+/// Segment of a path, with all its points on the current row.
 pub(super) struct Segment {
     pub(super) from: Arc<SkinPoint>,
     pub(super) to: SkinPoint,
-    /// The first point as the path came to it: after the row has grown there, it is solved for again before the path goes on.
+    /// First point before any extension of the row: after an extension the point is solved again.
     pub(super) left: Arc<SkinPoint>,
 }
 
@@ -52,13 +53,14 @@ impl<'a> AdaptiveRowPath<'a> {
         Self { problem, path, longest, has_room, reach, shorter, arrived: None }
     }
 
-    /// The next segment of the path, both its ends on the row as it is now; `None` where the path ends, or the row may not grow
-    /// any more.
+    /// Advances the path and returns its next segment.
+    ///
+    /// `None` if the path has ended or the row may not grow further.
     ///
     /// # Errors
-    /// If the scales of a longer row cannot be made.
+    /// If the scales of a longer row cannot be built.
     pub(super) fn next(&mut self) -> Result<Option<Segment>, OutOfRange> {
-        // Before the step, where the last one came near an end: so few steps are taken twice.
+        // Extend before the step if the last one came near an end; few steps are then repeated.
         let reach = std::mem::replace(&mut self.reach, [Reach::Short; 2]);
         self.lengthen(&self.path.point_shared(), reach)?;
         while self.has_room {
@@ -70,13 +72,13 @@ impl<'a> AdaptiveRowPath<'a> {
                 let left = self.arrived.take().map_or_else(|| Arc::clone(&from), Arc::new);
                 return Ok(Some(Segment { from, to, left }));
             }
-            // What lies beyond may have touched within the step: it is taken again.
+            // Scales beyond the end may have touched within the step, so repeat it.
             self.lengthen(&from, reach)?;
         }
         Ok(None)
     }
 
-    /// Lets the path go on from a point on a longer row, if it reaches an end and there is room.
+    /// Continues the path from a point on a longer row, if an end is reached and there is room.
     fn lengthen(&mut self, from: &SkinPoint, reach: [Reach; 2]) -> Result<(), OutOfRange> {
         if reach == [Reach::Short; 2] {
             return Ok(());
@@ -84,12 +86,12 @@ impl<'a> AdaptiveRowPath<'a> {
         let layout = self.path.system().layout;
         let longer = layout.grown(reach, self.longest);
         let longer = self.problem.whole().map_or(longer, |whole| longer.within(whole));
-        // A row that may not grow although it has to is too short for what follows.
+        // A row that must grow but cannot is too short to continue.
         self.has_room = longer != layout;
         if self.has_room {
             let chain = self.problem.part(longer)?;
             let from = chain.extended(self.path.system(), from);
-            // A row may grow twice at one point: what the path left is the first form of it.
+            // A row may grow twice at one point: keep the first form of the point.
             let left = self.arrived.take().map(|left| chain.extended(self.path.system(), &left));
             self.arrived = left.or_else(|| Some(from.clone()));
             self.shorter.push(self.path.go_on(chain, from));
@@ -97,7 +99,9 @@ impl<'a> AdaptiveRowPath<'a> {
         Ok(())
     }
 
-    /// A point that was yielded, on the row as it is now. A row is known by its size, since each is longer than the one before.
+    /// Extends a yielded point to the current row.
+    ///
+    /// The size of a point identifies its row, because each row is longer than the previous one.
     pub(super) fn lengthened(&self, point: &SkinPoint) -> SkinPoint {
         let mut point = point.clone();
         let longer = self.shorter.iter().skip(1).chain([self.path.system()]);
@@ -110,22 +114,23 @@ impl<'a> AdaptiveRowPath<'a> {
     }
 }
 
-/// Scales on each side of the punctured one with which the path of an endless row begins.
+/// Initial number of scales on each side of the punctured one, for an endless row.
 const FIRST_SCALES: usize = 4;
 
-/// Scales by which a row grows at least, and as a part of its length.
+/// Smallest growth of a row in scales, and divisor of its length for proportional growth.
 const GROWTH: usize = 4;
 const GROWTH_PART: usize = 8;
 
-/// Part to which displacements decay from the scales that a row of bars begins with, besides those of a row of springs, to its
-/// ends.
+/// Decay of displacements over the additional scales of an initial row of bars, and their largest
+/// number.
 const DECAYED: f64 = 1e-3;
 const LONGEST_DECAY: usize = 50;
 
 impl RowLayout {
-    /// The row with which a path begins, in which no scale feels more than `neighbours` on each side.
+    /// Chooses the initial row; a scale is coupled with `neighbours` scales on each side.
     pub(super) fn first(far: &FarField, neighbours: usize, law: SubstrateLaw) -> Self {
-        // With full coupling what lies beyond acts on as many scales at an end as one feels there.
+        // With full coupling the far field acts on as many scales at an end as a scale is coupled
+        // with.
         let least = FIRST_SCALES.max(neighbours.div_ceil(2));
         let side = match law {
             SubstrateLaw::Linear => least,
@@ -134,14 +139,14 @@ impl RowLayout {
         Self { left: side, right: side, ..Self::default() }
     }
 
-    /// At least so many scales on each side.
+    /// Returns the layout with at least `side` scales on each side.
     pub(super) fn at_least(self, side: usize) -> Self {
         Self { left: self.left.max(side), right: self.right.max(side), ..self }
     }
 
-    /// More scales on the sides that are reached, as far as a row of the `longest` length has room.
+    /// Adds scales on the sides that are reached, up to the `longest` row.
     pub(super) fn grown(self, reach: [Reach; 2], longest: usize) -> Self {
-        // Growth in proportion to the length keeps the number of rows to its logarithm.
+        // Proportional growth keeps the number of extensions logarithmic in the length.
         let more = GROWTH + self.scales() / GROWTH_PART;
         let room = longest.saturating_sub(self.scales());
         let [left, right] = reach.map(|reach| if reach == Reach::Short { 0 } else { more });
@@ -149,13 +154,13 @@ impl RowLayout {
         Self { left: self.left + left.min(room - right), right: self.right + right, ..self }
     }
 
-    /// What this row and another have in common.
+    /// Intersects this row with another.
     pub(super) fn within(self, other: Self) -> Self {
         Self { left: self.left.min(other.left), right: self.right.min(other.right), ..self }
     }
 }
 
-/// Scales over which displacements along a row decay to a small part.
+/// Counts the scales over which displacements along a row decay to [`DECAYED`].
 fn decayed_beyond(far: &FarField) -> usize {
     let along = far.displacements(|_| [1.0, 0.0, 0.0], LONGEST_DECAY);
     let decayed = along.iter().position(|[x, ..]| x.abs() <= DECAYED);
@@ -163,12 +168,12 @@ fn decayed_beyond(far: &FarField) -> usize {
 }
 
 impl Chain {
-    /// A point of the path of a `shorter` row, which lies within this one, as a point of this one.
+    /// Converts a path point of a `shorter` row to this row.
     pub(super) fn extended(&self, shorter: &Self, point: &SkinPoint) -> SkinPoint {
         let added = self.layout.left - shorter.layout.left;
         let contacts = [shorter, self].map(|chain| chain.contacts.forces.len());
         let constraint = |number: usize| {
-            // Those of the needle follow those of all contacts.
+            // Needle constraints follow those of all contacts.
             if number < contacts[0] {
                 number + self.layout.contacts * added
             } else {
@@ -204,14 +209,14 @@ impl Chain {
         }
     }
 
-    /// Unknowns of a `shorter` row, or a direction, in the unknowns of this one.
+    /// Converts unknowns, or a direction, of a `shorter` row to this row.
     fn extended_unknowns(&self, shorter: &Self, z: &[f64]) -> Vec<f64> {
         let mut extended = vec![0.0; self.layout.size()];
         let added = self.layout.left - shorter.layout.left;
         for scale in 0..self.layout.scales() {
             let at = self.layout.scale(scale);
             let scale = scale.cast_signed() - added.cast_signed();
-            // New scales stand where the closed form had them, so the point stays an equilibrium.
+            // Place new scales by the closed form, so that the point stays an equilibrium.
             extended[at..at + 3].copy_from_slice(&shorter.displacement_anywhere(z, scale));
         }
         for force in 0..self.layout.contacts * (shorter.layout.scales() - 1) {

@@ -1,14 +1,15 @@
-//! How the path of a puncture ends where the row gives way.
+//! Classification of the end of a puncture path.
 
 use super::PuncturePoint;
 use crate::Status;
 
-/// The status of a path of which the solver says how it ended.
+/// Refines the stop status reported by the solver.
 ///
-/// A needle that prescribes load, depth or tilt, or any of them in turn, loses a path that turns back in all three: the row snaps. It
-/// lands on the path again where one of the three comes to its largest value again, however far the load has fallen by then
-/// (drops by up to nine tenths recover). A path that ends numerically without any of that, say because sides come to
-/// lie flush in the middle of the fold, has no place where the row could stand under the needle.
+/// A needle that prescribes load, depth or tilt, or any of them in turn, cannot follow a path that
+/// turns back in all three: the row snaps. It lands on the path again where one of the three
+/// reaches its previous maximum, however far the load has dropped by then (drops by up to nine
+/// tenths recover). A path that stops numerically before that, for example because sides become
+/// flush in the middle of the fold, has no state to land on and ends at a limit point.
 pub(super) fn classify(status: Status, path: &[PuncturePoint]) -> Status {
     match status {
         Status::Stopped(stop) if stop.is_numerical() && has_turned_back(path) => Status::LimitPoint,
@@ -16,11 +17,11 @@ pub(super) fn classify(status: Status, path: &[PuncturePoint]) -> Status {
     }
 }
 
-/// Whether load, depth and tilt are all below their largest values at the end of a path.
+/// Returns true if load, depth and tilt are all below their maxima at the end of a path.
 fn has_turned_back(path: &[PuncturePoint]) -> bool {
     let below = |value: fn(&PuncturePoint) -> f64| {
         let largest = path.iter().map(value).reduce(f64::max);
-        // A quantity at its largest value has recovered, or has never turned back.
+        // A quantity at its maximum has recovered, or never turned back.
         path.last().map(value) < largest
     };
     below(|point| point.force) && below(|point| point.displacement) && below(|point| point.tilt_deg)
@@ -57,7 +58,7 @@ mod tests {
             (classify(many, &back), classify(Status::Complete, &back)),
             (many, Status::Complete)
         );
-        // The tilt goes on, the load has recovered, the path has not left its fold.
+        // The tilt increases, the load has recovered, or the path has not yet turned.
         for last in [[1.0, 0.9, 6.0], [2.5, 0.9, 4.0], [2.0, 1.0, 5.0]] {
             let path = path(&[[0.0, 0.0, 0.0], [2.0, 1.0, 5.0], last]);
             assert_eq!(classify(stopped, &path), stopped);

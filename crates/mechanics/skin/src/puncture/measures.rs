@@ -1,4 +1,4 @@
-//! The numbers that a puncture comes down to.
+//! Measures of a puncture.
 
 use serde::{Deserialize, Serialize};
 use solver::Path;
@@ -10,14 +10,14 @@ use crate::Remains;
 use crate::common::is_default;
 use crate::record::{Record, Skin};
 
-/// The measures of a puncture; `None` where the value does not exist.
+/// The measures of a puncture; `None` if the value does not exist.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PunctureMeasures {
     /// `F_c* = F (1−ν²)/(E_s L t)` at the critical tilt.
     pub critical_force: Option<f64>,
-    /// Largest `F*` up to the critical tilt, or up to where the path stopped.
+    /// Largest `F*` up to the critical tilt, or up to the end of an incomplete path.
     pub peak_force: Option<f64>,
-    /// `u_c* = u/t` of the punctured point at the critical tilt.
+    /// `u_c* = u/t` of the loaded point at the critical tilt.
     pub critical_displacement: Option<f64>,
     /// Depth of the deepest base corner of any scale at the critical tilt, over `t`.
     pub penetration: Option<f64>,
@@ -41,15 +41,15 @@ pub struct PunctureMeasures {
     pub peak_displacement: Option<f64>,
     /// Tilt of the punctured scale at the largest `F*`, degrees.
     pub peak_tilt_deg: Option<f64>,
-    /// Whether the row is stable at the critical tilt if the load is held.
+    /// Whether the row is stable at the critical tilt under a constant load.
     pub stable_under_load: Option<bool>,
-    /// Whether the row is stable at the critical tilt if the depth of the punctured point is held.
+    /// Whether the row is stable at the critical tilt under a constant depth of the loaded point.
     pub stable_under_depth: Option<bool>,
-    /// `F*` up to which the path is stable if the load is held; `None` if all of it is.
+    /// `F*` up to which the path is stable under load control; `None` if all of it is.
     pub load_stability_force: Option<f64>,
-    /// `F*` up to which the path is stable if the depth is held; `None` if all of it is.
+    /// `F*` up to which the path is stable under depth control; `None` if all of it is.
     pub depth_stability_force: Option<f64>,
-    /// Snaps of the row under a needle that only goes deeper.
+    /// Number of snaps under a monotonically descending needle.
     #[serde(default)]
     pub snaps: usize,
     /// Stretch of the tightest gap at the critical tilt (V1).
@@ -62,30 +62,32 @@ pub struct PunctureMeasures {
     pub fold_displacement: Option<f64>,
     /// Tilt of the punctured scale at the first fold, degrees.
     pub fold_tilt_deg: Option<f64>,
-    /// `F*` at the critical tilt or at the first fold, whichever comes first: the largest force that the model can answer for.
+    /// `F*` at the critical tilt or at the first fold, whichever comes first: the largest force
+    /// within the validity of the model.
     pub sound_force: Option<f64>,
-    /// `F*` at the depth that is asked for, or at the critical tilt if that comes first.
+    /// `F*` at the requested depth, or at the critical tilt if that comes first.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub force_at_depth: Option<f64>,
-    /// What friction between scales has taken up to the critical tilt, over `E* t³`.
+    /// Frictional dissipation between scales up to the critical tilt, over `E* t³`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction_work: Option<f64>,
-    /// Whether no event of the path had another way on among those that were looked at; `None` without friction.
+    /// Whether every event had a single outgoing branch among those examined; `None` without
+    /// friction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unique: Option<bool>,
-    /// What is left once the load is gone.
+    /// Residual state after unloading.
     #[serde(default, skip_serializing_if = "is_default")]
     pub remains: Remains,
-    /// How a guided needle came through.
+    /// How a guided needle passed through the row.
     #[serde(default, skip_serializing_if = "is_default")]
     pub passage: Passage,
-    /// The weakest of several places of the load.
+    /// The weakest of several load positions.
     #[serde(default, skip_serializing_if = "is_default")]
     pub weakest: Weakest,
 }
 
 impl PunctureMeasures {
-    /// The measures of a path that came to its end. Stiffness is measured in `E_s t`, the force in `E* t²`.
+    /// Computes the measures of a completed path, with stiffness in `E_s t` and force in `E* t²`.
     pub(crate) fn new(record: &Record<Chain>, folds: &[Fold], path: &mut Path<Chain>) -> Self {
         let max_stiffness = record.stiffness_summit(path).map(|summit| summit.value);
         let (chain, state) = (path.system(), &path.point().state);
@@ -123,7 +125,7 @@ impl PunctureMeasures {
         }
     }
 
-    /// The measures of the beginning and of the peak of a path, for one that did not end as it should.
+    /// Keeps only the measures of the start and the peak, for a path that failed.
     pub(crate) fn without_final_values(self) -> Self {
         Self {
             first_contact_displacement: self.first_contact_displacement,
@@ -138,7 +140,7 @@ impl PunctureMeasures {
             fold_force: self.fold_force,
             fold_displacement: self.fold_displacement,
             fold_tilt_deg: self.fold_tilt_deg,
-            // This was found on the way, and stands whatever ended the path behind it.
+            // Evaluated along the path and valid however the path ended later.
             force_at_depth: self.force_at_depth,
             unique: self.unique,
             passage: self.passage,
@@ -147,8 +149,9 @@ impl PunctureMeasures {
     }
 }
 
-/// The first point of the largest force; `None` if the path never left its beginning. Extrema of the load are points of the path,
-/// so that this is the peak itself.
+/// Returns the first point of largest force; `None` if the path never left its start.
+///
+/// Extrema of the load are points of the path, so no search between points is needed.
 fn peak(path: &[PuncturePoint]) -> Option<&PuncturePoint> {
     let highest = |best: &'_ PuncturePoint, point: &'_ PuncturePoint| point.force > best.force;
     path.iter().skip(1).reduce(|best, point| if highest(best, point) { point } else { best })

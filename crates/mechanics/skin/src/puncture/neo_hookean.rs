@@ -1,22 +1,22 @@
-//! The strips of surface between the bases as neo-Hookean bars, which take the place of the springs along the row.
+//! Neo-Hookean surface strips between the bases, in place of the springs along the row.
 
 use solver::{Residual, Tangent};
 use substrate::{SurfaceStrip, neo_hookean};
 
 use super::system::Chain;
 
-/// The bar between two neighbouring scales, with what it adds to the linear spring that it replaces:
+/// The bar between two neighbouring scales, minus the linear spring that it replaces:
 ///
 /// ```text
 /// a β_x [ d² w(g) − ½ (x' − x)² ]                                                      (P4b)
 /// ```
 ///
-/// Its force along the row acts at the corners of the bases, so it turns them too: `∂s/∂φ = a sin φ`.
+/// Its axial force acts at the corners of the bases, so it also exerts moments: `∂s/∂φ = a sin φ`.
 pub(super) struct Bar {
     half_base: f64,
-    /// Force that the bar adds to that of the spring.
+    /// Force of the bar minus force of the spring.
     excess: f64,
-    /// Its whole force.
+    /// Total force of the bar.
     tension: f64,
     /// Stiffness of the spring and of the bar.
     spring: f64,
@@ -25,7 +25,7 @@ pub(super) struct Bar {
     turns: [Turn; 2],
 }
 
-/// The rotation of a scale.
+/// Rotation of a scale, as needed by a bar.
 #[derive(Clone, Copy)]
 struct Turn {
     sin: f64,
@@ -40,7 +40,7 @@ impl Turn {
     }
 }
 
-/// An end of a bar: the displacement of the scale along the row, and its rotation.
+/// End of a bar: displacement of the scale along the row, and its rotation.
 type End = (f64, Turn);
 
 fn end([x, _, rotation]: [f64; 3]) -> End {
@@ -48,12 +48,14 @@ fn end([x, _, rotation]: [f64; 3]) -> End {
 }
 
 impl Chain {
-    /// The strip of surface to the right of a scale.
+    /// Returns the surface strip to the right of a scale.
     pub(super) fn strip(&self, scale: usize) -> SurfaceStrip {
         SurfaceStrip { width: self.contacts.arrangement.gap(scale), half_base: self.half_base }
     }
 
-    /// Shows the bars, from the left, each with the first unknowns of its two scales; none where the substrate is linear.
+    /// Calls `show` for each bar from the left, with the first unknowns of its scales.
+    ///
+    /// A linear substrate has no bars.
     pub(super) fn for_bars(&self, z: &[f64], mut show: impl FnMut([usize; 2], &Bar)) {
         let Some(spring) = self.bars else { return };
         let mut left = end(self.displacement(z, 0));
@@ -65,7 +67,7 @@ impl Chain {
         }
     }
 
-    /// Energy of the bars above that of the springs which they replace.
+    /// Computes the energy of the bars minus the energy of the springs that they replace.
     pub(super) fn bar_energy(&self, z: &[f64]) -> f64 {
         let Some(spring) = self.bars else { return 0.0 };
         let energy = |scale: usize| {
@@ -77,15 +79,18 @@ impl Chain {
         (0..self.layout.scales() - 1).map(energy).sum()
     }
 
-    /// Force of bars of these `widths` between scales that are displaced by `displacements`, above that of the springs that stand for
-    /// them: the largest, over the stiffness of a scale.
+    /// Computes the largest excess force of bars with these `widths` over their springs.
+    ///
+    /// The bars connect scales with the given `displacements`. The result is over the stiffness of
+    /// a scale, hence a displacement.
     pub(super) fn largest_excess(&self, displacements: &[[f64; 3]], widths: &[f64]) -> f64 {
         let Some(spring) = self.bars else { return 0.0 };
         let excess = |(pair, &width): (&[[f64; 3]], &f64)| {
             let [near, next] = [pair[0], pair[1]].map(end);
             let strip = SurfaceStrip { width, half_base: self.half_base };
             let excess = |ends| Bar::new(&strip, spring, ends).excess.abs();
-            // Pressed beyond the one end of the row where it would be stretched beyond the other: the larger of both.
+            // A bar that is stretched beyond one end of the row would be compressed beyond the
+            // other: take the larger excess.
             excess([near, next]).max(excess([next, near])) / self.direct[0]
         };
         displacements.windows(2).zip(widths).map(excess).fold(0.0, f64::max)
@@ -100,7 +105,7 @@ impl Bar {
         let tension = spring * strip.width * force;
         Self {
             half_base: strip.half_base,
-            // The linear spring stays in the constant tangent: a bar adds the difference.
+            // The linear spring stays in the constant tangent, so a bar adds only the difference.
             excess: tension - spring * apart,
             tension,
             spring,
@@ -109,7 +114,7 @@ impl Bar {
         }
     }
 
-    /// Adds the forces of the bar and their tangent; `places` are the first unknowns of its two scales.
+    /// Adds forces and tangent of the bar; `places` are the first unknowns of its two scales.
     pub(super) fn linearise(
         &self,
         places: [usize; 2],
@@ -124,7 +129,7 @@ impl Bar {
         residual.add(left, -self.excess);
         residual.add(right, self.excess);
         for (at, turn) in [left, right].into_iter().zip(self.turns) {
-            // The spring that is replaced turns no scale, so the moment is that of the whole force.
+            // The replaced spring exerts no moment, so the moment follows from the total force.
             residual.add(at + 2, self.tension * self.half_base * turn.sin);
         }
     }
@@ -132,7 +137,7 @@ impl Bar {
     pub(super) fn add_stiffness(&self, places: [usize; 2], matrix: &mut impl Tangent) {
         let along = self.stiffness - self.spring;
         let arms = self.turns.map(|turn| self.half_base * turn.sin);
-        // The elongation falls with x of the left scale, and rises with that of the right one.
+        // The elongation decreases with x of the left scale and increases with x of the right one.
         let signs = [-1.0, 1.0];
         for (i, row) in places.into_iter().enumerate() {
             // `∂²s/∂φ² = a cos φ` (V3).

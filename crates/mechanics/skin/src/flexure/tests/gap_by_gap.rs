@@ -1,4 +1,4 @@
-//! Strips of unequal gaps and slants, made by hand.
+//! Strips of unequal gaps and slants with prescribed values.
 
 use approx::assert_relative_eq;
 use geometry::{Parallelogram, UnevenRow};
@@ -32,7 +32,7 @@ fn bent(gaps: &[f64], slants_deg: &[f64]) -> Flexure {
     both(gaps, slants_deg).0
 }
 
-/// As a chain, and gap by gap.
+/// Bends the strip as a chain and gap by gap.
 fn both(gaps: &[f64], slants_deg: &[f64]) -> (Flexure, BentSample) {
     let scales = slants_deg.iter().map(|&slant| Parallelogram::leaning(0.5, slant).unwrap());
     let row = UnevenRow::new(scales.collect(), gaps.to_vec()).unwrap();
@@ -50,9 +50,9 @@ fn close(a: Option<f64>, b: Option<f64>, max_relative: f64) {
     assert_relative_eq!(a.unwrap(), b.unwrap(), max_relative = max_relative);
 }
 
-/// Between upright scales the membrane is an arc of radius `1/M*` whatever its length: their tops
-/// meet where that is their height, `M* = 1`, in all gaps at once. The arc of `m` elements is a polygon with
-/// sides `d/m = 2 sin(θ/2m)`, which makes it `M* = θ/d`.
+/// Between upright scales the membrane is an arc of radius `1/M*` whatever its length, so the tops
+/// meet where the radius equals their height, `M* = 1`, in all gaps at once. Discretised with `m`
+/// elements the arc is a polygon with sides `d/m = 2 sin(θ/2m)`, which gives `M* = θ/d`.
 #[test]
 fn upright_scales_meet_at_one_moment_whatever_their_gaps() {
     let flexure = bent(&GAPS, &[0.0; 7]);
