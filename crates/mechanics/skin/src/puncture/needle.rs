@@ -1,17 +1,18 @@
-//! The needle: a dead load, or a body that is guided straight down.
+//! The needle: a dead load, or a body guided straight down.
 //!
-//! A guided needle has a tip, sharp or round, that keeps its place `X` along the row. It touches a face of a scale and rubs on it, slides to the
-//! end of the face, over the corner or into the notch that a neighbour's face makes with it, and on.
+//! A guided needle has a sharp or round tip at a fixed position `X` along the row. The tip touches
+//! a face of a scale with friction, slides to the end of the face, then over the corner or into the
+//! notch formed with the face of a neighbour, and on.
 //!
-//! | File | What it holds |
+//! | File | Content |
 //! |---|---|
-//! | `mode.rs` | what the needle touches and how it rubs there: the part of the state that is not a number |
-//! | `outline.rs` | the tip seen from a face: gap, way along the face, their derivatives |
-//! | `round.rs` | a tip with a radius: its own equations, conditions and transitions |
-//! | `forces.rs` | equations, tangent, and the conditions under which they hold |
-//! | `transition.rs` | what comes next where a condition ceases to hold |
-//! | `passage.rs` | measures of a path: where the needle touches more than its face, how its path ends |
-//! | `history.rs` | what it keeps of its way, and how that changes with a parameter |
+//! | `mode.rs` | discrete state: which parts the needle touches, and its friction state there |
+//! | `outline.rs` | kinematics of the tip at a face: gap, coordinate along the face, their derivatives |
+//! | `round.rs` | a tip with a radius: its own conditions and transitions |
+//! | `forces.rs` | equations, tangent, and their validity conditions |
+//! | `transition.rs` | next state when a condition is violated |
+//! | `passage.rs` | measures: where the needle touches more than its face, how its path ends |
+//! | `history.rs` | history variables, and their derivatives with respect to parameters |
 
 mod forces;
 mod history;
@@ -41,38 +42,41 @@ pub use passage::{CriticalEvent, Passage, TipForces};
 use round::of_scale;
 pub(super) use round::{reach, unknowns};
 
-/// How the needle is held.
+/// Constraint on the needle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Needle {
-    /// A dead load that hangs on its point of the scale and follows it sideways, as in Shafiei et al. (2021).
+    /// A dead load attached to its point of the scale, following it sideways, as in Shafiei et al.
+    /// (2021).
     #[default]
     Free,
-    /// A tip that moves straight down, with this coefficient of friction.
+    /// A tip guided straight down, with this coefficient of friction.
     Guided {
-        /// `μ_n`; 0 for a needle that does not rub.
+        /// `μ_n`; 0 for a frictionless needle.
         friction: f64,
     },
 }
 
 impl Needle {
-    /// Whether the tip keeps its place along the row.
+    /// Returns true if the tip has a fixed position along the row.
     pub fn is_guided(self) -> bool {
         self != Self::Free
     }
 
-    /// Whether it is guided and rubs.
+    /// Returns true if the needle is guided and has friction.
     pub fn has_friction(self) -> bool {
         matches!(self, Self::Guided { friction } if friction > 0.0)
     }
 }
 
-/// Scales on each side of the punctured one that a guided needle may come to. It moves by less than its own depth along the row.
+/// Number of scales on each side of the punctured one that a guided needle may reach; it moves by
+/// less than its own depth along the row.
 pub(super) const FARTHEST: usize = 8;
 
-/// Unknowns of a touch: `N`, `T`, the ways slid forward and backward, and those of two conditions that never act.
+/// Unknowns per touch: `N`, `T`, the forward and backward slip distances, and two unknowns for
+/// conditions that never become active.
 const UNKNOWNS_PER_TOUCH: usize = 6;
 
-/// Constraints of a touch, in this order.
+/// Constraints per touch, in this order.
 const CONSTRAINTS_PER_TOUCH: usize = 5;
 const NORMAL: usize = 0;
 const FORWARD: usize = 1;
@@ -80,34 +84,36 @@ const BACKWARD: usize = 2;
 const FACE_START: usize = 3;
 const FACE_END: usize = 4;
 
-/// Conditions that end the path, behind those of all touches: a tilt, and coming through.
+/// Conditions that end the path, behind the constraints of all touches: a critical tilt, and
+/// passing through.
 const ENDINGS: usize = 2;
 
-/// Unknowns of a guided needle with a sharp tip, behind the load: its depth, those of two touches, and those of its endings.
+/// Unknowns of a guided needle with a sharp tip, behind the load: depth, two touches, and endings.
 pub(super) const NEEDLE_UNKNOWNS: usize = 1 + SHARP_SLOTS * UNKNOWNS_PER_TOUCH + ENDINGS;
 
 /// A guided needle on a row.
 #[derive(Clone, Debug)]
 pub(crate) struct GuidedNeedle {
     friction: f64,
-    /// Radius of the tip; 0 of a sharp one.
+    /// Radius of the tip; 0 for a sharp one.
     radius: f64,
-    /// The tip at rest, or the centre of a round one, from the node of the punctured scale.
+    /// Tip at rest, or centre of a round tip, relative to the node of the punctured scale.
     pub(super) tip: Vec2,
     critical_tilt: f64,
-    /// The first of its unknowns: the depth.
+    /// First of its unknowns: the depth.
     pub(super) depth: usize,
-    /// Constraints of the row that are not the needle's: they come first.
+    /// Number of constraints of the contacts, which precede those of the needle.
     contacts: usize,
-    /// Numbers of the constraints that only grow.
+    /// Constraint numbers of the slip distances, which only grow.
     pub(super) slip_distances: Vec<usize>,
-    /// Touches that there may be.
+    /// Maximum number of touches.
     pub(super) slots: usize,
-    /// Unknowns of a touch, and how many of them are constraints: of a round tip those of its place are the last.
+    /// Unknowns per touch, and constraints among them. For a round tip the condition on the
+    /// position is last.
     unknowns_per_touch: usize,
     constraints_per_touch: usize,
-    /// Touches that keep something else of the way to a neighbour of a row than that row does, for a parameter that differs, and by how
-    /// much.
+    /// Touches with an anchor that differs from the anchor in the mode, and the difference. Set on
+    /// perturbed neighbours of a row only.
     anchor_shifts: Vec<(Touch, f64)>,
 }
 
@@ -124,12 +130,12 @@ impl GuidedNeedle {
             let of_scale = of_scale(friction > 0.0);
             // All but the tangential force.
             let constraints = if friction > 0.0 { of_scale - 1 } else { of_scale };
-            // Read backwards, the number of unknowns gives that of the touches that there may be.
+            // Inverts the number of unknowns to the number of touches.
             ((layout.needle - 1 - ENDINGS) / of_scale, of_scale, constraints)
         } else {
             (SHARP_SLOTS, UNKNOWNS_PER_TOUCH, CONSTRAINTS_PER_TOUCH)
         };
-        // A round tip that does not rub has no ways to count.
+        // A frictionless round tip has no slip distances.
         let slides = radius == 0.0 || friction > 0.0;
         let ways = (0..slots)
             .filter(|_| slides)
@@ -149,30 +155,30 @@ impl GuidedNeedle {
         }
     }
 
-    /// Whether its tip has a radius.
+    /// Returns true if the tip has a radius.
     pub(super) fn is_round(&self) -> bool {
         self.radius > 0.0
     }
 
-    /// The lowest point of its tip, from the node of the punctured scale at rest.
+    /// Returns the lowest point of the tip, relative to the node of the punctured scale at rest.
     pub(super) fn lowest(&self, z: &[f64]) -> Vec2 {
         self.tip - Vec2::new(0.0, self.radius + z[self.depth])
     }
 
-    /// Scales on each side of the punctured one that it may come to.
+    /// Returns the number of scales on each side of the punctured one that the tip may reach.
     pub(super) fn farthest(&self) -> usize {
         if self.is_round() { self.reach() } else { FARTHEST }
     }
 
-    /// Whether its tip rubs.
+    /// Returns true if the tip has friction.
     pub(super) fn has_friction(&self) -> bool {
         self.friction > 0.0
     }
 
-    /// The unknowns of its constraints, in their order.
+    /// Lists the unknowns of its constraints in order.
     pub(super) fn constraints(&self) -> Vec<usize> {
         let behind = self.normal_force(self.slots);
-        // A tangential force that is an unknown has an equation in every state: no constraint.
+        // A tangential force that is an unknown in every state is no constraint.
         let tangential_force = |first: usize| {
             (self.constraints_per_touch < self.unknowns_per_touch).then_some(first + 1)
         };
@@ -184,17 +190,20 @@ impl GuidedNeedle {
         (0..self.slots).flat_map(of_slot).chain(behind..behind + ENDINGS).collect()
     }
 
-    /// Unknown of the normal force of a touch; that of the tangential one is the next.
+    /// Returns the unknown of the normal force of a touch; the tangential force is the next one.
     fn normal_force(&self, touch: usize) -> usize {
         self.depth + 1 + self.unknowns_per_touch * touch
     }
 
-    /// Number of a constraint of a touch among those of the row.
+    /// Returns the system number of a constraint of a touch.
     fn number(&self, touch: usize, constraint: usize) -> usize {
         self.contacts + self.constraints_per_touch * touch + constraint
     }
 
-    /// Those of the push and of the slip of a tip that rubs: as it comes off a face it holds to, its friction goes with it.
+    /// Returns the constraints that may change together with a constraint.
+    ///
+    /// With friction these are normal force and slips: opening a sticking touch also ends its stick
+    /// constraint.
     pub(super) fn companions(&self, constraint: usize) -> Range<usize> {
         let number = constraint - self.contacts;
         let first = constraint - number % self.constraints_per_touch;
@@ -207,39 +216,43 @@ impl GuidedNeedle {
         }
     }
 
-    /// The constraint at which a path has ended.
+    /// Finds the constraint at which a path has ended.
     pub(super) fn ended_at(&self, chain: &Chain, end: &SkinState) -> Option<usize> {
         let mut conditions = Vec::new();
         chain.needle_conditions(self, end, &mut conditions);
         let touches = (0..self.slots).map(|slot| self.constraints_per_touch * slot + NORMAL);
         let touches = touches.filter(|&number| chain.meets_tilted(self, end, number));
         let mut ends = self.endings().chain(touches);
-        // It has vanished to the tolerance of Newton's method.
+        // It vanishes to within the tolerance of Newton's method.
         let ended = ends.find(|&number| conditions[number].abs() < 1e-8);
         ended.map(|number| self.contacts + number)
     }
 
-    /// Whether a path ends where this constraint would change sides: a scale is critically tilted, or comes to be touched when it is
-    /// already, or the needle is through.
+    /// Returns true if a path ends where this constraint changes.
+    ///
+    /// That is at a critical tilt, at the touch of a scale that is already critically tilted, and
+    /// when the needle is through.
     pub(super) fn ends(&self, chain: &Chain, state: &SkinState, constraint: usize) -> bool {
         constraint.checked_sub(self.contacts).is_some_and(|number| {
             self.endings().contains(&number) || chain.meets_tilted(self, state, number)
         })
     }
 
-    /// Number of the first constraint behind those of the touches: that on tilts.
+    /// Returns the number of the tilt constraint, the first one behind the touches.
     fn tilt_number(&self) -> usize {
         self.constraints_per_touch * self.slots
     }
 
-    /// The constraints that end a path, among its own: that on tilts, and that of coming through.
+    /// Returns the constraints that end a path: critical tilt and passing through.
     fn endings(&self) -> Range<usize> {
         self.tilt_number()..self.tilt_number() + ENDINGS
     }
 }
 
 impl Chain {
-    /// The state of rest, the needle set down. Whether its tip sticks or slides at first, and which way, shows in the rates.
+    /// Returns the state at rest with the needle in place.
+    ///
+    /// The rates decide whether the tip sticks or slides at first, and in which direction.
     pub(super) fn at_rest(&self) -> SkinState {
         let mut rest = SkinState::at_rest(self);
         let Some(needle) = &self.needle else { return rest };
@@ -258,7 +271,7 @@ impl Chain {
         }
         let control = self.controls[0];
         let condition = Condition::new(vec![(control.index, 1.0 / control.scale)], 0.0);
-        // The tip is tried as sticking: the rates tell whether that takes more than there is.
+        // Try sticking first: the rates tell whether that exceeds the friction limit.
         let normal_force = needle.normal_force(0);
         if let Ok(rates) = Newton::new(self).tangent(self, &rest, &condition) {
             let [normal, tangential] = [rates[normal_force], rates[normal_force + 1]];
@@ -269,7 +282,9 @@ impl Chain {
         rest
     }
 
-    /// The tip at a place of a scale; `None` of a free needle, and of a scale that is not solved for or too far away.
+    /// Computes the tip relative to a part of a scale.
+    ///
+    /// `None` for a free needle, and for a scale that is not solved for or out of reach.
     fn tip(&self, z: &[f64], scale: i64, place: OutlinePart) -> Option<Tip> {
         let needle = self.needle.as_ref()?;
         let number = self.scale_numbered(scale)?;
@@ -280,7 +295,7 @@ impl Chain {
         Some(Tip::new(&face, &self.contacts.pose(z, number), at))
     }
 
-    /// The tip where it touches a scale, at this place.
+    /// Computes the contact of the tip with a part of a scale.
     fn meeting(&self, z: &[f64], scale: i64, place: OutlinePart) -> Option<Meeting> {
         let (needle, tip) = (self.needle.as_ref()?, self.tip(z, scale, place)?);
         let shape = self.contacts.arrangement.scale(self.scale_numbered(scale)?);
@@ -289,7 +304,7 @@ impl Chain {
         Some(Meeting::new(tip, needle.radius, before))
     }
 
-    /// All touches: slot, touch, index of the scale, and the tip there.
+    /// Iterates over all touches: slot, touch, index of the scale, and kinematics.
     fn touches<'a>(
         &'a self,
         state: &'a SkinState,
@@ -300,16 +315,16 @@ impl Chain {
         })
     }
 
-    /// Index of a scale, counted from the punctured one.
+    /// Converts a scale number counted from the punctured one to an index.
     fn scale_numbered(&self, scale: i64) -> Option<usize> {
         let number = usize::try_from(self.layout.left as i64 + scale).ok()?;
         let farthest = self.needle.as_ref().map_or(0, GuidedNeedle::farthest);
-        // The band of the tangent is as wide as this, and farther scales would lie outside of it.
+        // The bandwidth of the tangent covers only these scales.
         let is_near = scale.unsigned_abs() as usize <= farthest;
         (number < self.layout.scales() && is_near).then_some(number)
     }
 
-    /// The face that the needle would come to next besides the one that it touches: a neighbour's.
+    /// Returns the neighbouring face that the needle would meet next.
     fn next_touch(touch: &Touch) -> Option<(i64, OutlinePart)> {
         match touch.place {
             OutlinePart::Left => Some((touch.scale - 1, OutlinePart::Top)),
@@ -320,7 +335,8 @@ impl Chain {
         }
     }
 
-    /// Whether a constraint of the needle is that of coming to touch a scale that its neighbours have tilted critically before.
+    /// Returns true if a needle constraint is the first touch of a scale that is already critically
+    /// tilted.
     fn meets_tilted(&self, needle: &GuidedNeedle, state: &SkinState, number: usize) -> bool {
         let slot = number / needle.constraints_per_touch;
         if number >= needle.tilt_number()
@@ -332,7 +348,7 @@ impl Chain {
         let scale = if needle.is_round() {
             Some(slot as i64 - needle.reach() as i64)
         } else {
-            // A sharp tip comes to a second scale only beside the one that it touches.
+            // A sharp tip meets a second scale only beside the one it touches.
             let other = state.mode.needle.touches[1 - slot].as_ref();
             other.and_then(Self::next_touch).map(|(scale, _)| scale)
         };
@@ -342,17 +358,19 @@ impl Chain {
         })
     }
 
-    /// Whether the top right corner of a scale lies on the left face of its right neighbour, so that the tip is stopped there by that
-    /// face, and does not pass over the corner.
+    /// Returns true if the top right corner of a scale lies on the left face of its right
+    /// neighbour.
+    ///
+    /// That face then stops the tip at the corner, so the tip does not pass over it.
     fn is_notched(&self, state: &SkinState, scale: i64) -> bool {
         let contact =
             self.corner_of_notch(scale).and_then(|contact| state.mode.contacts.get(contact));
         contact == Some(&CornerContact::Edge(CornerEdge::TopRightOnLeftEdge))
     }
 
-    /// The contact of the top right corner of a scale.
+    /// Returns the contact of the top right corner of a scale.
     fn corner_of_notch(&self, scale: i64) -> Option<usize> {
-        // The upper contact of a scale with its neighbour is the first of all its contacts.
+        // The upper contact with the direct neighbour is the first contact of a scale.
         self.scale_numbered(scale).map(|left| self.contacts.contacts_before(left))
     }
 }

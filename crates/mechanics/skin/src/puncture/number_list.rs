@@ -1,8 +1,8 @@
-//! A short list of numbers that is copied as a value.
+//! A short copyable list of numbers.
 
 use serde::{Serialize, Serializer};
 
-/// Numbers that a [`NumberList`] holds at most.
+/// Capacity of a [`NumberList`].
 pub const MOST_NUMBERS: usize = 8;
 
 /// Up to [`MOST_NUMBERS`] numbers in ascending order.
@@ -19,7 +19,7 @@ impl Serialize for NumberList {
 }
 
 impl NumberList {
-    /// The list of `numbers`; `None` if there are too many, or each is not larger than the one before.
+    /// Creates a list; `None` if there are too many numbers or they do not strictly ascend.
     ///
     /// ```
     /// use skin::puncture::NumberList;
@@ -33,7 +33,7 @@ impl NumberList {
         numbers.is_sorted_by(|a, b| a < b).then_some(list)
     }
 
-    /// The list of what a rising function makes of the numbers.
+    /// Applies an increasing function to all numbers.
     #[must_use]
     pub fn map(self, f: impl Fn(f64) -> f64) -> Self {
         let mut list = self;
@@ -41,23 +41,23 @@ impl NumberList {
         list
     }
 
-    /// The numbers.
+    /// Returns the numbers as a slice.
     pub fn as_slice(&self) -> &[f64] {
         &self.numbers[..self.count]
     }
 
-    /// The largest number, and the others; `None` of an empty list.
+    /// Splits off the largest number; `None` for an empty list.
     pub fn split_last(self) -> Option<(f64, Self)> {
         let last = *self.as_slice().last()?;
         Some((last, Self { count: self.count - 1, ..self }))
     }
 
-    /// How many numbers there are.
+    /// Returns the number of entries.
     pub fn len(&self) -> usize {
         self.count
     }
 
-    /// Whether there are none.
+    /// Returns true if the list is empty.
     pub fn is_empty(&self) -> bool {
         self.count == 0
     }

@@ -1,4 +1,4 @@
-//! The equations of a guided needle, and the conditions under which they hold.
+//! Equations of a guided needle, and their validity conditions.
 
 use solver::{Residual, Tangent};
 
@@ -8,17 +8,18 @@ use super::{BACKWARD, CONSTRAINTS_PER_TOUCH, FACE_END, FACE_START, FORWARD, Guid
 use crate::contacts::{Contacts, HOLDS, SkinPoint, SkinState, product_integral};
 use crate::puncture::system::Chain;
 
-/// A foot may lie beyond the end of a face by this much, over `t`: corners that lie on it do so to round-off and their approach.
+/// Distance (over `t`) by which a foot may exceed the end of a face: round-off and approach of
+/// corners that lie on it.
 const BESIDE: f64 = 1e-9;
 
-/// The shortest steps of a path come as near as this, over `t`, to an end that they cannot pass.
+/// Distance (over `t`) within which the shortest steps approach an end that they cannot pass.
 const AT_AN_END: f64 = 1e-6;
 
-/// Difference of the unknowns over which slopes of conditions are differences, relative to the largest rate.
+/// Step of the differences for slopes of conditions, relative to the largest rate.
 pub(super) const STEP: f64 = 1e-6;
 
 impl Chain {
-    /// Adds the equations of a guided needle: its balance (L1), the gaps that are closed, and the laws of its tangential forces (L2).
+    /// Adds the equations of a guided needle: balance (L1), closed gaps, and friction laws (L2).
     pub(in crate::puncture) fn add_needle(
         &self,
         needle: &GuidedNeedle,
@@ -31,7 +32,7 @@ impl Chain {
         residual.add(needle.depth, state.z[load]);
         matrix.add(needle.depth, load, 1.0);
         if needle.constraints_per_touch < needle.unknowns_per_touch {
-            // A touch that is not there has no tangential force.
+            // Missing touches have zero tangential force.
             let touches = &state.mode.needle.touches;
             for slot in (0..needle.slots).filter(|&slot| touches[slot].is_none()) {
                 let tangential_force = needle.normal_force(slot) + 1;
@@ -46,13 +47,14 @@ impl Chain {
             add_balance(&meeting, rows, normal_force, &state.z, residual, matrix);
             residual.add(normal_force, meeting.gap());
             add_row(normal_force, rows, 1.0, meeting.tip.gap_slopes(), matrix);
-            // A round tip that does not rub has no tangential force, and no law for it.
+            // A frictionless round tip has no tangential force and no law for it.
             if needle.constraints_per_touch == needle.unknowns_per_touch {
                 continue;
             }
             add_law(needle, (touch, normal_force), &meeting, rows, &state.z, residual, matrix);
             for (constraint, sign) in [(FORWARD, 1.0), (BACKWARD, -1.0)] {
-                // How far the tip has slid: it only counts, and tells the path where it turns back.
+                // The slip distance enters no other equation; it only lets the solver detect
+                // reversal.
                 let (TipState::Slip { start, .. }, true) =
                     (touch.tip_state, state.active[needle.number(slot, constraint)])
                 else {
@@ -67,7 +69,7 @@ impl Chain {
         }
     }
 
-    /// Appends the conditions of the constraints of a guided needle.
+    /// Appends the conditions of the needle constraints.
     pub(in crate::puncture) fn needle_conditions(
         &self,
         needle: &GuidedNeedle,
@@ -81,7 +83,7 @@ impl Chain {
         for (_, touch, number, meeting) in self.touches(state) {
             let [_, _, rotation] = self.displacement(&state.z, number);
             values[tilt] = values[tilt].min(needle.critical_tilt - rotation.abs());
-            // The foot is where the left face begins and where the right one ends.
+            // The foot is the start of the left face and the end of the right face.
             let to_foot = match touch.place {
                 OutlinePart::Left => meeting.tip.xi,
                 OutlinePart::Right => meeting.tip.length - meeting.tip.xi,
@@ -104,7 +106,7 @@ impl Chain {
         }
     }
 
-    /// The conditions of the constraints of a touch but for that of its normal force.
+    /// Evaluates the conditions of a touch other than the one of its normal force.
     fn touch_conditions(
         &self,
         needle: &GuidedNeedle,
@@ -119,7 +121,7 @@ impl Chain {
         needle.stick_slip_conditions(state, number, touch, meeting, values);
         match touch.tip_state {
             TipState::Slip { .. } => {
-                // The outer end of a side face is its foot, and to come there is to come through.
+                // The outer end of a side face is its foot, and reaching it means passing through.
                 if touch.place != OutlinePart::Left {
                     values[FACE_START] = tip.xi;
                 }
@@ -136,7 +138,8 @@ impl Chain {
                     Some(beside.parts(force))
                 };
                 let [before, after] = [false, true].map(|onward| seen(onward).unwrap_or(forces));
-                // The force turns from that of a tip which slides onto the corner to that of one which slides away from it.
+                // The force rotates from that of a tip sliding onto the corner to that of a tip
+                // sliding away.
                 [values[FACE_START], values[FACE_END]] = if forward {
                     [friction * before[0] - before[1], after[1] - friction * after[0]]
                 } else {
@@ -147,17 +150,19 @@ impl Chain {
         }
     }
 
-    /// The gap to the face that the needle would come to next, while its foot lies within it.
+    /// Computes the gap to the face that the needle would meet next, if its foot is within that
+    /// face.
     ///
-    /// A tip that sticks on a corner meets that face together with the corner, and without pressing on it: corner and face bear their
-    /// force alone, until the tip slides.
+    /// A tip that sticks on a corner meets that face together with the corner and without pressing
+    /// on it: corner and face carry their force alone until the tip slides.
     fn gap_of_next(&self, state: &SkinState, touch: &Touch) -> f64 {
         let here = self.tip(&state.z, touch.scale, touch.place);
         if let (TipState::Stick { .. }, OutlinePart::Top, Some(here)) =
             (touch.tip_state, touch.place, here)
             && here.xi > here.length - BESIDE
         {
-            // Whether the contact of the corner is closed already does not matter: which of the two comes first would be round-off.
+            // Ignore whether the contact of the corner is already closed: the order of both events
+            // is round-off.
             return HOLDS;
         }
         let next = Self::next_touch(touch);
@@ -166,13 +171,15 @@ impl Chain {
         faced.map_or(HOLDS, |tip| tip.gap)
     }
 
-    /// Whether the tip is already below the face that it would come to next, whose end is about to come over it: there a corner meets the
-    /// shaft, of which the model knows nothing.
+    /// Returns true if the end of the next face is about to pass over the tip from the side.
+    ///
+    /// The tip is then already below that face and a corner meets the shaft, which the model does
+    /// not cover.
     pub(in crate::puncture) fn is_met_from_the_side(&self, state: &SkinState) -> bool {
         if state.mode.needle.is_round() {
             return false;
         }
-        // A tip that has gone on to the next scale is the second of the two touches.
+        // A second touch means that the tip has already gone on to the next scale.
         let mut touches = state.mode.needle.touches.iter().flatten();
         let (Some(touch), None) = (touches.next(), touches.next()) else { return false };
         let next = Self::next_touch(touch);
@@ -183,7 +190,7 @@ impl Chain {
         })
     }
 
-    /// Appends the derivatives of the conditions of a guided needle along a direction.
+    /// Appends the directional derivatives of the needle conditions.
     pub(in crate::puncture) fn needle_slopes(
         &self,
         needle: &GuidedNeedle,
@@ -202,8 +209,10 @@ impl Chain {
         slopes.extend(before.iter().zip(after).map(|(a, b)| (b - a) / (2.0 * step)));
     }
 
-    /// Whether the needle slides with friction, or is held in a notch with a force that does not turn with the row, or scales rub: their
-    /// forces have no energy then.
+    /// Returns true if the forces in this state have no potential.
+    ///
+    /// That is the case for a needle that slides with friction or is locked with a nonzero ratio,
+    /// and with friction between scales.
     pub(in crate::puncture) fn is_nonconservative(&self, state: &SkinState) -> bool {
         if Contacts::friction_acts(state) {
             return true;
@@ -216,7 +225,8 @@ impl Chain {
         })
     }
 
-    /// The unknowns of a guided needle in its stiffness: its depth, and the forces that keep it on faces and in places.
+    /// Lists the needle unknowns of the stiffness: depth, and the forces that hold it on faces and
+    /// at anchors.
     pub(in crate::puncture) fn needle_in_stiffness(&self, state: &SkinState) -> Vec<usize> {
         let Some(needle) = &self.needle else { return Vec::new() };
         let mut unknowns = vec![needle.depth];
@@ -229,8 +239,10 @@ impl Chain {
         unknowns
     }
 
-    /// Shows every entry of the symmetric stiffness of a needle that does not rub: second derivatives of `−N g + T ξ`, with `N` and, where
-    /// the tip sticks, `T` as unknowns.
+    /// Calls `entry` for each entry of the symmetric stiffness of a frictionless needle.
+    ///
+    /// These are second derivatives of `−N g + T ξ`, with `N` and, while the tip sticks, `T` as
+    /// unknowns.
     pub(in crate::puncture) fn for_needle_stiffness(
         &self,
         state: &SkinState,
@@ -258,14 +270,15 @@ impl Chain {
         }
     }
 
-    /// Force of the needle on the scales along the row, to the right.
+    /// Computes the force of the needle on the scales along the row, to the right.
     pub(in crate::puncture) fn lateral_force(&self, state: &SkinState) -> f64 {
         let Some(needle) = &self.needle else { return 0.0 };
         let touches = self.touches(state);
         touches.map(|(slot, _, _, at)| at.tip.force(needle.forces(&state.z, slot)).x).sum()
     }
 
-    /// What friction takes at the tip between two neighbouring points, `∫ μ_n N |dξ|`.
+    /// Computes the frictional dissipation at the tip between two neighbouring points, `∫ μ_n N
+    /// |dξ|`.
     pub(in crate::puncture) fn taken_at_tip(
         &self,
         from: &SkinPoint,
@@ -282,7 +295,7 @@ impl Chain {
             let slid = needle.normal_force(slot) + 1 + if sign > 0.0 { FORWARD } else { BACKWARD };
             let normal_force = needle.normal_force(slot);
             let along = |of: usize| [spans[0] * from.leaving[of], spans[1] * to.arriving[of]];
-            // The tip may have come to rest at the second point: its way is taken from the poses.
+            // The tip may have stopped at the second point, so compute its slip from the poses.
             let pushes = [from.state.z[normal_force], to.state.z[normal_force]];
             let ways = [from.state.z[slid], sign * (end.xi() - start)];
             needle.friction * product_integral([pushes, along(normal_force)], [ways, along(slid)])
@@ -290,7 +303,7 @@ impl Chain {
         self.touches(&from.state).map(of_touch).sum()
     }
 
-    /// `T` and `ξ` of all touches, by their slots: friction takes `∫ T dξ`.
+    /// Returns `T` and `ξ` of all touches by slot; the dissipation is `∫ T dξ`.
     #[cfg(test)]
     pub(in crate::puncture) fn rubbing(&self, state: &SkinState) -> Vec<[f64; 2]> {
         let Some(needle) = &self.needle else { return Vec::new() };
@@ -303,14 +316,14 @@ impl Chain {
 }
 
 impl GuidedNeedle {
-    /// `N` and `T` of a touch.
+    /// Returns `N` and `T` of a touch.
     fn forces(&self, z: &[f64], slot: usize) -> [f64; 2] {
         let normal_force = self.normal_force(slot);
         let rubs = self.constraints_per_touch < self.unknowns_per_touch;
         [z[normal_force], if rubs { z[normal_force + 1] } else { 0.0 }]
     }
 
-    /// The conditions of a touch that sticks (L2), and of one that slides.
+    /// Evaluates the conditions of a sticking touch (L2) and of a sliding touch.
     pub(super) fn stick_slip_conditions(
         &self,
         state: &SkinState,
@@ -338,7 +351,7 @@ impl GuidedNeedle {
     }
 }
 
-/// The force of a touch in the balances of its scale and, with the other sign, of the needle.
+/// Adds the force of a touch to the balances of its scale and, with opposite sign, of the needle.
 fn add_balance(
     meeting: &Meeting,
     rows: [usize; COORDINATES],
@@ -347,7 +360,7 @@ fn add_balance(
     residual: &mut Residual,
     matrix: &mut impl Tangent,
 ) {
-    // Of a round tip that does not rub the next unknown is one that stays 0.
+    // For a frictionless round tip the next unknown is another one, which stays 0.
     let forces = [z[normal_force], z[normal_force + 1]];
     let (by_gap, by_xi) = (meeting.tip.gap_slopes(), meeting.xi_slopes());
     let curvature = meeting.curvature(forces);
@@ -361,7 +374,7 @@ fn add_balance(
     }
 }
 
-/// The law of the tangential force, in its row.
+/// Adds the friction law in the row of the tangential force.
 fn add_law(
     needle: &GuidedNeedle,
     (touch, normal_force): (&Touch, usize),
@@ -389,8 +402,9 @@ fn add_law(
                 TipState::Stick { anchor } => needle.shifted_anchor(touch, anchor),
                 _ => 0.0,
             };
-            // With this sign the determinant keeps its own where a tip that slides comes to rest. With the other one the path would
-            // take the equilibria behind that place for another branch, and stop there.
+            // This sign keeps the sign of the determinant where a sliding tip stops. With the other
+            // sign the solver would take the equilibria behind that point for another branch and
+            // stop.
             residual.add(row, at);
             residual.add(row, -meeting.xi());
             add_row(row, rows, -1.0, meeting.xi_slopes(), matrix);
@@ -398,7 +412,7 @@ fn add_law(
     }
 }
 
-/// Adds `factor` times the slopes by the coordinates of a touch to a row.
+/// Adds `factor` times the slopes with respect to the coordinates of a touch to a row.
 pub(super) fn add_row(
     row: usize,
     columns: [usize; COORDINATES],

@@ -1,13 +1,15 @@
-//! What a row keeps of its way, and how that changes with a parameter.
+//! History variables of a row, and their derivatives with respect to parameters.
 //!
-//! Where the tip of a needle or a contact sticks it does so at an anchor, and in a notch a needle is held with a ratio of forces. All were
-//! set at an event of the path, and a parameter moves them as it moves that event:
+//! A sticking tip or contact has an anchor, and a needle in a notch is locked with a ratio of
+//! forces. These variables are set at an event of the path, so a parameter shifts them as it shifts
+//! that event:
 //!
 //! ```text
 //! da/dq = ∂a/∂q + ∂a/∂z dz/dq   at the event,     dz/dq = −J⁻¹ (∂r/∂q + ∂r/∂a da/dq) + s v   behind it      (L6)
 //! ```
 //!
-//! The second is (D2) of systems for `q ± h` whose own history is that of their paths, to first order.
+//! The second equation is (D2), applied to the systems for `q ± h` with their own history
+//! variables, to first order.
 
 use std::borrow::Cow;
 
@@ -20,16 +22,16 @@ use crate::puncture::adaptive_row::Segment;
 use crate::puncture::system::Chain;
 use crate::sensitivity::vanished;
 
-/// What the equations keep of the way to a state.
+/// History variable of a state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::puncture) enum HistoryVariable {
-    /// Where a touch of the needle sticks, or how it is held.
+    /// Anchor or locked ratio of a needle touch.
     Touch(Touch),
-    /// Where a contact, by its number, sticks, or how it is held.
+    /// Anchor or locked ratio of a contact, with its number.
     Contact(usize, f64),
 }
 
-/// The segments of a path at whose ends the row comes to keep something of its way.
+/// Collects the path segments that end with a new history variable.
 #[derive(Debug, Default)]
 pub(in crate::puncture) struct HistoryObserver {
     pub(in crate::puncture) segments: Vec<[SkinPoint; 2]>,
@@ -37,20 +39,20 @@ pub(in crate::puncture) struct HistoryObserver {
 
 impl HistoryObserver {
     pub(in crate::puncture) fn follow(&mut self, Segment { from, to, .. }: &Segment) {
-        // What is kept is copied bit by bit along the path, so that equality tells what is new.
+        // History variables are copied bit by bit along the path, so inequality means a new one.
         if history(&to.state).iter().any(|kept| !history(&from.state).contains(kept)) {
             self.segments.push([(**from).clone(), to.clone()]);
         }
     }
 }
 
-/// Something that is kept, and its rates of change with each parameter; `None` where that is not known.
+/// A history variable and its derivative with respect to each parameter; `None` if unknown.
 pub(in crate::puncture) struct Anchor {
     kept: HistoryVariable,
     rates: Vec<Option<f64>>,
 }
 
-/// The anchors of a path with their rates of change, in order.
+/// Computes the history variables of a path with their derivatives, in order.
 pub(in crate::puncture) fn anchors(
     path: &mut Path<Chain>,
     segments: &[[SkinPoint; 2]],
@@ -59,7 +61,7 @@ pub(in crate::puncture) fn anchors(
     let rest = path.system().at_rest();
     let mut anchors: Vec<Anchor> = Vec::new();
     for kept in history(&rest) {
-        // The needle is set down: its first anchor is a matter of the design alone.
+        // The first anchor of the needle depends on the design only.
         let of = |neighbours: &Neighbours<Chain>| {
             let at = |chain: &Chain| chain.history_value(&rest, kept, &rest);
             let (below, above) = (at(&neighbours.below)?, at(&neighbours.above)?);
@@ -69,12 +71,12 @@ pub(in crate::puncture) fn anchors(
     }
     for [from, to] in segments {
         let place = event_before(path, [from, to]);
-        // Earlier anchors move this event, too: the segments are in the order of the path.
+        // Earlier history variables shift this event, too, so process segments in path order.
         let varied = place.as_ref().and_then(|place| with(&anchors, &place.state, variations));
         let mut here = place.and_then(|place| Linearisation::new(path.system(), place).ok());
         let new =
             history(&to.state).into_iter().filter(|kept| !history(&from.state).contains(kept));
-        // The equilibria of neighbours at the event serve all that is kept from there on.
+        // Solve for the perturbed equilibria at the event once, for all its history variables.
         let unknown = || vec![None; variations.len()];
         let moved: Vec<_> =
             here.as_mut().zip(varied.as_ref()).map_or_else(unknown, |(here, varied)| {
@@ -94,7 +96,9 @@ pub(in crate::puncture) fn anchors(
     anchors
 }
 
-/// Variations of a row of which the neighbours have come to a state, each on its own way; `None` if one of these is not known.
+/// Gives perturbed rows the history variables of their own paths to `state`.
+///
+/// `None` if a derivative of these variables is unknown.
 pub(in crate::puncture) fn with<'v>(
     anchors: &[Anchor],
     state: &SkinState,
@@ -102,7 +106,7 @@ pub(in crate::puncture) fn with<'v>(
 ) -> Option<Cow<'v, [Neighbours<Chain>]>> {
     let mut varied = Cow::Borrowed(variations);
     for kept in history(state) {
-        // Something may come to the same rest twice: the latest event counts.
+        // A variable may take the same value twice: use the latest event.
         let anchor = anchors.iter().rev().find(|anchor| anchor.kept == kept)?;
         for (neighbours, rate) in varied.to_mut().iter_mut().zip(&anchor.rates) {
             let change = neighbours.step * (*rate)?;
@@ -113,7 +117,7 @@ pub(in crate::puncture) fn with<'v>(
     Some(varied)
 }
 
-/// What the equations of a state keep of the way to it.
+/// Lists the history variables of a state.
 pub(in crate::puncture) fn history(state: &SkinState) -> Vec<HistoryVariable> {
     let mode = &state.mode.needle;
     let touches = mode.all().filter(|(_, touch)| touch.has_history());
@@ -125,7 +129,7 @@ pub(in crate::puncture) fn history(state: &SkinState) -> Vec<HistoryVariable> {
     touches.chain(contacts).collect()
 }
 
-/// The event at the end of a segment, seen from before it.
+/// Solves for the event at the end of a segment, in the state before the event.
 pub(in crate::puncture) fn event_before(
     path: &mut Path<Chain>,
     [from, to]: [&SkinPoint; 2],
@@ -135,12 +139,13 @@ pub(in crate::puncture) fn event_before(
         Some(solver::Event::Changed(changes)) => vanished(path.system(), &state, changes),
         _ => None,
     };
-    // Where sliding turns back smoothly, to move along the path does not change how far the tip has slid.
+    // At a smooth reversal the slip is stationary along the path, so the position of the point does
+    // not matter.
     let anchor = guard.map_or(PathAnchor::Still, PathAnchor::Guard);
     Some(AnchoredPoint { state, direction, anchor })
 }
 
-/// The equilibria of neighbours at an event; `None` where it becomes another one with the parameter.
+/// Computes the perturbed equilibria at an event; `None` if the parameter changes the event.
 fn moved_to(
     chain: &Chain,
     here: &mut Linearisation<SkinMode>,
@@ -156,7 +161,8 @@ fn moved_to(
 }
 
 impl Chain {
-    /// What will be kept, in the state `to`, of a state in which it is not yet: a place, or a ratio of forces.
+    /// Evaluates in `state` a history variable that state `to` will have: an anchor or a ratio of
+    /// forces.
     fn history_value(
         &self,
         state: &SkinState,
@@ -170,7 +176,7 @@ impl Chain {
             HistoryVariable::Touch(touch) => touch,
         };
         let TipState::Locked { .. } = touch.tip_state else {
-            // A round tip may roll on after the event: it counts where it touches there.
+            // A round tip may roll on after the event: evaluate it where it touches there.
             let place = to.mode.needle.place(touch.scale).unwrap_or(touch.place);
             return Some(self.meeting(&state.z, touch.scale, place)?.xi());
         };
@@ -178,14 +184,14 @@ impl Chain {
         let is_there = |before: &Touch| (before.scale, before.place) == (touch.scale, touch.place);
         let Some(slot) = before.iter().position(|before| before.as_ref().is_some_and(is_there))
         else {
-            // The corner has come to the tip: it is held without a tangential force.
+            // The corner has reached the tip, which is locked without a tangential force.
             return Some(0.0);
         };
         let normal_force = self.needle.as_ref()?.normal_force(slot);
         Some(state.z[normal_force + 1] / state.z[normal_force])
     }
 
-    /// Takes what is kept to that of a neighbour.
+    /// Shifts a history variable, for a perturbed row.
     fn shift_anchor(&mut self, kept: HistoryVariable, by: f64) {
         match (kept, &mut self.needle) {
             (HistoryVariable::Touch(touch), Some(needle)) => needle.anchor_shifts.push((touch, by)),
@@ -196,7 +202,7 @@ impl Chain {
 }
 
 impl GuidedNeedle {
-    /// The anchor of a touch, or its ratio of forces, on the way to this row.
+    /// Returns the anchor or ratio of a touch, given its value in the mode.
     pub(super) fn shifted_anchor(&self, touch: &Touch, of_mode: f64) -> f64 {
         let touch = if self.is_round() { touch.anywhere() } else { *touch };
         let moved = self.anchor_shifts.iter().find(|(moved, _)| *moved == touch);

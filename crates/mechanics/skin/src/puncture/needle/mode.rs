@@ -1,6 +1,6 @@
-//! What a guided needle touches, and how it rubs there.
+//! Discrete state of a guided needle: its touches and their friction states.
 
-/// A place on the outline of a scale, in the order in which one goes along it, from the left foot over the top to the right foot.
+/// Part of the outline of a scale, ordered from the left foot over the top to the right foot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd)]
 pub(crate) enum OutlinePart {
     /// The left face.
@@ -18,7 +18,7 @@ pub(crate) enum OutlinePart {
 impl OutlinePart {
     const ALL: [Self; 5] = [Self::Left, Self::TopLeft, Self::Top, Self::TopRight, Self::Right];
 
-    /// The next place along the outline, forward or backward; `None` at a foot.
+    /// Returns the next part along the outline, forward or backward; `None` at a foot.
     pub(crate) fn next(self, forward: bool) -> Option<Self> {
         let here = Self::ALL.iter().position(|place| *place == self)?;
         let next = if forward { here + 1 } else { here.checked_sub(1)? };
@@ -26,24 +26,28 @@ impl OutlinePart {
     }
 }
 
-/// How the tip of a needle moves at the place that it touches: the law of its tangential force `T`, with its normal force `N` and its
-/// coordinate `ξ` along the face.
+/// Friction state of the needle tip at a touch.
+///
+/// It determines the law of the tangential force `T`, with normal force `N` and coordinate `ξ`
+/// along the face.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum TipState {
-    /// It slides: `T = sign μ N` with the sign of `ξ̇`, 0 without friction. It has done so since `ξ` was `from`.
+    /// Slides since `ξ` was `start`: `T = sign μ N` with the sign of `ξ̇`, 0 without friction.
     Slip { sign: f64, start: f64 },
-    /// It sticks: `ξ = at`, its anchor, and `T` is unknown.
+    /// Sticks: `ξ = anchor`, and `T` is unknown.
     Stick { anchor: f64 },
-    /// It passes over a corner, forward or backward along the outline: `ξ = 0` in the frame of the corner, and `T` is unknown.
+    /// Passes over a corner, forward or backward along the outline: `ξ = 0` in the frame of the
+    /// corner, `T` is unknown.
     Passing { forward: bool },
-    /// It is held in a notch by the neighbour's face: nothing moves, and `T = ratio N` stays what it was.
+    /// Locked in a notch by the neighbouring face: nothing moves, and `T = ratio N` keeps its
+    /// ratio.
     Locked { ratio: f64 },
 }
 
-/// A scale that the needle touches.
+/// Contact of the needle with a scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Touch {
-    /// Number of the scale, from the punctured one to the right.
+    /// Number of the scale, counted from the punctured one to the right.
     pub(crate) scale: i64,
     pub(crate) place: OutlinePart,
     pub(crate) tip_state: TipState,
@@ -54,44 +58,44 @@ impl Touch {
         matches!(self.tip_state, TipState::Locked { .. })
     }
 
-    /// The same wherever a round tip touches the scale: it rolls from place to place without sliding.
+    /// Replaces the outline part, for comparison: a round tip rolls between parts without sliding.
     pub(crate) fn anywhere(&self) -> Self {
         Self { place: OutlinePart::Top, ..*self }
     }
 
-    /// Whether its tangential force is unknown, since it stays at a place.
+    /// Returns true if the tangential force is unknown because the position is fixed.
     pub(crate) fn is_at_a_place(&self) -> bool {
         matches!(self.tip_state, TipState::Stick { .. } | TipState::Passing { .. })
     }
 
-    /// Whether the equations keep something of the way to the state: where the tip sticks, or with what force it is held.
+    /// Returns true if the equations depend on a history variable: an anchor or a locked ratio.
     pub(crate) fn has_history(&self) -> bool {
         matches!(self.tip_state, TipState::Stick { .. } | TipState::Locked { .. })
     }
 }
 
-/// Slots in which a sharp tip may touch: neighbours, if they are two.
+/// Slots of a sharp tip: it touches at most two neighbouring scales.
 pub(super) const SHARP_SLOTS: usize = 2;
 
-/// The state of a guided needle, history included: the scales that it touches. Nothing in a row under a free needle.
+/// Discrete state of a guided needle, history included; empty under a free needle.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct NeedleMode {
-    /// By slots: those of a sharp tip, or of a round one a slot for each scale in reach.
+    /// One entry per slot: two for a sharp tip, one per scale in reach for a round tip.
     pub(crate) touches: Vec<Option<Touch>>,
 }
 
 impl NeedleMode {
-    /// Whether the tip is round: there are always more slots then.
+    /// Returns true for a round tip, which always has more slots.
     pub(super) fn is_round(&self) -> bool {
         self.touches.len() > SHARP_SLOTS
     }
 
-    /// Where the tip touches a scale, counted from the punctured one.
+    /// Returns the part of a scale that the tip touches; scales are counted from the punctured one.
     pub(super) fn place(&self, scale: i64) -> Option<OutlinePart> {
         self.all().find(|(_, touch)| touch.scale == scale).map(|(_, touch)| touch.place)
     }
 
-    /// All touches, each with its slot.
+    /// Iterates over all touches with their slots.
     pub(super) fn all(&self) -> impl Iterator<Item = (usize, &Touch)> {
         let slots = self.touches.iter().enumerate();
         slots.filter_map(|(slot, touch)| Some((slot, touch.as_ref()?)))

@@ -1,11 +1,13 @@
-//! The tip of a needle, seen from a scale.
+//! Kinematics of the needle tip relative to a scale.
 
 use contact::Pose;
 use geometry::{Corner, Parallelogram, Vec2};
 
 use super::mode::OutlinePart;
 
-/// A face of a scale, in the frame of the scale; a corner is one without length, whose direction is half-way between its neighbours'.
+/// Face of a scale in its own frame.
+///
+/// A corner is a face of zero length with the mean direction of its neighbours.
 pub(super) struct Face {
     pub(super) origin: Vec2,
     pub(super) along: Vec2,
@@ -37,10 +39,10 @@ impl Face {
     }
 }
 
-/// The tip of a needle at a face of a scale.
+/// The needle tip relative to a face of a scale.
 ///
-/// With the tip at `P`, the node of the scale at `O`, the origin of the face at `E`, its direction `t` and its outward normal `n`, all
-/// deformed, and `r = P − O`,
+/// With the tip at `P`, the node of the scale at `O`, the origin of the face at `E`, its direction
+/// `t` and its outward normal `n`, all deformed, and `r = P − O`,
 ///
 /// ```text
 /// g = (P − E)·n        ξ = (P − E)·t                                                   (L4)
@@ -57,35 +59,36 @@ pub(super) struct Tip {
     pub(super) length: f64,
 }
 
-/// Coordinates that a gap of the needle depends on: `x, y, φ` of the scale, and the depth.
+/// Coordinates that a needle gap depends on: `x, y, φ` of the scale, and the depth.
 pub(super) const COORDINATES: usize = 4;
 
-/// Numbers of the rotation and of the depth among them.
+/// Indices of rotation and depth among the coordinates.
 pub(super) const TURN: usize = 2;
 const DEPTH: usize = 3;
 
 impl Tip {
-    /// The tip at a place on a scale, whose node at rest is `away` from it.
+    /// Places the tip at a face; `away` is the tip relative to the node of the scale at rest.
     pub(super) fn new(face: &Face, pose: &Pose, away: Vec2) -> Self {
         let arm = away - pose.displacement;
         let along = pose.turn(face.along);
-        // The outline goes from left to right over the top, so that outward is to its left.
+        // The outline runs from left to right over the top, so the outward normal is to its left.
         let normal = Vec2::new(-along.y, along.x);
         let from_origin = arm - pose.turn(face.origin);
         let (gap, xi) = (from_origin.dot(&normal), from_origin.dot(&along));
         Self { arm, normal, along, gap, xi, length: face.length }
     }
 
-    /// The tip in the frame of the line from a corner to it, which is the normal of a round one there.
+    /// Rotates the frame so that its normal points from the corner to the tip, as for a round tip
+    /// there.
     pub(super) fn at_corner(self) -> Self {
         let away = self.gap * self.normal + self.xi * self.along;
         let gap = away.norm();
-        // The gap is about the radius where the tip touches, and so not zero.
+        // Nonzero: the gap is close to the radius where the tip touches.
         let normal = away / gap;
         Self { normal, along: Vec2::new(normal.y, -normal.x), gap, xi: 0.0, ..self }
     }
 
-    /// From the tip to a place on the face.
+    /// Returns the vector from the tip to the point `xi` of the face.
     pub(super) fn to_end(&self, xi: f64) -> Vec2 {
         (xi - self.xi) * self.along - self.gap * self.normal
     }
@@ -98,7 +101,7 @@ impl Tip {
         [-self.along.x, -self.along.y, self.arm.dot(&self.normal), -self.along.y]
     }
 
-    /// Second derivatives of `−N g + T ξ`.
+    /// Computes the second derivatives of `−N g + T ξ`.
     pub(super) fn curvature(
         &self,
         [normal_force, tangential_force]: [f64; 2],
@@ -114,21 +117,22 @@ impl Tip {
         curvature
     }
 
-    /// The force on the scale under the normal force `N` and the tangential one `T`.
+    /// Computes the force on the scale from normal force `N` and tangential force `T`.
     pub(super) fn force(&self, [normal_force, tangential_force]: [f64; 2]) -> Vec2 {
         tangential_force * self.along - normal_force * self.normal
     }
 
-    /// `N` and `T` of a force on the scale.
+    /// Resolves a force on the scale into `N` and `T`.
     pub(super) fn parts(&self, force: Vec2) -> [f64; 2] {
         [-force.dot(&self.normal), force.dot(&self.along)]
     }
 }
 
-/// The tip where it touches a scale: on a face, or a round one on a corner.
+/// The tip in contact with a scale: on a face, or for a round tip also on a corner.
 ///
-/// A round tip slides along `ξ`: from the left foot on, by the way of the place of touching on the faces less that by which the circle
-/// rolls, with the angle `ψ` of the normal, clockwise from upward. It goes on from face to corner without a step.
+/// The slip coordinate `ξ` of a round tip is the arc length of the contact point along the outline,
+/// from the left foot, minus the rolled arc, with the angle `ψ` of the normal, clockwise from
+/// upward. It is continuous from face to corner.
 ///
 /// ```text
 /// ξ = (C − E)·t + R ψ  on a face,   R ψ  on a corner,   both behind the faces before;     ∂ξ = −t, (P − O)·n, −t_y        (L9)
@@ -138,7 +142,7 @@ pub(super) struct Meeting {
     radius: f64,
     /// Whether a round tip is on a corner.
     is_corner: bool,
-    /// Length of the faces before the place.
+    /// Length of the faces before this part.
     before: f64,
 }
 
@@ -148,7 +152,7 @@ impl Meeting {
         Self { tip: if is_corner { tip.at_corner() } else { tip }, radius, is_corner, before }
     }
 
-    /// How far the tip is from the scale.
+    /// Returns the gap between tip and scale.
     pub(super) fn gap(&self) -> f64 {
         self.tip.gap - self.radius
     }
@@ -169,12 +173,12 @@ impl Meeting {
             slopes[TURN] -= self.radius;
             return slopes;
         }
-        // From the node the arm leads to the corner here, and not to the centre of the tip.
+        // Here the arm leads from the node to the corner, not to the centre of the tip.
         slopes[TURN] -= self.tip.gap;
         slopes.map(|slope| slope * self.radius / self.tip.gap)
     }
 
-    /// Second derivatives of `−N g + T ξ` (L8).
+    /// Computes the second derivatives of `−N g + T ξ` (L8).
     pub(super) fn curvature(
         &self,
         [normal_force, tangential_force]: [f64; 2],

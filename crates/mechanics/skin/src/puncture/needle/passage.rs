@@ -1,4 +1,4 @@
-//! Where a guided needle comes to touch more than its face, and how its path ends.
+//! Passage of a guided needle: where it touches more than its face, and how its path ends.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,18 +8,18 @@ use crate::puncture::adaptive_row::Segment;
 use crate::puncture::system::Chain;
 use crate::record::Skin;
 
-/// What ends the path of a guided needle.
+/// Event that ends the path of a guided needle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum CriticalEvent {
-    /// A scale that the needle touches is critically tilted.
+    /// A touched scale reaches the critical tilt.
     Tilt,
-    /// The needle is through to the soft surface between two bases.
+    /// The needle reaches the soft surface between two bases.
     Through,
 }
 
 impl CriticalEvent {
-    /// Short name, as in tables.
+    /// Returns the short name used in tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::Tilt => "tilt",
@@ -28,37 +28,40 @@ impl CriticalEvent {
     }
 }
 
-/// How a guided needle has come through the row; nothing of a free one.
+/// Passage of a guided needle through the row; empty for a free needle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Passage {
-    /// What ended the path; `None` if something else did.
+    /// Event that ended the path; `None` if it ended otherwise.
     pub critical_event: Option<CriticalEvent>,
-    /// `F*` where the needle first touches more than the face that it was set down on, a corner or another scale; `None` if it never does.
+    /// `F*` where the needle first touches more than its initial face (a corner or another scale);
+    /// `None` if it never does.
     pub passing_force: Option<f64>,
     /// `u*` there.
     pub passing_displacement: Option<f64>,
     /// Tilt of the punctured scale there, degrees.
     pub passing_tilt_deg: Option<f64>,
-    /// How far the needle moved inward on that face, over `t`: at the end, or where it first touches more.
+    /// Inward displacement of the needle on that face, over `t`: at the end, or where it first
+    /// touches more.
     pub needle_shift: Option<f64>,
 }
 
 impl Passage {
-    /// Whether there is nothing to tell, as of a free needle.
+    /// Returns true if nothing is recorded, as for a free needle.
     pub fn is_none(&self) -> bool {
         *self == Self::default()
     }
 }
 
-/// The scales that a round tip touches, 0 the punctured one, and its normal force on each, in the unit of `F*`.
+/// Scales touched by a round tip (0 is the punctured one), with the normal forces in units of `F*`.
 pub type TipForces = Vec<(i64, f64)>;
 
-/// Watches a path for the place at which the needle comes to touch more than its face, and notes the forces of a round tip.
+/// Detects where the needle first touches more than its face, and records the forces of a round
+/// tip.
 #[derive(Debug, Default)]
 pub(in crate::puncture) struct PassageObserver {
-    /// Of every point that the path has left.
+    /// One entry per point that the path has left.
     pub(in crate::puncture) tip_forces: Vec<TipForces>,
-    /// The segment at whose end it does.
+    /// Segment at whose end the needle first touches more than its face.
     pub(in crate::puncture) passed: Option<[SkinPoint; 2]>,
 }
 
@@ -92,7 +95,7 @@ impl PassageObserver {
     }
 }
 
-/// Whether the needle touches nothing but the face on which it was set down.
+/// Returns true if the needle touches only its initial face.
 fn is_on_its_face(state: &SkinState) -> bool {
     let on_top = |(_, touch): (usize, &Touch)| {
         touch.scale == 0
@@ -103,7 +106,7 @@ fn is_on_its_face(state: &SkinState) -> bool {
 }
 
 impl Chain {
-    /// How far the tip has moved inward on the top of the punctured scale.
+    /// Returns the inward displacement of the tip on the top of the punctured scale.
     pub(in crate::puncture) fn shift(&self, state: &SkinState) -> Option<f64> {
         let at = |z: &[f64]| Some(self.tip(z, 0, OutlinePart::Top)?.xi);
         Some(at(&vec![0.0; state.z.len()])? - at(&state.z)?)

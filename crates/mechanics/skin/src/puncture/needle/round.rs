@@ -1,8 +1,10 @@
-//! A needle with a round tip: a circle that is guided straight down and touches faces and corners of all scales that it reaches.
+//! A needle with a round tip: a circle guided straight down.
 //!
-//! A scale is convex, so a circle touches it at one place at most: there is one normal force for each scale in reach. Faces and corners go
-//! over into each other smoothly: the mode only says of which the second derivatives are. With friction the circle sticks or slides at each
-//! scale by itself, as a sharp tip does, along a way that goes on from face to corner (L9).
+//! It touches faces and corners of all scales in reach. A scale is convex, so the circle touches it
+//! in at most one point: there is one normal force per scale in reach. Faces and corners join
+//! smoothly, so the outline part in the mode only selects the second derivatives. With friction the
+//! circle sticks or slides at each scale separately, like a sharp tip, with a slip coordinate that
+//! is continuous from face to corner (L9).
 
 use geometry::Vec2;
 use solver::{Change, Condition, Newton};
@@ -15,50 +17,52 @@ use super::{ENDINGS, GuidedNeedle, NORMAL};
 use crate::contacts::{HOLDS, SkinState};
 use crate::puncture::system::Chain;
 
-/// Scales on each side of the punctured one that a round tip may come to.
+/// Largest reach of a round tip, in scales on each side of the punctured one.
 pub(crate) const FARTHEST_TOUCH: usize = 64;
 
-/// Those that it may come to besides the ones below it at rest, since rows are pushed along.
+/// Scales in reach in addition to those below the tip at rest, because rows move sideways.
 const PUSHED_ALONG: usize = 2;
 
-/// Scales that are touched at rest differ in their gaps by round-off.
+/// Gaps of scales touched at rest agree within this round-off.
 const AT_REST: f64 = 1e-10;
 
-/// Set down on two scales a tip is on one of them alone, sticks or slides, after fewer trials than this.
+/// Maximum number of trials to settle a tip set down on two scales: on one of them, sticking or
+/// sliding.
 const SETTLES: usize = 8;
 
 const FACES: [OutlinePart; 3] = [OutlinePart::Left, OutlinePart::Top, OutlinePart::Right];
 
-/// Scales on each side of the punctured one that a round tip may come to on a row of this pitch; `None` if they are too many.
+/// Returns the reach of a round tip in scales on each side; `None` if it is too large.
 pub(in crate::puncture) fn reach(radius: f64, pitch: f64) -> Option<usize> {
     let reach = (radius / pitch).ceil() as usize + PUSHED_ALONG;
     (reach <= FARTHEST_TOUCH).then_some(reach)
 }
 
-/// Unknowns of a round tip for each scale in reach: a normal force and a condition on the place; between them, of one that rubs, the
-/// tangential force and the ways slid forward and backward.
+/// Counts the unknowns per scale in reach: normal force and a condition on the position.
+///
+/// With friction also the tangential force and the forward and backward slip distances.
 pub(super) fn of_scale(rubs: bool) -> usize {
     if rubs { 5 } else { 2 }
 }
 
-/// Unknowns of a round tip: its depth, those for each scale in reach, and what ends the path.
+/// Counts the unknowns of a round tip: depth, scales in reach, and endings.
 pub(in crate::puncture) fn unknowns(reach: usize, rubs: bool) -> usize {
     1 + of_scale(rubs) * (2 * reach + 1) + ENDINGS
 }
 
 impl GuidedNeedle {
-    /// Scales on each side of the punctured one that the tip may come to.
+    /// Returns the number of scales on each side of the punctured one in reach.
     pub(super) fn reach(&self) -> usize {
         self.slots / 2
     }
 
-    /// Scales that a round tip may come to, by their slot and as they are counted from the punctured one.
+    /// Iterates over the scales in reach: slot, and number counted from the punctured scale.
     fn scales(&self) -> impl Iterator<Item = (usize, i64)> + use<> {
         let reach = self.reach() as i64;
         (-reach..=reach).enumerate()
     }
 
-    /// Lets the tip touch a scale, or let go of it.
+    /// Sets or removes the touch of a scale.
     fn set_touch(&self, state: &mut SkinState, scale: i64, touch: Option<Touch>) {
         let slot = (scale + self.reach() as i64) as usize;
         if touch.is_none() && self.has_friction() {
@@ -71,7 +75,9 @@ impl GuidedNeedle {
 }
 
 impl Chain {
-    /// The centre of the tip at rest, from the node of the punctured scale: where the circle comes to rest on the row, coming from above.
+    /// Computes the centre of the tip at rest, where the circle comes to rest from above.
+    ///
+    /// The position is relative to the node of the punctured scale.
     pub(in crate::puncture) fn centre_at_rest(&self, needle: &GuidedNeedle, x: f64) -> Vec2 {
         let mut highest = f64::NEG_INFINITY;
         for (_, scale) in needle.scales() {
@@ -86,19 +92,20 @@ impl Chain {
         Vec2::new(x, highest)
     }
 
-    /// The place of a scale that is nearest to the centre of the tip, and its distance; negative within the scale.
+    /// Finds the outline part of a scale nearest to the centre, and its distance; negative inside
+    /// the scale.
     fn nearest(&self, z: &[f64], scale: i64) -> Option<(OutlinePart, f64)> {
         let [left, top, right] = FACES.map(|place| self.tip(z, scale, place));
         let faces = [left?, top?, right?];
         let places = || FACES.into_iter().zip(&faces);
         if faces.iter().all(|face| face.gap < 0.0) {
-            // The nearest face is the one that the centre is the least behind.
+            // Inside the scale, the nearest face has the smallest penetration.
             let gaps = places().map(|(place, face)| (place, face.gap));
             return gaps.reduce(|a, b| if b.1 > a.1 { b } else { a });
         }
         let distances = places().map(|(place, face)| {
             let beyond = face.xi - face.xi.clamp(0.0, face.length);
-            // Only beyond a top corner the outline goes on: below the bases there is no model.
+            // The outline continues only beyond a top corner; there is no model below the bases.
             let at_end = match (place, beyond) {
                 (OutlinePart::Top, ..0.0) => OutlinePart::TopLeft,
                 (OutlinePart::Left, 0.0..) if beyond > 0.0 => OutlinePart::TopLeft,
@@ -111,7 +118,7 @@ impl Chain {
         distances.reduce(|a, b| if b.1 < a.1 { b } else { a })
     }
 
-    /// The state of rest, with the scales that the tip stands on.
+    /// Returns the state at rest with the scales that the tip touches.
     pub(super) fn round_at_rest(&self, needle: &GuidedNeedle, mut rest: SkinState) -> SkinState {
         for (_, scale) in needle.scales() {
             let nearest = self.nearest(&rest.z, scale);
@@ -125,13 +132,14 @@ impl Chain {
         for _ in 0..SETTLES {
             let Ok(rates) = Newton::new(self).tangent(self, &rest, &condition) else { return rest };
             let largest = rates.iter().fold(f64::MIN_POSITIVE, |max, x| max.max(x.abs()));
-            // At the end of a face the tip goes on to the corner or back on the face: without forces both have the same rates, which say it.
+            // At the end of a face the tip moves on to the corner or back on the face. Without
+            // forces both have the same rates, which decide.
             let ahead = rest.moved(STEP / largest, &rates);
             let before = rest.clone();
             for (slot, touch) in before.mode.needle.all() {
                 let [normal_force, tangential_force] =
                     [0, 1].map(|k| rates[needle.normal_force(slot) + k]);
-                // A touch that would have to pull is none.
+                // Remove touches that would have to pull.
                 if normal_force <= 0.0 {
                     needle.set_touch(&mut rest, touch.scale, None);
                     continue;
@@ -152,14 +160,14 @@ impl Chain {
         rest
     }
 
-    /// A round tip that has come to rest on the nearest place of a scale.
+    /// Creates the touch of a round tip at rest on the nearest part of a scale.
     fn round_touch(&self, needle: &GuidedNeedle, z: &[f64], scale: i64) -> Option<Touch> {
         let (place, _) = self.nearest(z, scale)?;
         let at = if needle.has_friction() { self.meeting(z, scale, place)?.xi() } else { 0.0 };
         Some(Touch { scale, place, tip_state: needle.resting(at) })
     }
 
-    /// Writes the conditions of the constraints of a round tip.
+    /// Evaluates the conditions of a round tip.
     pub(super) fn round_conditions(
         &self,
         needle: &GuidedNeedle,
@@ -180,7 +188,7 @@ impl Chain {
                 &mut values[needle.constraints_per_touch * slot..][..needle.constraints_per_touch];
             of_scale[NORMAL] = meeting.gap();
             let [before, after] = self.to_ends(state, touch.scale, touch.place);
-            // One condition serves both ends: which one has come is asked at the event.
+            // One condition covers both ends; the transition determines which end was reached.
             of_scale[needle.constraints_per_touch - 1] = before.min(after);
             if needle.has_friction() {
                 needle.stick_slip_conditions(state, slot, touch, &meeting, of_scale);
@@ -189,7 +197,8 @@ impl Chain {
         values[through] = values[through].min(self.above_surface(needle, state));
     }
 
-    /// How far a tip is from the two ends of the place at which it touches a scale; feet are no ends.
+    /// Computes the distances of the tip from both ends of the touched outline part; feet do not
+    /// count.
     fn to_ends(&self, state: &SkinState, scale: i64, place: OutlinePart) -> [f64; 2] {
         let seen = |place: OutlinePart| self.tip(&state.z, scale, place);
         let is_corner = !FACES.contains(&place);
@@ -197,13 +206,14 @@ impl Chain {
             let face =
                 place.next(onward).and_then(|next| seen(if is_corner { next } else { place }));
             let Some(face) = face else { return HOLDS };
-            // A corner lies at the end of the face before it, and at the beginning of that behind it.
+            // A corner is the end of the face before it and the start of the face behind it.
             let inside = if is_corner == onward { face.xi } else { face.length - face.xi };
             if is_corner { -inside } else { inside }
         })
     }
 
-    /// Distance of the circle from the soft surface between two bases, which is straight from corner to corner.
+    /// Computes the distance of the circle from the soft surface between two bases, a straight
+    /// line.
     fn above_surface(&self, needle: &GuidedNeedle, state: &SkinState) -> f64 {
         let mut least = HOLDS;
         for (_, scale) in needle.scales() {
@@ -221,7 +231,7 @@ impl Chain {
         least
     }
 
-    /// Takes a round tip to another place or scale.
+    /// Moves a round tip to another outline part or scale.
     pub(super) fn round_transition(
         &self,
         needle: &GuidedNeedle,
@@ -232,13 +242,13 @@ impl Chain {
         let slot = number / needle.constraints_per_touch;
         let scale = slot as i64 - needle.reach() as i64;
         if number % needle.constraints_per_touch == needle.constraints_per_touch - 1 {
-            // It has no force: it never acts.
+            // This constraint has no force and never becomes active.
             state.active[change.constraint] = false;
             let place = state.mode.needle.touches[slot]?.place;
             let [before, after] = self.to_ends(state, scale, place);
-            // The end that has come is the nearer one.
+            // The nearer end was reached.
             let next = place.next(after < before)?;
-            // The way goes on without a step, and the force with it.
+            // Slip coordinate and force are continuous.
             state.mode.needle.touches[slot].as_mut()?.place = next;
         } else {
             let touch = self.round_touch(needle, &state.z, scale);
@@ -247,7 +257,9 @@ impl Chain {
         Some(change.constraint)
     }
 
-    /// The normal forces of a round tip; `None` of another needle, and unless the whole path is noted.
+    /// Returns the normal forces of a round tip.
+    ///
+    /// `None` for other needles, and unless the whole path is recorded.
     pub(in crate::puncture) fn tip_forces(&self, state: &SkinState) -> Option<TipForces> {
         let needle = self.needle.as_ref().filter(|needle| self.whole_path && needle.is_round())?;
         let of = |(slot, touch): (usize, &Touch)| {
@@ -257,19 +269,20 @@ impl Chain {
     }
 }
 
-/// Height of the centre of a circle of this radius that rests on a face, or on one of its ends, at `x` in the frame of the scale.
+/// Computes the height of the centre of a circle resting on a face or its ends, at `x` in the frame
+/// of the scale.
 fn height_above(face: &Face, x: f64, radius: f64) -> f64 {
     let normal = Vec2::new(-face.along.y, face.along.x);
     let on_face = face.origin.y + (radius - (x - face.origin.x) * normal.x) / normal.y;
     let xi = (Vec2::new(x, on_face) - face.origin).dot(&face.along);
-    // A face that looks down holds nothing that comes from above.
+    // A downward-facing face does not support a circle from above.
     if normal.y > 0.0 && (0.0..=face.length).contains(&xi) {
         return on_face;
     }
     let ends = [face.origin, face.origin + face.length * face.along];
     let above = ends.map(|end| {
         let height = (radius.powi(2) - (x - end.x).powi(2)).sqrt();
-        // Farther beside an end than its radius, the circle passes it.
+        // Beside an end by more than its radius, the circle passes it.
         if height.is_nan() { f64::NEG_INFINITY } else { end.y + height }
     });
     above[0].max(above[1])

@@ -1,4 +1,4 @@
-//! What a guided needle does next where a condition ceases to hold.
+//! Transitions of a guided needle where a condition is violated.
 
 use solver::Change;
 
@@ -8,18 +8,20 @@ use crate::contacts::SkinState;
 use crate::puncture::system::Chain;
 
 impl Chain {
-    /// Takes the needle to its next mode. Returns the constraint whose condition has to hold as the path goes on; `None` where there is
-    /// nothing that the needle could go on to.
+    /// Moves the needle to its next state.
+    ///
+    /// Returns the constraint whose condition must hold on the outgoing branch; `None` if no next
+    /// state exists.
     ///
     /// | Before | Condition | After |
     /// |---|---|---|
-    /// | one scale touched | the tip meets a face of the next | both are touched, in a notch |
-    /// | two scales touched | a normal force vanishes | the other alone |
+    /// | one scale touched | tip meets a face of the neighbour | both touched, in a notch |
+    /// | two scales touched | a normal force vanishes | the other one alone |
     /// | sticks | `\|T\| = μ N` | slides, forward or backward |
-    /// | slides | `ξ` turns back | sticks where it is |
-    /// | slides | the end of the face | passes over the corner |
-    /// | passes over a corner | the force has turned to that of sliding on along the next face | slides there |
-    /// | passes over a corner | the force has turned back | sticks at the end of the face on which it came |
+    /// | slides | `ξ` reverses | sticks at its current position |
+    /// | slides | end of the face | passes over the corner |
+    /// | passes over a corner | force has rotated to sliding along the next face | slides there |
+    /// | passes over a corner | force has rotated back | sticks at the end of the previous face |
     pub(in crate::puncture) fn needle_transition(
         &self,
         needle: &GuidedNeedle,
@@ -33,7 +35,7 @@ impl Chain {
         let (slot, constraint) =
             (number / needle.constraints_per_touch, number % needle.constraints_per_touch);
         let slides = (FORWARD..=BACKWARD).contains(&constraint);
-        // Where it sticks and slides a round tip is like a sharp one: only its places differ.
+        // A round tip sticks and slides like a sharp one; only its position changes differently.
         if needle.is_round() && !(slides && needle.has_friction()) {
             return self.round_transition(needle, state, change);
         }
@@ -51,7 +53,7 @@ impl Chain {
                 constraint
             }
             (FACE_START | FACE_END, _) => {
-                // These have no force: they never act.
+                // These constraints have no force and never become active.
                 state.active[change.constraint] = false;
                 self.turn_corner(needle, state, slot, constraint == FACE_END)?
             }
@@ -60,12 +62,13 @@ impl Chain {
         Some(needle.number(slot, valid))
     }
 
-    /// Opens a notch where the corner that made it no longer lies on the neighbour's face: the tip stays at the corner.
+    /// Dissolves a notch when its corner no longer lies on the neighbouring face; the tip stays at
+    /// the corner.
     pub(in crate::puncture) fn release_notch(&self, needle: &GuidedNeedle, state: &mut SkinState) {
         let Some([face, _]) = self.notch(state) else { return };
         let top = state.mode.needle.touches[1 - face];
         if top.is_some_and(|top| !self.is_notched(state, top.scale)) {
-            // The notch is known by the touch that it holds, so this comes before the touch moves.
+            // Release the corner first: the notch is identified by the touch that moves next.
             self.release_corner(state);
             self.move_to(
                 needle,
@@ -78,7 +81,7 @@ impl Chain {
         }
     }
 
-    /// Lets the tip stick where it slides.
+    /// Makes a sliding tip stick at its current position.
     pub(in crate::puncture) fn stop_tip(&self, needle: &GuidedNeedle, state: &mut SkinState) {
         for slot in (0..needle.slots).filter(|_| needle.has_friction()) {
             let touch = state.mode.needle.touches[slot];
@@ -92,13 +95,13 @@ impl Chain {
         }
     }
 
-    /// `ξ` of a touch.
+    /// Returns `ξ` of a touch.
     fn touch_xi(&self, state: &SkinState, slot: usize) -> Option<f64> {
         let touch = state.mode.needle.touches[slot]?;
         Some(self.meeting(&state.z, touch.scale, touch.place)?.xi())
     }
 
-    /// The tip meets the next scale.
+    /// Adds the touch of the next scale, in a notch.
     fn enter_notch(
         &self,
         needle: &GuidedNeedle,
@@ -117,20 +120,21 @@ impl Chain {
         if other_is_held {
             let normal_force = needle.normal_force(1 - slot);
             let ratio = state.z[normal_force + 1] / state.z[normal_force];
-            // A tip that does not press has no ratio, and no friction to hold.
+            // A tip without normal force has no ratio and no friction to lock.
             let ratio = if ratio.is_finite() { ratio } else { 0.0 };
             needle.end_sliding(state, 1 - slot);
             state.mode.needle.touches[1 - slot] =
                 Some(Touch { tip_state: TipState::Locked { ratio }, ..other });
         }
         if let Some([_, corner]) = self.notch(state).filter(|_| needle.friction > 0.0) {
-            // At one place of the face the tip says whether both stick: with an equation each they would hold to it twice.
+            // Tip and corner are at one position of the face. Lock the corner: two stick equations
+            // would be redundant.
             self.contacts.lock(state, corner);
         }
         Some(NORMAL)
     }
 
-    /// The touch of the face of a notch, and the contact of the corner that lies on it.
+    /// Finds the touch of the face of a notch, and the contact of the corner that lies on it.
     fn notch(&self, state: &SkinState) -> Option<[usize; 2]> {
         let touches = &state.mode.needle.touches;
         let is_top = |touch: &Touch| touch.place == OutlinePart::Top && touch.is_locked();
@@ -138,11 +142,11 @@ impl Chain {
         Some([1 - top, self.corner_of_notch(touches[top]?.scale)?])
     }
 
-    /// A touch lets go, and the other is left alone.
+    /// Opens a touch; the other one remains.
     fn leave(&self, needle: &GuidedNeedle, state: &mut SkinState, slot: usize) -> Option<usize> {
-        // The last touch cannot let go: nothing would be left to follow.
+        // The last touch cannot open: no needle problem would remain.
         state.mode.needle.touches[1 - slot]?;
-        // The notch is known by both touches, so this comes before one of them is gone.
+        // Release the corner first: the notch is identified by both touches.
         self.release_corner(state);
         needle.end_sliding(state, slot);
         state.z[needle.normal_force(slot) + 1] = 0.0;
@@ -151,13 +155,13 @@ impl Chain {
             return Some(needle.number(slot, NORMAL));
         }
         self.come_to_rest(needle, state, 1 - slot);
-        // The corner still lies on the face, and the tip at the corner, so no gap opens: what tells which way the path goes is the friction
-        // that was full there.
+        // The corner stays on the face and the tip at the corner, so no gap opens. The sign of the
+        // saturated friction determines the outgoing branch.
         let is_forward = state.z[needle.normal_force(1 - slot) + 1] >= 0.0;
         Some(needle.number(1 - slot, if is_forward { FORWARD } else { BACKWARD }))
     }
 
-    /// Lets the corner of a notch rub by itself again, as the tip leaves its place.
+    /// Releases the corner of a notch, as the tip leaves its position.
     fn release_corner(&self, state: &mut SkinState) {
         let Some([face, corner]) = self.notch(state) else { return };
         let touch = state.mode.needle.touches[face];
@@ -165,7 +169,7 @@ impl Chain {
         self.contacts.release(state, corner, slides);
     }
 
-    /// Lets a touch that was held in a notch stick by itself.
+    /// Makes a touch stick that was locked in a notch.
     fn come_to_rest(&self, needle: &GuidedNeedle, state: &mut SkinState, slot: usize) {
         let anchor = self.touch_xi(state, slot);
         if let (Some(touch), Some(anchor)) = (&mut state.mode.needle.touches[slot], anchor)
@@ -175,7 +179,7 @@ impl Chain {
         }
     }
 
-    /// The tip comes to an end of its face, or the force has turned to one of the ends of a corner.
+    /// Moves the tip to a corner at the end of its face, or from a corner to a face.
     fn turn_corner(
         &self,
         needle: &GuidedNeedle,
@@ -188,13 +192,14 @@ impl Chain {
         needle.end_sliding(state, slot);
         let TipState::Passing { forward } = touch.tip_state else {
             self.move_to(needle, state, slot, next, TipState::Passing { forward: onward });
-            // The force is still that of the face behind: the limit on this side has to hold.
+            // The force is still the one of the previous face, so the limit on this side has to
+            // hold.
             return Some(if onward { FACE_START } else { FACE_END });
         };
         let face_length = self.tip(&state.z, touch.scale, next)?.length;
         let anchor = if onward { 0.0 } else { face_length };
         let inward = if onward { FACE_START } else { FACE_END };
-        // Without friction the tip slides on both faces alike, whichever way it goes.
+        // Without friction the tip slides on both faces, in either direction.
         if needle.friction == 0.0 {
             self.move_to(needle, state, slot, next, needle.resting(anchor));
             return Some(inward);
@@ -205,12 +210,14 @@ impl Chain {
             state.active[needle.number(slot, sliding)] = true;
             return Some(inward);
         }
-        // The force is still that of sliding onto the corner: whether the tip sticks there shows at once.
+        // The force is still the one of sliding onto the corner; the rates show at once whether the
+        // tip sticks.
         self.move_to(needle, state, slot, next, TipState::Stick { anchor });
         Some(if onward { BACKWARD } else { FORWARD })
     }
 
-    /// Takes a touch to another place on its scale: the force stays, its parts are those along the normal and the face there.
+    /// Moves a touch to another outline part, with its force resolved along the new normal and
+    /// tangent.
     fn move_to(
         &self,
         needle: &GuidedNeedle,
@@ -230,7 +237,7 @@ impl Chain {
 }
 
 impl GuidedNeedle {
-    /// How a tip rubs that has come to rest at a place.
+    /// Returns the friction state of a tip that has come to rest.
     pub(super) fn resting(&self, anchor: f64) -> TipState {
         if self.friction == 0.0 {
             TipState::Slip { sign: 0.0, start: anchor }
@@ -239,7 +246,7 @@ impl GuidedNeedle {
         }
     }
 
-    /// Lets a touch slide forward or backward.
+    /// Starts sliding at a touch, forward or backward.
     pub(super) fn slide(&self, state: &mut SkinState, slot: usize, forward: bool, start: f64) {
         let (sign, constraint) = if forward { (1.0, FORWARD) } else { (-1.0, BACKWARD) };
         if let Some(touch) = &mut state.mode.needle.touches[slot] {
@@ -248,7 +255,7 @@ impl GuidedNeedle {
         }
     }
 
-    /// Takes the ways that a touch has slid out of the active set.
+    /// Removes the slip distances of a touch from the active set.
     pub(super) fn end_sliding(&self, state: &mut SkinState, slot: usize) {
         for constraint in [FORWARD, BACKWARD] {
             state.active[self.number(slot, constraint)] = false;
