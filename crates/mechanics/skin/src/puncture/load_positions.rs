@@ -1,5 +1,7 @@
-//! Where does a load get through? The same puncture with the load at other places of the top, from its left corner to its right; with a
-//! round tip at those between two scales, too.
+//! Punctures at several load positions, and the weakest of them.
+//!
+//! The positions span the top from its left to its right corner; for a round tip also the region
+//! between two scales.
 
 use geometry::OutOfRange;
 use serde::{Deserialize, Serialize};
@@ -13,47 +15,49 @@ use crate::record::Skin;
 use crate::sensitivity::Derivative;
 use crate::{Common, Design, Status};
 
-/// Forces that differ by less than this part are those of one skin pushed at two places that are alike, as the corners of an upright
-/// scale: the tolerance of paths leaves some 1e-9.
+/// Relative difference below which two forces count as equal, such as at the two corners of an
+/// upright scale. The tolerance of paths leaves about 1e-9.
 const TIE: f64 = 1e-7;
 
-/// Derivatives that differ by less than this part are the same.
+/// Relative difference below which derivatives count as equal.
 const SAME: f64 = 1e-6;
 
-/// A puncture with the load at one of several places.
+/// Result of a puncture at one of several load positions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadPosition {
-    /// Place of the load on the top: 0 its left, 1 its right corner; of a round tip also beyond.
+    /// Position on the top: 0 the left, 1 the right corner; beyond that for a round tip.
     pub position: f64,
     /// How its path ended.
     pub status: Status,
-    /// `F*` where the scale is critically tilted, either way, or a guided needle is through.
+    /// `F*` where the scale is critically tilted, in either direction, or a guided needle is
+    /// through.
     pub force: Option<f64>,
     /// `u*` there.
     pub displacement: Option<f64>,
     /// Tilt of the punctured scale there, clockwise, degrees.
     pub tilt_deg: Option<f64>,
-    /// Which of the two it was, under a guided needle.
+    /// Which of the two events it was, under a guided needle.
     pub critical_event: Option<CriticalEvent>,
-    /// Largest `F*` of its path; `None` where the load tilts nothing from the first step on, as in the middle of an upright scale.
+    /// Largest `F*` of the path; `None` if the load does not tilt the scale at all, as in the
+    /// middle of an upright scale.
     pub borne: Option<f64>,
 }
 
-/// The smallest force over several places of the load; nothing if there are none, or if one of them is in the way.
+/// Smallest force over several load positions; empty if there are none or if one is inconclusive.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Weakest {
-    /// `F*` at the weakest place.
+    /// `F*` at the weakest position.
     pub force: Option<f64>,
-    /// The weakest place, of several the first from the left.
+    /// The weakest position; of several equal ones the leftmost.
     pub place: Option<f64>,
 }
 
 impl Weakest {
-    /// The weakest of `places`.
+    /// Selects the weakest of `places`.
     ///
     /// # Errors
-    /// The status of the first place whose path ended early, before it had borne as much as the weakest of the others: there the skin
-    /// may be weaker than anywhere else.
+    /// The status of the first position with a path that ended before it bore as much as the
+    /// weakest other position: the skin may be weaker there.
     pub fn from_positions(places: &[LoadPosition]) -> Result<Self, Status> {
         let Some(force) = places.iter().filter_map(|place| place.force).reduce(f64::min) else {
             return places.first().map_or(Ok(Self::default()), |place| Err(place.status));
@@ -71,23 +75,23 @@ impl Weakest {
     }
 }
 
-/// The places with that force.
+/// Iterates over the positions with that force.
 fn tied(places: &[LoadPosition], force: f64) -> impl Iterator<Item = &LoadPosition> {
     places.iter().filter(move |place| place.force.is_some_and(|of| of <= force * (1.0 + TIE)))
 }
 
-/// The sense in which the scale tilts under a free load, which ends its path on one side only.
+/// Direction of tilt under a free load; a path ends at the critical tilt in one direction only.
 const CLOCKWISE: f64 = 1.0;
 const COUNTER_CLOCKWISE: f64 = -1.0;
 
 impl PunctureParameters {
-    /// The same puncture with the load elsewhere.
+    /// Returns the parameters for another load position and direction of tilt.
     fn at_place(&self, position: f64, sense: f64) -> Self {
         Self {
             load_position: position,
-            // A tilt below zero turns the control round, and with it the end of the path.
+            // A negative tilt inverts the control parameter and with it the end of the path.
             critical_tilt_deg: sense * self.critical_tilt_deg,
-            // Only the force at the end is compared, and a place has no places of its own.
+            // Only the force at the end is compared, so drop all other requests.
             tilts_before_deg: None,
             places: None,
             depth: None,
@@ -97,7 +101,7 @@ impl PunctureParameters {
     }
 }
 
-/// The puncture at each of the places that `parameters` ask for.
+/// Solves the puncture at each load position that `parameters` request.
 ///
 /// # Errors
 /// As [`solve`](super::solve).
@@ -112,7 +116,7 @@ pub fn load_positions(
 }
 
 impl Puncture {
-    /// The puncture with what was found at other places of the load.
+    /// Adds the results at other load positions.
     pub(super) fn with_places(mut self, places: Vec<LoadPosition>) -> Self {
         self.measures.weakest = Weakest::from_positions(&places).unwrap_or_default();
         Self { places, ..self }
@@ -120,12 +124,13 @@ impl Puncture {
 }
 
 impl Problem<'_> {
-    /// The puncture at each of the places that are asked for.
+    /// Solves the puncture at each requested load position.
     pub(super) fn load_positions(&self) -> Result<Vec<LoadPosition>, OutOfRange> {
         let count = self.parameters.places.unwrap_or(0);
-        // A round tip may stand anywhere. A pitch further right it stands as before, on the next scale: that place is not tried again.
+        // A round tip may be anywhere. One pitch to the right it is in an equivalent position on
+        // the next scale, so omit that end.
         let pitch = 1.0 + self.design.gap / (2.0 * self.design.half_base());
-        // Positions count in tops, which are as wide as bases.
+        // Positions are in units of the top, which is as wide as the base.
         let (last, width) = match self.parameters.needle_radius {
             Some(_) => (count as f64, pitch),
             None => (count.saturating_sub(1) as f64, 1.0),
@@ -135,7 +140,8 @@ impl Problem<'_> {
 
     fn at_place(&self, position: f64) -> Result<LoadPosition, OutOfRange> {
         let clockwise = self.pushed(position, CLOCKWISE)?;
-        // A load left of the middle may tilt the scale the other way from the first step on: clockwise it would have to pull.
+        // A load left of the middle may tilt the scale counter-clockwise from the start; driven
+        // clockwise it would have to pull.
         let pulls = clockwise.status == Status::Stopped(Stop::Unloaded);
         if pulls && clockwise.borne <= Some(0.0) {
             return self.pushed(position, COUNTER_CLOCKWISE);
@@ -145,15 +151,16 @@ impl Problem<'_> {
 
     fn pushed(&self, position: f64, sense: f64) -> Result<LoadPosition, OutOfRange> {
         let parameters = self.parameters.at_place(position, sense);
-        // These parameters are not checked: nobody may ask for a tilt below zero.
+        // Skip the range check: users may not specify a negative tilt.
         let problem = self.with(&parameters);
-        // A path to one side may come to the critical tilt of the other first. Under a guided needle both end it anyway.
+        // The path may first reach the critical tilt in the other direction. A guided needle ends
+        // the path in either case.
         let other_way = [At::Tilt(-parameters.critical_tilt_deg)];
         let markers = if parameters.needle.is_guided() { &[][..] } else { &other_way };
         let followed = problem.follow(&[], markers)?;
         let (points, path) = (&followed.watch.record.path, &followed.path);
         let tilted = followed.watch.requested.points.first().and_then(Option::as_ref);
-        // The path went on behind that place, and its status tells of another state.
+        // The path continued beyond that point, so its status describes another state.
         let status = match tilted {
             Some(point) => Status::audited(path.system(), &point.state),
             None => followed.status,
@@ -176,14 +183,16 @@ impl Problem<'_> {
         })
     }
 
-    /// The same problem with other parameters of the load.
+    /// Returns the same problem with other parameters.
     fn with<'p>(&'p self, parameters: &'p PunctureParameters) -> Problem<'p> {
         let (stiffness, endless) = (self.stiffness.clone(), self.endless.clone());
         Problem { stiffness, endless, parameters, ..*self }
     }
 
-    /// The derivatives of the smallest force over `places`: those of the force at the weakest. Where several are as weak, any change makes
-    /// one of them the weakest, so that the sides differ.
+    /// Differentiates the smallest force over `places`.
+    ///
+    /// If several positions are equally weak, a parameter change makes one of them the weakest, so
+    /// the one-sided derivatives differ.
     pub(super) fn at_weakest(
         &self,
         places: &[LoadPosition],
@@ -223,10 +232,10 @@ impl Problem<'_> {
     }
 }
 
-/// The derivative of the smaller of two forces that are equal here.
+/// Returns the derivative of the minimum of two forces that are equal here.
 fn least(one: &Derivative, other: &Derivative) -> Derivative {
     let both = |a: Option<f64>, b: Option<f64>, of: fn(f64, f64) -> f64| Some(of(a?, b?));
-    // Where the parameter falls, the force with the larger slope becomes the smaller one.
+    // Where the parameter decreases, the force with the larger slope becomes the smaller one.
     let left = both(one.left, other.left, f64::max);
     let right = both(one.right, other.right, f64::min);
     let is_smooth = left

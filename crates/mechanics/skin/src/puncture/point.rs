@@ -1,4 +1,4 @@
-//! Equilibria of a row as they are recorded.
+//! Recorded equilibria of a row.
 
 use super::needle::GuidedNeedle;
 use super::surface_fold::GapStretch;
@@ -9,11 +9,11 @@ use crate::record::Skin;
 /// One equilibrium of the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PuncturePoint {
-    /// `u*` of the punctured point, downward.
+    /// `u*` of the loaded point, downward.
     pub displacement: f64,
     /// `F*`.
     pub force: f64,
-    /// Force of a guided needle along the row, to the right, in the unit of `F*`; 0 of a free one.
+    /// Force of a guided needle along the row, to the right, in units of `F*`; 0 for a free needle.
     pub lateral_force: f64,
     /// Tilt of the punctured scale, clockwise, degrees.
     pub tilt_deg: f64,
@@ -21,12 +21,13 @@ pub struct PuncturePoint {
     pub contacts: usize,
     /// Elastic energy of the substrate, over `E* t³`.
     pub substrate_energy: f64,
-    /// Elastic energy of the contacts, over `E* t³`. With that of the substrate it is the work
-    /// `∫ F du` of the load.
+    /// Elastic energy of the contacts, over `E* t³`. Without friction, substrate and contact energy
+    /// add up to the work `∫ F du` of the load.
     pub contact_energy: f64,
-    /// What friction between scales has taken up to here, over `E* t³`; `None` without friction.
+    /// Frictional dissipation between scales up to here, over `E* t³`; `None` without friction.
     pub friction_work: Option<f64>,
-    /// Stretch of the tightest and of the widest gap; `None` for a single scale, and unless the whole path is noted.
+    /// Stretch of the tightest and of the widest gap; `None` for a single scale, and unless the
+    /// whole path is recorded.
     pub gap_stretch: Option<GapStretch>,
 }
 
@@ -106,12 +107,13 @@ impl Skin for Chain {
     }
 }
 
-/// Every scale of a row, from the left: of a row that ends those too that are not solved for.
+/// Lists the states of all scales of a row from the left, including a finite row's scales in closed
+/// form.
 pub(super) fn scales(chain: &Chain, state: &SkinState) -> Vec<ScaleState> {
     let solved_for = 0..chain.layout.scales().cast_signed();
     let scale = |i: isize| {
         let [x, y, rotation] = chain.displacement_anywhere(&state.z, i);
-        // Nothing holds the others against the substrate.
+        // Scales in closed form have no other forces, so their net reaction vanishes.
         let is_free = !solved_for.contains(&i);
         ScaleState {
             scale: i as i64 + chain.layout.number(0),

@@ -1,4 +1,4 @@
-//! The row beyond the ends of the part that is solved for.
+//! The row beyond the ends of the solved part.
 
 use std::array;
 
@@ -9,42 +9,44 @@ use super::Rows;
 use super::system::{Chain, RowLayout};
 use crate::contacts::SkinState;
 
-/// Scales beyond an end whose gaps are looked at. What moves the end hardly moves farther ones.
+/// Number of scales beyond an end with gaps to check; farther gaps hardly change.
 const LOOKED_AT: usize = 12;
 
-/// Force of bars beyond an end, above that of the springs that stand for them there, up to which the bars count as springs: over
-/// the stiffness of a scale, so it is a displacement (over `t`).
+/// Largest excess force of bars beyond an end at which they are approximated by springs.
+///
+/// It is over the stiffness of a scale, hence a displacement (over `t`).
 const AS_SPRINGS: f64 = 1e-9;
 
-/// Part of the distance to the next scale which, when closed, lets the row grow.
+/// Closed fraction of the clearance to the next scale beyond which the row is extended early.
 const EARLY: f64 = 0.5;
 
-/// How near the deformation has come to an end of the row that is solved for.
+/// Proximity of the deformation to an end of the solved part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Reach {
-    /// No scales can touch at the end or beyond it.
+    /// No contact possible at or beyond the end.
     Short,
     /// Scales beyond the end may touch soon.
     Near,
-    /// Scales beyond the end may touch here already.
+    /// Scales beyond the end may touch already.
     Beyond,
 }
 
-/// What lies beyond an end.
+/// Far field beyond an end.
 #[derive(Clone, Debug)]
 pub(super) struct Beyond {
-    /// How the scales move there.
+    /// Motion of the scales there, in closed form.
     pub(super) far: FarField,
-    /// How many they are; `None` if the row has no end.
+    /// Number of scales there; `None` if the row has no end.
     pub(super) scales: Option<usize>,
 }
 
-/// The row beyond the ends of the part that is solved for; nothing, for a row that is solved whole.
+/// The row beyond the ends of the solved part; empty for a row that is solved as a whole.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct RowExterior {
     /// Beyond the left and the right end.
     sides: [Option<ExteriorSide>; 2],
-    /// What the row beyond adds to the stiffness of the substrate, which it takes down: row and column of the tangent, and entries.
+    /// Reduction of the substrate stiffness by the compliance of the scales beyond: row and column
+    /// of the tangent, and entries.
     pub(super) relief: Vec<(usize, usize, [[f64; 3]; 3])>,
     /// Distance of the farthest corner of a scale from its node.
     arm: f64,
@@ -53,19 +55,19 @@ pub(crate) struct RowExterior {
 #[derive(Clone, Debug)]
 struct ExteriorSide {
     beyond: Beyond,
-    /// Widths of the gaps, from the nearest on.
+    /// Widths of the gaps, the nearest first.
     gaps: Vec<f64>,
-    /// The narrowest distances of the scales on both sides of these gaps.
+    /// Clearances between the scales on both sides of these gaps.
     clearances: Vec<f64>,
 }
 
-/// What is to the left of a row is the mirror image of what is to the right of one.
+/// Mirrors a displacement on the left side, so that one far field serves both ends.
 fn mirrored([x, y, rotation]: [f64; 3], side: usize) -> [f64; 3] {
     if side == 0 { [-x, y, -rotation] } else { [x, y, rotation] }
 }
 
 impl RowExterior {
-    /// The surroundings of a part of the `rows`, with what lies beyond its left and its right end.
+    /// Sets up the exterior of a part of the `rows`.
     ///
     /// # Errors
     /// If a sample has no scales there.
@@ -79,7 +81,7 @@ impl RowExterior {
             scales.map_or(LOOKED_AT, |scales| scales.min(LOOKED_AT))
         };
         let [left, right] = [looked_at(&beyond[0]), looked_at(&beyond[1])];
-        // A longer row keeps its middle, so that its outer scales are those that stand beyond.
+        // A longer row keeps its middle, so its outer scales are the scales beyond the ends.
         let row = rows.row(RowLayout {
             left: layout.left + left,
             right: layout.right + right,
@@ -105,14 +107,14 @@ impl RowExterior {
         Ok(Self { sides, relief, arm })
     }
 
-    /// How many scales of a row that ends lie beyond its left and its right end.
+    /// Counts the scales of a finite row beyond its left and its right end.
     pub(super) fn scales_to_ends(&self) -> [usize; 2] {
         let scales = |side: &Option<ExteriorSide>| side.as_ref()?.beyond.scales;
         self.sides.each_ref().map(|side| scales(side).unwrap_or(0))
     }
 }
 
-/// The relief of both ends in the unknowns of a row.
+/// Maps the relief of both ends to the unknowns of a row.
 fn relief(
     layout: RowLayout,
     sides: &[Option<ExteriorSide>; 2],
@@ -122,7 +124,7 @@ fn relief(
         let parts = side.as_ref().map_or(&[][..], |side| &side.beyond.far.relief);
         let unknown =
             move |scale: usize| layout.scale(if number == 0 { scale } else { last - scale });
-        // On the left entries that couple the vertical direction with another turn their sign.
+        // Mirroring inverts the entries that couple the vertical with another direction.
         let signs = mirrored([1.0; 3], number);
         let part = move |Relief { force, displacement, by }: &Relief| {
             let by = array::from_fn(|k| array::from_fn(|l| -signs[k] * signs[l] * by[k][l]));
@@ -134,20 +136,21 @@ fn relief(
 }
 
 impl Chain {
-    /// Number of scales in the row: of one without ends those that are solved for.
+    /// Counts the scales in the row; in a row without ends the solved ones.
     pub(super) fn row_length(&self) -> usize {
         let [left, right] = self.exterior.scales_to_ends();
         left + self.layout.scales() + right
     }
 
-    /// Displacements of the scales at an end, counted from it, as those at the right end of a row.
+    /// Returns the displacements of scales counted from an end, mirrored to a right end.
     fn at_end<'a>(&'a self, z: &'a [f64], side: usize) -> impl Fn(usize) -> [f64; 3] + 'a {
         let last = self.layout.scales() - 1;
         let scale = move |k: usize| if side == 0 { k } else { last - k };
         move |k| mirrored(self.displacement(z, scale(k)), side)
     }
 
-    /// Displacements of the end and of scales beyond it whose gaps are looked at, as those at the right end of a row.
+    /// Computes the displacements of the end scale and of the checked scales beyond, mirrored to a
+    /// right end.
     fn displacements_beyond(&self, z: &[f64], number: usize, side: &ExteriorSide) -> Vec<[f64; 3]> {
         let end = self.at_end(z, number);
         let mut displacements = vec![end(0)];
@@ -155,7 +158,7 @@ impl Chain {
         displacements
     }
 
-    /// The three displacements of a scale, which may lie beyond an end of the row.
+    /// Computes the displacement of a scale that may lie beyond an end.
     pub(crate) fn displacement_anywhere(&self, z: &[f64], scale: isize) -> [f64; 3] {
         let last = self.layout.scales().cast_signed() - 1;
         let nearest = scale.clamp(0, last);
@@ -165,13 +168,15 @@ impl Chain {
             (Some(side), distance) => {
                 mirrored(side.beyond.far.displacement(self.at_end(z, number), distance), number)
             }
-            // What lies beyond a row that is solved whole counts as held.
+            // Beyond a row that is solved as a whole, everything is fixed.
             (None, _) => [0.0; 3],
         }
     }
 
-    /// Reaction of the linear substrate on a scale (force and moment), opposed to its displacement: minus
-    /// the `F_x, F_y, M` of Eq. (1), or of (S9). Bars change the force along the row and the moment.
+    /// Computes the reaction (force and moment) of the linear substrate on a scale.
+    ///
+    /// It opposes the displacement: minus the `F_x, F_y, M` of Eq. (1), or of (S9). Bars are not
+    /// included.
     pub(crate) fn reaction(&self, z: &[f64], scale: isize) -> [f64; 3] {
         let own = self.displacement_anywhere(z, scale);
         let mut reaction: [f64; 3] = std::array::from_fn(|k| -self.direct[k] * own[k]);
@@ -193,7 +198,7 @@ impl Chain {
         reaction
     }
 
-    /// How near a state has come to the left and to the right end, if there is more beyond them.
+    /// Checks how close a state has come to the left and the right end of a longer row.
     pub(crate) fn reach(&self, state: &SkinState) -> [Reach; 2] {
         let touching = self.contacts.touching_at_ends(state);
         [0, 1].map(|number| {
@@ -208,22 +213,24 @@ impl Chain {
         })
     }
 
-    /// The largest part of the distance of two scales beyond an end that their displacements can close, or of the force that lets bars
-    /// count as springs.
+    /// Computes the largest fraction of a clearance beyond an end that may be closed.
+    ///
+    /// For bars also the largest fraction of the force up to which they count as springs.
     fn part_closed(&self, z: &[f64], number: usize, side: &ExteriorSide) -> f64 {
         let displacements = self.displacements_beyond(z, number, side);
         let size =
             |[x, y, rotation]: [f64; 3]| x.abs() + y.abs() + self.exterior.arm * rotation.abs();
         let pairs = displacements.windows(2).zip(&side.clearances);
-        // Both scales may move straight towards each other: the sum of their motions is a bound.
+        // Both scales may move straight towards each other, so the sum of their motions is a bound.
         let parts = pairs.map(|(pair, clearance)| (size(pair[0]) + size(pair[1])) / clearance);
-        // A row of bars grows, too, where those beyond its end no longer act as springs.
+        // A row of bars also grows where the bars beyond its end deviate from springs.
         let excess = self.largest_excess(&displacements, &side.gaps) / AS_SPRINGS;
         parts.fold(excess, f64::max)
     }
 
-    /// Stretches of the gaps beyond the ends of a part of a longer row, and 1, that of a gap far away if the row has no end; none of a
-    /// row that is solved whole. Beyond those that are looked at all are closer to that of the last.
+    /// Computes the stretches of the gaps beyond the ends; none for a row solved as a whole.
+    ///
+    /// The last value bounds all farther gaps: the outermost gap, or 1 for an infinite row.
     pub(super) fn stretches_beyond(&self, z: &[f64]) -> Vec<f64> {
         let mut stretches = Vec::new();
         for (number, side) in self.exterior.sides.iter().enumerate() {
@@ -233,7 +240,7 @@ impl Chain {
                 let strip = SurfaceStrip { width, half_base: self.half_base };
                 stretches.push(strip.stretch(pair[0], pair[1]));
             }
-            // Farther gaps lie between the last one looked at and this one, which bounds them.
+            // Farther gaps lie between the last checked one and this one.
             let last = side.beyond.scales.zip(side.gaps.last());
             stretches.push(last.map_or(1.0, |(scales, &width)| {
                 let at = |distance| match distance {

@@ -18,7 +18,7 @@ use crate::sensitivity::{
 };
 use crate::{Common, Design, Status};
 
-/// Everything that a puncture depends on.
+/// Complete input of a puncture problem.
 #[derive(Clone, Debug)]
 pub struct PunctureInput {
     /// The design.
@@ -29,19 +29,21 @@ pub struct PunctureInput {
     pub common: Common,
     /// The other parameters.
     pub parameters: PunctureParameters,
-    /// The scale that differs from all others, if one does.
+    /// A single perturbed scale, if any.
     pub odd: Option<PerturbedScale>,
 }
 
-/// Functions whose largest values are measures besides the stiffness.
+/// Functions with a maximum that is a measure, in addition to the stiffness.
 const FOLLOWED: [PathFunction<Chain>; 1] = [|chain, state, _| chain.force(state)];
 const LOAD: usize = 0;
 
-/// The force at the critical tilt, of which the weakest place has one of its own.
+/// Name of the force at the critical tilt; the weakest position has a critical force of its own.
 pub(super) const CRITICAL_FORCE: &str = "critical_force";
 
-/// Follows a puncture as [`solve`](super::solve) does, and returns the derivatives of its measures with respect to the parameter
-/// of each variation as well. There are none where the path did not come to its end.
+/// Solves a puncture like [`solve`](super::solve), and differentiates its measures.
+///
+/// Returns the derivatives with respect to the parameter of each variation; none if the path was
+/// not completed.
 ///
 /// # Errors
 /// As [`solve`](super::solve).
@@ -58,12 +60,14 @@ pub fn differentiate(
     Ok((puncture, derivatives))
 }
 
-/// The force over the depth of the needle.
+/// Force over the depth of the needle.
 const FORCE_OVER_DEPTH: Curve<Chain> =
     [|chain, state, _, _| chain.depth(&state.z), |chain, state, _, _| chain.force(state)];
 
-/// Follows a puncture, beyond the critical tilt if need be, and returns its force at each of the `displacements` where the needle
-/// first comes there, with the derivatives with respect to the parameter of each variation; `None` where the path does not come.
+/// Computes the force at given `displacements`, with derivatives for each variation.
+///
+/// Follows the path beyond the critical tilt if necessary. Each value belongs to the first point at
+/// that displacement; `None` if the path does not reach it.
 ///
 /// # Errors
 /// As [`solve`](super::solve).
@@ -84,7 +88,8 @@ pub fn force_curve(
         if farther(&mut tilt, followed.status, is_short) {
             continue;
         }
-        // The critical tilt scales the control, by which neighbours are to be measured alike.
+        // The critical tilt scales the control parameter, so use the same tilt for the perturbed
+        // inputs.
         let as_far = |input: &PunctureInput| {
             let parameters = PunctureParameters { critical_tilt_deg: tilt, ..input.parameters };
             Ok::<_, OutOfRange>(PunctureInput { parameters, ..input.clone() })
@@ -94,7 +99,7 @@ pub fn force_curve(
 }
 
 impl Problem<'_> {
-    /// The path, and the derivatives of its measures if it comes to its end.
+    /// Follows the path and, if it is completed, differentiates its measures.
     pub(super) fn differentiated(
         &self,
         variations: &[Neighbours<PunctureInput>],
@@ -107,14 +112,14 @@ impl Problem<'_> {
         Ok((followed, derivatives))
     }
 
-    /// The points of the curve at the places that were looked for.
+    /// Computes the curve at the requested points.
     fn curve(
         &self,
         followed: &mut Followed,
         variations: &[Neighbours<PunctureInput>],
     ) -> Result<Vec<Option<CurvePoint>>, OutOfRange> {
         let Followed { watch, path, .. } = followed;
-        // Neighbours are as long as the row has become: their unknowns are those of the path.
+        // Perturbed rows get the final layout of the path, so that their unknowns match.
         let layout = path.system().layout;
         let chain = |input: &PunctureInput| input.chain(layout);
         let variations = Neighbours::map_all(variations, chain)?;
@@ -122,7 +127,8 @@ impl Problem<'_> {
         let system = path.system();
         let point = |found: &Option<SkinPoint>| {
             let point = found.as_ref()?;
-            // With something kept of the way, neighbours come to these places on ways of their own.
+            // With history variables, perturbed rows reach these points with histories of their
+            // own.
             let varied = with(&anchors, &point.state, &variations);
             let known = varied.as_deref().unwrap_or_default();
             let mut on_curve = curve_point(system, point, known, &self.settings, FORCE_OVER_DEPTH);
@@ -143,13 +149,13 @@ impl Problem<'_> {
         let variations = Neighbours::map_all(variations, chain)?;
         let anchors = anchors(path, &watch.history.segments, &variations);
         let mut found = Vec::new();
-        // Neighbours are made once for all places that keep the same of the way.
+        // Build the perturbed rows once for all points with the same history variables.
         for spots in group_by_history(self.measured_points(watch, path)) {
             let state = spots.iter().find_map(|spot| Some(&spot.place.as_ref()?.state));
-            // Nothing can be said of a place that is not known.
+            // Without a known point there is no derivative.
             let Some(state) = state else { continue };
             let system = path.system();
-            // Neighbours come to these places on ways of their own.
+            // Perturbed rows reach these points with histories of their own.
             found.extend(match with(&anchors, state, &variations) {
                 Some(varied) => derivatives(system, spots, &varied, &self.settings),
                 None => missing(system, &spots, variations.len()),
@@ -158,7 +164,7 @@ impl Problem<'_> {
         Ok(found)
     }
 
-    /// The places of the path at which measures are taken.
+    /// Lists the points of the path at which measures are taken.
     fn measured_points(
         &self,
         watch: &PathObservers,
@@ -175,7 +181,7 @@ impl Problem<'_> {
         let passed = passed.and_then(|[from, to]| event_before(path, [from, to]));
         let chain = path.system();
         let peak = highest.as_ref().map(|place| chain.extremum(place));
-        // A place that is no event has nothing to hold it where a parameter moves it.
+        // A point that is no event has no guard to hold it when a parameter changes.
         let load_limit = needle.load_limit.as_ref().filter(|point| point.event.is_some());
         let load_limit = load_limit.and_then(|point| sensitivity::turn(chain, point, LOAD_RATE));
         let depth_limit = needle.depth_limit.as_ref();
@@ -187,14 +193,14 @@ impl Problem<'_> {
         let deep = marked.points.iter().flatten().next();
         let deep = deep.map(|p| AnchoredPoint::arriving(p, PathAnchor::Marker(DEPTH_MARK)));
         let (mut end_quantities, fold_quantities) = at_end_and_fold(folded.is_some());
-        // A path that ends before it is so deep has the force of its end as the measure.
+        // A path that ends before this depth reports its final force instead.
         if !marked.points.is_empty() && deep.is_none() {
             end_quantities.push(force("force_at_depth"));
         }
         let mut passing =
             vec![force("passing_force"), depth("passing_displacement"), tilt("passing_tilt_deg")];
         if chain.needle.is_some() {
-            // The shift is that where the needle first touches more than its face, or else that of the end.
+            // The shift belongs to the first touch beyond the initial face, or else to the end.
             let left = if passage.passed.is_some() { &mut passing } else { &mut end_quantities };
             left.push(quantity("needle_shift", |chain, state, _, _| {
                 chain.shift(state).unwrap_or(f64::NAN)
@@ -219,19 +225,19 @@ impl Problem<'_> {
 }
 
 impl PunctureInput {
-    /// The system of a row of so many scales.
+    /// Builds the system of a row with this layout.
     fn chain(&self, layout: RowLayout) -> Result<Chain, OutOfRange> {
         let Self { design, stiffness, common, parameters, odd } = self;
-        // The neighbour of an upright design leans to the left.
+        // The perturbed neighbour of an upright design leans to the left.
         let row = design.leaning_row()?;
         let rows = odd.map_or(Rows::Even(row), |odd| Rows::Odd(row, odd));
-        // At the end of a range one neighbour lies beyond it.
+        // At the end of a parameter range one neighbour lies beyond it.
         let problem = Problem::unchecked(rows, design, stiffness.clone(), common, parameters)?;
         problem.part(layout)
     }
 }
 
-/// The spots, together where the equations keep the same of the way to them.
+/// Groups measured points by their history variables.
 fn group_by_history(spots: Vec<MeasuredPoint<Chain>>) -> Vec<Vec<MeasuredPoint<Chain>>> {
     let mut groups: Vec<(Vec<HistoryVariable>, Vec<MeasuredPoint<Chain>>)> = Vec::new();
     for spot in spots {
@@ -245,27 +251,28 @@ fn group_by_history(spots: Vec<MeasuredPoint<Chain>>) -> Vec<Vec<MeasuredPoint<C
 }
 
 impl Chain {
-    /// The end of a path, held by what ended it: the tilt, or under a guided needle one of its constraints.
+    /// Anchors the end of a path to its cause: the critical tilt, or a constraint of a guided
+    /// needle.
     fn end_of(&self, place: AnchoredPoint<SkinMode>) -> AnchoredPoint<SkinMode> {
         let ended = self.needle.as_ref().and_then(|n| n.ended_at(self, &place.state));
         AnchoredPoint { anchor: ended.map_or(place.anchor, PathAnchor::Guard), ..place }
     }
 
-    /// The place of the largest load: held by that where nothing else holds it.
+    /// Anchors the point of largest load to its vanishing rate, unless something else holds it.
     fn extremum(&self, place: &AnchoredPoint<SkinMode>) -> AnchoredPoint<SkinMode> {
         let held = sensitivity::is_held(self, place);
         let anchor = if held { place.anchor } else { PathAnchor::Stationary(LOAD_RATE) };
         AnchoredPoint { anchor, ..place.clone() }
     }
 
-    /// The equilibrium at which a gap vanishes.
+    /// Anchors an equilibrium to its vanishing gap.
     fn folded_at(&self, point: &SkinPoint, fold: &Fold) -> AnchoredPoint<SkinMode> {
         let pair = (fold.left_scale as isize + self.layout.left.cast_signed()).cast_unsigned();
         AnchoredPoint::arriving(point, PathAnchor::Marker(pair))
     }
 }
 
-/// Quantities at a place. Where load or depth turns back smoothly, the direction of the path tells the place.
+/// Measures quantities at a point; at a smooth reversal they depend on the path direction.
 fn at_turn<const N: usize>(
     place: Option<AnchoredPoint<SkinMode>>,
     quantities: [MeasuredQuantity<Chain>; N],
@@ -276,7 +283,9 @@ fn at_turn<const N: usize>(
     MeasuredPoint { place, quantities }
 }
 
-/// The quantities at the critical tilt and at the first fold. The model can answer for the force at that of the two that comes first.
+/// Lists the quantities at the critical tilt and at the first fold.
+///
+/// The largest valid force belongs to whichever comes first.
 fn at_end_and_fold(folds: bool) -> (Vec<MeasuredQuantity<Chain>>, Vec<MeasuredQuantity<Chain>>) {
     let mut end = critical();
     let mut fold = vec![force("fold_force"), depth("fold_displacement"), tilt("fold_tilt_deg")];
@@ -289,7 +298,7 @@ fn tilt(measure: &'static str) -> MeasuredQuantity<Chain> {
 }
 
 fn critical() -> Vec<MeasuredQuantity<Chain>> {
-    // There is a gap for each scale, too: beyond the last one there are those that are not solved for, as one.
+    // Each scale has a gap, too; the last index stands for all gaps beyond the solved part.
     let extreme = |measure, value: ValueOf<Chain>, outer: fn(f64, f64) -> f64| MeasuredQuantity {
         extreme: Some(outer),
         ..quantity(measure, value)
@@ -315,7 +324,8 @@ fn critical() -> Vec<MeasuredQuantity<Chain>> {
     ]
 }
 
-/// The stretch of a gap, or, beyond the last one, the outer of those that are not solved for; no number, if there are none.
+/// Returns the stretch of a gap; beyond the last one the extreme stretch of the gaps in closed
+/// form, or NaN.
 fn stretch(chain: &Chain, state: &SkinState, gap: usize, outer: fn(f64, f64) -> f64) -> f64 {
     if gap < chain.layout.scales() - 1 {
         return chain.gap_stretch(state, gap);

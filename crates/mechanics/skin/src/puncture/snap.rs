@@ -1,4 +1,4 @@
-//! How far along a path a needle can follow it, and where the row snaps.
+//! Stability along a path under load or depth control, and snap-through.
 
 use solver::{Bracket, Event, Path};
 
@@ -8,44 +8,48 @@ use super::{At, PunctureMeasures, PuncturePoint};
 use crate::contacts::SkinPoint;
 use crate::record::Skin;
 
-/// The largest depth is found where the rate of the depth is this part of that at the ends, or after so many equilibria.
+/// Tolerance on the rate of the depth at its maximum, relative to the rates at both ends, and the
+/// maximum number of evaluations.
 const FLAT: f64 = 1e-9;
 const EVALUATIONS: usize = 60;
 
-/// A dip of the depth that begins at a point is looked for in this many halves of halves of the way to the next.
+/// Halvings of a segment in which to search for a dip of the depth that starts at its first point.
 const HALVINGS: i32 = 20;
 
-/// A snap: where the depth turns back, a needle that only goes deeper leaves the path, and comes to it again where the depth is as
-/// large once more.
+/// Snap-through under a monotonically descending needle.
+///
+/// Where the depth turns back the needle leaves the path, and it meets the path again where the
+/// depth is as large once more.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Snap {
-    /// The equilibrium at which the depth turns back.
+    /// Equilibrium at which the depth turns back.
     pub point: PuncturePoint,
-    /// `F*` there less `F*` where the depth is as large again; `None` if the path ends before.
+    /// `F*` there minus `F*` where the depth is as large again; `None` if the path ends earlier.
     pub drop: Option<f64>,
-    /// Contact events before it.
+    /// Number of contact events before it.
     pub events_before: usize,
 }
 
-/// Follows along a path how far a needle can follow it.
+/// Tracks stability and snaps along a path.
 #[derive(Debug, Default)]
 pub(super) struct SnapObserver {
-    /// Whether the load has turned back: before that a row is stable.
+    /// Whether the load has decreased; before that the row is stable.
     has_unloaded: bool,
-    /// Of every point that the path has left.
+    /// Instability at every point that the path has left.
     instability: Vec<Instability>,
-    /// Where stability under the load ends.
+    /// Point at which stability under load control is lost.
     pub(super) load_limit: Option<SkinPoint>,
-    /// Where the depth first turns back.
+    /// Point at which the depth first turns back.
     pub(super) depth_limit: Option<SkinPoint>,
     snaps: Vec<Snap>,
 }
 
 impl SnapObserver {
-    /// Follows the path from one point to the next.
+    /// Processes a path segment.
     ///
-    /// On a path that leaves a stable state the load rises as long as the stiffness has an even number of negative eigenvalues. So
-    /// there are none before the load first turns, and nothing is counted.
+    /// On a path from a stable state the load increases as long as the stiffness has an even number
+    /// of negative eigenvalues. Before the first decrease of the load there are none, so none are
+    /// counted.
     pub(super) fn follow(
         &mut self,
         path: &mut Path<Chain>,
@@ -57,7 +61,7 @@ impl SnapObserver {
         self.follow_depth(path, from, to, events_before);
     }
 
-    /// At an extremum of the load the stiffness is singular, and what holds behind it is found half-way to the next point.
+    /// Records the instability of `from`; at a singular point it is evaluated half-way to the next.
     fn count(&mut self, path: &mut Path<Chain>, from: &SkinPoint, to: &SkinPoint) {
         if !self.has_unloaded {
             return self.instability.push(Instability::default());
@@ -71,11 +75,12 @@ impl SnapObserver {
         }
     }
 
-    /// The instability of a point; that of the last one where its stiffness is singular.
+    /// Counts the instability of a point; at a singular point repeats the previous one.
     fn at(&self, chain: &Chain, point: &SkinPoint) -> Instability {
         let SkinPoint { state, leaving, .. } = point;
         if chain.is_nonconservative(state) {
-            // What rubs has no symmetric stiffness: that something gives way shows where load or depth fall, and nowhere else.
+            // With friction the stiffness is not symmetric, so instability is only detected by
+            // decreasing load or depth.
             let falls = |rate: f64| usize::from(rate < 0.0);
             let [load, depth] =
                 [leaving[chain.layout.load()], chain.depth_slope(&state.z, leaving)];
@@ -92,7 +97,7 @@ impl SnapObserver {
         to: &SkinPoint,
         events_before: usize,
     ) {
-        // Until a snap has landed the needle is not on this part of the path, and meets no turn of it.
+        // Before a snap has landed, the needle is off the path and meets no reversal.
         if self.open_snap().is_none()
             && let Some(turned) = turning_point(path, from, to)
         {
@@ -100,18 +105,18 @@ impl SnapObserver {
             self.snaps.push(Snap { point, drop: None, events_before });
             self.depth_limit.get_or_insert(turned);
         }
-        // A snap may land on the segment on which it began.
+        // A snap may land on the segment on which it started.
         if let Some(snap) = self.open_snap() {
             snap.land(path, from, to);
         }
     }
 
-    /// The snap that has not come to the path again.
+    /// Returns the snap that has not landed yet.
     fn open_snap(&mut self) -> Option<&mut Snap> {
         self.snaps.last_mut().filter(|snap| snap.drop.is_none())
     }
 
-    /// Adds to the measures how far the path is stable. Returns the instability of every point of the path, and the snaps.
+    /// Adds the stability measures, and returns the instability of every point and the snaps.
     pub(super) fn finish(
         mut self,
         path: &Path<Chain>,
@@ -123,12 +128,13 @@ impl SnapObserver {
             Instability::default()
         };
         self.instability.push(end);
-        // Behind a fall of the load a load that rises says nothing where the needle rubs: two motions may give way.
+        // After a decrease, an increasing load is inconclusive with friction: two modes may be
+        // unstable.
         let is_known = !self.has_unloaded
             || end.load > 0
             || !path.system().is_nonconservative(&path.point().state);
         measures.stable_under_load = is_known.then_some(end.load == 0);
-        // A snap that has not landed leaves the needle off the path.
+        // After a snap without landing the needle is off the path.
         measures.stable_under_depth = Some(end.depth == 0 && self.open_snap().is_none());
         let limit = self.load_limit.as_ref();
         measures.load_stability_force = limit.map(|point| path.system().force(&point.state));
@@ -139,7 +145,7 @@ impl SnapObserver {
 }
 
 impl Snap {
-    /// Finds where between two points the depth is as large as at the snap again, if it is.
+    /// Finds the point within a segment at which the depth is as large as at the snap again.
     fn land(&mut self, path: &mut Path<Chain>, from: &SkinPoint, to: &SkinPoint) {
         let depth = self.point.displacement;
         let is_below =
@@ -150,7 +156,7 @@ impl Snap {
         let below = if is_below(path, from) {
             Some(from.clone())
         } else {
-            // The depth turns back at the first point and is as large again before the second.
+            // The depth turns back at the first point and recovers before the second.
             (1..HALVINGS).find_map(|k| {
                 let point = path.between(from, to, 0.5_f64.powi(k))?;
                 is_below(path, &point).then_some(point)
@@ -158,20 +164,21 @@ impl Snap {
         };
         let location = At::Displacement(depth).location();
         let landed = below.and_then(|below| location.between(path, &below, to));
-        // A dip that is lost in round-off is none.
+        // Ignore a dip lost in round-off.
         let landed = landed.as_ref().unwrap_or(to);
         self.drop = Some(self.point.force - path.system().force(&landed.state));
     }
 }
 
-/// Where the depth turns back between two points, or at the first of them.
+/// Finds the point at which the depth turns back, within a segment or at its start.
 fn turning_point(path: &mut Path<Chain>, from: &SkinPoint, to: &SkinPoint) -> Option<SkinPoint> {
     let rate = |path: &Path<Chain>, point: &SkinPoint, direction: &[f64]| {
         path.system().depth_slope(&point.state.z, direction)
     };
     let leaving = rate(path, from, &from.leaving);
     let arriving = rate(path, to, &to.arriving);
-    // At a kink the depth falls from the point itself on: elsewhere the step before would have shown it.
+    // At a kink the depth decreases right from the point; otherwise the previous segment would have
+    // shown it.
     if leaving < 0.0 {
         return Some(from.clone());
     }

@@ -1,4 +1,4 @@
-//! A row of scales as it stands at chosen places of its path.
+//! Snapshots of a row at chosen points of its path.
 
 use geometry::OutOfRange;
 use solver::Stop;
@@ -12,32 +12,34 @@ use crate::path_location::PathLocation;
 use crate::record::Skin;
 use crate::{Common, Design};
 
-/// Tilt beyond which a path is not followed for the sake of a snapshot, degrees.
+/// Largest tilt to which a path is extended for a snapshot, degrees.
 const STEEPEST_DEG: f64 = 80.0;
 
-/// Moves the end of a path to a larger tilt if it came to its end and was too `short` for the places that were looked for.
+/// Raises the critical tilt if a completed path was too `short` for the requested points.
+///
+/// Returns true if the path should be followed again.
 pub(super) fn farther(tilt_deg: &mut f64, status: Status, short: bool) -> bool {
     let may_go_on = status == Status::Complete && short && *tilt_deg < STEEPEST_DEG;
     if may_go_on {
-        // Every try follows a whole path again, so the end moves in few large steps.
+        // Each try follows the whole path again, so take few large steps.
         *tilt_deg = (2.0 * *tilt_deg).min(STEEPEST_DEG);
     }
     may_go_on
 }
 
-/// A place of the path.
+/// Point of the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum At {
-    /// Where the punctured point has first moved down by `u*`.
+    /// Where the loaded point has first moved down by `u*`.
     Displacement(f64),
-    /// Where the load has first grown to this `F*`.
+    /// Where the load has first reached this `F*`.
     Force(f64),
     /// Where the punctured scale has first tilted by this angle, clockwise, degrees.
     Tilt(f64),
 }
 
 impl At {
-    /// The quantity that has a value at this place, and the value.
+    /// Returns the quantity and its value at this point.
     pub(super) fn location(self) -> PathLocation<Chain> {
         let quantity: fn(&Chain, &SkinState) -> f64 = match self {
             Self::Displacement(_) => |chain, state| chain.depth(&state.z),
@@ -52,13 +54,14 @@ impl At {
 /// A row of scales in equilibrium.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RowSnapshot {
-    /// `u*` of the punctured point, downward.
+    /// `u*` of the loaded point, downward.
     pub displacement: f64,
     /// `F*`.
     pub force: f64,
     /// Tilt of the punctured scale, clockwise, degrees.
     pub tilt_deg: f64,
-    /// Lowest point of the tip of a guided needle, over `t`, from the node of the punctured scale at rest; `None` of a free one.
+    /// Lowest point of the tip of a guided needle, over `t`, relative to the node of the punctured
+    /// scale at rest; `None` for a free needle.
     pub tip: Option<[f64; 2]>,
     /// Every scale, from the left.
     pub scales: Vec<ScaleState>,
@@ -66,21 +69,23 @@ pub struct RowSnapshot {
     pub contacts: Vec<Contact>,
 }
 
-/// A puncture with snapshots.
+/// Result of a puncture with snapshots.
 #[derive(Clone, Debug)]
 pub struct Snapshots {
-    /// The puncture, followed as far as the snapshots need.
+    /// The puncture, followed as far as the snapshots require.
     pub puncture: Puncture,
-    /// A snapshot for each place; `None` where the path does not get there.
+    /// One snapshot per requested point; `None` if the path does not reach it.
     pub at: Vec<Option<RowSnapshot>>,
     /// The last state of the path.
     pub end: RowSnapshot,
-    /// Whether the path comes to its end, the critical state, whatever the audit finds there.
+    /// Whether the path reaches the critical state, regardless of the audit.
     pub is_critical: bool,
 }
 
-/// Solves the puncture of `design` at the places `at`: each is an equilibrium of its own, not
-/// interpolated. The path goes on beyond the critical tilt if a place lies there.
+/// Solves the puncture of `design` with snapshots at the points `at`.
+///
+/// Each snapshot is an equilibrium, not an interpolation. The path is extended beyond the critical
+/// tilt if necessary.
 ///
 /// # Errors
 /// If a length, a modulus or a constant of the contact law is not positive.
@@ -102,8 +107,9 @@ pub fn snapshots(
     }
 }
 
-/// Solves the puncture of `design` as [`snapshots`] does, but ends the path where [`solve`](super::solve) ends it: it does not get to a
-/// place beyond.
+/// Solves the puncture with snapshots, but ends the path where [`solve`](super::solve) does.
+///
+/// Points beyond that end are `None`.
 ///
 /// # Errors
 /// As [`snapshots`].
@@ -128,7 +134,7 @@ pub fn snapshots_to_end(
 }
 
 fn snapshot(chain: &Chain, pitch: f64, state: &SkinState) -> RowSnapshot {
-    // Contacts count from the first scale that is solved for, a snapshot from the first of the row.
+    // Contacts count from the first solved scale, snapshots from the first scale of the row.
     let [before, _] = chain.exterior.scales_to_ends();
     let in_row = |contact: Contact| {
         let [x, y] = contact.point;

@@ -1,32 +1,36 @@
-//! The stability of a row under a needle that holds its load, its depth, or the tilt of the scale.
+//! Stability of a row under load, depth or tilt control.
 
 use solver::{SkylineMatrix, System};
 
 use super::system::Chain;
 use crate::contacts::SkinState;
 
-/// Place of an unknown that the stiffness does not hold.
+/// Index of an unknown that is not part of the stiffness matrix.
 const LEFT_OUT: usize = usize::MAX;
 
-/// Negative eigenvalues of the tangent stiffness of a row: as many independent motions release energy. An equilibrium is stable
-/// if there are none.
+/// Numbers of negative eigenvalues of the tangent stiffness of a row.
+///
+/// Each one is an independent motion that releases energy. An equilibrium is stable if there are
+/// none.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Instability {
-    /// With the load held, as by a weight.
+    /// At constant load, as from a weight.
     pub load: usize,
-    /// With the depth of the punctured point held, as by a screw.
+    /// At constant depth of the loaded point, as from a screw.
     pub depth: usize,
-    /// With the tilt of the punctured scale held.
+    /// At constant tilt of the punctured scale.
     pub tilt: usize,
 }
 
 impl Chain {
-    /// The instability of an equilibrium; `None` where its stiffness is singular to the last digit, or not symmetric, because a needle
-    /// slides with friction.
+    /// Counts the negative eigenvalues at an equilibrium.
     ///
-    /// With the stiffness `K` of the row under its load and the load vector `p`, which is the gradient of the depth, a held depth takes
-    /// away a negative eigenvalue if `pᵀ K⁻¹ p < 0`, that is `du/dF < 0`, and a held tilt one if its compliance
-    /// `eᵀ K⁻¹ e` is negative (P5). Corners that meet on a ridge of the energy are held together by their contact, but not by the energy, and count as
+    /// `None` if the stiffness is exactly singular, or not symmetric because of friction.
+    ///
+    /// With the stiffness `K` of the loaded row and the load vector `p`, the gradient of the depth,
+    /// a constant depth removes one negative eigenvalue if `pᵀ K⁻¹ p < 0`, i.e. `du/dF < 0`, and a
+    /// constant tilt removes one if its compliance `eᵀ K⁻¹ e` is negative (P5). Corners that meet
+    /// on a ridge of the energy are held together by their contact, not by the energy, and count as
     /// one more.
     pub(super) fn instability(&self, state: &SkinState) -> Option<Instability> {
         if self.is_nonconservative(state) {
@@ -46,10 +50,10 @@ impl Chain {
             factors.solve(&mut x);
             loads.iter().map(|&(unknown, load)| load * x[places[unknown]]).sum::<f64>()
         };
-        // All that is kept besides is a force.
+        // All other unknowns are forces.
         let motions = 3 * self.layout.scales() + usize::from(self.needle.is_some());
         let forces = kept.len() - motions;
-        // A force among the unknowns is a multiplier, which brings a negative eigenvalue of its own and no motion.
+        // Each force unknown is a multiplier, which adds one negative eigenvalue without a motion.
         let held_together = factors.negative_eigenvalues().checked_sub(forces)?;
         let load = held_together + self.contacts.ridges(state);
         let held = |compliance: f64| load.saturating_sub(usize::from(compliance < 0.0));
@@ -63,7 +67,9 @@ impl Chain {
         Some(Instability { load, depth: held(depth), tilt: held(tilt) })
     }
 
-    /// The unknowns that the stiffness holds, in order: displacements, and forces of contacts and of a guided needle that may be rigid.
+    /// Lists the unknowns of the stiffness: displacements, and forces of contacts and needle.
+    ///
+    /// Forces are kept because their contacts may be rigid.
     fn kept(&self, state: &SkinState) -> Vec<usize> {
         let scales = (0..self.layout.scales()).map(|scale| self.layout.scale(scale));
         let mut kept: Vec<usize> = scales.flat_map(|at| at..at + 3).collect();
@@ -82,7 +88,7 @@ impl Chain {
         if self.needle.is_some() {
             self.for_needle_stiffness(state, &mut entry);
         } else {
-            // The arm of a dead load turns with the scale, which adds to its stiffness.
+            // The arm of a dead load turns with the scale, which contributes to the stiffness.
             let turn = self.layout.scale(self.layout.left) + 2;
             entry(turn, turn, -state.z[self.layout.load()] * self.loaded_arm(&state.z).y);
         }

@@ -1,4 +1,4 @@
-//! A row of scales on springs under a dead load, as a mixed complementarity system.
+//! A row of scales on springs under a needle, as a mixed complementarity system.
 
 use std::array;
 
@@ -13,43 +13,45 @@ use super::row_exterior::RowExterior;
 use crate::arrangement::Arrangement;
 use crate::contacts::{Contacts, SkinMode, SkinState};
 
-/// Depth in which the way of a guided needle is measured, over `t`: about what a tilt of 10° takes, but no more than some tops of a
-/// scale, since steps are parts of it and a needle is soon beyond a narrow top.
+/// Depth unit of a guided needle as the control parameter, over `t`: about the depth at a tilt of
+/// 10°, but at most a few tops of a scale. Steps are fractions of it, and a needle soon leaves a
+/// narrow top.
 const DEPTH: f64 = 0.5;
 const TOPS: f64 = 4.0;
 
-/// Depth at which the path of a guided needle ends if nothing else ends it.
+/// Depth at which the path of a guided needle ends at the latest.
 const DEEPEST: f64 = 2.0;
 
-/// Number of the marker that vanishes at the depth at which the force is measured, behind those of all gaps.
+/// Number of the marker that vanishes at the requested depth; the other markers are gaps.
 pub(super) const DEPTH_MARK: usize = usize::MAX;
 
-/// Numbers of the rates that tell where load and depth turn back.
+/// Numbers of the rates that vanish where load and depth turn back.
 pub(super) const LOAD_RATE: usize = 0;
 pub(super) const DEPTH_RATE: usize = 1;
 
-/// The order of the unknowns: scales, contact forces, load.
+/// Layout of the unknowns: scales, contact forces, load.
 ///
 /// ```text
 /// x y φ · λ λ' λ" λ λ' λ" | … | x y φ · F · λ λ' λ" λ λ' λ" | … | x y φ
 /// scale 0  upper   lower       punctured                           last
 /// ```
 ///
-/// Where scales rub each contact has its grip and its way besides. The unknowns of a guided needle follow the load.
+/// With friction each contact also has a stick multiplier and a slip distance. The unknowns of a
+/// guided needle follow the load.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct RowLayout {
     /// Scales to the left of the punctured one.
     pub(crate) left: usize,
     /// Scales to the right of the punctured one.
     pub(crate) right: usize,
-    /// Unknowns of a guided needle, behind the load; 0 under a free one.
+    /// Unknowns of a guided needle, behind the load; 0 for a free needle.
     pub(crate) needle: usize,
-    /// Unknowns of the contacts of a scale with those on its right: of one pair, unless scales meet that are not neighbours.
+    /// Contact unknowns of a scale with those on its right: one pair, unless distant scales touch.
     pub(crate) contacts: usize,
 }
 
 impl RowLayout {
-    /// Unknowns of a scale and of its contacts with those on its right.
+    /// Counts the unknowns of a scale and of its contacts on the right.
     fn block(self) -> usize {
         3 + self.contacts
     }
@@ -58,18 +60,18 @@ impl RowLayout {
         self.left + 1 + self.right
     }
 
-    /// Number of a scale as people count them: 0 is the punctured one, positive to the right.
+    /// Converts an index to the number counted from the punctured scale, positive to the right.
     pub(crate) fn number(self, scale: usize) -> i64 {
         (scale.cast_signed() - self.left.cast_signed()) as i64
     }
 
-    /// Number of unknowns.
+    /// Returns the number of unknowns.
     pub(crate) fn size(self) -> usize {
         // The last scale has no contacts on its right.
         self.block() * self.scales() - self.contacts + 1 + self.needle
     }
 
-    /// First of the three unknowns of a scale.
+    /// Returns the first of the three unknowns of a scale.
     pub(crate) fn scale(self, scale: usize) -> usize {
         self.block() * scale + if scale > self.left { 1 + self.needle } else { 0 }
     }
@@ -78,8 +80,10 @@ impl RowLayout {
         self.block() * self.left + 3
     }
 
-    /// A block for each scale, with the forces of its contacts with the neighbour on the side of the root: of the punctured scale, or,
-    /// where scales feel as many as `reach` on each side, of the last one.
+    /// Returns one block per scale, with the contact forces on the side of the root.
+    ///
+    /// The root is the punctured scale, or the last scale if the substrate couples more than direct
+    /// neighbours (`reach`).
     fn blocks(self, reach: usize) -> Blocks {
         let scales = 0..self.scales();
         let root = if reach == 1 { self.left } else { self.left + self.right };
@@ -94,7 +98,7 @@ impl RowLayout {
         }
     }
 
-    /// Units of the equations: the stiffness of a scale for itself in its balances, 1 elsewhere.
+    /// Returns the units of the equations: the direct stiffness for balances, 1 elsewhere.
     fn units(self, direct: [f64; 3]) -> Vec<f64> {
         let mut units = vec![1.0; self.size()];
         for scale in 0..self.scales() {
@@ -103,8 +107,10 @@ impl RowLayout {
         units
     }
 
-    /// Unknown of a contact force. Forces are numbered along the row: where scales meet their neighbours alone, those of the pair
-    /// `i`, `i + 1` from `6 i`, the upper joint's three before the lower's.
+    /// Returns the unknown of a contact force.
+    ///
+    /// Forces are numbered along the row: with reach 1 and no friction, pair `i`, `i + 1` starts at
+    /// `6 i`, the three of the upper contact first.
     pub(crate) fn force(self, force: usize) -> usize {
         let left = force / self.contacts;
         let behind_load = if left >= self.left { 1 + self.needle } else { 0 };
@@ -112,48 +118,51 @@ impl RowLayout {
     }
 }
 
-/// A row of scales on a substrate, the load on one of them, as [`System`].
+/// A row of scales on a substrate under a needle, as [`System`].
 ///
-/// Unknowns are the displacements and rotations, the force of each contact, and the load `F`.
+/// Unknowns are the displacements and rotations, the contact forces, and the load `F`.
 #[derive(Clone, Debug)]
 pub(crate) struct Chain {
     pub(crate) layout: RowLayout,
     pub(crate) contacts: Contacts,
     /// `L/t`.
     pub(crate) length: f64,
-    /// `E*/E_s`, in which stiffness is measured.
+    /// `E*/E_s`, the unit conversion of stiffness.
     pub(crate) plane_modulus: f64,
     pub(super) half_base: f64,
     /// `a α_x, a α_y, a³ α_φ`: forces are in `E* t²`, lengths in `t`.
     pub(super) direct: [f64; 3],
     /// `a² r_0` of (S21), on a layer.
     pub(super) roll: f64,
-    /// Coupling with the neighbours on one side, the nearest first: `−a β_x, −a β_y, −a³ β_φ`, or as many
-    /// `a K_x, a K_y, a³ K_φ, a² c` of (S9) and `a l`, `a² r` of (S21) as the substrate couples.
+    /// Coupling with the neighbours on one side, the nearest first: `−a β_x, −a β_y, −a³ β_φ`, or
+    /// for as many as the substrate couples `a K_x, a K_y, a³ K_φ, a² c` of (S9) and `a l`, `a² r`
+    /// of (S21).
     pub(super) neighbours: Vec<Neighbour>,
-    /// `a β_x`, the stiffness of the bars that take the place of the springs along the row; `None` where these stay linear.
+    /// `a β_x`, the stiffness of the bars in place of the springs along the row; `None` for a
+    /// linear substrate.
     pub(super) bars: Option<f64>,
-    /// The row beyond the ends, if this one is a part of a longer row; forces as above.
+    /// The row beyond the ends, if this is a part of a longer row; same units.
     pub(super) exterior: RowExterior,
-    /// From the node of the punctured scale to the loaded point.
+    /// Vector from the node of the punctured scale to the loaded point.
     load_arm: Vec2,
-    /// Depth at which the force is measured besides.
+    /// Additional depth at which the force is measured.
     marked_depth: Option<f64>,
-    /// `None` of a free needle, which is a load.
+    /// `None` for a free needle, which is a load.
     pub(super) needle: Option<GuidedNeedle>,
-    /// The contact forces, and the constraints of a guided needle.
+    /// Unknowns of the contact forces, and of the constraints of a guided needle.
     constraints: Vec<usize>,
-    /// Numbers of the constraints that only grow.
+    /// Constraint numbers that only grow.
     growing: Vec<usize>,
     pub(super) controls: Vec<Control>,
     /// [`Common::whole_path`](crate::Common::whole_path).
     pub(super) whole_path: bool,
-    /// Blocks of the tangent; `None` where scales are coupled across them.
+    /// Blocks of the tangent; `None` if couplings exceed the block structure.
     blocks: Option<Blocks>,
     units: Vec<f64>,
 }
 
-/// A part of the stiffness of the substrate: entries that follow each other down a diagonal, or all those of two scales.
+/// Part of the substrate stiffness: consecutive entries along a diagonal, or a full block of two
+/// scales.
 #[derive(Clone, Copy)]
 enum Part<'a> {
     Diagonal(&'a [f64]),
@@ -161,7 +170,7 @@ enum Part<'a> {
 }
 
 impl Chain {
-    /// The part of a row that is solved for, with what lies beyond it. `length` is `L/t`.
+    /// Assembles the solved part of a row; `length` is `L/t`.
     pub(crate) fn new(
         arrangement: Arrangement,
         stiffness: &RowStiffness,
@@ -180,7 +189,7 @@ impl Chain {
         let punctured = layout.scale(layout.left);
         let control = |k: usize, scale| Control { index: punctured + k, scale };
         let (left, right) = (scale.corner(Corner::TopLeft), scale.corner(Corner::TopRight));
-        // The tilt is clockwise: it decreases the rotation.
+        // The tilt is clockwise and so decreases the rotation.
         let critical_tilt = parameters.critical_tilt_deg.to_radians();
         let load_arm = left + parameters.load_position * (right - left);
         let depth = layout.load() + 1;
@@ -193,7 +202,8 @@ impl Chain {
         };
         let mut controls = vec![control(2, -critical_tilt), control(0, 1.0), control(1, 1.0)];
         if needle.is_some() {
-            // The way of a guided needle is measured by its depth; scales may tilt either way, or not at all.
+            // A guided needle is controlled by its depth; scales may tilt in either direction, or
+            // not at all.
             let scale = DEPTH.min(TOPS * (right - left).norm());
             controls.insert(0, Control { index: depth, scale });
         }
@@ -201,14 +211,14 @@ impl Chain {
         let constraints = forces.iter().copied().chain(of_needle).collect();
         let bars = match parameters.substrate_law {
             SubstrateLaw::Linear => None,
-            // Couplings are stored as `−β`, and the stiffness of a bar is positive.
+            // Couplings are stored as `−β`, but the stiffness of a bar is positive.
             SubstrateLaw::NeoHookean => neighbours.first().map(|nearest| -nearest.direct[0]),
         };
         let contacts = Contacts::new(arrangement, law, scales, forces, false);
         let of_needle = needle.iter().flat_map(|needle| needle.slip_distances.iter().copied());
         let growing = contacts.slip_distances.iter().copied().chain(of_needle).collect();
-        // A round tip that touches several scales couples them across the blocks, and contacts may reach farther than the substrate: the
-        // band elimination takes both.
+        // A round tip couples several scales across blocks, and contacts may reach farther than the
+        // substrate. Band elimination handles both.
         let reach = neighbours.len().max(1);
         let has_blocks = contacts.reach <= reach && reach <= FARTHEST_LINK;
         let has_blocks = has_blocks && parameters.needle_radius.is_none();
@@ -233,7 +243,8 @@ impl Chain {
             whole_path: true,
             units: layout.units(direct),
         };
-        // Where a round tip comes to rest takes the scales of the row, so that it is found last.
+        // The rest position of a round tip depends on the scales of the row, so it is computed
+        // last.
         let round = chain.needle.as_ref().filter(|needle| needle.is_round());
         let centre = round.map(|needle| chain.centre_at_rest(needle, load_arm.x));
         if let (Some(needle), Some(centre)) = (&mut chain.needle, centre) {
@@ -242,13 +253,13 @@ impl Chain {
         chain
     }
 
-    /// The three displacements of a scale.
+    /// Returns the three displacements of a scale.
     pub(crate) fn displacement(&self, z: &[f64], scale: usize) -> [f64; 3] {
         let at = self.layout.scale(scale);
         [z[at], z[at + 1], z[at + 2]]
     }
 
-    /// Depth of the loaded point below its place at rest.
+    /// Computes the depth of the loaded point below its position at rest.
     pub(crate) fn depth(&self, z: &[f64]) -> f64 {
         if let Some(needle) = &self.needle {
             return z[needle.depth];
@@ -258,12 +269,12 @@ impl Chain {
         -(pose.displacement.y + pose.turn(self.load_arm).y - self.load_arm.y)
     }
 
-    /// From the node of the punctured scale to the loaded point, deformed.
+    /// Computes the deformed arm from the node of the punctured scale to the loaded point.
     pub(crate) fn loaded_arm(&self, z: &[f64]) -> Vec2 {
         self.contacts.pose(z, self.layout.left).turn(self.load_arm)
     }
 
-    /// Derivative of [`Chain::depth`] along a direction.
+    /// Computes the derivative of [`Chain::depth`] along a direction.
     pub(crate) fn depth_slope(&self, z: &[f64], direction: &[f64]) -> f64 {
         if let Some(needle) = &self.needle {
             return direction[needle.depth];
@@ -273,24 +284,25 @@ impl Chain {
         -(direction[at + 1] + arm.x * direction[at + 2])
     }
 
-    /// Depth of the deeper base corner of a scale below its place at rest.
+    /// Computes the depth of the deeper base corner of a scale below its position at rest.
     pub(crate) fn base_depth(&self, z: &[f64], scale: usize) -> f64 {
         let [_, y, rotation] = self.displacement(z, scale);
         self.half_base * rotation.sin().abs() - y
     }
 
-    /// Depth of the deepest base corner of any scale below its place at rest.
+    /// Computes the depth of the deepest base corner of any scale.
     pub(crate) fn penetration(&self, z: &[f64]) -> f64 {
         let depths = (0..self.layout.scales()).map(|scale| self.base_depth(z, scale));
         depths.fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// The stiffness of the substrate, part by part: the row and the column of the first entry, and the part.
+    /// Calls `part` for each part of the substrate stiffness, with row and column of its first
+    /// entry.
     fn for_spring_parts(&self, mut part: impl FnMut(usize, usize, Part)) {
         for i in 0..self.layout.scales() {
             let at = self.layout.scale(i);
             part(at, at, Part::Diagonal(&self.direct));
-            // A half-space has no such entry, and rows on it are not to pay for zeros.
+            // Zero on a half-space; skip it there.
             if self.roll != 0.0 {
                 part(at, at + 2, Part::Diagonal(&[self.roll]));
                 part(at + 2, at, Part::Diagonal(&[self.roll]));
@@ -299,7 +311,7 @@ impl Chain {
         for (before, neighbour) in self.neighbours.iter().enumerate() {
             let (on_left, is_diagonal) = (neighbour.on_left(), neighbour.is_diagonal());
             let on_right = array::from_fn(|k| on_left.map(|row| row[k]));
-            // Each pair is met once, and writes both triangles.
+            // Each pair is visited once and writes both triangles.
             for i in before + 1..self.layout.scales() {
                 let (left, right) = (self.layout.scale(i - 1 - before), self.layout.scale(i));
                 let parts = if is_diagonal {
@@ -311,13 +323,13 @@ impl Chain {
                 part(left, right, parts[1]);
             }
         }
-        // Scales beyond an end give way, and take so much stiffness from those at it.
+        // Scales beyond an end are compliant, which reduces the stiffness at the end.
         for (row, column, values) in &self.exterior.relief {
             part(*row, *column, Part::Block(values));
         }
     }
 
-    /// The needle and the number of one of its constraints; `None` of those of contacts, which come first.
+    /// Returns the needle and the number of one of its constraints; `None` for contact constraints.
     fn of_needle(&self, constraint: usize) -> Option<(&GuidedNeedle, usize)> {
         self.needle.as_ref().zip(constraint.checked_sub(self.contacts.forces.len()))
     }
@@ -327,7 +339,7 @@ impl Chain {
         state.z[self.layout.load()] / self.length
     }
 
-    /// Elastic energy of springs and bars, those beyond the ends included, over `E* t³`.
+    /// Computes the elastic energy of springs and bars, exterior included, over `E* t³`.
     pub(crate) fn substrate_energy(&self, state: &SkinState) -> f64 {
         let mut twice = 0.0;
         self.constant_tangent(&mut |row: usize, column: usize, value: f64| {
@@ -345,8 +357,8 @@ impl System for Chain {
     }
 
     fn half_bandwidth(&self) -> usize {
-        // From x of a scale to φ of the last that it is coupled with, with the load between them. A guided needle is coupled with
-        // all scales that it may come to.
+        // Distance from x of a scale to φ of the last scale coupled with it, with the load in
+        // between. A guided needle is coupled with all scales in reach.
         let coupled = self.needle.as_ref().map_or(0, GuidedNeedle::farthest);
         let coupled = self.neighbours.len().max(self.contacts.reach).max(coupled);
         self.layout.block() * coupled + 3 + self.layout.needle
@@ -356,7 +368,7 @@ impl System for Chain {
         self.blocks.as_ref()
     }
 
-    /// A guided needle keeps to the blocks as long as it touches the punctured scale alone.
+    /// A guided needle fits the blocks as long as it touches only the punctured scale.
     fn is_in_blocks(&self, state: &SkinState) -> bool {
         state.mode.needle.touches.iter().flatten().all(|touch| touch.scale == 0)
     }
@@ -365,7 +377,7 @@ impl System for Chain {
         self.layout.load()
     }
 
-    /// The path of a guided needle ends by its constraints, or where it is as deep as two scales are thick and has tilted none.
+    /// A guided needle ends by its constraints, or at twice the thickness without a critical tilt.
     fn target(&self) -> f64 {
         if self.needle.is_some() { DEEPEST / self.controls[0].scale } else { 1.0 }
     }
@@ -402,7 +414,8 @@ impl System for Chain {
 
     fn coordinates(&self) -> Vec<usize> {
         let scales = (0..self.layout.scales()).map(|scale| self.layout.scale(scale));
-        // Displacements over `t` and rotations in radians are of one size: forces are not.
+        // Displacements over `t` and rotations in radians have comparable magnitudes; forces do
+        // not.
         scales.flat_map(|at| at..at + 3).collect()
     }
 
@@ -429,7 +442,7 @@ impl System for Chain {
     fn linearise(&self, state: &SkinState, residual: &mut Residual, matrix: &mut impl Tangent) {
         let (z, load) = (&state.z, self.layout.load());
         residual.clear(&self.units);
-        // The tangent of the springs is the constant part, which the matrix holds already.
+        // The spring tangent is the constant part, which the matrix already holds.
         self.for_spring_parts(|row, column, part| match part {
             Part::Diagonal(values) => residual.add_products(row, values, &z[column..]),
             Part::Block(values) => residual.add_block_products(row, values, &z[column..]),
@@ -440,7 +453,7 @@ impl System for Chain {
         } else {
             let at = self.layout.scale(self.layout.left);
             let arm = self.loaded_arm(z);
-            // The load presses down, so it stands with the forces of the springs.
+            // The load pushes down, with the sign of the spring forces.
             residual.add(at + 1, z[load]);
             residual.add(at + 2, z[load] * arm.x);
             matrix.add_block(at + 1, load, &[[1.0], [arm.x]]);
@@ -452,7 +465,7 @@ impl System for Chain {
 
     fn conditions(&self, state: &SkinState, values: &mut Vec<f64>) {
         self.contacts.conditions(state, values);
-        // Constraints of the needle come behind those of the contacts, so its values are appended.
+        // Needle constraints follow those of the contacts, so append their values.
         if let Some(needle) = &self.needle {
             self.needle_conditions(needle, state, values);
         }
@@ -490,8 +503,10 @@ impl System for Chain {
         slopes[number]
     }
 
-    /// The stretch of a gap, by its left scale: where it vanishes the surface folds over. Or how far the depth is beyond that at which
-    /// the force is measured.
+    /// Evaluates a marker: the stretch of a gap, by its left scale, or the excess over the
+    /// requested depth.
+    ///
+    /// A vanishing stretch means that the surface folds over.
     fn marker(&self, state: &SkinState, number: usize) -> f64 {
         match number {
             DEPTH_MARK => self.marked_depth.map_or(f64::NAN, |depth| self.depth(&state.z) - depth),
@@ -499,7 +514,7 @@ impl System for Chain {
         }
     }
 
-    /// The rate of the load or of the depth.
+    /// Evaluates the rate of the load or of the depth.
     fn rate(&self, state: &SkinState, direction: &[f64], number: usize) -> f64 {
         match number {
             LOAD_RATE => direction[self.layout.load()],
@@ -513,7 +528,7 @@ impl System for Chain {
             return self.needle_transition(needle, state, change);
         }
         let valid = self.contacts.transition(state, change);
-        // A contact that has changed may have been the one that made a notch.
+        // The contact that formed a notch may have changed.
         self.release_notch(needle, state);
         valid
     }
