@@ -1,4 +1,4 @@
-//! The record of a path, of a row that is punctured or of a strip that is bent.
+//! Record of the path of a row or a strip.
 
 use std::cell::OnceCell;
 use std::sync::Arc;
@@ -8,26 +8,26 @@ use solver::{Change, Path, Peak, Summit, System};
 
 use crate::contacts::{ContactChange, Contacts, SkinMode, SkinPoint, SkinState};
 
-/// A contact that changes its state: it opens, closes or passes a corner.
+/// Change of the state of a contact: it opens, closes, passes a corner, sticks or slips.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactEvent<P> {
-    /// The point of the path at which it happens.
+    /// Path point of the event.
     pub point: P,
-    /// Left scale of the pair: in a row 0 is the punctured scale, in a strip the first one, and numbers rise to the
-    /// right. `None` where every pair does the same.
+    /// Left scale of the pair, numbered to the right from the punctured scale or from the first
+    /// scale of a strip. `None` if all pairs behave alike.
     pub left_scale: Option<i64>,
-    /// Right scale of the pair: in nearly every row the next one.
+    /// Right scale of the pair: nearly always the neighbour.
     pub right_scale: Option<i64>,
     /// Which corner meets which edge.
     pub corner_edge: CornerEdge,
-    /// The change of the contact.
+    /// Change of the contact.
     pub change: ContactChange,
 }
 
 /// One Newton iteration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Iteration {
-    /// Point of the path that it led to, from 1.
+    /// Index of the path point that it led to, from 1.
     pub step: usize,
     /// Iteration within the step, from 0.
     pub iteration: usize,
@@ -37,67 +37,68 @@ pub struct Iteration {
     pub angle_deg: f64,
 }
 
-/// A row or a strip of scales whose path is recorded.
+/// A row or a strip of scales with a recorded path.
 pub(crate) trait Skin: System<Mode = SkinMode> {
-    /// The numbers that are recorded of an equilibrium.
+    /// Numbers recorded per equilibrium.
     type PathPoint: Copy;
 
-    /// The contacts of the scales.
+    /// Returns the contacts of the scales.
     fn contacts(&self) -> &Contacts;
 
-    /// The numbers to record of an equilibrium.
+    /// Computes the numbers to record for an equilibrium.
     fn path_point(&self, point: &SkinPoint) -> Self::PathPoint;
 
-    /// Notes in the numbers of a point what friction between neighbours has taken up to there.
+    /// Stores the accumulated dissipation between neighbours in a recorded point.
     fn note_friction(&self, point: &mut Self::PathPoint, work: f64);
 
-    /// Whether friction acts anywhere on the path.
+    /// Returns true if friction acts anywhere.
     fn has_friction(&self) -> bool {
         self.contacts().has_friction()
     }
 
-    /// What friction at the tip of a needle takes between two neighbouring points, as [`Contacts::friction_work`] does.
+    /// Computes the dissipation at a needle tip between two points, like
+    /// [`Contacts::friction_work`].
     fn tip_work(&self, _from: &SkinPoint, _to: &SkinPoint, _spans: [f64; 2]) -> f64 {
         0.0
     }
 
-    /// Elastic energy, of all that the load works on.
+    /// Computes the elastic energy of the whole system.
     fn stored(&self, state: &SkinState) -> f64;
 
-    /// How often all that is solved for is there.
+    /// Returns how many copies of the solved part make up the system.
     fn repeats(&self) -> f64 {
         1.0
     }
 
-    /// The control parameter, degrees.
+    /// Returns the control parameter, degrees.
     fn angle_deg(&self, state: &SkinState) -> f64;
 
-    /// Derivative of the load with respect to what the load moves, along a direction of the path.
+    /// Computes the derivative of the load with respect to its displacement along a path direction.
     fn stiffness(&self, state: &SkinState, direction: &[f64]) -> f64;
 
-    /// Number of a scale as people count them; `None` where every pair does the same.
+    /// Returns the number of a scale in reports; `None` if all pairs behave alike.
     fn number(&self, scale: usize) -> Option<i64>;
 
-    /// Whether any two scales that may meet overlap by more than the approach of their contacts.
+    /// Returns true if two scales that may touch overlap by more than their contact approach.
     fn interpenetrates(&self, state: &SkinState) -> bool;
 
-    /// Whether a contact is about to pass an end of what it lies on, where the model knows nothing to go on with.
+    /// Returns true if a contact is about to pass an end of its edge, where the model ends.
     fn passes_an_end(&self, at: &SkinPoint) -> bool {
         self.contacts().off_edge(&at.state) || self.contacts().passes_an_end(at)
     }
 }
 
-/// What friction has taken along a path, of what is solved for.
+/// Frictional dissipation along a path, per solved part.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Work {
-    /// Between neighbours.
+    /// Between scales.
     between_scales: f64,
     /// At the tip of a needle.
     at_tip: f64,
 }
 
 impl Work {
-    /// Adds what is taken between two neighbouring points.
+    /// Adds the dissipation between two neighbouring points.
     pub(crate) fn add<S: Skin>(&mut self, path: &Path<S>, from: &SkinPoint, to: &SkinPoint) {
         let skin = path.system();
         if skin.has_friction() {
@@ -107,7 +108,7 @@ impl Work {
         }
     }
 
-    /// Notes in the numbers of a point what neighbours have taken up to there.
+    /// Stores the dissipation between scales in a recorded point.
     pub(crate) fn note<S: Skin>(&self, skin: &S, point: &mut S::PathPoint) {
         if skin.contacts().has_friction() {
             skin.note_friction(point, skin.repeats() * self.between_scales);
@@ -119,30 +120,30 @@ impl Work {
     }
 }
 
-/// A function of a skin, an equilibrium and the direction of the path there.
+/// A function of skin, equilibrium and path direction.
 pub(crate) type PathFunction<S> = fn(&S, &SkinState, &[f64]) -> f64;
 
-/// Points, events and iterations of a path, and its largest stiffness.
+/// Points, events and iterations of a path, and maxima of functions along it.
 pub(crate) struct Record<S: Skin> {
     pub(crate) path: Vec<S::PathPoint>,
     pub(crate) events: Vec<ContactEvent<S::PathPoint>>,
     pub(crate) history: Vec<Iteration>,
-    /// What friction has taken so far.
+    /// Dissipation so far.
     pub(crate) work: Work,
-    /// The stiffness at the beginning of the path.
+    /// Stiffness at the start of the path.
     pub(crate) initial_stiffness: f64,
-    /// The largest stiffness at its points.
+    /// Largest stiffness at the recorded points.
     pub(crate) stiffness: Peak<SkinMode>,
-    /// The largest stiffness between the points too, once it has been searched.
+    /// Largest stiffness including the points in between, once searched.
     stiffness_summit: OnceCell<Option<Summit<SkinMode>>>,
-    /// Further functions of which the largest value is searched.
+    /// Further functions with a tracked maximum.
     followed: Vec<(PathFunction<S>, Peak<SkinMode>)>,
-    /// The equilibrium at which the first contact closes.
+    /// Equilibrium at which the first contact closes.
     pub(crate) touching: Option<SkinPoint>,
 }
 
 impl<S: Skin> Record<S> {
-    /// The record of a path that is at its beginning, which follows the largest values of some functions besides.
+    /// Starts the record of a path, and tracks the maxima of some `functions`.
     pub(crate) fn new(path: &Path<S>, functions: &[PathFunction<S>]) -> Self {
         let (skin, start) = (path.system(), path.point());
         let mut record = Self {
@@ -150,7 +151,7 @@ impl<S: Skin> Record<S> {
             events: Vec::new(),
             history: Vec::new(),
             work: Work::default(),
-            // At rest load and displacement vanish: the direction alone tells their ratio.
+            // At rest load and displacement vanish, so only the direction gives their ratio.
             initial_stiffness: skin.stiffness(&start.state, &start.leaving),
             stiffness: Peak::default(),
             stiffness_summit: OnceCell::new(),
@@ -161,11 +162,11 @@ impl<S: Skin> Record<S> {
         record
     }
 
-    /// Records the `point` that the path has come to, `from` the one before.
+    /// Records a new `point`, with `from` as its predecessor.
     pub(crate) fn visit(&mut self, path: &mut Path<S>, from: &Arc<SkinPoint>, point: &SkinPoint) {
         let residuals = path.take_history();
         let (mut here, step) = (path.system().path_point(point), self.path.len());
-        // The segment is added before the point is noted, which tells the work up to it.
+        // Add the segment first: the recorded point includes its dissipation.
         self.work.add(path, from, point);
         let skin = path.system();
         self.work.note(skin, &mut here);
@@ -179,7 +180,7 @@ impl<S: Skin> Record<S> {
             if self.touching.is_none()
                 && events.iter().any(|event| event.change == ContactChange::Closed)
             {
-                // The whole equilibrium is kept, because derivatives are taken at it.
+                // Keep the whole equilibrium, because derivatives are taken at it.
                 self.touching = Some(point.clone());
             }
             self.events.extend(events);
@@ -189,7 +190,7 @@ impl<S: Skin> Record<S> {
     }
 
     fn visit_peaks(&mut self, path: &Path<S>, from: Option<&Arc<SkinPoint>>) {
-        // The path has gone on: what was the summit before need not be it any more.
+        // The path has grown, so a cached maximum may be outdated.
         self.stiffness_summit.take();
         self.stiffness.visit(path, from, S::stiffness);
         for (f, peak) in &mut self.followed {
@@ -197,17 +198,17 @@ impl<S: Skin> Record<S> {
         }
     }
 
-    /// Takes the points that are kept for maxima to those of a longer row.
+    /// Extends the points kept for maxima to a longer row.
     pub(crate) fn replace_points(&mut self, new: impl Fn(&SkinPoint) -> SkinPoint) {
         for (_, peak) in &mut self.followed {
             peak.replace_points(&new);
         }
-        // A summit that was searched before has its points on the shorter row.
+        // A cached maximum has its points on the shorter row.
         self.stiffness_summit.take();
         self.stiffness.replace_points(new);
     }
 
-    /// The event of a force that has changed sides between two states.
+    /// Describes the event of a changed force between two states.
     fn event(
         skin: &S,
         [before, after]: [&SkinState; 2],
@@ -216,7 +217,7 @@ impl<S: Skin> Record<S> {
     ) -> Option<ContactEvent<S::PathPoint>> {
         let contacts = skin.contacts();
         if change.constraint >= contacts.forces.len() {
-            // A guided needle has changes of its own.
+            // Needle events are not contact events.
             return None;
         }
         let corner_edge = |mode| contacts.corner_edge(mode, change.constraint);
@@ -225,31 +226,32 @@ impl<S: Skin> Record<S> {
             point,
             left_scale: skin.number(left),
             right_scale: skin.number(right),
-            // A contact that has opened had its corner and edge before.
+            // An opened contact has its corner and edge only in the previous state.
             corner_edge: corner_edge(&after.mode).or_else(|| corner_edge(&before.mode))?,
             change: ContactChange::classify(contacts, after, change),
         })
     }
 
-    /// The point at which scales first touch.
+    /// Returns the point of first contact.
     pub(crate) fn first_contact(&self) -> Option<&S::PathPoint> {
         let closed = |event: &&ContactEvent<_>| event.change == ContactChange::Closed;
         self.events.iter().find(closed).map(|event| &event.point)
     }
 
-    /// The largest stiffness and its place.
+    /// Returns the largest stiffness and its location.
     pub(crate) fn stiffness_summit(&self, path: &mut Path<S>) -> Option<&Summit<S::Mode>> {
-        // The search solves for equilibria, so the measure and its derivatives share one.
+        // The search solves for equilibria, so share its result between measure and derivatives.
         self.stiffness_summit.get_or_init(|| self.stiffness.summit(path, S::stiffness)).as_ref()
     }
 
-    /// The largest value of a function that is followed, by its index, at the points of the path, and its place: that of a load is
-    /// one of them.
+    /// Returns the largest value of a tracked function at the recorded points, and its location.
+    ///
+    /// Extrema of the load are recorded points, so this suffices for the load.
     pub(crate) fn highest_point(&self, followed: usize) -> Option<Summit<S::Mode>> {
         self.followed.get(followed)?.1.at_points()
     }
 
-    /// The largest value of a function that is followed, by its index, and its place.
+    /// Returns the largest value of a tracked function, and its location.
     pub(crate) fn summit(&self, path: &mut Path<S>, followed: usize) -> Option<Summit<S::Mode>> {
         let (f, peak) = self.followed.get(followed)?;
         peak.summit(path, *f)

@@ -1,4 +1,4 @@
-//! All that is looked for along the path of a puncture.
+//! Observers of the path of a puncture.
 
 use solver::Path;
 
@@ -12,7 +12,7 @@ use crate::contacts::SkinPoint;
 use crate::path_location::PointLocator;
 use crate::record::{PathFunction, Record};
 
-/// All that is looked for along the path of a puncture.
+/// Everything that is recorded or located along the path of a puncture.
 pub(super) struct PathObservers {
     pub(super) record: Record<Chain>,
     pub(super) needle: SnapObserver,
@@ -20,9 +20,9 @@ pub(super) struct PathObservers {
     pub(super) history: HistoryObserver,
     pub(super) passage: PassageObserver,
     pub(super) tilts: PointLocator<Chain>,
-    /// The depth at which the force is measured besides, if there is one.
+    /// The additional depth at which the force is measured, if requested.
     pub(super) depth: PointLocator<Chain>,
-    /// Of snapshots.
+    /// Points requested by the caller: snapshots, curves, other tilts.
     pub(super) requested: PointLocator<Chain>,
 }
 
@@ -47,12 +47,12 @@ impl PathObservers {
         }
     }
 
-    /// Follows the path over a segment.
+    /// Passes a segment to all observers.
     pub(super) fn follow(&mut self, path: &mut Path<Chain>, segment: &Segment) {
         let Segment { from, to, left } = segment;
         self.history.follow(segment);
         self.passage.follow(path.system(), segment);
-        // The record is told of the segment last, so that its events so far are those before.
+        // The record comes last, so that its number of events excludes this segment.
         let events_before = self.record.events.len();
         self.needle.follow(path, [from, to], events_before);
         self.tilts.follow(path, from, to);
@@ -62,10 +62,11 @@ impl PathObservers {
         self.record.visit(path, left, to);
     }
 
-    /// Takes the points that were kept to the row as it is in the end.
+    /// Extends all recorded points to the final row.
     pub(super) fn lengthen(&mut self, path: &AdaptiveRowPath) {
         let longer = |point: &SkinPoint| path.lengthened(point);
-        // Whatever keeps points has to be named here, or keeps some of a shorter row.
+        // Every observer that keeps points must be listed here, or its points keep the size of a
+        // shorter row.
         let SnapObserver { load_limit, depth_limit, .. } = &mut self.needle;
         let single = [load_limit, depth_limit, &mut self.folds.first, &mut self.record.touching];
         let located = [&mut self.tilts, &mut self.depth, &mut self.requested];

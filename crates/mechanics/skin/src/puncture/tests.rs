@@ -1,4 +1,4 @@
-//! Tests of the inside of the model: its tangent, its energy balance, the limit of `Auto`.
+//! Unit tests of the puncture model: tangent, energy balance, growth of rows, stability.
 
 mod friction;
 mod layers;
@@ -24,19 +24,19 @@ use crate::contacts::{SkinPoint, SkinState, pair_constraints};
 use crate::record::Skin;
 use crate::{Base, Common, Design, Status};
 
-/// A steep row in which contacts open, close, slide to corners and change their parts.
+/// Steep row: contacts open, close, slide to corners and exchange corner and edge.
 const LIVELY: Design =
     Design { gap: 0.1, length: 1.0, slant_deg: 75.0, base: Base::TwoL, width: 1.0 };
 
-/// So steep and long that sides lie flush with a base, and tips carry contacts.
+/// So steep and long that sides become flush with a base, and tips carry contacts.
 const FOLDING: Design =
     Design { gap: 0.2, length: 2.8, slant_deg: 79.5, base: Base::TwoL, width: 1.0 };
 
-/// A steep row of short scales, of which a tip slides to the end of a base and on to the corner there.
+/// Steep row of short scales: a tip slides to the end of a base and on to the corner there.
 const SLIDING: Design =
     Design { gap: 0.05, length: 0.2, slant_deg: 82.0, base: Base::TwoL, width: 1.0 };
 
-/// A steep row that snaps, and lets go below 40°.
+/// Steep row that snaps and loses contact with the needle below 40°.
 const STEEP: Design = Design { gap: 0.6, length: 1.0, slant_deg: 60.0, base: Base::L, width: 1.0 };
 
 const BLOCKS: Design = Design { gap: 0.1, length: 1.0, slant_deg: 0.0, base: Base::L, width: 1.0 };
@@ -50,7 +50,7 @@ fn law(design: &Design, law: Law, modulus: f64) -> ContactLaw {
     ContactLaw::new(law, design.length, design.width, modulus).unwrap()
 }
 
-/// The path of a row of 21 scales to a tilt of 10°.
+/// Starts the path of a row of 21 scales to a tilt of 10°.
 fn path(design: &Design, law: ContactLaw, load_position: f64) -> Path<Chain> {
     path_on(
         &(&calibrate(&design.footprint(0.5).unwrap()).unwrap()).into(),
@@ -60,7 +60,7 @@ fn path(design: &Design, law: ContactLaw, load_position: f64) -> Path<Chain> {
     )
 }
 
-/// A chain of which all scales feel each other, with rotations.
+/// Starts the path of a row with full coupling, rotations included.
 fn coupled_path(design: &Design, law: ContactLaw, load_position: f64) -> Path<Chain> {
     let stiffness = RowStiffness::of(&design.footprint(0.5).unwrap(), Coupling::Full).unwrap();
     path_on(&stiffness, design, law, load_position)
@@ -79,7 +79,7 @@ fn path_on(
     Path::new(chain, rest, Settings::default())
 }
 
-/// A row with nothing beyond its ends.
+/// Builds a row with nothing beyond its ends.
 fn whole(
     stiffness: &RowStiffness,
     design: &Design,
@@ -91,7 +91,7 @@ fn whole(
     Chain::new(row, stiffness, law, layout, RowExterior::default(), parameters, design.length)
 }
 
-/// Shows every segment of a path.
+/// Calls `show` for each segment of a path.
 fn for_segments(
     mut path: Path<Chain>,
     mut show: impl FnMut(&mut Path<Chain>, &SkinPoint, &SkinPoint),
@@ -103,7 +103,7 @@ fn for_segments(
     }
 }
 
-/// Of an open contact, of one on an edge, at a corner, flush.
+/// Names the state of a contact.
 fn name(contact: CornerContact) -> &'static str {
     match contact {
         CornerContact::Open => "open",
@@ -118,7 +118,7 @@ fn the_tangent_agrees_with_finite_differences_in_every_state_of_contact() {
     let mut seen = HashSet::new();
     for constants in [Law::PRINTED, Law::EXCHANGED] {
         for design in [LIVELY, FOLDING, SLIDING] {
-            // Half-way between the points: at events forces vanish, where the law has a kink.
+            // Half-way between points: at events forces vanish, where the contact law has a kink.
             for_segments(path(&design, law(&design, constants, HARD), 1.0), |path, from, to| {
                 let state = path.between(from, to, 0.5).unwrap().state;
                 seen.extend(state.mode.contacts.iter().copied().map(name));
@@ -129,7 +129,7 @@ fn the_tangent_agrees_with_finite_differences_in_every_state_of_contact() {
     assert_eq!(seen, ["open", "edge", "corner", "flush"].into());
 }
 
-/// The flags of a state say which forces act, and the mode says so too.
+/// The active flags of a state and its mode state the same contact forces.
 #[test]
 fn flags_and_modes_of_contacts_agree() {
     for design in [LIVELY, FOLDING, SLIDING] {
@@ -159,7 +159,7 @@ fn the_slope_of_an_open_gap_agrees_with_finite_differences() {
         let (low, high) = (at(-1e-7), at(1e-7));
         for constraint in 0..chain.constraints().len() {
             let difference = (high[constraint] - low[constraint]) / 2e-7;
-            // Where a force cannot act next its condition is constant.
+            // The condition of a force that cannot become active next is constant.
             if !state.active[constraint] && difference != 0.0 {
                 let slope = chain.slope(&state, constraint, &from.leaving);
                 assert_relative_eq!(slope, difference, epsilon = 1e-6, max_relative = 1e-6);
@@ -170,7 +170,8 @@ fn the_slope_of_an_open_gap_agrees_with_finite_differences() {
     assert!(compared.iter().all(|&count| count > 10), "{compared:?}");
 }
 
-/// `∫ F du` between two points: the rule of Boole on five equilibria, `u'` by their polynomial.
+/// Integrates `F du` between two points by Boole's rule on five equilibria, with `u'` from their
+/// polynomial.
 fn work(path: &mut Path<Chain>, from: &SkinPoint, to: &SkinPoint) -> f64 {
     let inner = [0.25, 0.5, 0.75].map(|x| path.between(from, to, x).unwrap().state);
     let states = [&from.state, &inner[0], &inner[1], &inner[2], &to.state];
@@ -178,7 +179,7 @@ fn work(path: &mut Path<Chain>, from: &SkinPoint, to: &SkinPoint) -> f64 {
     integral(states.map(|state| [state.z[chain.load()], chain.depth(&state.z)]))
 }
 
-/// Work and energy along a path.
+/// Work and energies along a path.
 #[derive(Default)]
 struct Balance {
     work: f64,
@@ -224,7 +225,7 @@ fn the_tangent_of_a_coupled_row_is_symmetric_but_for_load_and_contact_and_agrees
         points += 1;
     });
     assert!(points > 10);
-    // At rest there is nothing but the substrate.
+    // At rest only the substrate contributes.
     let path = coupled_path(&BLOCKS, law(&BLOCKS, Law::PRINTED, HARD), 1.0);
     let (chain, state) = (path.system(), &path.point().state);
     let mut tangent = BandMatrix::new(chain.size(), chain.half_bandwidth());
@@ -237,7 +238,7 @@ fn the_tangent_of_a_coupled_row_is_symmetric_but_for_load_and_contact_and_agrees
             coupled += usize::from(value != 0.0);
         }
     }
-    // Of 21 scales, 8 neighbours on each side as far as the row goes: 3 direct and 2 cross terms each.
+    // 21 scales with up to 8 neighbours per side: 3 direct and 2 cross terms each.
     let pairs: usize = (1..=8).map(|k| 21 - k).sum();
     assert_eq!(coupled, 3 * 21 + 2 * pairs * 5);
 }
@@ -264,7 +265,8 @@ fn one_neighbour_without_rotation_is_the_paper() {
         };
         let ours = super::solve(&design, &one, &Common::default(), &parameters).unwrap();
         let paper = super::solve(&design, &springs, &Common::default(), &parameters).unwrap();
-        // The one is solved for on the default mesh, which is up to 2e-4 off, the other comes from the table.
+        // One stiffness is computed on the default mesh, up to 2e-4 off; the other comes from the
+        // table.
         let force = |solved: &super::Puncture| solved.measures.critical_force.unwrap();
         assert_relative_eq!(force(&ours), force(&paper), max_relative = 2e-4);
         let full = RowStiffness::of(&footprint, Coupling::Full).unwrap();
@@ -293,7 +295,7 @@ fn more_neighbours_change_next_to_nothing() {
     }
 }
 
-/// So soft that the contacts take a good part of the energy.
+/// The contacts are so soft that they store a significant part of the energy.
 #[test]
 fn soft_contacts_store_their_part_of_the_work() {
     for (design, constants, modulus) in [
@@ -370,11 +372,13 @@ fn parameters_out_of_their_range_are_refused() {
     assert_eq!(text, "modulus of the contact law is -0.75, expected a positive number");
 }
 
-/// Contacts of these tests are softer than this, but for those that are rigid.
+/// Bound on finite eigenvalues: contacts are softer than this, unless rigid.
 const RIGID: f64 = 1e6;
 
-/// The stiffness of a state as a dense matrix over the displacements: the contact forces eliminated from the tangent itself, those
-/// that are rigid with a tiny compliance.
+/// Computes the dense stiffness over the displacements by eliminating contact forces from the
+/// tangent.
+///
+/// Rigid contacts get a tiny compliance.
 fn dense_stiffness(chain: &Chain, state: &SkinState) -> DMatrix<f64> {
     let mut tangent = BandMatrix::new(chain.size(), chain.half_bandwidth());
     chain.tangent(state, &mut tangent);
@@ -386,13 +390,13 @@ fn dense_stiffness(chain: &Chain, state: &SkinState) -> DMatrix<f64> {
     let constraints = chain.constraints().iter().zip(&state.active);
     let mut forces: Vec<usize> =
         constraints.filter(|(_, active)| **active).map(|(&f, _)| f).collect();
-    // The depth of a guided needle, and the force that keeps a tip from sliding.
+    // Depth of a guided needle, and the force that keeps a tip from sliding.
     let depth = chain.needle.as_ref().map(|needle| needle.depth);
     coordinates.extend(depth);
     let of_needle = chain.needle_in_stiffness(state).into_iter();
     forces.extend(of_needle.filter(|f| Some(*f) != depth && !chain.constraints().contains(f)));
     let part = |rows: &[usize], columns: &[usize]| {
-        // The balance of the needle itself has the other sign.
+        // The balance of the needle itself has the opposite sign.
         let sign = |row: usize| if Some(row) == depth { -1.0 } else { 1.0 };
         DMatrix::from_fn(rows.len(), columns.len(), |i, j| {
             sign(rows[i]) * entry(rows[i], columns[j])
@@ -408,7 +412,7 @@ fn dense_stiffness(chain: &Chain, state: &SkinState) -> DMatrix<f64> {
     part(&coordinates, &coordinates) - part(&coordinates, &forces) * by_forces
 }
 
-/// Negative eigenvalues of a dense stiffness on the directions at right angles to another.
+/// Counts the negative eigenvalues of a dense stiffness orthogonal to a direction.
 fn negative_eigenvalues(stiffness: &DMatrix<f64>, held: Option<&DVector<f64>>) -> usize {
     let symmetric = 0.5 * (stiffness + stiffness.transpose());
     let n = symmetric.nrows();
@@ -418,11 +422,12 @@ fn negative_eigenvalues(stiffness: &DMatrix<f64>, held: Option<&DVector<f64>>) -
     );
     let eigenvalues = (&projection * symmetric * &projection).symmetric_eigenvalues();
     let largest = eigenvalues.amax();
-    // What is rigid stays so with a tiny compliance of either sign: eigenvalues of such a size are no motions.
+    // A tiny compliance of either sign stands for a rigid contact, so huge eigenvalues are no
+    // motions.
     eigenvalues.iter().filter(|value| (-RIGID..-1e-13 * largest).contains(*value)).count()
 }
 
-/// Half-way between the points: at extrema of the load an eigenvalue vanishes.
+/// Compares half-way between points, because at load extrema an eigenvalue vanishes.
 fn compare_instability(path: Path<Chain>, compared: &mut HashSet<(usize, usize, usize)>) {
     for_segments(path, |path, from, to| {
         let Some(point) = path.between(from, to, 0.5) else { return };
@@ -440,7 +445,7 @@ fn compare_instability(path: Path<Chain>, compared: &mut HashSet<(usize, usize, 
             depth: negative_eigenvalues(&dense, Some(&depth)) + ridges,
             tilt: negative_eigenvalues(&dense, Some(&tilt)) + ridges,
         };
-        // On a path that leaves a stable state, load and depth fall where the number is odd.
+        // On a path from a stable state, load and depth decrease where the count is odd.
         let falls = [point.leaving[chain.load()], chain.depth_slope(&state.z, &point.leaving)];
         let odd = [expected.load, expected.depth].map(|count| count % 2 == 1);
         assert_eq!(falls.map(|rate| rate < 0.0), odd, "{:?}", chain.path_point(&point));
@@ -451,8 +456,8 @@ fn compare_instability(path: Path<Chain>, compared: &mut HashSet<(usize, usize, 
     });
 }
 
-/// Paths to 40°, through snaps, on rows with ends and on a part of an endless one, in the paper's coupling and in full. The
-/// contacts give way enough for a dense stiffness to keep its digits.
+/// Paths to 40° through snaps, on finite rows and on a part of an endless one, with nearest and
+/// full coupling. The contacts are soft enough for an accurate dense stiffness.
 #[test]
 fn negative_eigenvalues_are_those_of_the_dense_stiffness() {
     let mut compared = HashSet::new();
@@ -485,7 +490,7 @@ fn negative_eigenvalues_are_those_of_the_dense_stiffness() {
     }
 }
 
-/// As long as the load has not turned back the counts are zero, which the record takes for granted.
+/// The record assumes zero counts until the load turns back.
 #[test]
 fn a_row_is_stable_until_the_load_turns_back() {
     for design in [LIVELY, FOLDING, SLIDING, STEEP, DOMINO] {

@@ -1,16 +1,16 @@
-//! Measures at tilts that a path passes.
+//! Measures at intermediate tilts of a path.
 
 use serde::{Deserialize, Serialize};
 
 use super::system::Chain;
 use crate::contacts::SkinState;
 
-/// The measures of a puncture at a tilt that its path passes.
+/// Measures of a puncture at an intermediate tilt.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TiltMeasures {
     /// `F*`.
     pub force: f64,
-    /// `u*` of the punctured point.
+    /// `u*` of the loaded point.
     pub displacement: f64,
     /// Depth of the deepest base corner of any scale, over `t`.
     pub penetration: f64,

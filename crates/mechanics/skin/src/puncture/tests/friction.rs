@@ -1,4 +1,4 @@
-//! Equations of contacts that rub, against differences, mirrors and the cone of friction.
+//! Friction equations against finite differences, mirror images and the friction cone.
 
 use std::collections::BTreeSet;
 
@@ -27,7 +27,8 @@ fn the_tangent_agrees_with_finite_differences_where_contacts_stick_and_slip() {
                         .filter(|s| s.1 > 0)
                         .map(|s| s.0),
                 );
-                // Next to nothing a grip or a way has differences of round-off alone.
+                // Move multipliers and slip distances away from zero, where differences are
+                // round-off.
                 let (chain, mut state) = (path.system(), point.state);
                 for number in (0..chain.constraints().len()).filter(|&c| state.active[c]) {
                     let unknown = chain.constraints()[number];
@@ -42,7 +43,7 @@ fn the_tangent_agrees_with_finite_differences_where_contacts_stick_and_slip() {
     assert_eq!(seen, BTreeSet::from(["slips", "sticks"]));
 }
 
-/// The force of a contact lies within its cone: everywhere on the path, and on its edge where the contact slips.
+/// Contact forces stay within their friction cone everywhere on the path.
 #[test]
 fn forces_lie_within_the_cone() {
     let mut compared = 0;
@@ -64,7 +65,7 @@ fn forces_lie_within_the_cone() {
                 if x.hypot(y) < 1e-6 {
                     continue;
                 }
-                // Corners that are together turn their force from one normal to the other.
+                // Coinciding corners rotate their force from one normal to the other, so skip them.
                 let angle = (y.atan2(x) - normal).sin().asin();
                 let pair = &to.state.mode.contacts[2 * contact.left..2 * contact.left + 2];
                 let closed: Vec<_> = pair.iter().filter(|c| **c != CornerContact::Open).collect();
@@ -78,7 +79,7 @@ fn forces_lie_within_the_cone() {
     assert!(compared > 20, "{compared}");
 }
 
-/// A row that leans to the left, its needle set down on the left, is the mirror image of one that leans to the right.
+/// A row leaning to the left with the needle on the left mirrors one leaning to the right.
 #[test]
 fn rows_that_rub_have_mirror_images() {
     for (gap, length, slant, needle) in

@@ -1,4 +1,4 @@
-//! Rows on a layer, where force along the row, force across it and moment go together.
+//! Rows on a layer, which couples forces along and across the row with moments.
 
 use approx::assert_relative_eq;
 use contact::Law;
@@ -19,7 +19,7 @@ const CASES: [(Design, Coupling, SubstrateLaw); 5] = [
     (DOMINO, Coupling::Full, SubstrateLaw::Linear),
 ];
 
-/// The path on tissue as thick as the scales.
+/// Starts the path on tissue as thick as the scales.
 fn layer_path((design, coupling, substrate_law): &(Design, Coupling, SubstrateLaw)) -> Path<Chain> {
     let layer = design.footprint(0.5).unwrap().on_layer(1.0 / design.half_base()).unwrap();
     let stiffness = RowStiffness::of(&layer, *coupling).unwrap();
@@ -40,7 +40,7 @@ fn the_work_of_the_load_is_stored() {
     }
 }
 
-/// At rest there is nothing but the substrate: a push along the row turns a scale as much as turning it pushes, and so on.
+/// At rest only the substrate contributes: coupling of force and rotation is symmetric.
 #[test]
 fn the_tangent_at_rest_is_symmetric() {
     for case in CASES {
@@ -58,7 +58,7 @@ fn the_tangent_at_rest_is_symmetric() {
     }
 }
 
-/// The reactions that are told of a scale are those that the row is solved with.
+/// Reported reactions are the forces of the solved stiffness.
 #[test]
 fn reactions_are_those_of_the_stiffness() {
     for case in CASES {

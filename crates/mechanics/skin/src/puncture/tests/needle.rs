@@ -1,4 +1,4 @@
-//! Rows under a needle that is guided straight down.
+//! Rows under a guided needle.
 
 mod round_tip;
 
@@ -13,7 +13,7 @@ fn design(gap: f64, length: f64, slant_deg: f64) -> Design {
     Design { gap, length, slant_deg, base: Base::L, width: 1.0 }
 }
 
-/// A needle set down so far inside the top right corner.
+/// Needle set down at the distance `inside` from the top right corner.
 fn parameters(design: &Design, friction: f64, inside: f64) -> PunctureParameters {
     let load_position = 1.0 - inside / (2.0 * design.half_base());
     let needle = Needle::Guided { friction };
@@ -29,7 +29,7 @@ fn guided(design: &Design, friction: f64, inside: f64) -> Puncture {
     puncture::solve(design, &springs(design), &Common::default(), &parameters).unwrap()
 }
 
-/// The path of a row of 21 scales, in steps of at most this part of its way.
+/// Starts the path of a row of 21 scales with steps limited to `step`.
 fn guided_path(design: &Design, friction: f64, inside: f64, step: f64) -> Path<Chain> {
     let layout = RowLayout { left: 10, right: 10, needle: NEEDLE_UNKNOWNS, contacts: 6 };
     let stiffness = (&springs(design)).into();
@@ -40,7 +40,8 @@ fn guided_path(design: &Design, friction: f64, inside: f64, step: f64) -> Path<C
     Path::new(chain, rest, settings)
 }
 
-/// Designs, frictions and places that stick, slide in both directions, and pass: over the corner on the right, over that on the left.
+/// Designs, frictions and positions with a tip that sticks, slides in both directions, and passes
+/// over the right or the left corner.
 const CASES: [(f64, f64, f64, f64, f64); 7] = [
     (0.1, 1.0, 0.0, 0.0, 0.0),
     (0.1, 1.0, 45.0, 0.0, 0.0),
@@ -51,7 +52,7 @@ const CASES: [(f64, f64, f64, f64, f64); 7] = [
     (0.2, 0.1, 0.0, 0.0, 0.0),
 ];
 
-/// `∫ F du` by the values of both at five places.
+/// Integrates `F du` by the values of both at five points.
 pub(super) fn integral(values: [[f64; 2]; 5]) -> f64 {
     let u = values.map(|[_, u]| u);
     let slope = |row: [f64; 5]| row.iter().zip(u).map(|(w, u)| w * u).sum::<f64>() / 3.0;
@@ -67,7 +68,7 @@ pub(super) fn integral(values: [[f64; 2]; 5]) -> f64 {
     (0..5).map(|k| weights[k] * values[k][0] * slopes[k]).sum::<f64>() / 90.0
 }
 
-/// Forces that an independent program has found for a needle without friction that stays on its top.
+/// Forces of an independent program for a frictionless needle that stays on its top.
 #[test]
 fn a_needle_slides_inward_on_a_top() {
     for (gap, length, slant, expected) in [
@@ -80,7 +81,7 @@ fn a_needle_slides_inward_on_a_top() {
         assert_eq!(puncture.status, Status::Complete);
         assert_eq!(puncture.measures.passage.critical_event, Some(CriticalEvent::Tilt));
         assert_eq!(puncture.measures.passage.passing_force, None);
-        // The last digit given is half a per cent of the value.
+        // The reference values are rounded to within half a percent.
         let force = puncture.measures.critical_force.unwrap();
         assert_relative_eq!(force, expected, max_relative = 5e-3);
         assert_eq!(puncture.measures.stable_under_load, Some(true));
@@ -89,7 +90,7 @@ fn a_needle_slides_inward_on_a_top() {
     assert_relative_eq!(shift, 0.12, max_relative = 0.02);
 }
 
-/// A tip that never slides, whether on a top or on a corner that comes to lie on the neighbour.
+/// A tip that never slides, on a top or on a corner that comes to rest on the neighbour.
 #[test]
 fn a_needle_that_is_held_sideways() {
     for (slant, expected) in [(0.0, 0.2804), (45.0, 0.4314)] {
@@ -99,7 +100,8 @@ fn a_needle_that_is_held_sideways() {
     }
 }
 
-/// Where the row pushes a scale back below the needle it passes over the corner, which lies on the neighbour's face.
+/// The row pushes the scale back below the needle, which passes over the corner onto the
+/// neighbour's face.
 #[test]
 fn a_needle_passes_into_the_notch() {
     for (slant, friction, inside, force, tilt) in [
@@ -119,8 +121,9 @@ fn a_needle_passes_into_the_notch() {
     }
 }
 
-/// Ten values of an independent program with rigid contacts, active sets and steps of 2e-4 in depth, rows of 41: the force where the needle
-/// passes or else at 10°, the depth of the needle there, and how far it has moved inward.
+/// Ten results of an independent program with rigid contacts, active sets, steps of 2e-4 in depth,
+/// and rows of 41 scales: the force at the passage or else at 10°, the depth of the needle there,
+/// and its inward displacement.
 #[test]
 fn ten_values_of_an_independent_program() {
     let ten: [([f64; 3], f64, f64, [f64; 3]); 10] = [
@@ -162,7 +165,7 @@ fn the_tangent_agrees_with_finite_differences() {
         let design = design(gap, length, slant);
         for_segments(guided_path(&design, friction, inside, 0.1), |path, from, to| {
             if path.spans(from, to)[0].abs() < 1e-6 {
-                // Two events at one place: forces that begin to act are too small for differences.
+                // Two simultaneous events: forces that start to act are too small for differences.
                 return;
             }
             let Some(between) = path.between(from, to, 0.5) else { return };
@@ -171,8 +174,8 @@ fn the_tangent_agrees_with_finite_differences() {
     }
 }
 
-/// Negative eigenvalues of the dense stiffness over displacements and depth, forces eliminated, of needles that slide without friction, stick
-/// and pass.
+/// Compares with the dense stiffness over displacements and depth, for needles that slide without
+/// friction, stick and pass.
 #[test]
 fn negative_eigenvalues_are_those_of_the_dense_stiffness() {
     let mut compared = HashSet::new();
@@ -215,7 +218,7 @@ fn negative_eigenvalues_are_those_of_the_dense_stiffness() {
     assert!(compared.len() > 2, "{compared:?}");
 }
 
-/// The needle's work is stored, or taken by friction.
+/// The work of the needle is stored or dissipated.
 #[test]
 fn work_is_stored_or_rubbed_away() {
     let cases = CASES.map(|(gap, length, slant, friction, inside)| {
@@ -225,13 +228,13 @@ fn work_is_stored_or_rubbed_away() {
     assert!(most > 0.01, "{most}");
 }
 
-/// The part of the work of a needle that friction takes; the rest is stored.
+/// Computes the dissipated fraction of the work of a needle, and checks that the rest is stored.
 fn rubbed_away(path: Path<Chain>) -> f64 {
     let (mut done, mut rubbed, mut off) = (0.0, 0.0, 0.0_f64);
     for_segments(path, |path, from, to| {
         done += work(path, from, to);
         let inner = [0.25, 0.5, 0.75].map(|x| path.between(from, to, x).unwrap().state);
-        // The end in the mode of the segment.
+        // The end state, evaluated in the mode of the segment.
         let mut end = inner[2].clone();
         end.z.clone_from(&to.state.z);
         let chain = path.system();
@@ -247,7 +250,8 @@ fn rubbed_away(path: Path<Chain>) -> f64 {
     rubbed / done
 }
 
-/// One scale on its springs, `k u = f` in each direction: with the arm `ρ` of the needle along the top and the tip at `X`,
+/// One scale on its springs, `k u = f` in each direction, with the arm `ρ` of the needle along the
+/// top and the tip at `X`:
 ///
 /// ```text
 /// k_φ φ = −N ρ,   N sin φ = −k_x x,   ρ cos φ − sin φ = X − x                  F = N cos φ
@@ -274,7 +278,7 @@ fn an_isolated_scale_is_a_scalar_equation() {
     assert_relative_eq!(puncture.measures.critical_force.unwrap(), expected, max_relative = 1e-9);
 }
 
-/// A needle on the left corner of upright scales does what one on the right corner does, in a mirror.
+/// A needle at the left corner of upright scales is the mirror image of one at the right corner.
 #[test]
 fn mirror_images() {
     for friction in [0.0, 0.2] {
@@ -320,7 +324,7 @@ fn a_needle_that_comes_through() {
     }
 }
 
-/// A row that leans to the left, its needle set down on the left, is the mirror image of one that leans to the right.
+/// A row leaning to the left with the needle on the left mirrors one leaning to the right.
 #[test]
 fn rows_that_lean_to_the_left() {
     for (gap, length, slant, friction, inside) in
@@ -357,7 +361,7 @@ fn a_scale_that_does_not_tilt_has_no_critical_force() {
     assert_eq!(puncture.measures.critical_force, None);
 }
 
-/// Without friction the place at which a path is cut into steps makes no difference, whatever the needle passes.
+/// With small and large steps the path has the same passage and end.
 #[test]
 fn passing_does_not_depend_on_the_steps() {
     let steep = design(0.1, 1.0, 75.0);
@@ -389,7 +393,7 @@ const MEASURES: [(&str, Value); 10] = [
     ("needle_shift", |m| m.passage.needle_shift),
 ];
 
-/// A parameter, moved by so much.
+/// Applies a change of the given size to a parameter.
 type Change = fn(&mut puncture::PunctureInput, f64);
 
 fn longer(input: &mut puncture::PunctureInput, by: f64) {
@@ -400,8 +404,8 @@ fn set_down_further_right(input: &mut puncture::PunctureInput, by: f64) {
     input.parameters.load_position += by;
 }
 
-/// Derivatives are those of differences of whole solutions: of a needle that slides, that sticks from the beginning, that slides and comes
-/// to rest, that is held in a notch.
+/// Compares derivatives with differences of whole solutions, for needles that slide, that stick
+/// from the start, that slide and stop, and that are locked in a notch.
 #[test]
 fn derivatives_with_a_way_behind_them() {
     let changes: [(Change, f64); 4] = [
@@ -443,7 +447,7 @@ fn derivatives_with_a_way_behind_them() {
     assert_eq!(ends, [false, true].into());
 }
 
-/// Compares every derivative of a puncture by these changes, and their steps, with differences of whole solutions.
+/// Compares every derivative of a puncture with differences of whole solutions.
 fn derivatives_are_differences(
     design: Design,
     common: Common,
@@ -471,7 +475,7 @@ fn derivatives_are_differences(
     let (puncture, derivatives) = puncture::differentiate(&input, &variations).unwrap();
     for (parameter, &(change, step)) in changes.iter().enumerate() {
         let solved = |step: f64| puncture::differentiate(&moved(change, step), &[]).unwrap().0;
-        // Far enough apart for round-off, near enough for the second derivative.
+        // A step large compared with round-off, small compared with the curvature.
         let [below, above] = [-50.0, 50.0].map(|times| solved(times * step).measures);
         let mut compared = 0;
         for (name, value) in MEASURES {

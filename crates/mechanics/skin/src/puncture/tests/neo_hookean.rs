@@ -1,4 +1,4 @@
-//! Rows whose surface is a chain of neo-Hookean bars.
+//! Rows on a neo-Hookean substrate surface.
 
 use approx::assert_relative_eq;
 use geometry::{Parallelogram, Row};
@@ -7,7 +7,7 @@ use substrate::{Coupling, SubstrateLaw};
 
 use super::*;
 
-/// The path of a row of 21 scales.
+/// Starts the path of a row of 21 scales.
 fn bar_path(design: &Design, constants: Law, coupling: Coupling) -> Path<Chain> {
     let stiffness = RowStiffness::of(&design.footprint(0.5).unwrap(), coupling).unwrap();
     let path = path_on(&stiffness, design, law(design, constants, HARD), 1.0);
@@ -37,7 +37,7 @@ fn the_tangent_agrees_with_finite_differences() {
             check_tangent(path.system(), &state, 1e-6).unwrap();
         });
     }
-    // Far from where the bars are springs.
+    // Strains far beyond the range in which bars behave like springs.
     assert!(farthest > 1.0, "{farthest}");
 }
 
@@ -51,7 +51,7 @@ fn the_work_of_the_load_is_stored() {
     }
 }
 
-/// At rest bars are springs: the law does not change the tangent.
+/// At rest the neo-Hookean law has the tangent of the linear springs.
 #[test]
 fn at_rest_bars_are_the_springs_that_they_replace() {
     let tangent = |chain: &Chain| {
@@ -70,7 +70,7 @@ fn at_rest_bars_are_the_springs_that_they_replace() {
     }
 }
 
-/// A row that leans to the left is displaced as the mirror image of one that leans to the right.
+/// A row leaning to the left deforms as the mirror image of one leaning to the right.
 #[test]
 fn the_mirror_image_of_a_row_has_the_mirror_image_of_its_forces() {
     let layout = RowLayout { left: 3, right: 3, needle: 0, contacts: 6 };

@@ -1,4 +1,4 @@
-//! Contacts of scales that are not neighbours.
+//! Contacts between scales that are not direct neighbours.
 
 use contact::Law;
 use solver::{Path, Settings, check_tangent};
@@ -10,7 +10,7 @@ use crate::puncture::system::RowLayout;
 use crate::puncture::{Problem, Puncture, PunctureParameters, Rows};
 use crate::{Base, Common, Design, Status};
 
-/// Designs of the paper of which scales meet their second neighbours under full coupling.
+/// Designs of the paper in which scales touch their second neighbours under full coupling.
 const MEETING: [Design; 2] =
     [DOMINO, Design { gap: 0.1, length: 0.4, slant_deg: 75.0, base: Base::L, width: 1.0 }];
 
@@ -44,13 +44,13 @@ fn scales_stop_at_their_second_neighbours() {
             let [left, right] = [event.left_scale, event.right_scale].map(Option::unwrap);
             right - left == 2
         });
-        // Up to there both paths are the same.
+        // Up to that contact both paths agree.
         let first = beyond.next().unwrap().point;
         let same = through.path.iter().zip(&stopped.path);
         for (ours, theirs) in same.take_while(|(_, theirs)| theirs.force < first.force) {
             assert!((ours.force - theirs.force).abs() < 1e-9 * theirs.force.abs().max(1e-3));
         }
-        // Room for contacts that are not there changes nothing.
+        // Unused contact unknowns change nothing.
         let room = solved(&design, &common, Some(3));
         let [ours, theirs] = [&stopped, &room].map(|p| p.measures.critical_force.unwrap());
         assert!((ours - theirs).abs() < 1e-9 * theirs, "{ours} {theirs}");

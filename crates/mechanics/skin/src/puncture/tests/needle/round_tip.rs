@@ -3,8 +3,8 @@
 use super::*;
 use crate::puncture::needle::{OutlinePart, reach, unknowns};
 
-/// Gap, length and slant, radius, friction, and the place: tips that roll from face to corner and come to several scales, stick and slide
-/// both ways.
+/// Gap, length and slant, radius, friction, and position: tips that roll from face to corner, touch
+/// several scales, stick and slide in both directions.
 const TIPS: [([f64; 3], f64, f64, f64); 9] = [
     ([0.1, 1.0, 0.0], 0.1, 0.0, 1.0),
     ([0.1, 0.2, 0.0], 1.0, 0.0, 1.0),
@@ -17,7 +17,7 @@ const TIPS: [([f64; 3], f64, f64, f64); 9] = [
     ([0.1, 1.0, 0.0], 0.2, 0.2, 0.95),
 ];
 
-/// What a round tip does is stored, or taken by friction.
+/// The work of a round tip is stored or dissipated.
 #[test]
 fn work_of_a_round_tip() {
     let most = TIPS.map(|(of, radius, friction, place)| {
@@ -28,7 +28,7 @@ fn work_of_a_round_tip() {
     assert!(most.into_iter().fold(0.0, f64::max) > 0.01, "{most:?}");
 }
 
-/// The tangent of a round tip on faces and corners agrees with finite differences, wherever it sticks or slides.
+/// Checks the tangent on faces and corners, sticking and sliding.
 #[test]
 fn the_tangent_of_a_round_tip() {
     let mut rubs = HashSet::new();
@@ -50,8 +50,8 @@ fn the_tangent_of_a_round_tip() {
     assert_eq!(rubs.len(), 4);
 }
 
-/// Derivatives by the radius, the place and the length are those of differences of whole solutions: on a face, on a corner, between two
-/// scales, on three of them.
+/// Compares derivatives with respect to radius, position and length with differences of whole
+/// solutions: on a face, on a corner, and on two or three scales.
 #[test]
 fn derivatives_of_a_round_tip() {
     let by_radius: Change =
@@ -80,7 +80,7 @@ fn derivatives_of_a_round_tip() {
     }
 }
 
-/// The path of a row of 21 scales under a round tip: radius, friction and place.
+/// Starts the path of a row of 21 scales under a round tip: radius, friction and position.
 fn round_path(
     [gap, length, slant]: [f64; 3],
     [radius, friction, load_position]: [f64; 3],
