@@ -1,9 +1,10 @@
 //! Derivatives of the measures of a path with respect to parameters.
 //!
-//! A measure is a function of the equilibrium at one place of the path: its end, the first contact, the place of a maximum. The
-//! place moves with a parameter by (D2), the active set held, and the measure with it; explicit functions alone are differenced.
-//! Where a contact changes, or another scale takes over, within the step of these differences, the measure has a kink: both sides
-//! are solved for, each with its active set.
+//! A measure is a function of the equilibrium at one point of the path: the end, the first contact,
+//! a maximum. That point moves with a parameter by (D2) at a fixed active set, and the measure with
+//! it; only explicit functions are differenced. If a contact changes or another scale becomes the
+//! extreme one within the difference step, the measure has a kink: both sides are then solved
+//! separately, each with its own active set.
 
 mod curve;
 mod measured_points;
@@ -18,7 +19,7 @@ pub use curve::CurvePoint;
 pub(crate) use curve::{Curve, curve_point};
 pub(crate) use measured_points::{end, first_contact, is_held, rest, summit, turn, vanished};
 
-/// The derivative of a measure with respect to a parameter.
+/// Derivative of a measure with respect to a parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Derivative {
     /// Name of the measure, as in the tables.
@@ -27,17 +28,19 @@ pub struct Derivative {
     pub parameter: usize,
     /// Value of the measure.
     pub value: f64,
-    /// Derivative where the parameter decreases; `None` if there is none.
+    /// Derivative for a decreasing parameter; `None` if it does not exist.
     pub left: Option<f64>,
-    /// Derivative where the parameter increases; the other one but at a kink.
+    /// Derivative for an increasing parameter; differs from the left one only at a kink.
     pub right: Option<f64>,
-    /// The change at a kink; `None` where the measure is smooth.
+    /// Cause of a kink; `None` where the measure is smooth.
     pub kink: Option<String>,
 }
 
 impl Derivative {
-    /// The derivative of a measure of this `value` from those on both sides, by differences over twice the `step`. Those that are alike but
-    /// for round-off are one.
+    /// Combines the one-sided derivatives of a measure with this `value`.
+    ///
+    /// They are differences over twice the `step`. Sides that agree up to round-off become one
+    /// derivative.
     pub(crate) fn sided(
         (measure, parameter): (&'static str, usize),
         [left, right]: [Option<f64>; 2],
@@ -46,7 +49,7 @@ impl Derivative {
         kink: impl FnOnce() -> String,
     ) -> Self {
         let smooth = left.zip(right).is_some_and(|(left, right)| {
-            // A difference over the step magnifies the round-off of the measure by its inverse.
+            // Dividing by the step magnifies the round-off of the measure.
             let round_off = ROUND_OFF * value.abs() / step;
             (left - right).abs() <= SMOOTH * left.abs().max(right.abs()) + round_off
         });
@@ -55,46 +58,47 @@ impl Derivative {
     }
 }
 
-/// A quantity of an equilibrium, which may be the largest or the least of several.
+/// A quantity of an equilibrium; optionally the extreme one of several values.
 pub(crate) struct MeasuredQuantity<S: Skin> {
     pub(crate) measure: &'static str,
     pub(crate) value: ValueOf<S>,
-    /// Of one that is the extreme one of several, as many as there are scales: which of two counts.
+    /// For an extreme value over all scales: selects the extreme of two values.
     pub(crate) extreme: Option<fn(f64, f64) -> f64>,
-    /// Whether the direction of the path enters.
+    /// Whether the value depends on the path direction.
     pub(crate) turns: bool,
 }
 
-/// The value of a quantity by system, state, direction of the path, and number among several.
+/// Value from system, state, path direction, and index among several values.
 pub(crate) type ValueOf<S> = fn(&S, &SkinState, &[f64], usize) -> f64;
 
-/// A quantity of which there is one alone, and into which the direction of the path does not enter.
+/// Defines a single-valued quantity that does not depend on the path direction.
 pub(crate) fn quantity<S: Skin>(measure: &'static str, value: ValueOf<S>) -> MeasuredQuantity<S> {
     MeasuredQuantity { measure, value, extreme: None, turns: false }
 }
 
-/// Quantities that are taken at one place of a path.
+/// Quantities measured at one point of a path.
 pub(crate) struct MeasuredPoint<S: Skin> {
-    /// The place; `None` where it is not known.
+    /// The point; `None` if unknown.
     pub(crate) place: Option<AnchoredPoint<S::Mode>>,
     pub(crate) quantities: Vec<MeasuredQuantity<S>>,
 }
 
-/// One-sided derivatives that differ by less than this part belong to a smooth measure.
+/// Relative difference of one-sided derivatives below which a measure is smooth.
 const SMOOTH: f64 = 1e-9;
 
-/// A value that is farther from the extreme one than this part of the largest does not take its place within the step of a difference, some
-/// millionths of a parameter.
+/// Relative distance to the extreme value beyond which another value cannot become extreme within a
+/// difference step of a few millionths.
 const NEAR: f64 = 1e-3;
 
-/// Round-off of a measure, as a part of its value.
+/// Relative round-off of a measure.
 const ROUND_OFF: f64 = 4.0 * f64::EPSILON;
 
-/// Contacts that change within the step of a difference, one after the other, are at most so many.
+/// Maximum number of successive contact changes within a difference step.
 const MOST_CHANGES: usize = 8;
 
-/// The derivatives of the quantities of all `spots` with respect to the parameter of each variation. `settings` are those with
-/// which the path was followed. A quantity whose place is not known has none.
+/// Differentiates all quantities with respect to the parameter of each variation.
+///
+/// `settings` are the solver settings of the path. Quantities at unknown points get no derivatives.
 pub(crate) fn derivatives<S: Skin>(
     system: &S,
     spots: Vec<MeasuredPoint<S>>,
@@ -102,14 +106,14 @@ pub(crate) fn derivatives<S: Skin>(
     settings: &Settings,
 ) -> Vec<Derivative> {
     let mut derivatives = Vec::new();
-    // One factorisation serves all that is measured at a place.
+    // One factorisation serves all quantities at a point.
     for MeasuredPoint { place, quantities } in merged(spots) {
         let here = place.and_then(|place| Linearisation::new(system, place).ok());
-        // A singular tangent has no single direction, so what is measured there has no derivative.
+        // A singular tangent has no unique direction, so there are no derivatives here.
         let Some(here) = here else { continue };
         let turns = quantities.iter().any(|quantity| quantity.turns);
         let mut linearised = Linearised { system, settings, here, turns };
-        // All quantities of a place move with it, so its motion is found once for each parameter.
+        // Compute the motion of the point once per parameter for all quantities.
         let sides: Vec<_> = variations.iter().map(|v| linearised.sides(v)).collect();
         for quantity in &quantities {
             let (value, contenders) = quantity.value_at(system, linearised.here.place());
@@ -125,12 +129,12 @@ pub(crate) fn derivatives<S: Skin>(
     derivatives
 }
 
-/// The spots, those at one place together.
+/// Merges measured points at the same location.
 fn merged<S: Skin>(spots: Vec<MeasuredPoint<S>>) -> Vec<MeasuredPoint<S>> {
     let mut merged: Vec<MeasuredPoint<S>> = Vec::new();
     for spot in spots {
         let is_there = |other: &&mut MeasuredPoint<S>| match (&other.place, &spot.place) {
-            // The same state moves otherwise where another condition holds it.
+            // The same state moves differently under another anchor.
             (Some(one), Some(other)) => one.state == other.state && one.anchor == other.anchor,
             _ => false,
         };
@@ -142,7 +146,7 @@ fn merged<S: Skin>(spots: Vec<MeasuredPoint<S>>) -> Vec<MeasuredPoint<S>> {
     merged
 }
 
-/// A place whose tangent is factorised.
+/// A measured point with a factorised tangent.
 struct Linearised<'a, S: Skin> {
     system: &'a S,
     settings: &'a Settings,
@@ -150,31 +154,31 @@ struct Linearised<'a, S: Skin> {
     turns: bool,
 }
 
-/// How a place moves on both sides of a parameter.
+/// Motion of a point on both sides of a parameter value.
 struct Sides<M> {
     left: SideMotion<M>,
-    /// `None` where the place moves on the right as on the left.
+    /// `None` if both sides have the same motion.
     right: Option<SideMotion<M>>,
 }
 
 impl<M> Sides<M> {
-    /// The contact that changes on a side, if one does.
+    /// Returns the contact change on either side, if any.
     fn change(&self) -> Option<&str> {
         let right = self.right.as_ref().and_then(|right| right.change.as_deref());
         right.or(self.left.change.as_deref())
     }
 }
 
-/// How a place moves on one side of a parameter.
+/// Motion of a point on one side of a parameter value.
 struct SideMotion<M> {
-    /// The place below and above; `None` if there is no equilibrium on this side.
+    /// The point below and above; `None` if this side has no equilibrium.
     moved: Option<[Moved<M>; 2]>,
-    /// The contact that changes on this side.
+    /// The contact change on this side.
     change: Option<String>,
 }
 
 impl<S: Skin> Linearised<'_, S> {
-    /// How the place moves on both sides of a parameter.
+    /// Computes the motion of the point on both sides of a parameter value.
     fn sides(&mut self, neighbours: &Neighbours<S>) -> Sides<S::Mode> {
         let moved = self.here.moved(self.system, neighbours, self.turns);
         let on_left = self.here.violated(&neighbours.below, &moved[0]);
@@ -187,7 +191,7 @@ impl<S: Skin> Linearised<'_, S> {
         Sides { left: self.side(neighbours, 0, moved, on_left), right }
     }
 
-    /// How the place moves on one side, where `violated` is the first contact that has to change.
+    /// Computes the motion on one side, where `violated` is the first contact that must change.
     fn side(
         &self,
         neighbours: &Neighbours<S>,
@@ -203,18 +207,18 @@ impl<S: Skin> Linearised<'_, S> {
             };
             let next = here.beyond(self.system, change, self.settings);
             let after = next.as_ref().map_or(&here.place().state, |next| &next.place().state);
-            // The first change gives the kink its name: the others only follow on the same side.
+            // The first change names the kink; later ones follow from it.
             name.get_or_insert_with(|| self.name(&here.place().state, after, change));
             let Some(next) = next else { break };
             here = next;
             moved = here.moved(self.system, neighbours, self.turns);
             violated = here.violated(at_side, &moved[side]);
         }
-        // Without an equilibrium behind the changes this side has no derivative.
+        // No equilibrium behind the changes, so no derivative on this side.
         SideMotion { moved: None, change: name }
     }
 
-    /// The change of a contact in words.
+    /// Describes the change of a contact.
     fn name(&self, before: &SkinState, after: &SkinState, change: Change) -> String {
         if change.constraint >= self.system.contacts().forces.len() {
             return "the needle moves otherwise".to_owned();
@@ -224,7 +228,7 @@ impl<S: Skin> Linearised<'_, S> {
         let edge = edge(after).or_else(|| edge(before)).map_or("contact", |edge| edge.name());
         let [left_index, right_index] = contacts.scales_of(change.constraint);
         let scales = match (self.system.number(left_index), self.system.number(right_index)) {
-            // Neighbours are named by the left one: only distant scales need both numbers.
+            // Neighbours are named by the left scale; distant scales need both numbers.
             (Some(left), _) if right_index == left_index + 1 => format!(" right of scale {left}"),
             (Some(left), Some(right)) => format!(" of scales {left} and {right}"),
             _ => String::new(),
@@ -233,7 +237,8 @@ impl<S: Skin> Linearised<'_, S> {
     }
 }
 
-/// Derivatives that are not known, because what sticks keeps something of the way that a parameter changes in an unknown way.
+/// Lists derivatives that are unknown because a history variable depends on the parameter in an
+/// unknown way.
 pub(crate) fn missing<S: Skin>(
     skin: &S,
     spots: &[MeasuredPoint<S>],
@@ -258,49 +263,50 @@ pub(crate) fn missing<S: Skin>(
 }
 
 impl<S: Skin> MeasuredQuantity<S> {
-    /// The value at a place.
+    /// Evaluates the quantity at a point.
     pub(crate) fn at(&self, system: &S, place: &AnchoredPoint<S::Mode>) -> f64 {
         self.value_at(system, place).0
     }
 
-    /// The value at a place, and the numbers of those of several that may be the extreme one beside it.
+    /// Evaluates the quantity, and lists the indices that may become extreme next to the point.
     fn value_at(&self, system: &S, place: &AnchoredPoint<S::Mode>) -> (f64, Vec<usize>) {
         let count = self.extreme.map_or(1, |_| system.contacts().scales.len());
         let value = |number| (self.value)(system, &place.state, &place.direction, number);
         let values: Vec<f64> = (0..count).map(value).collect();
         let extreme = values.iter().copied().reduce(|one, other| self.outer(one, other));
-        // The extreme one of none is no number, and what is not finite is left out as a derivative.
+        // The extreme of no values is NaN, and non-finite derivatives are dropped.
         let extreme = extreme.unwrap_or(f64::NAN);
         let size = values.iter().fold(0.0_f64, |size, value| size.max(value.abs()));
-        // Beside the place only these are evaluated again: the others are too far to take over.
+        // Only these are evaluated again; the others are too far away to become extreme.
         let is_near = |number: &usize| (values[*number] - extreme).abs() <= NEAR * size;
         (extreme, (0..count).filter(is_near).collect())
     }
 
-    /// The one of two values that counts; a number, if one is none.
+    /// Selects the extreme of two values; ignores NaN if the other is a number.
     fn outer(&self, one: f64, other: f64) -> f64 {
         self.extreme.map_or(one, |outer| outer(one, other))
     }
 
-    /// The derivatives on both sides of a parameter, as far as they are known.
+    /// Computes the derivatives on both sides as far as they exist.
     fn rates(
         &self,
         neighbours: &Neighbours<S>,
         sides: &Sides<S::Mode>,
         contenders: &[usize],
     ) -> [Option<f64>; 2] {
-        // What depends on the direction of the path jumps where a contact changes, and the place of a maximum with it.
+        // A value that depends on the path direction jumps where a contact changes, and so does the
+        // location of a maximum.
         let jumps = self.turns && sides.change().is_some();
         let left = self.rate(neighbours, &sides.left, 0, contenders);
         let right = match &sides.right {
-            // With one contender and one motion both sides have the same rate.
+            // With a single contender and motion both sides have the same rate.
             None if contenders.len() == 1 => left,
             right => self.rate(neighbours, right.as_ref().unwrap_or(&sides.left), 1, contenders),
         };
         [left, right].map(|rate| rate.filter(|rate| rate.is_finite() && !jumps))
     }
 
-    /// The derivative on one side, of the one of the contenders that is the extreme one there.
+    /// Computes the derivative on one side for the contender that is extreme there.
     fn rate(
         &self,
         neighbours: &Neighbours<S>,
@@ -316,12 +322,12 @@ impl<S: Skin> MeasuredQuantity<S> {
         };
         let on_side = contenders.iter().map(|&number| (number, value(side, number)));
         let (number, here) = on_side.reduce(|one, other| {
-            // `min` and `max` pass over what is no number, so that such a contender never counts.
+            // `min` and `max` ignore NaN, so a contender with NaN never counts.
             let counts = self.outer(one.1, other.1).total_cmp(&other.1).is_eq();
             if counts { other } else { one }
         })?;
-        // The same contender counts on both sides: another one may be the extreme one there, and
-        // the difference of the two would be the derivative of neither.
+        // Use the same contender on both sides: another one may be extreme there, and the
+        // difference of the two would be the derivative of neither.
         let there = value(1 - side, number);
         let rise = if side == 1 { here - there } else { there - here };
         Some(rise / (2.0 * neighbours.step))

@@ -1,46 +1,49 @@
-//! The end of a path, and whether it can be trusted.
+//! Outcome of a path and its audit.
 
 use solver::{Path, Stop};
 
 use crate::contacts::SkinState;
 use crate::record::Skin;
 
-/// The end of a puncture or a bending.
+/// Outcome of a puncture or of bending.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
-    /// The path reached its end, in a puncture on a row that is long enough, and the audit has no objection.
+    /// The path reached its end (in a puncture on a row of sufficient length) and passed the audit.
     Complete,
     /// The path stopped before its end.
     Stopped(Stop),
-    /// Load, depth and tilt have turned back together, and the path stopped before any of them came to its largest value again.
+    /// Load, depth and tilt have all turned back, and the path stopped before any of them recovered
+    /// its maximum.
     LimitPoint,
-    /// [`RowLength::Auto`](crate::puncture::RowLength::Auto) needs a longer row than it may take.
+    /// [`RowLength::Auto`](crate::puncture::RowLength::Auto) would need a longer row than allowed.
     RowLimit,
-    /// A guided needle pushes a scale straight down, up to where it may go either way or to two thicknesses, and tilts none critically.
+    /// A guided needle pushed a scale straight down, to a bifurcation or to twice the thickness,
+    /// without a critical tilt.
     Untilted,
     /// Two scales overlap by more than their contact law allows.
     Interpenetration,
-    /// The scales of a strip lock: the moment grows, and next to nothing turns.
+    /// The scales of a strip lock: the moment grows while the rotation hardly changes.
     Locked,
-    /// A contact carries beyond the end of its edge, a corner passes round that end, or one comes at a guided needle from the side.
+    /// A contact slid off the end of its edge, a corner passed that end, or a corner met a guided
+    /// needle from the side.
     OffEdge,
 }
 
 impl Status {
-    /// The status of a path that came to its end, or stopped for a reason.
+    /// Determines the status of a path from its stop reason.
     pub(crate) fn of<S: Skin>(path: &Path<S>, stop: Stop) -> Self {
         let (skin, end) = (path.system(), &path.point().state);
         match stop {
             Stop::Reached => Self::audited(skin, end),
-            // Newton's method fails where the model itself ends, too: a mechanical reason that the
-            // state shows says more than the numeric one.
+            // Newton's method also fails where the model itself ends: prefer a mechanical reason
+            // visible in the state.
             stop if stop.is_numerical() && skin.interpenetrates(end) => Self::Interpenetration,
             stop if stop.is_numerical() && skin.passes_an_end(path.point()) => Self::OffEdge,
             stop => Self::Stopped(stop),
         }
     }
 
-    /// The status of an equilibrium at which a path may end.
+    /// Audits an equilibrium at which a path may end.
     pub(crate) fn audited<S: Skin>(skin: &S, end: &SkinState) -> Self {
         if skin.interpenetrates(end) {
             Self::Interpenetration

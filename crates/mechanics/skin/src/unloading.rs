@@ -1,4 +1,4 @@
-//! The way back of a row that was punctured, or of a strip that was bent: the load falls to zero.
+//! Unloading of a row or a strip to zero load.
 
 use std::sync::Arc;
 
@@ -8,32 +8,32 @@ use solver::{Path, Stop};
 use crate::contacts::SkinPoint;
 use crate::record::{Skin, Work};
 
-/// The way back from the end of a path.
+/// The unloading path from the end of a loading path.
 #[derive(Clone, Debug)]
 pub struct Unloading<P> {
-    /// Its equilibria, from the end of the path on.
+    /// Its equilibria, starting with the end of the loading path.
     pub path: Vec<P>,
-    /// Why it ended: [`Stop::Unloaded`] where the load came to zero.
+    /// Why it stopped: [`Stop::Unloaded`] at zero load.
     pub stop: Stop,
-    /// Work of the load that is not given back, over `E* t³` or, of a whole strip, over `E_m t³`: the area of the loop. Friction has taken
-    /// it, or it is stored in what does not come back.
+    /// Work of the load that is not recovered, i.e. the area of the load loop, over `E* t³` or for
+    /// a whole strip over `E_m t³`. It is dissipated by friction or remains stored.
     pub loop_work: Option<f64>,
 }
 
-/// What is left of a puncture or a bending once the load is gone; `None` where the way back does not come to its end.
+/// Residual state after unloading; `None` if the unloading path is incomplete.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Remains {
-    /// The area of the loop of the load.
+    /// Area of the load loop.
     pub loop_work: Option<f64>,
-    /// What remains of the displacement `u*` of the punctured point, or of the curvature `κ*`.
+    /// Residual displacement `u*` of the loaded point, or residual curvature `κ*`.
     pub displacement: Option<f64>,
 }
 
 impl<P> Unloading<P> {
-    /// Turns a path back where it stands, after friction has taken `work`.
+    /// Reverses a path at its current point, after the dissipation `work`.
     pub(crate) fn follow<S: Skin<PathPoint = P>>(path: &mut Path<S>, mut work: Work) -> Self {
         path.turn_back();
-        // The end of the path stands here once more: on the way back it has another stiffness.
+        // The first point repeats the end of the loading path, with the unloading stiffness.
         let mut points = vec![Self::noted(path.system(), path.point(), &work)];
         loop {
             let from: Arc<SkinPoint> = path.point_shared();
@@ -43,9 +43,9 @@ impl<P> Unloading<P> {
         }
         let stop = path.stop().unwrap_or(Stop::Reached);
         let (skin, end) = (path.system(), path.point());
-        // The stored energy is that of the whole strip, the work that of the gaps solved for.
+        // The stored energy covers the whole strip, the dissipation only the solved gaps.
         let loop_work = || skin.stored(&end.state) + skin.repeats() * work.taken();
-        // Short of no load the loop is not closed, and its area says nothing.
+        // At a nonzero load the loop is not closed, and its area is meaningless.
         Self { path: points, stop, loop_work: (stop == Stop::Unloaded).then(loop_work) }
     }
 
@@ -55,7 +55,7 @@ impl<P> Unloading<P> {
         here
     }
 
-    /// What is left, the displacement of a point of the path being known by this function.
+    /// Evaluates the residual state, with `displacement` read from a recorded point.
     pub(crate) fn remains(&self, displacement: impl Fn(&P) -> f64) -> Remains {
         let end = self.path.last().filter(|_| self.stop == Stop::Unloaded);
         Remains { loop_work: self.loop_work, displacement: end.map(displacement) }

@@ -32,14 +32,14 @@ fn bent(sample: &Sample) -> Flexure {
     flexure
 }
 
-/// Gaps of a long row.
+/// Draws the gaps of a long row.
 fn gaps(gap_cv: f64, slant_sd_deg: f64) -> Vec<f64> {
     sample(gap_cv, slant_sd_deg, 1, 1).row(10_000, 10_000).unwrap().gaps().to_vec()
 }
 
 #[test]
 fn gaps_and_slants_scatter_as_asked() {
-    // With gaps this wide no scale is drawn again.
+    // With gaps this wide no scale is rejected.
     let wide = Design { gap: 3.0, slant_deg: 30.0, ..STEEP };
     let imperfection = Imperfection { gap_cv: 0.1, slant_sd_deg: 2.0 };
     let row = imperfection.sample(&wide, 3, 5).unwrap().row(10_000, 10_000).unwrap();
@@ -69,9 +69,9 @@ fn a_longer_row_has_the_same_scales_in_its_middle() {
 
 #[test]
 fn scales_stand_clear_however_far_slants_scatter() {
-    // At 60° a degree moves the top by 0.07: a gap of 0.1 is soon closed.
+    // At 60° one degree moves the top by 0.07, so a gap of 0.1 closes easily.
     let sample = sample(0.3, 1.5, 1, 1);
-    // An uneven row refuses scales that overlap.
+    // `UnevenRow` rejects overlapping scales.
     let row = sample.row(500, 500).unwrap();
     assert_eq!(row.scales().len(), 1001);
     let crowd = Imperfection { gap_cv: 0.0, slant_sd_deg: 30.0 };
@@ -97,7 +97,7 @@ fn samples_are_reproducible_and_differ() {
     assert_ne!(relative(&STEEP), relative(&narrower));
 }
 
-/// The normal numbers of a sample do not depend on what they are multiplied by: (I1) turned round.
+/// Inverts (I1): the normal deviates of a sample do not depend on the scatter.
 #[test]
 fn more_scatter_is_the_same_row_with_larger_deviations() {
     let [some, more] = [0.05_f64, 0.1].map(|cv| {
@@ -139,8 +139,8 @@ fn closing_range(gap_cv: f64, slant_sd_deg: f64) -> f64 {
     strips.map(|strip| strip.closing_range().unwrap()).sum::<f64>() / 5.0
 }
 
-/// Fig. 10b: all gaps of a perfect strip close at one curvature; those of an imperfect strip close one
-/// by one, the farther apart the more they scatter.
+/// Fig. 10b: all gaps of a perfect strip close at one curvature; the gaps of an imperfect strip
+/// close one by one, over a range that grows with the scatter.
 #[test]
 fn the_gaps_of_an_imperfect_strip_close_one_by_one() {
     let perfect = flexure::solve(&STEEP, &Common::default(), &strip()).unwrap();
@@ -152,7 +152,7 @@ fn the_gaps_of_an_imperfect_strip_close_one_by_one() {
         assert!(range > 1.5 * last, "{range} {last}");
         last = range;
     }
-    // Where a strip touches is a matter of its moment, to which gaps make little difference.
+    // First contact depends on the moment, which the gaps hardly affect.
     assert!(last < 0.02 * first, "{last} {first}");
     for slant_sd_deg in [0.05, 0.1, 0.2, 0.4] {
         let range = closing_range(0.0, slant_sd_deg);
@@ -167,13 +167,13 @@ fn the_gaps_of_an_imperfect_strip_close_one_by_one() {
     assert!(closed.len() >= strip.gaps, "{} of {}", closed.len(), strip.gaps);
 }
 
-/// The slope of a perfect strip leaps at its one contact; that of an imperfect one grows with every
-/// gap that closes.
+/// The slope of a perfect strip jumps at first contact; the slope of an imperfect one grows with
+/// every closing gap.
 #[test]
 fn a_perfect_strip_stiffens_at_once_and_an_imperfect_one_by_and_by() {
     let perfect = flexure::solve(&STEEP, &Common::default(), &strip()).unwrap();
     let imperfect = bent(&sample(0.05, 0.4, 1, 1));
-    // Curvature between twice the slope at rest and ten times that.
+    // Range of curvatures between twice and ten times the initial slope.
     let width = |strip: &Flexure| {
         let at_rest = strip.path[0].stiffness;
         let at = |factor: f64| {
@@ -200,7 +200,7 @@ fn common_samples_have_the_same_random_numbers_in_all_designs() {
     assert_ne!(gaps(&STEEP, 5), gaps(&STEEP, 6));
 }
 
-/// The gap that closes first decides, whether its tops meet or corners slide in: the first contact of the chain that is solved.
+/// First contact occurs in the gap that closes first, by its tops or by sliding corners.
 #[test]
 fn a_strip_touches_where_its_first_gap_closes() {
     for (gap_cv, slant_sd_deg) in [(0.2, 0.0), (0.2, 0.5)] {

@@ -1,4 +1,4 @@
-//! Points of a curve, such as force over displacement, and how a parameter moves the curve there.
+//! Points of a curve, such as force over displacement, and their derivatives.
 
 use solver::{AnchoredPoint, Neighbours, PathAnchor, Point, Settings};
 
@@ -13,17 +13,17 @@ pub struct CurvePoint {
     pub value: f64,
     /// `dy/dx` along the curve.
     pub slope: f64,
-    /// `∂y/∂q` at held `x` for the parameter of each variation, at a kink the mean of both sides; `None` where it is not known.
+    /// `∂y/∂q` at constant `x` per variation, at a kink the mean of both sides; `None` if unknown.
     pub rates: Vec<Option<f64>>,
 }
 
-/// What a curve shows: `x` and `y` by system and state.
+/// A curve: `x` and `y` as functions of system and state.
 pub(crate) type Curve<S> = [ValueOf<S>; 2];
 
-/// Part of the way over which the slope of a curve is differenced.
+/// Fraction of a path unit over which the slope of a curve is differenced.
 const ALONG: f64 = 1e-5;
 
-/// The point of a curve at an equilibrium, and its rates as far as `variations` are given.
+/// Evaluates a curve at an equilibrium, with derivatives for the given `variations`.
 pub(crate) fn curve_point<S: Skin>(
     system: &S,
     point: &SkinPoint,
@@ -33,12 +33,13 @@ pub(crate) fn curve_point<S: Skin>(
 ) -> CurvePoint {
     let Point { state, arriving, .. } = point;
     let at = |f: ValueOf<S>, by: f64| {
-        // At a kink the place belongs to the segment that came to it.
+        // At a kink the point belongs to the incoming segment.
         f(system, &state.moved(by, arriving), arriving, 0)
     };
     let [rise_x, rise_y] = curve.map(|f| at(f, ALONG) - at(f, -ALONG));
     let slope = rise_y / rise_x;
-    // Held in its section of the path the place moves little, wherever the curve turns; to the same `x` it goes back along the curve.
+    // Anchor the point to its section of the path, where it moves little even at turning points of
+    // the curve; then correct along the curve to the same `x`.
     let place = AnchoredPoint::arriving(point, PathAnchor::Still);
     let quantities = vec![quantity("x", curve[0]), quantity("y", curve[1])];
     let spot = MeasuredPoint { place: Some(place), quantities };
@@ -48,12 +49,12 @@ pub(crate) fn curve_point<S: Skin>(
     let rate =
         |(x, y): (&Derivative, &Derivative)| match (side(x.left, y.left), side(x.right, y.right)) {
             (Some(left), Some(right)) => Some(0.5 * (left + right)),
-            // Where one side has no equilibrium the other one stands for both.
+            // If one side has no equilibrium the other one stands for both.
             (left, right) => left.or(right),
         };
     let rates: Vec<_> = of("x").into_iter().zip(of("y")).map(rate).collect();
     let unknown = vec![None; variations.len()];
     let value = (curve[1])(system, state, arriving, 0);
-    // Of a place whose tangent is singular there are no derivatives at all.
+    // At a singular tangent there are no derivatives at all.
     CurvePoint { value, slope, rates: if rates.is_empty() { unknown } else { rates } }
 }

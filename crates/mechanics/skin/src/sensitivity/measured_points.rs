@@ -1,4 +1,4 @@
-//! The places of a path at which measures are taken.
+//! Points of a path at which measures are taken.
 
 use solver::{
     AnchoredPoint, Change, Event, Newton, Path, PathAnchor, Point, Settings, State, Summit, System,
@@ -7,52 +7,52 @@ use solver::{
 use crate::contacts::{SkinPoint, SkinState};
 use crate::record::{PathFunction, Skin};
 
-/// A guard (N5) that is smaller than this at an event belongs to it.
+/// Guards (N5) smaller than this have vanished.
 const VANISHED: f64 = 1e-8;
 
-/// The beginning of a path.
+/// Returns the start of a path.
 pub(crate) fn rest<S: System>(system: &S) -> AnchoredPoint<S::Mode> {
     let control = system.controls()[0];
     let mut direction = vec![0.0; system.size()];
-    // This direction only chooses the section: the linearisation finds that of the path.
+    // The direction only chooses the section; the linearisation computes the actual one.
     direction[control.index] = control.scale;
     AnchoredPoint { state: State::at_rest(system), direction, anchor: PathAnchor::Still }
 }
 
-/// The end of a path that has reached its target.
+/// Returns the end of a path that reached its target.
 pub(crate) fn end<S: System>(path: &Path<S>) -> AnchoredPoint<S::Mode> {
     let Point { state, leaving, .. } = path.point().clone();
     AnchoredPoint { state, direction: leaving, anchor: PathAnchor::Target }
 }
 
-/// The first contact: the end of the part of the path on which all contacts are open.
+/// Returns the first contact: the end of the part of the path with all contacts open.
 pub(crate) fn first_contact<S: Skin>(
     system: &S,
     point: &SkinPoint,
 ) -> Option<AnchoredPoint<S::Mode>> {
     let Some(Event::Changed(changes)) = &point.event else { return None };
     let contacts = &system.contacts().forces;
-    // One guard holds the place; a contact that closes with it shows as violated beside it.
+    // One guard anchors the point; contacts that close simultaneously show up as violated.
     let constraint = changes.iter().find(|change| change.activated)?.constraint;
     if changes.iter().any(|change| change.constraint >= contacts.len()) {
-        // The needle changes with the contact: what it did before is not known here.
+        // The needle changes together with the contact, and its previous state is unknown here.
         return None;
     }
-    // The point has the state with which the path goes on, and the place is the one before: all
-    // contacts are open there, and the gap is the guard.
+    // The recorded point has the state after the event. Restore the state before it: all contacts
+    // open, with the gap as guard.
     let mut state = SkinState::at_rest(system);
     state.z.clone_from(&point.state.z);
     for &force in contacts {
         state.z[force] = 0.0;
     }
-    // Only contacts between scales are undone: the needle does what it did before.
+    // Only contacts between scales are undone; the needle keeps its state.
     state.mode.needle = point.state.mode.needle.clone();
     state.active[contacts.len()..].copy_from_slice(&point.state.active[contacts.len()..]);
     let direction = point.arriving.clone();
     Some(AnchoredPoint { state, direction, anchor: PathAnchor::Guard(constraint) })
 }
 
-/// The place at which a function is the largest on a path, if it is known where that is.
+/// Returns the point of the largest value of a function on a path, if its location is known.
 pub(crate) fn summit<S: Skin>(
     summit: Option<&Summit<S::Mode>>,
     path: &mut Path<S>,
@@ -62,28 +62,28 @@ pub(crate) fn summit<S: Skin>(
     let summit = summit?;
     let Point { state, arriving, leaving, event } = &*summit.point;
     let control = path.system().controls()[0];
-    // The largest value may be at the end, where the target holds the place and no extremum.
+    // At the end of the path the target anchors the point instead of an extremum.
     let is_target = (state.z[control.index] / control.scale - 1.0).abs() < VANISHED;
     let at = |direction: &Vec<f64>, anchor| {
         Some(AnchoredPoint { state: state.clone(), direction: direction.clone(), anchor })
     };
     match (event, &summit.before) {
-        // Between points the function is smooth, so the place is polished until it is stationary.
+        // Between points the function is smooth, so refine the point until it is stationary.
         _ if summit.is_inside => {
             at(arriving, PathAnchor::Still)?.stationary(path.system(), &f, settings)
         }
-        // Only the beginning of a path has no point before it.
+        // Only the start of a path has no previous point.
         (_, None) => at(leaving, PathAnchor::Still),
         _ if is_target => at(arriving, PathAnchor::Target),
         (Some(Event::Changed(changes)), Some(before)) => {
             let [arrives, leaves] = [arriving, leaving].map(|v| f(path.system(), state, v));
-            // The larger value is behind the event, so the place has the state that leaves it.
+            // The larger value is after the event, so use the outgoing state.
             if leaves >= arrives {
                 let guard = vanished(path.system(), state, changes)?;
                 return at(leaving, PathAnchor::Guard(guard));
             }
-            // The larger value is before the event, and the point has lost the active set of that
-            // side: the equilibrium is solved for again.
+            // The larger value is before the event. The recorded point has lost that active set, so
+            // solve for the equilibrium again.
             let Point { state, arriving, .. } = path.between(before, &summit.point, 1.0)?;
             let anchor = PathAnchor::Guard(vanished(path.system(), &state, changes)?);
             Some(AnchoredPoint { state, direction: arriving, anchor })
@@ -92,7 +92,10 @@ pub(crate) fn summit<S: Skin>(
     }
 }
 
-/// The place at which a quantity turns back, which a contact that changes makes it do or else its vanishing rate, of this `number`.
+/// Returns the point at which a quantity turns back.
+///
+/// It is anchored to the contact that changes there, or else to the vanishing rate with this
+/// `number`.
 pub(crate) fn turn<S: Skin>(
     system: &S,
     point: &SkinPoint,
@@ -106,20 +109,21 @@ pub(crate) fn turn<S: Skin>(
     Some(AnchoredPoint { state: state.clone(), direction: leaving.clone(), anchor })
 }
 
-/// Whether a place is held by the target of the path or by a contact that changes there. That of a smooth maximum is not: a
-/// parameter moves it along the path.
+/// Returns true if the target or a contact change fixes a point.
+///
+/// Otherwise the point is a smooth maximum, which a parameter moves along the path.
 pub(crate) fn is_held<S: Skin>(system: &S, place: &AnchoredPoint<S::Mode>) -> bool {
     match place.anchor {
         PathAnchor::Still => false,
         PathAnchor::Target | PathAnchor::Marker(_) | PathAnchor::Stationary(_) => true,
-        // Elsewhere the guard is a section through the path.
+        // A nonzero guard is only a section through the path.
         PathAnchor::Guard(constraint) => {
             Newton::guards(system, &place.state)[constraint].abs() < VANISHED
         }
     }
 }
 
-/// The constraint whose guard vanishes at an event, of those of the contacts that change.
+/// Finds the constraint with a vanishing guard at an event, among the changed contacts.
 pub(crate) fn vanished<S: Skin>(
     system: &S,
     state: &SkinState,
@@ -129,18 +133,18 @@ pub(crate) fn vanished<S: Skin>(
         && !change.activated
         && system.growing().contains(&change.constraint)
     {
-        // What slips comes to rest where its rate vanishes: no guard does so.
+        // Slip stops where its rate vanishes, which is no guard.
         return None;
     }
     let guards = Newton::guards(system, state);
     let changed = |constraint: &usize| {
         let contact = |constraint: usize| system.contacts().contact_of(constraint).0;
-        // A change of one force may make another one of the same contact vanish.
+        // A change of one force may make another force of the same contact vanish.
         changes.iter().any(|change| contact(change.constraint) == contact(*constraint))
     };
     let contacts = system.contacts();
     let vanished = (0..guards.len()).filter(changed).filter(|&c| guards[c].abs() < VANISHED);
-    // The way of what has begun to slip is counted from a place that moves with the event.
+    // A slip distance that starts at the event has an origin that moves with the event.
     let known = vanished.filter(|&c| !contacts.slips(state, c));
     known.min_by(|&a, &b| {
         let friction_last = contacts.is_friction(a).cmp(&contacts.is_friction(b));

@@ -1,4 +1,4 @@
-//! The assembled chain and the unit cell are the same strip.
+//! The assembled chain against the unit cell.
 
 use approx::assert_relative_eq;
 use contact::Law;
@@ -8,7 +8,7 @@ use skin::{Common, Design, Status};
 
 use crate::samples::{LAWS, forty, with_law};
 
-/// End rotations at which both are compared, degrees: all of the path, with some from just behind the contacts.
+/// End rotations of the comparison, degrees: the whole path, with some just after the contacts.
 const AT: [f64; 12] = [1.0, 5.0, 10.0, 20.0, 30.0, 45.0, 60.0, 90.0, 120.0, 150.0, 175.0, 180.0];
 
 fn compare(design: &Design, law: Law) -> usize {

@@ -28,7 +28,7 @@ fn before_contact_the_moment_is_the_curvature_times_pitch_over_gap() {
     assert!(compared > 400, "{compared}");
 }
 
-/// Upright blocks on a strip so short that they meet, with this mesh in each gap.
+/// Upright blocks on a strip short enough for contact, with this mesh in each gap.
 fn blocks(gap: f64, length: f64, elements_per_gap: MembraneMesh) -> Flexure {
     let parameters = FlexureParameters {
         membrane_length: 4.0,

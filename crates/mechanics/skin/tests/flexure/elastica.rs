@@ -1,13 +1,13 @@
-//! Bending against strips whose membrane is an extensible elastica, solved by collocation.
+//! Bending against reference strips with an extensible elastica, solved by collocation.
 //!
-//! `tests/reference/elastica.csv` holds the values and tells how they were made.
+//! `tests/reference/elastica.csv` contains the values and describes their computation.
 
 use approx::assert_relative_eq;
 use rayon::prelude::*;
 use skin::flexure::{FlexureMeasures, FlexureParameters, MembraneMesh, solve};
 use skin::{Base, Common, Design, Status};
 
-/// A design with the values of the reference.
+/// A design with reference values.
 struct Reference {
     design: Design,
     gaps: f64,
@@ -68,7 +68,7 @@ fn sixty_designs_with_whole_gaps_and_ten_with_parts_of_one() {
     });
 }
 
-/// The error of the elements falls with the square of their length.
+/// The error of the elements is proportional to the square of their length.
 #[test]
 fn elements_converge_to_it_with_the_square_of_their_length() {
     for reference in references().iter().step_by(7) {
@@ -82,7 +82,8 @@ fn elements_converge_to_it_with_the_square_of_their_length() {
     }
 }
 
-/// One element per gap, which was the default once, on whole gaps: `(d, L, gaps, C_f*, M* at the end)` of designs with the slant 75°.
+/// One element per gap, the former default, on whole gaps: `(d, L, gaps, C_f*, M* at the end)` for
+/// designs with a slant of 75°.
 const ONE_ELEMENT: [(f64, f64, usize, f64, f64); 6] = [
     (0.2, 0.6, 125, 0.000_043_226_402_372_231_1, 896.124_183_604_776_7),
     (0.4, 0.2, 167, 0.000_567_246_544_534_441_5, 26.581_881_174_697_386),

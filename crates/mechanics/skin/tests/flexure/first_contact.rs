@@ -1,4 +1,4 @@
-//! The curvature of first contact: the closed form, and the strip that is solved.
+//! Curvature of first contact: closed form against solved strips.
 
 use proptest::prelude::*;
 use skin::flexure::{self, FlexureParameters, contact_curvature};
@@ -29,7 +29,8 @@ fn a_slight_slant_changes_little() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
-    /// Bent on a strip long enough to touch, scales touch where the closed form says; on the default one too, or never.
+    /// On a strip long enough for contact, scales touch at the closed-form curvature; on the
+    /// default strip also there or never.
     #[test]
     fn it_is_the_first_contact_of_the_strip_that_is_solved(
         gap in 0.05_f64..0.8, length in 0.1_f64..1.5, slant in 0.0_f64..75.0, offset in 0.0_f64..0.3,
@@ -53,7 +54,7 @@ proptest! {
         }
     }
 
-    /// Bent the other way the scales open: the membrane alone bends.
+    /// Bending to the outside opens the gaps, so only the membrane bends.
     #[test]
     fn the_other_way_scales_open(gap in 0.05_f64..0.8, length in 0.1_f64..1.5, slant in 0.0_f64..75.0) {
         let design = design(gap, length, slant);

@@ -1,4 +1,4 @@
-//! Strips whose scales rub, beside two programs that let contacts stick by springs that return to the cone.
+//! Strips with friction, against two programs with penalty springs and return mapping.
 
 use approx::assert_relative_eq;
 use skin::flexure::{FlexureParameters, MembraneMesh, solve};
@@ -6,7 +6,8 @@ use skin::{Base, Common};
 
 use crate::samples::design;
 
-/// The moment at the end of bending, with one linear element in each gap; contacts slip at the end, but for the last, which stick.
+/// Moments at the end of bending, with one linear element per gap. In all cases but the last
+/// contacts slip at the end.
 #[test]
 fn friction_raises_the_end_moment_as_two_other_programs_say() {
     let moments = [

@@ -1,10 +1,10 @@
-//! Strips whose gaps differ, gap by gap, against the chain of all gaps.
+//! Strips with unequal gaps: gap by gap against the assembled chain.
 
 use contact::Law;
 use skin::flexure::{self, BentSample, FlexureParameters, MembraneMesh};
 use skin::{Base, Common, Design, Imperfection, Status};
 
-/// A design, what differs from the default parameters, and by how much its gaps and slants scatter.
+/// A design, its parameters, and the scatter of its gaps and slants.
 #[derive(Clone, Copy)]
 struct Uneven {
     design: Design,
@@ -13,7 +13,7 @@ struct Uneven {
     imperfection: Imperfection,
 }
 
-/// Scales as long as they are thick, at a tenth of that, of which nine gaps are bent until all of them touch.
+/// Scales as long as thick, with gaps a tenth of that; nine gaps bent until all are closed.
 fn slanted() -> Uneven {
     let design = Design { gap: 0.1, length: 1.0, slant_deg: 60.0, base: Base::L, width: 1.0 };
     let parameters = FlexureParameters {
@@ -26,7 +26,7 @@ fn slanted() -> Uneven {
 }
 
 impl Uneven {
-    /// Gap by gap, and as a chain.
+    /// Bends a sample gap by gap, and as a chain.
     fn bent(&self, seed: u64) -> [BentSample; 2] {
         let Self { design, common, parameters, imperfection } = self;
         let sample = imperfection.sample(design, seed, 1).unwrap();
@@ -36,7 +36,7 @@ impl Uneven {
     }
 }
 
-/// The largest difference of any measure, relative to it, but for the work of friction.
+/// Computes the largest relative difference of any measure except the frictional dissipation.
 fn difference([gaps, chain]: [&BentSample; 2]) -> f64 {
     let values = |bent: &BentSample| {
         let m = bent.measures;
@@ -60,7 +60,7 @@ fn difference([gaps, chain]: [&BentSample; 2]) -> f64 {
     differences.fold(0.0, f64::max)
 }
 
-/// With seeds that nothing was tuned by.
+/// The seeds were not used for tuning.
 #[test]
 fn gaps_by_themselves_are_the_chain_of_all() {
     let slanted = slanted();
@@ -70,9 +70,9 @@ fn gaps_by_themselves_are_the_chain_of_all() {
     let cases = [
         Uneven { imperfection: scattered(0.2, 0.0), ..slanted },
         Uneven { imperfection: scattered(0.0, 0.5), ..slanted },
-        // All gaps close at one moment.
+        // All gaps close at the same moment.
         Uneven { design: Design { slant_deg: 0.0, ..design }, ..slanted },
-        // Corners pass into one another.
+        // Corners pass each other.
         Uneven {
             design: steep,
             parameters: FlexureParameters { max_end_rotation_deg: 30.0, ..parameters },
@@ -89,7 +89,7 @@ fn gaps_by_themselves_are_the_chain_of_all() {
             },
             ..slanted
         },
-        // To the outside nothing touches.
+        // Nothing touches when bending to the outside.
         Uneven {
             parameters: FlexureParameters { max_end_rotation_deg: -18.0, ..parameters },
             ..slanted
@@ -99,7 +99,8 @@ fn gaps_by_themselves_are_the_chain_of_all() {
         for seed in [3, 71] {
             let [gaps, chain] = case.bent(seed);
             assert_eq!([gaps.status, chain.status], [Status::Complete; 2], "{number} {seed}");
-            // Not the chain itself, which gaps fall back on that cannot be solved apart.
+            // Guards against the fallback to the chain, which is used if gaps cannot be solved
+            // separately.
             assert_ne!(gaps.points, chain.points, "{number} {seed}");
             let difference = difference([&gaps, &chain]);
             assert!(difference < 1e-8, "{number} {seed}: {difference:e}");
@@ -107,7 +108,7 @@ fn gaps_by_themselves_are_the_chain_of_all() {
     }
 }
 
-/// What friction takes, and where contacts begin to slip and stick, is the same as far as steps resolve it.
+/// Dissipation and stick–slip transitions agree within the resolution of the steps.
 #[test]
 fn gaps_that_rub_by_themselves_are_the_chain_of_all() {
     let slanted = slanted();
@@ -120,13 +121,13 @@ fn gaps_that_rub_by_themselves_are_the_chain_of_all() {
         let off = difference([&gaps, &chain]);
         assert!(off < 1e-7, "{friction}: {off:e}");
         let works = [&gaps, &chain].map(|bent| bent.measures.friction_work.unwrap());
-        // The larger one lets nothing slip: what is taken is nothing.
+        // With the larger friction nothing slips, so the dissipation is zero.
         assert!((works[0] - works[1]).abs() <= 1e-5 * works[1], "{friction}: {works:?}");
         assert!(gaps.measures.locking_curvature.is_some());
     }
 }
 
-/// A strip whose gaps cannot be solved apart is the chain of all, whatever becomes of it.
+/// Falls back to the assembled chain, whatever its result.
 #[test]
 fn gaps_that_act_on_each_other_are_solved_as_a_chain() {
     let slanted = slanted();
@@ -134,8 +135,8 @@ fn gaps_that_act_on_each_other_are_solved_as_a_chain() {
     let [gaps, chain] = Uneven { parameters: unloading, ..slanted }.bent(3);
     assert_eq!(gaps.measures, chain.measures);
     assert!(gaps.measures.remains.loop_work.is_some());
-    // Forces that begin soft, and are stiff soon after: the strip is stiffest between events. Steep scales slide off each other, and
-    // the moment falls.
+    // Initially soft contacts that stiffen soon: the strip is stiffest between events. Steep scales
+    // slide off each other, so the moment decreases.
     let steep = Design { gap: 0.2, length: 0.5, slant_deg: 80.0, ..slanted.design };
     let far = FlexureParameters { max_end_rotation_deg: 80.0, ..slanted.parameters };
     let soft = Common { law: Law::EXCHANGED, ..slanted.common };

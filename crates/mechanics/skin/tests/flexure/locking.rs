@@ -1,4 +1,5 @@
-//! Strips that friction locks, beside a beam with plates on torsional roots ([`analytical::rotating_plates`]).
+//! Strips locked by friction, next to a beam with plates on torsional springs
+//! ([`analytical::rotating_plates`]).
 
 use analytical::rotating_plates;
 use skin::flexure::{FlexureParameters, solve};
@@ -6,11 +7,11 @@ use skin::{Base, Common};
 
 use crate::samples::design;
 
-/// Rising frictions, from smooth plastic on.
+/// Increasing coefficients of friction, starting with smooth plastic.
 const FRICTIONS: [f64; 8] = [0.02, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.5];
 
-/// The trend that both models share: with more friction a lock comes earlier, up to a friction from which on scales lock
-/// where they touch.
+/// Checks the trend shared by both models: more friction locks earlier, up to a friction beyond
+/// which scales lock at first contact.
 #[track_caller]
 fn locks_earlier(locks: &[Option<f64>], touch: f64) {
     let found: Vec<f64> = locks.iter().copied().skip_while(Option::is_none).flatten().collect();

@@ -1,4 +1,4 @@
-//! Every design of the reference study can be bent to a full turn.
+//! Every design of the reference study completes bending.
 
 use rayon::prelude::*;
 use skin::flexure::{FlexureParameters, MembraneMesh, solve};
@@ -24,7 +24,7 @@ fn the_reference_study_completes_with_either_law() {
     }
 }
 
-/// Scales as long as a third of the strip turn so far against each other that a corner slides off the top of a side.
+/// Scales as long as a third of the strip rotate so far that a corner slides off the top of a side.
 #[test]
 fn a_contact_beyond_its_edge_fails_the_audit() {
     let parameters = FlexureParameters { gaps: Some(3), ..FlexureParameters::default() };
@@ -34,8 +34,9 @@ fn a_contact_beyond_its_edge_fails_the_audit() {
     assert_eq!(flexure.measures.max_moment, None);
 }
 
-/// On a membrane far below their bases steep scales turn until a side lies flush with a base. There the moment grows and
-/// the strip does not turn: its compliance has no value, and the path ends before the moment at which they meet.
+/// On a membrane far below their bases steep scales rotate until a side is flush with a base. There
+/// the moment grows without rotation, so the compliance is undefined and the path stops before the
+/// moment of contact.
 #[test]
 fn a_strip_whose_sides_come_to_lie_flush_has_no_compliance() {
     for (design, gaps, moment) in [
@@ -44,8 +45,9 @@ fn a_strip_whose_sides_come_to_lie_flush_has_no_compliance() {
     ] {
         let parameters = FlexureParameters {
             gaps: Some(gaps),
-            // The resolution decides what meets: with four elements or the elastica the tip of the first strip never comes to the
-            // neighbour's corner, and the strip bends to the end; the second comes to lie flush at another moment.
+            // Resolution matters here: with four elements or the elastica the tip of the first
+            // strip never reaches the neighbour's corner, so the strip bends to the end; the second
+            // becomes flush at another moment.
             elements_per_gap: MembraneMesh::Elements(1),
             membrane_axis_offset: 1.0,
             ..FlexureParameters::default()

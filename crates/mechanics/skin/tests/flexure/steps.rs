@@ -1,4 +1,4 @@
-//! The compliance does not depend on the steps with which the path is followed.
+//! The compliance does not depend on the step size.
 
 use approx::assert_relative_eq;
 use rayon::prelude::*;
@@ -31,7 +31,7 @@ fn steps_ten_times_smaller_give_the_same_compliance() {
     }
 }
 
-/// Forces as small as round-off are asked for: Newton's method must see that it cannot do better, and say so or end.
+/// The requested tolerance is at round-off: Newton's method must detect stagnation.
 #[test]
 fn a_tolerance_at_round_off_gives_the_same_compliance() {
     let loose = Settings::default();

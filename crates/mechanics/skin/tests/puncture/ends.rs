@@ -1,4 +1,4 @@
-//! Paths beyond the largest force that a scale bears.
+//! Paths beyond the largest force.
 
 use approx::assert_relative_eq;
 use rayon::prelude::*;
@@ -16,7 +16,7 @@ fn to_tilt(critical_tilt_deg: f64) -> PunctureParameters {
     PunctureParameters { critical_tilt_deg, ..PunctureParameters::default() }
 }
 
-/// The load falls to zero before the scale tilts by 35°, and would go on below it.
+/// The load drops to zero before a tilt of 35° and would become negative.
 #[test]
 fn a_needle_that_would_have_to_pull_is_off() {
     let design = design(0.6, 1.0, 60.0, Base::L);
@@ -26,7 +26,7 @@ fn a_needle_that_would_have_to_pull_is_off() {
     assert!(last.force.abs() < 1e-14 && last.tilt_deg < 35.0, "{last:?}");
     assert!(puncture.path.iter().skip(1).rev().skip(1).all(|point| point.force > 0.0));
     assert_eq!(measures.critical_force.or(measures.penetration), None);
-    // Up to the tilt of its peak the path is another one's beginning, which ends there.
+    // Up to the tilt of its peak the path coincides with a path that ends there.
     let to_peak = solve(&design, &to_tilt(measures.peak_tilt_deg.unwrap()));
     assert_eq!(to_peak.status, Status::Complete);
     assert_relative_eq!(
@@ -36,7 +36,7 @@ fn a_needle_that_would_have_to_pull_is_off() {
     );
 }
 
-/// The peak that a scale bears does not depend on how far the path is followed behind it.
+/// The peak does not depend on the end of the path behind it.
 #[test]
 fn a_peak_is_the_same_whether_the_path_goes_on_or_not() {
     let design = design(0.1, 0.5, 45.0, Base::L);
@@ -52,7 +52,7 @@ fn a_peak_is_the_same_whether_the_path_goes_on_or_not() {
     }
 }
 
-/// Solves designs to some tilt, each to its own, and looks at how they end.
+/// Solves designs, each to its own tilt, and checks their ends.
 fn check(designs: &[(Design, f64)], known: &Calibrations) {
     let solved: Vec<Puncture> = designs
         .par_iter()
@@ -78,8 +78,9 @@ fn the_steep_half_of_the_study_ends_before_a_needle_pulls() {
     check(&designs, &Calibrations::default());
 }
 
-/// Rest is a regular point: no path comes back to it, by whatever branch, and none goes round and round.
-/// Eight designs that did; all of the study with both bases in a long campaign.
+/// Rest is a regular point: no path may return to it on any branch or cycle.
+///
+/// Eight designs that did in the past; the whole study with both bases in a long campaign.
 #[test]
 fn no_path_comes_back_to_rest() {
     use SubstrateLaw::{Linear, NeoHookean};
@@ -123,8 +124,9 @@ fn random_designs_end_before_a_needle_pulls() {
     check(&designs, &Calibrations::default());
 }
 
-/// A corner that slides off its edge lets the row snap: load, depth and tilt turn back there. The place does not depend on the
-/// steps, and at the depth of the snap the force is lower by its drop.
+/// A corner that slides off its edge makes the row snap: load, depth and tilt turn back there. The
+/// location does not depend on the step size, and the force is lower by `drop` where the depth is
+/// as large again.
 #[test]
 fn a_row_snaps_where_a_corner_passes_a_corner() {
     let design = design(0.1, 1.0, 45.0, Base::TwoL);
@@ -136,7 +138,7 @@ fn a_row_snaps_where_a_corner_passes_a_corner() {
     assert_eq!(corner.point, snap.point);
     assert_eq!(corner.change.name(), "reached corner");
     assert_relative_eq!(snap.point.force, 0.5892, max_relative = 1e-4);
-    // The path that no needle follows falls to 0.5826 before it rises again.
+    // The unstable part of the path falls to 0.5826 before it rises again.
     let lowest = puncture.path.iter().skip_while(|p| **p != snap.point).map(|p| p.force);
     assert_relative_eq!(lowest.fold(f64::MAX, f64::min), 0.5826, max_relative = 1e-4);
     let at = puncture.path.iter().position(|point| *point == snap.point).unwrap();
@@ -149,13 +151,13 @@ fn a_row_snaps_where_a_corner_passes_a_corner() {
     let part =
         (snap.point.displacement - low.displacement) / (high.displacement - low.displacement);
     let landed = low.force + part * (high.force - low.force);
-    // The chord between two points lies a little beside the path.
+    // The chord between two points lies slightly off the path.
     assert_relative_eq!(snap.drop.unwrap(), snap.point.force - landed, max_relative = 5e-3);
     let measures = puncture.measures;
     assert_eq!(measures.depth_stability_force, Some(snap.point.force));
     assert_eq!(measures.load_stability_force, Some(snap.point.force));
     assert_eq!([measures.stable_under_load, measures.stable_under_depth], [Some(true); 2]);
-    // On the way back nothing holds the row; before and behind everything does.
+    // The row is unstable in all controls on the reversed part, and stable elsewhere.
     let back = behind.take_while(|pair| pair[1].force < pair[0].force).count();
     let unstable = |count| Instability { load: count, depth: count, tilt: count };
     for (k, instability) in puncture.instability.iter().enumerate() {
@@ -164,7 +166,7 @@ fn a_row_snaps_where_a_corner_passes_a_corner() {
     }
 }
 
-/// Of the 720 designs of either base those snap whose contact reaches a corner.
+/// A row snaps exactly where a contact reaches a corner.
 #[test]
 fn corners_and_snaps_go_together() {
     let every = if long_campaigns() { 1 } else { 5 };

@@ -1,7 +1,8 @@
-//! Pairs of scales that rub, by a solver of their own: small steps of the tilt, and in each every contact is tried open, stuck, and
-//! slipping either way, until one pattern keeps all its conditions.
+//! Pairs of scales with friction, against a solver that enumerates contact patterns.
 //!
-//! Where slipping begins or ends within a step, anchors are off by a part of the step: forces come closer as steps get shorter.
+//! In small steps of the tilt, every contact is tried open, sticking, and slipping in either
+//! direction, until one pattern satisfies all its conditions. Where slip starts or stops within a
+//! step, anchors are off by a fraction of the step, so forces converge with the step size.
 
 use nalgebra::{DMatrix, DVector, Vector2};
 use skin::puncture::{At, PunctureParameters, snapshots};
@@ -12,14 +13,15 @@ use crate::samples::{design, on_row, springs};
 
 type V = Vector2<f64>;
 
-/// How a contact stands.
+/// State of a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Stand {
     Open,
     Stick,
     Slip(f64),
-    /// Closed, with its friction borne by the one that sticks: two contacts on parallel edges slide together or not at all, and how they
-    /// share their friction while they stick nothing tells.
+    /// Closed, with its friction carried by the sticking contact. Two contacts on parallel edges
+    /// slide together or not at all, and their individual friction is indeterminate while they
+    /// stick.
     Borne,
 }
 
@@ -30,23 +32,23 @@ const STANDS: [Stand; 5] =
 struct Touch {
     corner: (usize, V),
     edge: (usize, V),
-    /// At rest: outward normal and direction of the edge.
+    /// Outward normal and direction of the edge at rest.
     normal: V,
     tangent: V,
 }
 
-/// Two scales on their springs, the left one loaded.
+/// Two scales on springs with the left one loaded.
 struct Pair {
     stiffness: DMatrix<f64>,
     arm: V,
     pitch: f64,
     touches: Vec<Touch>,
-    /// `λ₀`, `L` and `C₂` of the contact law, and the friction.
+    /// `λ₀`, `L` and `C₂` of the contact law.
     law: [f64; 3],
     friction: f64,
 }
 
-/// Displacements and rotations of both scales, the load, and `λ` and `T` of each contact.
+/// Displacements and rotations of both scales, load, and `λ` and `T` of each contact.
 type Unknowns = DVector<f64>;
 
 const LOAD: usize = 6;
@@ -79,7 +81,8 @@ impl Pair {
         let (bottom, top) =
             ([V::new(-a, 0.0), V::new(a, 0.0)], [V::new(shift - a, 1.0), V::new(shift + a, 1.0)]);
         let up = V::new(shift, 1.0).normalize();
-        // The right edge of the left scale looks to the right, the left edge of the right one to the left.
+        // The right edge of the left scale faces right, the left edge of the right scale faces
+        // left.
         let (right, left) = (-quarter(up), quarter(up));
         let touch = |corner, edge, normal| Touch { corner, edge, normal, tangent: up };
         let touches = vec![
@@ -101,7 +104,7 @@ impl Pair {
             + turned(z[3 * scale + 2], arm)
     }
 
-    /// Gap and way of a contact, or rather `(P − E)·v` for a direction of the edge, with its derivatives.
+    /// Computes `(P − E)·v` for a direction of the edge, with derivatives: gap or slip coordinate.
     fn along(&self, z: &Unknowns, touch: &Touch, direction: V) -> (f64, DVector<f64>) {
         let (corner, edge) = (touch.corner, touch.edge);
         let v = turned(z[3 * edge.0 + 2], direction);
@@ -182,7 +185,7 @@ impl Pair {
         None
     }
 
-    /// Whether a state keeps the conditions of its pattern.
+    /// Returns true if a state satisfies the conditions of its pattern.
     fn holds(&self, from: &Unknowns, to: &Unknowns, stands: &[Stand]) -> bool {
         let borne = stands.iter().enumerate().filter(|(_, stand)| **stand == Stand::Borne);
         let borne: f64 = borne.map(|(k, _)| to[LOAD + 1 + 2 * k]).sum();
@@ -203,7 +206,7 @@ impl Pair {
         })
     }
 
-    /// The load at the tilts, and the patterns that the path went through.
+    /// Computes the load at the tilts, and the sequence of patterns.
     fn loads(&self, tilts: &[f64], steps: usize) -> (Vec<f64>, Vec<Vec<Stand>>) {
         let count = self.touches.len();
         let mut z = Unknowns::zeros(LOAD + 1 + 2 * count);
@@ -239,7 +242,7 @@ impl Pair {
     }
 }
 
-/// The largest difference of the loads from those of the solver, and the patterns.
+/// Compares the loads with the solver: largest relative difference, and the patterns.
 fn difference(design: &Design, friction: f64, steps: usize) -> (f64, Vec<Vec<Stand>>) {
     let parameters = on_row(2);
     let common = Common { friction, ..Common::default() };

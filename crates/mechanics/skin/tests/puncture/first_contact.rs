@@ -1,7 +1,7 @@
-//! The path up to the first contact: a linear chain under a load whose arm turns.
+//! The path up to first contact: a linear chain under a load with a rotating arm.
 //!
-//! With the Green's functions of [`analytical::linear_chain`] all poses follow from the tilt alone, and the first
-//! contact is where one gap closes.
+//! The Green's functions of [`analytical::linear_chain`] give all poses as functions of the tilt;
+//! first contact is where a gap closes.
 
 use analytical::linear_chain;
 use approx::assert_relative_eq;
@@ -13,7 +13,7 @@ use crate::samples::{design, on_row, solve_with, springs};
 
 const SCALES: usize = 41;
 
-/// Depth of the loaded corner and gap of the right neighbour at a tilt `ψ`.
+/// Computes the depth of the loaded corner and the gap to the right neighbour at a tilt `ψ`.
 fn before_contact(design: &Design, springs: &Springs, psi: f64) -> [f64; 2] {
     let scale = *design.row().unwrap().scale();
     let a = scale.half_base();
@@ -42,8 +42,9 @@ fn first_contact(design: &Design, springs: &Springs) -> f64 {
     before_contact(design, springs, low)[0]
 }
 
-/// Fig. 6b of Shafiei et al. (2021) puts it at "about 0.08" for `L/t = 1`, `d/t = 0.1` and slants of 0° and
-/// 45°. With a base of `L` it is at 0.081 and 0.059, with a base of `2L` at 0.154 and 0.070.
+/// Fig. 6b of Shafiei et al. (2021) shows it at "about 0.08" for `L/t = 1`, `d/t = 0.1` and slants
+/// of 0° and 45°. With a base of `L` it is at 0.081 and 0.059, with a base of `2L` at 0.154 and
+/// 0.070.
 #[test]
 fn happens_where_the_linear_chain_closes_the_gap() {
     let known = Calibrations::default();
