@@ -1,4 +1,4 @@
-//! Where the surface of the substrate folds over, and how far its gaps are stretched.
+//! Folding of the substrate surface, and stretch of its gaps.
 
 use approx::assert_relative_eq;
 use skin::puncture::{Puncture, PunctureParameters, RowLength};
@@ -9,7 +9,7 @@ use substrate::Calibrations;
 use crate::samples::{LAWS, design, domino, finer, on_row, settled, solve, solve_as};
 use crate::{complete, end};
 
-/// Designs of the reference study whose surface folds over before 10°, in one gap or in many.
+/// Designs of the reference study with a surface that folds over before 10°, in one gap or in many.
 fn folded() -> [Design; 5] {
     [
         domino(),
@@ -24,7 +24,7 @@ fn automatic() -> PunctureParameters {
     PunctureParameters { scales: RowLength::Auto, ..PunctureParameters::default() }
 }
 
-/// Stretch of every gap at the end of a path, from the corners of the bases.
+/// Computes the stretch of every gap at the end of a path from the corners of the bases.
 fn stretches(design: &Design, puncture: &Puncture) -> Vec<f64> {
     let (a, pitch) = (design.half_base(), 2.0 * design.half_base() + design.gap);
     let width = |left: &skin::puncture::ScaleState, right: &skin::puncture::ScaleState| {
@@ -49,7 +49,7 @@ fn gap_stretches_are_those_between_the_corners_of_the_bases() {
     }
 }
 
-/// The gaps beyond the part of an endless row that is solved for are looked at too.
+/// Gaps beyond the solved part of an endless row are included.
 #[test]
 fn an_endless_row_has_the_extreme_gaps_of_a_long_one() {
     let known = Calibrations::default();
@@ -81,14 +81,15 @@ fn a_fold_is_where_a_gap_vanishes() {
         assert_eq!(measures.fold_tilt_deg, Some(first.point.tilt_deg));
         assert_eq!(measures.sound_force, measures.fold_force);
         assert!(first.point.tilt_deg < end(&puncture).tilt_deg);
-        // Points before have all gaps open; the fold lies between them and the next.
+        // All gaps are open at earlier points; the fold lies between the last of them and the next
+        // point.
         let before = puncture.path.iter().take_while(|p| p.gap_stretch.unwrap().min > 0.0).count();
         let [from, to] = [&puncture.path[before - 1], &puncture.path[before]];
         assert!((from.tilt_deg..=to.tilt_deg).contains(&first.point.tilt_deg));
     }
 }
 
-/// What is folded at the end has folded once more often than it has unfolded, and nothing else has.
+/// A gap that is closed at the end has folded once more often than it has unfolded.
 #[test]
 fn folds_account_for_the_gaps_that_are_closed_at_the_end() {
     for design in folded() {
@@ -138,7 +139,7 @@ fn folds_do_not_depend_on_the_steps() {
     }
 }
 
-/// Where the tilt grows all along the path, it tells the order.
+/// On a path with increasing tilt the tilt gives the order.
 #[test]
 fn a_fold_knows_the_contact_events_before_it() {
     let mut monotone = 0;

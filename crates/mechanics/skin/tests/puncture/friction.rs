@@ -19,7 +19,8 @@ fn solve(design: &Design, friction: f64, parameters: &PunctureParameters) -> Pun
     solve_as(&Calibrations::default(), design, &rubbing(friction), parameters)
 }
 
-/// Critical force and penetration of two independent programs, whose contacts stick by springs that return to the cone.
+/// Critical force and penetration of two independent programs, with penalty springs and return
+/// mapping.
 #[test]
 fn forces_and_penetration_are_those_of_independent_programs() {
     let row = |slant_deg: f64, friction: f64| {
@@ -65,7 +66,7 @@ fn the_path_does_not_depend_on_its_steps() {
     }
 }
 
-/// The work of the load is stored or taken by friction.
+/// The work of the load is stored or dissipated.
 #[test]
 fn what_friction_takes_is_missing_from_the_energy() {
     for (gap, length, slant_deg, friction) in
@@ -81,14 +82,14 @@ fn what_friction_takes_is_missing_from_the_energy() {
         let whole =
             puncture.path.last().map(|end| end.substrate_energy + end.contact_energy + taken);
         for (from, to) in puncture.path.iter().zip(&puncture.path[1..]) {
-            // The trapezoidal rule, of the third order in short steps.
+            // Trapezoidal rule, third-order accurate per step.
             let mean = 0.5 * (from.force + to.force) * length;
             work += mean * (to.displacement - from.displacement);
             let balance = to.substrate_energy + to.contact_energy + to.friction_work.unwrap();
             assert!((work - balance).abs() < 1e-8 * whole.unwrap(), "{work} {balance}");
         }
         assert!(taken > 1e-3 * work, "{taken} {work}");
-        // With usual steps it is what cubics make of it.
+        // With the default steps the dissipation is integrated from cubics.
         let usual = complete(&solve(&design, friction, &on_row(21))).friction_work.unwrap();
         assert_relative_eq!(usual, taken, max_relative = 3e-4);
     }
@@ -115,7 +116,7 @@ fn dominoes_that_rub_fall_to_the_end() {
     }
 }
 
-/// A needle that is guided, a little inside the corner.
+/// Parameters of a guided needle slightly inside the corner.
 fn guided(friction: f64) -> PunctureParameters {
     PunctureParameters {
         needle: Needle::Guided { friction },
@@ -124,7 +125,8 @@ fn guided(friction: f64) -> PunctureParameters {
     }
 }
 
-/// The tip slides to a corner that lies on the next scale and rubs there: both then hold to one place of the face.
+/// The tip slides to a corner that lies on the next scale with friction: both then stick to one
+/// position of the face.
 #[test]
 fn tip_and_corner_go_as_one_in_a_notch() {
     for (gap, length, slant_deg, base) in [
@@ -148,7 +150,7 @@ fn tip_and_corner_go_as_one_in_a_notch() {
     }
 }
 
-/// How the punctures of these designs end with this friction, of those that are not complete.
+/// Lists the punctures with this friction that are not complete, with their statuses.
 fn incomplete(
     designs: impl IntoIterator<Item = Design>,
     friction: f64,
@@ -174,7 +176,7 @@ fn the_reference_study_is_complete_with_friction() {
     }
 }
 
-/// Under a guided needle, too, but for those that jump or have a mechanical reason.
+/// Under a guided needle, too, except for jumps and mechanical reasons.
 #[test]
 fn the_reference_study_ends_mechanically_under_a_needle_with_friction() {
     for friction in [0.1, 0.3] {
@@ -197,8 +199,8 @@ fn random_designs_are_complete_with_friction() {
     assert!(failed.len() <= count / 1000, "{failed:?}");
 }
 
-/// Without friction the way back is the way there. With it less work is given back: what is missing is the area of the loop, which friction
-/// has taken or what does not come back stores.
+/// Without friction unloading retraces the loading path. With friction less work is recovered: the
+/// loop area is dissipated or stored in residual deformation.
 #[test]
 fn the_load_is_taken_away_again() {
     for (gap, length, slant_deg, friction, needle) in [
@@ -238,8 +240,8 @@ fn the_load_is_taken_away_again() {
     }
 }
 
-/// A tip that leaves a notch as the load falls, with frictionless scales; corners that close where others let go. Where pivoting begins with
-/// the wrong one of changes that happen at once, each of these turns round or stops.
+/// A tip leaves a notch as the load decreases, or contacts close where others open. If pivoting
+/// starts with the wrong one of simultaneous changes, these paths reverse or stop.
 #[test]
 fn the_way_back_leads_through_changes_that_happen_at_once() {
     let guided = Needle::Guided { friction: 0.3 };
@@ -260,8 +262,8 @@ fn the_way_back_leads_through_changes_that_happen_at_once() {
     }
 }
 
-/// Nobody takes the load away from these rows: their paths turn round where friction leaves no way on, and fall back to rest (the
-/// first) or repeat themselves.
+/// These rows are not unloaded: their paths reverse where friction leaves no outgoing branch, and
+/// return to rest (the first) or repeat themselves.
 #[test]
 fn a_path_that_turns_round_jumps() {
     let needle = Needle::Guided { friction: 0.3 };

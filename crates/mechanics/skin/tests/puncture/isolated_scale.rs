@@ -1,4 +1,4 @@
-//! The puncture of one scale without neighbours, against [`analytical::isolated_scale`].
+//! Puncture of one scale without neighbours, against [`analytical::isolated_scale`].
 
 use analytical::isolated_scale::IsolatedScale;
 use approx::assert_relative_eq;
@@ -73,8 +73,8 @@ fn its_measures_are_those_of_the_closed_form() {
     assert_eq!((measures.contacts, measures.engaged_scales), (Some(0), Some(0)));
 }
 
-/// A load above the node of an upright block has no arm: the block sinks and does not tilt, until
-/// it buckles. The tilt cannot drive it.
+/// A load above the node of an upright block has no arm: the block sinks without tilting until it
+/// buckles, so tilt cannot control the path.
 #[test]
 fn a_load_over_the_node_does_not_tilt_a_block() {
     let parameters = PunctureParameters { load_position: 0.5, ..on_row(1) };

@@ -1,4 +1,4 @@
-//! Rows on a layer of soft tissue on a rigid base.
+//! Rows on a layer of soft tissue with a rigid base.
 
 use approx::assert_relative_eq;
 use skin::puncture::{self, Puncture, PunctureParameters, RowLength};
@@ -18,8 +18,8 @@ fn solve(design: &Design, stiffness: &RowStiffness, parameters: &PunctureParamet
     puncture::solve(design, stiffness, &Common::default(), parameters).unwrap()
 }
 
-/// Forces and penetrations of an independent program, whose springs lack the coupling of force along and across the row and are 1 to 2 %
-/// coarse; as far as that coupling is small.
+/// Forces and penetrations of an independent program. Its springs are 1 to 2 % coarse and lack the
+/// coupling of forces along and across the row, so compare only where that coupling is small.
 #[test]
 fn layers_are_those_of_another_program() {
     let slanted = design(0.1, 1.0, 45.0, Base::L);
@@ -41,7 +41,7 @@ fn layers_are_those_of_another_program() {
     }
 }
 
-/// What lies beyond the scales that are solved for, on the left a mirror image of what is on the right.
+/// The far field on the left is the mirror image of the one on the right.
 #[test]
 fn rows_without_ends_measure_what_long_rows_do() {
     for (design, coupling) in [

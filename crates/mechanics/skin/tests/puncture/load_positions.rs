@@ -1,4 +1,4 @@
-//! Other places of the load, and the weakest of them.
+//! Several load positions, and the weakest of them.
 
 use approx::assert_relative_eq;
 use skin::puncture::{self, LoadPosition, Needle, Puncture, PunctureParameters, Weakest};
@@ -19,7 +19,8 @@ fn solve(design: &Design, parameters: &PunctureParameters) -> Puncture {
     solve_as(&Calibrations::default(), design, &Common::default(), parameters)
 }
 
-/// Each place has what a puncture with its load there has; the smallest force is that of the weakest, to the last bit.
+/// Each position matches a separate puncture, and the weakest has the smallest force, to the last
+/// bit.
 #[test]
 fn the_weakest_place_is_that_of_the_smallest_of_whole_punctures() {
     let known = Calibrations::default();
@@ -46,7 +47,7 @@ fn the_weakest_place_is_that_of_the_smallest_of_whole_punctures() {
         let weakest = puncture.measures.weakest;
         assert_eq!(weakest.force, Some(smallest), "{design:?}");
         assert!(expected.is_none_or(|place| weakest.place == Some(place)), "{weakest:?}");
-        // The rest is that of the place that the load has anyway.
+        // All other measures belong to the regular load position.
         let own = PunctureParameters { places: None, ..tried };
         let own = solve_as(&known, &design, &common, &own).measures;
         assert_eq!(
@@ -56,7 +57,8 @@ fn the_weakest_place_is_that_of_the_smallest_of_whole_punctures() {
     }
 }
 
-/// An upright scale is its own mirror image: it tilts to the left under a load on its left, and not at all under one in its middle.
+/// An upright scale is its own mirror image: it tilts to the left under a load on its left, and not
+/// at all under a load in its middle.
 #[test]
 fn places_of_an_upright_scale_are_mirror_images() {
     for needle in [FREE, GUIDED] {
@@ -69,14 +71,14 @@ fn places_of_an_upright_scale_are_mirror_images() {
             assert_relative_eq!(right.tilt_deg.unwrap(), 10.0, max_relative = 1e-9);
         }
         assert_eq!((places[2].status, places[2].force), (Status::Untilted, None));
-        // Which of the two corners is the weaker is round-off.
+        // The order of the two equal corners is round-off.
         assert_eq!(measures.weakest.place, Some(0.0));
         assert_eq!(measures.weakest.force, places.iter().filter_map(|p| p.force).reduce(f64::min));
     }
 }
 
-/// A needle without friction that is set down on the very corner on the left of this design is lost there, at a force that is no smaller
-/// than elsewhere by what is known of it: no number stands for it.
+/// A frictionless needle set down exactly on the left corner of this design stops early, at a force
+/// not known to be smaller than elsewhere. Therefore no weakest force is reported.
 #[test]
 fn a_place_that_may_be_weaker_is_not_passed_over() {
     let lost = design(0.1, 1.0, 75.0, Base::L);

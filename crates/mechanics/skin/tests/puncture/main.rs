@@ -5,21 +5,22 @@
 //! | `isolated_scale` | the closed form of one scale without neighbours |
 //! | `first_contact` | the linear chain before contact, in closed form |
 //! | `two_blocks` | the kink of Fig. 3 of Shafiei et al. (2021) |
-//! | `steps` | the same path with steps a tenth as long |
-//! | `rows` | rows of any length, and those that `Auto` chooses |
-//! | `scaling` | changes of units that must change nothing |
-//! | `snapshots` | chosen places of the path, between its points and beyond its end |
-//! | `folds` | where the surface of the substrate folds over |
-//! | `neo_hookean` | a substrate whose surface cannot fold over |
-//! | `layers` | tissue of a finite thickness, against another program |
-//! | `outputs` | what the measures, events and scales mean |
-//! | `ends` | paths beyond the largest force: where the load is back at zero, and where all turns back |
-//! | `tilts` | measures at tilts on the way, against paths that end there |
-//! | `places` | the weakest of several places of the load, against punctures with the load there |
-//! | `rubbing` | friction between scales: independent programs, steps, work |
+//! | `steps` | ten times smaller steps |
+//! | `rows` | rows of any length, and the lengths chosen by `Auto` |
+//! | `scaling` | changes of units, which must not change results |
+//! | `snapshots` | chosen points of the path, between recorded points and beyond its end |
+//! | `folds` | folding of the substrate surface |
+//! | `neo_hookean` | a substrate with a surface that cannot fold over |
+//! | `layers` | tissue of finite thickness, against another program |
+//! | `outputs` | the meaning of measures, events and scales |
+//! | `ends` | paths beyond the largest force: unloading to zero, and snap-through |
+//! | `tilts` | measures at intermediate tilts, against paths that end there |
+//! | `load_positions` | the weakest of several load positions, against single punctures |
+//! | `friction` | friction between scales: independent programs, steps, work |
+//! | `enumerated` | friction of two scales, against enumerated contact patterns |
 //! | `round_tip` | a needle with a radius: against a sharp one, a closed form, its mirror image |
 //! | `robustness` | the 720 designs of the reference study and random ones |
-//! | `widest` | random ones in the widest ranges of a definition |
+//! | `widest` | random designs in the widest ranges of a definition |
 
 mod ends;
 mod enumerated;
@@ -47,18 +48,18 @@ use approx::assert_relative_eq;
 use skin::Status;
 use skin::puncture::{Puncture, PunctureMeasures, PuncturePoint};
 
-/// The measures of a puncture that went all the way.
+/// Returns the measures of a completed puncture.
 fn complete(puncture: &Puncture) -> PunctureMeasures {
     assert_eq!(puncture.status, Status::Complete);
     puncture.measures
 }
 
-/// The end of a path.
+/// Returns the last point of a path.
 fn end(puncture: &Puncture) -> PuncturePoint {
     *puncture.path.last().unwrap()
 }
 
-/// Compares all measures but the length of the row.
+/// Compares all measures except the length of the row.
 fn assert_same_measures(ours: &PunctureMeasures, theirs: &PunctureMeasures, max_relative: f64) {
     let numbers = |m: &PunctureMeasures| {
         [

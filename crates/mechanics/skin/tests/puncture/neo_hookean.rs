@@ -1,4 +1,4 @@
-//! A substrate whose surface cannot fold over.
+//! A substrate with a surface that cannot fold over.
 
 use approx::assert_relative_eq;
 use skin::puncture::{self, Puncture, PunctureMeasures, PunctureParameters, RowLength};
@@ -13,7 +13,7 @@ use crate::samples::{
 use crate::{assert_same_measures, complete};
 use rayon::prelude::*;
 
-/// These parameters on a neo-Hookean substrate.
+/// Returns these parameters with a neo-Hookean substrate.
 fn neo_hookean(parameters: PunctureParameters) -> PunctureParameters {
     PunctureParameters { substrate_law: SubstrateLaw::NeoHookean, ..parameters }
 }
@@ -22,7 +22,7 @@ fn automatic() -> PunctureParameters {
     neo_hookean(PunctureParameters { scales: RowLength::Auto, ..PunctureParameters::default() })
 }
 
-/// Whether every gap is open at every point of a path.
+/// Returns true if every gap is open at every point of a path.
 fn is_open(puncture: &Puncture) -> bool {
     let open = |point: &puncture::PuncturePoint| point.gap_stretch.is_none_or(|g| g.min > 0.0);
     puncture.path.iter().all(open) && puncture.folds.is_empty()
@@ -61,7 +61,7 @@ fn random_designs_are_solved() {
     }
 }
 
-/// Relative difference of the critical forces of both laws at a tilt.
+/// Computes the relative difference of the critical forces of both substrate laws at a tilt.
 fn difference(design: &Design, tilt_deg: f64) -> f64 {
     let linear = PunctureParameters { critical_tilt_deg: tilt_deg, ..on_row(21) };
     let force = |parameters: PunctureParameters| {
@@ -73,7 +73,8 @@ fn difference(design: &Design, tilt_deg: f64) -> f64 {
     (force(neo_hookean(linear)) - linear_force).abs() / linear_force
 }
 
-/// The relative difference falls at least as fast as the load. Where scales touch at once the gaps are pressed from the beginning.
+/// The relative difference decreases at least as fast as the load. If scales touch at once, gaps
+/// are compressed from the start.
 #[test]
 fn at_small_loads_both_laws_agree_to_first_order() {
     let steep = Design { gap: 1e-4, ..design(0.1, 0.3, 60.0, Base::L) };
@@ -82,7 +83,7 @@ fn at_small_loads_both_laws_agree_to_first_order() {
         assert!(there < 1.0 && nearer < 0.15 * there, "{there} {nearer} at {tilt_deg}°");
     }
     assert!(difference(&steep, 0.1) > 1e-6);
-    // Before contact nothing moves along the row but the ends of the bases that turn.
+    // Before contact the only motion along the row is the rotation of the base corners.
     assert!(difference(&settled(), 0.01) < 1e-7);
 }
 
@@ -100,7 +101,8 @@ fn steps_ten_times_smaller_give_the_same_measures() {
     }
 }
 
-/// The closed form of the far field is that of springs: it begins where bars differ from them by round-off.
+/// The closed form of the far field assumes springs; it starts where bars differ from them by
+/// round-off.
 #[test]
 fn automatic_rows_measure_what_longer_rows_do() {
     let known = Calibrations::default();

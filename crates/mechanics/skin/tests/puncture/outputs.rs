@@ -1,4 +1,4 @@
-//! The meaning of the outputs.
+//! Meaning of the outputs.
 
 use std::collections::{HashMap, HashSet};
 
@@ -32,7 +32,7 @@ fn measures_are_those_of_the_end_of_the_path() {
     }
 }
 
-/// Depth of the deeper end of a base: by the sine of the rotation below the node, or above.
+/// A base end is below or above the node by the sine of the rotation.
 #[test]
 fn penetration_is_the_depth_of_the_deepest_base_corner() {
     for (design, puncture) in solved() {
@@ -48,7 +48,7 @@ fn penetration_is_the_depth_of_the_deepest_base_corner() {
     }
 }
 
-/// The substrate carries what contacts do not pass on: all of the load, together.
+/// The substrate carries the whole load.
 #[test]
 fn reactions_add_up_to_the_load() {
     for (design, puncture) in solved() {
@@ -57,8 +57,10 @@ fn reactions_add_up_to_the_load() {
     }
 }
 
-/// Contacts that the events leave closed: their kinds at each level of each pair. Two are beside each other on flush
-/// edges, and one of them is left where it is handed over to the other or the corner is reached.
+/// Returns the contacts left closed by the events: their kinds at each level of each pair.
+///
+/// Flush edges have two at one level; one of them is removed where it is handed over to the other
+/// or the corner is reached.
 fn closed_by(
     events: &[ContactEvent<PuncturePoint>],
 ) -> HashMap<(i64, bool), HashSet<&'static str>> {
@@ -105,7 +107,7 @@ fn every_point_of_the_path_has_its_iterations() {
     }
 }
 
-/// Of a path that stops only the values of its beginning and of its peak are left.
+/// Only the measures of the start and the peak remain.
 #[test]
 fn a_path_that_stops_keeps_how_it_began() {
     let solver = Settings { max_points: 20, ..Settings::default() };
@@ -131,7 +133,8 @@ fn a_path_that_stops_keeps_how_it_began() {
     assert_eq!(cut.contacts.or(cut.engaged_scales), None);
 }
 
-/// The force at a depth is that of a snapshot there; beyond the end of the path it is that at the end.
+/// The force at a depth equals the force of a snapshot there; beyond the end of the path it is the
+/// final force.
 #[test]
 fn the_force_at_a_depth_is_that_of_an_equilibrium_there() {
     let design = design(0.2, 0.5, 60.0, Base::L);

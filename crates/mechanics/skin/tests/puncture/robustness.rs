@@ -1,6 +1,4 @@
 //! Every design of the reference study, and random ones, reach the critical tilt.
-//!
-//! `cargo run --release -p skin --example robustness` solves the complete sets.
 
 use contact::Law;
 use rayon::prelude::*;
@@ -42,7 +40,7 @@ fn the_reference_study_is_solved_with_either_law() {
     }
 }
 
-/// Every seventh design: all gaps, lengths and slants occur, since 7 divides none of their numbers.
+/// Every seventh design: all gaps, lengths and slants occur, since 7 divides none of their counts.
 #[test]
 fn hard_and_soft_contacts_are_solved() {
     let known = Calibrations::default();
@@ -55,7 +53,7 @@ fn hard_and_soft_contacts_are_solved() {
                 designs.iter().zip(solve_all(&designs, law, &parameters, &known))
             {
                 assert!((end(&puncture).tilt_deg - 10.0).abs() < 1e-9, "{design:?}");
-                // Scales as soft as these are pushed through each other, and the audit tells.
+                // Scales this soft are pushed through each other, which the audit reports.
                 let may_pass_through = factor < 1.0 && law == Law::EXCHANGED;
                 let fine = puncture.status == Status::Complete
                     || may_pass_through && puncture.status == Status::Interpenetration;
@@ -65,7 +63,8 @@ fn hard_and_soft_contacts_are_solved() {
     }
 }
 
-/// At 1/100 of the reference modulus the exchanged law lets an approach of more than a thickness.
+/// At 1/100 of the reference modulus the exchanged law allows an approach larger than the
+/// thickness.
 #[test]
 fn scales_too_soft_to_carry_the_load_fail_the_audit() {
     let design = design(0.1, 0.5, 75.0, skin::Base::L);
@@ -92,8 +91,11 @@ fn random_designs_are_solved() {
     }
 }
 
-/// At large tilts tips slide off the far ends of edges, or pass below the bases of their neighbours. Nothing follows then that the model
-/// knows, and the path says so: no reason is that of a number. A hundred designs; a thousand in a long campaign.
+/// At large tilts tips slide off the far ends of edges, or pass below the bases of their
+/// neighbours.
+///
+/// The model ends there, and the path must report a mechanical reason, not a numerical one. A
+/// hundred designs; a thousand in a long campaign.
 #[test]
 fn paths_to_large_tilts_end_for_reasons_of_mechanics() {
     let known = Calibrations::default();
@@ -118,7 +120,7 @@ fn paths_to_large_tilts_end_for_reasons_of_mechanics() {
     assert!(off_edge > designs.len() / 3, "{off_edge}");
 }
 
-/// Where tips slide along bases and tops, to their ends and round the corners there.
+/// Tips slide along bases and tops, to their ends and around the corners there.
 #[test]
 fn scales_steeper_than_those_of_the_study_are_solved() {
     let known = Calibrations::default();

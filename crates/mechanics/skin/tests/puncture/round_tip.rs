@@ -13,7 +13,8 @@ use crate::{complete, end};
 
 const SMOOTH: Needle = Needle::Guided { friction: 0.0 };
 
-/// Designs whose sharp needle stays on its top, and some whose passes into the notch.
+/// Designs with a sharp needle that stays on its top, and some with a needle that passes into the
+/// notch.
 const DESIGNS: [(f64, f64, f64); 7] = [
     (0.1, 1.0, 0.0),
     (0.5, 1.0, 0.0),
@@ -32,7 +33,7 @@ fn solve(design: &Design, parameters: &PunctureParameters) -> Puncture {
     solve_as(&Calibrations::default(), design, &Common::default(), parameters)
 }
 
-/// The smaller its radius, the nearer a round tip comes to a sharp one: as the radius itself, in the notch too.
+/// The difference from a sharp tip is proportional to the radius, in the notch, too.
 #[test]
 fn small_radii_come_to_a_sharp_tip() {
     for (gap, length, slant) in DESIGNS {
@@ -49,7 +50,8 @@ fn small_radii_come_to_a_sharp_tip() {
     }
 }
 
-/// With friction too: where the tip sticks on the way, slides both ways, passes over the corner into the notch.
+/// With friction: the tip sticks, slides in both directions, and passes over the corner into the
+/// notch.
 #[test]
 fn small_radii_come_to_a_sharp_tip_that_rubs() {
     for ((gap, length, slant), friction, inside) in [
@@ -73,7 +75,8 @@ fn small_radii_come_to_a_sharp_tip_that_rubs() {
     }
 }
 
-/// A scale alone, the circle of radius `R` on its top: `N` is the root of a square equation, with the arm `x` of the place at rest,
+/// A single scale with the circle of radius `R` on its top: `N` is the root of a quadratic
+/// equation, with the arm `x` at rest,
 ///
 /// ```text
 /// N² sin φ / k_x − N (x + (1 + R) sin φ) − k_φ φ cos φ = 0                F = N cos φ
@@ -99,7 +102,7 @@ fn a_scale_alone_has_a_closed_form() {
             let b = arm + (1.0 + radius) * sin;
             let [two_a, c] = [2.0 * sin / along, -turn * phi * cos];
             let root = (b * b - 2.0 * two_a * c).sqrt();
-            // The root that stays finite where the scale is not yet tilted.
+            // The root that stays finite at zero tilt.
             2.0 * c / (b + root) * cos / design.length
         };
         assert_eq!(puncture.measures.passage.critical_event, Some(CriticalEvent::Tilt));
@@ -111,7 +114,8 @@ fn a_scale_alone_has_a_closed_form() {
     }
 }
 
-/// A tip on the left of an upright scale does what one on its right does, in a mirror, and so does one that touches several scales.
+/// Tips on the left and the right of an upright scale are mirror images, also if they touch several
+/// scales.
 #[test]
 fn mirror_images() {
     for (radius, friction) in [(0.2, 0.0), (1.0, 0.0), (0.2, 0.1), (1.0, 0.3)] {
@@ -129,7 +133,7 @@ fn mirror_images() {
     }
 }
 
-/// Set down in the middle between two upright scales a tip presses on both alike.
+/// A tip in the middle between two upright scales presses on both equally.
 #[test]
 fn a_tip_between_two_scales() {
     let upright = design(0.3, 0.6, 0.0, Base::L);
@@ -149,7 +153,8 @@ fn a_tip_between_two_scales() {
     }
 }
 
-/// Places of a round tip go over one pitch, those between two scales among them; a pitch further the tip finds what it found before.
+/// Positions of a round tip cover one pitch, including the region between two scales; they repeat
+/// after a pitch.
 #[test]
 fn places_cover_the_pitch() {
     let known = Calibrations::default();
@@ -171,7 +176,8 @@ fn places_cover_the_pitch() {
     assert_relative_eq!(places[0].force.unwrap(), at(1.5), max_relative = 1e-8);
 }
 
-/// A tip that fits between two scales comes to the soft surface between their bases: its lowest point lies on the line from base to base.
+/// A tip that fits between two scales reaches the soft surface between their bases: its lowest
+/// point lies on the line from base to base.
 #[test]
 fn a_tip_that_comes_through() {
     let open = design(1.0, 1.0, 60.0, Base::L);
@@ -191,7 +197,8 @@ fn a_tip_that_comes_through() {
         let place = number as f64 * (2.0 * a + open.gap);
         [place + scale.displacement[0] + x * cos, scale.displacement[1] + x * sin]
     };
-    // At rest the circle stands on the left face of the next scale, whose normal is (-cos 60°, sin 60°).
+    // At rest the circle touches the left face of the next scale, with the normal (-cos 60°, sin
+    // 60°).
     let x = shift - a + 1.3 * 2.0 * a;
     let along = x - (a + open.gap);
     let height = (2.0 * radius + along) / 3.0_f64.sqrt();
@@ -202,8 +209,8 @@ fn a_tip_that_comes_through() {
     assert_relative_eq!(area / line[0].hypot(line[1]), radius, max_relative = 1e-7);
 }
 
-/// With full coupling scales lean on each other before the tip comes to them: one that has been tilted critically ends the path as soon
-/// as the tip touches it.
+/// With full coupling scales lean on each other before the tip reaches them. Touching a scale that
+/// is already critically tilted ends the path.
 #[test]
 fn a_tip_that_comes_to_a_tilted_scale() {
     let blocks = design(0.1, 0.4, 0.0, Base::L);
@@ -221,7 +228,8 @@ fn a_tip_that_comes_to_a_tilted_scale() {
     assert!(tilt(touched.next_back().unwrap() + 1) > 14.0);
 }
 
-/// In a notch a tip that rubs may stop sliding on one face where it can neither stick there nor slide on: it jumps.
+/// In a notch a tip with friction may stop sliding on one face where it can neither stick nor
+/// slide: it jumps.
 #[test]
 fn a_tip_that_jumps_in_a_notch() {
     let notched = design(0.1, 0.9, 60.0, Base::TwoL);
@@ -234,7 +242,7 @@ fn a_tip_that_jumps_in_a_notch() {
     }
 }
 
-/// A tip of a radius of twenty pitches is borne by several scales.
+/// A tip with a radius of twenty pitches rests on several scales.
 #[test]
 fn a_tip_on_many_scales() {
     let dense = design(0.1, 0.05, 30.0, Base::L);
@@ -244,7 +252,7 @@ fn a_tip_on_many_scales() {
     assert_eq!(puncture.status, Status::Complete);
 }
 
-/// A radius is that of a guided needle.
+/// A radius requires a guided needle.
 #[test]
 fn a_radius_needs_a_guided_needle() {
     let known = Calibrations::default();

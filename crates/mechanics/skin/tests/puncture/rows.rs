@@ -37,16 +37,17 @@ fn automatic_rows_grow_where_scales_touch() {
         assert_eq!(puncture.scales.len(), puncture.measures.scales);
         [-first, last]
     };
-    // Without contact the row is the estimate from the coupling of the springs, and symmetric.
+    // Without contact the row keeps the length estimated from the coupling of the springs, and is
+    // symmetric.
     let [left, right] = row(&design(1.0, 0.5, 0.0, Base::L));
     assert_eq!(left, right);
     assert!(left < 30);
-    // The domino runs to the right.
+    // The domino effect runs to the right.
     let [left, right] = row(&domino());
     assert!(right >= 4 * left, "{left} {right}");
 }
 
-/// The scales at the ends touch nobody, and neither do those beyond: the displacements of the last ones follow each other as in an
+/// The end scales and the scales beyond touch nothing: the last displacements decay as in an
 /// endless row.
 #[test]
 fn the_ends_of_automatic_rows_are_free() {
@@ -70,7 +71,7 @@ fn the_ends_of_automatic_rows_are_free() {
     }
 }
 
-/// The domino does not end on a short row, and the force is then not that of a long one.
+/// The domino effect does not stop on a short row, so its force differs from a long one.
 #[test]
 fn a_row_that_is_too_short_matters() {
     let force = |scales| complete(&solve(&domino(), &on_row(scales))).critical_force.unwrap();
@@ -78,7 +79,7 @@ fn a_row_that_is_too_short_matters() {
     assert_relative_eq!(force(201), force(401), max_relative = 1e-9);
 }
 
-/// Of a row that ends the scales that contact does not reach follow in closed form: nothing but the substrate acts on them.
+/// Scales out of reach of contact follow in closed form: only the substrate acts on them.
 #[test]
 fn scales_that_are_not_solved_for_are_where_they_would_be() {
     for scales in [12, 20, 41, 401] {
@@ -94,7 +95,7 @@ fn scales_that_are_not_solved_for_are_where_they_would_be() {
         assert_eq!(row.len(), scales);
         assert_eq!(complete(&puncture).scales, scales);
         let at = |i: usize, k: usize| row.get(i).map_or(0.0, |u| u[k]);
-        // Nothing but the substrate acts on the scales before the first contact and behind the last.
+        // Only the substrate acts on scales before the first contact and behind the last.
         let touched: Vec<i64> = puncture.events.iter().filter_map(|e| e.left_scale).collect();
         let (first, last) = (touched.iter().min().unwrap(), touched.iter().max().unwrap() + 1);
         for (i, state) in puncture.scales.iter().enumerate() {
@@ -112,7 +113,7 @@ fn scales_that_are_not_solved_for_are_where_they_would_be() {
     }
 }
 
-/// The row without ends of far couplings against one that is solved whole.
+/// An endless row with far couplings, against a row solved as a whole.
 #[test]
 fn rows_without_ends_of_far_couplings_measure_what_long_rows_do() {
     for design in [blocks(), settled(), design(0.1, 1.0, 45.0, Base::L)] {

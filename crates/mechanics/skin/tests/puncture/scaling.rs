@@ -1,4 +1,4 @@
-//! Changes of units, which must change nothing.
+//! Changes of units, which must not change results.
 
 use approx::assert_relative_eq;
 use contact::Law;
@@ -9,16 +9,16 @@ use substrate::Calibrations;
 use crate::complete;
 use crate::samples::{LAWS, on_row, settled, solve_as, springs, with_law};
 
-/// Round-off, and what the tolerance of the equilibria leaves.
+/// Round-off plus the tolerance of the equilibria.
 const SAME: f64 = 1e-9;
 
-/// Measures on the springs of an incompressible substrate, whatever the Poisson's ratio says.
+/// Solves on the springs of an incompressible substrate, whatever the Poisson's ratio.
 fn measured(design: &Design, parameters: &PunctureParameters) -> PunctureMeasures {
     let springs = springs(&settled(), &on_row(1), &Calibrations::default());
     complete(&puncture::solve(design, &springs, &Common::default(), parameters).unwrap())
 }
 
-/// Forces are measured in `E*`, and so is the contact modulus inside; stiffness in `E_s`.
+/// Forces and the contact modulus are in units of `E*`, stiffness in `E_s`.
 #[test]
 fn contact_and_plane_modulus_count_by_their_ratio() {
     let rubber = on_row(41);
@@ -36,7 +36,7 @@ fn contact_and_plane_modulus_count_by_their_ratio() {
     same(rubber.secant_stiffness, cork.secant_stiffness, 4.0 / 3.0);
 }
 
-/// The contact law knows the width of a scale only as a factor of its modulus.
+/// The width of a scale enters the contact law only as a factor of its modulus.
 #[test]
 fn a_wider_scale_of_a_softer_material_is_the_same() {
     let mut softer = on_row(41);
@@ -46,8 +46,8 @@ fn a_wider_scale_of_a_softer_material_is_the_same() {
     crate::assert_same_measures(&ours, &measured(&settled(), &on_row(41)), SAME);
 }
 
-/// The two meanings of `L` give one geometry its two names. The law (Eq. 5) measures the approach in
-/// `L`, which its prefactor can make good, and `F*` the force.
+/// The two meanings of `L` give one geometry two names. The contact law (Eq. 5) normalises the
+/// approach by `L`, which its prefactor can compensate, and `F*` the force.
 #[test]
 fn a_base_of_2l_is_a_base_of_l_by_another_name() {
     let (known, ours) = (Calibrations::default(), settled());
@@ -63,7 +63,7 @@ fn a_base_of_2l_is_a_base_of_l_by_another_name() {
     }
 }
 
-/// Contacts that are ever harder settle to rigid ones.
+/// Increasingly hard contacts converge to rigid ones.
 #[test]
 fn harder_contacts_settle_to_rigid_ones() {
     for law in LAWS {
@@ -75,7 +75,7 @@ fn harder_contacts_settle_to_rigid_ones() {
             complete(&puncture).critical_force.unwrap()
         };
         let [reference, hard, rigid] = [1.0, 1e4, 1e8].map(force);
-        // Those of the printed law are as good as rigid as they are.
+        // Contacts with the printed law are already nearly rigid.
         assert!((hard - rigid).abs() <= 1e-2 * (reference - rigid).abs());
         assert_relative_eq!(hard, rigid, max_relative = 1e-5);
     }

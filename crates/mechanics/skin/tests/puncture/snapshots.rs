@@ -1,4 +1,4 @@
-//! A row at chosen places of its path.
+//! Snapshots of a row at chosen points of its path.
 
 use approx::assert_relative_eq;
 use contact::CornerEdge;
@@ -29,7 +29,7 @@ fn a_snapshot_is_an_equilibrium_of_the_path() {
         assert_relative_eq!(here.force, point.force, max_relative = 1e-8);
         assert_relative_eq!(here.tilt_deg, point.tilt_deg, max_relative = 1e-8);
         let end = shot(&design, At::Tilt(10.0));
-        // All scales are solved for here, those that contact has reached there.
+        // The snapshot solves for all scales, the puncture for those within reach of contact.
         let force = puncture.measures.critical_force.unwrap();
         assert_relative_eq!(end.force, force, max_relative = 1e-13);
         assert_eq!(Some(end.contacts.len()), puncture.measures.contacts);
@@ -56,7 +56,7 @@ fn places_between_the_points_are_solved_for() {
     }
 }
 
-/// The load, the substrate and the neighbours leave nothing on any scale.
+/// Load, substrate and contacts balance on every scale.
 #[test]
 fn every_scale_is_in_equilibrium() {
     for design in spread() {
@@ -77,7 +77,7 @@ fn every_scale_is_in_equilibrium() {
     }
 }
 
-/// Where a contact is, its two scales are together.
+/// The position of a contact is on its touching corner.
 #[test]
 fn a_contact_stands_at_the_corner_that_touches() {
     let design = folding();

@@ -1,4 +1,4 @@
-//! The path does not depend on the steps with which it is followed.
+//! The path does not depend on the step size.
 
 use skin::Common;
 use solver::Settings;

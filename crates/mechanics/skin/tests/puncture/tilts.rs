@@ -1,4 +1,4 @@
-//! Measures at tilts on the way, against paths that end there.
+//! Measures at intermediate tilts, against paths that end there.
 
 use approx::assert_relative_eq;
 use skin::Status;
@@ -40,7 +40,7 @@ fn one_path_has_the_measures_of_paths_that_end_at_each_tilt() {
     assert!(compared > 180, "{compared}");
 }
 
-/// The tilts on the way change nothing on the path, and at the last of them stands what stands at its end.
+/// Intermediate tilts do not change the path, and the last tilt has the final measures.
 #[test]
 fn tilts_on_the_way_leave_the_path_as_it_is() {
     let known = Calibrations::default();

@@ -1,4 +1,4 @@
-//! The pair of blocks of Fig. 3 of Shafiei et al. (2021): a kink in the curve where they touch.
+//! The pair of blocks of Fig. 3 of Shafiei et al. (2021): a kink in the curve at first contact.
 
 use skin::puncture::{Puncture, PuncturePoint};
 use skin::{Base, Common, ContactChange, Design};
@@ -7,19 +7,19 @@ use substrate::Calibrations;
 
 use crate::samples::{blocks, design, on_row, solve_as};
 
-/// The puncture of a pair, followed in small steps.
+/// Solves the puncture of a pair in small steps.
 fn finely(design: &Design) -> Puncture {
     let solver = Settings { first_step: 1e-3, max_step: 1e-3, ..Settings::default() };
     let common = Common { solver, ..Common::default() };
     solve_as(&Calibrations::default(), design, &common, &on_row(2))
 }
 
-/// Mean stiffness between two points, in units of that of the force.
+/// Computes the mean stiffness between two points, in units of the force.
 fn stiffness(points: &[PuncturePoint]) -> f64 {
     (points[1].force - points[0].force) / (points[1].displacement - points[0].displacement)
 }
 
-/// Stiffness just after over just before the first contact.
+/// Computes the ratio of the stiffness just after and just before first contact.
 fn kink(puncture: &Puncture) -> f64 {
     let at = puncture.path.iter().position(|point| point.contacts > 0).unwrap();
     stiffness(&puncture.path[at..]) / stiffness(&puncture.path[at - 1..])
@@ -33,7 +33,7 @@ fn the_stiffness_jumps_up_where_they_touch() {
     let kink = kink(&puncture);
     println!("two blocks, L/t = 1, d/t = 0.1: stiffness after over before contact {kink:.3}");
     assert!(kink > 1.5, "{kink}");
-    // It is the only kink: elsewhere stiffness changes by little from step to step.
+    // There is no other kink: elsewhere the stiffness changes little from step to step.
     let slopes: Vec<f64> = puncture.path.windows(2).map(stiffness).collect();
     let jumps = slopes.windows(2).filter(|pair| (pair[1] / pair[0] - 1.0).abs() > 0.05).count();
     assert_eq!(jumps, 1);

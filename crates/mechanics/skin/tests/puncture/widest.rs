@@ -1,4 +1,4 @@
-//! Random designs in the widest ranges that a definition may give: how many paths end for a reason of numbers.
+//! Random designs in the widest ranges of a definition: how many paths stop for a numerical reason.
 
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
@@ -12,7 +12,8 @@ use substrate::{Calibrations, SubstrateLaw};
 
 use crate::samples::{BASES, SplitMix64, long_campaigns, springs};
 
-/// A design with all that a definition may say of its puncture; what spans decades is drawn evenly over them.
+/// Everything that a definition may state about a puncture; quantities spanning decades are drawn
+/// log-uniformly.
 struct Drawn {
     design: Design,
     common: Common,
@@ -43,12 +44,13 @@ fn draw(seed: u64) -> Drawn {
     Drawn { design, common, parameters }
 }
 
-/// Places at which paths used to end for a reason of numbers.
+/// Seeds of designs with paths that used to stop for a numerical reason.
 #[test]
 fn paths_go_on_from_places_where_several_things_happen_at_once() {
     let ends = [
-        // A contact that is rigid at first and soft at once turns the path by a right angle within 1e-8 of where it closes, one that is
-        // soft at first turns all that is seen of it back within 1e-9 of where it opens.
+        // A contact that is rigid at first and soft right after turns the path by a right angle
+        // within 1e-8 of closing; one that is soft at first reverses all visible motion within 1e-9
+        // of opening.
         (854, Status::Untilted),
         (976, Status::OffEdge),
         (1418, Status::Complete),
@@ -57,10 +59,11 @@ fn paths_go_on_from_places_where_several_things_happen_at_once() {
         (22350, Status::Complete),
         // The row grows where a soft contact has just closed.
         (1201, Status::OffEdge),
-        // Two faces of one length lie on each other and slide: their corners reach each other's ends within round-off.
+        // Two faces of equal length slide on each other: their corners reach each other's ends
+        // within round-off.
         (20436, Status::Complete),
         (20707, Status::OffEdge),
-        // A tip that sticks begins to slide at next to no rate.
+        // A sticking tip starts to slide at a vanishing rate.
         (22073, Status::Complete),
     ];
     for (seed, end) in ends {
@@ -71,8 +74,8 @@ fn paths_go_on_from_places_where_several_things_happen_at_once() {
     }
 }
 
-/// As many designs as eight seconds allow, up to a thousand, in a long campaign alone; how many end for a reason of numbers stands in
-/// `docs/reliability.md`.
+/// Long campaign only: as many designs as eight seconds allow, up to a thousand.
+/// `docs/reliability.md` reports how many stop for a numerical reason.
 #[test]
 fn few_punctures_in_the_widest_ranges_end_for_a_reason_of_numbers() {
     if !long_campaigns() {
@@ -97,7 +100,7 @@ fn few_punctures_in_the_widest_ranges_end_for_a_reason_of_numbers() {
         use Stop::{Cycling, NoConvergence, NotFinite, Singular};
         matches!(status, Status::Stopped(NoConvergence | Singular | NotFinite | Cycling))
     };
-    // Eight of 1,500 when they were counted; of few there may be some more.
+    // Eight of 1,500 in the reference count; small samples may have a few more.
     let numeric = solved.iter().filter(is_numeric).count();
     assert!(numeric <= 5 + solved.len() / 100, "{numeric}: {counts:?}");
 }

@@ -1,6 +1,6 @@
-//! Designs with known traits, for the tests, benches and examples of this crate.
+//! Designs with known traits, for the tests and benches of this crate.
 
-// Each of them takes what it needs.
+// Each target uses only a part of this module.
 #![allow(dead_code)]
 
 use contact::Law;
@@ -12,7 +12,7 @@ use substrate::{Calibrations, Springs};
 /// Both meanings of the length of a scale.
 pub const BASES: [Base; 2] = [Base::L, Base::TwoL];
 
-/// Both readings of the contact law.
+/// Both variants of the contact law.
 pub const LAWS: [Law; 2] = [Law::PRINTED, Law::EXCHANGED];
 
 /// Aspect ratios of the reference study.
@@ -23,24 +23,23 @@ pub fn design(gap: f64, length: f64, slant_deg: f64, base: Base) -> Design {
     Design { gap, length, slant_deg, base, width: 1.0 }
 }
 
-/// Blocks as long as they are thick and close together: one contact, which slides.
+/// Blocks as long as thick and close together: one contact, which slides.
 pub fn blocks() -> Design {
     design(0.1, 1.0, 0.0, Base::L)
 }
 
-/// The longest domino of the reference study: dozens of slender, steep scales touch.
+/// The longest domino chain of the reference study: dozens of slender, steep scales touch.
 pub fn domino() -> Design {
     design(0.1, 0.1, 75.0, Base::L)
 }
 
-/// A design whose contacts end a dozen scales from the load, and whose path is the same on
-/// longer rows.
+/// A design with contacts up to a dozen scales from the load; longer rows do not change its path.
 pub fn settled() -> Design {
     design(0.2, 0.5, 60.0, Base::L)
 }
 
-/// A few designs that differ in all that matters: contacts none to many, open, at edges and at
-/// corners, at tips, with loads that rise, fall and turn back.
+/// A variety of designs: no contact to many; open, at edges, corners and tips; loads that rise,
+/// fall and turn back.
 pub fn spread() -> Vec<Design> {
     vec![
         blocks(),
@@ -59,8 +58,8 @@ pub fn spread() -> Vec<Design> {
     ]
 }
 
-/// Scales so steep and long that the left side of one turns until it lies flush with the base of its left
-/// neighbour, and on, so that its tip carries the contact.
+/// Scales so steep and long that a left side rotates until it is flush with the base of its left
+/// neighbour, and beyond, so that its tip carries the contact.
 pub fn folding() -> Design {
     design(0.2, 2.8, 79.5, Base::TwoL)
 }
@@ -79,15 +78,16 @@ pub fn reference_study(base: Base) -> Vec<Design> {
     designs
 }
 
-/// Forty designs of the reference study, evenly spread over both bases; the steepest with the smallest gap
-/// among them.
+/// Forty designs of the reference study, evenly spread over both bases, including the steepest one
+/// with the smallest gap.
 pub fn forty() -> Vec<Design> {
     let all = BASES.into_iter().flat_map(reference_study);
-    // 37 has no factor in common with the numbers of slants, lengths and gaps.
+    // 37 is coprime to the numbers of slants, lengths and gaps.
     all.skip(5).step_by(37).take(39).chain([design(0.1, 1.0, 75.0, Base::TwoL)]).collect()
 }
 
-/// Designs drawn evenly from `d/t` 0.05 to 2, `L/t` 0.02 to 3, slants from 0° to 80° and both bases.
+/// Draws designs uniformly: `d/t` from 0.05 to 2, `L/t` from 0.02 to 3, slants from 0° to 80°, both
+/// bases.
 pub fn random(count: usize, seed: u64) -> Vec<Design> {
     let mut random = SplitMix64(seed);
     let mut draw = |low: f64, high: f64| low + (high - low) * random.next();
@@ -100,7 +100,7 @@ pub fn random(count: usize, seed: u64) -> Vec<Design> {
         .collect()
 }
 
-/// Whether the long campaigns are asked for, as `scripts/check` does: `SQUAMA_CAMPAIGNS=long`.
+/// Returns true if long campaigns are requested by `SQUAMA_CAMPAIGNS=long`, as in `scripts/check`.
 pub fn long_campaigns() -> bool {
     std::env::var_os("SQUAMA_CAMPAIGNS").is_some_and(|value| value == "long")
 }
@@ -119,18 +119,18 @@ impl SplitMix64 {
     }
 }
 
-/// Steps fine enough to look at many points of a path.
+/// Settings with small steps, for many points along a path.
 pub fn in_small_steps() -> Common {
     let solver = Settings { first_step: 0.01, max_step: 0.05, ..Settings::default() };
     Common { solver, ..Common::default() }
 }
 
-/// The reference parameters on a row of this many scales.
+/// Reference parameters on a row of this many scales.
 pub fn on_row(scales: usize) -> PunctureParameters {
     PunctureParameters { scales: RowLength::Scales(scales), ..PunctureParameters::default() }
 }
 
-/// These settings with steps a tenth as long.
+/// Returns these settings with ten times smaller steps.
 pub fn finer(settings: Settings) -> Settings {
     Settings {
         first_step: settings.first_step / 10.0,
@@ -139,12 +139,12 @@ pub fn finer(settings: Settings) -> Settings {
     }
 }
 
-/// Springs under a design.
+/// Returns the springs under a design.
 pub fn springs(design: &Design, parameters: &PunctureParameters, known: &Calibrations) -> Springs {
     known.get(&design.footprint(parameters.poisson_ratio).unwrap()).unwrap()
 }
 
-/// Solves a design whose springs may be known.
+/// Solves a design with cached springs.
 pub fn solve_with(
     known: &Calibrations,
     design: &Design,
@@ -153,7 +153,7 @@ pub fn solve_with(
     solve_as(known, design, &Common::default(), parameters)
 }
 
-/// Solves a design whose springs may be known, with another contact law or other steps.
+/// Solves a design with cached springs and other common parameters.
 pub fn solve_as(
     known: &Calibrations,
     design: &Design,
@@ -163,7 +163,7 @@ pub fn solve_as(
     puncture::solve(design, &springs(design, parameters, known), common, parameters).unwrap()
 }
 
-/// A contact law, and steps as usual.
+/// Common parameters with another contact law.
 pub fn with_law(law: Law) -> Common {
     Common { law, ..Common::default() }
 }
