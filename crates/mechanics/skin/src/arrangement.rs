@@ -94,9 +94,11 @@ impl Arrangement {
                 };
                 // Pairs that reach beyond the end get the last scale as a placeholder. They are
                 // never evaluated.
-                let of =
-                    |left| (1..=reach).map(move |pitches| pair(left, last.min(left + pitches)));
-                (0..last).flat_map(of).collect()
+                (0..last)
+                    .flat_map(|left| {
+                        (1..=reach).map(move |pitches| pair(left, last.min(left + pitches)))
+                    })
+                    .collect()
             }
         }
     }

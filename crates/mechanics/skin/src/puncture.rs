@@ -290,8 +290,11 @@ impl Followed {
         // Observers record points when the path leaves them, so the last point is missing.
         let mut tip_forces = at_tip.tip_forces;
         tip_forces.extend(chain.tip_forces(&path.point().state));
-        let at_tilt = |point: Option<SkinPoint>| Some(TiltMeasures::new(chain, &point?.state));
-        let at_tilts = tilts.points.into_iter().map(at_tilt).collect();
+        let at_tilts = tilts
+            .points
+            .into_iter()
+            .map(|point| Some(TiltMeasures::new(chain, &point?.state)))
+            .collect();
         let Record { path: points, events, history, work, .. } = record;
         // Unload last: unloading moves the path away from the end, which has been evaluated above.
         let unloading =

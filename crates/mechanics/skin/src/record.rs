@@ -171,8 +171,14 @@ impl<S: Skin> Record<S> {
         let skin = path.system();
         self.work.note(skin, &mut here);
         let angle_deg = skin.angle_deg(&point.state);
-        let iteration = |(iteration, residual)| Iteration { step, iteration, residual, angle_deg };
-        self.history.extend(residuals.into_iter().enumerate().map(iteration));
+        self.history.extend(
+            residuals.into_iter().enumerate().map(|(iteration, residual)| Iteration {
+                step,
+                iteration,
+                residual,
+                angle_deg,
+            }),
+        );
         if let Some(solver::Event::Changed(changes)) = &point.event {
             let event =
                 |&change: &Change| Self::event(skin, [&from.state, &point.state], here, change);
@@ -234,8 +240,10 @@ impl<S: Skin> Record<S> {
 
     /// Returns the point of first contact.
     pub(crate) fn first_contact(&self) -> Option<&S::PathPoint> {
-        let closed = |event: &&ContactEvent<_>| event.change == ContactChange::Closed;
-        self.events.iter().find(closed).map(|event| &event.point)
+        self.events
+            .iter()
+            .find(|event| event.change == ContactChange::Closed)
+            .map(|event| &event.point)
     }
 
     /// Returns the largest stiffness and its location.

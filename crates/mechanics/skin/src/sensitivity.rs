@@ -117,13 +117,14 @@ pub(crate) fn derivatives<S: Skin>(
         let sides: Vec<_> = variations.iter().map(|v| linearised.sides(v)).collect();
         for quantity in &quantities {
             let (value, contenders) = quantity.value_at(system, linearised.here.place());
-            let of = |(parameter, (sides, variation))| {
-                let rates = quantity.rates(variation, sides, &contenders);
-                let kink = || sides.change().unwrap_or("another scale takes over").to_owned();
-                let of = (quantity.measure, parameter);
-                Derivative::sided(of, rates, value, variation.step, kink)
-            };
-            derivatives.extend(sides.iter().zip(variations).enumerate().map(of));
+            derivatives.extend(sides.iter().zip(variations).enumerate().map(
+                |(parameter, (sides, variation))| {
+                    let rates = quantity.rates(variation, sides, &contenders);
+                    let kink = || sides.change().unwrap_or("another scale takes over").to_owned();
+                    let of = (quantity.measure, parameter);
+                    Derivative::sided(of, rates, value, variation.step, kink)
+                },
+            ));
         }
     }
     derivatives
@@ -133,12 +134,13 @@ pub(crate) fn derivatives<S: Skin>(
 fn merged<S: Skin>(spots: Vec<MeasuredPoint<S>>) -> Vec<MeasuredPoint<S>> {
     let mut merged: Vec<MeasuredPoint<S>> = Vec::new();
     for spot in spots {
-        let is_there = |other: &&mut MeasuredPoint<S>| match (&other.place, &spot.place) {
-            // The same state moves differently under another anchor.
-            (Some(one), Some(other)) => one.state == other.state && one.anchor == other.anchor,
-            _ => false,
-        };
-        match merged.iter_mut().find(is_there) {
+        match merged.iter_mut().find(|other| {
+            match (&other.place, &spot.place) {
+                // The same state moves differently under another anchor.
+                (Some(one), Some(other)) => one.state == other.state && one.anchor == other.anchor,
+                _ => false,
+            }
+        }) {
             Some(there) => there.quantities.extend(spot.quantities),
             None => merged.push(spot),
         }
@@ -278,8 +280,10 @@ impl<S: Skin> MeasuredQuantity<S> {
         let extreme = extreme.unwrap_or(f64::NAN);
         let size = values.iter().fold(0.0_f64, |size, value| size.max(value.abs()));
         // Only these are evaluated again; the others are too far away to become extreme.
-        let is_near = |number: &usize| (values[*number] - extreme).abs() <= NEAR * size;
-        (extreme, (0..count).filter(is_near).collect())
+        (
+            extreme,
+            (0..count).filter(|number| (values[*number] - extreme).abs() <= NEAR * size).collect(),
+        )
     }
 
     /// Selects the extreme of two values; ignores NaN if the other is a number.

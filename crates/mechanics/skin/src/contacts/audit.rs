@@ -58,8 +58,9 @@ impl Contacts {
 
     /// Computes the elastic energy of all contacts.
     pub(crate) fn energy(&self, state: &SkinState) -> f64 {
-        let energy = |contact| self.law.energy(self.force(state, contact));
-        (0..state.mode.contacts.len()).map(energy).sum()
+        (0..state.mode.contacts.len())
+            .map(|contact| self.law.energy(self.force(state, contact)))
+            .sum()
     }
 
     /// Returns true if any contact carries force beyond an end of its edge.
@@ -102,13 +103,12 @@ impl Contacts {
         let here = facing(&point.state);
         AHEAD.iter().any(|&step| {
             let ahead = facing(&point.state.moved(step, &point.leaving));
-            let comes_from_behind = |(here, ahead): (&Option<f64>, &Option<f64>)| {
+            here.iter().zip(&ahead).any(|(here, ahead)| {
                 // A small gap that becomes negative is a closing contact. A wide or missing gap
                 // that is strongly negative one step later belongs to a corner that passed the end
                 // of an edge.
                 ahead.is_some_and(|gap| gap < -BEHIND && here.is_none_or(|here| here > BEHIND))
-            };
-            here.iter().zip(&ahead).any(comes_from_behind)
+            })
         })
     }
 

@@ -30,8 +30,8 @@ impl Contacts {
     ///
     /// With relative poses, points and forces are in the frame of the left scale of each pair.
     pub(crate) fn closed_contacts(&self, state: &SkinState) -> Vec<Contact> {
-        let is_closed = |&contact: &usize| state.mode.contacts[contact] != CornerContact::Open;
-        let contacts = (0..state.mode.contacts.len()).filter(is_closed);
+        let contacts = (0..state.mode.contacts.len())
+            .filter(|&contact| state.mode.contacts[contact] != CornerContact::Open);
         contacts.flat_map(|contact| self.closed_at(state, contact)).flatten().collect()
     }
 

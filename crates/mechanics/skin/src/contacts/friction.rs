@@ -111,15 +111,14 @@ impl Contacts {
 
     /// Counts the sticking and the slipping contacts.
     pub(crate) fn stick_slip_counts(state: &SkinState) -> [usize; 2] {
-        let count = |k: usize| {
+        [0, 1].map(|k| {
             state
                 .mode
                 .friction_states
                 .iter()
                 .filter(|friction_state| friction_state.acting()[k])
                 .count()
-        };
-        [0, 1].map(count)
+        })
     }
 
     /// Returns true if a constraint belongs to friction.

@@ -53,11 +53,16 @@ impl Contacts {
 
     /// Counts the contacts with corners on a ridge of the energy.
     pub(crate) fn ridges(&self, state: &SkinState) -> usize {
-        let is_ridge = |(contact, mode): &(usize, &CornerContact)| {
-            let at_corner = || self.pair_poses(&state.z, *contact);
-            matches!(mode, CornerContact::Corner(_))
-                && mode.is_on_ridge(&self.corners(*contact, &at_corner()))
-        };
-        state.mode.contacts.iter().enumerate().filter(is_ridge).count()
+        state
+            .mode
+            .contacts
+            .iter()
+            .enumerate()
+            .filter(|(contact, mode)| {
+                let at_corner = || self.pair_poses(&state.z, *contact);
+                matches!(mode, CornerContact::Corner(_))
+                    && mode.is_on_ridge(&self.corners(*contact, &at_corner()))
+            })
+            .count()
     }
 }

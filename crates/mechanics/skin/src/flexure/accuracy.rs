@@ -15,9 +15,10 @@ pub(super) type Quantities = [f64; 4];
 
 /// Returns the largest relative change against a finer membrane; `None` if not finite.
 pub(super) fn largest_change(ours: Quantities, finer: Quantities) -> Option<f64> {
-    let relative =
-        |(ours, theirs): (f64, f64)| (ours - theirs).abs() / theirs.abs().max(NEGLIGIBLE);
-    let changes = ours.into_iter().zip(finer).map(relative);
+    let changes = ours
+        .into_iter()
+        .zip(finer)
+        .map(|(ours, theirs)| (ours - theirs).abs() / theirs.abs().max(NEGLIGIBLE));
     changes.reduce(f64::max).filter(|largest| largest.is_finite())
 }
 

@@ -84,18 +84,27 @@ pub(super) fn curvature_derivatives(
 ) -> Result<Vec<Derivative>, OutOfRange> {
     let gap = BareGap::from_input(input)?;
     let Some(rotation) = gap.closing_rotation(LARGEST_ROTATION) else { return Ok(Vec::new()) };
-    let derivative = |(parameter, variation): (usize, &Neighbours<FlexureInput>)| {
-        let Neighbours { below, above, step } = variation;
-        let neighbours = [BareGap::from_input(below)?, BareGap::from_input(above)?];
-        // For upright scales corners meet corners, and neither may face an edge.
-        let own = gap.meeting(rotation).unwrap_or(CornerEdge::TopRightOnLeftEdge);
-        let meetings = neighbours.each_ref().map(|side| side.meeting(rotation).unwrap_or(own));
-        let rate = |meeting| Some(gap.closing_rate(meeting, rotation, &neighbours, *step));
-        let (measure, value) = ("contact_curvature", rotation / gap.pair.pitch());
-        let kink = || "another corner meets an edge".to_owned();
-        Ok(Derivative::sided((measure, parameter), meetings.map(rate), value, *step, kink))
-    };
-    variations.iter().enumerate().map(derivative).collect()
+    variations
+        .iter()
+        .enumerate()
+        .map(|(parameter, variation)| {
+            let Neighbours { below, above, step } = variation;
+            let neighbours = [BareGap::from_input(below)?, BareGap::from_input(above)?];
+            // For upright scales corners meet corners, and neither may face an edge.
+            let own = gap.meeting(rotation).unwrap_or(CornerEdge::TopRightOnLeftEdge);
+            let meetings = neighbours.each_ref().map(|side| side.meeting(rotation).unwrap_or(own));
+            let (measure, value) = ("contact_curvature", rotation / gap.pair.pitch());
+            let kink = || "another corner meets an edge".to_owned();
+            Ok(Derivative::sided(
+                (measure, parameter),
+                meetings
+                    .map(|meeting| Some(gap.closing_rate(meeting, rotation, &neighbours, *step))),
+                value,
+                *step,
+                kink,
+            ))
+        })
+        .collect()
 }
 
 /// Distance within which a corner is about to meet its edge.

@@ -25,11 +25,14 @@ pub(crate) fn frames(steps: &[Step], gaps: usize, row: &Arrangement) -> Vec<Pose
 
 /// Converts frames to displacements from rest and rotations.
 pub(crate) fn displacements(frames: &[Pose], row: &Arrangement) -> Vec<Step> {
-    let displacement = |(i, frame): (usize, &Pose)| {
-        let node = frame.displacement;
-        [node.x - row.place(i), node.y, frame.rotation]
-    };
-    frames.iter().enumerate().map(displacement).collect()
+    frames
+        .iter()
+        .enumerate()
+        .map(|(i, frame)| {
+            let node = frame.displacement;
+            [node.x - row.place(i), node.y, frame.rotation]
+        })
+        .collect()
 }
 
 /// Maps a point from a frame to the frame of the strip.

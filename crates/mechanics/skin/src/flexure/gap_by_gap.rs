@@ -100,8 +100,9 @@ impl<'a> UnevenStrip<'a> {
             // more points, one for every event of any gap.
             settings.max_step /= RUBBING;
         }
-        let curve = |gap| Ok(GapCurve::new(problem.gap(gap, resolution)?, settings));
-        let gaps = (0..problem.solved).map(curve).collect::<Result<_, _>>()?;
+        let gaps = (0..problem.solved)
+            .map(|gap| Ok(GapCurve::new(problem.gap(gap, resolution)?, settings)))
+            .collect::<Result<_, _>>()?;
         Ok(Self { problem, resolution, gaps })
     }
 
@@ -125,10 +126,9 @@ impl<'a> UnevenStrip<'a> {
         let audited =
             self.knots(end).map(|(gap, knot)| Status::audited(gap.strip(), &knot.point.state));
         // Same precedence as for the chain: interpenetration is worse than a contact off its edge.
-        let worst = |one, other| {
+        audited.fold(Status::Complete, |one, other| {
             if one == Status::Complete || other == Status::Interpenetration { other } else { one }
-        };
-        audited.fold(Status::Complete, worst)
+        })
     }
 
     /// Computes the measures of a strip bent up to a moment, and the range of curvatures over which

@@ -101,10 +101,12 @@ impl GapCurve {
             self.iterations += self.path.take_history().len();
             let knot = Knot::new(self.path.system(), point);
             let rises = |now: f64, before: f64| now >= before - ROUND_OFF * before;
-            let yields = |compliance: &f64| *compliance > 0.0 && compliance.is_finite();
             let is_regular = rises(knot.moment, last.moment)
                 && rises(knot.rotation, last.rotation)
-                && knot.compliances.iter().all(yields);
+                && knot
+                    .compliances
+                    .iter()
+                    .all(|compliance| *compliance > 0.0 && compliance.is_finite());
             if !is_regular {
                 return None;
             }
@@ -142,14 +144,16 @@ impl GapCurve {
     /// Returns the moment at which the gap first closes.
     pub(super) fn first_closing(&self) -> Option<f64> {
         let contacts = self.strip().contacts();
-        let closes = |knot: &&Knot| match &knot.point.event {
-            Some(Event::Changed(changes)) => changes.iter().any(|&change| {
-                ContactChange::classify(contacts, &knot.point.state, change)
-                    == ContactChange::Closed
-            }),
-            _ => false,
-        };
-        self.knots.iter().find(closes).map(|knot| knot.moment)
+        self.knots
+            .iter()
+            .find(|knot| match &knot.point.event {
+                Some(Event::Changed(changes)) => changes.iter().any(|&change| {
+                    ContactChange::classify(contacts, &knot.point.state, change)
+                        == ContactChange::Closed
+                }),
+                _ => false,
+            })
+            .map(|knot| knot.moment)
     }
 
     /// Returns the rotation under a moment, as solved or interpolated by (F8).

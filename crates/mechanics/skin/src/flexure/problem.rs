@@ -139,8 +139,8 @@ impl<'a> FlexureProblem<'a> {
             Arrangement::Even(_) => 1,
             Arrangement::Uneven(_) => self.solved,
         };
-        let membrane = |gap| self.membrane(gap, resolution);
-        let membranes = (0..unlike).map(membrane).collect::<Result<_, _>>()?;
+        let membranes =
+            (0..unlike).map(|gap| self.membrane(gap, resolution)).collect::<Result<_, _>>()?;
         let repeats = self.gaps / self.solved as f64;
         let rotation = self.end_rotation() / repeats;
         let extent = StripExtent { gaps: self.solved, repeats, rotation, farthest: 1.0 };
@@ -206,11 +206,13 @@ impl<'a> FlexureProblem<'a> {
         let mut path = Path::new(strip, rest, self.common.solver);
         let mut record = Record::new(&path, functions);
         let repeats = path.system().repeats;
-        let turned = |&rotation: &f64| PathLocation {
-            quantity: |strip: &Strip, state| strip.rotation(&state.z),
-            value: 2.0 * rotation / repeats,
-        };
-        let mut locator = PointLocator::new(&path, end_rotations.iter().map(turned));
+        let mut locator = PointLocator::new(
+            &path,
+            end_rotations.iter().map(|&rotation| PathLocation {
+                quantity: |strip: &Strip, state| strip.rotation(&state.z),
+                value: 2.0 * rotation / repeats,
+            }),
+        );
         let mut flush = false;
         loop {
             let from = path.point_shared();
@@ -277,13 +279,15 @@ impl<'a> FlexureProblem<'a> {
         let finer = self.strip(finer)?;
         let settings = &self.common.solver;
         // A state without a solution on the finer membrane counts as not resolved.
-        let change =
-            |state| change(path.system(), &finer, state, settings).unwrap_or(f64::INFINITY);
         let end = &path.point().state;
         // A strip is often stiffest at its end.
         let before =
             record.stiffness.point().map(|point| &point.state).filter(|state| *state != end);
-        Ok(before.into_iter().chain([end]).map(change).reduce(f64::max))
+        Ok(before
+            .into_iter()
+            .chain([end])
+            .map(|state| change(path.system(), &finer, state, settings).unwrap_or(f64::INFINITY))
+            .reduce(f64::max))
     }
 }
 

@@ -104,17 +104,20 @@ pub fn moment_curve(
     let (bent, resolution) = problem.resolved(&[], &rotations)?;
     let strip = |input: &FlexureInput| strip(&as_far(input), resolution);
     let (strips, system) = (Neighbours::map_all(variations, strip)?, bent.path.system());
-    let point = |found: Option<SkinPoint>| {
-        let point = found?;
-        // In bending the derivative of a stick anchor with respect to a parameter is not available.
-        let known =
-            if Contacts::stick_slip_counts(&point.state)[0] > 0 { &[][..] } else { &strips };
-        let mut on_curve =
-            curve_point(system, &point, known, &common.solver, MOMENT_OVER_CURVATURE);
-        on_curve.rates.resize(strips.len(), None);
-        Some(on_curve)
-    };
-    Ok(bent.requested_points.into_iter().map(point).collect())
+    Ok(bent
+        .requested_points
+        .into_iter()
+        .map(|found| {
+            let point = found?;
+            // In bending the derivative of a stick anchor with respect to a parameter is not available.
+            let known =
+                if Contacts::stick_slip_counts(&point.state)[0] > 0 { &[][..] } else { &strips };
+            let mut on_curve =
+                curve_point(system, &point, known, &common.solver, MOMENT_OVER_CURVATURE);
+            on_curve.rates.resize(strips.len(), None);
+            Some(on_curve)
+        })
+        .collect())
 }
 
 /// Builds the strip of a design with this resolution.
@@ -134,12 +137,11 @@ impl FlexureProblem<'_> {
         let strip = |input: &FlexureInput| strip(input, resolution);
         let strips = Neighbours::map_all(variations, strip)?;
         let strip = bent.path.system();
-        let sticks = |spot: &MeasuredPoint<Strip>| {
+        let (sticking, free): (Vec<_>, Vec<_>) = spots.into_iter().partition(|spot| {
             spot.place
                 .as_ref()
                 .is_some_and(|place| Contacts::stick_slip_counts(&place.state)[0] > 0)
-        };
-        let (sticking, free): (Vec<_>, Vec<_>) = spots.into_iter().partition(sticks);
+        });
         let unknown = missing(strip, &sticking, variations.len());
         let mut derivatives = derivatives(strip, free, &strips, &self.common.solver);
         derivatives.extend(differences(unknown, variations, resolution)?);
@@ -255,12 +257,14 @@ fn measured(
     }
     let spots = problem.measured_points(&bent.record, &mut bent.path);
     let strip = bent.path.system();
-    let of_spot = |spot: &MeasuredPoint<Strip>| {
-        let value =
-            |place| spot.quantities.iter().map(|of| (of.measure, of.at(strip, place))).collect();
-        spot.place.as_ref().map_or_else(Vec::new, value)
-    };
-    Ok(spots.iter().flat_map(of_spot).collect())
+    Ok(spots
+        .iter()
+        .flat_map(|spot| {
+            spot.place.as_ref().map_or_else(Vec::new, |place| {
+                spot.quantities.iter().map(|of| (of.measure, of.at(strip, place))).collect()
+            })
+        })
+        .collect())
 }
 
 fn compliance(measure: &'static str) -> MeasuredQuantity<Strip> {

@@ -50,8 +50,11 @@ pub fn snapshots(
     // Use the resolution of the measures, so that drawings match the reported numbers.
     let (bent, _) = problem.resolved(&[], &rotations)?;
     let (row, strip) = (&problem.row, bent.path.system());
-    let snapshot = |point: Option<SkinPoint>| Some(snapshot(row, strip, &point?.state));
-    Ok(bent.requested_points.into_iter().map(snapshot).collect())
+    Ok(bent
+        .requested_points
+        .into_iter()
+        .map(|point| Some(snapshot(row, strip, &point?.state)))
+        .collect())
 }
 
 /// Builds the snapshot of the whole strip from a state of the solved gaps.
@@ -59,23 +62,25 @@ fn snapshot(row: &Arrangement, strip: &Strip, state: &SkinState) -> StripSnapsho
     let (solved, gaps) = (strip.gaps(), strip.whole_gaps());
     let frames = frames(&strip.steps(&state.z), gaps, row);
     let axes: Vec<_> = (0..solved).map(|gap| strip.axis(state, gap, INTERVALS)).collect();
-    let axis = |(i, frame): (usize, &Pose)| {
-        axes[i % solved].iter().map(|&point| place(frame, point).into()).collect()
-    };
     let contacts = strip.contacts.closed_contacts(state);
     // A chain is solved as a whole; only the gap of a unit cell is repeated.
     let copies = (0..gaps / solved).flat_map(|copy| {
         let left = move |contact: &Contact| copy * solved + contact.left;
         contacts.iter().map(move |contact| (left(contact), contact))
     });
-    let placed = |(left, contact): (usize, &Contact)| placed(&frames[left], left, contact);
     StripSnapshot {
         curvature: strip.curvature(&state.z),
         moment: strip.normalised_moment(&state.z),
         end_rotation_deg: strip.angle_deg(state),
         scales: displacements(&frames, row),
-        membrane: frames[..gaps].iter().enumerate().map(axis).collect(),
-        contacts: copies.map(placed).collect(),
+        membrane: frames[..gaps]
+            .iter()
+            .enumerate()
+            .map(|(i, frame)| {
+                axes[i % solved].iter().map(|&point| place(frame, point).into()).collect()
+            })
+            .collect(),
+        contacts: copies.map(|(left, contact)| placed(&frames[left], left, contact)).collect(),
     }
 }
 

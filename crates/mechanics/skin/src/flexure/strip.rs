@@ -214,8 +214,9 @@ impl Strip {
 
     /// Computes the largest strain at the surface of the membrane of any gap.
     pub(crate) fn largest_strain(&self, state: &SkinState) -> f64 {
-        let strain = |gap: usize| self.membrane(gap).largest_strain(&self.acting(state, gap));
-        (0..self.layout.gaps).map(strain).fold(0.0, f64::max)
+        (0..self.layout.gaps)
+            .map(|gap| self.membrane(gap).largest_strain(&self.acting(state, gap)))
+            .fold(0.0, f64::max)
     }
 
     /// Samples the deformed membrane axis in a gap, in the frame of the left scale.

@@ -34,18 +34,20 @@ mod tests {
     use super::*;
 
     fn path(points: &[[f64; 3]]) -> Vec<PuncturePoint> {
-        let point = |&[force, displacement, tilt_deg]: &[f64; 3]| PuncturePoint {
-            displacement,
-            force,
-            lateral_force: 0.0,
-            tilt_deg,
-            contacts: 1,
-            substrate_energy: 0.0,
-            contact_energy: 0.0,
-            friction_work: None,
-            gap_stretch: None,
-        };
-        points.iter().map(point).collect()
+        points
+            .iter()
+            .map(|&[force, displacement, tilt_deg]| PuncturePoint {
+                displacement,
+                force,
+                lateral_force: 0.0,
+                tilt_deg,
+                contacts: 1,
+                substrate_energy: 0.0,
+                contact_energy: 0.0,
+                friction_work: None,
+                gap_stretch: None,
+            })
+            .collect()
     }
 
     #[test]

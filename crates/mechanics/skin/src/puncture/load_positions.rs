@@ -62,10 +62,10 @@ impl Weakest {
         let Some(force) = places.iter().filter_map(|place| place.force).reduce(f64::min) else {
             return places.first().map_or(Ok(Self::default()), |place| Err(place.status));
         };
-        let is_open = |place: &&LoadPosition| {
-            place.force.is_none() && place.borne.is_some_and(|borne| borne < force)
-        };
-        match places.iter().find(is_open) {
+        match places
+            .iter()
+            .find(|place| place.force.is_none() && place.borne.is_some_and(|borne| borne < force))
+        {
             Some(open) => Err(open.status),
             None => Ok(Self {
                 force: Some(force),

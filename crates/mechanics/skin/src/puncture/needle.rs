@@ -182,12 +182,14 @@ impl GuidedNeedle {
         let tangential_force = |first: usize| {
             (self.constraints_per_touch < self.unknowns_per_touch).then_some(first + 1)
         };
-        let of_slot = |slot: usize| {
-            let first = self.normal_force(slot);
-            (first..first + self.unknowns_per_touch)
-                .filter(move |unknown| Some(*unknown) != tangential_force(first))
-        };
-        (0..self.slots).flat_map(of_slot).chain(behind..behind + ENDINGS).collect()
+        (0..self.slots)
+            .flat_map(|slot| {
+                let first = self.normal_force(slot);
+                (first..first + self.unknowns_per_touch)
+                    .filter(move |unknown| Some(*unknown) != tangential_force(first))
+            })
+            .chain(behind..behind + ENDINGS)
+            .collect()
     }
 
     /// Returns the unknown of the normal force of a touch; the tangential force is the next one.

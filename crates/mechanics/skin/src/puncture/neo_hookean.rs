@@ -70,13 +70,14 @@ impl Chain {
     /// Computes the energy of the bars minus the energy of the springs that they replace.
     pub(super) fn bar_energy(&self, z: &[f64]) -> f64 {
         let Some(spring) = self.bars else { return 0.0 };
-        let energy = |scale: usize| {
-            let [left, right] = [scale, scale + 1].map(|i| self.displacement(z, i));
-            let strip = self.strip(scale);
-            let [energy, ..] = neo_hookean(strip.stretch(left, right));
-            spring * (strip.width.powi(2) * energy - 0.5 * (right[0] - left[0]).powi(2))
-        };
-        (0..self.layout.scales() - 1).map(energy).sum()
+        (0..self.layout.scales() - 1)
+            .map(|scale| {
+                let [left, right] = [scale, scale + 1].map(|i| self.displacement(z, i));
+                let strip = self.strip(scale);
+                let [energy, ..] = neo_hookean(strip.stretch(left, right));
+                spring * (strip.width.powi(2) * energy - 0.5 * (right[0] - left[0]).powi(2))
+            })
+            .sum()
     }
 
     /// Computes the largest excess force of bars with these `widths` over their springs.
@@ -85,15 +86,18 @@ impl Chain {
     /// a scale, hence a displacement.
     pub(super) fn largest_excess(&self, displacements: &[[f64; 3]], widths: &[f64]) -> f64 {
         let Some(spring) = self.bars else { return 0.0 };
-        let excess = |(pair, &width): (&[[f64; 3]], &f64)| {
-            let [near, next] = [pair[0], pair[1]].map(end);
-            let strip = SurfaceStrip { width, half_base: self.half_base };
-            let excess = |ends| Bar::new(&strip, spring, ends).excess.abs();
-            // A bar that is stretched beyond one end of the row would be compressed beyond the
-            // other: take the larger excess.
-            excess([near, next]).max(excess([next, near])) / self.direct[0]
-        };
-        displacements.windows(2).zip(widths).map(excess).fold(0.0, f64::max)
+        displacements
+            .windows(2)
+            .zip(widths)
+            .map(|(pair, &width)| {
+                let [near, next] = [pair[0], pair[1]].map(end);
+                let strip = SurfaceStrip { width, half_base: self.half_base };
+                let excess = |ends| Bar::new(&strip, spring, ends).excess.abs();
+                // A bar that is stretched beyond one end of the row would be compressed beyond the
+                // other: take the larger excess.
+                excess([near, next]).max(excess([next, near])) / self.direct[0]
+            })
+            .fold(0.0, f64::max)
     }
 }
 

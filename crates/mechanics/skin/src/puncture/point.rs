@@ -111,17 +111,18 @@ impl Skin for Chain {
 /// form.
 pub(super) fn scales(chain: &Chain, state: &SkinState) -> Vec<ScaleState> {
     let solved_for = 0..chain.layout.scales().cast_signed();
-    let scale = |i: isize| {
-        let [x, y, rotation] = chain.displacement_anywhere(&state.z, i);
-        // Scales in closed form have no other forces, so their net reaction vanishes.
-        let is_free = !solved_for.contains(&i);
-        ScaleState {
-            scale: i as i64 + chain.layout.number(0),
-            displacement: [x, y],
-            rotation_deg: rotation.to_degrees(),
-            reaction: if is_free { 0.0 } else { chain.reaction(&state.z, i)[1] },
-        }
-    };
     let [left, right] = chain.exterior.scales_to_ends().map(usize::cast_signed);
-    (-left..solved_for.end + right).map(scale).collect()
+    (-left..solved_for.end + right)
+        .map(|i| {
+            let [x, y, rotation] = chain.displacement_anywhere(&state.z, i);
+            // Scales in closed form have no other forces, so their net reaction vanishes.
+            let is_free = !solved_for.contains(&i);
+            ScaleState {
+                scale: i as i64 + chain.layout.number(0),
+                displacement: [x, y],
+                rotation_deg: rotation.to_degrees(),
+                reaction: if is_free { 0.0 } else { chain.reaction(&state.z, i)[1] },
+            }
+        })
+        .collect()
 }

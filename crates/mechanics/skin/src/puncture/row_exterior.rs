@@ -120,19 +120,25 @@ fn relief(
     sides: &[Option<ExteriorSide>; 2],
 ) -> Vec<(usize, usize, [[f64; 3]; 3])> {
     let last = layout.scales() - 1;
-    let of_side = |(number, side): (usize, &Option<ExteriorSide>)| {
-        let parts = side.as_ref().map_or(&[][..], |side| &side.beyond.far.relief);
-        let unknown =
-            move |scale: usize| layout.scale(if number == 0 { scale } else { last - scale });
-        // Mirroring inverts the entries that couple the vertical with another direction.
-        let signs = mirrored([1.0; 3], number);
-        let part = move |Relief { force, displacement, by }: &Relief| {
-            let by = array::from_fn(|k| array::from_fn(|l| -signs[k] * signs[l] * by[k][l]));
-            (unknown(*force), unknown(*displacement), by)
-        };
-        parts.iter().map(part).collect::<Vec<_>>()
-    };
-    sides.iter().enumerate().flat_map(of_side).collect()
+    sides
+        .iter()
+        .enumerate()
+        .flat_map(|(number, side)| {
+            let parts = side.as_ref().map_or(&[][..], |side| &side.beyond.far.relief);
+            let unknown =
+                move |scale: usize| layout.scale(if number == 0 { scale } else { last - scale });
+            // Mirroring inverts the entries that couple the vertical with another direction.
+            let signs = mirrored([1.0; 3], number);
+            parts
+                .iter()
+                .map(move |Relief { force, displacement, by }: &Relief| {
+                    let by =
+                        array::from_fn(|k| array::from_fn(|l| -signs[k] * signs[l] * by[k][l]));
+                    (unknown(*force), unknown(*displacement), by)
+                })
+                .collect::<Vec<_>>()
+        })
+        .collect()
 }
 
 impl Chain {

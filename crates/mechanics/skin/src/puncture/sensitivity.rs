@@ -125,17 +125,22 @@ impl Problem<'_> {
         let variations = Neighbours::map_all(variations, chain)?;
         let anchors = anchors(path, &watch.history.segments, &variations);
         let system = path.system();
-        let point = |found: &Option<SkinPoint>| {
-            let point = found.as_ref()?;
-            // With history variables, perturbed rows reach these points with histories of their
-            // own.
-            let varied = with(&anchors, &point.state, &variations);
-            let known = varied.as_deref().unwrap_or_default();
-            let mut on_curve = curve_point(system, point, known, &self.settings, FORCE_OVER_DEPTH);
-            on_curve.rates.resize(variations.len(), None);
-            Some(on_curve)
-        };
-        Ok(watch.requested.points.iter().map(point).collect())
+        Ok(watch
+            .requested
+            .points
+            .iter()
+            .map(|found| {
+                let point = found.as_ref()?;
+                // With history variables, perturbed rows reach these points with histories of their
+                // own.
+                let varied = with(&anchors, &point.state, &variations);
+                let known = varied.as_deref().unwrap_or_default();
+                let mut on_curve =
+                    curve_point(system, point, known, &self.settings, FORCE_OVER_DEPTH);
+                on_curve.rates.resize(variations.len(), None);
+                Some(on_curve)
+            })
+            .collect())
     }
 
     fn derivatives(

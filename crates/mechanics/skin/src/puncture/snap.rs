@@ -86,8 +86,9 @@ impl SnapObserver {
                 [leaving[chain.layout.load()], chain.depth_slope(&state.z, leaving)];
             return Instability { load: falls(load), depth: falls(depth), tilt: 0 };
         }
-        let last = || self.instability.last().copied().unwrap_or_default();
-        chain.instability(state).unwrap_or_else(last)
+        chain
+            .instability(state)
+            .unwrap_or_else(|| self.instability.last().copied().unwrap_or_default())
     }
 
     fn follow_depth(

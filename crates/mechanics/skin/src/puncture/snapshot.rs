@@ -136,17 +136,26 @@ pub fn snapshots_to_end(
 fn snapshot(chain: &Chain, pitch: f64, state: &SkinState) -> RowSnapshot {
     // Contacts count from the first solved scale, snapshots from the first scale of the row.
     let [before, _] = chain.exterior.scales_to_ends();
-    let in_row = |contact: Contact| {
-        let [x, y] = contact.point;
-        let point = [x + before as f64 * pitch, y];
-        Contact { left: contact.left + before, right: contact.right + before, point, ..contact }
-    };
     RowSnapshot {
         displacement: chain.depth(&state.z),
         force: chain.force(state),
         tilt_deg: chain.angle_deg(state),
         tip: chain.needle.as_ref().map(|needle| needle.lowest(&state.z).into()),
         scales: scales(chain, state),
-        contacts: chain.contacts.closed_contacts(state).into_iter().map(in_row).collect(),
+        contacts: chain
+            .contacts
+            .closed_contacts(state)
+            .into_iter()
+            .map(|contact| {
+                let [x, y] = contact.point;
+                let point = [x + before as f64 * pitch, y];
+                Contact {
+                    left: contact.left + before,
+                    right: contact.right + before,
+                    point,
+                    ..contact
+                }
+            })
+            .collect(),
     }
 }

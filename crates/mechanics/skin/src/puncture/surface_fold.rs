@@ -71,8 +71,10 @@ impl FoldObserver {
             return;
         }
         let crossings = crossings(path, from, to);
-        let located = |crossing: FoldCrossing| (crossing.locate(path, from, to), crossing);
-        let mut places: Vec<_> = crossings.into_iter().map(located).collect();
+        let mut places: Vec<_> = crossings
+            .into_iter()
+            .map(|crossing| (crossing.locate(path, from, to), crossing))
+            .collect();
         // Crossings are listed by gap; sort them along the path.
         places.sort_by(|a, b| a.0.0.total_cmp(&b.0.0));
         for ((_, point), FoldCrossing { pair, folds, .. }) in places {
@@ -167,10 +169,9 @@ impl Chain {
     pub(super) fn gap_stretches(&self, state: &SkinState) -> Option<GapStretch> {
         let within = (0..self.layout.scales() - 1).map(|pair| self.gap_stretch(state, pair));
         let all = within.chain(self.stretches_beyond(&state.z));
-        let extremes = |so_far: Option<GapStretch>, g: f64| {
+        all.fold(None, |so_far: Option<GapStretch>, g: f64| {
             let GapStretch { min, max } = so_far.unwrap_or(GapStretch { min: g, max: g });
             Some(GapStretch { min: min.min(g), max: max.max(g) })
-        };
-        all.fold(None, extremes)
+        })
     }
 }

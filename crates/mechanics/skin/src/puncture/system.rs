@@ -87,11 +87,17 @@ impl RowLayout {
     fn blocks(self, reach: usize) -> Blocks {
         let scales = 0..self.scales();
         let root = if reach == 1 { self.left } else { self.left + self.right };
-        let start = |scale: usize| {
-            if scale <= root { self.scale(scale) } else { self.force(self.contacts * (scale - 1)) }
-        };
         Blocks {
-            starts: scales.clone().map(start).collect(),
+            starts: scales
+                .clone()
+                .map(|scale| {
+                    if scale <= root {
+                        self.scale(scale)
+                    } else {
+                        self.force(self.contacts * (scale - 1))
+                    }
+                })
+                .collect(),
             links: scales.map(|scale| self.scale(scale)).collect(),
             root,
             reach,

@@ -46,13 +46,17 @@ pub(crate) fn curve_point<S: Skin>(
     let found = derivatives(system, vec![spot], variations, settings);
     let of = |measure: &str| found.iter().filter(|d| d.measure == measure).collect::<Vec<_>>();
     let side = |x: Option<f64>, y: Option<f64>| Some(y? - slope * x?).filter(|r| r.is_finite());
-    let rate =
-        |(x, y): (&Derivative, &Derivative)| match (side(x.left, y.left), side(x.right, y.right)) {
-            (Some(left), Some(right)) => Some(0.5 * (left + right)),
-            // If one side has no equilibrium the other one stands for both.
-            (left, right) => left.or(right),
-        };
-    let rates: Vec<_> = of("x").into_iter().zip(of("y")).map(rate).collect();
+    let rates: Vec<_> = of("x")
+        .into_iter()
+        .zip(of("y"))
+        .map(|(x, y)| {
+            match (side(x.left, y.left), side(x.right, y.right)) {
+                (Some(left), Some(right)) => Some(0.5 * (left + right)),
+                // If one side has no equilibrium the other one stands for both.
+                (left, right) => left.or(right),
+            }
+        })
+        .collect();
     let unknown = vec![None; variations.len()];
     let value = (curve[1])(system, state, arriving, 0);
     // At a singular tangent there are no derivatives at all.

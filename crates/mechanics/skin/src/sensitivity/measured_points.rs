@@ -137,13 +137,14 @@ pub(crate) fn vanished<S: Skin>(
         return None;
     }
     let guards = Newton::guards(system, state);
-    let changed = |constraint: &usize| {
-        let contact = |constraint: usize| system.contacts().contact_of(constraint).0;
-        // A change of one force may make another force of the same contact vanish.
-        changes.iter().any(|change| contact(change.constraint) == contact(*constraint))
-    };
     let contacts = system.contacts();
-    let vanished = (0..guards.len()).filter(changed).filter(|&c| guards[c].abs() < VANISHED);
+    let vanished = (0..guards.len())
+        .filter(|constraint| {
+            let contact = |constraint: usize| system.contacts().contact_of(constraint).0;
+            // A change of one force may make another force of the same contact vanish.
+            changes.iter().any(|change| contact(change.constraint) == contact(*constraint))
+        })
+        .filter(|&c| guards[c].abs() < VANISHED);
     // A slip distance that starts at the event has an origin that moves with the event.
     let known = vanished.filter(|&c| !contacts.slips(state, c));
     known.min_by(|&a, &b| {

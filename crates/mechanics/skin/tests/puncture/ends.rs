@@ -143,11 +143,16 @@ fn a_row_snaps_where_a_corner_passes_a_corner() {
     assert_relative_eq!(lowest.fold(f64::MAX, f64::min), 0.5826, max_relative = 1e-4);
     let at = puncture.path.iter().position(|point| *point == snap.point).unwrap();
     let behind = puncture.path[at..].windows(2);
-    let landing = |pair: &&[PuncturePoint]| {
-        pair[0].displacement < snap.point.displacement
-            && pair[1].displacement > snap.point.displacement
+    let &[low, high] = behind
+        .clone()
+        .find(|pair| {
+            pair[0].displacement < snap.point.displacement
+                && pair[1].displacement > snap.point.displacement
+        })
+        .unwrap()
+    else {
+        unreachable!()
     };
-    let &[low, high] = behind.clone().find(landing).unwrap() else { unreachable!() };
     let part =
         (snap.point.displacement - low.displacement) / (high.displacement - low.displacement);
     let landed = low.force + part * (high.force - low.force);

@@ -262,8 +262,7 @@ fn difference(design: &Design, friction: f64, steps: usize) -> (f64, Vec<Vec<Sta
 }
 
 fn closed(seen: &[Vec<Stand>]) -> usize {
-    let count = |pattern: &Vec<Stand>| pattern.iter().filter(|s| **s != Stand::Open).count();
-    seen.iter().map(count).max().unwrap()
+    seen.iter().map(|pattern| pattern.iter().filter(|s| **s != Stand::Open).count()).max().unwrap()
 }
 
 fn sticks(seen: &[Vec<Stand>]) -> bool {

@@ -138,11 +138,10 @@ fn tip_and_corner_go_as_one_in_a_notch() {
     ] {
         let design = design(gap, length, slant_deg, base);
         let known = Calibrations::default();
-        let with = |solver| {
+        let [coarse, fine] = [Settings::default(), finer(Settings::default())].map(|solver| {
             let common = Common { solver, ..rubbing(0.1) };
             solve_as(&known, &design, &common, &guided(0.3))
-        };
-        let [coarse, fine] = [Settings::default(), finer(Settings::default())].map(with);
+        });
         assert_eq!([coarse.status, fine.status], [Status::Complete; 2], "{design:?}");
         let [coarse, fine] = [coarse, fine].map(|puncture| *puncture.path.last().unwrap());
         assert_relative_eq!(coarse.force, fine.force, max_relative = 1e-7);

@@ -24,8 +24,8 @@ fn automatic() -> PunctureParameters {
 
 /// Returns true if every gap is open at every point of a path.
 fn is_open(puncture: &Puncture) -> bool {
-    let open = |point: &puncture::PuncturePoint| point.gap_stretch.is_none_or(|g| g.min > 0.0);
-    puncture.path.iter().all(open) && puncture.folds.is_empty()
+    puncture.path.iter().all(|point| point.gap_stretch.is_none_or(|g| g.min > 0.0))
+        && puncture.folds.is_empty()
 }
 
 #[test]

@@ -20,8 +20,7 @@ fn solve_all(
     parameters: &PunctureParameters,
     known: &Calibrations,
 ) -> Vec<Puncture> {
-    let solve = |design| solve_as(known, design, &with_law(law), parameters);
-    designs.par_iter().map(solve).collect()
+    designs.par_iter().map(|design| solve_as(known, design, &with_law(law), parameters)).collect()
 }
 
 fn both_studies() -> Vec<Design> {

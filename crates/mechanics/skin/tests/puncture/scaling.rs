@@ -67,14 +67,13 @@ fn a_base_of_2l_is_a_base_of_l_by_another_name() {
 #[test]
 fn harder_contacts_settle_to_rigid_ones() {
     for law in LAWS {
-        let force = |factor: f64| {
+        let [reference, hard, rigid] = [1.0, 1e4, 1e8].map(|factor| {
             let mut parameters = on_row(41);
             parameters.contact_modulus_over_substrate *= factor;
             let known = Calibrations::default();
             let puncture = solve_as(&known, &settled(), &with_law(law), &parameters);
             complete(&puncture).critical_force.unwrap()
-        };
-        let [reference, hard, rigid] = [1.0, 1e4, 1e8].map(force);
+        });
         // Contacts with the printed law are already nearly rigid.
         assert!((hard - rigid).abs() <= 1e-2 * (reference - rigid).abs());
         assert_relative_eq!(hard, rigid, max_relative = 1e-5);

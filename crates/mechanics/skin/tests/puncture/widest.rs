@@ -96,11 +96,13 @@ fn few_punctures_in_the_widest_ranges_end_for_a_reason_of_numbers() {
         *counts.entry(format!("{status:?}")).or_insert(0) += 1;
     }
     println!("{counts:?}");
-    let is_numeric = |status: &&Status| {
-        use Stop::{Cycling, NoConvergence, NotFinite, Singular};
-        matches!(status, Status::Stopped(NoConvergence | Singular | NotFinite | Cycling))
-    };
     // Eight of 1,500 in the reference count; small samples may have a few more.
-    let numeric = solved.iter().filter(is_numeric).count();
+    let numeric = solved
+        .iter()
+        .filter(|status| {
+            use Stop::{Cycling, NoConvergence, NotFinite, Singular};
+            matches!(status, Status::Stopped(NoConvergence | Singular | NotFinite | Cycling))
+        })
+        .count();
     assert!(numeric <= 5 + solved.len() / 100, "{numeric}: {counts:?}");
 }

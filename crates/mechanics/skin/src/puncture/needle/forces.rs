@@ -286,21 +286,26 @@ impl Chain {
         spans: [f64; 2],
     ) -> f64 {
         let Some(needle) = &self.needle else { return 0.0 };
-        let of_touch = |(slot, touch, ..): (usize, &Touch, usize, Meeting)| {
-            let TipState::Slip { sign, start } = touch.tip_state else { return 0.0 };
-            let Some(end) = self.meeting(&to.state.z, touch.scale, touch.place) else { return 0.0 };
-            if sign == 0.0 {
-                return 0.0;
-            }
-            let slid = needle.normal_force(slot) + 1 + if sign > 0.0 { FORWARD } else { BACKWARD };
-            let normal_force = needle.normal_force(slot);
-            let along = |of: usize| [spans[0] * from.leaving[of], spans[1] * to.arriving[of]];
-            // The tip may have stopped at the second point, so compute its slip from the poses.
-            let pushes = [from.state.z[normal_force], to.state.z[normal_force]];
-            let ways = [from.state.z[slid], sign * (end.xi() - start)];
-            needle.friction * product_integral([pushes, along(normal_force)], [ways, along(slid)])
-        };
-        self.touches(&from.state).map(of_touch).sum()
+        self.touches(&from.state)
+            .map(|(slot, touch, ..)| {
+                let TipState::Slip { sign, start } = touch.tip_state else { return 0.0 };
+                let Some(end) = self.meeting(&to.state.z, touch.scale, touch.place) else {
+                    return 0.0;
+                };
+                if sign == 0.0 {
+                    return 0.0;
+                }
+                let slid =
+                    needle.normal_force(slot) + 1 + if sign > 0.0 { FORWARD } else { BACKWARD };
+                let normal_force = needle.normal_force(slot);
+                let along = |of: usize| [spans[0] * from.leaving[of], spans[1] * to.arriving[of]];
+                // The tip may have stopped at the second point, so compute its slip from the poses.
+                let pushes = [from.state.z[normal_force], to.state.z[normal_force]];
+                let ways = [from.state.z[slid], sign * (end.xi() - start)];
+                needle.friction
+                    * product_integral([pushes, along(normal_force)], [ways, along(slid)])
+            })
+            .sum()
     }
 
     /// Returns `T` and `ξ` of all touches by slot; the dissipation is `∫ T dξ`.

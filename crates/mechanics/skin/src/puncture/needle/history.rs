@@ -62,12 +62,17 @@ pub(in crate::puncture) fn anchors(
     let mut anchors: Vec<Anchor> = Vec::new();
     for kept in history(&rest) {
         // The first anchor of the needle depends on the design only.
-        let of = |neighbours: &Neighbours<Chain>| {
-            let at = |chain: &Chain| chain.history_value(&rest, kept, &rest);
-            let (below, above) = (at(&neighbours.below)?, at(&neighbours.above)?);
-            Some((above - below) / (2.0 * neighbours.step))
-        };
-        anchors.push(Anchor { kept, rates: variations.iter().map(of).collect() });
+        anchors.push(Anchor {
+            kept,
+            rates: variations
+                .iter()
+                .map(|neighbours| {
+                    let at = |chain: &Chain| chain.history_value(&rest, kept, &rest);
+                    let (below, above) = (at(&neighbours.below)?, at(&neighbours.above)?);
+                    Some((above - below) / (2.0 * neighbours.step))
+                })
+                .collect(),
+        });
     }
     for [from, to] in segments {
         let place = event_before(path, [from, to]);
@@ -83,13 +88,16 @@ pub(in crate::puncture) fn anchors(
                 varied.iter().map(|q| moved_to(path.system(), here, q)).collect()
             });
         for kept in new {
-            let rate = |(at, neighbours): (&Option<[SkinState; 2]>, &Neighbours<Chain>)| {
-                let [below, above] = at.as_ref()?;
-                let value = |chain: &Chain, state| chain.history_value(state, kept, &to.state);
-                let rise = value(&neighbours.above, above)? - value(&neighbours.below, below)?;
-                Some(rise / (2.0 * neighbours.step)).filter(|rate| rate.is_finite())
-            };
-            let rates = moved.iter().zip(variations).map(rate).collect();
+            let rates = moved
+                .iter()
+                .zip(variations)
+                .map(|(at, neighbours)| {
+                    let [below, above] = at.as_ref()?;
+                    let value = |chain: &Chain, state| chain.history_value(state, kept, &to.state);
+                    let rise = value(&neighbours.above, above)? - value(&neighbours.below, below)?;
+                    Some(rise / (2.0 * neighbours.step)).filter(|rate| rate.is_finite())
+                })
+                .collect();
             anchors.push(Anchor { kept, rates });
         }
     }
@@ -181,9 +189,11 @@ impl Chain {
             return Some(self.meeting(&state.z, touch.scale, place)?.xi());
         };
         let before = &state.mode.needle.touches;
-        let is_there = |before: &Touch| (before.scale, before.place) == (touch.scale, touch.place);
-        let Some(slot) = before.iter().position(|before| before.as_ref().is_some_and(is_there))
-        else {
+        let Some(slot) = before.iter().position(|before| {
+            before
+                .as_ref()
+                .is_some_and(|before| (before.scale, before.place) == (touch.scale, touch.place))
+        }) else {
             // The corner has reached the tip, which is locked without a tangential force.
             return Some(0.0);
         };

@@ -97,12 +97,11 @@ impl PassageObserver {
 
 /// Returns true if the needle touches only its initial face.
 fn is_on_its_face(state: &SkinState) -> bool {
-    let on_top = |(_, touch): (usize, &Touch)| {
+    state.mode.needle.all().all(|(_, touch)| {
         touch.scale == 0
             && touch.place == OutlinePart::Top
             && !matches!(touch.tip_state, TipState::Locked { .. })
-    };
-    state.mode.needle.all().all(on_top)
+    })
 }
 
 impl Chain {

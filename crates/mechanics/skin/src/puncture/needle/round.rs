@@ -262,10 +262,16 @@ impl Chain {
     /// `None` for other needles, and unless the whole path is recorded.
     pub(in crate::puncture) fn tip_forces(&self, state: &SkinState) -> Option<TipForces> {
         let needle = self.needle.as_ref().filter(|needle| self.whole_path && needle.is_round())?;
-        let of = |(slot, touch): (usize, &Touch)| {
-            (touch.scale, state.z[needle.normal_force(slot)] / self.length)
-        };
-        Some(state.mode.needle.all().map(of).collect())
+        Some(
+            state
+                .mode
+                .needle
+                .all()
+                .map(|(slot, touch)| {
+                    (touch.scale, state.z[needle.normal_force(slot)] / self.length)
+                })
+                .collect(),
+        )
     }
 }
 

@@ -137,8 +137,9 @@ impl Chain {
     /// Finds the touch of the face of a notch, and the contact of the corner that lies on it.
     fn notch(&self, state: &SkinState) -> Option<[usize; 2]> {
         let touches = &state.mode.needle.touches;
-        let is_top = |touch: &Touch| touch.place == OutlinePart::Top && touch.is_locked();
-        let top = touches.iter().position(|touch| touch.as_ref().is_some_and(is_top))?;
+        let top = touches.iter().position(|touch| {
+            touch.as_ref().is_some_and(|touch| touch.place == OutlinePart::Top && touch.is_locked())
+        })?;
         Some([1 - top, self.corner_of_notch(touches[top]?.scale)?])
     }
 

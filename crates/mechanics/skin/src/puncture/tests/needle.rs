@@ -55,7 +55,6 @@ const CASES: [(f64, f64, f64, f64, f64); 7] = [
 /// Integrates `F du` by the values of both at five points.
 pub(super) fn integral(values: [[f64; 2]; 5]) -> f64 {
     let u = values.map(|[_, u]| u);
-    let slope = |row: [f64; 5]| row.iter().zip(u).map(|(w, u)| w * u).sum::<f64>() / 3.0;
     let slopes = [
         [-25.0, 48.0, -36.0, 16.0, -3.0],
         [-3.0, -10.0, 18.0, -6.0, 1.0],
@@ -63,7 +62,7 @@ pub(super) fn integral(values: [[f64; 2]; 5]) -> f64 {
         [-1.0, 6.0, -18.0, 10.0, 3.0],
         [3.0, -16.0, 36.0, -48.0, 25.0],
     ]
-    .map(slope);
+    .map(|row| row.iter().zip(u).map(|(w, u)| w * u).sum::<f64>() / 3.0);
     let weights = [7.0, 32.0, 12.0, 32.0, 7.0];
     (0..5).map(|k| weights[k] * values[k][0] * slopes[k]).sum::<f64>() / 90.0
 }
@@ -240,8 +239,9 @@ fn rubbed_away(path: Path<Chain>) -> f64 {
         let chain = path.system();
         let states = [&from.state, &inner[0], &inner[1], &inner[2], &end];
         let rubbing = states.map(|state| chain.rubbing(state));
-        let of_slot = |slot: usize| integral(rubbing.each_ref().map(|all| all[slot]));
-        rubbed += (0..rubbing[0].len()).map(of_slot).sum::<f64>();
+        rubbed += (0..rubbing[0].len())
+            .map(|slot| integral(rubbing.each_ref().map(|all| all[slot])))
+            .sum::<f64>();
         let stored = chain.substrate_energy(&to.state) + chain.contacts.energy(&to.state);
         off = off.max((done - stored - rubbed).abs());
     });
@@ -466,12 +466,14 @@ fn derivatives_are_differences(
         change(&mut input, step);
         input
     };
-    let variation = |&(change, step): &(Change, f64)| crate::Neighbours {
-        below: moved(change, -step),
-        above: moved(change, step),
-        step,
-    };
-    let variations: Vec<_> = changes.iter().map(variation).collect();
+    let variations: Vec<_> = changes
+        .iter()
+        .map(|&(change, step)| crate::Neighbours {
+            below: moved(change, -step),
+            above: moved(change, step),
+            step,
+        })
+        .collect();
     let (puncture, derivatives) = puncture::differentiate(&input, &variations).unwrap();
     for (parameter, &(change, step)) in changes.iter().enumerate() {
         let solved = |step: f64| puncture::differentiate(&moved(change, step), &[]).unwrap().0;
