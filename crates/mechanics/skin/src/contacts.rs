@@ -298,7 +298,7 @@ impl Contacts {
 
     /// Moves a contact to its next state after one of its forces changed sides.
     ///
-    /// Returns the constraint whose condition must hold on the outgoing branch, or `None` if the
+    /// Returns the constraint that must hold on the outgoing branch, or `None` if the
     /// contact has no such transition.
     pub(crate) fn transition(&self, state: &mut SkinState, change: Change) -> Option<usize> {
         let (contact, slot) = self.contact_of(change.constraint);

@@ -218,7 +218,7 @@ impl Sample {
         OutOfRange {
             quantity: "standard deviation of the slants",
             value: self.imperfection.slant_sd_deg,
-            expected: "one small enough for scales to stand clear of each other",
+            expected: "a smaller value, so that scales do not overlap",
         }
     }
 }

@@ -244,7 +244,7 @@ impl PunctureParameters {
                 radius == 0.0 || self.needle.is_guided(),
                 "needle radius",
                 radius,
-                "that of a needle that is guided",
+                "0 unless the needle is guided",
             ),
             (places >= 2.0, "number of places", places, "at least 2"),
             (scales >= 1.0, "number of scales", scales, "at least 1"),
@@ -396,7 +396,7 @@ impl<'a> Problem<'a> {
             let first = self.endless.as_ref().map(first);
             return Ok((self.part(first.unwrap_or_default())?, LONGEST_ROW));
         };
-        // The far field of bars matches that of springs only approximately, and far couplings have
+        // The far fields of bars and of springs agree only approximately, and far couplings have
         // no closed form in front of an end.
         let far = self.far_field(Some(1)).filter(|_| law == SubstrateLaw::Linear);
         let layout = far.map_or(whole, |far| first(&far).within(whole));

@@ -38,7 +38,7 @@ fn gaps(gap_cv: f64, slant_sd_deg: f64) -> Vec<f64> {
 }
 
 #[test]
-fn gaps_and_slants_scatter_as_asked() {
+fn gaps_and_slants_have_the_requested_scatter() {
     // With gaps this wide no scale is rejected.
     let wide = Design { gap: 3.0, slant_deg: 30.0, ..STEEP };
     let imperfection = Imperfection { gap_cv: 0.1, slant_sd_deg: 2.0 };
@@ -68,7 +68,7 @@ fn a_longer_row_has_the_same_scales_in_its_middle() {
 }
 
 #[test]
-fn scales_stand_clear_however_far_slants_scatter() {
+fn scales_never_overlap_at_rest() {
     // At 60° one degree moves the top by 0.07, so a gap of 0.1 closes easily.
     let sample = sample(0.3, 1.5, 1, 1);
     // `UnevenRow` rejects overlapping scales.
@@ -79,7 +79,7 @@ fn scales_stand_clear_however_far_slants_scatter() {
     let error = crowd.sample(&tight, 1, 1).unwrap().row(0, 1000).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "standard deviation of the slants is 30, expected one small enough for scales to stand clear of each other"
+        "standard deviation of the slants is 30, expected a smaller value, so that scales do not overlap"
     );
 }
 
@@ -99,7 +99,7 @@ fn samples_are_reproducible_and_differ() {
 
 /// Inverts (I1): the normal deviates of a sample do not depend on the scatter.
 #[test]
-fn more_scatter_is_the_same_row_with_larger_deviations() {
+fn scatter_scales_the_same_deviates() {
     let [some, more] = [0.05_f64, 0.1].map(|cv| {
         let s = (cv * cv).ln_1p().sqrt();
         let z = gaps(cv, 0.0).into_iter().map(move |gap| ((gap / 0.1).ln() + 0.5 * s * s) / s);
@@ -111,7 +111,7 @@ fn more_scatter_is_the_same_row_with_larger_deviations() {
 }
 
 #[test]
-fn without_scatter_a_row_is_the_perfect_one() {
+fn without_scatter_a_row_is_perfect() {
     let sample = sample(0.0, 0.0, 1, 1);
     let common = Common::default();
     let springs = calibrate(&STEEP.footprint(0.5).unwrap()).unwrap();
@@ -170,7 +170,7 @@ fn the_gaps_of_an_imperfect_strip_close_one_by_one() {
 /// The slope of a perfect strip jumps at first contact; the slope of an imperfect one grows with
 /// every closing gap.
 #[test]
-fn a_perfect_strip_stiffens_at_once_and_an_imperfect_one_by_and_by() {
+fn a_perfect_strip_stiffens_abruptly_and_an_imperfect_one_gradually() {
     let perfect = flexure::solve(&STEEP, &Common::default(), &strip()).unwrap();
     let imperfect = bent(&sample(0.05, 0.4, 1, 1));
     // Range of curvatures between twice and ten times the initial slope.

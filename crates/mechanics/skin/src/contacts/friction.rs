@@ -30,7 +30,7 @@ use solver::{Residual, Tangent};
 
 use super::{Contacts, LEVELS, SkinMode, SkinPoint, SkinState};
 
-/// Slots of the friction constraints of a contact, behind those of its forces.
+/// Slots of the friction constraints of a contact, behind the force constraints.
 pub(super) const STICK_MULTIPLIER: usize = FORCES;
 pub(super) const SLIP_DISTANCE: usize = FORCES + 1;
 

@@ -131,7 +131,7 @@ impl Contacts {
 
     /// Moves a contact to its next friction state where it starts or stops slipping.
     ///
-    /// Returns the constraint whose condition must hold on the outgoing branch, or `None` if there
+    /// Returns the constraint that must hold on the outgoing branch, or `None` if there
     /// is no such transition.
     ///
     /// | Before | Condition | After |

@@ -23,8 +23,8 @@ impl Contacts {
     /// Calls `entry` for each entry (row, column, value) of the symmetric stiffness of the closed
     /// contacts.
     ///
-    /// The matrix has one negative eigenvalue per force unknown in addition to those of the
-    /// condensed stiffness (Haynsworth 1968, doi 10.1016/0024-3795(68)90050-5).
+    /// Each force unknown adds one negative eigenvalue to the negative ones of the condensed
+    /// stiffness (Haynsworth 1968, doi 10.1016/0024-3795(68)90050-5).
     pub(crate) fn for_stiffness(
         &self,
         state: &SkinState,

@@ -45,7 +45,7 @@ fn balance(design: &Design, common: &Common, parameters: &FlexureParameters) -> 
 }
 
 #[test]
-fn the_work_of_the_moment_is_stored() {
+fn work_of_the_moment_equals_stored_energy() {
     let design =
         |gap, length, slant_deg| Design { gap, length, slant_deg, base: Base::L, width: 1.0 };
     let solver = Settings { max_step: 0.004, ..Settings::default() };
@@ -76,7 +76,7 @@ fn the_work_of_the_moment_is_stored() {
 }
 
 #[test]
-fn a_chain_stores_what_its_cells_do() {
+fn a_chain_balances_work_and_energy() {
     let design = Design { gap: 0.3, length: 0.5, slant_deg: 60.0, base: Base::L, width: 1.0 };
     let solver = Settings { max_step: 0.01, ..Settings::default() };
     let chain = FlexureParameters {

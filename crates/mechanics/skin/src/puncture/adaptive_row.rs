@@ -18,9 +18,9 @@ use crate::contacts::{SkinPoint, SkinState};
 /// Path of a part of a row, which is extended when deformation reaches its ends.
 ///
 /// ```text
-/// next ─► the next step ─► does it reach beyond an end?  no ─► it is yielded
-///             ▲                     │ yes
-///             └── on a longer row ◄─┘ from the point before
+/// next ─► solve the next step ─► beyond an end?  no ─► return it
+///                ▲                     │ yes
+///                └── extend the row ◄──┘ repeat the step
 /// ```
 /// ```
 pub(super) struct AdaptiveRowPath<'a> {
@@ -173,7 +173,7 @@ impl Chain {
         let added = self.layout.left - shorter.layout.left;
         let contacts = [shorter, self].map(|chain| chain.contacts.forces.len());
         let constraint = |number: usize| {
-            // Needle constraints follow those of all contacts.
+            // Needle constraints follow all contact constraints.
             if number < contacts[0] {
                 number + self.layout.contacts * added
             } else {

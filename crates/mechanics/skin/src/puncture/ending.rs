@@ -51,7 +51,7 @@ mod tests {
     }
 
     #[test]
-    fn a_path_that_stops_on_its_way_back_has_a_limit_point() {
+    fn a_path_stopped_after_turning_back_has_a_limit_point() {
         let stopped = Status::Stopped(Stop::Singular);
         let back = path(&[[0.0, 0.0, 0.0], [2.0, 1.0, 5.0], [1.0, 0.9, 4.0]]);
         assert_eq!(classify(stopped, &back), Status::LimitPoint);

@@ -102,7 +102,7 @@ pub(crate) struct GuidedNeedle {
     critical_tilt: f64,
     /// First of its unknowns: the depth.
     pub(super) depth: usize,
-    /// Number of constraints of the contacts, which precede those of the needle.
+    /// Number of contact constraints, which precede the needle constraints.
     contacts: usize,
     /// Constraint numbers of the slip distances, which only grow.
     pub(super) slip_distances: Vec<usize>,

@@ -471,7 +471,7 @@ impl System for Chain {
 
     fn conditions(&self, state: &SkinState, values: &mut Vec<f64>) {
         self.contacts.conditions(state, values);
-        // Needle constraints follow those of the contacts, so append their values.
+        // Needle constraints follow contact constraints, so append their values.
         if let Some(needle) = &self.needle {
             self.needle_conditions(needle, state, values);
         }

@@ -114,7 +114,7 @@ fn name(contact: CornerContact) -> &'static str {
 }
 
 #[test]
-fn the_tangent_agrees_with_finite_differences_in_every_state_of_contact() {
+fn tangent_matches_finite_differences_in_every_contact_state() {
     let mut seen = HashSet::new();
     for constants in [Law::PRINTED, Law::EXCHANGED] {
         for design in [LIVELY, FOLDING, SLIDING] {
@@ -131,7 +131,7 @@ fn the_tangent_agrees_with_finite_differences_in_every_state_of_contact() {
 
 /// The active flags of a state and its mode state the same contact forces.
 #[test]
-fn flags_and_modes_of_contacts_agree() {
+fn active_flags_match_contact_modes() {
     for design in [LIVELY, FOLDING, SLIDING] {
         for point in path(&design, law(&design, Law::EXCHANGED, HARD), 1.0) {
             for (contact, acting) in
@@ -144,7 +144,7 @@ fn flags_and_modes_of_contacts_agree() {
 }
 
 #[test]
-fn the_slope_of_an_open_gap_agrees_with_finite_differences() {
+fn slopes_of_inactive_conditions_match_finite_differences() {
     let mut compared = [0; FORCES];
     for_segments(path(&FOLDING, law(&FOLDING, Law::EXCHANGED, HARD), 1.0), |path, from, to| {
         let state = path.between(from, to, 0.5).unwrap().state;
@@ -203,7 +203,7 @@ fn balance(path: Path<Chain>) -> Balance {
 }
 
 #[test]
-fn the_work_of_the_load_is_stored() {
+fn work_of_the_load_equals_stored_energy() {
     for design in [LIVELY, FOLDING, SLIDING, BLOCKS, DOMINO] {
         for constants in [Law::PRINTED, Law::EXCHANGED] {
             for load_position in [1.0, 0.9] {
@@ -216,8 +216,7 @@ fn the_work_of_the_load_is_stored() {
 }
 
 #[test]
-fn the_tangent_of_a_coupled_row_is_symmetric_but_for_load_and_contact_and_agrees_with_differences()
-{
+fn tangent_of_a_coupled_row_matches_differences_and_is_symmetric_at_rest() {
     let mut points = 0;
     for_segments(coupled_path(&LIVELY, law(&LIVELY, Law::PRINTED, HARD), 1.0), |path, from, to| {
         let state = path.between(from, to, 0.5).unwrap().state;
@@ -244,7 +243,7 @@ fn the_tangent_of_a_coupled_row_is_symmetric_but_for_load_and_contact_and_agrees
 }
 
 #[test]
-fn the_work_of_the_load_is_stored_in_a_coupled_row() {
+fn work_equals_stored_energy_in_a_coupled_row() {
     for design in [LIVELY, BLOCKS, DOMINO] {
         let law = law(&design, Law::PRINTED, HARD);
         let Balance { work, off, .. } = balance(coupled_path(&design, law, 1.0));
@@ -253,7 +252,7 @@ fn the_work_of_the_load_is_stored_in_a_coupled_row() {
 }
 
 #[test]
-fn one_neighbour_without_rotation_is_the_paper() {
+fn one_neighbour_without_cross_coupling_matches_the_paper() {
     for design in [LIVELY, BLOCKS] {
         let footprint = design.footprint(0.5).unwrap();
         let mut one = RowStiffness::solve(&footprint, 1).unwrap();
@@ -277,7 +276,7 @@ fn one_neighbour_without_rotation_is_the_paper() {
 
 /// (S11): eight neighbours on each side against sixteen.
 #[test]
-fn more_neighbours_change_next_to_nothing() {
+fn doubling_the_neighbours_changes_less_than_half_a_percent() {
     for slant_deg in [0.0, 45.0, 75.0] {
         let design = Design { slant_deg, ..BLOCKS };
         let at = |neighbours| {
@@ -297,7 +296,7 @@ fn more_neighbours_change_next_to_nothing() {
 
 /// The contacts are so soft that they store a significant part of the energy.
 #[test]
-fn soft_contacts_store_their_part_of_the_work() {
+fn soft_contacts_store_part_of_the_work() {
     for (design, constants, modulus) in [
         (LIVELY, Law::PRINTED, 3.0),
         (LIVELY, Law::EXCHANGED, 30.0),
@@ -311,7 +310,7 @@ fn soft_contacts_store_their_part_of_the_work() {
 }
 
 #[test]
-fn rows_grow_as_far_as_there_is_room() {
+fn rows_grow_within_their_limit() {
     use Reach::{Beyond, Near, Short};
     let layout = RowLayout { left: 14, right: 17, needle: 0, contacts: 6 };
     let grown = |reach, longest| {
@@ -327,7 +326,7 @@ fn rows_grow_as_far_as_there_is_room() {
 }
 
 #[test]
-fn a_domino_longer_than_the_longest_row_has_no_final_values() {
+fn a_row_at_its_limit_has_no_final_values() {
     let springs = calibrate(&DOMINO.footprint(0.5).unwrap()).unwrap();
     let parameters = &PunctureParameters::default();
     let row = Rows::Even(DOMINO.row().unwrap());
@@ -351,7 +350,7 @@ fn a_domino_longer_than_the_longest_row_has_no_final_values() {
 }
 
 #[test]
-fn parameters_out_of_their_range_are_refused() {
+fn parameters_out_of_range_are_rejected() {
     let springs = calibrate(&BLOCKS.footprint(0.5).unwrap()).unwrap();
     let refused = |change: fn(&mut PunctureParameters)| {
         let mut parameters = PunctureParameters::default();
@@ -459,7 +458,7 @@ fn compare_instability(path: Path<Chain>, compared: &mut HashSet<(usize, usize, 
 /// Paths to 40° through snaps, on finite rows and on a part of an endless one, with nearest and
 /// full coupling. The contacts are soft enough for an accurate dense stiffness.
 #[test]
-fn negative_eigenvalues_are_those_of_the_dense_stiffness() {
+fn negative_eigenvalues_match_the_dense_stiffness() {
     let mut compared = HashSet::new();
     for (design, modulus) in
         [LIVELY, FOLDING, SLIDING, STEEP].into_iter().zip([30.0, HARD, 300.0, HARD])
@@ -492,7 +491,7 @@ fn negative_eigenvalues_are_those_of_the_dense_stiffness() {
 
 /// The record assumes zero counts until the load turns back.
 #[test]
-fn a_row_is_stable_until_the_load_turns_back() {
+fn a_row_is_stable_until_the_load_decreases() {
     for design in [LIVELY, FOLDING, SLIDING, STEEP, DOMINO] {
         let path = path(&design, law(&design, Law::PRINTED, HARD), 1.0);
         let chain = path.system().clone();

@@ -28,7 +28,7 @@ fn compare(design: &Design, law: Law) -> usize {
 }
 
 #[test]
-fn forty_designs_have_the_same_moments_with_both() {
+fn chain_and_unit_cell_have_equal_moments() {
     let designs = forty();
     assert_eq!(designs.len(), 40);
     for law in LAWS {
@@ -38,7 +38,7 @@ fn forty_designs_have_the_same_moments_with_both() {
 }
 
 #[test]
-fn and_the_same_measures() {
+fn chain_and_unit_cell_have_equal_measures() {
     for design in forty().iter().step_by(5) {
         let with = |method| {
             let gaps = Some(whole_gaps(&design.row().unwrap(), &FlexureParameters::default()));

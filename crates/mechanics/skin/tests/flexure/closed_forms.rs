@@ -39,7 +39,7 @@ fn blocks(gap: f64, length: f64, elements_per_gap: MembraneMesh) -> Flexure {
 }
 
 #[test]
-fn upright_blocks_meet_at_a_moment_of_one() {
+fn upright_blocks_touch_at_unit_moment() {
     for (gap, length) in [(0.1, 1.0), (0.1, 0.2), (0.3, 0.5), (0.5, 1.0)] {
         let flexure = blocks(gap, length, MembraneMesh::Auto);
         let first = flexure.events[0];
@@ -52,7 +52,7 @@ fn upright_blocks_meet_at_a_moment_of_one() {
 }
 
 #[test]
-fn with_few_elements_they_meet_where_the_polygon_says() {
+fn with_few_elements_blocks_touch_at_the_polygon_moment() {
     for elements in [1, 2, 3, 8] {
         for gap in [0.1, 0.5, 1.0] {
             let first = blocks(gap, 1.0, MembraneMesh::Elements(elements)).events[0];

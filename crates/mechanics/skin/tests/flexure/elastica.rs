@@ -51,7 +51,7 @@ impl Reference {
 }
 
 #[test]
-fn sixty_designs_with_whole_gaps_and_ten_with_parts_of_one() {
+fn seventy_designs_match_the_elastica() {
     let references = references();
     assert_eq!(references.len(), 60 + 10);
     references.par_iter().for_each(|reference| {
@@ -70,7 +70,7 @@ fn sixty_designs_with_whole_gaps_and_ten_with_parts_of_one() {
 
 /// The error of the elements is proportional to the square of their length.
 #[test]
-fn elements_converge_to_it_with_the_square_of_their_length() {
+fn elements_converge_quadratically() {
     for reference in references().iter().step_by(7) {
         let error = |elements: usize| {
             let ours = reference.measures(MembraneMesh::Elements(elements));
@@ -94,7 +94,7 @@ const ONE_ELEMENT: [(f64, f64, usize, f64, f64); 6] = [
 ];
 
 #[test]
-fn one_element_gives_the_numbers_of_the_first_tables() {
+fn one_element_reproduces_the_first_tables() {
     for (gap, length, gaps, compliance, end_moment) in ONE_ELEMENT {
         let design = Design { gap, length, slant_deg: 75.0, base: Base::L, width: 1.0 };
         let parameters = FlexureParameters {

@@ -19,7 +19,7 @@ fn upright_scales_touch_where_the_radius_is_their_height() {
 }
 
 #[test]
-fn a_slight_slant_changes_little() {
+fn a_slight_slant_hardly_changes_first_contact() {
     let touch = |slant| contact_curvature(&design(0.1, 1.0, slant), &FlexureParameters::default());
     let [upright, slanted] =
         [0.0, 1e-6].map(|slant| touch(slant).expect("a design").expect("closed"));
@@ -32,7 +32,7 @@ proptest! {
     /// On a strip long enough for contact, scales touch at the closed-form curvature; on the
     /// default strip also there or never.
     #[test]
-    fn it_is_the_first_contact_of_the_strip_that_is_solved(
+    fn closed_form_matches_the_first_contact_of_solved_strips(
         gap in 0.05_f64..0.8, length in 0.1_f64..1.5, slant in 0.0_f64..75.0, offset in 0.0_f64..0.3,
         short in any::<bool>(),
     ) {
@@ -56,7 +56,7 @@ proptest! {
 
     /// Bending to the outside opens the gaps, so only the membrane bends.
     #[test]
-    fn the_other_way_scales_open(gap in 0.05_f64..0.8, length in 0.1_f64..1.5, slant in 0.0_f64..75.0) {
+    fn bending_to_the_outside_opens_the_gaps(gap in 0.05_f64..0.8, length in 0.1_f64..1.5, slant in 0.0_f64..75.0) {
         let design = design(gap, length, slant);
         let parameters = FlexureParameters { max_end_rotation_deg: -180.0, ..Default::default() };
         let solved = flexure::solve(&design, &Common::default(), &parameters).expect("a strip");

@@ -9,7 +9,7 @@ use crate::samples::design;
 /// Moments at the end of bending, with one linear element per gap. In all cases but the last
 /// contacts slip at the end.
 #[test]
-fn friction_raises_the_end_moment_as_two_other_programs_say() {
+fn end_moments_with_friction_match_two_programs() {
     let moments = [
         ((0.3, 1.0, 75.0), 0.0, 661.29262),
         ((0.3, 1.0, 75.0), 0.1, 702.49992),

@@ -62,7 +62,7 @@ fn difference([gaps, chain]: [&BentSample; 2]) -> f64 {
 
 /// The seeds were not used for tuning.
 #[test]
-fn gaps_by_themselves_are_the_chain_of_all() {
+fn gap_by_gap_matches_the_chain() {
     let slanted = slanted();
     let Uneven { design, parameters, .. } = slanted;
     let scattered = |gap_cv, slant_sd_deg| Imperfection { gap_cv, slant_sd_deg };
@@ -110,7 +110,7 @@ fn gaps_by_themselves_are_the_chain_of_all() {
 
 /// Dissipation and stick–slip transitions agree within the resolution of the steps.
 #[test]
-fn gaps_that_rub_by_themselves_are_the_chain_of_all() {
+fn gap_by_gap_with_friction_matches_the_chain() {
     let slanted = slanted();
     let solver = solver::Settings { first_step: 0.02, max_step: 0.02, ..slanted.common.solver };
     for friction in [0.1, 0.25] {
@@ -129,7 +129,7 @@ fn gaps_that_rub_by_themselves_are_the_chain_of_all() {
 
 /// Falls back to the assembled chain, whatever its result.
 #[test]
-fn gaps_that_act_on_each_other_are_solved_as_a_chain() {
+fn interacting_gaps_fall_back_to_the_chain() {
     let slanted = slanted();
     let unloading = FlexureParameters { unload: true, ..slanted.parameters };
     let [gaps, chain] = Uneven { parameters: unloading, ..slanted }.bent(3);

@@ -23,7 +23,7 @@ fn locks_earlier(locks: &[Option<f64>], touch: f64) {
 }
 
 #[test]
-fn with_more_friction_a_strip_locks_earlier_and_at_last_where_it_touches() {
+fn more_friction_locks_a_strip_earlier_down_to_first_contact() {
     for (length, slant) in [(0.3, 75.0), (1.0, 45.0), (1.0, 60.0), (1.0, 75.0)] {
         let strips = FRICTIONS.map(|friction| {
             let common = Common { friction, ..Common::default() };
@@ -37,7 +37,7 @@ fn with_more_friction_a_strip_locks_earlier_and_at_last_where_it_touches() {
 }
 
 #[test]
-fn so_do_plates_on_torsional_roots() {
+fn more_friction_locks_rotating_plates_earlier() {
     let plates =
         [0.5, 1.0, 2.0, 4.0].map(|friction| rotating_plates::engagement(5.0, 0.8, friction));
     let touch = plates[0].expect("plates that touch").touch;

@@ -38,7 +38,7 @@ fn a_contact_beyond_its_edge_fails_the_audit() {
 /// the moment grows without rotation, so the compliance is undefined and the path stops before the
 /// moment of contact.
 #[test]
-fn a_strip_whose_sides_come_to_lie_flush_has_no_compliance() {
+fn a_strip_locked_by_flush_sides_has_no_compliance() {
     for (design, gaps, moment) in [
         (design(0.97, 0.4, 80.0, Base::L), 4, 356.83),
         (design(0.18, 3.0, 80.0, Base::L), 9, 20275.2),

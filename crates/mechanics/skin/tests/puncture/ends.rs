@@ -18,7 +18,7 @@ fn to_tilt(critical_tilt_deg: f64) -> PunctureParameters {
 
 /// The load drops to zero before a tilt of 35° and would become negative.
 #[test]
-fn a_needle_that_would_have_to_pull_is_off() {
+fn a_path_stops_at_zero_load() {
     let design = design(0.6, 1.0, 60.0, Base::L);
     let puncture = solve(&design, &to_tilt(35.0));
     let (measures, last) = (puncture.measures, end(&puncture));
@@ -38,7 +38,7 @@ fn a_needle_that_would_have_to_pull_is_off() {
 
 /// The peak does not depend on the end of the path behind it.
 #[test]
-fn a_peak_is_the_same_whether_the_path_goes_on_or_not() {
+fn the_peak_does_not_depend_on_the_end_of_the_path() {
     let design = design(0.1, 0.5, 45.0, Base::L);
     let peaks = [29.0, 35.0, 60.0].map(|tilt| solve(&design, &to_tilt(tilt)).measures);
     for peak in &peaks {
@@ -70,7 +70,7 @@ fn check(designs: &[(Design, f64)], known: &Calibrations) {
 }
 
 #[test]
-fn the_steep_half_of_the_study_ends_before_a_needle_pulls() {
+fn steep_designs_never_have_a_negative_load() {
     let designs = BASES.map(reference_study).concat().into_iter();
     let steep = designs.filter(|design| design.slant_deg >= 60.0);
     let every = if long_campaigns() { 1 } else { 11 };
@@ -82,7 +82,7 @@ fn the_steep_half_of_the_study_ends_before_a_needle_pulls() {
 ///
 /// Eight designs that did in the past; the whole study with both bases in a long campaign.
 #[test]
-fn no_path_comes_back_to_rest() {
+fn no_path_returns_to_rest() {
     use SubstrateLaw::{Linear, NeoHookean};
     let came_back = [
         (Linear, 0.1, 0.05),
@@ -117,7 +117,7 @@ fn no_path_comes_back_to_rest() {
 
 /// Tilts from 10° to 45°. Two hundred designs; two thousand in a long campaign.
 #[test]
-fn random_designs_end_before_a_needle_pulls() {
+fn random_designs_never_have_a_negative_load() {
     let designs = random(if long_campaigns() { 2000 } else { 200 }, 7);
     let tilt = |k: usize| 10.0 + 5.0 * (k % 8) as f64;
     let designs: Vec<_> = designs.into_iter().enumerate().map(|(k, d)| (d, tilt(k))).collect();
@@ -173,7 +173,7 @@ fn a_row_snaps_where_a_corner_passes_a_corner() {
 
 /// A row snaps exactly where a contact reaches a corner.
 #[test]
-fn corners_and_snaps_go_together() {
+fn rows_snap_exactly_at_corner_events() {
     let every = if long_campaigns() { 1 } else { 5 };
     let known = Calibrations::default();
     let designs = BASES.map(reference_study).concat();

@@ -270,7 +270,7 @@ fn sticks(seen: &[Vec<Stand>]) -> bool {
 }
 
 #[test]
-fn one_contact_and_two_that_slip_are_those_of_enumerated_patterns() {
+fn slipping_contacts_match_enumerated_patterns() {
     for (gap, length, slant_deg, friction, contacts) in [
         (0.1, 1.0, 0.0, 0.0, 1),
         (0.1, 1.0, 0.0, 0.3, 1),
@@ -287,7 +287,7 @@ fn one_contact_and_two_that_slip_are_those_of_enumerated_patterns() {
 }
 
 #[test]
-fn two_contacts_that_stick_are_those_of_enumerated_patterns() {
+fn sticking_contacts_match_enumerated_patterns() {
     for (gap, length, slant_deg, friction) in [
         (0.05, 1.0, 60.0, 0.5),
         (0.1, 1.0, 65.0, 0.4),

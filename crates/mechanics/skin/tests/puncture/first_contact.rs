@@ -46,7 +46,7 @@ fn first_contact(design: &Design, springs: &Springs) -> f64 {
 /// of 0° and 45°. With a base of `L` it is at 0.081 and 0.059, with a base of `2L` at 0.154 and
 /// 0.070.
 #[test]
-fn happens_where_the_linear_chain_closes_the_gap() {
+fn first_contact_matches_the_linear_chain() {
     let known = Calibrations::default();
     for (base, slant, rounded) in [
         (Base::L, 0.0, 0.0809),

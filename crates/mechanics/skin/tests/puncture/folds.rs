@@ -36,7 +36,7 @@ fn stretches(design: &Design, puncture: &Puncture) -> Vec<f64> {
 }
 
 #[test]
-fn gap_stretches_are_those_between_the_corners_of_the_bases() {
+fn gap_stretches_match_the_base_corners() {
     for design in folded().into_iter().chain([settled()]) {
         let puncture = solve(&design, &on_row(41));
         let (measures, stretches) = (complete(&puncture), stretches(&design, &puncture));
@@ -91,7 +91,7 @@ fn a_fold_is_where_a_gap_vanishes() {
 
 /// A gap that is closed at the end has folded once more often than it has unfolded.
 #[test]
-fn folds_account_for_the_gaps_that_are_closed_at_the_end() {
+fn folds_account_for_the_gaps_closed_at_the_end() {
     for design in folded() {
         let puncture = solve(&design, &on_row(41));
         let first = puncture.scales[0].scale;
@@ -104,7 +104,7 @@ fn folds_account_for_the_gaps_that_are_closed_at_the_end() {
 }
 
 #[test]
-fn a_design_that_does_not_fold_is_sound_to_the_end() {
+fn without_folds_the_sound_force_is_the_critical_force() {
     let puncture = solve(&settled(), &automatic());
     let measures = complete(&puncture);
     assert!(puncture.folds.is_empty() && measures.gap_stretch_min.unwrap() > 0.0);
@@ -117,7 +117,7 @@ fn a_design_that_does_not_fold_is_sound_to_the_end() {
 }
 
 #[test]
-fn folds_do_not_depend_on_the_steps() {
+fn folds_do_not_depend_on_the_step_size() {
     let (known, coarse) = (Calibrations::default(), Settings::default());
     for design in folded() {
         for law in LAWS {
@@ -141,7 +141,7 @@ fn folds_do_not_depend_on_the_steps() {
 
 /// On a path with increasing tilt the tilt gives the order.
 #[test]
-fn a_fold_knows_the_contact_events_before_it() {
+fn folds_count_the_contact_events_before_them() {
     let mut monotone = 0;
     for design in folded() {
         let puncture = solve(&design, &automatic());

@@ -11,18 +11,18 @@ use super::samples::{
     BASES, design, finer, long_campaigns, on_row, random, reference_study, solve_as,
 };
 
-fn rubbing(friction: f64) -> Common {
+fn with_friction(friction: f64) -> Common {
     Common { friction, ..Common::default() }
 }
 
 fn solve(design: &Design, friction: f64, parameters: &PunctureParameters) -> Puncture {
-    solve_as(&Calibrations::default(), design, &rubbing(friction), parameters)
+    solve_as(&Calibrations::default(), design, &with_friction(friction), parameters)
 }
 
 /// Critical force and penetration of two independent programs, with penalty springs and return
 /// mapping.
 #[test]
-fn forces_and_penetration_are_those_of_independent_programs() {
+fn forces_and_penetration_match_independent_programs() {
     let row = |slant_deg: f64, friction: f64| {
         let measures =
             complete(&solve(&design(0.1, 1.0, slant_deg, Base::L), friction, &on_row(41)));
@@ -35,7 +35,7 @@ fn forces_and_penetration_are_those_of_independent_programs() {
 }
 
 #[test]
-fn a_row_that_rubs_next_to_nothing_is_one_that_does_not() {
+fn vanishing_friction_matches_no_friction() {
     for slant_deg in [0.0, 45.0, 60.0] {
         let design = design(0.1, 1.0, slant_deg, Base::L);
         let [none, little] =
@@ -46,14 +46,14 @@ fn a_row_that_rubs_next_to_nothing_is_one_that_does_not() {
 }
 
 #[test]
-fn the_path_does_not_depend_on_its_steps() {
+fn the_path_does_not_depend_on_the_step_size() {
     for (gap, length, slant_deg, friction) in
         [(0.1, 1.0, 45.0, 0.1), (0.1, 0.3, 60.0, 0.3), (0.2, 0.3, 75.0, 0.1), (0.1, 1.0, 75.0, 0.2)]
     {
         let design = design(gap, length, slant_deg, Base::L);
         let known = Calibrations::default();
         let with = |solver| {
-            let common = Common { solver, ..rubbing(friction) };
+            let common = Common { solver, ..with_friction(friction) };
             complete(&solve_as(&known, &design, &common, &on_row(41)))
         };
         let (coarse, fine) = (with(Settings::default()), with(finer(Settings::default())));
@@ -68,13 +68,13 @@ fn the_path_does_not_depend_on_its_steps() {
 
 /// The work of the load is stored or dissipated.
 #[test]
-fn what_friction_takes_is_missing_from_the_energy() {
+fn dissipation_closes_the_energy_balance() {
     for (gap, length, slant_deg, friction) in
         [(0.1, 1.0, 45.0, 0.05), (0.2, 0.5, 60.0, 0.1), (0.2, 0.3, 75.0, 0.05)]
     {
         let design = design(gap, length, slant_deg, Base::L);
         let solver = Settings { first_step: 1.5e-4, max_step: 1.5e-4, ..Settings::default() };
-        let common = Common { solver, ..rubbing(friction) };
+        let common = Common { solver, ..with_friction(friction) };
         let puncture = solve_as(&Calibrations::default(), &design, &common, &on_row(21));
         let measures = complete(&puncture);
         let taken = measures.friction_work.unwrap();
@@ -104,7 +104,7 @@ fn contacts_slip_and_stick_in_turn() {
 
 /// Steep, short scales touch dozens of neighbours.
 #[test]
-fn dominoes_that_rub_fall_to_the_end() {
+fn dominoes_with_friction_complete() {
     for (gap, length, slant_deg) in [(0.1, 0.3, 60.0), (0.2, 0.3, 75.0), (0.1, 0.1, 75.0)] {
         let design = design(gap, length, slant_deg, Base::L);
         let forces = [0.0, 0.1].map(|friction| {
@@ -128,7 +128,7 @@ fn guided(friction: f64) -> PunctureParameters {
 /// The tip slides to a corner that lies on the next scale with friction: both then stick to one
 /// position of the face.
 #[test]
-fn tip_and_corner_go_as_one_in_a_notch() {
+fn tip_and_corner_stick_together_in_a_notch() {
     for (gap, length, slant_deg, base) in [
         (0.2, 1.0, 60.0, Base::L),
         (0.3, 1.0, 75.0, Base::L),
@@ -139,7 +139,7 @@ fn tip_and_corner_go_as_one_in_a_notch() {
         let design = design(gap, length, slant_deg, base);
         let known = Calibrations::default();
         let [coarse, fine] = [Settings::default(), finer(Settings::default())].map(|solver| {
-            let common = Common { solver, ..rubbing(0.1) };
+            let common = Common { solver, ..with_friction(0.1) };
             solve_as(&known, &design, &common, &guided(0.3))
         });
         assert_eq!([coarse.status, fine.status], [Status::Complete; 2], "{design:?}");
@@ -158,7 +158,8 @@ fn incomplete(
     let known = Calibrations::default();
     let status = |design: Design| {
         let springs = known.get(&design.footprint(0.5).unwrap()).unwrap();
-        let puncture = puncture::solve(&design, &springs, &rubbing(friction), parameters).unwrap();
+        let puncture =
+            puncture::solve(&design, &springs, &with_friction(friction), parameters).unwrap();
         (design, puncture.status)
     };
     designs.into_iter().map(status).filter(|(_, status)| *status != Status::Complete).collect()
@@ -201,7 +202,7 @@ fn random_designs_are_complete_with_friction() {
 /// Without friction unloading retraces the loading path. With friction less work is recovered: the
 /// loop area is dissipated or stored in residual deformation.
 #[test]
-fn the_load_is_taken_away_again() {
+fn unloading_closes_the_energy_balance() {
     for (gap, length, slant_deg, friction, needle) in [
         (0.1, 1.0, 45.0, 0.0, Needle::Free),
         (0.1, 1.0, 45.0, 0.1, Needle::Free),
@@ -214,7 +215,7 @@ fn the_load_is_taken_away_again() {
         let parameters =
             PunctureParameters { needle, unload: true, load_position: 0.95, ..on_row(21) };
         let solver = Settings { first_step: 1.5e-4, max_step: 1.5e-4, ..Settings::default() };
-        let common = Common { solver, ..rubbing(friction) };
+        let common = Common { solver, ..with_friction(friction) };
         let puncture = solve_as(&Calibrations::default(), &design, &common, &parameters);
         let back = puncture.unloading.as_ref().unwrap();
         assert_eq!((puncture.status, back.stop), (Status::Complete, Stop::Unloaded), "{design:?}");
@@ -242,7 +243,7 @@ fn the_load_is_taken_away_again() {
 /// A tip leaves a notch as the load decreases, or contacts close where others open. If pivoting
 /// starts with the wrong one of simultaneous changes, these paths reverse or stop.
 #[test]
-fn the_way_back_leads_through_changes_that_happen_at_once() {
+fn unloading_passes_simultaneous_changes() {
     let guided = Needle::Guided { friction: 0.3 };
     for (gap, length, slant_deg, base, friction, needle) in [
         (0.6, 0.9, 75.0, Base::L, 0.0, guided),
@@ -255,7 +256,8 @@ fn the_way_back_leads_through_changes_that_happen_at_once() {
         let load_position = if needle == Needle::Free { 1.0 } else { 0.975 };
         let parameters =
             PunctureParameters { needle, unload: true, load_position, ..Default::default() };
-        let puncture = solve_as(&Calibrations::default(), &design, &rubbing(friction), &parameters);
+        let puncture =
+            solve_as(&Calibrations::default(), &design, &with_friction(friction), &parameters);
         let back = puncture.unloading.as_ref().unwrap();
         assert_eq!((puncture.status, back.stop), (Status::Complete, Stop::Unloaded), "{design:?}");
     }
@@ -264,14 +266,15 @@ fn the_way_back_leads_through_changes_that_happen_at_once() {
 /// These rows are not unloaded: their paths reverse where friction leaves no outgoing branch, and
 /// return to rest (the first) or repeat themselves.
 #[test]
-fn a_path_that_turns_round_jumps() {
+fn a_reversing_path_jumps() {
     let needle = Needle::Guided { friction: 0.3 };
     let parameters = PunctureParameters { needle, load_position: 0.95, ..Default::default() };
     for (gap, length, slant_deg, base) in
         [(0.063_973, 1.488_271, 76.554, Base::L), (0.062_271, 2.393_676, 79.65, Base::L)]
     {
         let design = design(gap, length, slant_deg, base);
-        let puncture = solve_as(&Calibrations::default(), &design, &rubbing(0.1), &parameters);
+        let puncture =
+            solve_as(&Calibrations::default(), &design, &with_friction(0.1), &parameters);
         assert_eq!(puncture.status, Status::Stopped(Stop::Jumps), "{design:?}");
         assert!(puncture.path.len() < 1000, "{design:?}");
     }

@@ -52,7 +52,7 @@ fn the_whole_path_follows_the_closed_form() {
 }
 
 #[test]
-fn its_measures_are_those_of_the_closed_form() {
+fn measures_match_the_closed_form() {
     let known = Calibrations::default();
     let (design, parameters) = (design(0.3, 0.4, 30.0, Base::L), on_row(1));
     let exact = closed_form(&design, &parameters, &known);

@@ -21,7 +21,7 @@ fn solve(design: &Design, stiffness: &RowStiffness, parameters: &PunctureParamet
 /// Forces and penetrations of an independent program. Its springs are 1 to 2 % coarse and lack the
 /// coupling of forces along and across the row, so compare only where that coupling is small.
 #[test]
-fn layers_are_those_of_another_program() {
+fn layers_match_an_independent_program() {
     let slanted = design(0.1, 1.0, 45.0, Base::L);
     let steep = design(0.2, 0.3, 75.0, Base::L);
     let rows = [
@@ -43,7 +43,7 @@ fn layers_are_those_of_another_program() {
 
 /// The far field on the left is the mirror image of the one on the right.
 #[test]
-fn rows_without_ends_measure_what_long_rows_do() {
+fn endless_rows_match_long_rows() {
     for (design, coupling) in [
         (design(0.1, 1.0, 45.0, Base::L), Coupling::Nearest),
         (design(0.1, 1.0, 0.0, Base::L), Coupling::Full),

@@ -22,7 +22,7 @@ fn solve(design: &Design, parameters: &PunctureParameters) -> Puncture {
 /// Each position matches a separate puncture, and the weakest has the smallest force, to the last
 /// bit.
 #[test]
-fn the_weakest_place_is_that_of_the_smallest_of_whole_punctures() {
+fn the_weakest_position_has_the_smallest_force_of_single_punctures() {
     let known = Calibrations::default();
     let cases = [
         (design(0.1, 1.0, 75.0, Base::L), GUIDED, SubstrateLaw::Linear, 0.0, Some(0.3)),
@@ -60,7 +60,7 @@ fn the_weakest_place_is_that_of_the_smallest_of_whole_punctures() {
 /// An upright scale is its own mirror image: it tilts to the left under a load on its left, and not
 /// at all under a load in its middle.
 #[test]
-fn places_of_an_upright_scale_are_mirror_images() {
+fn positions_on_an_upright_scale_are_mirror_images() {
     for needle in [FREE, GUIDED] {
         let upright = design(0.1, 1.0, 0.0, Base::L);
         let Puncture { places, measures, .. } = solve(&upright, &parameters(needle, 5));
@@ -80,7 +80,7 @@ fn places_of_an_upright_scale_are_mirror_images() {
 /// A frictionless needle set down exactly on the left corner of this design stops early, at a force
 /// not known to be smaller than elsewhere. Therefore no weakest force is reported.
 #[test]
-fn a_place_that_may_be_weaker_is_not_passed_over() {
+fn an_inconclusive_position_hides_the_weakest_force() {
     let lost = design(0.1, 1.0, 75.0, Base::L);
     let slippery = parameters(Needle::Guided { friction: 0.0 }, 11);
     let Puncture { status, places, measures, .. } = solve(&lost, &slippery);
@@ -108,7 +108,7 @@ fn a_place_that_may_be_weaker_is_not_passed_over() {
 }
 
 #[test]
-fn one_place_is_none_to_choose_from() {
+fn a_single_load_position_is_rejected() {
     let design = design(0.1, 1.0, 0.0, Base::L);
     let springs = substrate::calibrate(&design.footprint(0.5).unwrap()).unwrap();
     let solved = puncture::solve(&design, &springs, &Common::default(), &parameters(FREE, 1));

@@ -29,7 +29,7 @@ fn is_open(puncture: &Puncture) -> bool {
 }
 
 #[test]
-fn no_gap_closes_in_the_reference_study_with_either_law_of_contact() {
+fn no_gap_closes_in_the_reference_study() {
     let (known, parameters) = (Calibrations::default(), neo_hookean(on_row(41)));
     for law in LAWS {
         for base in [Base::L, Base::TwoL] {
@@ -104,7 +104,7 @@ fn steps_ten_times_smaller_give_the_same_measures() {
 /// The closed form of the far field assumes springs; it starts where bars differ from them by
 /// round-off.
 #[test]
-fn automatic_rows_measure_what_longer_rows_do() {
+fn automatic_rows_match_longer_rows() {
     let known = Calibrations::default();
     let narrow = design(0.1, 0.4, 75.0, Base::TwoL);
     for design in [blocks(), settled(), domino(), narrow, design(1.0, 0.025, 75.0, Base::TwoL)] {
@@ -123,7 +123,7 @@ fn automatic_rows_measure_what_longer_rows_do() {
 }
 
 #[test]
-fn a_fully_coupled_row_cannot_fold_over_either() {
+fn a_fully_coupled_row_does_not_fold_over() {
     let (law, long) = (Common::default(), automatic());
     for design in [domino(), settled(), design(0.1, 0.4, 75.0, Base::L)] {
         let stiffness = RowStiffness::of(&design.footprint(0.5).unwrap(), Coupling::Full).unwrap();

@@ -18,7 +18,7 @@ fn solved() -> Vec<(skin::Design, Puncture)> {
 }
 
 #[test]
-fn measures_are_those_of_the_end_of_the_path() {
+fn measures_match_the_end_of_the_path() {
     for (design, puncture) in solved() {
         let (measures, end) = (complete(&puncture), end(&puncture));
         assert_relative_eq!(end.tilt_deg, 10.0, max_relative = 1e-12);
@@ -109,7 +109,7 @@ fn every_point_of_the_path_has_its_iterations() {
 
 /// Only the measures of the start and the peak remain.
 #[test]
-fn a_path_that_stops_keeps_how_it_began() {
+fn a_stopped_path_keeps_its_initial_measures() {
     let solver = Settings { max_points: 20, ..Settings::default() };
     let (known, common) = (Calibrations::default(), Common { solver, ..Common::default() });
     let cut = solve_as(&known, &domino(), &common, &on_row(41));
@@ -136,7 +136,7 @@ fn a_path_that_stops_keeps_how_it_began() {
 /// The force at a depth equals the force of a snapshot there; beyond the end of the path it is the
 /// final force.
 #[test]
-fn the_force_at_a_depth_is_that_of_an_equilibrium_there() {
+fn force_at_a_depth_matches_a_snapshot_there() {
     let design = design(0.2, 0.5, 60.0, Base::L);
     let end = solve(&design, &PunctureParameters::default()).measures;
     assert_eq!(end.force_at_depth, None);

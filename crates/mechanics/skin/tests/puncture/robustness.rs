@@ -96,7 +96,7 @@ fn random_designs_are_solved() {
 /// The model ends there, and the path must report a mechanical reason, not a numerical one. A
 /// hundred designs; a thousand in a long campaign.
 #[test]
-fn paths_to_large_tilts_end_for_reasons_of_mechanics() {
+fn paths_to_large_tilts_stop_for_mechanical_reasons() {
     let known = Calibrations::default();
     let mut designs = random(if long_campaigns() { 1000 } else { 100 }, 2);
     designs.push(design(2.6, 1.6, 48.0, BASES[1]));
@@ -121,7 +121,7 @@ fn paths_to_large_tilts_end_for_reasons_of_mechanics() {
 
 /// Tips slide along bases and tops, to their ends and around the corners there.
 #[test]
-fn scales_steeper_than_those_of_the_study_are_solved() {
+fn scales_steeper_than_the_study_are_solved() {
     let known = Calibrations::default();
     let mut designs = Vec::new();
     for base in BASES {

@@ -35,7 +35,7 @@ fn solve(design: &Design, parameters: &PunctureParameters) -> Puncture {
 
 /// The difference from a sharp tip is proportional to the radius, in the notch, too.
 #[test]
-fn small_radii_come_to_a_sharp_tip() {
+fn small_radii_converge_to_a_sharp_tip() {
     for (gap, length, slant) in DESIGNS {
         let design = design(gap, length, slant, Base::L);
         let force = |radius: Option<f64>| {
@@ -53,7 +53,7 @@ fn small_radii_come_to_a_sharp_tip() {
 /// With friction: the tip sticks, slides in both directions, and passes over the corner into the
 /// notch.
 #[test]
-fn small_radii_come_to_a_sharp_tip_that_rubs() {
+fn small_radii_converge_to_a_sharp_tip_with_friction() {
     for ((gap, length, slant), friction, inside) in [
         ((0.5, 1.0, 0.0), 0.1, 0.05),
         ((0.1, 0.2, 0.0), 0.3, 0.05),
@@ -82,7 +82,7 @@ fn small_radii_come_to_a_sharp_tip_that_rubs() {
 /// N² sin φ / k_x − N (x + (1 + R) sin φ) − k_φ φ cos φ = 0                F = N cos φ
 /// ```
 #[test]
-fn a_scale_alone_has_a_closed_form() {
+fn an_isolated_scale_matches_the_closed_form() {
     let known = Calibrations::default();
     for (slant, place, radius) in [(0.0, 1.0, 0.1), (0.0, 0.9, 1.0), (10.0, 0.9, 0.5)] {
         let design = design(0.1, 1.0, slant, Base::L);
@@ -117,7 +117,7 @@ fn a_scale_alone_has_a_closed_form() {
 /// Tips on the left and the right of an upright scale are mirror images, also if they touch several
 /// scales.
 #[test]
-fn mirror_images() {
+fn mirrored_needles_have_mirrored_results() {
     for (radius, friction) in [(0.2, 0.0), (1.0, 0.0), (0.2, 0.1), (1.0, 0.3)] {
         let upright = design(0.3, 0.6, 0.0, Base::L);
         let [left, right] = [0.1, 0.9].map(|load_position| {
@@ -135,7 +135,7 @@ fn mirror_images() {
 
 /// A tip in the middle between two upright scales presses on both equally.
 #[test]
-fn a_tip_between_two_scales() {
+fn a_tip_between_two_scales_loads_both_equally() {
     let upright = design(0.3, 0.6, 0.0, Base::L);
     let between = PunctureParameters { load_position: 1.25, ..parameters(Some(0.5)) };
     let puncture = solve(&upright, &between);
@@ -156,7 +156,7 @@ fn a_tip_between_two_scales() {
 /// Positions of a round tip cover one pitch, including the region between two scales; they repeat
 /// after a pitch.
 #[test]
-fn places_cover_the_pitch() {
+fn load_positions_cover_the_pitch() {
     let known = Calibrations::default();
     let design = design(0.4, 0.8, 45.0, Base::L);
     let parameters = PunctureParameters { places: Some(3), ..parameters(Some(0.5)) };
@@ -179,7 +179,7 @@ fn places_cover_the_pitch() {
 /// A tip that fits between two scales reaches the soft surface between their bases: its lowest
 /// point lies on the line from base to base.
 #[test]
-fn a_tip_that_comes_through() {
+fn a_tip_passes_through_between_bases() {
     let open = design(1.0, 1.0, 60.0, Base::L);
     let radius = 0.2;
     let between = PunctureParameters {
@@ -212,7 +212,7 @@ fn a_tip_that_comes_through() {
 /// With full coupling scales lean on each other before the tip reaches them. Touching a scale that
 /// is already critically tilted ends the path.
 #[test]
-fn a_tip_that_comes_to_a_tilted_scale() {
+fn touching_a_tilted_scale_ends_the_path() {
     let blocks = design(0.1, 0.4, 0.0, Base::L);
     let stiffness = RowStiffness::of(&blocks.footprint(0.5).unwrap(), Coupling::Full).unwrap();
     let parameters = parameters(Some(0.5));
@@ -231,7 +231,7 @@ fn a_tip_that_comes_to_a_tilted_scale() {
 /// In a notch a tip with friction may stop sliding on one face where it can neither stick nor
 /// slide: it jumps.
 #[test]
-fn a_tip_that_jumps_in_a_notch() {
+fn a_tip_may_jump_in_a_notch() {
     let notched = design(0.1, 0.9, 60.0, Base::TwoL);
     for radius in [0.001, 0.01, 0.03] {
         let needle = Needle::Guided { friction: 0.3 };
@@ -244,7 +244,7 @@ fn a_tip_that_jumps_in_a_notch() {
 
 /// A tip with a radius of twenty pitches rests on several scales.
 #[test]
-fn a_tip_on_many_scales() {
+fn a_large_tip_rests_on_many_scales() {
     let dense = design(0.1, 0.05, 30.0, Base::L);
     let puncture = solve(&dense, &parameters(Some(3.0)));
     let most = puncture.tip_forces.iter().map(Vec::len).max();

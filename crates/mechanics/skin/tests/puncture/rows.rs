@@ -15,7 +15,7 @@ fn automatic() -> PunctureParameters {
 }
 
 #[test]
-fn automatic_rows_measure_what_longer_rows_do() {
+fn automatic_rows_match_longer_rows() {
     let known = Calibrations::default();
     let designs = [blocks(), settled(), domino(), design(1.0, 0.025, 75.0, Base::TwoL)];
     for design in designs {
@@ -50,7 +50,7 @@ fn automatic_rows_grow_where_scales_touch() {
 /// The end scales and the scales beyond touch nothing: the last displacements decay as in an
 /// endless row.
 #[test]
-fn the_ends_of_automatic_rows_are_free() {
+fn ends_of_automatic_rows_are_contact_free() {
     let known = Calibrations::default();
     for design in [blocks(), settled(), domino()] {
         let puncture = solve_with(&known, &design, &automatic());
@@ -73,7 +73,7 @@ fn the_ends_of_automatic_rows_are_free() {
 
 /// The domino effect does not stop on a short row, so its force differs from a long one.
 #[test]
-fn a_row_that_is_too_short_matters() {
+fn a_short_row_underestimates_the_force() {
     let force = |scales| complete(&solve(&domino(), &on_row(scales))).critical_force.unwrap();
     assert!(force(11) < 0.5 * force(201));
     assert_relative_eq!(force(201), force(401), max_relative = 1e-9);
@@ -81,7 +81,7 @@ fn a_row_that_is_too_short_matters() {
 
 /// Scales out of reach of contact follow in closed form: only the substrate acts on them.
 #[test]
-fn scales_that_are_not_solved_for_are_where_they_would_be() {
+fn scales_in_closed_form_are_in_equilibrium() {
     for scales in [12, 20, 41, 401] {
         let parameters = on_row(scales);
         let puncture = solve(&settled(), &parameters);
@@ -115,7 +115,7 @@ fn scales_that_are_not_solved_for_are_where_they_would_be() {
 
 /// An endless row with far couplings, against a row solved as a whole.
 #[test]
-fn rows_without_ends_of_far_couplings_measure_what_long_rows_do() {
+fn endless_rows_with_far_coupling_match_long_rows() {
     for design in [blocks(), settled(), design(0.1, 1.0, 45.0, Base::L)] {
         let footprint = design.footprint(0.5).unwrap();
         let full = RowStiffness::of(&footprint, Coupling::Full).unwrap();

@@ -20,7 +20,7 @@ fn measured(design: &Design, parameters: &PunctureParameters) -> PunctureMeasure
 
 /// Forces and the contact modulus are in units of `E*`, stiffness in `E_s`.
 #[test]
-fn contact_and_plane_modulus_count_by_their_ratio() {
+fn only_the_modulus_ratio_matters() {
     let rubber = on_row(41);
     let mut cork = PunctureParameters { poisson_ratio: 0.0, ..rubber };
     cork.contact_modulus_over_substrate *= 0.75;
@@ -38,7 +38,7 @@ fn contact_and_plane_modulus_count_by_their_ratio() {
 
 /// The width of a scale enters the contact law only as a factor of its modulus.
 #[test]
-fn a_wider_scale_of_a_softer_material_is_the_same() {
+fn a_wider_softer_scale_is_equivalent() {
     let mut softer = on_row(41);
     softer.contact_modulus_over_substrate /= 3.0;
     let wider = Design { width: 3.0, ..settled() };
@@ -49,7 +49,7 @@ fn a_wider_scale_of_a_softer_material_is_the_same() {
 /// The two meanings of `L` give one geometry two names. The contact law (Eq. 5) normalises the
 /// approach by `L`, which its prefactor can compensate, and `F*` the force.
 #[test]
-fn a_base_of_2l_is_a_base_of_l_by_another_name() {
+fn both_meanings_of_the_length_agree() {
     let (known, ours) = (Calibrations::default(), settled());
     let theirs = Design { length: 0.5 * ours.length, base: Base::TwoL, ..ours };
     for law in LAWS {
@@ -65,7 +65,7 @@ fn a_base_of_2l_is_a_base_of_l_by_another_name() {
 
 /// Increasingly hard contacts converge to rigid ones.
 #[test]
-fn harder_contacts_settle_to_rigid_ones() {
+fn hard_contacts_converge_to_rigid_ones() {
     for law in LAWS {
         let [reference, hard, rigid] = [1.0, 1e4, 1e8].map(|factor| {
             let mut parameters = on_row(41);

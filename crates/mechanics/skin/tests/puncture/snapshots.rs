@@ -44,7 +44,7 @@ fn a_snapshot_is_an_equilibrium_of_the_path() {
 }
 
 #[test]
-fn places_between_the_points_are_solved_for() {
+fn snapshots_between_points_are_solved() {
     for design in spread() {
         for tilt in [0.0, 0.37, 3.21, 7.77] {
             assert_relative_eq!(shot(&design, At::Tilt(tilt)).tilt_deg, tilt, epsilon = 1e-9);
@@ -79,7 +79,7 @@ fn every_scale_is_in_equilibrium() {
 
 /// The position of a contact is on its touching corner.
 #[test]
-fn a_contact_stands_at_the_corner_that_touches() {
+fn contacts_are_at_their_touching_corners() {
     let design = folding();
     let RowSnapshot { scales, contacts, .. } = shot(&design, At::Tilt(10.0));
     let row = design.row().unwrap();
@@ -97,7 +97,7 @@ fn a_contact_stands_at_the_corner_that_touches() {
 }
 
 #[test]
-fn a_place_beyond_the_critical_tilt_is_followed_to() {
+fn snapshots_extend_the_path_beyond_the_critical_tilt() {
     let places = [At::Tilt(5.0), At::Tilt(25.0)];
     let Snapshots { puncture, at, .. } = shots(&settled(), &on_row(41), &places);
     let tilts: Vec<f64> = at.iter().flatten().map(|shot| shot.tilt_deg).collect();
@@ -108,7 +108,7 @@ fn a_place_beyond_the_critical_tilt_is_followed_to() {
 }
 
 #[test]
-fn a_path_to_its_end_stands_critical_there_and_gets_to_no_place_beyond() {
+fn snapshots_to_end_stop_at_the_critical_state() {
     let (design, parameters) = (settled(), on_row(41));
     let springs = springs(&design, &parameters, &Calibrations::default());
     let places = [At::Tilt(5.0), At::Tilt(25.0)];
@@ -120,7 +120,7 @@ fn a_path_to_its_end_stands_critical_there_and_gets_to_no_place_beyond() {
 }
 
 #[test]
-fn a_place_that_no_path_gets_to_has_no_snapshot() {
+fn an_unreachable_point_has_no_snapshot() {
     let at = shots(&settled(), &on_row(11), &[At::Force(1e6), At::Tilt(1.0)]).at;
     assert!(at[0].is_none() && at[1].is_some());
 }

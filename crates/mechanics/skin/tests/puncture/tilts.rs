@@ -9,7 +9,7 @@ use crate::samples::{forty, solve_with, spread};
 
 /// Force, displacement and penetration at 3°, 5°, 10° and 15° from one path.
 #[test]
-fn one_path_has_the_measures_of_paths_that_end_at_each_tilt() {
+fn intermediate_tilts_match_paths_that_end_there() {
     let known = Calibrations::default();
     let tilts = [3.0, 5.0, 10.0, 15.0];
     let parameters = PunctureParameters {
@@ -42,7 +42,7 @@ fn one_path_has_the_measures_of_paths_that_end_at_each_tilt() {
 
 /// Intermediate tilts do not change the path, and the last tilt has the final measures.
 #[test]
-fn tilts_on_the_way_leave_the_path_as_it_is() {
+fn intermediate_tilts_do_not_change_the_path() {
     let known = Calibrations::default();
     let tilts_before_deg = NumberList::new(&[2.5]);
     for design in spread() {

@@ -26,7 +26,7 @@ fn kink(puncture: &Puncture) -> f64 {
 }
 
 #[test]
-fn the_stiffness_jumps_up_where_they_touch() {
+fn the_stiffness_jumps_at_first_contact() {
     let puncture = finely(&blocks());
     crate::complete(&puncture);
     assert_eq!(puncture.events[0].change, ContactChange::Closed);

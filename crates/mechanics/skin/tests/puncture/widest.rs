@@ -46,7 +46,7 @@ fn draw(seed: u64) -> Drawn {
 
 /// Seeds of designs with paths that used to stop for a numerical reason.
 #[test]
-fn paths_go_on_from_places_where_several_things_happen_at_once() {
+fn paths_pass_simultaneous_events() {
     let ends = [
         // A contact that is rigid at first and soft right after turns the path by a right angle
         // within 1e-8 of closing; one that is soft at first reverses all visible motion within 1e-9
@@ -77,7 +77,7 @@ fn paths_go_on_from_places_where_several_things_happen_at_once() {
 /// Long campaign only: as many designs as eight seconds allow, up to a thousand.
 /// `docs/reliability.md` reports how many stop for a numerical reason.
 #[test]
-fn few_punctures_in_the_widest_ranges_end_for_a_reason_of_numbers() {
+fn few_punctures_in_the_widest_ranges_stop_numerically() {
     if !long_campaigns() {
         return;
     }

@@ -43,7 +43,7 @@ fn both(gaps: &[f64], slants_deg: &[f64]) -> (Flexure, BentSample) {
         FlexureProblem::new(&design, &common, &parameters, row, gaps as f64, gaps).unwrap();
     let flexure = problem.solve().unwrap();
     assert_eq!(flexure.status, Status::Complete);
-    (flexure, gap_by_gap::solve(&problem).unwrap().expect("gaps that are solved apart"))
+    (flexure, gap_by_gap::solve(&problem).unwrap().expect("gaps solved separately"))
 }
 
 fn close(a: Option<f64>, b: Option<f64>, max_relative: f64) {
@@ -54,7 +54,7 @@ fn close(a: Option<f64>, b: Option<f64>, max_relative: f64) {
 /// meet where the radius equals their height, `M* = 1`, in all gaps at once. Discretised with `m`
 /// elements the arc is a polygon with sides `d/m = 2 sin(θ/2m)`, which gives `M* = θ/d`.
 #[test]
-fn upright_scales_meet_at_one_moment_whatever_their_gaps() {
+fn upright_scales_touch_at_one_moment_for_all_gaps() {
     let flexure = bent(&GAPS, &[0.0; 7]);
     let closed: Vec<_> =
         flexure.events.iter().filter(|event| event.change == ContactChange::Closed).collect();
@@ -70,7 +70,7 @@ fn upright_scales_meet_at_one_moment_whatever_their_gaps() {
 }
 
 #[test]
-fn the_mirror_image_of_a_strip_bends_alike() {
+fn mirrored_strips_have_equal_measures() {
     let slants = [60.0, 59.8, 60.1, 59.9, 60.2, 60.05, 59.95];
     let flexure = bent(&GAPS, &slants);
     let (mut gaps, mut mirrored) = (GAPS, slants.map(|slant| -slant));
@@ -87,7 +87,7 @@ fn the_mirror_image_of_a_strip_bends_alike() {
 }
 
 #[test]
-fn gaps_by_themselves_and_their_mirror_image_are_the_chain() {
+fn gap_by_gap_and_mirrored_strips_match_the_chain() {
     let slants = [60.0, 59.8, 60.1, 59.9, 60.2, 60.05, 59.95];
     let (mut gaps, mut mirrored) = (GAPS, slants.map(|slant| -slant));
     gaps.reverse();
@@ -107,7 +107,7 @@ fn gaps_by_themselves_and_their_mirror_image_are_the_chain() {
 }
 
 #[test]
-fn a_strip_of_equal_gaps_is_the_even_strip() {
+fn equal_gaps_match_the_even_strip() {
     let uneven = bent(&[0.05; 6], &[60.0; 7]);
     let (common, parameters) = (Common::default(), parameters());
     let even = FlexureProblem::even(&design(60.0), &common, &parameters).unwrap().solve().unwrap();

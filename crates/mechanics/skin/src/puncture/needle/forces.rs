@@ -138,8 +138,8 @@ impl Chain {
                     Some(beside.parts(force))
                 };
                 let [before, after] = [false, true].map(|onward| seen(onward).unwrap_or(forces));
-                // The force rotates from that of a tip sliding onto the corner to that of a tip
-                // sliding away.
+                // The force rotates from the sliding limit on the previous face to the limit on the
+                // next face.
                 [values[FACE_START], values[FACE_END]] = if forward {
                     [friction * before[0] - before[1], after[1] - friction * after[0]]
                 } else {

@@ -61,7 +61,7 @@ pub type TipForces = Vec<(i64, f64)>;
 pub(in crate::puncture) struct PassageObserver {
     /// One entry per point that the path has left.
     pub(in crate::puncture) tip_forces: Vec<TipForces>,
-    /// Segment at whose end the needle first touches more than its face.
+    /// Segment that ends where the needle first touches more than its face.
     pub(in crate::puncture) passed: Option<[SkinPoint; 2]>,
 }
 

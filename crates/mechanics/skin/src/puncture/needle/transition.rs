@@ -10,7 +10,7 @@ use crate::puncture::system::Chain;
 impl Chain {
     /// Moves the needle to its next state.
     ///
-    /// Returns the constraint whose condition must hold on the outgoing branch; `None` if no next
+    /// Returns the constraint that must hold on the outgoing branch; `None` if no next
     /// state exists.
     ///
     /// | Before | Condition | After |

@@ -13,7 +13,7 @@ use crate::puncture::{Needle, Problem, PunctureParameters, RowLength, Rows};
 use crate::{Common, Design, Status};
 
 #[test]
-fn the_tangent_agrees_with_finite_differences_where_contacts_stick_and_slip() {
+fn tangent_matches_finite_differences_in_stick_and_slip() {
     let mut seen = BTreeSet::new();
     for constants in [Law::PRINTED, Law::EXCHANGED] {
         for (design, friction) in [(LIVELY, 0.1), (FOLDING, 0.2), (SLIDING, 0.1), (BLOCKS, 0.4)] {
@@ -45,7 +45,7 @@ fn the_tangent_agrees_with_finite_differences_where_contacts_stick_and_slip() {
 
 /// Contact forces stay within their friction cone everywhere on the path.
 #[test]
-fn forces_lie_within_the_cone() {
+fn forces_stay_within_the_friction_cone() {
     let mut compared = 0;
     for (design, friction) in [(LIVELY, 0.1), (DOMINO, 0.2), (BLOCKS, 0.4)] {
         let law = law(&design, Law::PRINTED, HARD).with_friction(friction).unwrap();
@@ -81,7 +81,7 @@ fn forces_lie_within_the_cone() {
 
 /// A row leaning to the left with the needle on the left mirrors one leaning to the right.
 #[test]
-fn rows_that_rub_have_mirror_images() {
+fn rows_with_friction_have_mirror_images() {
     for (gap, length, slant, needle) in
         [(0.1, 1.0, 45.0, 0.3), (0.2, 0.4, 60.0, 0.3), (0.1, 0.7, 30.0, 0.0)]
     {

@@ -33,7 +33,7 @@ fn layer_path((design, coupling, substrate_law): &(Design, Coupling, SubstrateLa
 }
 
 #[test]
-fn the_work_of_the_load_is_stored() {
+fn work_of_the_load_equals_stored_energy() {
     for case in CASES {
         let Balance { work, off, .. } = balance(layer_path(&case));
         assert!(off < 1e-6 * work, "{:e} {case:?}", off / work);
@@ -42,7 +42,7 @@ fn the_work_of_the_load_is_stored() {
 
 /// At rest only the substrate contributes: coupling of force and rotation is symmetric.
 #[test]
-fn the_tangent_at_rest_is_symmetric() {
+fn tangent_at_rest_is_symmetric() {
     for case in CASES {
         let path = layer_path(&case);
         let (chain, state) = (path.system(), &path.point().state);
@@ -60,7 +60,7 @@ fn the_tangent_at_rest_is_symmetric() {
 
 /// Reported reactions are the forces of the solved stiffness.
 #[test]
-fn reactions_are_those_of_the_stiffness() {
+fn reactions_match_the_stiffness() {
     for case in CASES {
         let mut path = layer_path(&case);
         while path.next().is_some() {}

@@ -69,7 +69,7 @@ pub(super) fn integral(values: [[f64; 2]; 5]) -> f64 {
 
 /// Forces of an independent program for a frictionless needle that stays on its top.
 #[test]
-fn a_needle_slides_inward_on_a_top() {
+fn a_frictionless_needle_slides_inward() {
     for (gap, length, slant, expected) in [
         (0.1, 1.0, 0.0, 0.188),
         (0.5, 1.0, 0.0, 0.127),
@@ -91,7 +91,7 @@ fn a_needle_slides_inward_on_a_top() {
 
 /// A tip that never slides, on a top or on a corner that comes to rest on the neighbour.
 #[test]
-fn a_needle_that_is_held_sideways() {
+fn a_needle_that_never_slides_matches_references() {
     for (slant, expected) in [(0.0, 0.2804), (45.0, 0.4314)] {
         let puncture = guided(&design(0.1, 1.0, slant), 1e9, 0.0);
         let force = puncture.measures.critical_force.unwrap();
@@ -124,7 +124,7 @@ fn a_needle_passes_into_the_notch() {
 /// and rows of 41 scales: the force at the passage or else at 10°, the depth of the needle there,
 /// and its inward displacement.
 #[test]
-fn ten_values_of_an_independent_program() {
+fn needle_matches_an_independent_program() {
     let ten: [([f64; 3], f64, f64, [f64; 3]); 10] = [
         ([0.2, 0.5, 30.0], 0.3, 0.05, [0.085_635, 0.174_785, 0.176_906]),
         ([0.1, 0.2, 0.0], 0.3, 0.05, [1.914_79, 0.624_262, 0.05]),
@@ -159,7 +159,7 @@ fn ten_values_of_an_independent_program() {
 }
 
 #[test]
-fn the_tangent_agrees_with_finite_differences() {
+fn tangent_matches_finite_differences() {
     for (gap, length, slant, friction, inside) in CASES {
         let design = design(gap, length, slant);
         for_segments(guided_path(&design, friction, inside, 0.1), |path, from, to| {
@@ -176,7 +176,7 @@ fn the_tangent_agrees_with_finite_differences() {
 /// Compares with the dense stiffness over displacements and depth, for needles that slide without
 /// friction, stick and pass.
 #[test]
-fn negative_eigenvalues_are_those_of_the_dense_stiffness() {
+fn negative_eigenvalues_match_the_dense_stiffness() {
     let mut compared = HashSet::new();
     for (gap, length, slant, friction) in
         [(0.6, 1.0, 60.0, 0.0), (0.6, 1.0, 60.0, 1e9), (0.1, 1.0, 60.0, 0.0), (0.2, 0.5, 30.0, 0.3)]
@@ -219,16 +219,16 @@ fn negative_eigenvalues_are_those_of_the_dense_stiffness() {
 
 /// The work of the needle is stored or dissipated.
 #[test]
-fn work_is_stored_or_rubbed_away() {
+fn needle_work_is_stored_or_dissipated() {
     let cases = CASES.map(|(gap, length, slant, friction, inside)| {
         guided_path(&design(gap, length, slant), friction, inside, 0.01)
     });
-    let most = cases.map(rubbed_away).into_iter().fold(0.0, f64::max);
+    let most = cases.map(dissipated_fraction).into_iter().fold(0.0, f64::max);
     assert!(most > 0.01, "{most}");
 }
 
 /// Computes the dissipated fraction of the work of a needle, and checks that the rest is stored.
-fn rubbed_away(path: Path<Chain>) -> f64 {
+fn dissipated_fraction(path: Path<Chain>) -> f64 {
     let (mut done, mut rubbed, mut off) = (0.0, 0.0, 0.0_f64);
     for_segments(path, |path, from, to| {
         done += work(path, from, to);
@@ -257,7 +257,7 @@ fn rubbed_away(path: Path<Chain>) -> f64 {
 /// k_φ φ = −N ρ,   N sin φ = −k_x x,   ρ cos φ − sin φ = X − x                  F = N cos φ
 /// ```
 #[test]
-fn an_isolated_scale_is_a_scalar_equation() {
+fn an_isolated_scale_matches_a_scalar_equation() {
     let design = design(0.1, 1.0, 0.0);
     let parameters =
         PunctureParameters { scales: RowLength::Scales(1), ..parameters(&design, 0.0, 0.0) };
@@ -280,7 +280,7 @@ fn an_isolated_scale_is_a_scalar_equation() {
 
 /// A needle at the left corner of upright scales is the mirror image of one at the right corner.
 #[test]
-fn mirror_images() {
+fn mirrored_needles_have_mirrored_results() {
     for friction in [0.0, 0.2] {
         let upright = design(0.3, 0.6, 0.0);
         let right = guided(&upright, friction, 0.1);
@@ -302,7 +302,7 @@ fn mirror_images() {
 
 /// The tip slides down the left face of the next scale to its foot, between two bases.
 #[test]
-fn a_needle_that_comes_through() {
+fn a_needle_passes_through_between_bases() {
     for friction in [0.0, 0.3] {
         let design = design(1.0, 1.0, 60.0);
         let parameters =
@@ -326,7 +326,7 @@ fn a_needle_that_comes_through() {
 
 /// A row leaning to the left with the needle on the left mirrors one leaning to the right.
 #[test]
-fn rows_that_lean_to_the_left() {
+fn rows_leaning_left_mirror_rows_leaning_right() {
     for (gap, length, slant, friction, inside) in
         [(0.3, 0.5, 45.0, 0.0, 0.0), (0.3, 0.7, 60.0, 0.3, 0.05), (0.2, 0.8, 30.0, 0.3, 0.05)]
     {
@@ -354,7 +354,7 @@ fn rows_that_lean_to_the_left() {
 
 /// A needle in the middle of an upright scale pushes it straight down.
 #[test]
-fn a_scale_that_does_not_tilt_has_no_critical_force() {
+fn an_untilted_scale_has_no_critical_force() {
     let upright = design(0.3, 0.6, 0.0);
     let puncture = guided(&upright, 0.2, 0.3);
     assert_eq!(puncture.status, Status::Untilted);
@@ -363,7 +363,7 @@ fn a_scale_that_does_not_tilt_has_no_critical_force() {
 
 /// With small and large steps the path has the same passage and end.
 #[test]
-fn passing_does_not_depend_on_the_steps() {
+fn passage_does_not_depend_on_the_step_size() {
     let steep = design(0.1, 1.0, 75.0);
     let forces = [0.2, 0.02].map(|step| {
         let settings = Settings { max_step: step, ..Settings::default() };
@@ -407,7 +407,7 @@ fn set_down_further_right(input: &mut puncture::PunctureInput, by: f64) {
 /// Compares derivatives with differences of whole solutions, for needles that slide, that stick
 /// from the start, that slide and stop, and that are locked in a notch.
 #[test]
-fn derivatives_with_a_way_behind_them() {
+fn derivatives_account_for_history_variables() {
     let changes: [(Change, f64); 4] = [
         (longer, 2e-6),
         (set_down_further_right, 2e-6),

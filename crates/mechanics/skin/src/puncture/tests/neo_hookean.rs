@@ -27,7 +27,7 @@ const CASES: [(Design, Coupling); 6] = [
 ];
 
 #[test]
-fn the_tangent_agrees_with_finite_differences() {
+fn tangent_matches_finite_differences() {
     let mut farthest = 0.0_f64;
     for (design, coupling) in CASES {
         for_segments(bar_path(&design, Law::EXCHANGED, coupling), |path, from, to| {
@@ -42,7 +42,7 @@ fn the_tangent_agrees_with_finite_differences() {
 }
 
 #[test]
-fn the_work_of_the_load_is_stored() {
+fn work_of_the_load_equals_stored_energy() {
     for (design, coupling) in CASES {
         for constants in [Law::PRINTED, Law::EXCHANGED] {
             let Balance { work, off, .. } = balance(bar_path(&design, constants, coupling));
@@ -53,7 +53,7 @@ fn the_work_of_the_load_is_stored() {
 
 /// At rest the neo-Hookean law has the tangent of the linear springs.
 #[test]
-fn at_rest_bars_are_the_springs_that_they_replace() {
+fn at_rest_bars_match_the_springs() {
     let tangent = |chain: &Chain| {
         let mut matrix = BandMatrix::new(chain.size(), chain.half_bandwidth());
         chain.tangent(&SkinState::at_rest(chain), &mut matrix);
@@ -72,7 +72,7 @@ fn at_rest_bars_are_the_springs_that_they_replace() {
 
 /// A row leaning to the left deforms as the mirror image of one leaning to the right.
 #[test]
-fn the_mirror_image_of_a_row_has_the_mirror_image_of_its_forces() {
+fn mirrored_rows_have_mirrored_forces() {
     let layout = RowLayout { left: 3, right: 3, needle: 0, contacts: 6 };
     let last = layout.scales() - 1;
     let stiffness = RowStiffness::of(&LIVELY.footprint(0.5).unwrap(), Coupling::Nearest).unwrap();

@@ -58,7 +58,7 @@ fn scales_stop_at_their_second_neighbours() {
 }
 
 #[test]
-fn their_work_is_stored_and_their_tangent_agrees_with_differences() {
+fn distant_contacts_conserve_energy_and_match_differences() {
     let design = &MEETING[1];
     let law = law(design, Law::PRINTED, HARD);
     let layout = RowLayout { left: 20, right: 20, needle: 0, contacts: 2 * pair_constraints(&law) };

@@ -19,9 +19,9 @@ const TIPS: [([f64; 3], f64, f64, f64); 9] = [
 
 /// The work of a round tip is stored or dissipated.
 #[test]
-fn work_of_a_round_tip() {
+fn work_of_a_round_tip_is_stored_or_dissipated() {
     let most = TIPS.map(|(of, radius, friction, place)| {
-        let rubbed = rubbed_away(round_path(of, [radius, friction, place], 0.01));
+        let rubbed = dissipated_fraction(round_path(of, [radius, friction, place], 0.01));
         assert_eq!(rubbed > 1e-12, friction > 0.0, "{of:?} {rubbed}");
         rubbed
     });
@@ -30,7 +30,7 @@ fn work_of_a_round_tip() {
 
 /// Checks the tangent on faces and corners, sticking and sliding.
 #[test]
-fn the_tangent_of_a_round_tip() {
+fn tangent_of_a_round_tip_matches_finite_differences() {
     let mut rubs = HashSet::new();
     for (of, radius, friction, place) in TIPS {
         for_segments(round_path(of, [radius, friction, place], 0.1), |path, from, to| {
@@ -53,7 +53,7 @@ fn the_tangent_of_a_round_tip() {
 /// Compares derivatives with respect to radius, position and length with differences of whole
 /// solutions: on a face, on a corner, and on two or three scales.
 #[test]
-fn derivatives_of_a_round_tip() {
+fn derivatives_of_a_round_tip_match_differences() {
     let by_radius: Change =
         |input, h| input.parameters.needle_radius = input.parameters.needle_radius.map(|r| r + h);
     let changes = [(by_radius, 2e-6), (set_down_further_right, 2e-6), (longer, 2e-6)];
