@@ -173,7 +173,7 @@ export default ({ openFile, open, place, results, run, problems }) => {
       const page = await explore(SIZES[0]);
       await page.locator("#live-pin").click();
       await after(page, () => page.evaluate(() => squama.live.set({ slant_deg: 20 })));
-      assert.match(await page.locator("#live-cards").textContent(), /% against the pinned/);
+      assert.match(await page.locator("#live-cards").textContent(), /% compared with the pinned design/);
       assert.ok(await page.locator("#live-rest .ghost").count() > 2);
       const address = await page.evaluate(() => location.hash), own = await values(page);
       const other = await explore(SIZES[0], address);

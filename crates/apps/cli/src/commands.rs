@@ -1,4 +1,4 @@
-//! The commands: a file for each, with its arguments and what it does, and files that several share.
+//! The commands, one file each, and modules that several commands share.
 
 mod audit;
 mod calibrate;
@@ -40,15 +40,15 @@ use clap::{Parser, Subcommand};
 
 use crate::interrupt::Interrupt;
 
-/// This program.
+/// Version and revision, recorded in results.
 const PROGRAM: Program =
     Program { version: env!("CARGO_PKG_VERSION"), revision: env!("SQUAMA_REVISION") };
 
-/// Exit code of a command that was done.
+/// Exit code of a completed command.
 const DONE: u8 = 0;
 /// Exit code when designs failed or are missing.
 const INCOMPLETE: u8 = 1;
-/// Exit code when two runs differ and the exit code is to say so.
+/// Exit code of `compare --exit-code` if two runs differ.
 const DIFFERENT: u8 = 1;
 
 /// Version and revision of the source.
@@ -104,7 +104,7 @@ pub enum Command {
     /// Search between the grid points for the optimum of a goal, or its Pareto front
     #[command(visible_alias = "optimize")]
     Optimise(optimise::Arguments),
-    /// Find moduli, friction and lengths of a skin behind the curves of a testing machine
+    /// Fit moduli, friction and lengths of a skin to test data
     Fit(fit::Arguments),
     /// Show where two runs differ, and by how much
     Compare(compare::Arguments),
@@ -116,7 +116,7 @@ pub enum Command {
     Plot(plot::Arguments),
     /// Write one HTML page with the figures and designs of a sweep
     Report(report::Arguments),
-    /// Write one HTML page that solves the design under your hand, and open it
+    /// Write an HTML page to try a design interactively, and open it
     Explore(explore::Arguments),
     /// Write the tables of a run as one workbook for Excel and other spreadsheets
     Export(export::Arguments),
@@ -133,10 +133,10 @@ pub enum Command {
 }
 
 impl Command {
-    /// Does what the command asks for, and returns its exit code.
+    /// Runs the command and returns its exit code.
     pub fn run(self, interrupt: &Interrupt) -> anyhow::Result<u8> {
         match self {
-            // A command that takes no interrupt has nothing to finish: the first signal ends it.
+            // Commands without an interrupt have nothing to finish: the first signal ends them.
             Self::Init(arguments) => init::init(&arguments),
             Self::Run(arguments) => run::run(&arguments, interrupt),
             Self::Rerun(arguments) => rerun::rerun(&arguments, interrupt),

@@ -1,7 +1,7 @@
-//! Signals that ask a process to end.
+//! Termination signals.
 //!
-//! A run that is asked to end finishes the designs in hand and writes its tables; every other command removes what it has
-//! half-written and ends.
+//! A run completes the designs in progress and writes its tables; every other command removes its
+//! partial files and exits.
 
 use std::io;
 use std::sync::Arc;
@@ -9,37 +9,37 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use signal_hook::flag;
 
-/// A shell adds this to the number of a signal that ended a process.
+/// Exit codes after a signal are this plus the signal number, as in shells.
 const BASE: u8 = 128;
 
-/// Listens to the signals that ask a process to end.
+/// State of the handling of termination signals.
 #[derive(Clone, Debug, Default)]
 pub struct Interrupt {
-    /// Whether the first signal asks only.
+    /// True if the first signal only requests the end.
     asks_first: Arc<AtomicBool>,
     stop: Arc<AtomicBool>,
     signal: Arc<AtomicUsize>,
 }
 
 impl Interrupt {
-    /// Begins to listen. A file that may not grow any more is an error like a full disk, not the end of the process.
+    /// Installs the handlers. A file size limit becomes a write error instead of ending the process.
     pub fn listen() -> io::Result<Self> {
         let interrupt = Self::default();
         system::listen(interrupt.clone())?;
         Ok(interrupt)
     }
 
-    /// From now on the first signal asks the process to end, and does not end it.
+    /// From now on the first signal only requests the end.
     pub fn ask_first(&self) {
         self.asks_first.store(true, Ordering::Relaxed);
     }
 
-    /// Set once the run is asked to end.
+    /// Returns a flag that is set once the end is requested.
     pub fn stop(&self) -> &AtomicBool {
         &self.stop
     }
 
-    /// The exit code of a run that was asked to end.
+    /// Returns the exit code if the end was requested.
     pub fn exit_code(&self) -> Option<u8> {
         let signal = u8::try_from(self.signal.load(Ordering::Relaxed)).unwrap_or_default();
         (signal > 0).then(|| BASE + signal)
@@ -57,20 +57,20 @@ mod system {
 
     use super::{Arc, BASE, Interrupt, Ordering, flag, io};
 
-    /// Signals that come within this time of the first are the same request: `timeout` sends one to the process and one to
-    /// its group.
+    /// Signals within this time of the first are the same request: `timeout` sends one to the process and
+    /// one to its group.
     const ONE_REQUEST: Duration = Duration::from_secs(1);
 
     pub fn listen(interrupt: Interrupt) -> io::Result<()> {
-        // With a handler the signal does not end the process, and the write that was too long fails with an error.
+        // With a handler, the signal does not end the process; the write fails with an error instead.
         flag::register(SIGXFSZ, Arc::default())?;
-        // A handler would undo `nohup`, under which a run is to outlive its terminal.
+        // Ignored signals stay ignored, or `nohup` would have no effect.
         let asking = [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| !is_ignored(*signal));
         let mut signals = Signals::new(asking)?;
         let attend = move || {
             let mut asked: Option<Instant> = None;
             for signal in signals.forever() {
-                // A handler may do next to nothing, so signals are attended to in a thread, which may remove files.
+                // A thread and not a signal handler, because it removes files.
                 let is_request = interrupt.asks_first.load(Ordering::Relaxed)
                     && asked.is_none_or(|asked| asked.elapsed() < ONE_REQUEST);
                 if !is_request {
@@ -78,7 +78,7 @@ mod system {
                 }
                 asked.get_or_insert_with(Instant::now);
                 let number = usize::try_from(signal).unwrap_or_default();
-                // The first signal decides the exit code, whatever follows.
+                // The first signal determines the exit code.
                 let first = interrupt.signal.compare_exchange(
                     0,
                     number,
@@ -91,7 +91,7 @@ mod system {
         thread::Builder::new().name("signals".to_owned()).spawn(attend).map(|_| ())
     }
 
-    /// Whether whoever started the process wants a signal ignored, as `nohup` does. Only Linux tells.
+    /// Returns true if a signal was ignored at the start, as under `nohup`. Known on Linux only.
     fn is_ignored(signal: i32) -> bool {
         let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
         let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
@@ -109,7 +109,7 @@ mod system {
 
     pub fn listen(interrupt: Interrupt) -> io::Result<()> {
         for signal in [SIGINT, SIGTERM] {
-            // In this order, so that the first signal does not meet its own flag.
+            // The shutdown comes first, so that the first signal does not see its own flag.
             let code = signal + i32::from(super::BASE);
             flag::register_conditional_shutdown(signal, code, Arc::clone(&interrupt.stop))?;
             let number = usize::try_from(signal).unwrap_or_default();

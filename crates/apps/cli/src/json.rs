@@ -1,4 +1,4 @@
-//! Output for programs, or for people.
+//! JSON output.
 
 use std::io;
 use std::path::Path;
@@ -7,11 +7,11 @@ use serde_json::Value;
 
 /// Prints `value` as JSON.
 pub fn print(value: &Value) -> io::Result<()> {
-    // What people would not see is a part of a text for programs.
+    // Not escaped: control characters are data for a program.
     crate::print::print_raw(&format!("{value:#}\n"))
 }
 
-/// Prints an answer: its record for programs, or its text for people with the files in a folder that it was written to.
+/// Prints the result of a command as JSON, or as text followed by its files.
 pub fn answer(
     is_json: bool,
     record: impl FnOnce() -> Value,

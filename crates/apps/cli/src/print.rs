@@ -1,39 +1,39 @@
-//! Text for people.
+//! Text output.
 
 use std::io::{self, ErrorKind, Write as _};
 use std::time::Duration;
 
 use results::VerifiedFolder;
 
-/// Prints `text` for people.
+/// Prints `text` with control characters escaped.
 pub fn print(text: &str) -> io::Result<()> {
-    // A terminal would obey control characters in the name of a folder or in a table of others.
+    // Names of folders and foreign tables may contain control characters, which a terminal would execute.
     print_raw(&sweep::visible(text))
 }
 
-/// Prints `text` as it is. A reader that has seen enough and closed the pipe is no error.
+/// Prints `text` unchanged. A closed pipe is no error.
 pub fn print_raw(text: &str) -> io::Result<()> {
     let mut stdout = io::stdout().lock();
-    // Flushed here, because at the end of the process nobody is left to tell of an error.
+    // Flushed here, because an error at the end of the process would be lost.
     match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
         result => result,
     }
 }
 
-/// A line that says how much of a run the results hold, if they are not the whole.
+/// Returns a line that states the number of designs of an incomplete run; empty if it is complete.
 pub fn shortfall(results: &VerifiedFolder) -> String {
     let line = |held| format!("  made from {held}, {}\n", results.path().display());
     results.shortfall().map_or_else(String::new, line)
 }
 
-/// Says what a person should know besides what was asked for.
+/// Prints a note to stderr.
 pub fn note(text: &str) {
-    // With nowhere left to say it, the results say it too.
+    // If stderr is closed, the note is lost; the results contain the same fact.
     let _ = writeln!(io::stderr(), "note: {}", sweep::visible(text));
 }
 
-/// `rows` with their columns aligned, each line indented by two spaces.
+/// Aligns the columns of `rows` and indents each line by two spaces.
 pub fn aligned<R: AsRef<[String]>>(rows: &[R]) -> String {
     let mut widths = Vec::new();
     for row in rows.iter().map(AsRef::as_ref) {
@@ -51,7 +51,7 @@ pub fn aligned<R: AsRef<[String]>>(rows: &[R]) -> String {
     rows.iter().map(line).collect()
 }
 
-/// `value` to five digits.
+/// Formats `value` with five digits.
 pub fn digits(value: f64) -> String {
     let size = value.abs();
     if size == 0.0 {
@@ -65,29 +65,29 @@ pub fn digits(value: f64) -> String {
     }
 }
 
-/// `value` to six digits, without the zeros at its end.
+/// Formats `value` with six digits, without trailing zeros.
 pub fn rounded(value: f64) -> String {
     sweep::number::rounded(value, 6)
 }
 
-/// A change of `percent` with its sign and so many decimals, never `-0`.
+/// Formats a change in percent with its sign, never as `-0`.
 pub fn change(percent: f64, decimals: usize) -> String {
     let unit = 10_f64.powi(-(decimals as i32));
     let rounded = (percent / unit).round() * unit + 0.0;
     format!("{rounded:+.decimals$} %")
 }
 
-/// `duration` to the hundredth of a second, or to the second if it is long.
+/// Formats a duration to 0.01 s, or to 1 s from a minute on.
 pub fn time(duration: Duration) -> String {
     if duration < Duration::from_secs(60) {
         format!("{:.2} s", duration.as_secs_f64())
     } else {
-        // Otherwise `humantime` tells a long time to the nanosecond.
+        // `humantime` would otherwise print nanoseconds.
         humantime::format_duration(Duration::from_secs(duration.as_secs())).to_string()
     }
 }
 
-/// `count` things, in words.
+/// Formats a count with its noun in the singular or plural.
 pub fn counted(count: u64, thing: &str) -> String {
     let plural = if count == 1 { "" } else { "s" };
     format!("{count} {thing}{plural}")

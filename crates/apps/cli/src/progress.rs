@@ -1,4 +1,4 @@
-//! The bar on the terminal, of runs and of searches.
+//! The progress bar of runs, searches and fits.
 
 use std::io::{IsTerminal as _, stderr};
 use std::sync::Arc;
@@ -14,51 +14,52 @@ use run::{Progress, WorkMeter};
 use crate::interrupt::Interrupt;
 use crate::print::time;
 
-/// How often the bar is drawn, and a signal looked for.
-// Short enough for Ctrl-C to seem answered at once.
+/// Interval between updates of the bar and checks for a signal.
+// Short enough for an immediate response to Ctrl-C.
 const PAUSE: Duration = Duration::from_millis(100);
 
-/// The parts of the bar.
-// The bar counts whole numbers, and the share of the work is a fraction.
+/// Resolution of the bar, which counts integers.
 const PARTS: u64 = 10_000;
 
-/// What is said when the first signal has come, of work that `--resume` continues.
+/// Message after the first signal, for work that `--resume` continues.
 pub const RESUMED: &str =
-    "ending after the designs in progress; a second signal ends at once, and --resume continues";
+    "ending after the designs in progress; a second signal ends at once; --resume continues";
 
-/// Work that can be looked at while it is done.
+/// Work with observable progress.
 pub trait Watched: Send + Sync + 'static {
-    /// The part of the work that is done, and a few words about it after `elapsed`.
+    /// Returns the completed fraction and a description of the progress after `elapsed`.
     fn look(&self, elapsed: Duration) -> (f64, String);
 
-    /// What is to be told in lines of its own.
+    /// Returns new messages, each printed on its own line.
     fn news(&self) -> Vec<String> {
         Vec::new()
     }
 }
 
-/// Shows how far work is, until it is dropped. A thread looks at it, because a single design may take a minute.
+/// Shows the progress of work until dropped.
+///
+/// A thread polls the progress, because a single design may take a minute.
 pub struct Display<W> {
     watched: Arc<W>,
     watcher: Option<(Sender<()>, JoinHandle<()>)>,
 }
 
-/// How far a run is: rate, remaining time and failures so far.
+/// Progress of a run: rate, remaining time and failures.
 pub type ProgressDisplay = Display<Counts>;
 
-/// How far the run is.
+/// Counters of a run.
 #[derive(Debug, Default)]
 pub struct Counts {
     work: WorkMeter,
     designs: AtomicU64,
-    /// Designs that were done before the run began.
+    /// Designs completed in earlier sessions.
     before: AtomicU64,
     done: AtomicU64,
     failed: AtomicU64,
 }
 
 impl<W: Watched> Display<W> {
-    /// A bar, unless `quiet` or nobody watches; and `ending` when a signal asks the work to end, unless `quiet`.
+    /// Starts the bar, unless `quiet`; prints `ending` after a termination signal.
     pub fn new(quiet: bool, interrupt: &Interrupt, watched: Arc<W>, ending: &'static str) -> Self {
         let watcher = (!quiet).then(|| {
             let (sender, ended) = channel();
@@ -68,17 +69,17 @@ impl<W: Watched> Display<W> {
         Self { watched, watcher }
     }
 
-    /// Where the work tells how far it is.
+    /// Returns the observed work.
     pub fn watched(&self) -> &W {
         &self.watched
     }
 }
 
-/// Does work of so many units behind a bar. Signals end it as they end any command.
+/// Runs work of `units` units with a progress bar. Signals end the process at once.
 pub fn with_bar<T>(units: usize, work: impl FnOnce(&WorkMeter) -> T) -> T {
     let meter = Arc::<WorkMeter>::default();
     meter.begin(units as u64);
-    // No signal sets this interrupt: such work has nothing to finish, and ends at once.
+    // This interrupt is never set: such work has nothing to finish.
     let display = Display::new(false, &Interrupt::default(), meter, "");
     work(display.watched())
 }
@@ -86,9 +87,9 @@ pub fn with_bar<T>(units: usize, work: impl FnOnce(&WorkMeter) -> T) -> T {
 impl<W> Drop for Display<W> {
     fn drop(&mut self) {
         if let Some((sender, watcher)) = self.watcher.take() {
-            // The watcher ends when its channel is closed: joined first, it would never end.
+            // Closing the channel ends the watcher; joining first would deadlock.
             drop(sender);
-            // The bar is all that a watcher that has ended badly leaves unfinished.
+            // A panic of the watcher affects only the bar.
             let _ = watcher.join();
         }
     }
@@ -119,12 +120,12 @@ impl Watched for WorkMeter {
 }
 
 impl Counts {
-    /// Where the run tells of its work.
+    /// Returns the meter of the work.
     pub fn work(&self) -> &WorkMeter {
         &self.work
     }
 
-    /// Takes the progress of the run into account.
+    /// Updates the counters.
     pub fn show(&self, progress: Progress) {
         match progress {
             Progress::Begun { designs, done } => {
@@ -139,23 +140,23 @@ impl Counts {
     }
 }
 
-/// Draws the bar until the work has `ended`.
+/// Draws the bar until `ended` is closed.
 fn watch(watched: &dyn Watched, interrupt: &Interrupt, ending: &str, ended: &Receiver<()>) {
-    // A file has no bar, but it has the lines about slow designs and about the end.
+    // If stderr is a file, only messages are written.
     let bar = if stderr().is_terminal() { ProgressBar::new(PARTS) } else { ProgressBar::hidden() };
     if let Ok(style) = ProgressStyle::with_template("{wide_bar} {msg}") {
         bar.set_style(style);
     }
     let begun = Instant::now();
     let mut is_ending = false;
-    // The channel is a clock that stops at once: work that ends does not wait for the pause.
+    // Waiting on the channel, unlike sleeping, returns as soon as the work ends.
     while ended.recv_timeout(PAUSE) == Err(RecvTimeoutError::Timeout) {
         if interrupt.exit_code().is_some() && !is_ending {
             is_ending = true;
             bar.suspend(|| eprintln!("{ending}"));
         }
         for line in watched.news() {
-            // Written across a bar, a line would be torn.
+            // Suspended, because printing over the bar would garble the line.
             bar.suspend(|| eprintln!("{line}"));
         }
         let (share, text) = watched.look(begun.elapsed());
@@ -177,25 +178,25 @@ impl Watched for Counts {
 }
 
 impl Counts {
-    /// How far a run is that has done `share` of its work in `elapsed`.
+    /// Describes the progress of a run that completed the fraction `share` in `elapsed`.
     fn text(&self, share: f64, elapsed: Duration) -> String {
-        // These counts are shown and not relied on, so that their order does not matter.
+        // Relaxed: the counts are only displayed.
         let [designs, before, done, failed] =
             [&self.designs, &self.before, &self.done, &self.failed]
                 .map(|count| count.load(Ordering::Relaxed));
-        // Designs of an earlier session took none of this time.
+        // Designs of earlier sessions do not count for the rate.
         let rate = done as f64 / elapsed.as_secs_f64();
-        // A rate below one would read 0/s.
+        // A rate below 1 would be printed as 0/s.
         let rate = if rate >= 1.0 { format!("  {rate:.0}/s") } else { String::new() };
         let left = left(share, elapsed);
         format!("{}/{designs} designs{rate}{left}  {failed} failed", before + done)
     }
 }
 
-/// The time that the rest of the work takes if it goes on as it has begun, in words; nothing before it has begun.
+/// Extrapolates the remaining time; empty before any work is done.
 fn left(share: f64, elapsed: Duration) -> String {
     let left = elapsed.as_secs_f64() * (1.0 - share) / share;
-    // Before anything is done this is infinite or no number, which no duration takes.
+    // Before any work is done this is infinite or NaN, which `Duration` rejects.
     let left = Duration::try_from_secs_f64(left.ceil()).ok();
     left.map_or(String::new(), |left| format!("  {} left", time(left)))
 }
@@ -205,7 +206,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_time_left_follows_the_work_and_not_the_designs() {
+    fn remaining_time_depends_on_work_not_on_the_number_of_designs() {
         let counts = Counts::default();
         counts.designs.store(12, Ordering::Relaxed);
         counts.before.store(2, Ordering::Relaxed);
@@ -213,7 +214,7 @@ mod tests {
         assert_eq!(text(0.0, 3), "2/12 designs  0 failed");
         counts.done.store(8, Ordering::Relaxed);
         counts.failed.store(1, Ordering::Relaxed);
-        // Ten of twelve designs, but a tenth of the work.
+        // 10 of 12 designs, but a tenth of the work.
         assert_eq!(text(0.1, 20), "10/12 designs  3m left  1 failed");
         assert_eq!(text(0.5, 2), "10/12 designs  4/s  2.00 s left  1 failed");
     }

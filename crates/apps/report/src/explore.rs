@@ -85,9 +85,9 @@ const OFFERED: [Offered; 11] = [
     (key::THICKNESS, "Thickness", [0.1, 10.0], 0.5, true),
     ("membrane_thickness_over_t", "Membrane", [0.02, 0.5], 0.5, false),
     (key::SUBSTRATE_MODULUS, "Tissue", [0.01, 10.0], 0.5, true),
-    (key::FRICTION, "Scales rub", [0.0, 0.5], 0.0, false),
+    (key::FRICTION, "Scale friction", [0.0, 0.5], 0.0, false),
     (key::NEEDLE, "Needle", [0.0, 0.0], 0.0, false),
-    (key::NEEDLE_FRICTION, "Friction", [0.0, 1.0], 0.2, false),
+    (key::NEEDLE_FRICTION, "Needle friction", [0.0, 1.0], 0.2, false),
     (key::CRITICAL_TILT, "Critical tilt", [2.0, 30.0], 0.5, false),
 ];
 
@@ -113,22 +113,27 @@ const fn shown(
 
 /// The measures that are shown.
 const SHOWN: [Shown; 6] = [
-    shown(name::COVERAGE, "Coverage", "", "share of the thickness filled with scales"),
+    shown(name::COVERAGE, "Coverage", "", "fraction of the scale layer that is solid scale"),
     shown(
         name::CRITICAL_FORCE,
         "Critical force",
         "critical_force_N",
-        "the needle tilts a scale too far",
+        "force at which a scale tilts over",
     ),
-    shown(name::PENETRATION, "Penetration", "penetration_mm", "how deep the scales have sunk then"),
-    shown(name::COMPLIANCE, "Flexibility", "", "1: the membrane alone bends as easily"),
+    shown(name::PENETRATION, "Penetration", "penetration_mm", "depth at the critical force"),
+    shown(name::COMPLIANCE, "Flexibility", "", "1: bends as easily as the membrane alone"),
     shown(
         name::CONTACT_CURVATURE,
         "Bends freely to",
         "bend_radius_mm",
-        "radius, or curvature, at which scales touch",
+        "radius or curvature at which scales touch",
     ),
-    shown(name::SOUND_FORCE, "Trusted to", "sound_force_N", "before the surface folds over"),
+    shown(
+        name::SOUND_FORCE,
+        "Valid up to",
+        "sound_force_N",
+        "beyond it the modelled surface folds",
+    ),
 ];
 
 /// What the scripts read.

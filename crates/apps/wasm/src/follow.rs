@@ -92,11 +92,11 @@ fn limit(here: &Look, ahead: &Look, walk: &Follow) -> Option<String> {
     let broken =
         here.required.iter().zip(&ahead.required).find(|(here, ahead)| here.met && !ahead.met);
     if let Some((broken, _)) = broken {
-        return Some(format!("{} limits", broken.text));
+        return Some(format!("limited by {}", broken.text));
     }
     match (here.worth, ahead.worth) {
-        (Some(_), None) => Some("beyond, the path has no end".to_owned()),
-        _ if ahead.folds && !here.folds => Some("beyond, the surface folds over itself".to_owned()),
+        (Some(_), None) => Some("beyond, the path does not converge".to_owned()),
+        _ if ahead.folds && !here.folds => Some("beyond, the surface folds".to_owned()),
         (Some(here), Some(ahead)) if ahead < here => {
             Some(format!("{} is best here", walk.measure.replace('_', " ")))
         }

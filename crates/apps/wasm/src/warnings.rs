@@ -30,16 +30,19 @@ pub(crate) fn warnings(
     // A path that has ended early has no critical force, and a sentence of its own above.
     if let (Some(fold), Some(force)) = (number(name::FOLD_FORCE), number(name::CRITICAL_FORCE)) {
         let share = 100.0 * fold / force;
-        sentences.push(format!("From {share:.0} % of the critical force on, the soft surface folds over itself, which no real material can do: do not trust the numbers beyond."));
+        sentences.push(format!("Beyond {share:.0} % of the critical force, the modelled surface folds, which is physically impossible: results beyond it are not valid."));
     }
     if number(name::MEMBRANE_STRAIN).is_some_and(|strain| strain > LARGE_STRAIN) {
-        sentences.push("The membrane is stretched by more than 20 %, where its law of small strains does not hold.".to_owned());
+        sentences.push(
+            "The membrane strain exceeds 20 %, beyond the range of its small-strain law."
+                .to_owned(),
+        );
     }
     // A round tip touches the next scale soon, and still stands on the first: nothing to warn of.
     let is_sharp = case.punctured().needle_radius.is_none_or(|radius| radius == 0.0);
     if let Some(tilt) = number(name::PASSING_TILT).filter(|_| is_sharp) {
         sentences.push(format!(
-            "At a tilt of {tilt:.1}° the needle comes to the end of the face that it was set down on, a corner or the notch beside the next scale, and goes on from there."
+            "At a tilt of {tilt:.1}° the needle reaches the end of the face on which it was set down (a corner, or the notch beside the next scale) and continues from there."
         ));
     }
     sentences.extend(change.into_iter().flat_map(cliffs));
@@ -55,7 +58,7 @@ fn cliffs(change: &GapChange) -> impl Iterator<Item = String> {
             })
         });
         format!(
-            "A cliff is near: with a gap 10 % smaller or larger, the {} is {smaller} or {larger}.",
+            "Sensitive to the gap: 10 % smaller or larger, and the {} is {smaller} or {larger}.",
             measure.column.replace('_', " ")
         )
     })

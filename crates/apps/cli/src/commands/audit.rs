@@ -6,24 +6,24 @@ use run::{Audit, LargestDifference, SecondWay};
 
 use crate::print::{aligned, counted, digits};
 
-/// Columns and contradictions that are listed before the list is cut short.
+/// Maximum number of listed columns and contradictions.
 const LISTED: usize = 8;
 
-/// Largest relative difference between two ways to solve a design that is none.
+/// Tolerance on the relative difference between the two methods.
 const AGREES: f64 = 1e-6;
 
-/// Whether the two ways agree.
+/// Returns true if the two methods agree.
 pub fn agrees(audit: &Audit) -> bool {
     audit.contradictions.is_empty()
         && audit.differences.iter().all(|found| found.relative <= AGREES)
 }
 
-/// The largest differences, for people.
+/// Formats the largest differences.
 pub fn report(audit: &Audit) -> String {
     let designs = counted(audit.designs, "design");
     let mut text =
         format!("audit: {designs} solved again by a second method; largest relative differences\n");
-    // The largest differences come first, so that a cut hides smaller ones.
+    // Sorted by size, so that truncation hides the smallest.
     let rows: Vec<_> = audit.differences.iter().take(LISTED).map(row).collect();
     text.push_str(&aligned(&rows));
     let texts =

@@ -16,9 +16,10 @@ Examples:
   squama calibrate --gap 0.1 --length 1 --width 2 --base 2L --poisson-ratio 0.3
   squama calibrate --gap 0.1 --length 1 --tissue-thickness 2
 
-On tissue of a finite thickness force along the row goes with rotation and with force across it. Three lines more
-say how: r0 is the force along the row from a rotation of the scale itself, r that from a rotation of a neighbour, l the
-force across the row on the right one of two from a displacement of the left one along it.")]
+On tissue of finite thickness, forces along the row are coupled to rotations and to displacements across the row.
+Three more lines give these stiffnesses: r0 is the force along the row from a rotation of the scale itself, r the
+force from a rotation of a neighbour, and l the force across the row on the right scale of a pair from a displacement
+of the left scale along the row.")]
 pub struct Arguments {
     /// Gap d/t
     #[arg(long, value_name = "GAP", allow_hyphen_values = true)]
@@ -40,7 +41,7 @@ pub struct Arguments {
     #[arg(long, value_name = "RATIO", allow_hyphen_values = true, default_value = "0.5")]
     pub poisson_ratio: String,
 
-    /// Thickness h/t of the substrate on a rigid base; endless unless it is given
+    /// Thickness h/t of the substrate on a rigid base [default: infinite]
     #[arg(long, value_name = "THICKNESS", allow_hyphen_values = true)]
     pub tissue_thickness: Option<String>,
 }
@@ -48,13 +49,13 @@ pub struct Arguments {
 /// Prints the springs under a row of scales.
 pub fn calibrate(arguments: &Arguments) -> anyhow::Result<u8> {
     let footprint = footprint_of(arguments)?;
-    // The table has the nearest neighbours alone, and the others take much longer.
+    // The table has nearest neighbours only; the others take much longer to compute.
     let row = RowStiffness::of(&footprint, Coupling::Nearest)?;
     print(&report(&footprint, &row))?;
     Ok(DONE)
 }
 
-/// The arguments are validated as the keys of a sweep that they are.
+/// Builds the footprint; the arguments are validated as keys of a sweep.
 fn footprint_of(arguments: &Arguments) -> anyhow::Result<Footprint> {
     let options = [
         ("--gap", "designs.gap_over_t", &arguments.gap),
@@ -68,13 +69,13 @@ fn footprint_of(arguments: &Arguments) -> anyhow::Result<Footprint> {
     let setting = |(option, key, value): (&str, &str, &String)| {
         Setting::from_option(&format!("{option} {value}"), &format!("{key}={value}"))
     };
-    // A sweep of one design: its keys know their bounds, and how to refuse what is beyond.
+    // A sweep of one design, because its keys check their bounds and report errors.
     let settings: Vec<_> =
         options.into_iter().chain(tissue).map(setting).collect::<Result<_, _>>()?;
-    // A sweep needs a slant, on which no spring depends.
+    // A sweep needs a slant; the springs do not depend on it.
     let sweep =
         Sweep::parse("name = \"calibrate\"\ndesigns.slant_deg = 0", "calibrate", &settings)?;
-    // A list of values makes an axis of an option, as it does in a definition.
+    // A list of values would make an option an axis.
     let several = "--gap and --length: several values, expected one of each";
     ensure!(sweep.grid().len() == 1, several);
     let case = sweep.grid().case(0);

@@ -32,13 +32,13 @@ pub struct Arguments {
     pub json: bool,
 }
 
-/// Designs from which on a sweep is large: a few are solved to tell what all take.
+/// Number of designs from which the run time is estimated by solving a few designs.
 const LARGE: u64 = 10_000;
 
-/// Values that an axis lists before it is cut short.
+/// Maximum number of listed values of an axis.
 const LISTED: u64 = 12;
 
-/// Says what would run.
+/// Checks a definition and describes the run or search.
 pub fn check(arguments: &Arguments) -> anyhow::Result<u8> {
     let path = &arguments.definition.path;
     match (defined(&arguments.definition)?, arguments.json) {
@@ -56,7 +56,7 @@ pub fn check(arguments: &Arguments) -> anyhow::Result<u8> {
     Ok(DONE)
 }
 
-/// What a search would look for, and among which designs.
+/// Describes the objectives, requirements and variables of a search.
 fn goal_report(goal: &DesignGoal, path: &Path) -> String {
     let sweep = goal.space.sweep();
     let aims = goal.objectives.iter().map(|aim| format!("{} {}", aim.goal.key(), aim.column));
@@ -69,7 +69,7 @@ fn goal_report(goal: &DesignGoal, path: &Path) -> String {
         [of.parameter().path(), format!("{from} to {to}"), of.parameter().unit.to_owned()]
     });
     format!(
-        "{} is a valid goal, which squama optimise searches for\n{}\nvariables\n{}\n{}",
+        "{} is a valid goal for squama optimise\n{}\nvariables\n{}\n{}",
         path.display(),
         aligned(&rows),
         aligned(&variables.collect::<Vec<_>>()),
@@ -135,12 +135,11 @@ fn as_json(sweep: &Sweep) -> Value {
     })
 }
 
-/// The modulus of the scales in contact that the ratios of the definition make of the moduli of its material, where all designs
-/// share them.
+/// Formats the contact moduli in MPa, if all designs share the moduli and ratios.
 fn contact_moduli(sweep: &Sweep) -> Option<String> {
     let shared = |key: &str| sweep.shared().find(|(p, _)| p.key == key)?.1.number();
     let modulus = |of: &str, ratio: &str| Some(shared(of)? * shared(ratio)?);
-    // Two ratios stand for one modulus of the scales: in MPa it shows whether they agree.
+    // Two ratios define the same modulus of the scales; in MPa a discrepancy is visible.
     let puncture = modulus("substrate_modulus_MPa", "contact_modulus_over_substrate");
     let bending = modulus("membrane_modulus_MPa", "contact_modulus_over_membrane");
     let words = |modulus: Option<f64>, of: &str| Some(format!("{} MPa in {of}", digits(modulus?)));
@@ -153,9 +152,9 @@ fn row(what: &str, value: &str) -> [String; 2] {
     [what, value].map(str::to_owned)
 }
 
-/// Time and room of a large sweep.
+/// Estimates the time and disk space of a large sweep.
 fn estimate(sweep: &Sweep) -> Vec<[String; 2]> {
-    // A few designs are solved for the estimate, which takes longer than a small sweep does.
+    // Solving designs for the estimate takes longer than a small sweep.
     if sweep.grid().len() < LARGE {
         return Vec::new();
     }
@@ -163,18 +162,18 @@ fn estimate(sweep: &Sweep) -> Vec<[String; 2]> {
     let threads = available_parallelism().map_or(1, usize::from);
     let estimated = Duration::try_from_secs_f64(estimate.seconds / threads as f64);
     let duration = estimated.map_or_else(
-        |_| "longer than anybody waits".to_owned(),
+        |_| "longer than a lifetime".to_owned(),
         |seconds| format!("about {}", time(seconds)),
     );
-    let judged = counted(estimate.solved, "design");
+    let solved = counted(estimate.solved, "design");
     let threads = counted(threads as u64, "thread");
     vec![
-        row("time", &format!("{duration} on {threads}, estimated from {judged}")),
+        row("time", &format!("{duration} on {threads}, estimated from {solved}")),
         row("size", &format!("about {} of journal and tables", bytes(estimate.bytes))),
     ]
 }
 
-/// A number of bytes, to two digits.
+/// Formats a number of bytes with two digits.
 fn bytes(bytes: f64) -> String {
     let units = ["B", "kB", "MB", "GB", "TB", "PB"];
     let power = (bytes.max(1.0).log10() / 3.0).floor().min(units.len() as f64 - 1.0);
@@ -198,10 +197,10 @@ fn values(axis: &Axis) -> String {
     }
 }
 
-/// How many footprints the substrate is calibrated for: the combinations of what they depend on.
+/// Counts the footprints for which the substrate is calibrated.
 fn calibrations(sweep: &Sweep) -> u64 {
     let has_mm = sweep.gives_millimetres();
-    // Springs go by lengths over the thickness, which so moves those that are given in mm.
+    // Springs depend on lengths over the thickness, so the thickness matters for lengths in mm.
     let matters =
         |of: &Parameter| of.has(Role::MovesSprings) || (has_mm && of.key == key::THICKNESS);
     let axes = sweep.grid().axes().iter();

@@ -48,10 +48,10 @@ pub struct Arguments {
     pub partial: Partial,
 }
 
-/// Designs that are listed before the list is cut short.
+/// Maximum number of listed designs.
 const LISTED: usize = 8;
 
-/// Says where two runs differ.
+/// Compares two runs.
 pub fn compare(arguments: &Arguments) -> anyhow::Result<u8> {
     let tolerance = tolerance(&arguments.tolerance)?;
     let completeness = arguments.partial.completeness();
@@ -126,7 +126,7 @@ fn columns(comparison: &Comparison<'_>) -> String {
     }
     if !same.is_empty() {
         let names: Vec<_> = same.iter().map(|column| column.name.as_str()).collect();
-        // Where all that is alike is text, there was no size to hold against a tolerance.
+        // Text columns have no tolerance.
         let above = if same.iter().any(|column| column.relative.is_some()) {
             format!(" above {}", number::text(comparison.tolerance()))
         } else {

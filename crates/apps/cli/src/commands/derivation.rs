@@ -1,4 +1,6 @@
-//! A record of each thing that a command makes from the tables of a folder, kept there so that `squama status` can tell when it is out of date.
+//! Records of the products made from the tables of a folder.
+//!
+//! `squama status` uses them to list products that are out of date.
 
 use std::path::{Path, PathBuf};
 use std::{fs, io};
@@ -6,18 +8,17 @@ use std::{fs, io};
 use anyhow::Context as _;
 use results::{Derivation, OutputError, RunFolder, VerifiedFolder, sha256, shell_word};
 
-/// Digits of the SHA-256 of a path that tell records apart.
+/// Digits of the SHA-256 of a path in the name of a record.
 const DIGITS: usize = 8;
 
-/// Notes in the folder `results` that the files `names` in `folder` are a `product` of its tables, made by the command that
-/// this process is.
+/// Records in `results` that the files `names` in `folder` were made from its tables by this command.
 pub fn record(
     results: &VerifiedFolder,
     product: &str,
     folder: &Path,
     names: &[impl AsRef<str>],
 ) -> anyhow::Result<()> {
-    // Without a statement of the tables nobody could tell later whether they have changed.
+    // Without checksums of the tables, later changes could not be detected.
     let Some(mut derivation) = Derivation::of(results, product, command()) else { return Ok(()) };
     let inside = path_within(results.path(), folder);
     for name in names.iter().map(AsRef::as_ref) {
@@ -26,45 +27,45 @@ pub fn record(
             fs::read(&path).with_context(|| format!("{}: cannot be read", path.display()))?;
         derivation.files.insert(key(inside.as_deref(), folder, name), sha256(bytes));
     }
-    // Readers check the tables of a ranking by this one record; one that was written elsewhere is
-    // a product like others.
+    // Readers verify the tables of a ranking by this record. A ranking in another folder is a
+    // product like any other.
     let is_ranking = product == RunFolder::RANKING_RECORD && inside.as_deref() == Some("");
     let record = if is_ranking { product.to_owned() } else { record_name(product, &derivation) };
     let written = derivation.write(&RunFolder::new(results.path()), &record);
-    // Results that belong to somebody else can be used all the same.
+    // A results folder may be read-only; products in other folders are written all the same.
     written.or_else(|error: OutputError| if inside.is_some() { Err(error.into()) } else { Ok(()) })
 }
 
-/// The command that this process is, as a shell takes it.
+/// Returns the command line of this process, quoted for a shell.
 fn command() -> String {
-    // A name that is no text is told as it is shown.
+    // Names that are not UTF-8 are recorded as displayed.
     let words = std::env::args_os().skip(1).map(|word| shell_word(&word.to_string_lossy()));
     std::iter::once("squama".to_owned()).chain(words).collect::<Vec<_>>().join(" ")
 }
 
-/// The path of `folder` from within the folder `results`, if it is inside of it.
+/// Returns the path of `folder` relative to `results`, if it is inside.
 fn path_within(results: &Path, folder: &Path) -> Option<String> {
-    // Links are resolved, since a folder may be named in one way here and in another there.
+    // Links are resolved, because the same folder may have several names.
     let (results, folder) = (absolute(results).ok()?, absolute(folder).ok()?);
     Some(folder.strip_prefix(results).ok()?.to_string_lossy().into_owned())
 }
 
-/// The absolute path of a folder; without a name it is the one that we are in.
+/// Returns the absolute path of a folder; an empty path is the working directory.
 fn absolute(folder: &Path) -> io::Result<PathBuf> {
     fs::canonicalize(if folder.as_os_str().is_empty() { Path::new(".") } else { folder })
 }
 
-/// The name of a file in the record: from within the results, or its whole path.
+/// Returns the name of a file in the record: relative inside the results, otherwise absolute.
 fn key(inside: Option<&str>, folder: &Path, name: &str) -> String {
     let path = match inside {
-        // A record without the path of its folder still holds where that is moved to.
+        // Relative, so that the folder can be moved.
         Some(place) => Path::new(place).join(name),
         None => absolute(folder).unwrap_or_else(|_| folder.to_owned()).join(name),
     };
     path.to_string_lossy().into_owned()
 }
 
-/// The name of the record of a product, which depends on where its first file is.
+/// Returns the name of the record of a product, from the path of its first file.
 fn record_name(product: &str, derivation: &Derivation) -> String {
     let first = derivation.files.keys().next().map_or("", String::as_str);
     let digest = sha256(first);

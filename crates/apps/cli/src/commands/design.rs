@@ -57,13 +57,13 @@ pub struct Arguments {
     pub out: Option<PathBuf>,
 }
 
-/// Solves one design, prints its measures and writes them down with its path.
+/// Solves one design, prints its measures, and writes them with its path.
 pub fn design(arguments: &Arguments) -> anyhow::Result<u8> {
     let mut design = choose(arguments)?;
     if arguments.sensitivity {
         design.sweep = design.sweep.with_sensitivity();
     }
-    // Solved before the folder is claimed, since a claim removes the files of the last time.
+    // Solved before the claim, which removes the files of the previous call.
     let chosen = SolvedChoice::new(design);
     let folder = RunFolder::new(chosen.folder(arguments));
     let claim = Claim::take(&folder, Maker::Design)?;
@@ -78,7 +78,7 @@ pub fn design(arguments: &Arguments) -> anyhow::Result<u8> {
     Ok(if chosen.solved.row.result.failed() { INCOMPLETE } else { DONE })
 }
 
-/// The one design that is asked for.
+/// Returns the selected design; an error if there are several.
 fn choose(arguments: &Arguments) -> anyhow::Result<SelectedDesign> {
     let mut designs = select(&arguments.definition, &arguments.selection)?;
     ensure!(
@@ -91,7 +91,7 @@ fn choose(arguments: &Arguments) -> anyhow::Result<SelectedDesign> {
     Ok(designs.swap_remove(0))
 }
 
-/// The options that leave one of several designs.
+/// Lists options that select one of several designs.
 fn advice(designs: &[SelectedDesign]) -> String {
     let [first, .., last] = designs else { return String::new() };
     let differing = PARAMETERS.iter().filter(|p| p.get(&first.case()) != p.get(&last.case()));
@@ -104,7 +104,7 @@ fn advice(designs: &[SelectedDesign]) -> String {
     format!("give a value with {}", differing.map(option).collect::<Vec<_>>().join(" "))
 }
 
-/// A design that is solved.
+/// A solved design.
 struct SolvedChoice {
     design: SelectedDesign,
     solved: SolvedDesign,
@@ -127,7 +127,7 @@ impl SolvedChoice {
         arguments.out.clone().unwrap_or_else(|| designs().join(self.design.label()))
     }
 
-    /// The columns, but for the number, which stands in the title.
+    /// Returns all columns except the number, which is in the title.
     fn measures(&self) -> impl Iterator<Item = (&Column<DesignRow>, Cell)> {
         self.columns.iter().skip(1).map(|column| (column, column.cell(&self.solved.row)))
     }
@@ -142,7 +142,7 @@ impl SolvedChoice {
         format!("{title}\n{changes}\n{table}{}{sensitivity}", self.places())
     }
 
-    /// What is known of the places of the load, if one of them keeps the weakest from being known.
+    /// Explains why the weakest load position is unknown; empty if it is known.
     fn places(&self) -> String {
         let Some(puncture) = &self.solved.puncture else { return String::new() };
         let Err(status) = Weakest::from_positions(&puncture.places) else { return String::new() };
@@ -152,11 +152,11 @@ impl SolvedChoice {
         };
         let is_weaker = |borne: f64| borne < force;
         let open = puncture.places.iter();
-        // A place that has borne more before its path ended is not the weakest.
+        // A position that carried more before its path ended is not the weakest.
         let open = open.filter(|p| p.force.is_none() && p.borne.is_some_and(is_weaker));
         let open: Vec<_> = open.map(|place| rounded(place.position)).collect();
         format!(
-            "\nThe weakest place is not known: the path ends early ({}) at {}. The weakest of the others is {}, with a critical force of {}\n",
+            "\nThe weakest load position is unknown: the path ends early ({}) at {}. The weakest of the other positions is {}, with a critical force of {}\n",
             Outcome::from(status),
             open.join(", "),
             rounded(place.position),
@@ -174,7 +174,7 @@ impl SolvedChoice {
         }
     }
 
-    /// The parameters that are not as the sweep has them.
+    /// Lists the parameters that differ from the sweep.
     fn changes(&self) -> String {
         let Some(original) = self.design.original else {
             return String::new();
@@ -205,7 +205,7 @@ impl SolvedChoice {
     }
 }
 
-/// A cell for people: six digits of a number; the tables have all.
+/// Formats a cell, numbers with six digits.
 fn shown(cell: &Cell) -> String {
     match cell {
         Cell::Number(number) => rounded(*number),
@@ -213,13 +213,13 @@ fn shown(cell: &Cell) -> String {
     }
 }
 
-/// Parameters that are listed for each measure, those that move it most.
+/// Number of listed parameters for each measure, the most influential.
 const LISTED: usize = 3;
 
-/// Per cent that would be printed as none.
+/// Changes below this, in percent, would be printed as 0.
 const NEGLIGIBLE: f64 = 5e-4;
 
-/// The largest elasticities of each measure, and the kinks, which have none; the table has all.
+/// Formats the largest elasticities of each measure, and its kinks.
 fn sensitivity(derivatives: &[ParameterDerivative]) -> String {
     if derivatives.is_empty() {
         return String::new();
@@ -231,7 +231,7 @@ fn sensitivity(derivatives: &[ParameterDerivative]) -> String {
     let mut lines = Vec::new();
     for of_measure in derivatives.chunk_by(|one, other| one.measure == other.measure) {
         let mut known: Vec<_> = of_measure.iter().filter(|d| size(d) >= NEGLIGIBLE).collect();
-        // A kink counts as infinite: it changes more than any slope.
+        // Kinks come first: they have no elasticity.
         known.sort_by(|one, other| size(other).total_cmp(&size(one)));
         lines.extend(known.into_iter().take(LISTED).map(sensitivity_line));
     }

@@ -25,10 +25,10 @@ Examples:
   squama draw sweeps/paper.toml --design 0417 --animate
   squama draw results/paper --gap 0.1 --length 1 --slant 15..60
 
-Draws the row at rest and at the critical tilt, or at the displacements u/t of --at. Contacts are red,
-arrows are forces between scales, bars are reactions of the substrate. A guided needle is a body straight below
-its place at rest; a ring is the place on the scale on which it was set down. With --flexure, draws the strip
-with its ends rotated by the angles of --at, in degrees.")]
+Draws the row at rest and at the critical tilt, or at the displacements u/t given by --at. Contacts are red,
+arrows are forces between scales, and bars are reactions of the substrate. A guided needle moves straight down;
+a ring marks the point on the scale where it was set down. With --flexure, draws the strip with its ends
+rotated by the angles given by --at, in degrees.")]
 pub struct Arguments {
     #[command(flatten)]
     pub definition: Definition,
@@ -59,7 +59,7 @@ pub struct Arguments {
 /// Frames of an animation.
 const FRAMES: u32 = 60;
 
-/// Rotations of each end at which a strip is drawn unless told otherwise, besides that at the end of the path, degrees.
+/// Default end rotations of the drawings of a strip, degrees; the end of the path is added.
 const ROTATIONS_DEG: [f64; 3] = [0.0, 45.0, 90.0];
 
 /// Draws designs.
@@ -81,15 +81,15 @@ pub fn draw(arguments: &Arguments) -> anyhow::Result<u8> {
     Ok(DONE)
 }
 
-/// Refuses places that no path of puncture goes through.
+/// Rejects negative displacements and forces of a puncture.
 fn check_places(arguments: &Arguments) -> anyhow::Result<()> {
-    // A strip bends both ways, so that its angles may be below zero.
+    // A strip can bend both ways, so its angles may be negative.
     let displacements = if arguments.flexure { &[] } else { arguments.at.as_slice() };
     check_place("--at", "a displacement u/t", displacements)?;
     check_place("--force", "a force F*", &arguments.force)
 }
 
-/// Refuses values of a quantity that rises from zero.
+/// Rejects negative or infinite values.
 pub fn check_place(option: &str, quantity: &str, values: &[f64]) -> anyhow::Result<()> {
     for value in values {
         ensure!(
@@ -100,7 +100,7 @@ pub fn check_place(option: &str, quantity: &str, values: &[f64]) -> anyhow::Resu
     Ok(())
 }
 
-/// One design to be drawn.
+/// A design to draw.
 struct Drawing<'a> {
     design: &'a SelectedDesign,
     case: Case,
@@ -137,7 +137,7 @@ impl Drawing<'_> {
         files.svg(&file, &drawing.svg()?)
     }
 
-    /// The end of the path, and of an animation the states at equal steps of the displacement before it.
+    /// Returns the end of the path, preceded by the frames of an animation.
     fn states_to_end(&self) -> anyhow::Result<Vec<puncture::RowSnapshot>> {
         let Snapshots { end, is_critical, .. } = self.solve(&[])?;
         ensure!(
@@ -148,7 +148,7 @@ impl Drawing<'_> {
         if !self.arguments.animate {
             return Ok(vec![end]);
         }
-        // Solved twice, because only the end of the path tells how far apart the frames are.
+        // Solved twice, because the step between frames follows from the end of the path.
         let step = end.displacement / f64::from(FRAMES);
         let frame = |k| puncture::At::Displacement(step * f64::from(k));
         let mut states = self.puncture_states(&(0..FRAMES).map(frame).collect::<Vec<_>>())?;
@@ -179,7 +179,10 @@ impl Drawing<'_> {
         let reached = |(at, state): (&f64, Option<flexure::StripSnapshot>)| match state {
             Some(state) => Ok(state),
             None => {
-                bail!("design {}: bending does not turn the ends by {at}°", self.design.label())
+                bail!(
+                    "design {}: the path of bending does not reach an end rotation of {at}°",
+                    self.design.label()
+                )
             }
         };
         let states = at.iter().zip(solved).map(reached).collect::<anyhow::Result<Vec<_>>>()?;
@@ -198,7 +201,7 @@ impl Drawing<'_> {
         files.svg(&file, &drawing.svg()?)
     }
 
-    /// The end rotations to draw a strip at that is bent by `last`, degrees.
+    /// Returns the end rotations of the drawings, degrees, for a path up to `last`.
     fn rotations_deg(&self, last: f64) -> Vec<f64> {
         match self.arguments.at.as_slice() {
             [] if self.arguments.animate => {
@@ -206,7 +209,7 @@ impl Drawing<'_> {
             }
             [] => {
                 let before = ROTATIONS_DEG.into_iter().filter(|&size| size < last.abs());
-                // Adding zero turns −0 into 0, which the drawing would show.
+                // Adding 0 turns −0 into 0 for the labels.
                 before.map(|size| size * last.signum() + 0.0).chain([last]).collect()
             }
             at => at.to_vec(),
@@ -214,14 +217,14 @@ impl Drawing<'_> {
     }
 }
 
-/// The substrate under a row.
+/// Computes the stiffness of the substrate under a row.
 pub fn substrate(case: &Case) -> anyhow::Result<RowStiffness> {
     let footprint = case.footprint();
     let footprint = footprint.context("the lengths differ too much for the boundary elements")?;
     Ok(RowStiffness::of(&footprint, case.coupling)?)
 }
 
-/// Places on a path, for the name of a file.
+/// Formats points on a path for the name of a file.
 fn places(at: &[f64], quantity: &str, otherwise: &str) -> String {
     if at.is_empty() {
         return otherwise.to_owned();

@@ -26,9 +26,9 @@ Examples:
   squama explore sweeps/glove.toml --require 'coverage >= 0.6' --require 'critical_force_N >= 2'
   squama explore sweeps/goals/strong-and-covered.toml --out goal.html --no-open
 
-The page solves the design under your hand: drag a scale or a slider. It is one file that carries the
-solver; it needs no network and no server. Sliders go from the smallest to the largest value of the
-definition, and requirements are those of [goal], if there is one, and of --require.")]
+Drag a scale or a slider, and the page solves the design. It is one file that contains the solver; it needs
+no network and no server. Sliders range from the smallest to the largest value in the definition. The
+requirements come from [goal], if there is one, and from --require.")]
 pub struct Arguments {
     #[command(flatten)]
     pub definition: Definition,
@@ -45,26 +45,26 @@ pub struct Arguments {
     pub no_open: bool,
 }
 
-/// Writes a page that solves, and opens it.
+/// Writes the interactive page and opens it.
 pub fn explore(arguments: &Arguments) -> anyhow::Result<u8> {
     let (sweep, mut requirements) = sweep_and_goal(&arguments.definition)?;
-    // Its springs take boundary elements, which would make every page larger and slower than a hand.
+    // A layer needs boundary elements, which are too large and slow for an interactive page.
     ensure!(
         !sweep.gives(key::TISSUE),
-        "{}: a page solves skins on a half-space alone, `squama run` those on a layer",
+        "{}: the page solves skins on a half-space only; use `squama run` for a layer of finite thickness",
         key::TISSUE
     );
     requirements.extend(arguments.required.read()?);
-    // On the page they would stand in red and without a value, whatever the skin is.
+    // On the page they would never have a value.
     let of_samples = requirements.extract_if(.., |of| Statistic::named(&of.column).is_some());
     for requirement in of_samples {
         note(&format!(
-            "left out: {requirement}, which many skins meet or not, and the page solves one"
+            "{requirement} is left out: it concerns many samples, and the page solves one design"
         ));
     }
     require_folder_of("--out", &arguments.out)?;
     let Definition { path, settings } = &arguments.definition;
-    // The page has a command to copy, so all is quoted for a shell.
+    // Quoted for a shell, because the page contains a command to copy.
     let settings = settings.iter().map(|setting| format!(" --set {}", shell_word(setting)));
     let page = Explorer {
         sweep,
@@ -76,10 +76,10 @@ pub fn explore(arguments: &Arguments) -> anyhow::Result<u8> {
     page.write(&mut html)?;
     write_file(&arguments.out, &html)?;
     print(&format!("{}\n", arguments.out.display()))?;
-    // A script that writes pages shall open none.
+    // Scripts do not open a browser.
     let is_watched = std::io::stdout().is_terminal();
     if is_watched && !arguments.no_open && !open(&arguments.out) {
-        note("no browser was found: open the page yourself");
+        note("no browser was found: open the page by hand");
     }
     Ok(DONE)
 }
@@ -92,7 +92,7 @@ fn sweep_and_goal(definition: &Definition) -> anyhow::Result<(Sweep, Vec<Require
     })
 }
 
-/// Opens a page as the desktop does; whether there is a program for it.
+/// Opens a page in the default browser; returns false if there is none.
 fn open(page: &Path) -> bool {
     let program = match std::env::consts::OS {
         "macos" => "open",
@@ -100,8 +100,8 @@ fn open(page: &Path) -> bool {
         _ => "xdg-open",
     };
     let mut command = Command::new(program);
-    // Browsers talk to the terminal that has started them.
+    // Browsers would print messages to the terminal.
     command.arg(page).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
-    // It is not waited for: a browser that opens may go on for hours.
+    // Not waited for: the browser may run for hours.
     command.spawn().is_ok()
 }

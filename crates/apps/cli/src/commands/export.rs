@@ -20,9 +20,9 @@ Examples:
   squama export results/paper --xlsx paper.xlsx
   squama export results/glove/tolerance --xlsx tolerance.xlsx
 
-The workbook has a sheet for each table of the folder, and one that explains the columns. The folder may also be that of
-a search (squama optimise), a tolerance, a sensitivity or a fit. The same
-tables always give the same bytes. A sheet holds at most 1,048,575 rows.
+The workbook has a sheet for each table of the folder, and one that explains the columns. The folder may also
+come from squama optimise, tolerance, sensitivity or fit. The same tables always give the same bytes. A sheet
+holds at most 1,048,575 rows.
 Exit code: 0 done, 2 bad input or a disk error.")]
 pub struct Arguments {
     /// Results folder of a run, a search or an analysis, or the definition of a run
@@ -39,11 +39,11 @@ pub struct Arguments {
 
 /// Writes the tables of a run as one workbook.
 pub fn export(arguments: &Arguments) -> anyhow::Result<u8> {
-    // A disk that is full is told of in an error, and not by whatever panics over it.
+    // A full disk is reported as an error, not as the panic of a library.
     std::panic::set_hook(Box::new(|_| ()));
     require_folder_of("--xlsx", &arguments.xlsx)?;
     let (path, completeness) = (&arguments.results, arguments.partial.completeness());
-    // Where a run is asked for, such a folder is refused with the advice to export it.
+    // `verified_folder` would reject folders of searches and analyses.
     let mut others_of = results::FILES.iter().filter(|file| is_other(file));
     let is_other = others_of.any(|file| path.join(file.name).is_file());
     let results = if is_other {
@@ -62,14 +62,14 @@ pub fn export(arguments: &Arguments) -> anyhow::Result<u8> {
     Ok(DONE)
 }
 
-/// Whether a file is a table of what is no run: of a search or an analysis.
+/// Returns true if a file is a table of a search or an analysis.
 fn is_other(file: &FileEntry) -> bool {
     let makers = [Maker::Search, Maker::Tolerance, Maker::Sensitivity, Maker::Fit];
     makers.contains(&file.maker)
         && Path::new(file.name).extension().is_some_and(|kind| kind == "csv")
 }
 
-/// Such tables with their columns. Those of a search follow from its goal.
+/// Returns the tables of a search or an analysis with their columns.
 fn others(results: &VerifiedFolder) -> anyhow::Result<Vec<OtherTable>> {
     let [of_best, of_history] = if results.holds(GOAL) {
         let name = results.path().join(GOAL).display().to_string();

@@ -1,4 +1,4 @@
-//! Files of drawings and figures.
+//! Output files of drawings and figures.
 
 use std::borrow::Cow;
 use std::io::{self, BufWriter, Write as _};
@@ -14,7 +14,7 @@ use super::derivation;
 use super::options::decimal;
 use crate::print::{note, print};
 
-/// Where figures go, and as what.
+/// Options for the format and folder of figures.
 #[derive(Debug, Args)]
 pub struct FigureOutput {
     /// Also write each figure as a PNG image, if squama is built with --features png
@@ -42,13 +42,13 @@ pub struct FigureOutput {
     pub out: Option<PathBuf>,
 }
 
-/// The smallest letters that journals print, pt.
+/// Smallest font size accepted by journals, pt.
 const READABLE: f64 = 6.0;
 
-/// Dots per inch that an image may have.
+/// Accepted resolutions of images, dots per inch.
 const DPI: RangeInclusive<f64> = 24.0..=2400.0;
 
-/// Figures on their way into a folder.
+/// Writes figures to a folder.
 pub struct FigureFiles<'a> {
     folder: PathBuf,
     output: &'a FigureOutput,
@@ -56,7 +56,7 @@ pub struct FigureFiles<'a> {
 }
 
 impl<'a> FigureFiles<'a> {
-    /// Makes the folder: that of `output`, or the default.
+    /// Creates the folder of `output`, or the default folder.
     pub fn new(
         output: &'a FigureOutput,
         default: impl FnOnce() -> PathBuf,
@@ -66,20 +66,20 @@ impl<'a> FigureFiles<'a> {
         Ok(Self { folder, output, names: Vec::new() })
     }
 
-    /// Writes a drawing, with its image if there is to be one.
+    /// Writes a drawing as SVG, and as PNG if requested.
     pub fn svg(&mut self, name: &str, svg: &str) -> anyhow::Result<()> {
         let output = self.output;
         let svg = if output.no_title { Cow::Owned(untitled(svg)) } else { Cow::Borrowed(svg) };
         if let Some(width) = output.width {
             question_letters(name, &svg, width);
         }
-        // The size of letters is in proportion to the width.
+        // Font sizes are proportional to the width.
         let by_letters = || Some(output.font_size? / smallest_letters(&svg, 1.0)?);
         let svg = match output.width.or_else(by_letters) {
             Some(width) => Cow::Owned(resized(&svg, width)),
             None => svg,
         };
-        // An image that cannot be made leaves no drawing without it.
+        // The image is rendered first, so that a failure writes neither file.
         let image = output.png.then(|| image(&svg, output.dpi)).transpose()?;
         self.write(format!("{name}.svg"), svg.as_bytes())?;
         image.map_or(Ok(()), |image| self.write(format!("{name}.png"), &image))
@@ -96,7 +96,7 @@ impl<'a> FigureFiles<'a> {
         Ok(())
     }
 
-    /// Notes in a folder of results that the figures are made from its tables.
+    /// Records in a results folder that the figures were made from its tables.
     pub fn note(&self, results: &VerifiedFolder) -> anyhow::Result<()> {
         derivation::record(results, "figures", &self.folder, &self.names)
     }
@@ -108,29 +108,28 @@ impl<'a> FigureFiles<'a> {
     }
 }
 
-/// Says which letters nobody can read on paper.
+/// Prints a note if the smallest letters are unreadable on paper.
 fn question_letters(name: &str, svg: &str, width: f64) {
     let smallest = smallest_letters(svg, width).filter(|points| *points < READABLE);
     if let Some(points) = smallest {
         let wide = (width * READABLE / points).ceil();
         note(&format!(
-            "{name}.svg: letters of {points:.1} pt on paper; of {READABLE} pt if it is {wide} mm wide"
+            "{name}.svg: the smallest letters are {points:.1} pt on paper; a width of at least {wide} mm wide gives {READABLE} pt"
         ));
     }
 }
 
-/// The longest list of names in the name of a file.
-// File systems take 255 bytes, of which kind and place of the figure need some, too.
+/// Maximum length of a list of names in a file name.
+// File names have at most 255 bytes, including the kind of figure and the points on the path.
 const LONGEST: usize = 100;
 
-/// `names` with hyphens between, for the name of a file; the first and the last with their number if there are too many
-/// `things` for one.
+/// Joins `names` with hyphens for a file name; abbreviates long lists to `FIRST-to-LAST-COUNT-things`.
 pub fn joined(names: &[String], things: &str) -> String {
     let all = names.join("-");
     match names {
         [first, .., last] if all.len() > LONGEST => {
             let ends = format!("{first}-to-{last}-");
-            // Designs off the grid are named by all their values, and two of them may be too long.
+            // Names of designs off the grid contain all values, so two may be too long.
             let ends = if ends.len() > LONGEST { String::new() } else { ends };
             format!("{ends}{}-{things}", names.len())
         }
@@ -138,13 +137,13 @@ pub fn joined(names: &[String], things: &str) -> String {
     }
 }
 
-/// Widths that a figure may have on paper, mm.
+/// Accepted widths of figures on paper, mm.
 const WIDTHS: RangeInclusive<f64> = 10.0..=2000.0;
 
-/// Sizes that letters may have on paper, pt.
+/// Accepted font sizes on paper, pt.
 const FONT_SIZES: RangeInclusive<f64> = 1.0..=72.0;
 
-/// Refuses a density of images that no image has, and sizes that no paper has.
+/// Rejects resolutions and sizes out of range.
 pub fn check_sizes(output: &FigureOutput) -> anyhow::Result<()> {
     let given = [
         ("--dpi", Some(output.dpi), DPI),
@@ -172,7 +171,7 @@ fn image(_: &str, _: f64) -> anyhow::Result<Vec<u8>> {
     )
 }
 
-/// Writes a file, whole or not at all.
+/// Writes a file atomically.
 pub fn write(
     folder: &Path,
     name: &str,
@@ -185,7 +184,7 @@ pub fn write(
     Ok(())
 }
 
-/// As [`write()`], by the path of the file, whose folder is rid of what killed processes have left half-written there.
+/// Writes a file atomically by its path, and removes partial files of killed processes.
 pub fn write_file(file: &Path, bytes: &[u8]) -> anyhow::Result<()> {
     let folder = file.parent().unwrap_or(Path::new(""));
     results::make_folder(folder)?;

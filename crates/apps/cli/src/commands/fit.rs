@@ -27,18 +27,18 @@ Examples:
   squama fit test.toml
   squama fit test.toml --set 'variables.friction={ from = 0, to = 0.5 }' --json
 
-TEST.toml is a definition of the skin that was tested, with [variables] for what is sought between two bounds, such
-as substrate_modulus_MPa = { from = 0.1, to = 2 }, and a table for each measured curve:
+TEST.toml defines the skin that was tested. [variables] lists the unknowns with their bounds, such as
+substrate_modulus_MPa = { from = 0.1, to = 2 }, and each measured curve has a table:
   [[curve]]
   file = \"puncture.csv\"          # columns displacement_mm and force_N (see squama plot curves --help)
   kind = \"puncture\"              # or \"bending\": curvature_per_m and moment_N_mm
-  offsets = [\"displacement\"]     # also seek where the zero of an axis is
+  offsets = [\"displacement\"]     # also fit the zero of this axis
   to = 2.5                       # leave out points beyond (from: before), in the unit of the first column
-  gap_over_t = 0.3               # what this specimen has alone
-All curves are fitted together by least squares, each over its own noise, along exact derivatives of the curves.
-Shows the values with 95 % confidence intervals, strong correlations, and which of them the curves cannot tell apart.
-Writes fit.csv, residuals.csv, residuals.svg, and fitted.toml, a definition that squama run and squama design take.
-Exit code: 0 done, 1 the curves do not tell all that is sought, 2 bad input or a disk error.")]
+  gap_over_t = 0.3               # a parameter of this specimen only
+Fits all curves together by least squares, each weighted by its own noise, with exact derivatives. Shows the values
+with 95 % confidence intervals, strong correlations, and unknowns that the data do not determine.
+Writes fit.csv, residuals.csv, residuals.svg, and fitted.toml, a definition for squama run and squama design.
+Exit code: 0 done, 1 the data do not determine all unknowns, 2 bad input or a disk error.")]
 pub struct Arguments {
     /// Definition of the test in TOML
     #[arg(value_name = "TEST.toml")]
@@ -56,30 +56,30 @@ pub struct Arguments {
     pub solving: SolveOptions,
 }
 
-/// Files that it writes.
+/// Files that `squama fit` writes.
 pub(super) const FILES: [&str; 4] = ["fit.csv", "residuals.csv", "residuals.svg", "fitted.toml"];
 
-/// What is said when the first signal has come.
-const ENDING: &str = "ending after the skin in hand, without an answer";
+/// Message after the first signal.
+const ENDING: &str = "ending after the solution in progress, without a fit";
 
-/// Correlations of at least this are told.
+/// Smallest correlation that is reported.
 const STRONG: f64 = 0.9;
 
-/// Finds the skin behind measured curves, and writes it down.
+/// Fits the parameters of a skin to test data, and writes the fit.
 pub fn fit(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let path = arguments.path.display();
     let definition = FitDefinition::read(&arguments.path, &settings(&arguments.settings)?)?;
     question(definition.sweep());
     let default = || folder_of(definition.sweep(), None).join("fit");
     let folder = RunFolder::new(arguments.out.clone().unwrap_or_else(default));
-    // A file that is not its own is refused before the fit, and not when it is to be written.
+    // Foreign files in the folder are rejected before the fit, not after it.
     Claim::check(&folder, Maker::Fit)?;
     interrupt.ask_first();
     let display =
         Display::<WorkMeter>::new(arguments.solving.quiet, interrupt, Arc::default(), ENDING);
     let fit = || definition.fit(interrupt.stop(), display.watched());
     let fitted = arguments.solving.threads.pool()?.install(fit);
-    // The bar goes before anything is printed.
+    // Removes the bar before anything is printed.
     drop(display);
     let fitted = match fitted {
         Err(stopped @ NoFit::Stopped) => {
@@ -91,7 +91,7 @@ pub fn fit(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     write(&folder, &fitted)?;
     let (record, text) = (|| record(&fitted), || text(&fitted));
     json::answer(arguments.solving.json, record, text, (folder.path(), &FILES))?;
-    // A value without an interval is one of many that fit as well.
+    // A value without an interval is not determined by the data.
     let is_told = fitted.estimates.iter().all(|estimate| estimate.interval.is_some());
     Ok(if is_told { DONE } else { INCOMPLETE })
 }
@@ -140,7 +140,7 @@ pub(super) static POINTS: &[Column<Point>] = &columns! { Point:
     "fitted", AS_CURVE, |(_, point)| point[2], "that of the fitted skin";
 };
 
-/// What was found, for people.
+/// Formats the fit.
 fn text(fitted: &Fitted) -> String {
     let points: usize = fitted.curves.iter().map(|curve| curve.points.len()).sum();
     let Fitted { estimates, curves, solutions, .. } = fitted;
@@ -154,10 +154,10 @@ fn text(fitted: &Fitted) -> String {
     let header = ["", "value", "", "95 % interval"].map(str::to_owned);
     let rows = estimates.iter().map(|estimate| {
         let Estimate { unknown, value, interval, at_end } = estimate;
-        let interval = interval.map_or("not told".to_owned(), |[low, high]| {
+        let interval = interval.map_or("undetermined".to_owned(), |[low, high]| {
             format!("{} to {}", digits(low), digits(high))
         });
-        let end = if *at_end { "  (!) at the end of its range: widen it" } else { "" };
+        let end = if *at_end { "  (!) at a bound of its range: widen the range" } else { "" };
         let unit = if unknown.unit == "-" { "" } else { unknown.unit };
         [unknown.name.clone(), digits(*value), unit.to_owned(), format!("{interval}{end}")]
     });
@@ -167,14 +167,14 @@ fn text(fitted: &Fitted) -> String {
         let _ = match group.as_slice() {
             [one] => writeln!(
                 text,
-                "  (!) The curves say next to nothing of {}: its range is narrower than what they tell",
+                "  (!) The data do not determine {}: its interval is wider than its range",
                 name(one)
             ),
             several => {
                 let names: Vec<_> = several.iter().map(name).collect();
                 writeln!(
                     text,
-                    "  (!) The curves cannot tell {} apart: fix one of them, or add a curve of another kind or specimen",
+                    "  (!) The data determine only a combination of {}: fix one of them, or add a curve of another kind or specimen",
                     names.join(" and ")
                 )
             }
@@ -197,7 +197,7 @@ fn text(fitted: &Fitted) -> String {
         [
             curve.file.clone(),
             points,
-            format!("noise {} {unit}, {share:.1} % of the largest", digits(curve.noise)),
+            format!("noise {} {unit}, {share:.1} % of the largest value", digits(curve.noise)),
         ]
     });
     text.push_str(&aligned(&rows.collect::<Vec<_>>()));
@@ -208,31 +208,31 @@ fn text(fitted: &Fitted) -> String {
     if differenced > 0 {
         let _ = writeln!(
             text,
-            "  {differenced} derivatives are differences of whole solutions, since something sticks there"
+            "  {differenced} derivatives are finite differences of whole solutions, because a contact sticks there"
         );
     }
     text
 }
 
-/// What should be known of a curve before its fit is believed, warnings first.
+/// Lists warnings and notes on the fit of a curve.
 fn remarks(curve: &FittedCurve) -> String {
     let FittedCurve { file, beyond, left_out, .. } = curve;
     let [x, y] = curve.axes.each_ref().map(|axis| axis.split_once(',').map_or(&**axis, |a| a.0));
     let warnings = [
         curve.is_turned.then(|| {
-            format!("no point has a {x} and a {y} above 0: are the signs of the machine turned round?")
+            format!("no point has both {x} and {y} above 0: check the signs of the test data")
         }),
         (*beyond > 0).then(|| {
             let points = counted(*beyond as u64, "point");
-            format!("{points} beyond the end of the fitted curve, where the scale has given way; leave them out with to = …")
+            format!("{points} beyond the end of the fitted curve, where the scale has tilted; leave them out with to = …")
         }),
         curve.trend.map(|trend| {
-            format!("the residuals follow each other (correlation {trend:.2}): the skin behaves otherwise than the model, and the intervals are too narrow; look at residuals.svg")
+            format!("the residuals are correlated ({trend:.2}): the model does not describe this skin, and the intervals are too narrow; see residuals.svg")
         }),
     ];
     let notes = [
         (!curve.is_physical).then(|| {
-            format!("{x} and {y} have no units in the file, and are read as those of the tables that squama design writes")
+            format!("{x} and {y} have no units in the file; they are read as dimensionless, as in the tables of squama design")
         }),
         (*left_out > 0).then(|| format!("{} without numbers left out", counted(*left_out as u64, "line"))),
     ];

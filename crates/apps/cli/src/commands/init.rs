@@ -13,8 +13,8 @@ use super::figure_file::write_file;
 use super::source::require_folder_of;
 use crate::print::{counted, print};
 
-/// Definitions to begin with, which the program carries along: names, which are also those of their sweeps, and texts.
-// The first one is taken where a file is given without a template.
+/// Names and texts of the templates; each name is also the name of its sweep.
+// The first is the default.
 const TEMPLATES: [(&str, &str); 7] = [
     ("paper", include_str!("../../../../../sweeps/paper.toml")),
     ("smoke", include_str!("../../../../../sweeps/smoke.toml")),
@@ -36,7 +36,7 @@ Examples:
 The template paper explains every key. An existing file is never overwritten.
 Exit code: 0 done, 2 bad input or a disk error.")]
 pub struct Arguments {
-    /// Template to start from; a FILE alone is made from the template paper
+    /// Template to start from [default for a FILE alone: paper]
     #[arg(value_name = "TEMPLATE", default_value = "paper", value_parser = TemplateOrFile)]
     pub template: String,
 
@@ -50,14 +50,14 @@ pub fn init(arguments: &Arguments) -> anyhow::Result<u8> {
     let (template, file) = template_and_file(arguments);
     let shown = file.display().to_string();
     ensure!(
-        // A link that leads nowhere is a file, too: no link is written through.
+        // `symlink_metadata`, because a dangling link must not be overwritten either.
         file.symlink_metadata().is_err(),
         "{shown}: exists already; give the name of a new file, e.g. squama init {template} mine.toml"
     );
     require_folder_of("FILE", &file)?;
     let name = file.file_stem().context("expected the name of a new file")?.to_string_lossy();
     let text = definition(&template, &name, &shown).context("there is no such definition")?;
-    // A name that is none of a sweep is refused before it is written.
+    // Rejects an invalid name of a sweep before writing.
     let sweep = Sweep::parse(&text, &shown, &[])?;
     write_file(&file, text.as_bytes())?;
     let designs = counted(sweep.grid().len(), "design");
@@ -65,7 +65,7 @@ pub fn init(arguments: &Arguments) -> anyhow::Result<u8> {
     Ok(DONE)
 }
 
-/// The template and the file that are asked for: a template of its own name, or a file alone, which is made from the first.
+/// Returns the requested template and file; a file alone uses the first template.
 fn template_and_file(arguments: &Arguments) -> (String, PathBuf) {
     let template = &arguments.template;
     match &arguments.file {
@@ -75,13 +75,13 @@ fn template_and_file(arguments: &Arguments) -> (String, PathBuf) {
     }
 }
 
-/// Whether an argument names a file and no template.
+/// Returns true if an argument names a file and not a template.
 fn is_file(argument: &str) -> bool {
     Path::new(argument).extension().is_some_and(|extension| extension == "toml")
         || argument.contains(['/', '\\'])
 }
 
-/// Reads the name of a template, or that of a file alone.
+/// Parses the name of a template or of a file.
 #[derive(Clone)]
 struct TemplateOrFile;
 
@@ -102,16 +102,16 @@ impl TypedValueParser for TemplateOrFile {
     }
 
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
-        // Help and completions list templates alone, though the name of a file is taken, too.
+        // Help and completions list only templates.
         Some(Box::new(TEMPLATES.into_iter().map(|(name, _)| PossibleValue::new(name))))
     }
 }
 
-/// The template of that name, as the definition of the sweep `name` in `file`.
+/// Returns a template as the definition of the sweep `name` in `file`.
 fn definition(template: &str, name: &str, file: &str) -> Option<String> {
     let (known, text) = TEMPLATES.iter().find(|(known, _)| *known == template)?;
     let text = text.replace(&format!("name = \"{known}\""), &format!("name = \"{name}\""));
-    // The comments of a template have commands to copy, which are to name the new file.
+    // Commands in the comments of the template then name the new file.
     let text = text.replace(&format!("results/{known}/"), &format!("results/{name}/"));
     Some(text.replace(&format!("sweeps/{known}.toml"), file))
 }

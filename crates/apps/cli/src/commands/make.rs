@@ -26,17 +26,17 @@ Examples:
   squama make results/palm --design 1 --scales 8x6 --out palm.step
   squama make results/palm --design 1 --kerf 0.12 --template-mm 0.1 --out palm.dxf
 
-Writes a patch of skin in millimetres: scales on their membrane, which reaches a gap beyond their bases on every
-side. The design needs a thickness (material.thickness_mm). The ending of --out says the format:
+Writes a patch of skin in millimetres: scales on their membrane, which extends one gap beyond their bases on every
+side. The design needs a thickness (material.thickness_mm). The extension of --out selects the format:
   .3mf          printers; names its unit; scales and membrane are two parts, for two materials
   .stl          printers; has no unit, so tell the slicer that lengths are in mm
   .step, .stp   CAD programs; exact solids
   .dxf, .svg    laser cutters: the profile of each scale, to be cut from a sheet as thick as the scales are wide;
                 a template with a hole for each base, to glue the scales at their pitch; and a square to
-                check that the file came through with a side of 100 mm. Each on a layer of its own
+                check the size after import, 100 mm wide. Each is on its own layer
 Beside it, a list of parts: sizes, counts, mass if scale_density_kg_m3 is known, and, if the definition has
-[tolerance], which deviations move the measures most (solved by derivatives; squama tolerance gives the yield).
-Scatter of gaps and slants is left out: the patch is that of the nominal design.")]
+[tolerance], the deviations that change the measures most (from derivatives; squama tolerance gives the yield).
+The patch has the nominal gaps and slants, without scatter.")]
 pub struct Arguments {
     #[command(flatten)]
     pub definition: Definition,
@@ -44,7 +44,7 @@ pub struct Arguments {
     #[command(flatten)]
     pub selection: Selection,
 
-    /// File to write, which ends in .3mf, .stl, .step, .dxf or .svg
+    /// File to write; its extension is .3mf, .stl, .step, .dxf or .svg
     #[arg(long, value_name = "FILE", default_value = "skin.3mf")]
     pub out: PathBuf,
 
@@ -56,28 +56,29 @@ pub struct Arguments {
     #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = decimal)]
     pub gap_across_mm: Option<f64>,
 
-    /// Width of the line that the laser burns, mm [default: 0]
+    /// Width of the cut of the laser, mm [default: 0]
     #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = decimal)]
     pub kerf: Option<f64>,
 
     /// Thickness of the sheet of the glue template, mm [default: 0.1]
     ///
-    /// Scales that lean need longer holes in thicker sheets.
+    /// Slanted scales need longer holes in thicker sheets.
     #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = decimal)]
     pub template_mm: Option<f64>,
 }
 
-/// Thickness of the template unless told otherwise, mm: a film, since thicker sheets have no webs between leaning scales.
+/// Default thickness of the template, mm.
+// A film, because thicker sheets leave no webs between slanted scales.
 const TEMPLATE_MM: f64 = 0.1;
 
-/// Reads two numbers of scales, as `5x4`.
+/// Parses numbers of scales such as `5x4`.
 fn along_and_across(text: &str) -> Result<[usize; 2], String> {
-    // People type an x, and copy a times sign from the texts about a skin.
+    // Accepts `x` and the multiplication sign, which users copy from texts.
     let numbers =
         text.split_once(['x', '×']).map(|(along, across)| (along.parse(), across.parse()));
     match numbers {
         Some((Ok(along), Ok(across))) => Ok([along, across]),
-        _ => Err("expected numbers of scales along and across, e.g. 5x4".to_owned()),
+        _ => Err("expected the numbers of scales along and across, e.g. 5x4".to_owned()),
     }
 }
 
@@ -88,7 +89,10 @@ pub fn make(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> 
     require_folder_of("--out", out)?;
     let designs = select(&arguments.definition, &arguments.selection)?;
     let [design] = designs.as_slice() else {
-        bail!("{} designs are selected; a file holds one: choose it with --design", designs.len());
+        bail!(
+            "{} designs are selected, but a file holds one; choose it with --design",
+            designs.len()
+        );
     };
     let case = design.case();
     let patch = patch(&case, arguments)?;
@@ -101,7 +105,7 @@ pub fn make(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> 
         note(&missing);
         list = format!("{list}\n{missing}\n");
     }
-    // Before anything is written: without its list, which may fail, there is no file either.
+    // Before writing, because this may fail.
     list.push_str(&tolerances(design, out, interrupt)?);
     let list_file = out.with_extension("parts.txt");
     write_file(out, &format.bytes(&patch, &sheet))?;
@@ -110,7 +114,7 @@ pub fn make(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> 
     Ok(DONE)
 }
 
-/// The format that the ending of the file says.
+/// Returns the format for the extension of the file.
 fn format(arguments: &Arguments) -> anyhow::Result<Format> {
     let out = &arguments.out;
     let extension = out.extension().unwrap_or_default().to_string_lossy();
@@ -123,14 +127,14 @@ fn format(arguments: &Arguments) -> anyhow::Result<Format> {
     for (option, value) in [("--kerf", arguments.kerf), ("--template-mm", arguments.template_mm)] {
         ensure!(
             format.is_flat() || value.is_none(),
-            "{option} has no effect on {}: it is about outlines for laser cutters, .dxf and .svg",
+            "{option} has no effect on {}: it applies to outlines for laser cutters, .dxf and .svg",
             out.display()
         );
     }
     Ok(format)
 }
 
-/// The patch of a design, in mm.
+/// Builds the patch of a design, in mm.
 fn patch(case: &Case, arguments: &Arguments) -> anyhow::Result<Patch> {
     let thickness = case.material.thickness_mm.with_context(|| {
         let path = arguments.definition.path.display();
@@ -142,7 +146,7 @@ fn patch(case: &Case, arguments: &Arguments) -> anyhow::Result<Patch> {
     Ok(Patch::new(case.design.row()?, thickness, lengths, arguments.scales)?)
 }
 
-/// Sizes, counts and masses.
+/// Lists sizes, counts and masses.
 fn parts(patch: &Patch, case: &Case) -> String {
     let [along, across] = patch.scales();
     let count = (along * across) as f64;
@@ -180,17 +184,17 @@ fn parts(patch: &Patch, case: &Case) -> String {
     aligned(&rows.into_iter().map(row).collect::<Vec<_>>())
 }
 
-/// Why there is no template, and what serves instead.
+/// Explains why there is no glue template, and the alternatives.
 fn no_template(sheet: &Sheet, template: f64) -> String {
     format!(
-        "no glue template: in a sheet of {} mm its webs would be {} mm wide; a thinner sheet (--template-mm) \
-         has wider webs, or set the scales apart with shims",
+        "no glue template: a sheet of {} mm would have webs of only {} mm; choose a thinner sheet (--template-mm), \
+         or space the scales with shims",
         rounded(template),
         rounded(sheet.web())
     )
 }
 
-/// What the derivatives say of the deviations in `[tolerance]`: a line for each measure that makers ask for and that they move.
+/// Lists the effect of the deviations in `[tolerance]` on the main measures, from derivatives.
 fn tolerances(
     design: &SelectedDesign,
     out: &Path,
@@ -201,7 +205,7 @@ fn tolerances(
         return Ok(String::new());
     }
     let analysis = Analysis::new(sweep, &[], 0, PROGRAM, interrupt.stop());
-    // Without samples nothing is kept in this store.
+    // No samples, so nothing is stored.
     let analysed = analysis.design(0, &SampleStore::new(out))?;
     let shown = analysed.measures.iter().filter(|measure| is_for_a_maker(&measure.name));
     let moved = shown.filter_map(|measure| {
@@ -213,12 +217,12 @@ fn tolerances(
     });
     let rows: Vec<_> = moved.collect();
     Ok(format!(
-        "\nStandard deviations by [tolerance], and where they come from; squama tolerance has all of them\n{}",
+        "\nStandard deviations from [tolerance], and their sources; squama tolerance lists all measures\n{}",
         aligned(&rows)
     ))
 }
 
-/// Whether a measure is one of the four of a sweep, or what a skin weighs and how far it bends: a list of forty hides these.
+/// Returns true for the four criteria, the mass and the bend radius.
 fn is_for_a_maker(measure: &str) -> bool {
     let is_criterion =
         || CRITERIA.iter().any(|criterion| criterion.column == measure_name(measure));

@@ -26,7 +26,7 @@ pub struct Arguments {
 pub fn man(arguments: &Arguments) -> anyhow::Result<u8> {
     let folder = &arguments.folder;
     results::make_folder(folder)?;
-    // The command `help` has all others below it, and each would have a second page.
+    // The command `help` repeats all others, so each would have a second page.
     let mut squama = Squama::command().disable_help_subcommand(true);
     squama.build();
     let pages = pages(&squama, "squama");
@@ -40,7 +40,7 @@ pub fn man(arguments: &Arguments) -> anyhow::Result<u8> {
     Ok(DONE)
 }
 
-/// A command and those below it, each with the name of its page.
+/// Lists a command and its subcommands with the names of their pages.
 fn pages(command: &Command, name: &str) -> Vec<(String, Command)> {
     let below = command.get_subcommands();
     let below = below.flat_map(|below| pages(below, &format!("{name}-{}", below.get_name())));

@@ -37,10 +37,10 @@ pub struct Arguments {
     pub format: TableFormat,
 }
 
-/// Runs of missing designs that are named before the list is cut short.
+/// Maximum number of listed ranges of missing designs.
 const NAMED: usize = 20;
 
-/// Puts the shards of a sweep together.
+/// Merges the shards of a sweep.
 pub fn merge(arguments: &Arguments) -> anyhow::Result<u8> {
     let merged = run::merge(&arguments.folders, &arguments.out, arguments.format.csv, &PROGRAM)?;
     conclude(&arguments.out, &merged.finished);
@@ -60,7 +60,7 @@ fn report(arguments: &Arguments, merged: &run::Merged) -> String {
     format!("merged: {added} from {folders}\n{}{results}", missing(merged))
 }
 
-/// The numbers of the designs that are missing, runs of them as `first-last`.
+/// Lists the missing designs, consecutive ones as `first-last`.
 fn missing(merged: &run::Merged) -> String {
     if merged.missing.is_empty() {
         return String::new();

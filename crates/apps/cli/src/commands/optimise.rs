@@ -40,9 +40,8 @@ Examples:
 
 A goal is a definition with two more sections. [variables] lists the parameters to search over: ranges, such
 as gap_over_t = { from = 0.1, to = 1 }, or lists of values. [goal] has maximize or minimize (one column gives
-the optimum, two to four give a Pareto front) and require, a list of constraints on columns, to which --require adds; protects =
-\"needle 2\" is a level of a standard among them. Every other
-parameter has one value. The search leaves out designs that fail, and designs whose surface folds unless
+the optimum, two to four give a Pareto front) and require, a list of constraints on columns; --require adds to it,
+and protects = \"needle 2\" adds a level of a standard. Every other parameter has one value. The search leaves out designs that fail, and designs whose surface folds unless
 sound = false, and counts both.
 One objective may be fitness (Eq. 7 of the paper). weights = { coverage = 1, compliance = 2 } names its criteria
 [default: the paper's four, with equal weights]; rescale = { coverage = [0, 0.9] } gives the worst and the best
@@ -51,7 +50,7 @@ With a [tolerance] section (see squama tolerance), the goal may also name statis
 as critical_force_p05 (or _p50, _p95), and yield, the share of samples that meet all constraints on columns and do
 not fold (unless sound = false), as in require = [\"coverage >= 0.5\", \"yield >= 0.9\"]. The search solves
 skins = 200 samples of each design, with the same deviations for all, and five times as many near the best.
-Finally it solves 1000 new samples of the best, and shows their statistics beside those that the search saw.
+Finally it solves 1000 new samples of the best design, and shows their statistics beside those of the search.
 The search first solves samples = 128 designs that fill the space; a front has points = 30 designs; seed = 0
 selects the random numbers.
 Writes optimum.csv and optimum.toml, the definition of the best design, or front.csv; history.csv with every
@@ -85,7 +84,7 @@ pub struct Arguments {
     pub format: TableFormat,
 }
 
-/// Finds the best designs of a goal and writes them down.
+/// Searches for the best designs of a goal and writes them.
 pub fn optimise(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let (settings, required) = (settings(&arguments.settings)?, arguments.required.read()?);
     let goal = DesignGoal::read_with(&arguments.path, &settings, &required)?;
@@ -99,7 +98,7 @@ pub fn optimise(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<
     let display = Display::new(arguments.solving.quiet, interrupt, Arc::default(), RESUMED);
     let options = options(arguments, interrupt, &display);
     let found = optimisation::optimise(&goal, &folder, &options, &PROGRAM)?;
-    // The bar goes before anything is printed.
+    // Removes the bar before anything is printed.
     drop(display);
     let Some(found) = found else {
         note(&format!(
@@ -133,7 +132,7 @@ fn options<'i>(
 }
 
 fn exit_code(found: &Found) -> u8 {
-    // Only a bound that new samples surely miss is a failure; too few of them are told in words.
+    // Fails only if the new samples clearly violate a bound; undecided cases are reported in the text.
     let is_met = match &found.answer {
         Answer::Optimum(best) => best
             .confirmation

@@ -1,4 +1,4 @@
-//! How designs are solved and what becomes of earlier results: arguments that several commands share.
+//! Options that several commands share: threads, output, table format, earlier results.
 
 use std::thread::available_parallelism;
 
@@ -6,7 +6,7 @@ use clap::Args;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use run::Start;
 
-/// Whether a command goes on with earlier results or throws them away; it refuses to touch them if neither is said.
+/// Treatment of earlier results; without an option the command refuses to touch them.
 #[derive(Clone, Copy, Debug, Args)]
 pub struct EarlierResults {
     /// Continue from earlier results in the folder, if it has any
@@ -19,7 +19,7 @@ pub struct EarlierResults {
 }
 
 impl EarlierResults {
-    /// The start of the journal.
+    /// Returns the start mode of the journal.
     pub fn start(self) -> Start {
         match (self.resume, self.fresh) {
             (true, _) => Start::Resume,
@@ -29,7 +29,7 @@ impl EarlierResults {
     }
 }
 
-/// How designs are solved.
+/// Options of commands that run a sweep.
 #[derive(Debug, Args)]
 pub struct RunOptions {
     #[command(flatten)]
@@ -44,7 +44,7 @@ pub struct RunOptions {
     pub quiet: bool,
 }
 
-/// How the work of an answer is done, and as what it is printed.
+/// Options of commands that solve and print a result.
 #[derive(Debug, Args)]
 pub struct SolveOptions {
     #[command(flatten)]
@@ -72,30 +72,30 @@ pub struct TableFormat {
 #[derive(Clone, Copy, Debug, Args)]
 pub struct Threads {
     /// Number of threads [default: all cores]
-    // `--threads -1` is refused as a number out of range, and not as an unknown option `-1`.
+    // Hyphens allowed, so that `-1` is reported as out of range and not as an unknown option.
     #[arg(long = "threads", allow_hyphen_values = true, value_name = "N", value_parser = whole::<1, 1024>)]
     number: Option<u64>,
 }
 
 impl Threads {
-    /// As many as are asked for, or one for each core.
+    /// Returns the requested number of threads, or the number of cores.
     pub fn count(self) -> usize {
         let cores = || available_parallelism().map_or(1, usize::from);
         self.number.map_or_else(cores, |number| number as usize)
     }
 
-    /// A pool of so many threads.
+    /// Creates a pool with this number of threads.
     pub fn pool(self) -> anyhow::Result<ThreadPool> {
         Ok(ThreadPoolBuilder::new().num_threads(self.count()).build()?)
     }
 }
 
-/// Reads a number, without a unit: it stands in the name of its option, or in its help.
+/// Parses a number without a unit.
 pub fn decimal(text: &str) -> Result<f64, String> {
     text.trim().parse().map_err(|_| "expected a number, without a unit".to_owned())
 }
 
-/// Reads a whole number from `LOW` to `HIGH`. The parsers of clap speak of digits and types where it is none.
+/// Parses an integer from `LOW` to `HIGH`; errors are clearer than those of clap.
 pub fn whole<const LOW: u64, const HIGH: u64>(text: &str) -> Result<u64, String> {
     let number = text.parse().ok().filter(|number| (LOW..=HIGH).contains(number));
     number.ok_or_else(|| match HIGH {

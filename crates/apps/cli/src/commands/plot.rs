@@ -99,10 +99,10 @@ Examples:
   squama plot curves results/paper --gap 0.1 --length 1
   squama plot curves palm.toml --design 1 --measured test.csv
 
-A measured file is a CSV table whose first line names its columns with their units, in any order and among others:
-displacement_mm (or _um, _m) and force_N (_mN, _kN), or curvature_per_m (_per_mm) and moment_N_mm (_mN_m, _N_m).
-Curves are in mm, N and mJ where a [material] has a thickness and a modulus, which such a file takes. displacement and
-force, or curvature and moment, without a unit are those of path.csv and flexure_path.csv.")]
+A measured file is a CSV table. Its first line names the columns with their units, in any order: displacement_mm
+(or _um, _m) and force_N (_mN, _kN), or curvature_per_m (_per_mm) and moment_N_mm (_mN_m, _N_m); other columns are
+ignored. A file with units needs a [material] with a thickness and a modulus; curves are then in mm, N and mJ.
+Columns without a unit are dimensionless, as in path.csv and flexure_path.csv.")]
 pub struct CurvesArguments {
     #[command(flatten)]
     pub definition: Definition,
@@ -114,7 +114,7 @@ pub struct CurvesArguments {
     #[arg(long, value_name = "U", allow_hyphen_values = true, value_parser = decimal)]
     pub to: Option<f64>,
 
-    /// Lay a measured curve over the solved ones (may be repeated, for files of one test)
+    /// Overlay a measured curve (may be repeated, for files of one test)
     #[arg(long, value_name = "FILE.csv")]
     pub measured: Vec<PathBuf>,
 
@@ -129,10 +129,10 @@ pub struct CurvesArguments {
 /// Largest step along a curve, as a fraction of the whole path.
 const CURVE_STEP: f64 = 0.004;
 
-/// Curves that end where the puncture does.
+/// Figures in which the curves end with the puncture.
 const OF_PUNCTURES: [&str; 2] = ["force-displacement-curves", "puncture-energies"];
 
-/// Draws the figures of a sweep, or the curves of designs.
+/// Plots the figures of a sweep, a map, or the curves of designs.
 pub fn plot(arguments: &Arguments) -> anyhow::Result<u8> {
     match (&arguments.what, &arguments.results) {
         (Some(PlotWhat::Curves(arguments)), _) => plot_curves(arguments),
@@ -144,7 +144,7 @@ pub fn plot(arguments: &Arguments) -> anyhow::Result<u8> {
 
 fn plot_results(results: &Path, arguments: &Arguments) -> anyhow::Result<u8> {
     check_sizes(&arguments.output)?;
-    // All designs: a figure itself leaves marks out where there are too many.
+    // All designs; the figures thin out marks themselves.
     let results = ResultsFolder::read(
         &verified_folder(results, arguments.partial.completeness())?,
         usize::MAX,
@@ -212,7 +212,7 @@ fn plot_curves(arguments: &CurvesArguments) -> anyhow::Result<u8> {
     let names: Vec<_> = designs.iter().map(SelectedDesign::label).collect();
     let names = joined(&names, "designs");
     for figure in curves(sweep.name(), &shown, measured.as_ref()) {
-        // Where a puncture ends is a part of what its curves show.
+        // The end of the path is part of the file name of these curves.
         let to = arguments.to.filter(|_| OF_PUNCTURES.contains(&figure.name.as_str()));
         let to = to.map_or_else(String::new, |to| format!("-to-u-{to}"));
         let file = format!("{}{to}-of-{names}", figure.name);
@@ -225,30 +225,37 @@ fn plot_curves(arguments: &CurvesArguments) -> anyhow::Result<u8> {
     Ok(if failed { INCOMPLETE } else { DONE })
 }
 
-/// The measured curves, if the designs can stand beside them in their units.
+/// Reads the measured curves, and checks that the designs have the same units.
 fn measured(arguments: &CurvesArguments, cases: &[Case]) -> anyhow::Result<Option<MeasuredCurves>> {
     let read = |file: &PathBuf| MeasuredCurve::read(file, arguments.measured_columns.as_deref());
     let read = arguments.measured.iter().map(read).collect::<Result<Vec<_>, _>>()?;
     let Some(first) = read.first() else { return Ok(None) };
     let is_alike = |c: &&MeasuredCurve| (c.test, c.is_physical) == (first.test, first.is_physical);
-    // They are laid over one panel, which has one pair of axes.
+    // All are drawn in one panel with one pair of axes.
     if let Some(other) = read.iter().find(|curve| !is_alike(curve)) {
-        bail!("{}: is of another test than {}, or in other units", other.file, first.file);
+        bail!(
+            "{}: differs from {} in its test or units; overlay curves of one test in the same units",
+            other.file,
+            first.file
+        );
     }
     let units = |case: &Case| {
         first.test.units(case).map(|_| ()).map_err(|missing| {
             let definition = arguments.definition.path.display();
-            anyhow::anyhow!("{definition}: {} is in mm and N, which needs {missing}", first.file)
+            anyhow::anyhow!(
+                "{definition}: {} is in mm and N; to overlay it, the definition needs {missing}",
+                first.file
+            )
         })
     };
-    // Columns without a unit lie over dimensionless curves, which every design has.
+    // Dimensionless columns need no material.
     cases.iter().filter(|_| first.is_physical).try_for_each(units)?;
     let (bending, is_physical) = (first.test == Test::Bending, first.is_physical);
     let curves = read.into_iter().map(|curve| (curve.file, curve.points)).collect();
     Ok(Some(MeasuredCurves { bending, is_physical, curves }))
 }
 
-/// The puncture of a design, to the critical tilt or to a displacement, and its bending.
+/// Solves the puncture of a design, to the critical tilt or to a displacement, and its bending.
 fn solve(case: &Case, to: Option<f64>) -> anyhow::Result<(Puncture, Flexure)> {
     let substrate = substrate(case)?;
     let mut common = case.common;
@@ -260,22 +267,22 @@ fn solve(case: &Case, to: Option<f64>) -> anyhow::Result<(Puncture, Flexure)> {
         None => puncture::solve(&case.design, &substrate, &common, &alone)?,
         Some(to) => puncture::snapshots(&case.design, &substrate, &common, &alone, &[to])?.puncture,
     };
-    // The steps of the definition are enough, because a place is shown by its critical force alone.
+    // Without smaller steps, because only the critical force at each position is shown.
     puncture.places =
         puncture::load_positions(&case.design, &substrate, &case.common, &parameters)?;
     if let Some(to) = to {
         let beyond = puncture.path.iter().position(|point| point.displacement > to);
-        // One point beyond, so that the line reaches the end.
+        // Includes one point beyond, so that the line reaches the end.
         puncture.path.truncate(beyond.map_or(usize::MAX, |beyond| beyond + 1));
         let path = &puncture.path;
-        // A cross beyond the end of the line would stand beside the curve.
+        // Events beyond the end would be drawn off the curve.
         puncture.events.retain(|event| path.contains(&event.point));
         puncture.folds.retain(|fold| fold.point.displacement <= to);
     }
     Ok((puncture, flexure::solve(&case.design, &common, &case.flexure)?))
 }
 
-/// The number of a design, for a legend, which tells its geometry too; with the values in which it differs from the others besides.
+/// Returns the label of a design in a legend: its number, and values that differ besides the geometry.
 fn number(design: &SelectedDesign, cases: &[Case]) -> String {
     let number = design.number.map_or("off the grid".to_owned(), |number| number.to_string());
     let own = design.case();

@@ -45,7 +45,7 @@ weighted mean. A criterion is ignored if its weight is 0, or if all designs have
 round-off. Designs of equal fitness are listed in the order of their numbers.
 Writes ranking.csv (designs by fitness), pareto.csv (the Pareto front), ranking.toml (requirements, criteria
 and weights) and, with four criteria, winners.csv and quaternary.csv (the best design for all weights). If no
-design meets the requirements, shows the nearest design and the requirement that stands in the way.
+design meets the requirements, shows the nearest design and the requirement that is the obstacle.
 Exit code: 0 done, 1 no design meets the requirements, 2 bad input or a disk error.")]
 pub struct Arguments {
     /// Results folder of a run, or its definition
@@ -104,13 +104,13 @@ pub struct Arguments {
     pub partial: Partial,
 }
 
-/// Finds the best designs of a run and writes them down.
+/// Ranks the designs of a run and writes the ranking.
 pub fn rank(arguments: &Arguments) -> anyhow::Result<u8> {
     let preferences = preferences(arguments)?;
     let grid: TetrahedralGrid = option("--resolution", &arguments.resolution)?;
     let verified = verified_folder(&arguments.results, arguments.partial.completeness())?;
     let results = Ranking::results(&verified, &preferences)?;
-    // Refused before anything is ranked: values that were measured in different ways have no order.
+    // Checked before the ranking: values measured under different parameters cannot be compared.
     check_comparable(&results, &preferences)?;
     match Ranking::by(&results, preferences.clone(), grid) {
         Ok(ranking) => ranked(arguments, &results, &ranking),
@@ -121,7 +121,7 @@ pub fn rank(arguments: &Arguments) -> anyhow::Result<u8> {
 
 fn ranked(arguments: &Arguments, results: &Results, ranking: &Ranking<'_>) -> anyhow::Result<u8> {
     let folder = arguments.out.as_deref().unwrap_or(results.folder());
-    // Held until the files are noted: another ranking would remove them in between.
+    // Locked until the files are recorded: a concurrent ranking would remove them.
     let (files, lock) = ranking::write_ranking(folder, ranking)?;
     derivation::record(results.verified_folder(), RunFolder::RANKING_RECORD, folder, &files)?;
     drop(lock);
@@ -146,7 +146,7 @@ fn none_meets(
     unmet: &Unmet,
 ) -> anyhow::Result<u8> {
     let folder = arguments.out.as_deref().unwrap_or(results.folder());
-    // Preferences alone are kept: an earlier ranking would pass for one by these requirements.
+    // Removes an earlier ranking, which would appear to be based on these requirements.
     let (file, lock) = ranking::write_unmet(folder, preferences)?;
     derivation::record(results.verified_folder(), RunFolder::RANKING_RECORD, folder, &[file])?;
     drop(lock);
@@ -156,7 +156,7 @@ fn none_meets(
     Ok(INCOMPLETE)
 }
 
-/// The preferences that the ranking goes by.
+/// Returns the preferences of the ranking.
 fn preferences(arguments: &Arguments) -> anyhow::Result<Preferences> {
     let requirements = arguments.required.read()?;
     let scale: Scale = option("--scale", &arguments.scale)?;
@@ -169,7 +169,7 @@ fn preferences(arguments: &Arguments) -> anyhow::Result<Preferences> {
     }
 }
 
-/// The criteria that are asked for, or those of the paper, with `--sound` with the force that the model can answer for.
+/// Returns the requested criteria, or the paper's; `--sound` replaces the critical force by the valid force.
 fn criteria(arguments: &Arguments) -> anyhow::Result<Vec<Criterion>> {
     let goals = [(Goal::Maximize, &arguments.maximize), (Goal::Minimize, &arguments.minimize)];
     let of = |(goal, columns): (Goal, &Vec<String>)| -> Vec<Criterion> {
@@ -192,7 +192,7 @@ fn criteria(arguments: &Arguments) -> anyhow::Result<Vec<Criterion>> {
     Ok(criteria)
 }
 
-/// The value of an option.
+/// Parses the value of an option.
 fn option<T: std::str::FromStr>(name: &str, text: &str) -> anyhow::Result<T>
 where
     T::Err: std::error::Error + Send + Sync + 'static,

@@ -41,7 +41,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
 
-    /// Results folder of squama optimise, whose designs are shown beside those of the grid
+    /// Results folder of squama optimise; its designs are shown beside the grid
     #[arg(long, value_name = "DIR")]
     pub front: Option<PathBuf>,
 
@@ -49,19 +49,20 @@ pub struct Arguments {
     pub partial: Partial,
 }
 
-/// Designs that a page holds, about, at most: a browser takes no more.
+/// Approximate maximum number of designs on a page: larger pages overload a browser.
 const HELD: usize = 25_000;
 
-/// Designs that are solved again for their curves, and for how they move with their gaps, at most.
+/// Maximum number of designs solved again for their curves and their sensitivity to the gap.
 const SOLVED: usize = 120;
-/// Designs of these that are drawn as they are at the critical tilt, at most: the best of all and by each criterion. The page
-/// itself solves and draws any other.
-// Five, because the page of the paper is to stay below 2 MB, of which the solver is a part.
+/// Maximum number of designs drawn at the critical tilt: the best, and the best by each criterion.
+///
+/// The page itself solves and draws all others.
+// Five, to keep the page of the paper below 2 MB, including the solver.
 const DRAWN: usize = 5;
-/// Largest step along the curves of a drawn design, as a fraction of the whole path: close enough for a line.
+/// Largest step along the curves of a drawn design, as a fraction of the whole path.
 const CURVE_STEP: f64 = 0.01;
-/// Bytes of all their drawings, at most.
-const ROOM: usize = 1_500_000;
+/// Maximum size of all drawings, bytes.
+const DRAWING_BYTES: usize = 1_500_000;
 
 /// Writes the page of a sweep.
 pub fn report(arguments: &Arguments) -> anyhow::Result<u8> {
@@ -71,7 +72,7 @@ pub fn report(arguments: &Arguments) -> anyhow::Result<u8> {
     let ending = out.extension().unwrap_or("html".as_ref());
     ensure!(
         ending == "html",
-        "--out {}: not accepted, expected a name that ends in .html, because the page is one for browsers",
+        "--out {}: not accepted, expected a name that ends in .html",
         out.display()
     );
     require_folder_of("--out", &out)?;
@@ -80,7 +81,7 @@ pub fn report(arguments: &Arguments) -> anyhow::Result<u8> {
     let folder = out.parent().map_or_else(PathBuf::new, PathBuf::from);
     let name = out.with_extension("html");
     let name = name.file_name().unwrap_or_default().to_string_lossy();
-    // A page of some megabytes that a kill has left half-written goes with the next one.
+    // Also removes partial pages of killed processes.
     results::make_folder(&folder)?;
     write(&folder, &name, |file| page.write(file))?;
     derivation::record(results.verified(), "page", &folder, &[&name])?;
@@ -104,11 +105,11 @@ fn page(results: &ResultsFolder) -> anyhow::Result<Page> {
     let rankings = results.rankings()?;
     let grid = sweep.grid();
     Ok(Page {
-        // A page has no springs of layers.
+        // The interactive solver does not support layers.
         explorer: (!sweep.gives(sweep::key::TISSUE)).then(|| Explorer {
             sweep: sweep.clone(),
             source: shell_word(&results.folder.display().to_string()),
-            // The page of a run has requirements of its own, which the solver asks it for.
+            // The page of a run provides the requirements.
             requirements: Vec::new(),
             version: PROGRAM.version.to_owned(),
         }),
@@ -128,7 +129,7 @@ fn page(results: &ResultsFolder) -> anyhow::Result<Page> {
     })
 }
 
-/// The preferences of the last ranking, as the address of the page has it.
+/// Formats the preferences of the last ranking for the address of the page.
 fn opening(preferences: &Preferences) -> String {
     let list = |texts: Vec<String>| texts.join(",");
     let criteria = list(preferences.criteria.iter().map(ToString::to_string).collect());
@@ -137,16 +138,15 @@ fn opening(preferences: &Preferences) -> String {
     let required =
         preferences.requirements.iter().map(|requirement| format!("require={requirement}"));
     let ranked = format!("criteria={criteria}&weights={weights}&scale={scale}");
-    // In an address a plus stands for a space.
+    // A plus in an address means a space.
     required.chain([ranked]).collect::<Vec<_>>().join("&").replace('+', "%2B")
 }
 
-/// Designs that are solved again for curves, and for drawings as many as there is room for: in turns the first of each group
-/// of designs that can be compared.
+/// Solves the leading designs of each comparable group again, for curves and drawings.
 fn solved(results: &ResultsFolder, rankings: &[Ranking<'_>]) -> Vec<PageDesign> {
     let mut groups: Vec<_> = rankings.iter().map(|ranking| leading(ranking).into_iter()).collect();
     let mut rows: Vec<usize> = Vec::new();
-    // In turns, so that no group of designs takes all the room.
+    // Alternates between groups, so that no group dominates.
     while rows.len() < SOLVED && !groups.is_empty() {
         groups.retain_mut(|group| {
             group.next().is_some_and(|row| {
@@ -155,7 +155,7 @@ fn solved(results: &ResultsFolder, rankings: &[Ranking<'_>]) -> Vec<PageDesign> 
             })
         });
     }
-    // The last round may have taken one of each group, and so a few too many.
+    // The last round may exceed the limit.
     rows.truncate(SOLVED);
     let rows: Vec<_> = rows.into_iter().enumerate().collect();
     let mut all: Vec<_> = with_bar(rows.len(), |work| {
@@ -166,9 +166,9 @@ fn solved(results: &ResultsFolder, rankings: &[Ranking<'_>]) -> Vec<PageDesign> 
         };
         rows.par_iter().filter_map(solve).collect()
     });
-    let mut room = ROOM;
+    let mut room = DRAWING_BYTES;
     for design in &mut all {
-        // The best come first: where the room ends, the others keep their curves.
+        // The best come first; beyond the limit, designs keep only their curves.
         room = room.saturating_sub(design.svg.len());
         if room == 0 {
             design.svg.clear();
@@ -177,10 +177,10 @@ fn solved(results: &ResultsFolder, rankings: &[Ranking<'_>]) -> Vec<PageDesign> 
     all
 }
 
-/// The rows of the designs that are best for all criteria alike, for one alone, or for other weights, and of the next best for all
-/// alike: each once.
+/// Returns the rows of the winners for equal weights, single criteria and other weights, then the next
+/// best for equal weights, without duplicates.
 fn leading(ranking: &Ranking<'_>) -> Vec<usize> {
-    // The order decides which designs are drawn, so these five come first.
+    // The first five are drawn.
     let named = std::iter::once(Weights::BALANCED).chain(Weights::alone());
     let named = named.map(|weights| ranking.winner(weights));
     let winners = named.chain(ranking.winners());
@@ -193,17 +193,17 @@ fn leading(ranking: &Ranking<'_>) -> Vec<usize> {
     rows
 }
 
-/// A design with curves, and a drawing if it `is_drawn`, or none if it cannot be solved: its row in the table says why.
+/// Solves a design for its curves, and its drawing if `is_drawn`; `None` if it cannot be solved.
 fn solve(results: &ResultsFolder, row: usize, is_drawn: bool) -> Option<PageDesign> {
     let number = results.designs.design(row);
     let grid = results.sweep.grid();
     let mut case = grid.case(grid.parse_number(number).ok()?);
-    // A definition may ask for smaller steps than a drawn curve needs: they hold then.
+    // Smaller steps of the definition are kept.
     case.common.solver.max_step = case.common.solver.max_step.min(CURVE_STEP);
     let substrate = substrate(&case).ok()?;
     let solved =
         puncture::snapshots(&case.design, &substrate, &case.common, &case.punctured(), &[]).ok()?;
-    // A row that does not come to its end is drawn at rest alone.
+    // A row that does not reach the critical tilt is drawn only at rest.
     let states = if solved.is_critical { std::slice::from_ref(&solved.end) } else { &[] };
     let name = format!("{} design {number}", results.sweep.name());
     let drawing = drawings::PunctureDrawing { name: &name, case: &case, states };
@@ -224,7 +224,7 @@ fn scaled([x, y]: [f64; 2], units: Option<[f64; 3]>) -> [f64; 2] {
     units.map_or([x, y], |[unit_x, unit_y, _]| [x * unit_x, y * unit_y])
 }
 
-/// How the criteria of a design move with its gap.
+/// Computes the change of the criteria with the gap.
 fn gap_factors(results: &ResultsFolder, number: &str) -> Vec<GapFactors> {
     let columns: Vec<&str> = CRITERIA.iter().map(|criterion| criterion.column.as_ref()).collect();
     let change = GapChange::of(&results.sweep, number, &columns);
@@ -237,7 +237,7 @@ fn gap_factors(results: &ResultsFolder, number: &str) -> Vec<GapFactors> {
     measures.into_iter().map(factors).collect()
 }
 
-/// Curvatures and moments along the path of bending; none if it cannot be solved.
+/// Returns curvatures and moments along the path of bending; empty if it cannot be solved.
 fn bending(case: &Case) -> Vec<[f64; 2]> {
     let solved = flexure::solve(&case.design, &case.common, &case.flexure);
     let path = solved.map_or_else(|_| Vec::new(), |solved| solved.path);

@@ -1,4 +1,4 @@
-//! The requirements that commands take.
+//! The option `--require`.
 
 use anyhow::Context as _;
 use clap::Args;
@@ -15,7 +15,7 @@ pub struct RequirementArgs {
 }
 
 impl RequirementArgs {
-    /// The requirements, once they are understood. Says what a level of a standard asks for, and what it leaves out.
+    /// Parses the requirements, and prints a note on the source and limits of a standard.
     pub fn read(&self) -> anyhow::Result<Vec<Requirement>> {
         let read = |text: &String| text.parse().with_context(|| format!("--require {text}"));
         let all = self.texts.iter().map(read).collect::<anyhow::Result<Vec<_>>>()?;

@@ -48,7 +48,7 @@ pub struct Arguments {
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub settings: Vec<String>,
 
-    /// Show what would be solved, and solve nothing
+    /// List the designs that would be solved, without solving them
     #[arg(long)]
     pub dry_run: bool,
 
@@ -59,7 +59,7 @@ pub struct Arguments {
     pub format: TableFormat,
 }
 
-/// Designs that are named before the list is cut short.
+/// Maximum number of listed designs.
 const NAMED: usize = 20;
 
 /// Solves some designs of a run again.
@@ -68,7 +68,7 @@ pub fn rerun(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8>
     let folder = results_folder(&arguments.results)?;
     let rerun = Rerun::plan(&folder, &filter(arguments), &settings, &PROGRAM)?;
     if rerun.designs().len() == 0 {
-        print(&format!("{}: no design matches, so nothing is solved again\n", folder.display()))?;
+        print(&format!("{}: no design matches; nothing to solve\n", folder.display()))?;
         return Ok(DONE);
     }
     if arguments.dry_run {

@@ -1,4 +1,4 @@
-//! A folder of results, as figures and the page need it.
+//! A results folder, as figures and the page need it.
 
 use std::path::PathBuf;
 
@@ -11,7 +11,7 @@ use sweep::Sweep;
 
 use crate::print::note;
 
-/// A folder of results.
+/// The contents of a results folder.
 pub struct ResultsFolder {
     /// The path of the folder.
     pub folder: PathBuf,
@@ -25,12 +25,12 @@ pub struct ResultsFolder {
 }
 
 impl ResultsFolder {
-    /// The folder as it was checked.
+    /// Returns the verified folder.
     pub fn verified(&self) -> &VerifiedFolder {
         self.results.verified_folder()
     }
 
-    /// The name of the sweep, with how much of it is there if that is not the whole.
+    /// Returns the name of the sweep, and the number of designs if it is incomplete or thinned out.
     pub fn title(&self) -> String {
         let name = self.sweep.name();
         let held = self.verified().shortfall();
@@ -46,7 +46,7 @@ impl ResultsFolder {
 }
 
 impl ResultsFolder {
-    /// Reads `run.toml` and `designs.csv`, of a long table about `most` designs.
+    /// Reads `run.toml` and `designs.csv`; thins out a table of more than `most` designs.
     pub fn read(verified: &VerifiedFolder, most: usize) -> anyhow::Result<Self> {
         let folder = verified.path();
         let run = verified.text(RunFolder::RUN_INFO)?;
@@ -57,7 +57,7 @@ impl ResultsFolder {
         Ok(Self { folder: folder.to_owned(), sweep, designs, run: facts(&run), results })
     }
 
-    /// The rankings of the designs: one for each group of designs that can be compared, none where there are none to rank.
+    /// Returns a ranking for each group of comparable designs; empty if there is nothing to rank.
     pub fn rankings(&self) -> Result<Vec<Ranking<'_>>, InvalidRanking> {
         let groups = match comparable_groups(&self.results, &Preferences::paper()) {
             Err(InvalidResults::NoColumn { .. }) => return Ok(Vec::new()),
@@ -67,14 +67,14 @@ impl ResultsFolder {
         rankings.filter_map(Result::transpose).collect()
     }
 
-    /// The ranking of the designs, if there are any to rank and they can be compared; if not, says so.
+    /// Returns the ranking if all designs are comparable; otherwise prints a note.
     pub fn comparable_ranking(&self) -> Result<Option<Ranking<'_>>, InvalidRanking> {
         match check_comparable(&self.results, &Preferences::paper()) {
             Err(InvalidRanking::Incomparable(why)) => {
-                note(&format!("no figure of the best designs: {why}"));
+                note(&format!("the figure of the best designs is left out: {why}"));
                 Ok(None)
             }
-            // What is missing there, the ranking misses too.
+            // Missing columns are handled by the ranking.
             Ok(()) | Err(_) => self.ranking(Preferences::paper()),
         }
     }
@@ -82,7 +82,7 @@ impl ResultsFolder {
     fn ranking(&self, preferences: Preferences) -> Result<Option<Ranking<'_>>, InvalidRanking> {
         match Ranking::by(&self.results, preferences, TetrahedralGrid::default()) {
             Ok(ranking) => Ok(Some(ranking)),
-            // A sweep need not measure everything, and what it varies need not go together.
+            // A sweep may lack measures, or designs that meet all conditions.
             Err(
                 InvalidRanking::Nothing { .. }
                 | InvalidRanking::Unmet(_)

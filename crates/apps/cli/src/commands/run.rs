@@ -72,7 +72,7 @@ pub struct Arguments {
     #[arg(long, value_name = "i/N")]
     pub shard: Option<sweep::Shard>,
 
-    /// Solve this share of the designs again by a second method, and show the differences
+    /// Solve this fraction of the designs again by a second method, and show the differences
     ///
     /// The second method takes steps a tenth as large, and solves a strip as a chain of all its gaps. A relative difference
     /// above 1e-6, or a different status, gives exit code 1.
@@ -86,10 +86,10 @@ pub struct Arguments {
     pub format: TableFormat,
 }
 
-/// How often the tables are written while a run goes on.
+/// Interval between updates of the tables during a run.
 const TABLES_EVERY: Duration = Duration::from_secs(30);
 
-/// Solves every design that is not done and writes the tables.
+/// Solves all remaining designs and writes the tables.
 pub fn run(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let sweep = read(&arguments.definition)?;
     let folder = folder(arguments, &sweep);
@@ -98,7 +98,7 @@ pub fn run(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let how = (&arguments.work, &arguments.format);
     let (finished, audited) = behind_bar(how, interrupt, |options, show| {
         let finished = run::run(&sweep, subset, &folder, start, options, &PROGRAM, show)?;
-        // Whoever ends a run does not wait for its audit.
+        // No audit after an interruption.
         let share = arguments.audit.filter(|_| interrupt.exit_code().is_none());
         let audited = share.map(|share| run::Audit::of(&folder, share, options)).transpose()?;
         anyhow::Ok((finished, audited))
@@ -114,28 +114,27 @@ pub fn run(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     Ok(if audit::agrees(&audit) { code } else { INCOMPLETE })
 }
 
-/// Says that a run does not go through variables.
+/// Prints a note if the definition has variables, which a run does not vary.
 fn note_variables(sweep: &Sweep) {
     let keys: Vec<_> = sweep.variables().iter().map(|v| v.parameter().key).collect();
     if !keys.is_empty() {
         note(&format!(
-            "the [variables] {} keep the middle of their values; squama optimise and squama sensitivity vary them",
+            "[variables] {}: a run uses the middle of their ranges; squama optimise and squama sensitivity vary them",
             keys.join(", ")
         ));
     }
 }
 
-/// Says what a person should know of a run that came to its end: what was cut off, lost or removed, and what was made from
-/// earlier tables.
+/// Prints the notes of a finished run, and the products that are now out of date.
 pub(super) fn conclude(folder: &Path, finished: &Finished) {
     for text in &finished.notes {
         note(text);
     }
-    // Partial, because an interrupted run leaves products out of date, too.
+    // Partial, because an interrupted run also leaves products out of date.
     let verified = VerifiedFolder::open(folder, Completeness::Partial);
     for made in verified.iter().flat_map(VerifiedFolder::outdated) {
         note(&format!(
-            "{} was made from earlier tables; {} makes it again",
+            "{} is out of date: it was made from earlier tables; update it with {}",
             made.product, made.command
         ));
     }
@@ -156,13 +155,13 @@ fn subset(arguments: &Arguments) -> Subset {
     Subset { sample, shard: arguments.shard }
 }
 
-/// Solves designs as the arguments have it, behind a bar that is told of each.
+/// Solves designs with a progress bar.
 pub(super) fn behind_bar<T>(
     (work, format): (&RunOptions, &TableFormat),
     interrupt: &Interrupt,
     solve: impl FnOnce(&Options<'_>, &dyn Fn(Progress)) -> T,
 ) -> T {
-    // From here on there are designs to keep; before, a signal ends the command at once.
+    // From here on, the first signal keeps the solved designs.
     interrupt.ask_first();
     let display = ProgressDisplay::new(work.quiet, interrupt, Arc::default(), RESUMED);
     let options = Options {
@@ -178,7 +177,7 @@ pub(super) fn behind_bar<T>(
 
 pub(super) fn exit_code(finished: &Finished, interrupt: &Interrupt) -> u8 {
     let complete = finished.summary.failed == 0 && finished.missing == 0;
-    // The signal comes first: designs are missing because of it.
+    // A signal takes precedence, because it explains missing designs.
     interrupt.exit_code().unwrap_or(if complete { DONE } else { INCOMPLETE })
 }
 
@@ -208,11 +207,13 @@ fn status_rows(finished: &Finished) -> impl Iterator<Item = [String; 2]> {
     })
 }
 
-/// Designs whose numbers are not to be trusted to the end.
+/// Counts the designs with a fold, beyond which results are not valid.
 fn folded_row(finished: &Finished) -> Option<[String; 2]> {
     let folded = finished.summary.folded;
     let designs = counted(folded, "design");
-    let what = format!("{designs}: two bases pass each other, see {FOLD_FORCE} and {SOUND_FORCE}");
+    let what = format!(
+        "{designs}: two neighbouring bases cross; results are valid up to {SOUND_FORCE}, see also {FOLD_FORCE}"
+    );
     (folded > 0).then(|| ["folded over".to_owned(), what])
 }
 

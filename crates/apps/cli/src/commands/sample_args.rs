@@ -1,4 +1,4 @@
-//! What the commands that solve samples share: arguments, and the folder in which samples and tables are kept.
+//! Options and results folder of the commands that solve samples.
 
 use std::path::PathBuf;
 
@@ -14,10 +14,10 @@ use crate::interrupt::Interrupt;
 use crate::print::note;
 use crate::progress::Display;
 
-/// How samples are solved, and where they are kept.
+/// Options of the commands that solve samples.
 #[derive(Debug, Args)]
 pub struct SampleArgs {
-    /// Folder for the tables [default: one of the command's name in the results of the sweep]
+    /// Folder for the tables [default: RESULTS/COMMAND, in the results of the sweep]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 
@@ -25,10 +25,10 @@ pub struct SampleArgs {
     pub solving: SolveOptions,
 }
 
-/// What is said when the first signal has come.
-const ENDING: &str = "ending after the samples in progress; a second signal ends at once, and the same command continues";
+/// Message after the first signal.
+const ENDING: &str = "ending after the samples in progress; a second signal ends at once; to continue, run the same command again";
 
-/// The folder in which samples are kept and tables are written.
+/// The results folder of a command that solves samples.
 pub struct SampleFolder<'a> {
     definition: &'a Definition,
     arguments: &'a SampleArgs,
@@ -37,7 +37,9 @@ pub struct SampleFolder<'a> {
 }
 
 impl<'a> SampleFolder<'a> {
-    /// The folder of the command called `name`. One that holds files of others is refused before hours of work, and not behind them.
+    /// Opens the folder of the command `name`.
+    ///
+    /// Foreign files are rejected here, before hours of work.
     pub fn new(
         (definition, sweep): (&'a Definition, &Sweep),
         arguments: &'a SampleArgs,
@@ -49,7 +51,7 @@ impl<'a> SampleFolder<'a> {
         Ok(Self { definition, arguments, maker, folder })
     }
 
-    /// What `solve` makes of so many `samples`, and the claim on the tables; `None`, and a word about it, if it was told to stop.
+    /// Runs `solve` on `samples` and claims the tables; `None`, with a note, after an interruption.
     pub fn solved<T: Send>(
         &self,
         (samples, interrupt): (u64, &Interrupt),
@@ -63,10 +65,12 @@ impl<'a> SampleFolder<'a> {
         let solved = self.arguments.solving.threads.pool()?.install(|| solve(&store));
         drop(display);
         match solved {
-            // Claimed now, and not before the samples: a claim removes the tables of the last time.
+            // Claimed after the samples, because a claim removes the earlier tables.
             Ok(solved) => Ok(Some((solved, Claim::take(&self.folder, self.maker)?))),
             Err(stopped @ NoAnalysis::Stopped { .. }) => {
-                note(&format!("{stopped}, which are kept; the same command continues from them"));
+                note(&format!(
+                    "{stopped}, which are kept; to continue, run the same command again"
+                ));
                 Ok(None)
             }
             Err(error) => Err(error).with_context(|| self.definition.path.display().to_string()),

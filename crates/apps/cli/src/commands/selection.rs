@@ -1,4 +1,4 @@
-//! The designs that a command looks at: by their numbers, or by their values.
+//! Selection of designs, by number or by value.
 
 use std::ops::RangeInclusive;
 use std::path::Path;
@@ -11,7 +11,7 @@ use sweep::{Axis, Case, DesignNumber, Grid, Parameter, Setting, Sweep, read_text
 
 use super::source::{Defined, Definition, IS_GOAL, defined_by, definition_file, settings};
 
-/// Numbers of designs, or their values.
+/// Options that select designs.
 #[derive(Debug, Args)]
 #[group(multiple = true)]
 pub struct Selection {
@@ -32,40 +32,40 @@ pub struct Selection {
     pub slant: Option<String>,
 }
 
-/// A design that is looked at.
+/// A selected design.
 pub struct SelectedDesign {
     /// A sweep of this design alone.
     pub sweep: Sweep,
-    /// The number of the design in the whole sweep, if it is one of its designs.
+    /// The number of the design in the sweep; `None` off the grid.
     pub number: Option<DesignNumber>,
-    /// How many designs the sweep has as a whole.
+    /// The number of designs in the sweep.
     pub count: u64,
-    /// The case that the sweep solves under that number, if settings may have changed it.
+    /// The case with this number in the sweep, without settings.
     pub original: Option<Case>,
 }
 
-/// The designs that are selected, at least one.
+/// Returns the selected designs, at least one.
 pub fn select(
     definition: &Definition,
     selection: &Selection,
 ) -> anyhow::Result<Vec<SelectedDesign>> {
     let settings = settings(&definition.settings)?;
-    // Before `definition_file`, which refuses a front because it is no single definition.
+    // Before `definition_file`, which rejects a front.
     if definition.path.join(FRONT).is_file() {
-        return of_front(&definition.path, &settings, selection);
+        return select_from_front(&definition.path, &settings, selection);
     }
     let file = definition_file(&definition.path)?;
-    // Read once: it may be a pipe.
+    // Read once, because it may be a pipe.
     let mut text = read_text(&file)?;
     let is_chosen = options(selection).iter().any(|(.., text)| text.is_some());
     let designs = match defined_by(&text, &file, &settings)? {
-        // The space of a goal is no grid: its designs have values, and no numbers.
+        // Designs of a goal have values but no numbers.
         Defined::Goal(goal) if is_chosen && selection.numbers.is_empty() => {
             text = nominal(&goal);
             1
         }
         Defined::Goal(_) => bail!(
-            "{}: {IS_GOAL}; any other is chosen with --gap, --length and --slant",
+            "{}: {IS_GOAL}; or choose a design with --gap, --length and --slant",
             file.display()
         ),
         Defined::Sweep(sweep) => sweep.grid().len(),
@@ -83,8 +83,8 @@ pub fn select(
     by_numbers((&text, &file), &settings, numbers)
 }
 
-/// The designs with these numbers of the Pareto front in the folder of a search.
-fn of_front(
+/// Selects designs by number from the Pareto front of a search.
+fn select_from_front(
     folder: &Path,
     settings: &[Setting],
     selection: &Selection,
@@ -109,7 +109,7 @@ fn of_front(
         let value = |p: &Parameter| format!("{}={}", p.path(), front.parameter(row, p));
         let found = goal.space.parameters().map(|p| Setting::parse(&value(p)));
         let mut all = found.collect::<Result<Vec<_>, _>>()?;
-        // These come last, so that `--set` changes the design that was found.
+        // `--set` comes last, so that it overrides the values of the front.
         all.extend_from_slice(settings);
         let (sweep, number) = (Sweep::parse(&nominal, &name, &all)?, Some(grid.number(row as u64)));
         Ok(SelectedDesign { sweep, number, count: designs as u64, original: None })
@@ -117,7 +117,7 @@ fn of_front(
     selection.numbers.iter().map(select).collect()
 }
 
-/// The definition of one design of the space of a goal, which others are made of.
+/// Returns the definition of one design of a goal, the basis of all others.
 fn nominal(goal: &DesignGoal) -> String {
     let space = goal.space.sweep();
     space.at(&space.grid().case(0)).to_toml()
@@ -131,7 +131,7 @@ fn by_numbers(
     let read = |settings: &[Setting]| Sweep::parse(text, &file.display().to_string(), settings);
     let sweep = read(settings)?;
     let grid = sweep.grid();
-    // Settings that change the number of designs leave no design to compare with.
+    // Settings that change the grid leave no design for a comparison.
     let original = read(&[]).ok().filter(|other| other.grid().len() == grid.len());
     let selected = |index| SelectedDesign {
         number: Some(grid.number(index)),
@@ -142,7 +142,7 @@ fn by_numbers(
     Ok(ranges(grid, numbers, file)?.into_iter().flatten().map(selected).collect())
 }
 
-/// The indices of the designs with these numbers in the grid of `file`, as ranges.
+/// Converts numbers of designs to ranges of indices in the grid of `file`.
 pub fn ranges(
     grid: &Grid,
     numbers: &[String],
@@ -155,7 +155,7 @@ pub fn ranges(
     numbers.iter().map(range).collect()
 }
 
-/// The designs with values of their own of the sweep that the text of a file defines.
+/// Selects designs by their values.
 fn by_values(
     (text, file): (&str, &Path),
     mut settings: Vec<Setting>,
@@ -165,24 +165,24 @@ fn by_values(
     let written = read(&settings)?;
     for (option, key, text) in options(selection) {
         let Some(text) = text else { continue };
-        // A decimal comma makes two values of one.
+        // `0,1` is probably a decimal comma, but is read as two values.
         let whole = text.split(',').all(|part| part.trim().parse::<u64>().is_ok());
         let note = if text.contains(',') && whole { " (several values)" } else { "" };
         let option = format!("{option} {text}{note}");
-        // A range selects among the values as they are written, because the option takes the place of their axis, in its unit.
+        // A range selects among the values of the definition, in the unit of their axis.
         let axis = written.grid().axis_saying(key);
         let key = axis.map_or(key, |axis| axis.parameter().key);
         let values = values(text, axis).context(option.clone())?;
         settings.push(Setting::from_option(&option, &format!("designs.{key}={values}"))?);
     }
     let sweep = read(&settings)?;
-    // Without `--set`, because a number is that of the design in the definition as it is written.
+    // Without `--set`, because design numbers refer to the definition as written.
     let whole = read(&[]).ok();
     let selected = |index| located(sweep.only(index), whole.as_ref());
     Ok((0..sweep.grid().len()).map(selected).collect())
 }
 
-/// The options that give values, each with the axis whose values they are.
+/// Lists the options that select values, with their axes.
 fn options(selection: &Selection) -> [(&'static str, &'static str, Option<&String>); 3] {
     [
         ("--gap", "gap_over_t", selection.gap.as_ref()),
@@ -191,14 +191,14 @@ fn options(selection: &Selection) -> [(&'static str, &'static str, Option<&Strin
     ]
 }
 
-/// The values that `text` gives, in TOML: one, several with commas between, or with `..` those of `axis` from one to another.
+/// Converts a value, a comma-separated list, or a range `FROM..TO` of the values of `axis` to TOML.
 fn values(text: &str, axis: Option<&Axis>) -> anyhow::Result<String> {
     let Some((low, high)) = text.split_once("..") else {
-        // What is TOML already, such as { from = 0.1, to = 1 }, is left as it is.
+        // TOML such as { from = 0.1, to = 1 } is passed on.
         if text.trim_start().starts_with(['[', '{']) {
             return Ok(text.to_owned());
         }
-        // `.5` is a number to people, and none to TOML.
+        // `.5` is not a number in TOML.
         let number = |part: &str| {
             let number = part.trim().parse::<f64>().ok().filter(|number| number.is_finite());
             number.map_or_else(|| part.to_owned(), |number| number.to_string())
@@ -221,7 +221,7 @@ fn values(text: &str, axis: Option<&Axis>) -> anyhow::Result<String> {
     Ok(format!("[{}]", values.join(", ")))
 }
 
-/// The one design of `sweep`, with the number that the definition as it is written gives it.
+/// Returns the only design of `sweep`, with its number in the whole sweep, if it is on the grid.
 fn located(sweep: Sweep, whole: Option<&Sweep>) -> SelectedDesign {
     let found = whole.and_then(|whole| {
         let grid = whole.grid();
@@ -236,17 +236,17 @@ fn located(sweep: Sweep, whole: Option<&Sweep>) -> SelectedDesign {
 }
 
 impl SelectedDesign {
-    /// The design with everything that it is solved with.
+    /// Returns the parameters of the design.
     pub fn case(&self) -> Case {
         self.sweep.grid().case(0)
     }
 
-    /// The number, or the values of a design that has none.
+    /// Returns the number, or the values of a design off the grid.
     pub fn label(&self) -> String {
         self.number.map_or_else(|| self.values("_", "-"), |number| number.to_string())
     }
 
-    /// The name of the sweep and of the design.
+    /// Returns the name of the sweep and of the design.
     pub fn title(&self) -> String {
         let name = self.sweep.name();
         match self.number {
@@ -255,7 +255,7 @@ impl SelectedDesign {
         }
     }
 
-    /// The values on all axes.
+    /// Formats the values on all axes.
     pub fn values(&self, equals: &str, separator: &str) -> String {
         let axes = self.sweep.grid().axes().iter();
         let value = |axis: &Axis| format!("{}{equals}{}", axis.parameter().key, axis.value(0));

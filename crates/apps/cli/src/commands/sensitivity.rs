@@ -28,7 +28,7 @@ Examples:
   squama sensitivity box.toml --samples 4000 --json
 
 Varies the parameters in [variables], such as gap_over_t = { from = 0.1, to = 1 } or length_over_t = [0.5, 1],
-independently and uniformly; all other parameters keep their values. Shows the share of the variance of each
+independently and uniformly; all other parameters keep their values. Shows the fraction of the variance of each
 measure that is due to each variable, alone (first-order Sobol' index) and together with others (total index),
 with 95 % intervals. A sample solves two designs more than there are variables. A sample in which any of them
 fails is left out, and counted.
@@ -39,12 +39,12 @@ pub struct Arguments {
     #[command(flatten)]
     pub definition: Definition,
 
-    // Scripts of earlier versions say it.
+    // Accepted for scripts of earlier versions.
     #[arg(long = "global", hide = true)]
     _global: bool,
 
     /// Number of samples
-    // One sample has no variance to share out.
+    // One sample has no variance.
     #[arg(long, value_name = "N", default_value_t = 1000, allow_hyphen_values = true, value_parser = whole::<2, 1_000_000>)]
     pub samples: u64,
 
@@ -54,7 +54,7 @@ pub struct Arguments {
 
 const TABLE: &str = "sobol.csv";
 
-/// Says which part of the variance of each measure every variable has.
+/// Computes the Sobol' indices of every measure.
 pub fn sensitivity(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let sweep = read(&arguments.definition)?;
     check(&sweep, &arguments.definition.path)?;
@@ -77,7 +77,7 @@ pub fn sensitivity(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Resu
     Ok(DONE)
 }
 
-/// Refuses a definition without a box, or with more than one.
+/// Rejects a definition without variables, or with several designs besides them.
 fn check(sweep: &Sweep, path: &Path) -> anyhow::Result<()> {
     let path = path.display();
     ensure!(
@@ -96,11 +96,11 @@ fn check(sweep: &Sweep, path: &Path) -> anyhow::Result<()> {
 }
 
 fn report(sweep: &Sweep, found: &GlobalSensitivity, samples: usize) -> String {
-    // Two points that are independent, and for each variable one that mixes them.
+    // Two independent points, and a mixture of them for each variable.
     let points = samples * (found.variables.len() + 2);
     let samples = counted(samples as u64, "sample");
     let mut text = format!("{}: {samples}, {points} designs\n", sweep.name());
-    // People see the leading measures; the table has all.
+    // Prints only the main measures; the table has all.
     let is_shown = |m: &&MeasureIndices| MEASURE_TABLES.iter().any(|(table, _)| *table == m.name);
     for measure in found.measures.iter().filter(is_shown) {
         let failed = match measure.failed {
@@ -118,7 +118,7 @@ fn report(sweep: &Sweep, found: &GlobalSensitivity, samples: usize) -> String {
     text
 }
 
-/// An index in per cent, with its interval.
+/// Formats an index in percent, with its interval.
 fn percent(estimate: IndexEstimate) -> String {
     let [low, high] = estimate.interval().map(|end| 100.0 * end);
     format!("{:.0} % ({low:.0} to {high:.0} %)", 100.0 * estimate.value)

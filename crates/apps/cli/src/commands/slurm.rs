@@ -28,7 +28,7 @@ pub struct Arguments {
     pub definition: Definition,
 
     /// Number of shards, 1 to 1000: the elements of the job array
-    // Any number is read here, because `check` tells why Slurm takes no more.
+    // Any number is accepted here, because `check` reports the limits of Slurm.
     #[arg(long, allow_hyphen_values = true, value_name = "N", value_parser = whole::<0, { u64::MAX }>)]
     pub shards: u64,
 
@@ -37,15 +37,14 @@ pub struct Arguments {
     pub out: Option<PathBuf>,
 }
 
-/// The scripts, which are the same for every sweep.
+/// The scripts, identical for every sweep.
 const SCRIPTS: [(&str, &str); 3] = [
     ("submit.sh", include_str!("../../../../../scripts/slurm/submit.sh")),
     ("array.sh", include_str!("../../../../../scripts/slurm/array.sh")),
     ("merge.sh", include_str!("../../../../../scripts/slurm/merge.sh")),
 ];
 
-/// The largest index of a job array: below `MaxArraySize`, which is 1001 unless a cluster says
-/// otherwise.
+/// Largest index of a job array: below `MaxArraySize`, by default 1001.
 const LARGEST: u64 = 1000;
 
 /// Writes the scripts that run a sweep as a job array.
@@ -60,7 +59,7 @@ pub fn slurm(arguments: &Arguments) -> anyhow::Result<u8> {
         make_executable(&folder.join(name))?;
     }
     write_text(&folder, "sweep.sh", &settings(&sweep, arguments.shards)?)?;
-    // The whole definition, so that `--set` and defaults hold for shards that run later, too.
+    // The complete definition, so that later shards use the same settings and defaults.
     write_text(&folder, "sweep.toml", &sweep.to_toml())?;
     print(&format!(
         "{}: sweep.toml sweep.sh submit.sh array.sh merge.sh\n\
@@ -88,9 +87,9 @@ fn check(shards: u64, sweep: &Sweep) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The settings that differ from sweep to sweep.
+/// Returns the settings of the scripts for this sweep.
 fn settings(sweep: &Sweep, shards: u64) -> anyhow::Result<String> {
-    // Nodes may have the program elsewhere, so the environment may name another one.
+    // The environment may override the path, because nodes may differ.
     let program = std::env::current_exe().context("the path of squama is not known")?;
     Ok(format!(
         "# What the scripts in this folder run: the sweep of sweep.toml. Written by squama slurm.\n\

@@ -1,4 +1,4 @@
-//! A definition and the folder of its results: whichever of the two is given, the other is found.
+//! Definitions and results folders: commands accept either, and find the other.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,22 +11,22 @@ use sweep::{InvalidSetting, Setting, Sweep, entries, read_text};
 
 use crate::print::note;
 
-/// Whether results are used that are not whole.
+/// The option `--partial`.
 #[derive(Debug, Args)]
 pub struct Partial {
-    /// Use an incomplete run; outputs state how many designs they are made from
+    /// Use an incomplete run; outputs state the number of designs
     #[arg(long)]
     pub partial: bool,
 }
 
 impl Partial {
-    /// The results that will do.
+    /// Returns the required completeness of the results.
     pub fn completeness(&self) -> Completeness {
         if self.partial { Completeness::Partial } else { Completeness::Whole }
     }
 }
 
-/// A definition and what is put in its place.
+/// A definition, and settings that override its keys.
 #[derive(Debug, Args)]
 pub struct Definition {
     /// Definition of a sweep in TOML, or a results folder
@@ -41,40 +41,40 @@ pub struct Definition {
     pub settings: Vec<String>,
 }
 
-/// The settings that take the place of what a definition says.
+/// Parses the settings that override keys of a definition.
 pub fn settings(texts: &[String]) -> Result<Vec<Setting>, InvalidSetting> {
     texts.iter().map(|text| Setting::parse(text)).collect()
 }
 
-/// What a definition defines.
+/// The content of a definition.
 pub enum Defined {
     Sweep(Box<Sweep>),
     Goal(Box<DesignGoal>),
 }
 
-/// What is said where a sweep is asked for and a goal is given.
-pub const IS_GOAL: &str = "has a [goal]: squama optimise searches for its best design, whose folder has one in optimum.toml";
+/// Error if a goal is given instead of a sweep.
+pub const IS_GOAL: &str = "has a [goal], which defines no single design; run squama optimise, then use optimum.toml in its folder";
 
-/// What is defined, with its settings.
+/// Reads a definition with its settings.
 pub fn defined(definition: &Definition) -> anyhow::Result<Defined> {
     let settings = settings(&definition.settings)?;
     let file = definition_file(&definition.path)?;
     defined_by(&read_text(&file)?, &file, &settings)
 }
 
-/// What the `text` of a file defines.
+/// Parses the `text` of a definition.
 pub fn defined_by(text: &str, file: &Path, settings: &[Setting]) -> anyhow::Result<Defined> {
     let name = file.display().to_string();
     let entries = entries(text, &name, settings)?;
     let is_fit = entries.iter().any(|entry| entry.key == "curve");
-    ensure!(!is_fit, "{name}: has a [[curve]]: squama fit looks for the skin behind it");
+    ensure!(!is_fit, "{name}: has a [[curve]]: it is a definition for squama fit");
     if entries.iter().any(|entry| entry.key == "goal") {
         return Ok(Defined::Goal(Box::new(DesignGoal::of_entries(&entries, &name)?)));
     }
     Ok(Defined::Sweep(Box::new(Sweep::of_entries(&entries, &name)?)))
 }
 
-/// The sweep that is defined, with its settings.
+/// Reads a sweep with its settings.
 pub fn read(definition: &Definition) -> anyhow::Result<Sweep> {
     match defined(definition)? {
         Defined::Sweep(sweep) => {
@@ -85,25 +85,26 @@ pub fn read(definition: &Definition) -> anyhow::Result<Sweep> {
     }
 }
 
-/// Says what is strange about a definition though it is valid.
+/// Prints a note on suspicious values in a valid definition.
 pub fn question(sweep: &Sweep) {
     if let Some(question) = sweep.question() {
         note(&question);
     }
 }
 
-/// The file of the definition, which is as it was written if a run has written it: `path`, or in the folder `path` the record of the run
-/// or the optimum of the search.
+/// Returns the file of the definition: `path`, or the record or optimum in the folder `path`.
+///
+/// Files written by squama are verified.
 pub fn definition_file(path: &Path) -> anyhow::Result<PathBuf> {
     if !path.is_dir() {
-        // A run.toml that was edited is no longer the record of its run.
+        // Rejects an edited run.toml.
         verify_record(path)?;
         return Ok(path.to_owned());
     }
     let record = path.join(RunFolder::RUN_INFO);
     let optimum = path.join("optimum.toml");
     if !record.is_file() && optimum.is_file() {
-        // Opened for the check alone: an optimum that somebody has changed is refused.
+        // Rejects an edited optimum.
         VerifiedFolder::open(path, Completeness::Partial)?.file("optimum.toml")?;
         return Ok(optimum);
     }
@@ -111,11 +112,11 @@ pub fn definition_file(path: &Path) -> anyhow::Result<PathBuf> {
     let folder = path.display();
     ensure!(
         !holds("front.csv"),
-        "{folder}: holds a Pareto front and no single design; squama design, draw and make take one of them with --design"
+        "{folder}: holds a Pareto front; choose one design of it with --design, in squama design, draw or make"
     );
     ensure!(
         !holds("tolerance.csv") && !holds("sobol.csv"),
-        "{folder}: holds an analysis of designs and none itself; give the definition or the results folder that it was made from"
+        "{folder}: holds an analysis and no designs; give the definition or the results folder of the run"
     );
     ensure!(
         record.is_file(),
@@ -126,10 +127,10 @@ pub fn definition_file(path: &Path) -> anyhow::Result<PathBuf> {
     Ok(record)
 }
 
-/// The folder of results: `path`, the folder of the record `path`, or that of the sweep that `path` defines.
+/// Returns the results folder of `path`: a folder, a record in a folder, or a definition.
 pub fn results_folder(path: &Path) -> anyhow::Result<PathBuf> {
     if !path.is_file() {
-        // A folder that does not exist is refused where its files are opened, by the name of what is missing.
+        // A missing folder is reported when its files are opened, with the name of the file.
         refuse_folder_of_runs(path)?;
         return Ok(path.to_owned());
     }
@@ -146,9 +147,9 @@ pub fn results_folder(path: &Path) -> anyhow::Result<PathBuf> {
     Ok(folder)
 }
 
-/// Refuses a folder that holds runs but is none, and names them.
+/// Rejects a folder that contains runs but is not one, and names the runs.
 fn refuse_folder_of_runs(path: &Path) -> anyhow::Result<()> {
-    // A run that has only begun has a journal, but no record yet.
+    // A run in progress has a journal but no record.
     let is_run = |folder: &Path| {
         [RunFolder::RUN_INFO, RunFolder::JOURNAL].iter().any(|file| folder.join(file).is_file())
     };
@@ -159,40 +160,44 @@ fn refuse_folder_of_runs(path: &Path) -> anyhow::Result<()> {
     let runs = folders.filter(|folder| is_run(folder));
     let mut names: Vec<_> =
         runs.filter_map(|run| Some(run.file_name()?.to_string_lossy().into_owned())).collect();
-    // The disk lists folders in any order.
+    // Directory order is arbitrary.
     names.sort();
     let folder = path.display();
     ensure!(
         !path.join("history.csv").is_file(),
-        "{folder}: holds a search; squama export takes it, and squama report RESULTS --front {folder} shows it beside the designs of a sweep; its own figures stand in it"
+        "{folder}: holds a search, not a run; use squama export, or squama report RESULTS --front {folder} to show it beside a sweep; its figures are in the folder"
     );
     let is_analysis = ["tolerance.csv", "sobol.csv", "fit.csv"].map(|table| path.join(table));
     ensure!(
         !is_analysis.iter().any(|table| table.is_file()),
-        "{folder}: holds an analysis; squama export takes it, and its own figures stand in it"
+        "{folder}: holds an analysis, not a run; use squama export; its figures are in the folder"
     );
-    ensure!(names.is_empty(), "{folder} holds no run; the runs in it are {}", names.join(", "));
+    ensure!(
+        names.is_empty(),
+        "{folder} holds no run itself; give one of the runs in it: {}",
+        names.join(", ")
+    );
     Ok(())
 }
 
-/// The results in the folder that `path` stands for, once they are checked.
+/// Opens and verifies the results of `path`.
 pub fn verified_folder(path: &Path, completeness: Completeness) -> anyhow::Result<VerifiedFolder> {
     Ok(VerifiedFolder::open(&results_folder(path)?, completeness)?)
 }
 
-/// The folder of the results of `sweep` unless told otherwise.
+/// Returns the results folder of `sweep`: `out`, or the default.
 pub fn folder_of(sweep: &Sweep, out: Option<&Path>) -> PathBuf {
     out.map_or_else(|| Path::new("results").join(sweep.name()), Path::to_owned)
 }
 
-/// The folder of what is made of some designs, named `what`, unless told otherwise: within the results of their sweep.
-pub fn folder_within(definition: &Definition, sweep: &Sweep, what: &str) -> PathBuf {
+/// Returns the default folder of a product of designs: `subfolder` in the results of their sweep.
+pub fn folder_within(definition: &Definition, sweep: &Sweep, subfolder: &str) -> PathBuf {
     let path = &definition.path;
     let results = if path.is_dir() { path.clone() } else { folder_of(sweep, None) };
-    results.join(what)
+    results.join(subfolder)
 }
 
-/// Refuses a file in a folder that does not exist: a mistyped path makes no folders.
+/// Rejects a file in a folder that does not exist, because the path is probably mistyped.
 pub fn require_folder_of(option: &str, file: &Path) -> anyhow::Result<()> {
     let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
     let folder = folder.unwrap_or(Path::new("."));

@@ -33,7 +33,7 @@ pub struct Arguments {
     pub json: bool,
 }
 
-/// Says how far a run is.
+/// Shows the status of a run.
 pub fn status(arguments: &Arguments) -> anyhow::Result<u8> {
     let status = run::RunStatus::of(&results_folder(&arguments.results)?)?;
     if arguments.json {
@@ -66,13 +66,13 @@ fn report(status: &run::RunStatus) -> String {
     format!("{name}: {state}\n{}{lists}", aligned(&rows))
 }
 
-/// The faults of the files of the run.
+/// Lists problems of the files of the run.
 fn problems(status: &run::RunStatus) -> String {
     let rows = status.problems.iter().map(|problem| [problem.clone()]);
     titled("problems", &rows.collect::<Vec<_>>())
 }
 
-/// Products of tables that are no longer there, and the commands that make them again.
+/// Lists products that are out of date, and the commands that update them.
 fn outdated(status: &run::RunStatus) -> String {
     let rows = status.outdated.iter().map(|made| [made.product.clone(), made.command.clone()]);
     titled("out of date", &rows.collect::<Vec<_>>())
@@ -115,11 +115,11 @@ fn again(status: &run::RunStatus) -> String {
     }
 }
 
-/// The rate of the last session, and how long the rest then takes.
+/// Formats the rate of the last session and the remaining time.
 fn rate(status: &run::RunStatus) -> Option<String> {
     let rate = status.rate()?;
     let left = (status.running() + status.missing()) as f64 / rate;
-    // At a rate of zero this is infinite, which no duration takes.
+    // At a rate of zero this is infinite, which `Duration` rejects.
     let left = match Duration::try_from_secs_f64(left) {
         Ok(left) if !left.is_zero() => format!(", {} for the rest", time(left)),
         _ => String::new(),

@@ -64,10 +64,10 @@ pub struct Arguments {
     pub sampled: SampleArgs,
 }
 
-/// Designs that are analysed at a time: each holds some kilobytes until the tables are written.
+/// Maximum number of designs: each holds some kilobytes until the tables are written.
 const MOST: u64 = 100_000;
 
-/// Tells how the measures of a design scatter where its dimensions do, and the share of skins that meets the requirements.
+/// Predicts the spread of the measures from tolerances, and the yield of the requirements.
 pub fn tolerance(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let sweep = read(&arguments.definition)?;
     check(arguments, &sweep)?;
@@ -86,7 +86,7 @@ pub fn tolerance(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result
     let mut files = write(folder, &all)?;
     if let [design] = all.as_slice() {
         for (name, svg) in figures::figures(&sweep, &requirements, design) {
-            // Histograms are named after requirements, so no list of files knows them beforehand.
+            // Histograms are named after requirements, so they are claimed one by one.
             claim.add(&name)?;
             folder.write_text(&name, &svg)?;
             files.push(name);
@@ -100,7 +100,7 @@ pub fn tolerance(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result
     Ok(if failed { INCOMPLETE } else { DONE })
 }
 
-/// Refuses a sweep in which nothing deviates.
+/// Rejects a sweep without deviations.
 fn check(arguments: &Arguments, sweep: &Sweep) -> anyhow::Result<()> {
     ensure!(
         !sweep.deviations().is_empty() || sweep.is_imperfect(),
@@ -114,7 +114,7 @@ fn check(arguments: &Arguments, sweep: &Sweep) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The indices of the designs that are asked for.
+/// Returns the indices of the requested designs.
 fn designs(arguments: &Arguments, sweep: &Sweep) -> anyhow::Result<Vec<u64>> {
     let grid = sweep.grid();
     let path = &arguments.definition.path;
@@ -122,16 +122,16 @@ fn designs(arguments: &Arguments, sweep: &Sweep) -> anyhow::Result<Vec<u64>> {
     if arguments.numbers.is_empty() {
         ranges.push(0..=grid.len().saturating_sub(1));
     }
-    // Counted before they are listed: a list of 10⁹ designs takes all memory.
+    // Counted before listing: 10⁹ designs would exhaust the memory.
     let count = |range: &RangeInclusive<u64>| (range.end() - range.start()).saturating_add(1);
     let count = ranges.iter().map(count).fold(0, u64::saturating_add);
     ensure!(
         count <= MOST,
-        "{}: {count} designs, at most {MOST} at a time: choose some with --design",
+        "{}: {count} designs exceed the limit of {MOST}: choose some with --design",
         path.display()
     );
     let mut designs: Vec<u64> = ranges.into_iter().flatten().collect();
-    // The samples of a design are solved once, however often it is named.
+    // Removes duplicates.
     let mut known = BTreeSet::new();
     designs.retain(|design| known.insert(*design));
     Ok(designs)

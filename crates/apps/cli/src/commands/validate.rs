@@ -35,7 +35,7 @@ pub struct Arguments {
     #[arg(long)]
     pub quick: bool,
 
-    /// Sweeps over what the paper leaves open: show which settings reproduce most claims
+    /// Sweeps over choices that the paper leaves open; shows which settings reproduce most claims
     #[arg(long, value_name = "SWEEP.toml", num_args = 1.., conflicts_with_all = ["out", "quick"])]
     pub search: Vec<PathBuf>,
 }

@@ -103,7 +103,7 @@ fn a_mistyped_path_makes_no_folders() {
     place.squama("run x.toml -q --out r").assert().code(0);
     insta::assert_snapshot!(place.refused("export r --xlsx reslts/x.xlsx"), @"error: --xlsx reslts/x.xlsx: there is no folder reslts");
     insta::assert_snapshot!(place.refused("report r --out reslts/x.html"), @"error: --out reslts/x.html: there is no folder reslts");
-    insta::assert_snapshot!(place.refused("report r --out x.pdf"), @"error: --out x.pdf: not accepted, expected a name that ends in .html, because the page is one for browsers");
+    insta::assert_snapshot!(place.refused("report r --out x.pdf"), @"error: --out x.pdf: not accepted, expected a name that ends in .html");
     insta::assert_snapshot!(place.refused("validate --out reslts/x.md"), @"error: --out reslts/x.md: there is no folder reslts");
     assert_eq!(place.list("."), "r x.toml", "nothing is written");
 }

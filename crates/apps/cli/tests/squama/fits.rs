@@ -47,8 +47,8 @@ fn what_cannot_be_laid_over_is_refused() {
     }
     let plot =
         |files: &str| place.refused(&format!("plot curves x.toml --design 1 {files} --out o"));
-    insta::assert_snapshot!(plot("--measured a.csv"), @"error: x.toml: a.csv is in mm and N, which needs material.thickness_mm and material.substrate_modulus_MPa");
-    insta::assert_snapshot!(plot("--measured a.csv --measured b.csv"), @"error: b.csv: is of another test than a.csv, or in other units");
+    insta::assert_snapshot!(plot("--measured a.csv"), @"error: x.toml: a.csv is in mm and N; to overlay it, the definition needs material.thickness_mm and material.substrate_modulus_MPa");
+    insta::assert_snapshot!(plot("--measured a.csv --measured b.csv"), @"error: b.csv: differs from a.csv in its test or units; overlay curves of one test in the same units");
     insta::assert_snapshot!(plot("--measured c.csv"), @"error: c.csv: its columns are displacement_mm force, expected two of one test: displacement_mm displacement_um displacement_m displacement force_N force_mN force_kN force curvature_per_mm curvature_per_m curvature moment_N_mm moment_mN_m moment_N_m moment");
     insta::assert_snapshot!(plot("--measured d.csv"), @"error: d.csv: cannot be read (No such file or directory), expected a CSV file");
     assert!(!place.path("o").exists());
@@ -94,7 +94,7 @@ fn what_the_curves_do_not_tell_gives_exit_code_1() {
     let assert = place.squama("fit x.toml").assert().code(1);
     let text = String::from_utf8_lossy(&assert.get_output().stdout).into_owned();
     assert!(
-        text.contains("not told") && text.contains("say next to nothing of membrane_modulus_MPa"),
+        text.contains("undetermined") && text.contains("do not determine membrane_modulus_MPa"),
         "{text}"
     );
     assert!(place.path("results/palm/fit/fit.csv").exists());
@@ -114,12 +114,12 @@ fn what_makes_a_fit_doubtful_is_said() {
     let pulled = (1..30).map(|k| format!("{k},-{k}")).collect::<Vec<_>>().join("\n");
     let text =
         fitted(&format!("Machine;7\nDisplacement (µm),Force [mN]\n{pulled}\n,\n40,-40\n"), 0);
-    assert!(text.contains("(!) a.csv: no point has a displacement and a force above 0"), "{text}");
+    assert!(text.contains("(!) a.csv: no point has both displacement and force above 0"), "{text}");
     assert!(text.contains("a.csv: 1 line without numbers left out"), "{text}");
     let wave = (1..60).map(|k| format!("{k},{}", 2 * k + 20 * (k / 10 % 2)));
     let wave = wave.collect::<Vec<_>>().join("\n");
     let text = fitted(&format!("displacement_um,force_mN\n{wave}"), 0);
-    assert!(text.contains("(!) a.csv: the residuals follow each other (correlation 0."), "{text}");
+    assert!(text.contains("(!) a.csv: the residuals are correlated (0."), "{text}");
     let text = fitted("displacement,force\n0.1,0.2\n0.2,0.4\n0.3,0.6\n", 1);
     assert!(text.contains("displacement and force have no units in the file"), "{text}");
 }

@@ -45,7 +45,7 @@ fn a_page_of_a_layer_is_refused_with_the_reason() {
     let place = Place::with("name = 'x'\nsubstrate.tissue_thickness_over_t = 2");
     let text = place.refused("explore x.toml --no-open");
     assert!(
-        text.contains("tissue_thickness_over_t: a page solves skins on a half-space"),
+        text.contains("tissue_thickness_over_t: the page solves skins on a half-space only"),
         "{text}"
     );
 }
@@ -58,7 +58,7 @@ fn a_page_leaves_requirements_of_samples_out() {
         place.squama("explore x.toml --no-open --require yield>=0.9 --require coverage>=0.5");
     let assert = command.assert().code(0);
     let message = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
-    assert!(message.contains("left out: yield >= 0.9"), "{message}");
+    assert!(message.contains("yield >= 0.9 is left out"), "{message}");
     let page = place.read("explore.html");
     assert!(page.contains("coverage >= 0.5") && !page.contains("yield >="));
 }
@@ -90,7 +90,7 @@ fn a_goal_gives_designs_that_are_chosen_by_their_values() {
     }
     for command in ["design x.toml", "design x.toml --design 1", "run x.toml", "draw x.toml"] {
         let text = place.refused(command);
-        assert!(text.contains("squama optimise searches"), "{command}: {text}");
+        assert!(text.contains("run squama optimise, then"), "{command}: {text}");
     }
     insta::assert_snapshot!(place.prints("check x.toml"));
     let json: serde_json::Value =

@@ -81,7 +81,7 @@ fn designs_are_chosen_by_number_and_by_value() {
     assert_eq!(chosen(&["--where", "slant_deg=45", "--where", "gap_over_t=0.5"]), "0006 0008");
     let text =
         place.squama("rerun r --dry-run").args(["--where", "puncture_status=row limit"]).assert();
-    text.code(0).stdout("r: no design matches, so nothing is solved again\n");
+    text.code(0).stdout("r: no design matches; nothing to solve\n");
     let refused = |choice: &[&str]| {
         let mut command = place.squama("rerun r --dry-run");
         String::from_utf8(command.args(choice).assert().code(2).get_output().stderr.clone())

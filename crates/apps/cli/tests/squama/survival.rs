@@ -183,7 +183,7 @@ mod signals {
         let mut run = place.spawn("run x.toml --threads 1");
         run.until(|| place.lines("results/endless/journal.jsonl") >= 3);
         run.send(SIGINT);
-        let word = "ending after the designs in progress; a second signal ends at once, and --resume continues\n";
+        let word = "ending after the designs in progress; a second signal ends at once; --resume continues\n";
         run.until_said(word);
         // What comes within a second is the same request; a later one ends it.
         assert_eq!(run.end_by(SIGINT).code(), Some(130));
@@ -195,7 +195,7 @@ mod signals {
         tolerance.until(|| place.path(samples).exists() && place.list(samples).contains(".csv"));
         tolerance.send(SIGINT);
         tolerance.until_said(
-            "ending after the samples in progress; a second signal ends at once, and the same command continues\n",
+            "ending after the samples in progress; a second signal ends at once; to continue, run the same command again\n",
         );
         assert_eq!(tolerance.end_by(SIGINT).code(), Some(130));
     }

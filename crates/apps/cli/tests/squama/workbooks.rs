@@ -47,10 +47,10 @@ fn searches_and_tolerances_become_workbooks_and_say_what_else_they_are_for() {
         assert!(columns.height() > 5);
         assert!(columns.cells().all(|(.., cell)| *cell != "no column of squama"));
     }
-    insta::assert_snapshot!(place.refused("tolerance front"), @"error: front: holds a Pareto front and no single design; squama design, draw and make take one of them with --design");
-    insta::assert_snapshot!(place.refused("make t --out x.stl"), @"error: t: holds an analysis of designs and none itself; give the definition or the results folder that it was made from");
-    insta::assert_snapshot!(place.refused("report front"), @"error: front: holds a search; squama export takes it, and squama report RESULTS --front front shows it beside the designs of a sweep; its own figures stand in it");
-    insta::assert_snapshot!(place.refused("plot t"), @"error: t: holds an analysis; squama export takes it, and its own figures stand in it");
+    insta::assert_snapshot!(place.refused("tolerance front"), @"error: front: holds a Pareto front; choose one design of it with --design, in squama design, draw or make");
+    insta::assert_snapshot!(place.refused("make t --out x.stl"), @"error: t: holds an analysis and no designs; give the definition or the results folder of the run");
+    insta::assert_snapshot!(place.refused("report front"), @"error: front: holds a search, not a run; use squama export, or squama report RESULTS --front front to show it beside a sweep; its figures are in the folder");
+    insta::assert_snapshot!(place.refused("plot t"), @"error: t: holds an analysis, not a run; use squama export; its figures are in the folder");
 }
 
 #[test]

@@ -6,8 +6,8 @@
 >>> round(result["critical_force"], 4)
 1.4478
 
-`Skin` is a design, `Skin.solve` gives a `Result`, `solve_many` a `Table`; `Skin.value_and_gradient` and `function` are
-for optimisers. `run`, `read`, `optimise` and `tolerance` do what the commands of that name do, in folders.
+`Skin` is a design, `Skin.solve` returns a `Result`, `solve_many` a `Table`; `Skin.value_and_gradient` and `function`
+are for optimisers. `run`, `read`, `optimise` and `tolerance` work on results folders, like the commands of these names.
 ``help(squama.Skin)`` lists every parameter and every measure.
 """
 

@@ -2,9 +2,9 @@
 
 
 class InvalidParameter(ValueError):
-    """A parameter has a value that it does not take.
+    """A parameter has an invalid value.
 
-    ``key`` is the parameter, ``value`` what was given (``None`` if it is missing), ``expected`` what would be right.
+    ``key`` is the parameter, ``value`` the given value (``None`` if it is missing), ``expected`` a description of valid values.
     """
 
     def __init__(self, key, value, expected):
@@ -17,20 +17,20 @@ class InvalidParameter(ValueError):
 
     @property
     def others(self):
-        """What else is wrong, a line each."""
+        """Further problems, one line each."""
         return self.__dict__.get("_others", [])
 
     def add(self, line):
-        """Tells of something else that is wrong."""
+        """Adds a further problem."""
         self.__dict__.setdefault("_others", []).append(line)
 
 
 class InvalidDefinition(ValueError):
-    """A definition that is no TOML, or cannot be read."""
+    """A definition is not valid TOML, or cannot be read."""
 
 
 class Failed(RuntimeError):
-    """Something that was asked for has no value: ``what``, and the ``reason``."""
+    """A requested result has no value: ``what`` names it, ``reason`` says why."""
 
     def __init__(self, what, reason):
         super().__init__(what, reason)
@@ -41,10 +41,10 @@ class Failed(RuntimeError):
 
 
 class KinkWarning(UserWarning):
-    """A measure has two derivatives by a parameter: where it decreases (``left``) and where it increases (``right``).
+    """A measure has a kink: its derivatives for a decrease (``left``) and an increase (``right``) of a parameter differ.
 
-    ``warnings.simplefilter("error", squama.KinkWarning)`` makes an error of it. A side on which the measure does not
-    exist is NaN. ``change`` says what happens there. The gradient holds what ``at_kinks`` chooses.
+    ``warnings.simplefilter("error", squama.KinkWarning)`` turns it into an error. A side on which the measure does not
+    exist is NaN. ``change`` names the event at the kink. ``at_kinks`` selects the value in the gradient.
     """
 
     def __init__(self, measure, key, left, right, change):
@@ -53,6 +53,6 @@ class KinkWarning(UserWarning):
 
     def __str__(self):
         return (
-            f"{self.measure} has a kink ({self.change}): its derivative by {self.key} is {self.left:.6g} where that "
-            f"decreases and {self.right:.6g} where it increases"
+            f"{self.measure} has a kink ({self.change}): its derivative with respect to {self.key} is {self.left:.6g} "
+            f"for a decrease and {self.right:.6g} for an increase; at_kinks selects one of them"
         )

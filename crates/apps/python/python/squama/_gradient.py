@@ -35,20 +35,20 @@ def _gradient(skin, measures, keys, at_kinks, level):
 
 
 def value_and_gradient(self, measure, keys, at_kinks=None):
-    """The value of a measure, and its exact derivatives by ``keys``, an array of that length.
+    """Returns a measure and its exact derivatives with respect to ``keys``, as a number and an array.
 
     ``measure`` is any column of numbers with derivatives, in physical units too (``"critical_force_N"``); keys are
-    continuous parameters, or lengths in mm. At a kink there is no derivative: the gradient is NaN there, and a
-    `squama.KinkWarning` tells both one-sided ones. ``at_kinks`` chooses what stands in the gradient in place of NaN: the one
-    where the parameter decreases (``"left"``), where it increases (``"right"``), or their ``"mean"``; the warning stays.
-    Raises `squama.Failed` where the measure has no value.
+    continuous parameters, or lengths in mm. At a kink there is no derivative: the gradient is NaN, and a
+    `squama.KinkWarning` reports both one-sided derivatives. ``at_kinks`` replaces NaN by the derivative for a decrease of
+    the parameter (``"left"``), for an increase (``"right"``), or their ``"mean"``; the warning remains.
+    Raises `squama.Failed` if the measure has no value.
     """
     values, rows = _gradient(self, [measure], list(keys), at_kinks, 3)
     return float(values[0]), rows[0]
 
 
 class _Solution:
-    """The last point at which a function was asked for, so that value and gradient are solved together."""
+    """Caches the last point, so that value and gradient share one solution."""
 
     def __init__(self, skin, keys, measures, at_kinks):
         self.skin, self.keys, self.measures, self.at_kinks = skin, list(keys), measures, at_kinks
@@ -64,12 +64,12 @@ class _Solution:
 
 
 def function(skin, keys, measures, at_kinks=None):
-    """Functions ``f`` and ``jac`` of the values of ``keys``, as ``scipy.optimize`` takes them; the rest is as in ``skin``.
+    """Returns functions ``f`` and ``jac`` of the values of ``keys``, for ``scipy.optimize``.
 
-    Of one measure (a text) ``f(x)`` is a number and ``jac(x)`` an array of ``len(keys)``; of a list of ``m`` measures they
-    are arrays of ``m`` and ``(m, len(keys))``. A point is solved once for both. Kinks (``at_kinks``: most optimisers want one of
-    the sides, and none can do anything with NaN) and failures are as in ``Skin.value_and_gradient``; a point out of
-    bounds raises `squama.InvalidParameter`.
+    All other parameters are those of ``skin``. For one measure (a text), ``f(x)`` is a number and ``jac(x)`` an array of
+    shape ``(len(keys),)``; for a list of ``m`` measures, the shapes are ``(m,)`` and ``(m, len(keys))``. A point is solved
+    once for both. Kinks and failures are handled as in ``Skin.value_and_gradient``; set ``at_kinks``, because most
+    optimisers fail on NaN. A point out of bounds raises `squama.InvalidParameter`.
     """
     is_one = isinstance(measures, str)
     solution = _Solution(skin, keys, [measures] if is_one else list(measures), at_kinks)

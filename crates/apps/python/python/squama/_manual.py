@@ -1,4 +1,4 @@
-"""The documentation of skins and results, and the stub of the package, from the list of parameters and of columns."""
+"""Generates the documentation of skins and results, and the stub of the package."""
 
 import inspect
 
@@ -14,7 +14,7 @@ def _type(expected):
 
 
 def signature():
-    """The parameters of a skin as keywords."""
+    """Returns the signature of ``Skin``, with a keyword for each parameter."""
     keyword, one = inspect.Parameter.KEYWORD_ONLY, inspect.Parameter
     of = [one(key, keyword, default=one.empty if default is None and section == "designs" else _value(default))
           for key, section, *_, default in parameters()]
@@ -28,7 +28,7 @@ def _value(default):
 
 
 def skin():
-    """The documentation of a skin: every parameter with unit, meaning, values and default."""
+    """Returns the documentation of a skin: unit, meaning, values and default of every parameter."""
     lines = [
         "A skin of scales: Skin(gap_over_t=0.1, length_over_t=0.3, slant_deg=60).",
         "",
@@ -76,10 +76,10 @@ MARK = "# Made from the list of parameters by `python -m squama._manual __init__
 
 
 def stub(text):
-    """The text of ``__init__.pyi``, whose part behind the mark is made anew."""
+    """Returns the text of ``__init__.pyi``; the part after the mark is generated."""
     all_of = [(key, _type(expected), default) for key, *_, expected, default in parameters()]
     geometry = {key for key, section, *_ in parameters() if section == "designs"}
-    # A length may be given in mm in the place of this one.
+    # Optional, because the same length may be given in mm.
     required = {key for key in geometry if not key.endswith(("_over_t", "_mm"))}
     given = [f"        {key}: {of}{'' if key in required else ' | None = None'}," for key, of, _ in all_of]
     # A parameter without a default is an attribute that may be None.

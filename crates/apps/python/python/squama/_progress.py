@@ -1,11 +1,11 @@
-"""A line that says how far a call is, in terminals and notebooks."""
+"""A progress bar for terminals and notebooks."""
 
 import sys
 import time
 
 
 class Bar:
-    """The line, on standard error; ``progress`` may also be a function of the share that is done and a few words."""
+    """A progress bar on standard error; ``progress`` may be a function of the completed fraction and a text."""
 
     def __init__(self, progress):
         self.tell = progress if callable(progress) else self.show if progress else None

@@ -1,4 +1,4 @@
-"""What solving a skin gave."""
+"""Results of solving a skin."""
 
 from functools import cached_property
 from html import escape
@@ -16,20 +16,20 @@ _TABLES = (
 class Result:
     """A solved skin: ``result["critical_force"]`` is a measure, by the name of its column in ``designs.csv``.
 
-    A measure that does not exist for this skin (``fold_force`` where nothing folds) is NaN; one that could not be
-    found, because its path stopped early, raises `squama.Failed`. ``get`` gives a default in its place.
+    A measure that does not exist for this skin (``fold_force`` if nothing folds) is NaN. A measure that could not be
+    computed, because its path stopped early, raises `squama.Failed`; ``get`` returns a default instead.
 
     ==================  ==========================================================================================
     ``skin``            the skin
     ``status``          ``"complete"``, or the reason why a measure has no value
-    ``warnings``        texts: what failed, and from where on the model does not hold
+    ``warnings``        texts: failures, and the limit of validity of the model
     ``values``          all measures as a dict, ``None`` where there is none; ``units`` and ``meanings`` of them
     ``path``            puncture: displacement, force, tilt … at every equilibrium, as a `Table`
     ``events``          puncture: contacts that open, close and slide, folds and snaps
     ``scales``          puncture: displacement and rotation of every scale at the end
     ``steps``           puncture: Newton iterations
-    ``way_back``        puncture: the path back to no load, if ``puncture.unload`` asks for it
-    ``places``          puncture: the force at every place of the load, if ``puncture.places`` asks for several
+    ``way_back``        puncture: the unloading path, if ``puncture.unload`` is set
+    ``places``          puncture: the force at every load position, if ``puncture.places`` has several
     ``flexure_path``    bending: curvature, moment, stiffness …; ``flexure_events``, ``flexure_scales``,
                         ``flexure_steps``, ``flexure_way_back`` as above
     ``sensitivity``     derivatives of every measure, if ``measures`` has ``"sensitivity"``
@@ -39,7 +39,7 @@ class Result:
     def __init__(self, skin, solved):
         self.skin, self._solved = skin, solved
 
-    # Everything is taken from the solver when it is asked for first; what is pickled is all of it.
+    # Taken from the solver on first use; pickling takes everything.
     @cached_property
     def _tables(self):
         return self._solved.tables()
@@ -59,7 +59,7 @@ class Result:
     @property
     def warnings(self):
         fold = self.get(_squama.FOLD_FORCE)
-        folded = f"the surface folds over at {_squama.FOLD_FORCE} {fold}: beyond it the model does not hold, sound_force is up to there"
+        folded = f"the surface folds at {_squama.FOLD_FORCE} {fold}: the model is not valid beyond it; sound_force is the largest valid force"
         return [f"{measure}: {meaning}" for measure, _, meaning in self._failures] + [folded] * (fold == fold)
 
     @property
@@ -91,7 +91,7 @@ class Result:
         return list(self._by_name)
 
     def get(self, name, default=float("nan")):
-        """A measure, or ``default`` if it could not be found."""
+        """Returns a measure, or ``default`` if it could not be computed."""
         try:
             return self[name]
         except Failed:

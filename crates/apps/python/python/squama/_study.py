@@ -1,4 +1,4 @@
-"""Many skins, and studies that are kept in folders."""
+"""Batches of skins, and studies in results folders."""
 
 import os
 import shutil
@@ -13,10 +13,10 @@ from ._table import Table
 
 
 def solve_many(skins, measures="all", *, threads=None, progress=False):
-    """Solves skins, or one, on all cores, and gives a `Table` with the columns of ``designs.csv``, a row each, in their order.
+    """Solves skins on all cores, and returns a `Table` with the columns of ``designs.csv``, one row per skin.
 
     Parameters in which the skins differ have columns too. A measure that failed is NaN; ``puncture_status`` and
-    ``flexure_status`` say why. Ctrl-C ends it, and the results are lost: `run` keeps them.
+    ``flexure_status`` say why. Ctrl-C discards the results; use `run` to keep them.
     """
     with Bar(progress) as tell:
         skins = [skins] if isinstance(skins, _squama.Skin) else list(skins)
@@ -34,9 +34,9 @@ class Run(Table):
         super().__init__(columns)
 
     def rank(self, require=(), maximize=(), minimize=(), weights=None):
-        """The designs that keep the requirements, such as ``"coverage >= 0.6"``, by fitness, as a `Table`.
+        """Ranks the designs that meet the requirements, such as ``"coverage >= 0.6"``, by fitness; returns a `Table`.
 
-        The criteria are those of the paper, unless columns to maximize or minimize are given; ``weights`` one for each.
+        The default criteria are those of the paper; ``maximize`` and ``minimize`` name others. ``weights`` has one for each.
         """
         listed = lambda of: [of] if isinstance(of, str) else list(of)  # noqa: E731
         return Table(_squama.rank(self.folder, listed(require), listed(maximize), listed(minimize), weights))
@@ -44,11 +44,11 @@ class Run(Table):
     def report(self, out=None):
         """Writes one page with figures, ranking, table and drawings by ``squama report``, and returns its path.
 
-        The command of that name has to be on the path, or named by the environment variable ``SQUAMA``.
+        The command ``squama`` must be on the path, or in the environment variable ``SQUAMA``.
         """
         command = os.environ.get("SQUAMA") or shutil.which("squama")
         if command is None:
-            raise Failed("report", "there is no command squama on the path; cargo install --path crates/apps/cli installs it")
+            raise Failed("report", "the command squama is not on the path; install it with cargo install --path crates/apps/cli")
         out = os.path.join(self.folder, "report.html") if out is None else os.fspath(out)
         done = subprocess.run([command, "report", self.folder, "--out", out], capture_output=True, text=True)
         if done.returncode:
@@ -57,7 +57,7 @@ class Run(Table):
 
 
 def _numbers(name, cells):
-    """The cells of a column as numbers, if they are; the number of a design is a name, with its zeros."""
+    """Converts the cells of a column to numbers if possible; design numbers keep their leading zeros."""
     try:
         return cells if name == "design" else array("d", (float(cell or "nan") for cell in cells)).tobytes()
     except ValueError:
@@ -65,15 +65,15 @@ def _numbers(name, cells):
 
 
 def read(folder):
-    """The designs in a results folder of ``run`` or ``optimise``, or of the commands of that name; checked first."""
+    """Reads and verifies the designs in a results folder of ``run`` or ``optimise``."""
     return Run(folder)
 
 
 def run(definition, out=None, *, set=None, resume=False, fresh=False, threads=None, progress=False):
     """Solves every design of a definition (a path, a text in TOML or a `Skin`) into a folder, as ``squama run``.
 
-    ``out`` is ``results/NAME`` unless given; ``set={"puncture.scales": 41}`` takes the place of what the definition says.
-    Ctrl-C keeps what is solved, and ``resume=True`` goes on; ``fresh=True`` throws earlier results away.
+    ``out`` defaults to ``results/NAME``; ``set={"puncture.scales": 41}`` overrides keys of the definition.
+    Ctrl-C keeps the solved designs, ``resume=True`` continues, and ``fresh=True`` discards earlier results.
     """
     with Bar(progress) as tell:
         return Run(_squama.run(definition, dict(out=out, set=set, resume=resume, fresh=fresh, threads=threads, progress=tell)))
@@ -82,8 +82,8 @@ def run(definition, out=None, *, set=None, resume=False, fresh=False, threads=No
 def optimise(goal, out=None, *, set=None, resume=False, fresh=False, threads=None, progress=False):
     """Searches for the optimum of a goal, or its Pareto front, as ``squama optimise``.
 
-    Returns a `Run` of the best designs; of a single objective its ``skin`` is the best. Raises `squama.Failed` if no design
-    meets the constraints.
+    Returns a `Run` of the best designs; for a single objective, its ``skin`` is the best design. Raises `squama.Failed` if
+    no design meets the constraints.
     """
     with Bar(progress) as tell:
         keywords = dict(out=out, set=set, resume=resume, fresh=fresh, threads=threads, progress=tell)
@@ -98,7 +98,7 @@ def tolerance(definition, *, set=None, require=(), samples=1000, out=None, threa
 
     ``definition`` is a path, a text in TOML or a `Skin`, with a section ``[tolerance]`` or
     ``set={"tolerance.gap_over_t": {"batch_sd": 0.02}}``. Returns a dict of tables: ``"tolerance"``, ``"sources"`` and
-    ``"yield"``. Samples are kept in the folder ``out``, if it is given, from which the same call goes on.
+    ``"yield"``. The folder ``out`` keeps the samples, so that the same call continues from them.
     """
     require = [require] if isinstance(require, str) else list(require)
     with Bar(progress) as tell, tempfile.TemporaryDirectory() as temporary:

@@ -10,15 +10,15 @@ from . import _squama
 
 
 def find(known, name, what):
-    """``known[name]``; if there is none, the error names what is near."""
+    """Returns ``known[name]``; if it is missing, the error suggests a similar name."""
     try:
         return known[name]
     except KeyError:
-        # Tables have lengths over the thickness, also of skins that were given in mm.
+        # Tables have lengths over the thickness, even if the skin was given in mm.
         over_t = str(name).removesuffix("_mm") + "_over_t"
         if over_t not in known and any(name == column for column, *_ in _squama.columns()):
             needed = "the material, say thickness_mm" if str(name).endswith(("_N", "_mm", "_N_mm", "_mJ", "_m2")) else "other parameters or measures"
-            raise KeyError(f"there is no {what} {name} of this skin: it needs {needed}") from None
+            raise KeyError(f"this skin has no {what} {name}: it needs {needed}") from None
         near = [f"{over_t}, times thickness_mm"] if over_t in known else get_close_matches(str(name), known, 1)
         raise KeyError(f"there is no {what} {name}" + (f"; did you mean {near[0]}?" if near else "")) from None
 
@@ -26,9 +26,9 @@ def find(known, name, what):
 class Table(Mapping):
     """Columns by name: numbers as arrays of ``float`` (a value that does not exist is NaN), texts as arrays of ``str``.
 
-    ``table["coverage"]`` is a column, ``table.units`` and ``table.meanings`` say what it is, ``table.row(0)`` is a
-    row as a dict, ``table.to_pandas()`` a data frame. ``polars.DataFrame(table)``, ``pyarrow.table(table)`` and whatever
-    else takes streams of Arrow read it by ``__arrow_c_stream__``, without pyarrow; NaN is null there.
+    ``table["coverage"]`` is a column, ``table.units`` and ``table.meanings`` describe it, ``table.row(0)`` is a row as a
+    dict, ``table.to_pandas()`` a data frame. ``polars.DataFrame(table)``, ``pyarrow.table(table)`` and other consumers of
+    Arrow streams read it through ``__arrow_c_stream__``, without pyarrow; NaN becomes null.
     """
 
     def __init__(self, columns):
@@ -53,11 +53,11 @@ class Table(Mapping):
         return len(next(iter(self._columns.values()), ()))
 
     def row(self, index):
-        """A row as a dict."""
+        """Returns a row as a dict."""
         return {name: column[index] for name, column in self._columns.items()}
 
     def to_pandas(self):
-        """The table as a ``pandas.DataFrame``."""
+        """Returns the table as a ``pandas.DataFrame``."""
         import pandas
 
         return pandas.DataFrame(dict(self._columns))

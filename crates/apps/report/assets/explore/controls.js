@@ -55,12 +55,12 @@
     const measure = live.data.measures.find(({ name }) => name === live.chosen);
     const slope = live.answer?.slopes.find((one) => one.parameter === control.key && one.measure === live.chosen);
     control.better = slope?.better ?? 0;
-    const way = { 1: "larger", [-1]: "smaller", 0: "neither way" }[control.better];
-    const words = slope ? `${measure.label} is better for ${control.better === 0 ? `${way}: ${control.label} is best here` : `${way} ${control.label.toLowerCase()}`}` : "";
+    const way = { 1: "larger", [-1]: "smaller", 0: "" }[control.better];
+    const words = slope ? (control.better === 0 ? `${control.label} is at its best value for ${measure.label.toLowerCase()}` : `A ${way} ${control.label.toLowerCase()} improves ${measure.label.toLowerCase()}`) : "";
     control.arrow.style.visibility = slope ? "visible" : "hidden";
     control.arrow.disabled = control.better === 0;
     control.arrow.textContent = { 1: "▶", [-1]: "◀", 0: "●" }[control.better];
-    control.arrow.title = words + (slope?.gain ? ` (${live.digits(slope.gain, 2)} % for each per cent). Press to go on until something limits it.` : "");
+    control.arrow.title = words + (slope?.gain ? ` (${live.digits(slope.gain, 2)} % per 1 %). Press to move until a limit is reached.` : "");
     control.arrow.setAttribute("aria-label", words);
   };
 

@@ -46,7 +46,7 @@
   live.listen("answered", () => {
     const { closest } = live.answer ?? {};
     at("live-closest").hidden = !closest;
-    if (closest) at("live-closest").textContent = `Closest of the sweep: ${closest.design}`;
+    if (closest) at("live-closest").textContent = `Closest design of the sweep: ${closest.design}`;
     at("live-pin").setAttribute("aria-pressed", String(Boolean(live.pinned)));
     at("live-pin").textContent = live.pinned ? "Unpin" : "Pin to compare";
     at("live-back").hidden = !live.pinned;
@@ -59,7 +59,7 @@
     squama.listen("design", chosen);
     squama.listen("selection", () => {
       const best = squama.ranking.order(squama.contest, squama.weights(), 3).map(({ row }) => row);
-      at("live-best").replaceChildren(best.length > 0 ? "Best for what is required: " : "No design meets what is required.",
+      at("live-best").replaceChildren(best.length > 0 ? "Best designs that meet the requirements: " : "No design meets the requirements.",
         ...best.map((row) => squama.element("button", { type: "button", onclick: () => squama.choose(row) }, ...squama.warning(row), squama.title(row))));
       live.solve();
     });

@@ -12,7 +12,7 @@
     const before = live.pinned ? shown(live.pinned.answer, measure)?.value : null;
     if (!before || !value) return "";
     const change = 100 * (value.value / before - 1);
-    return `${change < 0 ? "−" : "+"}${Math.abs(change).toFixed(Math.abs(change) < 10 ? 1 : 0)} % against the pinned`;
+    return `${change < 0 ? "−" : "+"}${Math.abs(change).toFixed(Math.abs(change) < 10 ? 1 : 0)} % compared with the pinned design`;
   };
 
   const card = (measure) => {
@@ -28,7 +28,7 @@
     ` ${{ ">=": "≥", "<=": "≤", "==": "=" }[sign] ?? sign} ${limit}${unit ? ` ${unit}` : ""}`).replaceAll("_", " ");
 
   const requirement = ({ text, value, met, limits }) => element("li", { class: met ? "met" : "unmet" },
-    `${met ? "✓" : "✗"} ${inWords(text)}, here ${live.digits(value, 3)}${limits ? (met ? " (the tightest)" : " (stands in the way)") : ""}`);
+    `${met ? "✓" : "✗"} ${inWords(text)}, here ${live.digits(value, 3)}${limits ? (met ? " (tightest requirement)" : " (the obstacle)") : ""}`);
 
   live.listen("answered", () => {
     const { answer } = live;
@@ -36,6 +36,6 @@
     const said = [...(live.error ? [live.error] : []), ...(answer?.warnings ?? [])];
     at("live-warnings").replaceChildren(...said.map((text) => element("p", { class: "doubt" }, `⚠ ${text}`)));
     at("live-required").replaceChildren(...(answer?.requirements ?? []).map(requirement));
-    at("live-said").textContent = live.said || `Arrows show which way ${live.data.measures.find(({ name }) => name === live.chosen).label.toLowerCase()} gets better; press one to go there.`;
+    at("live-said").textContent = live.said || `Arrows show how to improve ${live.data.measures.find(({ name }) => name === live.chosen).label.toLowerCase()}; press one to move there.`;
   });
 })();

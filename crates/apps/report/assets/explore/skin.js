@@ -88,7 +88,7 @@ squama.live = (() => {
     const { label, value: from } = controls.get(key), begun = performance.now(), time = matchMedia("(prefers-reduced-motion: reduce)").matches ? 0 : WALK;
     const step = (now) => {
       const share = time > 0 ? Math.min(1, Math.max(0, (now - begun) / time)) : 1, is = share < 1;
-      live.set({ [key]: from + share * (value - from) }, is ? `${label}: on the way` : `${label}: ${reason}`, is);
+      live.set({ [key]: from + share * (value - from) }, is ? `${label}: moving` : `${label}: ${reason}`, is);
       if (is) walking = requestAnimationFrame(step);
     };
     step(begun);

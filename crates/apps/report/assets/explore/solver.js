@@ -51,7 +51,7 @@ squama.solver = (() => {
         module = await WebAssembly.compile(await squama.unpacked("live-module", "gzip").arrayBuffer());
         start();
       } catch (error) {
-        listen({ error: `This browser cannot run the solver: ${error.message}` });
+        listen({ error: `This browser cannot run the solver (${error.message}); use a current browser` });
       }
     },
     /** Solves for a request: at once without what takes long, and whole when the hand rests. */

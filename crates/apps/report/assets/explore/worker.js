@@ -21,6 +21,6 @@ self.onmessage = async ({ data }) => {
     self.postMessage(answer(data));
   } catch (error) {
     // A module that has trapped is of no use any more; the page starts another.
-    self.postMessage({ id: data.id, error: `The solver stopped: ${error.message}`, trapped: true });
+    self.postMessage({ id: data.id, error: `The solver stopped (${error.message}) and was started again`, trapped: true });
   }
 };

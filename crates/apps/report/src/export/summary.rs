@@ -19,7 +19,7 @@ const NAME: &str = "summary";
 /// The designs of the ranking that are listed.
 const LISTED: usize = 10;
 /// What is said of a design under which the surface of the substrate folds over.
-const FOLDS: &str = "the surface folds over: do not trust the critical force";
+const FOLDS: &str = "the surface folds: the critical force is not valid";
 const DOUBT: &str = " ⚠ surface folds";
 /// Widths of its columns, in characters.
 const WIDTHS: [f64; 4] = [34.0, 22.0, 26.0, 90.0];

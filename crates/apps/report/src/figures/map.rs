@@ -201,7 +201,15 @@ impl MapSubject<'_> {
         inside.push(upright(&up, [20.0, 0.5 * (TOP + bottom)], NAME).with("fill", INK));
         inside.push(self.bar(bottom - TOP));
         if self.marks_folds() && parts.iter().any(|(_, part)| part.any_folded()) {
-            inside.push(label("struck through: the surface folds over, so that the force is not to be trusted", [LEFT, 46.0], 12.0, Anchor::Start).with("fill", INK));
+            inside.push(
+                label(
+                    "struck through: the surface folds, so the force is not valid",
+                    [LEFT, 46.0],
+                    12.0,
+                    Anchor::Start,
+                )
+                .with("fill", INK),
+            );
         }
         sheet(WIDTH, bottom + 54.0, title, inside)
     }

@@ -1,10 +1,10 @@
-//! The figures of a search.
+//! Figures of a search.
 
 use optimisation::{Answer, BestDesign, DesignGoal, Found, Judgement};
 use ranking::Goal;
 use report::{Figure, SearchFigure, SearchedDesign};
 
-/// How the search went, and the front if it found one.
+/// Draws the history of the search, and the front if there is one.
 pub fn figures(goal: &DesignGoal, found: &Found) -> Vec<Figure> {
     let mut figures = vec![history(goal, found)];
     if let Answer::Front(front) = &found.answer {
@@ -13,7 +13,7 @@ pub fn figures(goal: &DesignGoal, found: &Found) -> Vec<Figure> {
     figures
 }
 
-/// Every design with the values of two of its numbers.
+/// Lists the evaluated designs with their position in a figure.
 fn designs(found: &Found, place: impl Fn(usize, &[f64]) -> [f64; 2]) -> Vec<SearchedDesign> {
     let design = |(index, candidate): (usize, &optimisation::Candidate)| match &candidate.verdict {
         Judgement::Judged(worth) => {
@@ -24,7 +24,7 @@ fn designs(found: &Found, place: impl Fn(usize, &[f64]) -> [f64; 2]) -> Vec<Sear
     found.history.iter().enumerate().filter_map(design).collect()
 }
 
-/// The first objective of every design, and the best so far.
+/// Draws the first objective of every design, and the best so far.
 fn history(goal: &DesignGoal, found: &Found) -> Figure {
     let designs = designs(found, |index, objectives| [(index + 1) as f64, objectives[0]]);
     let sign = if goal.objectives[0].goal == Goal::Maximize { 1.0 } else { -1.0 };
@@ -45,7 +45,7 @@ fn history(goal: &DesignGoal, found: &Found) -> Figure {
     Figure { name: "history".to_owned(), svg: figure.svg() }
 }
 
-/// The first two objectives of every design, and the front.
+/// Draws the first two objectives of every design, and the front.
 fn front(goal: &DesignGoal, found: &Found, front: &[BestDesign]) -> Figure {
     let pair = |objectives: &[f64]| [objectives[0], objectives[1]];
     let designs = designs(found, |_, objectives| pair(objectives));
@@ -60,7 +60,7 @@ fn front(goal: &DesignGoal, found: &Found, front: &[BestDesign]) -> Figure {
         axes: [&goal.objectives[0].column, &goal.objectives[1].column],
         designs: &designs,
         line: &line,
-        legend: "designs that no other beats",
+        legend: "non-dominated designs",
     };
     Figure { name: "front".to_owned(), svg: figure.svg() }
 }

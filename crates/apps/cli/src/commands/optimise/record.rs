@@ -1,4 +1,4 @@
-//! The JSON that `squama optimise` prints.
+//! JSON output of `squama optimise`.
 
 use optimisation::{Answer, BestDesign, Candidate, DesignGoal, Found, Judgement, Words};
 use ranking::Requirement;
@@ -7,7 +7,7 @@ use serde_json::{Map, Value, json};
 
 use super::report::unmet;
 
-/// The answer of a search to its goal.
+/// Returns the result of a search as JSON.
 pub fn record(goal: &DesignGoal, found: &Found) -> Value {
     let words = Words::new(goal);
     let left_out = &found.left_out;
@@ -66,7 +66,7 @@ fn design(goal: &DesignGoal, words: &Words<'_>, best: &BestDesign) -> Value {
     design
 }
 
-/// The value of every objective of what is drawn, the fitness among them. Quantities over skins stand with what is made.
+/// Returns the nominal objectives, including the fitness; statistics over samples are in `made`.
 fn objectives(goal: &DesignGoal, best: &BestDesign) -> Map<String, Value> {
     let Judgement::Judged(worth) = &best.candidate.verdict else { return Map::new() };
     let values = goal.objectives.iter().zip(&worth.objectives);

@@ -1,4 +1,4 @@
-//! The text that `squama optimise` prints.
+//! Text output of `squama optimise`.
 
 use std::fmt::Write as _;
 use std::time::Duration;
@@ -15,7 +15,7 @@ use super::samples;
 use super::weakest_place::weakest_place_note;
 use crate::print::{aligned, counted, digits, rounded, time};
 
-/// The answer of a search, for people.
+/// Formats the result of a search.
 pub struct SearchReport<'a> {
     pub goal: &'a DesignGoal,
     pub found: &'a Found,
@@ -40,7 +40,7 @@ impl SearchReport<'_> {
         text
     }
 
-    /// The ends between which the criteria of the fitness were rescaled, as a line for the goal.
+    /// Formats the bounds of the rescaled criteria as a line for the goal.
     fn rescaled(&self) -> String {
         let ends = self.found.rescaled.iter();
         let ends = ends.map(|ends| {
@@ -49,12 +49,12 @@ impl SearchReport<'_> {
         match ends.collect::<Vec<_>>().join(", ") {
             ends if ends.is_empty() => ends,
             ends => format!(
-                "\nThe criteria were rescaled between their worst and best values: rescale = {{ {ends} }}\n"
+                "\nThe criteria were rescaled between their worst and best values; to keep these bounds: rescale = {{ {ends} }}\n"
             ),
         }
     }
 
-    /// How many designs could not be counted on, and why.
+    /// Counts the designs that were left out, by reason.
     fn left_out(&self) -> String {
         let left_out = &self.found.left_out;
         let mut rows: Vec<[String; 2]> = Vec::new();
@@ -84,8 +84,8 @@ impl SearchReport<'_> {
             let rows: Vec<_> = bindings.map(row).collect();
             let _ = write!(
                 text,
-                "\nNo better one was found{}. It is limited by\n{}",
-                self.looked(),
+                "\nThe search found no better design{}. It is limited by\n{}",
+                self.coverage_of_search(),
                 aligned(&rows)
             );
         }
@@ -94,7 +94,7 @@ impl SearchReport<'_> {
         text + &best.confirmation.as_ref().map(samples::text).unwrap_or_default()
     }
 
-    /// What the best design is with the whole substrate coupled, in the columns that the goal asks for.
+    /// Reports the effect of full substrate coupling on the columns of the goal.
     fn coupled(&self, best: &Candidate) -> String {
         let DesignGoal { space, objectives, requirements, .. } = self.goal;
         let asked = objectives.iter().map(|objective| &*objective.column);
@@ -108,8 +108,8 @@ impl SearchReport<'_> {
         couplings_report(named.as_slice(), requirements)
     }
 
-    /// Where the search looked: from so many starts, in so many regions.
-    fn looked(&self) -> String {
+    /// States the number of starts and regions of the search.
+    fn coverage_of_search(&self) -> String {
         let Found { starts, regions, .. } = self.found;
         let [starts, regions] = [(*starts, "start"), (*regions, "region")]
             .map(|(count, name)| counted(count as u64, name));
@@ -125,7 +125,7 @@ impl SearchReport<'_> {
         self.goal.space.parameters().map(|p| [p.key.to_owned(), value(p)]).collect()
     }
 
-    /// Objectives and required columns, each once.
+    /// Lists the objectives and required columns, without duplicates.
     fn values(&self, best: &BestDesign) -> Vec<[String; 2]> {
         let Judgement::Judged(worth) = &best.candidate.verdict else { return Vec::new() };
         let mut rows: Vec<[String; 2]> = Vec::new();
@@ -140,7 +140,7 @@ impl SearchReport<'_> {
         rows
     }
 
-    /// Adds the criteria of the fitness that are not there yet.
+    /// Adds the criteria of the fitness that are not listed yet.
     fn add_criteria(&self, best: &BestDesign, rows: &mut Vec<[String; 2]>) {
         let columns = design_columns(self.goal.space.sweep());
         for criterion in self.goal.fitness.iter().flat_map(|fitness| &fitness.criteria) {
@@ -154,15 +154,15 @@ impl SearchReport<'_> {
         }
     }
 
-    /// How many designs a front has, and why they are fewer than was asked for.
+    /// States the number of designs on the front, and why it is smaller than requested.
     fn title(&self, front: &Front) -> String {
         let (found, asked) = (front.designs.len(), self.goal.points);
         let mut title = format!("Pareto front: {}\n", counted(found as u64, "design"));
         if found < asked {
             let reasons = [
-                (front.same, "led to the design of another: the front has a step there"),
-                (front.beaten, "led to a design that another beats"),
-                (front.empty, "led to no design"),
+                (front.same, "gave the same design as another point: the front has a step there"),
+                (front.beaten, "gave a dominated design"),
+                (front.empty, "gave no design"),
                 (front.left_out(asked), "left out: the front has no wide gap"),
             ];
             let of = |(count, why): &(usize, &str)| {
@@ -197,7 +197,8 @@ impl SearchReport<'_> {
             row
         }));
         let is_unknown = rows[1..].iter().all(|row| row.last().is_some_and(String::is_empty));
-        let unknown = "  No price is known: no multipliers balance the slopes, as on a kink\n";
+        let unknown =
+            "  Prices are unknown: at a kink no multipliers satisfy the optimality conditions\n";
         let prices = if is_unknown { unknown } else { "" };
         title + &aligned(&rows) + prices + &samples::of_all(designs)
     }
@@ -206,7 +207,7 @@ impl SearchReport<'_> {
         let words = Words::new(self.goal);
         let requirements: Vec<Requirement> = words.requirements().into_iter().cloned().collect();
         let unmet = unmet(self.goal, self.found, &requirements, nearest);
-        // Requirements of columns act within a yield, too: what is left without one, nobody has looked at.
+        // Requirements on columns also act within a yield, so designs without one were not evaluated.
         let obstacle = if self.goal.is_about_samples() {
             samples::shortfalls(&unmet)
         } else {
@@ -221,7 +222,9 @@ impl SearchReport<'_> {
     }
 }
 
-/// The obstacle to the requirements among all designs that were looked at: to those of what is drawn, if skins were made of none.
+/// Finds the obstacle to the requirements among all evaluated designs.
+///
+/// If no design has samples, only requirements on nominal values count.
 pub fn unmet(
     goal: &DesignGoal,
     found: &Found,
@@ -234,7 +237,7 @@ pub fn unmet(
     let values = |candidate: &Candidate| match &candidate.verdict {
         Judgement::Judged(worth) => worth.required.iter().copied().map(Some).collect(),
         Judgement::Nominal(worth) => {
-            // A design without samples has values for the other requirements alone, in their order.
+            // A design without samples has values only for the nominal requirements, in their order.
             let mut drawn = worth.required.iter().copied();
             let value = |requirement: &Requirement| {
                 let is_drawn = goal.statistic(&requirement.column).is_none();

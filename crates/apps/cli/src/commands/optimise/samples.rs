@@ -1,4 +1,4 @@
-//! What is made of the designs that a search has found.
+//! Statistics over new samples of the designs found by a search.
 
 use std::fmt::Write as _;
 
@@ -8,7 +8,7 @@ use ranking::{Requirement, Unmet};
 use super::super::rank::distance;
 use crate::print::{aligned, counted, digits};
 
-/// What is made of the best design.
+/// Formats the statistics of the best design.
 pub fn text(made: &Confirmation) -> String {
     let header = ["", "search", "new samples", "95 % interval"].map(str::to_owned);
     let row = |of: &Estimate| {
@@ -17,7 +17,7 @@ pub fn text(made: &Confirmation) -> String {
     };
     let rows: Vec<_> = [header].into_iter().chain(made.estimates.iter().map(row)).collect();
     let mut text = format!(
-        "\nSamples of it: {} in the search, and {} new ones\n{}",
+        "\nSamples of the best design: {} in the search, {} new\n{}",
         made.seen,
         sweep::number::text(made.fresh as f64),
         aligned(&rows)
@@ -26,23 +26,23 @@ pub fn text(made: &Confirmation) -> String {
     if !broken.is_empty() {
         let _ = writeln!(
             text,
-            "  (!) The new samples miss {}: a design looks a little better on the samples that it was chosen by. Require a little more, or solve more samples in the search (goal.skins)",
+            "  (!) The new samples do not meet {}, because the search selects designs that suit its own samples. Require a little more, or solve more samples in the search (goal.skins)",
             joined(&broken)
         );
     }
     if !open.is_empty() {
         let _ = writeln!(
             text,
-            "  (?) The new samples are too few to tell whether {} is met: require a little more to be safe",
+            "  (?) The new samples are too few to decide whether {} is met: require a little more to be safe",
             joined(&open)
         );
     }
     text
 }
 
-/// How far the design that comes nearest is from each requirement.
+/// Lists the distance of the nearest design from each requirement.
 pub fn shortfalls(unmet: &Unmet) -> String {
-    let header = ["requirement", "nearest has", "short by"].map(str::to_owned);
+    let header = ["requirement", "nearest", "short by"].map(str::to_owned);
     let rows: Vec<_> =
         [header].into_iter().chain(unmet.requirements.iter().map(distance)).collect();
     format!("{}\n", aligned(&rows))
@@ -52,25 +52,25 @@ fn joined(requirements: &[&Requirement]) -> String {
     requirements.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
 }
 
-/// What is made of a design of a front: the values of the skins that the search did not see.
+/// Returns the statistics of a design of a front over its new samples.
 pub fn row(made: &Confirmation) -> Vec<[String; 2]> {
     made.estimates.iter().map(|of| [of.name.clone(), value(of.value)]).collect()
 }
 
-/// What is to be said of the skins of a whole front.
+/// Explains the statistics of a front.
 pub fn of_all(designs: &[BestDesign]) -> String {
     let made: Vec<&Confirmation> =
         designs.iter().filter_map(|best| best.confirmation.as_ref()).collect();
     let Some(first) = made.first() else { return String::new() };
     let fresh = sweep::number::text(first.fresh as f64);
     let mut text = format!(
-        "  Quantiles and yields are those of {fresh} new samples of each design; front.csv has their intervals, and the values of the search. Designs that differ by less than an interval may beat each other\n"
+        "  Quantiles and yields come from {fresh} new samples of each design; front.csv has their intervals and the values of the search. Differences smaller than an interval are not significant\n"
     );
     let broken = made.iter().filter(|made| !made.broken.is_empty()).count();
     if broken > 0 {
         let _ = writeln!(
             text,
-            "  (!) {}: the new samples miss a requirement that the samples of the search meet",
+            "  (!) {}: the new samples do not meet a requirement that the samples of the search meet",
             counted(broken as u64, "design")
         );
     }

@@ -1,4 +1,4 @@
-//! Does a needle get through the best design elsewhere more easily than where it was searched?
+//! Reports a load position at which the best design is weaker than at the position of the search.
 
 use optimisation::{Candidate, DesignGoal};
 use results::Cell;
@@ -8,14 +8,16 @@ use sweep::{Setting, Sweep};
 
 use crate::print::digits;
 
-/// Places of the top at which the needle is tried.
+/// Number of load positions on the top of a scale.
 const PLACES: usize = 11;
 
-/// A force that is smaller by less than this part is not worth a word.
+/// A force above this fraction of the force at the requested position is not reported.
 const WEAKER: f64 = 0.99;
 
-/// A sentence about the weakest place of the best design, if the goal asks for the force of a guided needle at one place, and
-/// another is weaker. A needle that slides takes the force of its place; a dead load hangs on the corner and is meant to.
+/// Returns a sentence on the weakest load position, if it is weaker than the position of the goal.
+///
+/// Returns `None` unless the goal names the critical force of a guided needle at one position: a
+/// dead load is attached to the corner by definition.
 pub fn weakest_place_note(goal: &DesignGoal, best: &Candidate) -> Option<String> {
     let sweep = goal.space.sweep();
     let case = goal.space.case(&best.point);
@@ -27,7 +29,7 @@ pub fn weakest_place_note(goal: &DesignGoal, best: &Candidate) -> Option<String>
     }
     let places = Setting::parse(&format!("puncture.places={PLACES}")).ok()?;
     let tried = Sweep::parse(&sweep.at(&case).to_toml(), sweep.name(), &[places]).ok()?;
-    // Derivatives would take nearly as long again, and nobody asks for them here.
+    // Without derivatives, which would nearly double the time.
     let evaluator = Evaluator::new(&tried.plain_measures());
     let grid = tried.grid();
     let row = evaluator.solve(grid.number(0), &grid.case(0)).row;
@@ -36,22 +38,34 @@ pub fn weakest_place_note(goal: &DesignGoal, best: &Candidate) -> Option<String>
         let column = columns.iter().find(|column| column.name == name)?;
         if let Cell::Number(value) = column.cell(&row) { Some((value, column.unit)) } else { None }
     };
-    let of = |ending: &str| {
-        let there = value(&[name::CRITICAL_FORCE, ending].concat())?.0;
-        let (weakest, unit) = value(&[name::WEAKEST_FORCE, ending].concat())?;
-        Some((there, weakest, unit))
+    let forces = |suffix: &str| {
+        let (requested, _) = value(&[name::CRITICAL_FORCE, suffix].concat())?;
+        let (weakest, unit) = value(&[name::WEAKEST_FORCE, suffix].concat())?;
+        Some((requested, weakest, unit))
     };
-    // In newtons where a material tells them, as the goal then has them.
-    let (there, weakest, unit) = of("_N").or_else(|| of(""))?;
-    let (place, _) = value(name::WEAKEST_PLACE)?;
-    let place = digits(place);
-    (weakest < WEAKER * there).then(|| {
-        format!(
-            "\nThe needle gets through more easily at {place} of the way from corner to corner: {} {unit}, not {}.\n  \
-             A goal on weakest_force{}, with puncture.places = {PLACES}, counts the weakest place.\n",
-            digits(weakest),
-            digits(there),
-            if unit == "N" { "_N" } else { "" },
-        )
-    })
+    // In newtons where the material has a modulus, because the goal then uses them too.
+    let (requested, weakest, unit) = forces("_N").or_else(|| forces(""))?;
+    let (position, _) = value(name::WEAKEST_PLACE)?;
+    if weakest >= WEAKER * requested {
+        return None;
+    }
+    let (suffix, unit) = if unit == "N" { ("_N", " N") } else { ("", "") };
+    Some(format!(
+        "\nWeakest place: {}, {}{unit} ({}{unit} at the place requested)\n  \
+         To search for the largest force at the weakest place, use weakest_force{suffix} with puncture.places = {PLACES}.\n",
+        describe(position),
+        digits(weakest),
+        digits(requested),
+    ))
+}
+
+/// Describes a load position: 0 is the left corner of the top, 1 the right corner.
+fn describe(position: f64) -> String {
+    if position == 0.0 {
+        "the left corner".to_owned()
+    } else if position == 1.0 {
+        "the right corner".to_owned()
+    } else {
+        format!("{} of the width from the left corner", digits(position))
+    }
 }

@@ -1,4 +1,4 @@
-//! How far the measures of the best designs move with their gaps, for people.
+//! Sensitivity of the best designs to their gaps, as text.
 
 use ranking::{Preferences, RankedDesign, Ranking, Requirement, Weights};
 use rayon::prelude::*;
@@ -8,18 +8,19 @@ use run::{CouplingChange, GapChange, MeasureChange};
 use super::super::couplings::measured;
 use crate::print::aligned;
 
-/// Changes by this factor, or its inverse, are told as factors.
+/// Changes by this factor or its inverse are printed as factors.
 const LARGE: f64 = 2.0;
 
-/// The changes of the best design by the weights, the best of those that are not folded, and the best by each criterion alone;
-/// none where the sweep is not at hand.
+/// Solves the best designs with other gaps: by the weights, without a fold, and by each criterion.
+///
+/// Returns nothing if the results have no definition.
 pub fn gap_changes(results: &Results, ranking: &Ranking<'_>) -> Vec<GapChange> {
     let Some(sweep) = results.definition() else { return Vec::new() };
     let criteria = &ranking.preferences().criteria;
     let columns = measured_columns(ranking.preferences());
     let alone = Weights::alone_among(criteria.len()).map(|weights| ranking.winner(weights));
     let best = [Some(ranking.winner(ranking.preferences().weights)), ranking.best_unfolded()];
-    // One design is often the best by several criteria, and each is solved three times.
+    // Without duplicates: one design is often the best by several criteria, and each is solved three times.
     let mut numbers: Vec<&str> = Vec::new();
     for number in best.iter().flatten().chain(&alone.collect::<Vec<_>>()).map(RankedDesign::design)
     {
@@ -30,7 +31,7 @@ pub fn gap_changes(results: &Results, ranking: &Ranking<'_>) -> Vec<GapChange> {
     numbers.par_iter().filter_map(|number| GapChange::of(sweep, number, &columns)).collect()
 }
 
-/// The best design by the weights, and the best of those that are not folded, with the whole substrate coupled.
+/// Solves the best design, and the best without a fold, with full substrate coupling.
 pub fn couplings(results: &Results, ranking: &Ranking<'_>) -> Vec<CouplingChange> {
     let Some(sweep) = results.definition() else { return Vec::new() };
     let columns = measured_columns(ranking.preferences());
@@ -38,13 +39,13 @@ pub fn couplings(results: &Results, ranking: &Ranking<'_>) -> Vec<CouplingChange
     best.iter().flatten().filter_map(|d| CouplingChange::of(sweep, d.design(), &columns)).collect()
 }
 
-/// The columns of the criteria and of the requirements that are measured.
+/// Returns the measured columns among the criteria and requirements.
 fn measured_columns(preferences: &Preferences) -> Vec<&str> {
     let criteria = preferences.criteria.iter().map(|criterion| criterion.column.as_ref());
     measured(criteria.chain(preferences.requirements.iter().map(|r| r.column.as_str())))
 }
 
-/// A table of the changes, and a sentence for each design at a cliff and each requirement that is missed.
+/// Formats a table of the changes, the large changes, and the missed requirements.
 pub fn gap_changes_report(changes: &[GapChange], requirements: &[Requirement]) -> String {
     let mut columns: Vec<&str> = Vec::new();
     for measure in changes.iter().flat_map(|change| &change.measures) {
@@ -57,7 +58,7 @@ pub fn gap_changes_report(changes: &[GapChange], requirements: &[Requirement]) -
     }
     let header = ["design", "gap_over_t"].iter().chain(&columns).map(ToString::to_string).collect();
     let row = |change: &GapChange| {
-        // A design that was solved again may lack a measure that others have.
+        // A design may lack a measure that others have.
         let measure = |column: &&str| change.measures.iter().find(|m| m.column == **column);
         let cells = columns.iter().map(|column| measure(column).map_or_else(String::new, cell));
         [change.design.clone(), change.gap.to_string()].into_iter().chain(cells).collect()
@@ -69,19 +70,19 @@ pub fn gap_changes_report(changes: &[GapChange], requirements: &[Requirement]) -
     format!("\n{title}\n{}{cliffs}{missed}", aligned(&rows))
 }
 
-/// Both changes of a measure.
+/// Formats both changes of a measure.
 fn cell(measure: &MeasureChange) -> String {
     let [smaller, larger] = measure.changed.map(|changed| words(measure.value, changed));
     format!("{smaller} / {larger}")
 }
 
-/// A change in per cent, or where it is larger as a factor.
+/// Formats a change in percent, or as a factor if it is large.
 fn words(value: f64, changed: Option<f64>) -> String {
     let Some(changed) = changed else { return "no value".to_owned() };
     let ratio = changed / value;
     match ratio {
-        // Half of the last digit that is shown.
-        _ if (ratio - 1.0).abs() < 5e-4 => "as is".to_owned(),
+        // Half of the last displayed digit.
+        _ if (ratio - 1.0).abs() < 5e-4 => "unchanged".to_owned(),
         _ if !ratio.is_finite() => format!("from {value} to {}", crate::print::rounded(changed)),
         _ if ratio >= LARGE => format!("× {ratio:.1}"),
         _ if ratio > 0.0 && ratio <= LARGE.recip() => format!("÷ {:.1}", ratio.recip()),
@@ -89,13 +90,13 @@ fn words(value: f64, changed: Option<f64>) -> String {
     }
 }
 
-/// A sentence for each measure of a design at a cliff.
+/// Returns a sentence for each measure that is sensitive to the gap.
 fn cliffs(change: &GapChange) -> Vec<String> {
     let sentence = |measure: &MeasureChange, side: usize| {
         let moved = moved(measure.changed[side]? / measure.value);
         let (design, column) = (&change.design, &measure.column);
         let side = ["smaller", "larger"][side];
-        Some(format!("  {design} is at a cliff: if its gap is 10 % {side}, {column} {moved}\n"))
+        Some(format!("  {design} is sensitive to its gap: 10 % {side}, and {column} {moved}\n"))
     };
     let sides = |measure: &MeasureChange| {
         let cliffs = measure.cliffs();
@@ -105,10 +106,10 @@ fn cliffs(change: &GapChange) -> Vec<String> {
     change.measures.iter().flat_map(sides).collect()
 }
 
-/// A sentence for each requirement that a design misses with another gap.
+/// Returns a sentence for each requirement that a design misses with another gap.
 fn missed(change: &GapChange, requirements: &[Requirement]) -> Vec<String> {
     let sentence = |requirement: &Requirement, side: &str, changed: Option<f64>| {
-        // A design that has lost its value with another gap keeps no bound.
+        // A design without a value meets no bound.
         let is_missed = changed.is_none_or(|changed| !requirement.is_met(changed));
         is_missed.then(|| {
             format!("  {} misses {requirement} if its gap is 10 % {side}\n", change.design)
@@ -122,12 +123,12 @@ fn missed(change: &GapChange, requirements: &[Requirement]) -> Vec<String> {
     requirements.iter().filter_map(both).flatten().flatten().collect()
 }
 
-/// How a measure moves by a factor, in words.
+/// Describes the change of a measure by a factor.
 fn moved(ratio: f64) -> String {
     match ratio {
         _ if ratio >= LARGE => format!("is {ratio:.1} times as large"),
         _ if ratio >= 1.0 => format!("rises by {:.0} %", 100.0 * (ratio - 1.0)),
         _ if ratio > LARGE.recip() => format!("falls by {:.0} %", 100.0 * (1.0 - ratio)),
-        _ => format!("falls to one part in {:.1}", ratio.recip()),
+        _ => format!("falls by a factor of {:.1}", ratio.recip()),
     }
 }

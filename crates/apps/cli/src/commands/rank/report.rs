@@ -1,4 +1,4 @@
-//! The text that `squama rank` prints.
+//! Text output of `squama rank`.
 
 use std::fmt::Write as _;
 
@@ -11,21 +11,21 @@ use super::super::couplings::couplings_report;
 use super::gap_changes::gap_changes_report;
 use crate::print::{aligned, counted, digits, shortfall};
 
-/// The mark of a design under which the surface of the substrate folds over.
+/// Marks a design under which the surface of the substrate folds.
 const FOLDED: char = '⚠';
 
-/// Designs that are listed before a list is cut short.
+/// Maximum number of listed designs.
 const LISTED: usize = 10;
 
-/// The ranking of a run, for people.
+/// Formats the ranking of a run.
 pub struct RankReport<'a> {
     pub results: &'a Results,
     pub ranking: &'a Ranking<'a>,
-    /// Designs that are listed by fitness.
+    /// Number of designs listed by fitness.
     pub top: usize,
-    /// How far the measures of the best designs move with their gaps.
+    /// Changes of the measures of the best designs with their gaps.
     pub changes: &'a [GapChange],
-    /// The best designs with the whole substrate coupled.
+    /// Changes of the best designs with full substrate coupling.
     pub couplings: &'a [CouplingChange],
 }
 
@@ -47,7 +47,7 @@ impl RankReport<'_> {
         if text.contains(FOLDED) {
             let _ = writeln!(
                 text,
-                "\n{FOLDED} the surface of the substrate folds over: do not trust the critical force"
+                "\n{FOLDED} the surface of the substrate folds: the critical force is not valid"
             );
         }
         text
@@ -57,7 +57,7 @@ impl RankReport<'_> {
         self.ranking.preferences()
     }
 
-    /// How many designs are ranked, and why the others are not.
+    /// States how many designs are ranked, and why the others are left out.
     fn title(&self) -> String {
         let (ranked, all) = (self.ranking.len(), self.results.len());
         let folder = self.results.folder().display();
@@ -67,17 +67,17 @@ impl RankReport<'_> {
         let rows: Vec<_> =
             left_out.map(|(why, count)| [format!("{count} left out"), why.clone()]).collect();
         text.push_str(&aligned(&rows));
-        // A single design has every criterion in common with all.
+        // For a single design every criterion is trivially equal.
         if ranked > 1 {
             for criterion in self.ranking.ties() {
                 let name = &self.preferences().criteria[criterion].name;
-                let _ = writeln!(text, "  {name} is the same for all of them, and is ignored");
+                let _ = writeln!(text, "  {name} is equal for all of them, and is ignored");
             }
         }
         text
     }
 
-    /// The designs that are best by the weights, and how many share the first place.
+    /// Lists the best designs by fitness, and the number of ties for the first place.
     fn best(&self) -> String {
         let preferences = self.preferences();
         let best = self.ranking.by_fitness(preferences.weights);
@@ -92,19 +92,20 @@ impl RankReport<'_> {
         let _ = write!(text, "\n{}", self.table(&listed, "fitness", fitness));
         let equal = self.ranking.equals(preferences.weights);
         if equal > 0 {
-            let _ = writeln!(text, "  the first {} are equally good", equal + 1);
+            let _ = writeln!(text, "  the first {} have equal fitness", equal + 1);
         }
         text
     }
 
-    /// The best of the designs whose surface has not folded over, if that of the winner has.
+    /// Shows the best design without a fold, if the surface folds under the winner.
     fn unfolded(&self) -> String {
         let Some(best) = self.ranking.best_unfolded() else { return String::new() };
-        let title = "The surface of the substrate folds under the best design. The best design without a fold";
+        let title =
+            "The surface of the substrate folds under the best design. Best design without a fold";
         format!("\n{title}\n{}", self.table(&[best], "fitness", fitness))
     }
 
-    /// The best design by each criterion.
+    /// Lists the best design by each criterion.
     fn corners(&self) -> String {
         let criteria = &self.preferences().criteria;
         let mut header = self.header("criterion");
@@ -121,7 +122,7 @@ impl RankReport<'_> {
         aligned(&rows)
     }
 
-    /// The designs that win most of the weights.
+    /// Lists the designs that win the most choices of weights.
     fn winners(&self) -> String {
         let winners = self.ranking.winners();
         let count = winners.len();
@@ -135,7 +136,7 @@ impl RankReport<'_> {
         )
     }
 
-    /// The Pareto front: how many designs, and of criteria of one's own which, with the knee.
+    /// States the size of the Pareto front; for custom criteria lists its designs and the knee.
     fn front(&self) -> String {
         let front = self.ranking.front();
         let count = front.len();
@@ -148,7 +149,7 @@ impl RankReport<'_> {
         let mut listed: Vec<_> = front.iter().collect();
         listed.sort_by(|a, b| b.criterion(0).total_cmp(&a.criterion(0)));
         listed.truncate(LISTED.max(self.top));
-        // The knee is what several criteria are asked for, so it is listed wherever it stands.
+        // The knee is always listed, even beyond the limit.
         let hidden = knee.filter(|knee| !listed.iter().any(|s| s.row() == knee.row()));
         let mut rows = vec![self.header("")];
         rows.extend(listed.iter().copied().chain(&hidden).map(|standing| {
@@ -184,7 +185,7 @@ impl RankReport<'_> {
     }
 }
 
-/// The columns by which people know designs: number, parameters, criteria, and what is required.
+/// Returns the displayed columns: number, parameters, criteria and required columns.
 fn shown_columns(results: &Results, preferences: &Preferences) -> Vec<String> {
     let mut columns = vec!["design".to_owned()];
     columns
@@ -199,14 +200,14 @@ fn shown_columns(results: &Results, preferences: &Preferences) -> Vec<String> {
     columns
 }
 
-/// Whether the surface of the substrate folds over before the puncture of a design ends.
+/// Returns true if the surface of the substrate folds before the puncture ends.
 fn is_folded(results: &Results, row: usize) -> bool {
     results.column(name::FOLD_FORCE).is_ok_and(|fold| !results.table().is_empty(row, fold))
 }
 
 fn shown_cells(results: &Results, preferences: &Preferences, row: usize) -> Vec<String> {
     let columns = shown_columns(results, preferences);
-    // A force up to the fold can be trusted.
+    // Only the critical force is invalid after a fold.
     let is_doubtful = columns.iter().any(|column| column.starts_with(name::CRITICAL_FORCE));
     let cell = |column: &String| {
         let text = results.column(column).map_or_else(|_| "".into(), |of| results.text(row, of));
@@ -215,7 +216,7 @@ fn shown_cells(results: &Results, preferences: &Preferences, row: usize) -> Vec<
                 format!("{text}{FOLDED}")
             }
             Ok(_) if column == "design" => text.into_owned(),
-            // So many digits choose the design again, and hide the round-off of a division by the thickness.
+            // 12 digits identify the design and hide the round-off of a division by the thickness.
             Ok(number) if parameter_of(column).is_some() => sweep::number::rounded(number, 12),
             Ok(number) => digits(number),
             _ => text.into_owned(),
@@ -224,7 +225,7 @@ fn shown_cells(results: &Results, preferences: &Preferences, row: usize) -> Vec<
     columns.iter().map(cell).collect()
 }
 
-/// The answer where no design meets the requirements.
+/// Formats the result if no design meets the requirements.
 pub fn unmet_report(results: &Results, preferences: &Preferences, unmet: &Unmet) -> String {
     let folder = results.folder().display();
     let all = designs(results.len());
@@ -237,11 +238,10 @@ pub fn unmet_report(results: &Results, preferences: &Preferences, unmet: &Unmet)
     text
 }
 
-/// How far the nearest design is from each requirement, and which of them stands in the way.
+/// Lists the distance of the nearest design from each requirement, and the obstacle.
 pub fn obstacle(unmet: &Unmet) -> String {
-    let mut rows = vec![
-        ["requirement", "met by", "others met by", "nearest has", "short by"].map(str::to_owned),
-    ];
+    let mut rows =
+        vec![["requirement", "met by", "others met by", "nearest", "short by"].map(str::to_owned)];
     rows.extend(unmet.requirements.iter().map(|requirement| {
         let [text, nearest, short] = distance(requirement);
         [text, designs(requirement.met), designs(requirement.met_without), nearest, short]
@@ -249,7 +249,7 @@ pub fn obstacle(unmet: &Unmet) -> String {
     format!("{}\n{}", aligned(&rows), binding(unmet))
 }
 
-/// A requirement, what the nearest design has, and how much that is short.
+/// Formats a requirement, the value of the nearest design, and the shortfall.
 pub fn distance(requirement: &UnmetRequirement) -> [String; 3] {
     let short = match requirement.shortfall {
         0.0 => "-".to_owned(),
@@ -259,26 +259,26 @@ pub fn distance(requirement: &UnmetRequirement) -> [String; 3] {
     [requirement.requirement.to_string(), nearest, short]
 }
 
-/// Which requirement stands in the way.
+/// Names the requirements that are the obstacle.
 fn binding(unmet: &Unmet) -> String {
     let binds = unmet.requirements.iter().filter(|requirement| requirement.binds());
     let binding: Vec<_> = binds.map(|requirement| requirement.requirement.to_string()).collect();
     match binding.as_slice() {
         [] if unmet.requirements.len() > 1 => {
-            "No requirement alone stands in the way: give up two or more.\n".to_owned()
+            "No single requirement is the obstacle: relax two or more.\n".to_owned()
         }
         [] => String::new(),
-        [one] => format!("{one} stands in the way: without it, designs meet all the others.\n"),
+        [one] => format!("The obstacle is {one}: some designs meet all other requirements.\n"),
         several => {
             format!(
-                "{} stand in the way: without any one of them, designs meet all the others.\n",
+                "The obstacles are {}: for each of them, some designs meet all other requirements.\n",
                 several.join(" and ")
             )
         }
     }
 }
 
-/// The line that says how many are not listed.
+/// States how many are not listed; empty if all are.
 fn more(count: usize) -> String {
     let more = count.saturating_sub(LISTED);
     if more > 0 { format!("  and {more} more\n") } else { String::new() }

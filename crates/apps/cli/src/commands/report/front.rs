@@ -1,4 +1,4 @@
-//! What `squama optimise` has found, for the page of a sweep.
+//! The designs found by `squama optimise`, for the page of a sweep.
 
 use std::path::Path;
 
@@ -11,10 +11,10 @@ use sweep::{PARAMETERS, Parameter, Scalar, Sweep};
 
 use crate::commands::results_folder::ResultsFolder;
 
-/// The designs in a folder of `squama optimise`, to stand beside those of `grid`.
+/// Reads the designs of a search, to show them beside the designs of `grid`.
 pub fn front(folder: &Path, grid: &ResultsFolder) -> anyhow::Result<PageFront> {
     let name = folder.display();
-    // A search states no number of designs, of which some could be missing.
+    // A search has no expected number of designs.
     let found = VerifiedFolder::open(folder, Completeness::Partial)?;
     let table = [FRONT, OPTIMUM].into_iter().find(|table| found.holds(table));
     let table = table.with_context(|| {
@@ -26,7 +26,7 @@ pub fn front(folder: &Path, grid: &ResultsFolder) -> anyhow::Result<PageFront> {
     let headers = grid.designs.headers();
     let nominal = goal.nominal();
     let objectives = objectives(&nominal);
-    // Both share the axes of a figure, so that a grid without the column has no place on it.
+    // Both share the axes of a figure, so the grid needs the column.
     for objective in &objectives {
         ensure!(
             headers.iter().any(|header| *header == objective.column),
@@ -37,17 +37,17 @@ pub fn front(folder: &Path, grid: &ResultsFolder) -> anyhow::Result<PageFront> {
     }
     Ok(PageFront {
         folder: name.to_string(),
-        differences: differences(&goal, grid).into_iter().chain(of_skins(&goal)).collect(),
+        differences: differences(&goal, grid).into_iter().chain(tolerances_of(&goal)).collect(),
         variables: goal.space.parameters().map(|parameter| parameter.key.to_owned()).collect(),
         objectives,
-        made: made(&goal),
+        made: statistics(&goal),
         requirements: nominal.requirements,
         sound: goal.sound,
         designs,
     })
 }
 
-/// The objectives as far as nominal designs have them; of a yield alone the columns that samples are to meet.
+/// Returns the nominal objectives; for a goal on yield only, the column of the first requirement.
 fn objectives(nominal: &DesignGoal) -> Vec<Criterion> {
     let of_grid = |objective: &&Criterion| objective.column != Statistic::MARGIN;
     let objectives: Vec<Criterion> = nominal.objectives.iter().filter(of_grid).cloned().collect();
@@ -59,32 +59,32 @@ fn objectives(nominal: &DesignGoal) -> Vec<Criterion> {
         let goal = if is_upper { Goal::Minimize } else { Goal::Maximize };
         Criterion::new(&requirement.column, goal)
     };
-    // One is enough: the page takes its second axis from other requirements or the variables.
+    // One is enough: the second axis comes from other requirements or the variables.
     nominal.requirements.iter().take(1).map(criterion).collect()
 }
 
-/// The quantities over what is made that a goal names, each once.
-fn made(goal: &DesignGoal) -> Vec<String> {
+/// Returns the statistics over samples that a goal names, without duplicates.
+fn statistics(goal: &DesignGoal) -> Vec<String> {
     let objectives = goal.objectives.iter().map(|objective| objective.column.as_ref());
     let columns = objectives.chain(goal.requirements.iter().map(|r| r.column.as_str()));
-    let mut made: Vec<String> = Vec::new();
+    let mut statistics: Vec<String> = Vec::new();
     for column in columns.filter(|column| goal.statistic(column).is_some()) {
-        if !made.iter().any(|known| known == column) {
-            made.push(column.to_owned());
+        if !statistics.iter().any(|name| name == column) {
+            statistics.push(column.to_owned());
         }
     }
-    made
+    statistics
 }
 
-/// The part of a goal that is about what is made, and that the designs of a grid have not.
-fn of_skins(goal: &DesignGoal) -> Option<String> {
+/// Describes the tolerances of a goal about samples, which the designs of a grid do not have.
+fn tolerances_of(goal: &DesignGoal) -> Option<String> {
     let tolerances = goal.space.sweep().deviations().iter();
     let tolerances = tolerances.map(|d| format!("tolerance.{} {}", d.key(), d.to_toml()));
     let all: Vec<String> = tolerances.collect();
     goal.is_about_samples().then(|| all.join(", "))
 }
 
-/// What has one value in the search and another one in the grid: each parameter with both.
+/// Lists the fixed parameters that differ between the search and the grid, with both values.
 fn differences(goal: &DesignGoal, grid: &ResultsFolder) -> Vec<String> {
     let is_variable = |key: &str| goal.space.parameters().any(|variable| variable.key == key);
     let held = PARAMETERS.iter().filter(|parameter| !is_variable(parameter.key));
@@ -97,7 +97,7 @@ fn differences(goal: &DesignGoal, grid: &ResultsFolder) -> Vec<String> {
     held.filter_map(difference).collect()
 }
 
-/// The value of a parameter in all designs of a sweep; `None` if there are several.
+/// Returns the value of a parameter that all designs of a sweep share; `None` if it varies.
 fn only_value(sweep: &Sweep, parameter: &Parameter) -> Option<Scalar> {
     match sweep.grid().axis(parameter.key) {
         Some(axis) => (axis.len() == 1).then(|| axis.value(0)),

@@ -1,4 +1,4 @@
-//! Tolerances, for programs.
+//! JSON output of `squama tolerance`.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use uncertainty::{
     DesignTolerance, DeviationLevel, MeasureTolerance, RequirementYield, SourceShare,
 };
 
-/// Everything that is known of the designs, but for the samples.
+/// Returns all results except the samples.
 pub fn record(sweep: &Sweep, all: &[DesignTolerance], folder: &Path, files: &[String]) -> Value {
     json!({
         "sweep": sweep.name(),

@@ -1,4 +1,4 @@
-//! Tolerances, for people.
+//! Text output of `squama tolerance`.
 
 use std::fmt::Write as _;
 
@@ -13,7 +13,7 @@ use uncertainty::{
 
 use crate::print::{aligned, change, counted, rounded};
 
-/// Designs that are listed before a list is cut short.
+/// Maximum number of listed designs.
 const LISTED: usize = 10;
 
 const HEADER: [&str; 8] = [
@@ -27,7 +27,7 @@ const HEADER: [&str; 8] = [
     "sources",
 ];
 
-/// The report on a design, or a list of several.
+/// Formats the report on one design, or a list of several.
 pub fn report(sweep: &Sweep, requirements: &[Requirement], all: &[DesignTolerance]) -> String {
     match all {
         [design] => one(sweep, requirements, design),
@@ -44,7 +44,7 @@ fn one(sweep: &Sweep, requirements: &[Requirement], design: &DesignTolerance) ->
     rows.extend(design.measures.iter().filter(is_shown).map(measure_row));
     let _ = write!(text, "{}", aligned(&rows));
     if design.measures.iter().filter(is_shown).any(MeasureTolerance::is_off) {
-        text.push_str("  (!) off by more than twice the statistical error: the measure is not linear over these deviations; trust the samples\n");
+        text.push_str("  (!) off by more than twice the statistical error: the measure is nonlinear over these deviations; use the samples\n");
     }
     if !design.yields.is_empty() {
         let rows: Vec<_> = design.yields.iter().map(yield_row).collect();
@@ -54,19 +54,19 @@ fn one(sweep: &Sweep, requirements: &[Requirement], design: &DesignTolerance) ->
     text
 }
 
-/// The line about samples whose surface folds on the way, which a yield leaves out only if that is required.
+/// Warns of samples with a fold, which count as failed only with a requirement on it.
 fn folded(design: &DesignTolerance) -> Option<String> {
     let place = design.columns.iter().position(|column| column == FOLD_FORCE)?;
     let folds = |sample: &&SolvedSample| sample.values.get(place).is_some_and(Option::is_some);
     let count = design.samples.iter().filter(folds).count();
     let samples = counted(count as u64, "sample");
     let line = format!(
-        "  (!) {samples}: the surface folds; --require '{GAP_STRETCH_MIN} > 0' counts those that end so as failed requirements\n"
+        "  (!) {samples}: the surface folds; add --require '{GAP_STRETCH_MIN} > 0' to count them as failed\n"
     );
     (count > 0).then_some(line)
 }
 
-/// Whether people see a measure: what the tables are about, in all units, the mass, and what is required.
+/// Returns true for the main measures, the mass, and required columns.
 pub fn is_shown(name: &str, requirements: &[Requirement]) -> bool {
     let measure = measure_name(name);
     let leads = MEASURE_TABLES.iter().any(|(table, _)| *table == measure);
@@ -101,7 +101,7 @@ fn yield_row(of: &RequirementYield) -> Vec<String> {
     vec![name, of.proportion.map_or("none".to_owned(), proportion), notes.join(", ")]
 }
 
-/// A share with its interval: never a bare probability.
+/// Formats a fraction with its interval.
 fn proportion(proportion: Proportion) -> String {
     let [low, high] = proportion.interval().map(percent);
     format!("{} (95 % interval {low} to {high})", percent(proportion.share()))
@@ -111,12 +111,12 @@ fn percent(share: f64) -> String {
     format!("{:.1} %", 100.0 * share)
 }
 
-/// Three digits.
+/// Formats a value with three digits.
 fn short(value: f64) -> String {
     sweep::number::rounded(value, 3)
 }
 
-/// The designs with the highest yield, or in their order if nothing is required.
+/// Lists the designs with the highest yield, or in their order without requirements.
 fn list(sweep: &Sweep, requirements: &[Requirement], all: &[DesignTolerance]) -> String {
     let count = counted(all.len() as u64, "design");
     let mut text = format!("{}: {count} of {}\n", sweep.name(), sweep.grid().len());
@@ -125,13 +125,13 @@ fn list(sweep: &Sweep, requirements: &[Requirement], all: &[DesignTolerance]) ->
         last.map_or(-1.0, Proportion::share)
     };
     let mut designs: Vec<&DesignTolerance> = all.iter().collect();
-    // Equal designs keep their order, and so do all where nothing is required.
+    // A stable sort: ties keep their order.
     designs.sort_by(|one, other| share(other).total_cmp(&share(one)));
     let row = |design: &&DesignTolerance| {
         let yielded = design.yields.last().and_then(|of| of.proportion).map(proportion);
         let first = [design.nominal.number.to_string(), yielded.unwrap_or_default()];
         let shown = design.measures.iter().filter(|m| is_shown(&m.name, requirements));
-        // A line for each measure: all in one are wider than a terminal.
+        // One line per measure, because a single line would be too wide.
         let titles = std::iter::once(first).chain(std::iter::repeat(Default::default()));
         let measure = |(title, m): ([String; 2], &MeasureTolerance)| {
             let spread =

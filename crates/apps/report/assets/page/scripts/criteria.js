@@ -106,7 +106,7 @@
     note.hidden = !(best && squama.folded(best.row));
     if (note.hidden) return;
     const other = ranking.order(squama.contest, squama.weights()).find(({ row }) => !squama.folded(row));
-    note.replaceChildren("⚠ The best design is one whose substrate folds over before it gives way, so that its critical force is not to be trusted. ",
+    note.replaceChildren("⚠ The surface folds under the best design before its critical tilt, so its critical force is not valid. ",
       ...(other ? ["The best without is ", squama.element("button", { type: "button", onclick: () => squama.choose(other.row) }, squama.title(other.row)), `, fitness ${other.fitness.toFixed(4)}.`] : []));
   };
 

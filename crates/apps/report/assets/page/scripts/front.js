@@ -43,7 +43,7 @@
   squama.at("front-link").hidden = false;
   squama.addChart({
     id: "front", into: squama.at("front-figure"), title: isFront ? "The front over the designs of the grid" : "The best design over those of the grid",
-    description: "Diamonds: found by the search. Grey: designs of the grid; pale: those that do not keep the bounds of the search. Press a diamond to have it under your hand.", tip, take, passes: (row) => could.has(row), columns: () => found.axes,
+    description: "Diamonds: found by the search. Grey: designs of the grid; pale: outside the bounds of the search. Press a diamond to have it under your hand.", tip, take, passes: (row) => could.has(row), columns: () => found.axes,
   });
 
   const within = (k, name) => `${value(k, name)} (${value(k, `${name}_low`)} to ${value(k, `${name}_high`)})`;

@@ -52,7 +52,7 @@
     return [
       "No design meets all of them. ",
       ...(own === null ? [] : ["The one that comes nearest is ", squama.element("button", { type: "button", onclick: () => squama.choose(own) }, squama.title(own)), ` with ${squama.required().filter(({ sign }) => sign !== "~").map(({ column }) => `${squama.label(column)} ${squama.short(squama.cell(own, column))}`).join(", ")}. `]),
-      binding.length > 0 ? `Without ${names} there would be designs.` : "No single one of them alone stands in the way.",
+      binding.length > 0 ? `Without ${names} there would be designs.` : "No single requirement is the obstacle: relax two or more.",
     ];
   };
 
