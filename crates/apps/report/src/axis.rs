@@ -7,8 +7,8 @@ pub(crate) enum AxisScale {
     Log,
 }
 
-/// The ratio of the ends of data above which their axis is logarithmic: one and a half decades, beyond which the small
-/// values of a linear axis cannot be told from zero.
+/// Ratio of largest to smallest value above which an axis is logarithmic: 1.5 decades.
+// Beyond it, small values on a linear axis cannot be distinguished from zero.
 const SPANS_DECADES: f64 = 30.0;
 
 /// A range of values with a label.
@@ -36,7 +36,7 @@ impl ChartAxis {
         if low > 0.0 && high / low > SPANS_DECADES {
             Self::logarithmic(label, low, high)
         } else {
-            // From zero heights are in proportion, at the cost of less than half of the axis.
+            // Starting at zero makes heights proportional, and costs less than half of the axis.
             Self::linear(label, if low > 0.0 && low < 0.5 * high { 0.0 } else { low }, high)
         }
     }
@@ -50,7 +50,7 @@ impl ChartAxis {
     /// Creates a linear axis with 5 % of its length beyond each end; zero stays an end, unless all values are zero.
     pub(crate) fn linear(label: &str, low: f64, high: f64) -> Self {
         let size = low.abs().max(high.abs());
-        // Values that are equal but for round-off have an axis too.
+        // Values that differ only by round-off still need an axis of finite length.
         let air = match high - low {
             span if span > 1e-9 * size => 0.05 * span,
             _ if size > 0.0 => 0.05 * size,
@@ -61,7 +61,7 @@ impl ChartAxis {
         Self { label: label.to_owned(), scale: AxisScale::Linear, low: below, high: above }
     }
 
-    /// Creates a linear axis that ends where it is told to.
+    /// Creates a linear axis with these ends.
     pub(crate) fn exact(label: &str, low: f64, high: f64) -> Self {
         Self { label: label.to_owned(), scale: AxisScale::Linear, low, high }
     }
@@ -72,13 +72,13 @@ impl ChartAxis {
         Self { label: label.to_owned(), scale: AxisScale::Log, low: low / air, high: high * air }
     }
 
-    /// Returns the place of a value: 0 at the low end, 1 at the high end, `None` outside.
+    /// Returns the position of a value: 0 at the low end, 1 at the high end, `None` outside.
     pub(crate) fn place(&self, value: f64) -> Option<f64> {
         let place = match self.scale {
             AxisScale::Linear => (value - self.low) / (self.high - self.low),
             AxisScale::Log => (value / self.low).ln() / (self.high / self.low).ln(),
         };
-        // Values at the ends are places, too, whatever round-off has made of them.
+        // Values at the ends are inside, despite round-off.
         (-1e-9..=1.0 + 1e-9).contains(&place).then_some(place)
     }
 
@@ -93,7 +93,7 @@ impl ChartAxis {
     fn linear_ticks(&self, wanted: usize) -> Vec<Tick> {
         let rough = (self.high - self.low) / wanted as f64;
         let unit = 10f64.powf(rough.log10().floor());
-        // A step that is nearly wide enough will do; the next one may have half as many ticks.
+        // A step that is nearly wide enough is accepted, because the next one may halve the number of ticks.
         let step = [1.0, 2.0, 5.0, 10.0].into_iter().find(|m| m * unit >= 0.9 * rough);
         let step = step.unwrap_or(10.0) * unit;
         // A small count: the axis has few steps.
@@ -113,13 +113,13 @@ impl ChartAxis {
         let every = ((decades / (1.4 * wanted as f64)).ceil() as i32).max(1);
         let labelled = |decade: i32, digit: i32| match digit {
             1 => decade.rem_euclid(every) == 0,
-            // Powers of ten alone would be two labels on such an axis, or a single one.
+            // Powers of ten alone would give one or two labels.
             2 | 5 => decades < 2.2 && wanted > 3,
             _ => false,
         };
-        // Beyond that, ticks between the powers of ten would run into each other.
+        // Beyond that, ticks between powers of ten would overlap.
         let digits = if decades > 7.0 { 1 } else { 9 };
-        // Asked of the whole axis, so that all its labels have one notation.
+        // Decided for the whole axis, so that all labels have the same notation.
         let decimal = first >= -2 && last <= 4;
         let all = (first..=last).flat_map(|decade| (1..=digits).map(move |digit| (decade, digit)));
         all.map(|(decade, digit)| {
@@ -161,7 +161,7 @@ fn minus(text: &str) -> String {
     text.replace('-', "−")
 }
 
-/// Returns the smallest and the largest of `values`; of none, 0 and 1.
+/// Returns the smallest and the largest of `values`; 0 and 1 if there are none.
 pub(crate) fn ends(values: impl Iterator<Item = f64>) -> (f64, f64) {
     let ends = values
         .filter(|value| value.is_finite())

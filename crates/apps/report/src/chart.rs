@@ -1,4 +1,4 @@
-//! A panel of a figure: a frame with two axes, and what stands in it.
+//! A panel of a figure: a frame with two axes and its content.
 
 use crate::axis::ChartAxis;
 use crate::colors::{FAINT, GRID, INK, RED};
@@ -30,7 +30,7 @@ impl Area {
         self.top + self.height
     }
 
-    /// Returns panel `k` of a grid of some columns that stand so far apart, across and down, of which this is the first.
+    /// Returns panel `k` of a grid that starts with this one, with the given spacing across and down.
     pub(crate) fn panel(self, k: usize, columns: usize, between: [f64; 2]) -> Self {
         let [column, row] = [k % columns, k / columns].map(|place| place as f64);
         let left = self.left + column * (self.width + between[0]);
@@ -55,9 +55,9 @@ pub(crate) struct ChartPanel<'a> {
     pub(crate) area: Area,
     pub(crate) x: &'a ChartAxis,
     pub(crate) y: &'a ChartAxis,
-    /// The title, which tells the panel from others.
+    /// The title of the panel.
     pub(crate) title: String,
-    /// Whether the axes have their tick labels here.
+    /// True for axes with tick labels.
     pub(crate) x_labels: bool,
     pub(crate) y_labels: bool,
 }
@@ -162,12 +162,12 @@ impl<'a> ChartPanel<'a> {
     }
 }
 
-/// Returns the size of letters with which a label takes no more than `room`.
+/// Returns the font size at which a label fits into `room`.
 fn fitting(label: &str, room: f64) -> f64 {
     NAME * (room / width(label, NAME)).min(1.0)
 }
 
-/// Radius of the marks of designs, px: about that of a circle as large.
+/// Radius of a circle with the area of a mark, px.
 const MARK: f64 = 3.4;
 
 /// The look of a mark, besides its slant.
@@ -175,14 +175,14 @@ const MARK: f64 = 3.4;
 pub(crate) enum MarkLook {
     Filled,
     Open,
-    /// The surface of the substrate folds over: the mark is pale and struck through.
+    /// The surface of the substrate folds: the mark is pale and struck through.
     Folded,
 }
 
 impl MarkLook {
     const ALL: [Self; 3] = [Self::Filled, Self::Open, Self::Folded];
 
-    /// Returns the look of a design in a figure of what folds touch.
+    /// Returns the look of a design in a figure of a measure that depends on folds.
     pub(crate) fn of(designs: &Designs, row: usize) -> Self {
         if designs.folded(row) { Self::Folded } else { Self::Filled }
     }
@@ -196,7 +196,7 @@ impl MarkLook {
         }
     }
 
-    /// Draws the shape around the origin, in the colour that its use has.
+    /// Draws the shape around the origin, without a colour.
     fn draw(self, mark: Mark) -> Element {
         let shape = mark.draw([0.0, 0.0], MARK);
         let filled = |shape: Element| shape.with("fill", "currentColor").with("stroke", "#fff");
@@ -207,7 +207,7 @@ impl MarkLook {
                 shape.at("stroke-width", 1.3)
             }
             Self::Folded => {
-                // The line is no part of what is pale: it is to be seen.
+                // The line stays opaque.
                 let pale = filled(shape).at("stroke-width", 0.5).with("opacity", "0.45");
                 let [from, to] = [-1.4, 1.4].map(|s| [s * MARK, -s * MARK]);
                 Element::new("g").containing([pale, line(from, to, RED, 1.3)])
@@ -216,8 +216,9 @@ impl MarkLook {
     }
 }
 
-/// Returns the shapes that the marks of some slants are uses of. A mark is then as short as its place: a page holds a hundred
-/// thousand of them.
+/// Defines the shapes of the marks.
+///
+/// Marks refer to them with `use`, because a page may hold 100 000 marks.
 pub(crate) fn shapes(palette: &SlantPalette) -> Element {
     let is_used = |mark: &Mark| palette.slants().iter().any(|&of| palette.mark(of) == *mark);
     let marks = Mark::ALL.into_iter().filter(is_used);
@@ -235,7 +236,7 @@ pub(crate) fn mark(palette: &SlantPalette, slant_deg: f64, at: Spot, look: MarkL
         .with("color", palette.color(slant_deg))
 }
 
-/// Returns the mark of a design, which knows its number; `None` for a design without a slant.
+/// Returns the mark of a design, with its number; `None` for a design without a slant.
 pub(crate) fn design_mark(
     designs: &Designs,
     palette: &SlantPalette,
@@ -247,10 +248,10 @@ pub(crate) fn design_mark(
     Some(mark.with("data-design", designs.design(row)))
 }
 
-/// Returns the slants with their marks in one line, and what other looks of marks mean.
+/// Returns a legend of the slants and of the looks of marks.
 pub(crate) fn mark_legend(palette: &SlantPalette, has_folds: bool, [x, y]: Spot) -> Element {
     let name = label("slant $α$", [x, y + 4.0], 12.0, Anchor::Start).with("fill", INK);
-    // The legend brings the shapes along: whoever draws marks draws a legend.
+    // The legend also defines the shapes, because every figure with marks has a legend.
     let mut legend = Element::group("legend").containing([shapes(palette), name]);
     let mut left = x + 64.0;
     let slants =

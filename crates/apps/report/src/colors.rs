@@ -9,7 +9,7 @@ pub(crate) const GRID: &str = "#e6e6e6";
 /// Colour of contacts.
 pub(crate) const RED: &str = "#d0021b";
 
-/// Steps of the sequential scale of maps: cividis, which the colour-blind see as others do.
+/// Steps of the sequential colour scale of maps: cividis, which is safe for colour-blind readers.
 const SEQUENCE: [[u8; 3]; 9] = [
     [0, 32, 77],
     [0, 51, 111],
@@ -38,7 +38,7 @@ pub(crate) fn shaded(color: &str, part: f64) -> String {
     format!("#{:02x}{:02x}{:02x}", channel(0), channel(1), channel(2))
 }
 
-/// Returns the colour at a fraction of the way along `steps`.
+/// Interpolates a colour at a fraction along `steps`.
 pub(crate) fn mixed(steps: &[[u8; 3]], fraction: f64) -> String {
     let last = steps.len() - 1;
     let place = fraction.clamp(0.0, 1.0) * last as f64;

@@ -1,5 +1,6 @@
-//! Curves of designs: force–displacement, moment–curvature, energies; a × at every contact event, a ring where the surface of the
-//! substrate first folds over, a triangle where a guided needle passes.
+//! Curves of designs: force–displacement, moment–curvature and energies.
+//!
+//! Marks: × contact event, ring first fold of the surface, triangle passage of a guided needle.
 
 use results::{bending_units, puncture_units};
 use skin::flexure::{Flexure, FlexurePoint};
@@ -19,18 +20,18 @@ const WIDTH: f64 = 760.0;
 /// Room for the axes, px: left, right, below.
 const MARGINS: [f64; 3] = [78.0, 24.0, 62.0];
 const HEIGHT: f64 = 430.0;
-/// Where the first line of the legend stands, px.
+/// Height of the first line of the legend, px.
 const LEGEND: f64 = 70.0;
 /// Least distance between crosses, px.
 const CROSS: f64 = 9.0;
 /// Width and height of a panel of energies, px.
 const ENERGY_PANEL: [f64; 2] = [330.0, 300.0];
 
-/// Dashes and shades that tell designs of one slant from each other.
+/// Dashes and shades that distinguish designs of one slant.
 const DASHES: [&str; 5] = ["none", "7 4", "2 3", "9 3 2 3", "12 5"];
-/// Dashes where no needle follows a path.
+/// Dashes of parts of a path that are unstable under a held depth.
 const UNSTABLE: &str = "1 2.5";
-/// Dashes of a way back.
+/// Dashes of an unloading path.
 const BACK: &str = "5 3";
 const SHADES: [f64; 4] = [0.0, -0.35, -0.6, 0.3];
 
@@ -39,7 +40,7 @@ const SHADES: [f64; 4] = [0.0, -0.35, -0.6, 0.3];
 pub struct DesignCurves<'a> {
     /// The number of the design.
     pub number: String,
-    /// Its parameters: where each design has a thickness and a modulus, curves are in mm and N.
+    /// Its parameters; curves are in mm and N if all designs have a thickness and a modulus.
     pub case: &'a Case,
     /// The path in puncture, if it was solved.
     pub puncture: Option<&'a Puncture>,
@@ -47,12 +48,12 @@ pub struct DesignCurves<'a> {
     pub flexure: Option<&'a Flexure>,
 }
 
-/// Measured curves, that are laid over those of designs.
+/// Measured curves, overlaid on the curves of designs.
 #[derive(Clone, Debug)]
 pub struct MeasuredCurves {
-    /// Whether they are of bending, moment over curvature; otherwise force over displacement of a puncture.
+    /// True for bending (moment against curvature), false for puncture (force against displacement).
     pub bending: bool,
-    /// Whether they are in mm and N, or 1/mm and N mm, and not in the units of the model.
+    /// True for physical units (mm and N, or 1/mm and N mm), false for dimensionless curves.
     pub is_physical: bool,
     /// The curves, each with its name.
     pub curves: Vec<(String, Vec<[f64; 2]>)>,
@@ -66,7 +67,7 @@ struct Curve {
     values: CurveValues,
 }
 
-/// Returns the curves of `designs` as figures: those for which there are paths, with what was `measured` over those of its kind.
+/// Draws the curves of `designs` as figures, with `measured` curves overlaid.
 pub fn curves(
     name: &str,
     designs: &[DesignCurves],
@@ -90,9 +91,9 @@ struct FigureText {
     title: &'static str,
     /// Labels of the axes: dimensionless, and in physical units.
     axes: [[&'static str; 2]; 2],
-    /// What is said below the title: always, where a curve has a ring, and where a part of one is dotted.
+    /// Notes below the title: always shown, shown with a ring, and shown with a dotted part.
     notes: [&'static str; 3],
-    /// What the units of both axes are worth in the physical ones, where the material tells.
+    /// Factors from the units of both axes to physical units, if the material is known.
     units: fn(&Case) -> Option<[f64; 2]>,
 }
 
@@ -152,7 +153,7 @@ const FLEXURE_ENERGY: FigureText = FigureText {
 };
 
 impl FigureText {
-    /// For each design what its units are worth in the physical ones; `None` where one of them has no such units.
+    /// Returns the factors to physical units for each design; `None` if one of them has no material.
     fn physical(&self, designs: &[DesignCurves]) -> Option<Vec<[f64; 2]>> {
         designs.iter().map(|solved| (self.units)(solved.case)).collect()
     }
@@ -163,12 +164,12 @@ fn puncture(solved: &DesignCurves) -> Option<CurveValues> {
     let place = |p: &PuncturePoint| [p.displacement, p.force];
     let back = puncture.unloading.iter().flat_map(|back| &back.path);
     let crosses = puncture.events.iter().map(|e| [e.point.displacement, e.point.force]);
-    // Counted under a held depth, since what is stable under that a needle can follow.
+    // Stability under a held depth, because a needle can follow such a path.
     let unstable = puncture.instability.iter().map(|instability| instability.depth > 0);
     let fold = puncture.folds.first().map(|fold| [fold.point.displacement, fold.point.force]);
     let passage = &puncture.measures.passage;
     let passing = passage.passing_displacement.zip(passage.passing_force);
-    // A path that is cut off may end before.
+    // A truncated path may end before.
     let is_shown = |at: &[f64; 2]| puncture.path.iter().any(|p| p.displacement >= at[0]);
     Some(CurveValues {
         points: puncture.path.iter().map(place).collect(),
@@ -206,7 +207,7 @@ fn flexure(solved: &DesignCurves) -> Option<CurveValues> {
     })
 }
 
-/// The energies of each design, the dashes of each.
+/// The energies of a design, with their dashes.
 type Energies = Vec<(&'static str, Vec<[f64; 2]>)>;
 
 fn puncture_energies(solved: &DesignCurves) -> Option<Energies> {
@@ -226,17 +227,17 @@ fn flexure_energies(solved: &DesignCurves) -> Option<Energies> {
     ])
 }
 
-/// The values that a curve shows of a design.
+/// The curve of a design.
 #[derive(Default)]
 struct CurveValues {
     points: Vec<[f64; 2]>,
-    /// Where the load is taken away again, from the end of `points`.
+    /// The unloading path, from the end of `points`.
     back: Vec<[f64; 2]>,
     crosses: Vec<[f64; 2]>,
     rings: Vec<[f64; 2]>,
-    /// Where a guided needle first touches more than its face.
+    /// The point at which a guided needle first touches more than its face.
     passing: Vec<[f64; 2]>,
-    /// Whether the line from each point to the next is one that no needle follows.
+    /// True if the segment after each point is unstable under a held depth.
     unstable: Vec<bool>,
 }
 
@@ -254,7 +255,7 @@ impl CurveValues {
     }
 }
 
-/// The values of a design; `None` where there are none.
+/// Returns the curve of a design; `None` if it was not solved.
 type ValuesOf = fn(&DesignCurves) -> Option<CurveValues>;
 
 fn one_panel(
@@ -264,7 +265,7 @@ fn one_panel(
     values: ValuesOf,
     measured: Option<&MeasuredCurves>,
 ) -> Option<String> {
-    // Measured curves without units lie over those of the model.
+    // Measured curves without units are compared with dimensionless ones.
     let is_wanted = measured.is_none_or(|measured| measured.is_physical);
     let units = text.physical(designs).filter(|_| is_wanted);
     let labels = text.axes[usize::from(units.is_some())];
@@ -296,7 +297,7 @@ fn one_panel(
         ("▼ passing", any(|values| !values.passing.is_empty())),
         ("thin dashes: the way back", any(|values| !values.back.is_empty())),
     ];
-    // What does not occur is not explained: all of it is longer than a figure is wide.
+    // Only notes that apply, because all of them would be wider than the figure.
     let told = notes.into_iter().filter(|(words, occurs)| *occurs && !words.is_empty());
     let words = told.map(|(words, _)| words).collect::<Vec<_>>().join(";  ");
     inside.push(label(&words, note, 12.0, Anchor::Start).with("fill", INK));
@@ -308,7 +309,7 @@ fn one_panel(
         let y = LEGEND + 20.0 * (curves.len() + k) as f64;
         inside.push(dots(&panel, points, color));
         inside.push(dot([MARGINS[0] + 20.0, y], color));
-        // The name of a file is no formula, whatever stands in it.
+        // File names are not formulas.
         let text = Element::new("text").at("x", MARGINS[0] + 50.0).at("y", y + 4.0);
         inside.push(text.at("font-size", 12.0).with("fill", INK).text(name));
     }
@@ -329,7 +330,7 @@ fn dot(spot: Spot, color: &str) -> Element {
     circle(spot, 2.6).with("fill", "none").with("stroke", color).at("stroke-width", 1.1)
 }
 
-/// Returns a curve for each design, darker and with other dashes where slants repeat; in other `units`, if there are some.
+/// Returns a curve for each design, with distinct shades and dashes for designs of one slant.
 fn curves_of(designs: &[DesignCurves], values: ValuesOf, units: &[[f64; 2]]) -> Vec<Curve> {
     let palette = palette(designs);
     let mut curves: Vec<Curve> = Vec::new();
@@ -337,7 +338,7 @@ fn curves_of(designs: &[DesignCurves], values: ValuesOf, units: &[[f64; 2]]) -> 
         let Some(mut values) = values(solved) else { continue };
         values.in_units(units.get(k).copied().unwrap_or([1.0; 2]));
         let slant = solved.case.design.slant_deg;
-        // Counted among all designs, drawn or not, so that a design looks the same in every figure.
+        // Counted among all designs, so that a design looks the same in every figure.
         let before = designs[..k].iter().filter(|other| other.case.design.slant_deg == slant);
         let before = before.count();
         let color = shaded(&palette.color(slant), SHADES[before % SHADES.len()]);
@@ -366,17 +367,17 @@ fn axes(labels: [&str; 2], points: &[[f64; 2]]) -> (ChartAxis, ChartAxis) {
     (axis(labels[0], 0), axis(labels[1], 1))
 }
 
-/// Returns an axis that shows the smallest of curves whose ends differ by decades.
+/// Returns a logarithmic axis for curves that differ by decades.
 fn logarithmic(label: &str, curves: &[Curve]) -> Option<ChartAxis> {
     let ends = curves.iter().map(|curve| curve.values.all().map(|p| p[1]).fold(0.0, f64::max));
     let (low, high) = crate::axis::ends(ends);
-    // Curves begin at zero, which has no place here: a decade and a half below the lowest end their
-    // feet are left out.
+    // Curves begin at zero, which a logarithmic axis cannot show: the axis ends 1.5 decades below
+    // the lowest end of a curve.
     (low > 0.0 && high > 30.0 * low).then(|| ChartAxis::fit(label, [low / 30.0, high].into_iter()))
 }
 
 impl Curve {
-    /// The parts of the line that are alike stable, with their dashes and widths, and the way back.
+    /// Splits the line by stability, with dashes and widths, and adds the unloading path.
     fn parts(&self) -> Vec<(&[[f64; 2]], &'static str, f64)> {
         let CurveValues { points, back, unstable, .. } = &self.values;
         let is_unstable = |k: usize| unstable.get(k) == Some(&true);
@@ -389,7 +390,7 @@ impl Curve {
                 start = end;
             }
         }
-        // Of the way back no stability is known.
+        // The stability of the unloading path is unknown.
         parts.extend((!back.is_empty()).then_some((&back[..], BACK, 1.1)));
         parts
     }
@@ -410,7 +411,7 @@ fn drawn(panel: &ChartPanel, curve: &Curve) -> Element {
     let ring =
         |at: Spot| circle(at, 6.5).with("fill", "none").with("stroke", RED).at("stroke-width", 2.2);
     let rings = spots(&curve.values.rings).into_iter().map(ring);
-    // It stands on the curve with its point.
+    // The tip of the triangle touches the curve.
     let triangle = |[x, y]: Spot| {
         let mark = polygon(&[[x, y], [x - 5.0, y - 9.0], [x + 5.0, y - 9.0]]);
         mark.with("fill", curve.color.as_str()).with("stroke", INK).with("class", "passing")
@@ -423,7 +424,7 @@ fn drawn(panel: &ChartPanel, curve: &Curve) -> Element {
         .containing(passing)
 }
 
-/// Returns spots without those that stand on the one before: crosses would bury a steep path.
+/// Removes spots close to the previous one, because crosses would hide a steep path.
 fn apart(spots: Vec<Spot>) -> Vec<Spot> {
     let mut kept: Vec<Spot> = Vec::new();
     for [x, y] in spots {

@@ -15,7 +15,7 @@ const GEOMETRY: [&str; 3] = ["gap_over_t", "length_over_t", "slant_deg"];
 /// Parameters, as their columns, and their values.
 pub(crate) type AxisValues<'a> = Vec<(&'a str, Cow<'a, str>)>;
 
-/// The designs of a sweep as `designs.csv` has them.
+/// The designs of a sweep, from `designs.csv`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Designs {
     table: Arc<Table>,
@@ -79,14 +79,12 @@ impl Designs {
         self.varied().into_iter().filter(|name| !GEOMETRY.contains(name)).collect()
     }
 
-    /// Returns the designs apart by their further axes, each part with those axes and their values; one part without
-    /// any if there are none.
+    /// Groups the designs by their further axes, each group with the values of these axes.
     pub(crate) fn parts(&self) -> Vec<(AxisValues<'_>, Self)> {
         self.parts_by(&GEOMETRY)
     }
 
-    /// Returns the designs apart by the varied parameters that are not among `axes`, each part with those parameters and their
-    /// values; one part without any if there are none.
+    /// Groups the designs by the varied parameters that are not among `axes`, each group with their values.
     pub(crate) fn parts_by(&self, axes: &[&str]) -> Vec<(AxisValues<'_>, Self)> {
         let others: Vec<&str> =
             self.varied().into_iter().filter(|name| !axes.contains(name)).collect();
@@ -102,13 +100,13 @@ impl Designs {
         parts.into_iter().map(|(values, rows)| (values, self.only(&rows))).collect()
     }
 
-    /// Returns whether the surface of the substrate folds over before the puncture of a design ends.
+    /// Returns true if the surface of the substrate folds before the puncture of a design ends.
     pub(crate) fn folded(&self, row: usize) -> bool {
         let fold = self.table.column(name::FOLD_FORCE);
         fold.is_some_and(|fold| !self.table.is_empty(row, fold))
     }
 
-    /// Returns whether the surface folds over under any of the designs.
+    /// Returns true if the surface folds under any of the designs.
     pub(crate) fn any_folded(&self) -> bool {
         (0..self.count()).any(|row| self.folded(row))
     }

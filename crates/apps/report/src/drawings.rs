@@ -52,7 +52,7 @@ fn stacked(title: &str, panels: Vec<DrawingPanel>) -> String {
 fn placed(DrawingPanel { caption, inside, .. }: DrawingPanel, top: f64, number: usize) -> Element {
     let letter = char::from(b'a' + u8::try_from(number % 26).unwrap_or(0));
     let text = format!("({letter})  {caption}");
-    // A caption that would leave the paper is set smaller.
+    // A long caption is set in a smaller font.
     let size = (13.0 * (WIDTH - 2.0 * MARGIN) / width(&text, 13.0)).min(13.0);
     let caption = label(&text, [MARGIN, 17.0], size, Anchor::Start).with("fill", INK);
     let body = Element::group("body")
@@ -63,12 +63,12 @@ fn placed(DrawingPanel { caption, inside, .. }: DrawingPanel, top: f64, number: 
         .containing([caption, body])
 }
 
-/// Returns the geometry of a case as labels have it, in mm where its thickness is known.
+/// Formats the geometry of a case for labels, in mm if its thickness is known.
 pub fn geometry_label(case: &Case) -> String {
     let Design { gap, length, slant_deg, .. } = case.design;
     let thickness = case.material.thickness_mm;
     let unit = thickness.unwrap_or(1.0);
-    // Designs that a search has found have sixteen digits.
+    // Rounded, because designs of a search have 16 digits.
     let [gap, length, slant, unit] =
         [gap * unit, length * unit, slant_deg, unit].map(|value| number::rounded(value, 6));
     match thickness {
@@ -84,7 +84,7 @@ fn contacts_label(contacts: &[Contact]) -> String {
         1 => "1 contact".to_owned(),
         count => format!("{count} contacts"),
     };
-    // Without friction nothing sticks and nothing slips, and nothing is said of it.
+    // Without friction, stick and slip are not mentioned.
     match contacts.iter().filter(|contact| contact.slips == Some(true)).count() {
         _ if contacts.iter().all(|contact| contact.slips.is_none()) => count,
         0 => format!("{count}, all stick"),

@@ -1,4 +1,4 @@
-//! The page that solves: sliders, the skin under the hand, and the solver itself, in one HTML file.
+//! The interactive page: sliders, drawings and the solver in one HTML file.
 
 use std::io::{self, Write};
 
@@ -14,9 +14,9 @@ const PAGE: &str = concat!(
     include_str!("../assets/page/head.html"),
     include_str!("../assets/explore/explore.html")
 );
-/// What a page shows of it.
+/// The section of the page.
 const SECTION: &str = include_str!("../assets/explore/explorer.html");
-/// Its style on any page, and that of a page of its own.
+/// Its style on any page, and the style of a page of its own.
 pub(crate) const STYLE: &str = include_str!("../assets/explore/explore.css");
 const STYLES: [&str; 2] =
     [include_str!("../assets/page/styles/theme.css"), include_str!("../assets/explore/page.css")];
@@ -32,29 +32,29 @@ pub(crate) const SCRIPTS: [&str; 7] = [
 ];
 /// The thread in which the page solves.
 const WORKER: &str = include_str!("../assets/explore/worker.js");
-/// The crate `live` as WebAssembly, compressed: `scripts/wasm` makes it.
+/// The solver as WebAssembly, compressed: `scripts/wasm` makes it.
 const MODULE: &[u8] = include_bytes!("../assets/explore/solver.wasm.gz");
 
-/// What a page that solves starts from.
+/// The initial state of an interactive page.
 #[derive(Clone, Debug)]
 pub struct Explorer {
     /// The definition.
     pub sweep: Sweep,
-    /// The file of the definition, or the folder of its results, as commands name it, with the settings in its place.
+    /// The definition or results folder as an argument of commands, with settings.
     pub source: String,
-    /// What a design must keep, as `coverage >= 0.5`.
+    /// The requirements, such as `coverage >= 0.5`.
     pub requirements: Vec<String>,
     /// The version of the program.
     pub version: String,
 }
 
-/// A script without the lines that are comments alone, which every page would carry.
+/// Removes comment lines from a script to shorten the page.
 fn without_comments(script: &str) -> String {
     let is_code = |line: &&str| !["//", "/**"].iter().any(|own| line.trim_start().starts_with(own));
     script.lines().filter(is_code).flat_map(|line| [line, "\n"]).collect()
 }
 
-/// A parameter under the hand.
+/// A control for a parameter.
 #[derive(Clone, Debug, Serialize)]
 struct Control {
     key: &'static str,
@@ -62,21 +62,23 @@ struct Control {
     unit: &'static str,
     min: f64,
     max: f64,
-    /// What one press of a key moves.
+    /// The change at one press of a key.
     step: f64,
-    /// The value with which a page opens, a number or a word.
+    /// The initial value, a number or a word.
     value: Value,
-    /// The values of one that takes words.
+    /// The accepted words, if it takes words.
     words: Option<[&'static str; 2]>,
-    /// The only kind of needle for which it has a meaning.
+    /// The kind of needle to which the parameter applies, if it is restricted.
     only: Option<&'static str>,
 }
 
-/// A parameter that a hand may move: its key and label, the range where the definition gives none, the share of the range at which
-/// a page opens where the definition gives several values, and whether a definition that does not give it leaves it out.
+/// Default control of a parameter: key, label, range, initial fraction of the range, optional.
+///
+/// The range and initial value apply if the definition has none. An optional parameter has a control
+/// only if the definition gives it.
 type Offered = (&'static str, &'static str, [f64; 2], f64, bool);
 
-/// The parameters under the hand. A page opens with a skin of overlapping scales, because that is one that protects.
+/// The controls, with overlapping scales as the initial design.
 const OFFERED: [Offered; 11] = [
     (key::GAP, "Gap", [0.02, 1.0], 0.1, false),
     (key::LENGTH, "Length", [0.05, 2.0], 0.5, false),
@@ -91,14 +93,14 @@ const OFFERED: [Offered; 11] = [
     (key::CRITICAL_TILT, "Critical tilt", [2.0, 30.0], 0.5, false),
 ];
 
-/// A measure that is shown.
+/// A displayed measure.
 #[derive(Serialize)]
 struct Shown {
     name: &'static str,
     label: &'static str,
-    /// The column in physical units that takes its place where there is one.
+    /// The column in physical units that replaces it, if there is one.
     physical: &'static str,
-    /// What it is, in words for everyone.
+    /// A short explanation.
     words: &'static str,
 }
 
@@ -111,7 +113,7 @@ const fn shown(
     Shown { name, label, physical, words }
 }
 
-/// The measures that are shown.
+/// The displayed measures.
 const SHOWN: [Shown; 6] = [
     shown(name::COVERAGE, "Coverage", "", "fraction of the scale layer that is solid scale"),
     shown(
@@ -136,7 +138,7 @@ const SHOWN: [Shown; 6] = [
     ),
 ];
 
-/// What the scripts read.
+/// The data for the scripts.
 #[derive(Serialize)]
 struct Data<'a> {
     definition: String,
@@ -163,7 +165,7 @@ impl Explorer {
         })
     }
 
-    /// Writes the section of a page that solves, with the solver.
+    /// Writes the interactive section of a page, with the solver.
     pub(crate) fn write_section(&self, out: &mut impl Write) -> io::Result<()> {
         let base = self.sweep.grid().base();
         let data = Data {
@@ -183,7 +185,7 @@ impl Explorer {
         })
     }
 
-    /// The control of a parameter: over the values of its axis or variable where there are several, over a range of its own elsewhere.
+    /// Creates the control of a parameter, over the values of its axis or variable, or a default range.
     fn control(&self, &(key, label, range, opens_at, if_given): &Offered) -> Option<Control> {
         let parameter = Parameter::named(key)?;
         let grid = self.sweep.grid();
@@ -194,7 +196,7 @@ impl Explorer {
         if if_given && span.is_none() && own.number().is_none() {
             return None;
         }
-        // Under a free needle a friction stands for the critical tilt: only one of both acts.
+        // For a free needle, friction determines the critical tilt, so only one of them applies.
         let friction_is_given =
             grid.base().needle_friction.is_some() || grid.axis(key::NEEDLE_FRICTION).is_some();
         let friction_says_tilt = friction_is_given && !self.sweep.is_guided();
@@ -204,10 +206,10 @@ impl Explorer {
             _ => None,
         };
         let [min, max] = span.unwrap_or(range);
-        // The first design of a grid is one of its corners, and seldom one that protects.
+        // Not the first design, which is a corner of the grid and seldom a good one.
         let middle = min + opens_at * (max - min);
         let number = own.number().filter(|_| span.is_none()).unwrap_or(middle);
-        // A definition may give more than the usual range has.
+        // The value of a definition may exceed the default range.
         let (min, max) = (min.min(number), max.max(number));
         let (words, value) = match own {
             Scalar::Word(word) if key == key::NEEDLE => (Some(["free", "guided"]), word.into()),
@@ -218,7 +220,7 @@ impl Explorer {
     }
 }
 
-/// The ends of an axis of several numbers.
+/// Returns the ends of an axis with several numbers.
 fn span(axis: &Axis) -> Option<[f64; 2]> {
     let values = (0..axis.len()).filter_map(|k| axis.value(k).number());
     let ends =
@@ -226,7 +228,7 @@ fn span(axis: &Axis) -> Option<[f64; 2]> {
     (ends[0] < ends[1]).then_some(ends)
 }
 
-/// The ends of a variable, if it is the one of `key` and its values are numbers.
+/// Returns the ends of a variable, if it has this `key` and numeric values.
 fn interval(variable: &Variable, key: &str) -> Option<[f64; 2]> {
     let ends = [0.0, 1.0].map(|share| variable.at(share).number());
     let [Some(low), Some(high)] = ends else { return None };

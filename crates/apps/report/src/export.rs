@@ -1,8 +1,7 @@
 //! The tables of a folder as one workbook for Excel and other spreadsheets.
 //!
-//! The workbook is made from the files of the folder alone, and tables are read row by row, once to see what their columns
-//! hold and once to write them, so that a million designs need no more memory than a dozen. Its bytes are the same whenever
-//! and wherever it is written.
+//! Tables are read row by row, once to determine the types of their columns and once to write them,
+//! so memory does not depend on the number of designs. Equal tables give equal bytes.
 
 mod explanation;
 mod measure_chart;
@@ -27,7 +26,7 @@ use profile::ColumnProfile;
 use sheet::{Guide, Sheet};
 use summary::{BestValues, SummaryFacts, summary};
 
-/// Rows that a sheet takes below its header.
+/// Maximum number of rows of a sheet below its header.
 const ROWS: u32 = 1_048_575;
 
 /// The content of a workbook that was written.
@@ -46,13 +45,13 @@ pub struct OtherTable {
     pub columns: Vec<(String, &'static str, &'static str)>,
 }
 
-/// Tables that do not become a workbook.
+/// Errors of an export.
 #[derive(Debug, thiserror::Error)]
 pub enum ExportError {
-    /// A table is not as its run has written it.
+    /// A table was changed after its run.
     #[error(transparent)]
     Folder(#[from] InvalidFolder),
-    /// The record of the ranking is none.
+    /// The record of the ranking is invalid.
     #[error(transparent)]
     Preferences(#[from] InvalidPreferences),
     /// The folder has no table of designs.
@@ -66,7 +65,7 @@ pub enum ExportError {
     Unreadable {
         /// The table.
         file: PathBuf,
-        /// The fault of the table, in words.
+        /// The problem of the table.
         reason: String,
     },
     /// A table is longer than a sheet.
@@ -78,7 +77,7 @@ pub enum ExportError {
         /// The table.
         file: PathBuf,
     },
-    /// The name is not that of a workbook.
+    /// The name of the file does not end in `.xlsx`.
     #[error("{}: a workbook needs a name that ends in .xlsx", file.display())]
     NoWorkbook {
         /// The file that was asked for.
@@ -89,11 +88,13 @@ pub enum ExportError {
     Output(#[from] OutputError),
 }
 
-/// Writes every table in the folder `results` to the workbook `file`: a summary, a sheet for each table, with a chart where it
-/// is that of a measure, and one that explains the columns; of what is no run the `others` that are there, without a summary.
+/// Writes every table in the folder `results` to the workbook `file`.
 ///
-/// Numbers are numbers, with the digits that a person needs shown and all of them held, and everything else is text; a
-/// design number is a number that shows its leading zeros. What failed is red, and the values that a table is about have a scale of colours.
+/// The workbook has a summary, a sheet for each table (with a chart for each measure), and an
+/// explanation of the columns. For searches and analyses it has the tables in `others` and no summary.
+///
+/// Numbers keep all digits and display a few; design numbers display leading zeros; other cells are
+/// text. Failures are red, and the main values of a table have a colour scale.
 ///
 /// # Errors
 /// If there are no tables, one of them cannot be read or is longer than a sheet, or the disk does
@@ -114,7 +115,7 @@ pub fn export(
     let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
     let folder = &RunFolder::new(folder.unwrap_or(Path::new(".")));
     folder.make()?;
-    // The writer of workbooks panics if the disk does not take the rows that it puts aside.
+    // The writer of workbooks panics if its temporary file cannot be written.
     let written = catch_unwind(AssertUnwindSafe(|| write(results, &others, folder, name)));
     written.unwrap_or_else(|panic| Err(unwritable(folder, name, &said(&*panic))))
 }
@@ -147,7 +148,7 @@ fn write(
         let sheet = Sheet::new(&mut workbook, &table, &profiles).map_err(failed)?;
         let other = others.iter().find(|other| other.file == file);
         let own = other.map_or(&[][..], |other| &other.columns);
-        // Checked anew, because it is read a second time.
+        // Verified again, because it is read a second time.
         let file = (path.as_path(), results.file(&file)?);
         let (page, rows) = copy(file, sheet, (&mut guide, own), &failed)?;
         pages.push(page);
@@ -158,7 +159,7 @@ fn write(
     }
     if is_run {
         let facts = SummaryFacts::read(results)?;
-        // The summary comes first, though its best values are known only after the tables.
+        // The summary is the first sheet, although it is filled after the tables.
         workbook.push_worksheet(summary(results, &best, &facts).map_err(failed)?);
     }
     for page in pages {
@@ -171,7 +172,7 @@ fn write(
     Ok(Exported { tables })
 }
 
-/// The properties of every workbook: they hold no time of writing, so that equal tables make equal bytes.
+/// Returns the properties of every workbook, without a time stamp, so that bytes are reproducible.
 fn properties() -> Result<DocProperties, XlsxError> {
     let epoch = ExcelDateTime::from_ymd(2000, 1, 1)?;
     Ok(DocProperties::new().set_author("squama").set_creation_datetime(&epoch))
@@ -187,7 +188,7 @@ fn look_over((path, file): (&Path, File)) -> Result<(TableProfile, BestValues), 
     let (mut row, mut rows) = (csv::StringRecord::new(), 0);
     while csv.read_record(&mut row).map_err(|error| unreadable(words(error)))? {
         rows += 1;
-        // Before a minute goes into a sheet that cannot hold them.
+        // Checked before a minute is spent on a sheet that is too small.
         if rows > ROWS {
             return Err(ExportError::TooManyRows { file: path.to_owned() });
         }
@@ -197,7 +198,7 @@ fn look_over((path, file): (&Path, File)) -> Result<(TableProfile, BestValues), 
     Ok((TableProfile { format, header, columns }, best))
 }
 
-/// The facts about a table before it is written as a sheet.
+/// Facts about a table, collected before its sheet is written.
 struct TableProfile {
     format: CsvFormat,
     header: csv::StringRecord,
@@ -234,12 +235,12 @@ fn unwritable(folder: &RunFolder, name: &str, reason: &str) -> ExportError {
     OutputError::file(&folder.file(name), &io::Error::other(reason.to_owned())).into()
 }
 
-/// The message of a panic, in one line; of an error of the system, its own message.
+/// Extracts the message of a panic, in one line; for a system error, the original message.
 fn said(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<String>().map(String::as_str);
     let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
     let text = text.unwrap_or("the writer of workbooks failed");
-    // A panic over an error of the system quotes its message, which alone is of use.
+    // A panic quotes the message of a system error; only that message is useful.
     let message = text.split_once("message: \"").and_then(|(_, rest)| rest.split_once('"'));
     message.map_or(text, |(message, _)| message).lines().collect::<Vec<_>>().join(" ")
 }

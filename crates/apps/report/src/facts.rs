@@ -6,7 +6,7 @@ use crate::page::Fact;
 
 /// Returns the entries of the table `run` of `run.toml`, whose text is given.
 pub fn facts(text: &str) -> Vec<Fact> {
-    // A record that cannot be read is refused for a page, and a workbook does without it.
+    // Pages reject an invalid record before; a workbook omits the facts.
     let table = toml_source::parse(text, "run.toml").unwrap_or_default();
     let run = table.into_iter().find(|entry| entry.key == "run").map(|entry| entry.value);
     let Some(Value::Table(entries)) = run else { return Vec::new() };

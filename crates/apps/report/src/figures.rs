@@ -26,7 +26,7 @@ use crate::label::{Anchor, label, plain};
 use crate::svg::{Element, document, heading};
 pub use map::{InvalidMap, MapRequest, map};
 
-/// A figure: the name of its file, which says what it shows, and the drawing.
+/// A figure: file name and drawing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
     /// Name, without an extension.
@@ -35,7 +35,7 @@ pub struct Figure {
     pub svg: String,
 }
 
-/// A quantity as figures show it: its column, and where gaps are random the columns between which most samples lie.
+/// A quantity in figures: its column, and for random gaps the columns of the quantile band.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Quantity {
     pub(crate) column: String,
@@ -43,8 +43,8 @@ pub(crate) struct Quantity {
 }
 
 impl Quantity {
-    /// Returns a measure as the table has it: the median where designs have samples, else the value of the perfect design;
-    /// in newtons and millimetres where there are any.
+    /// Chooses the column of a measure: the median if designs have samples, else the nominal value, in
+    /// physical units if available.
     pub(crate) fn of(designs: &Designs, measure: &str) -> Self {
         let quantile =
             |end: &str| Some(format!("{measure}_{end}")).filter(|name| designs.has(name));
@@ -54,19 +54,19 @@ impl Quantity {
         Self { column, band: band.map(|(low, high)| [shown(low), shown(high)]) }
     }
 
-    /// Returns every number that the figure has to have room for.
+    /// Returns all numbers that the axes must cover.
     fn numbers(&self, designs: &Designs) -> impl Iterator<Item = f64> {
         let columns = std::iter::once(&self.column).chain(self.band.iter().flatten());
         columns.flat_map(|column| designs.numbers(column))
     }
 }
 
-/// Returns whether a column depends on the surface of the substrate: punctures do, bending and coverage do not.
+/// Returns true if a column depends on the surface of the substrate, as punctures do.
 pub(crate) fn is_touched_by_folds(column: &str) -> bool {
     measure_of(column) == Some(Measure::Puncture)
 }
 
-/// Returns what the title of a figure says that shows perfect designs of a sweep whose gaps are random.
+/// Returns the title suffix of a figure that shows perfect designs of a sweep with random gaps.
 pub(crate) fn of_perfect(designs: &Designs) -> &'static str {
     let has_samples = MULTIPLES.iter().any(|(measure, _)| designs.has(&format!("{measure}_p50")));
     if has_samples { ", of the perfect designs" } else { "" }
@@ -84,14 +84,14 @@ pub(crate) fn physical_of<'h>(
 ) -> Option<&'h str> {
     let is_same = |name: &&str| {
         let source = physical_source(name);
-        // What is divided by a width or inverted is another quantity.
+        // Columns per width and inverted columns are different quantities.
         let plain = |quantity| matches!(quantity, Force | Length | Stiffness | Moment);
         source.is_some_and(|(of, quantity)| of == measure && plain(quantity))
     };
     headers.into_iter().find(is_same)
 }
 
-/// Parts into which figures are divided, at most.
+/// Maximum number of parts of a figure.
 pub(crate) const PARTS: usize = 24;
 
 /// Draws every figure for which the table has values; the Pareto fronts and the best designs for all weights
@@ -177,10 +177,10 @@ pub(crate) fn columns(count: usize) -> usize {
     }
 }
 
-/// Marks of a figure, about, at most: more would hide each other, and a page could not hold them.
+/// Approximate maximum number of marks of a figure: more would overlap and make pages too large.
 const DRAWN: usize = 10_000;
 
-/// Returns which of `count` designs have a mark in each of some panels: all, or one of every few.
+/// Selects the designs with marks out of `count`: all, or every n-th.
 pub(crate) fn thinned(count: usize, panels: usize) -> impl Iterator<Item = usize> {
     (0..count).step_by((count * panels).div_ceil(DRAWN).max(1))
 }

@@ -1,4 +1,4 @@
-//! Figure of a fit: measured points and the fitted curve, and beside them what is left between the two.
+//! Figure of a fit: measured points, the fitted curve, and the residuals.
 
 use crate::axis::ChartAxis;
 use crate::chart::{Area, ChartPanel};
@@ -24,7 +24,7 @@ pub struct FitPanel<'a> {
 const PANEL: [f64; 2] = [330.0, 230.0];
 const ROOM: [f64; 2] = [92.0, 92.0];
 
-/// Draws a row for each curve: the curve, and its residuals with the range in which 95 % of them lie if they are chance alone.
+/// Draws each curve and its residuals, with the 95 % range of purely random residuals.
 pub fn fit_figure(name: &str, curves: &[FitPanel]) -> String {
     let [width, height] = PANEL;
     let first = Area { left: 78.0, top: 74.0, width, height };
@@ -82,7 +82,7 @@ impl FitPanel<'_> {
             .collect()
     }
 
-    /// The axis of the places at which it was measured.
+    /// Returns the axis of the measured positions.
     fn places(&self) -> ChartAxis {
         ChartAxis::spanning(&self.axes[0], self.points.iter().map(|point| point[0]))
     }

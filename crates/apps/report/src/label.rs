@@ -2,7 +2,7 @@
 
 use crate::svg::{Element, Spot};
 
-/// The point of a label that stands at its spot.
+/// The anchor of a label.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Anchor {
     Start,
@@ -19,8 +19,7 @@ struct TextRun {
     level: i8,
 }
 
-/// Splits `source` into runs, in which `$` begins and ends italics, and `_x`, `^x`, `_{xy}`, `^{xy}` stand
-/// below and above the line.
+/// Splits `source` into runs: `$` toggles italics; `_x`, `^x`, `_{xy}`, `^{xy}` are sub- and superscripts.
 fn runs(source: &str) -> Vec<TextRun> {
     let mut runs = vec![TextRun::default()];
     let (mut italic, mut level) = (false, 0);

@@ -1,21 +1,21 @@
 //! Drawings of designs, and figures and pages of sweeps.
 //!
-//! All reports are made from the tables of a run or from solved designs, without solving anything. A drawing maps a point
+//! Reports use the tables of a run or solved designs; nothing is solved here. A drawing maps a point
 //! `(x, y)` of the plane, in units of `t`, to px by `(x₀ + s x, y₀ − s y)`.
 //!
 //! | Item | Role |
 //! |---|---|
 //! | [`drawings`] | a row of scales punctured, a strip bent: to scale, as SVG or as an animation |
-//! | [`curves()`], [`MeasuredCurves`] | paths of solved designs, with what was measured over them |
+//! | [`curves()`], [`MeasuredCurves`] | paths of solved designs, with test data overlaid |
 //! | [`figures()`], [`Figure`] | figures of a sweep, from its table |
-//! | [`Histogram`], [`share_bars`], [`Shares`] | samples of a measure with its bounds, and where its spread comes from |
-//! | [`fit_figure`], [`FitPanel`] | measured curves beside fitted ones, and what is left between them |
-//! | [`SearchFigure`], [`SearchedDesign`] | how a search went, and the front that it found |
+//! | [`Histogram`], [`share_bars`], [`Shares`] | samples of a measure with its bounds, and the sources of its spread |
+//! | [`fit_figure`], [`FitPanel`] | measured and fitted curves, and residuals |
+//! | [`SearchFigure`], [`SearchedDesign`] | history and front of a search |
 //! | [`map()`], [`MapRequest`] | any column over any two parameters, with contours |
 //! | [`Designs`] | the table of a sweep, column by column |
 //! | [`Page`], [`PageDesign`] | figures, ranking, table and drawings on one HTML page |
-//! | [`Explorer`] | a page that solves the design under the hand: on top of the page of a sweep, or alone |
-//! | [`GapFactors`] | the factors by which a design moves where its gap comes out 10 % smaller or larger, for the page |
+//! | [`Explorer`] | an interactive design with its solver: at the top of the page of a sweep, or alone |
+//! | [`GapFactors`] | change of the measures for a gap 10 % smaller or larger, for the page |
 //! | `png` | conversion of a drawing or figure to an image (feature `png`) |
 //! | [`export`] | the tables as one workbook for spreadsheets (feature `xlsx`) |
 //!

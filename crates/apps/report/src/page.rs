@@ -1,7 +1,7 @@
 //! The page of a sweep: one self-contained HTML file.
 //!
-//! Its figures are those of the crate: the scripts of the page show and hide what they hold, and draw nothing but the row of the
-//! chosen design. It ranks as the crate `ranking` does, which `scripts/check-page` holds together.
+//! The figures are drawn by this crate; the scripts of the page only show and hide marks, and draw the
+//! row of the chosen design. The page ranks like the crate `ranking`; `scripts/check-page` compares both.
 
 mod curves;
 mod data;
@@ -28,7 +28,7 @@ const STYLES: [&str; 5] = [
     include_str!("../assets/page/styles/table.css"),
     include_str!("../assets/page/styles/media.css"),
 ];
-/// The script of what elements need, on every page.
+/// Basic functions for elements, on every page.
 pub(crate) const ELEMENTS: &str = include_str!("../assets/page/scripts/elements.js");
 /// The script that unpacks the table.
 const UNPACKING: &str = include_str!("../assets/page/scripts/table-data.js");
@@ -62,7 +62,7 @@ pub type Fact = (String, String);
 /// The content of a page.
 #[derive(Clone, Debug, Default)]
 pub struct Page {
-    /// The solver, and what it starts from.
+    /// The solver and its initial state.
     pub explorer: Option<Explorer>,
     /// The name of the sweep.
     pub name: String,
@@ -80,43 +80,44 @@ pub struct Page {
     pub run: Vec<Fact>,
     /// The key, the value and the meaning of each parameter that all designs share.
     pub shared: Vec<[String; 3]>,
-    /// Whether the curves of punctures, and those of bending, are in newtons and millimetres.
+    /// True if the curves of puncture, and of bending, are in physical units.
     pub is_physical: [bool; 2],
     /// Designs that were solved again for the page.
     pub solved: Vec<PageDesign>,
-    /// Designs that a search has found, if the page is to show them.
+    /// Designs found by a search, if any are shown.
     pub front: Option<PageFront>,
-    /// The state that the page opens with, as its address would have it: `require=coverage >= 0.6&weights=40,30,20,10`.
+    /// The initial state of the page, as in its address: `require=coverage >= 0.6&weights=40,30,20,10`.
     pub opening: String,
 }
 
-/// The factors by which a column of a design changes where its gap is 10 % smaller and 10 % larger.
+/// Factors by which a column changes for a gap 10 % smaller and 10 % larger.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GapFactors {
     /// The column.
     pub column: String,
-    /// The factor for the smaller and for the larger gap; `None` where there is no value.
+    /// The factors for the smaller and the larger gap; `None` without a value.
     pub factors: [Option<f64>; 2],
 }
 
-/// A design that was solved again: its drawing, its curves, and how it moves with its gap.
+/// A design solved again for the page: drawing, curves, and sensitivity to the gap.
 #[derive(Clone, Debug, Default)]
 pub struct PageDesign {
     /// The number of the design.
     pub number: String,
-    /// The drawing, as SVG; empty if there is no room for it.
+    /// The drawing as SVG; empty if the page would become too large.
     pub svg: String,
     /// Displacements and forces along the path of the puncture.
     pub puncture: Vec<[f64; 2]>,
     /// Curvatures and moments along the path of bending.
     pub flexure: Vec<[f64; 2]>,
-    /// The columns that are known where the gap is 10 % smaller and larger.
+    /// The changes of columns for a gap 10 % smaller and larger.
     pub gap_factors: Vec<GapFactors>,
 }
 
 impl Page {
-    /// Writes the page as HTML that needs no other file. One figure after the other is drawn, packed and written: all of them
-    /// at once would take 100 MB.
+    /// Writes the page as a self-contained HTML file.
+    ///
+    /// Figures are drawn, compressed and written one by one, because all together take 100 MB.
     ///
     /// # Errors
     /// Those of `out`.
@@ -148,7 +149,7 @@ impl Page {
     }
 }
 
-/// Writes `template`, each `{{place}}` of which `filled` writes.
+/// Writes `template`; `filled` writes each `{{place}}`.
 pub(crate) fn fill<W: Write>(
     out: &mut W,
     template: &str,
@@ -164,7 +165,7 @@ pub(crate) fn fill<W: Write>(
     Ok(())
 }
 
-/// Writes what stands in the head and the foot of a page.
+/// Writes a part of the head or foot of a page.
 pub(crate) fn fill_head(
     out: &mut impl Write,
     place: &str,
@@ -175,7 +176,7 @@ pub(crate) fn fill_head(
     out.write_all(text.as_bytes())
 }
 
-/// Writes data as JSON. Neither `</script` nor `<!--` may end or bend the script that holds it.
+/// Writes data as JSON, with `</script` and `<!--` escaped.
 pub(crate) fn fill_json(out: &mut impl Write, data: &impl Serialize) -> io::Result<()> {
     out.write_all(serde_json::to_string(data)?.replace('<', "\\u003c").as_bytes())
 }

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use crate::colors::mixed;
 use crate::svg::{Element, Spot, circle, polygon};
 
-/// Colours at every 15° from 0°, of Okabe and Ito's palette for the colour-blind.
+/// Colours at every 15° from 0°, from the colour-blind safe palette of Okabe and Ito.
 const SLANTS: [[u8; 3]; 7] = [
     [0, 114, 178],
     [86, 180, 233],
@@ -16,10 +16,10 @@ const SLANTS: [[u8; 3]; 7] = [
     [60, 60, 60],
 ];
 
-/// Colours and marks of the slants of a sweep, so that each has its own.
+/// Colours and marks of the slants of a sweep.
 ///
-/// Multiples of 15° look alike in every sweep. Where other slants occur, up to seven take the seven looks in order, and
-/// more than that share marks but not with their neighbours.
+/// Multiples of 15° have the same look in every sweep. Other slants take the seven looks in order; more
+/// than seven share marks, but not with their neighbours.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SlantPalette(Vec<f64>);
 

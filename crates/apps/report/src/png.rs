@@ -1,11 +1,11 @@
-//! Conversion from SVG to PNG, with embedded fonts, so that every machine draws the same.
+//! Conversion from SVG to PNG, with embedded fonts for reproducible images.
 
 use std::sync::{Arc, LazyLock};
 
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree, fontdb};
 
-/// Dots per inch at which a pixel of the image is a px of the drawing.
+/// Resolution at which a pixel is a px of the drawing, dots per inch.
 const PX_PER_INCH: f64 = 96.0;
 
 static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
@@ -25,7 +25,7 @@ static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
 #[error("drawing: cannot be made a PNG ({0}), expected a drawing of a size that fits in memory")]
 pub struct NoImage(String);
 
-/// Renders `svg` as a PNG with `dpi` dots per inch, of which a drawing has 96 px.
+/// Renders `svg` as a PNG with `dpi` dots per inch; a drawing has 96 px per inch.
 ///
 /// # Errors
 /// If the text is no SVG or the image does not fit in memory.

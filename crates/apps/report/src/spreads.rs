@@ -1,4 +1,4 @@
-//! Figures of tolerances: a histogram of samples, and where a spread comes from.
+//! Figures of tolerances: histograms of samples, and sources of a spread.
 
 use crate::axis::{ChartAxis, ends};
 use crate::chart::{Area, ChartPanel};
@@ -10,10 +10,10 @@ use crate::svg::{Element, Spot, line, rect};
 const WIDTH: f64 = 760.0;
 const HISTOGRAM_HEIGHT: f64 = 420.0;
 
-/// Bars of a histogram, at least and at most.
+/// Minimum and maximum number of bars of a histogram.
 const BARS: [usize; 2] = [8, 40];
 
-/// The samples of a measure, with the value as drawn and the bounds that samples must keep.
+/// The samples of a measure, with its nominal value and bounds.
 #[derive(Clone, Copy, Debug)]
 pub struct Histogram<'a> {
     /// Name of the design.
@@ -22,17 +22,17 @@ pub struct Histogram<'a> {
     pub measure: &'a str,
     /// The samples, at least one.
     pub values: &'a [f64],
-    /// The value of the design as it is drawn.
+    /// The nominal value of the design.
     pub drawn: Option<f64>,
     /// The bounds, each with its text.
     pub bounds: &'a [(String, f64)],
 }
 
 impl Histogram<'_> {
-    /// Draws the histogram: a bar for each range of values, a red line for each bound, a dark one for the value as drawn.
+    /// Draws the histogram, with red lines at the bounds and a dark line at the nominal value.
     pub fn svg(&self) -> String {
         let shown = self.values.iter().copied().chain(self.drawn);
-        // Bounds beyond all samples stay in sight: how far away they are is what is asked.
+        // Includes bounds beyond all samples, because their distance matters.
         let (low, high) = ends(shown.chain(self.bounds.iter().map(|(_, at)| *at)));
         let x = ChartAxis::linear(&in_words(self.measure), low, high);
         let bars = self.bars();
@@ -45,7 +45,7 @@ impl Histogram<'_> {
         inside.extend(self.drawn.and_then(|at| marked(&panel, "as drawn", at, INK, 0.0)));
         let bounds = self.bounds.iter().enumerate();
         inside.extend(
-            // Each text has a line of its own, since bounds may be close to each other.
+            // Each text has its own line, because bounds may be close to each other.
             bounds.filter_map(|(k, (text, at))| {
                 marked(&panel, text, *at, RED, 14.0 * (k + 1) as f64)
             }),
@@ -57,12 +57,12 @@ impl Histogram<'_> {
     /// The bars, each from one value to another, with its count.
     fn bars(&self) -> Vec<(f64, f64, f64)> {
         let (low, high) = ends(self.values.iter().copied());
-        // More bars than the square root of the samples would show chance.
+        // More bars than the square root of the number of samples would show noise.
         let count = ((self.values.len() as f64).sqrt() as usize).clamp(BARS[0], BARS[1]);
         let step = (high - low) / count as f64;
         let mut counts = vec![0.0; count];
         for value in self.values {
-            // A division by zero, where all values are equal, is the first bar.
+            // If all values are equal, the division by zero gives the first bar.
             let bar = ((value - low) / step) as usize;
             counts[bar.min(count - 1)] += 1.0;
         }
@@ -96,13 +96,13 @@ fn marked(
     )
 }
 
-/// A measure with the shares of its sources, each by its name.
+/// A measure with its sources and their fractions of the variance.
 pub type Shares = (String, Vec<(String, f64)>);
 
 const ROW: f64 = 30.0;
 const NAMES: f64 = 230.0;
 
-/// Draws a bar for each measure, in the parts that its sources have in its variance.
+/// Draws a bar for each measure, divided by the contributions of the sources to the variance.
 pub fn share_bars(name: &str, measures: &[Shares]) -> String {
     let mut sources: Vec<&str> = Vec::new();
     for (source, _) in measures.iter().flat_map(|(_, shares)| shares) {

@@ -1,4 +1,4 @@
-//! Elements of an SVG drawing, written in the order in which they are made.
+//! Elements of an SVG drawing.
 
 use std::fmt::Write as _;
 
@@ -10,7 +10,7 @@ const FONTS: &str = "Liberation Sans, Arial, Helvetica, sans-serif";
 /// A point on paper: to the right and down, px.
 pub(crate) type Spot = [f64; 2];
 
-/// An element with its attributes and what stands inside.
+/// An element with attributes and content.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Element {
     name: &'static str,
@@ -64,7 +64,7 @@ impl Element {
         }
         out.push('>');
         out.push_str(&escaped(self.text.as_deref().unwrap_or_default()));
-        // White space inside of a text would show.
+        // White space inside a text would be visible.
         let lines = self.name != "text" && !self.inside.is_empty();
         for element in &self.inside {
             if lines {
@@ -120,12 +120,12 @@ pub(crate) fn document(width: f64, height: f64, title: &str, inside: Vec<Element
 /// Height that the title of a drawing takes, px.
 const TITLE: f64 = 32.0;
 
-/// Returns the title of a drawing as its drawing shows it, which [`untitled`] finds.
+/// Returns the title of a drawing, in the form that [`untitled`] removes.
 pub(crate) fn heading(title: Element) -> Element {
     title.with("class", "title").with("fill", INK).with("font-weight", "bold")
 }
 
-/// Returns a drawing without its title, and without the room for it. A drawing that has none stays as it is.
+/// Removes the title of a drawing and its space, if there is one.
 pub fn untitled(svg: &str) -> String {
     let parts = || {
         let (before, rest) = svg.split_once("class=\"title\"")?;
@@ -137,7 +137,7 @@ pub fn untitled(svg: &str) -> String {
         let lower = px(height.parse::<f64>().ok()? - TITLE);
         let start =
             start.replacen(&format!("height=\"{height}\""), &format!("height=\"{lower}\""), 1);
-        // The element `title` stays: it is what tells those who cannot see the drawing.
+        // The element `title` stays, for screen readers.
         Some(format!("{start}viewBox=\"0 {TITLE} {width} {lower}\"{}{}", end, after.trim_start()))
     };
     parts().unwrap_or_else(|| svg.to_owned())
@@ -157,7 +157,9 @@ pub fn resized(svg: &str, width: f64) -> String {
     parts().unwrap_or_else(|| svg.to_owned())
 }
 
-/// The size of the smallest letters of a drawing that is `width` mm wide on paper, indices apart, in points; `None` without letters.
+/// Returns the smallest font size of a drawing `width` mm wide, in points; `None` without text.
+///
+/// Indices do not count.
 pub fn smallest_letters(svg: &str, width: f64) -> Option<f64> {
     let number = |text: &str, name: &str| -> Option<f64> {
         text.split_once(name)?.1.split_once('"')?.0.parse().ok()
@@ -171,7 +173,7 @@ pub fn smallest_letters(svg: &str, width: f64) -> Option<f64> {
 /// Points of letters in a millimetre.
 const POINTS_PER_MM: f64 = 72.0 / 25.4;
 
-/// Returns the data of a path through `points`, whose coordinates `text` writes.
+/// Returns the data of a path through `points`; `text` formats coordinates.
 pub(crate) fn path_data(points: &[Spot], closed: bool, text: fn(f64) -> String) -> String {
     let corners = points.iter().map(|[x, y]| format!("{} {}", text(*x), text(*y)));
     let line = corners.collect::<Vec<_>>().join(" L");
@@ -210,7 +212,7 @@ pub(crate) fn arrow(from: Spot, to: Spot, color: &str, width: f64) -> Element {
     let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
     let length = dx.hypot(dy);
     let head = (4.5 * width).min(0.7 * length);
-    // Nobody draws an arrow without a length, which would have no direction.
+    // Arrows have a positive length, so a direction exists.
     let (along, across) = ([dx / length, dy / length], [-dy / length, dx / length]);
     let back = |s: f64, side: f64| {
         [0, 1].map(|k| to[k] - s * head * along[k] + side * 0.42 * head * across[k])

@@ -31,11 +31,11 @@ impl FlexureDrawing<'_> {
 }
 
 fn page(title: &str, frames: Vec<DrawingPanel>) -> String {
-    // All frames have the height of the highest, or the page would jump.
+    // All frames have the same height, so that the page does not jump.
     let highest = frames.iter().map(|frame| frame.height).fold(0.0, f64::max);
     let height = CAPTION + highest + 0.5 * MARGIN;
     let drawn: Vec<_> = frames.into_iter().map(frame).collect();
-    // The frames come last, so that they are not searched for places.
+    // The frames are inserted last, so that they are not searched for placeholders.
     PAGE.replace("{{title}}", &plain(title))
         .replace("{{width}}", &px(WIDTH))
         .replace("{{height}}", &px(height))

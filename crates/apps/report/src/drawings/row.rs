@@ -52,7 +52,7 @@ impl PunctureDrawing<'_> {
     /// If the design is invalid.
     pub fn svg(&self) -> Result<String, OutOfRange> {
         let sheet = RowSheet::new(self)?;
-        // The row without a load is drawn once.
+        // An unloaded row is drawn once.
         let loaded = self.states.iter().filter(|state| state.force != 0.0);
         let states = loaded.map(|state| sheet.state(state, sheet.free(state)));
         let panels: Vec<_> = std::iter::once(sheet.at_rest()).chain(states).collect();
@@ -65,7 +65,7 @@ impl PunctureDrawing<'_> {
 
     pub(super) fn frames(&self) -> Result<Vec<DrawingPanel>, OutOfRange> {
         let sheet = RowSheet::new(self)?;
-        // All frames are lifted alike, or the row would jump up and down.
+        // All frames have the same offset, so that the row does not jump.
         let free = self.states.iter().map(|state| sheet.free(state)).fold(AIR, f64::min);
         Ok(self.states.iter().map(|state| sheet.state(state, free)).collect())
     }
@@ -102,13 +102,13 @@ impl<'a> RowSheet<'a> {
         let (a, shift, pitch) = (row.scale().half_base(), row.scale().shift(), row.pitch());
         let width = (last - first) as f64 * pitch + 2.0 * a + shift;
         let scale = ((WIDTH - 4.0 * MARGIN) / width).min(LARGEST);
-        // Where a base has tilted, one of its corners is deeper than its middle.
+        // A tilted base has a corner deeper than its middle.
         let deepest = states
             .iter()
             .flat_map(|state| &state.scales)
             .map(|s| a * s.rotation_deg.to_radians().sin().abs() - s.displacement[1]);
         let deepest = scale * deepest.fold(0.0, f64::max) + SUBSTRATE;
-        // The middle of what is shown stands in the middle of the paper.
+        // Centred on the paper.
         let middle = first as f64 * pitch - a + 0.5 * width;
         let view = View { scale, origin: [0.5 * WIDTH - scale * middle, AIR + scale] };
         let bars = AIR + scale + deepest + 18.0;
@@ -286,7 +286,7 @@ impl<'a> RowSheet<'a> {
         View { origin: self.place([first as f64 * self.row.pitch(), 0.0]), ..self.view }
     }
 
-    /// Returns the place on the punctured scale on which the load was set down, as it stands; `None` without a load.
+    /// Returns the current position of the loaded point of the punctured scale; `None` without a load.
     fn set_down(&self, state: &RowSnapshot) -> Option<Vec2> {
         let punctured = state.scales.iter().find(|s| s.scale == 0 && state.force != 0.0)?;
         let scale = self.row.scale();
@@ -299,15 +299,16 @@ impl<'a> RowSheet<'a> {
     /// Returns the ends of the arrow of the load; `None` without a load.
     fn load_arrow(&self, state: &RowSnapshot) -> Option<[Spot; 2]> {
         let follows = self.set_down(state)?;
-        // A guided tip is straight below its place at rest, whatever the scale does.
+        // A guided tip moves straight down.
         let to = self.place(state.tip.unwrap_or(follows.into()));
-        // However small the load is, its arrow tells where it acts.
+        // A small load has a minimum arrow length, to show its point of application.
         let length = (self.force * load(self.case, state)).max(9.0);
         Some([[to[0], to[1] - length], to])
     }
 
-    /// Returns the load; of a needle that is guided also its tip, and a ring round the place on the scale on which it was set down: how
-    /// far the tip is from it tells how it has moved there, or that it has passed.
+    /// Draws the load, and for a guided needle its tip and a ring at its first contact point.
+    ///
+    /// The distance between tip and ring shows how far the needle has slid, or that it has passed.
     fn load(&self, state: &RowSnapshot) -> Element {
         let drawn = self.load_arrow(state).map(|[from, to]| {
             let name = label("$F$", [from[0], from[1] - 5.0], 14.0, Anchor::Middle);
@@ -328,7 +329,7 @@ impl<'a> RowSheet<'a> {
         self.set_down(state).filter(|_| is_on_top && state.tip.is_some())
     }
 
-    /// Returns the outline of a guided needle: a body that the row cannot move, where the dead load is an arrow alone.
+    /// Returns the outline of a guided needle; a dead load has only an arrow.
     fn tip(&self, state: &RowSnapshot) -> Option<Element> {
         let radius = self.case.puncture.needle_radius.unwrap_or(0.0);
         let [x, y] = self.place(state.tip?);
@@ -394,12 +395,11 @@ impl<'a> RowSheet<'a> {
             .containing([bars, name])
     }
 
-    /// Returns the line that measures the coverage: dropped from the top right corner of a scale, thick where
-    /// scales to the right cover the substrate.
+    /// Draws the vertical line that measures coverage, thick inside scales.
     fn coverage_line(&self) -> Option<Element> {
         let (a, shift, pitch) =
             (self.row.scale().half_base(), self.row.scale().shift(), self.row.pitch());
-        // Upright scales cover nothing, and have no such line.
+        // Upright scales have no coverage line.
         (shift > 1e-9).then(|| {
             let x = a + shift;
             let mut parts = vec![

@@ -24,10 +24,10 @@ const CRITERIA: [(&str, &str); 4] = [
     (name::COMPLIANCE, "compliance $C_f^*$, dimensionless"),
 ];
 const PAIRS: [(usize, usize); 6] = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)];
-/// Colour of designs that others beat.
+/// Colour of dominated designs.
 const BEATEN: &str = "#b5b5b5";
 
-/// Draws the figure of some designs, each by its row and what it is worth by each criterion; `None` if there are fewer than two.
+/// Draws designs by their criteria; `None` if there are fewer than two.
 pub(crate) fn figure(
     name: &str,
     designs: &Designs,
@@ -55,8 +55,7 @@ pub(crate) fn figure(
         let pair = [CRITERIA[i].0, CRITERIA[j].0].join(" ");
         inside.push(front(&points, designs, &palette).with("data-criteria", pair));
     }
-    let title =
-        format!("{name}: designs that no other beats in two criteria{}", of_perfect(designs));
+    let title = format!("{name}: non-dominated designs in two criteria{}", of_perfect(designs));
     Some(sheet(WIDTH, FIRST.top + 2.0 * (FIRST.height + BETWEEN[1]), &title, inside))
 }
 
@@ -67,7 +66,7 @@ struct Point {
     spot: Spot,
 }
 
-/// Returns grey dots for the designs that are beaten, and the front with its line.
+/// Draws dominated designs as grey dots, and the front with its line.
 fn front(points: &[Point], designs: &Designs, palette: &SlantPalette) -> Element {
     // A front is that of four criteria: two that are equal for all decide nothing.
     let criteria: Vec<_> =

@@ -1,4 +1,4 @@
-//! A search for the best design: how it went, and the front that it found.
+//! Figures of a search: its history and front.
 
 use super::{in_words, sheet};
 use crate::axis::ChartAxis;
@@ -15,23 +15,23 @@ const AREA: Area =
 /// Ink of designs that fall short, and of those that meet every requirement.
 const SHADES: [&str; 2] = ["#d8d8d8", "#7f9fbf"];
 
-/// A design that a search has looked at.
+/// A design evaluated by a search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SearchedDesign {
     /// The values on the two axes.
     pub place: [f64; 2],
-    /// Whether it meets every requirement.
+    /// True if it meets every requirement.
     pub met: bool,
 }
 
-/// A search as a chart: every design that was looked at, and a line through the best.
+/// A chart of a search: all evaluated designs, and a line through the best.
 #[derive(Clone, Debug)]
 pub struct SearchFigure<'a> {
     /// The title.
     pub title: &'a str,
     /// The columns on the two axes.
     pub axes: [&'a str; 2],
-    /// Every design that was looked at.
+    /// All evaluated designs.
     pub designs: &'a [SearchedDesign],
     /// The places of the line, in its order.
     pub line: &'a [[f64; 2]],

@@ -19,7 +19,7 @@ const WIDTH: f64 = 1000.0;
 /// Colours of the front and of the designs of the grid.
 const COLORS: [&str; 2] = ["#b34700", "#b9c1c9"];
 
-/// The designs that `squama optimise` has found, on a page whose designs are those of a grid.
+/// The designs found by `squama optimise`, for the page of a grid.
 #[derive(Clone, Debug)]
 pub struct PageFront {
     /// The folder of the search, as commands name it.
@@ -28,20 +28,20 @@ pub struct PageFront {
     pub objectives: Vec<Criterion>,
     /// The bounds that a design must keep.
     pub requirements: Vec<Requirement>,
-    /// The quantities over what is made by which the search has judged, as columns of the designs that were found.
+    /// The columns of statistics over samples that the search used.
     pub made: Vec<String>,
-    /// Whether designs whose surface folds over are left out.
+    /// True if designs with a fold are left out.
     pub sound: bool,
     /// The parameters that vary, as their columns.
     pub variables: Vec<String>,
-    /// What is fixed otherwise than in the grid, in words.
+    /// Fixed parameters that differ from the grid, as text.
     pub differences: Vec<String>,
-    /// The designs, with the columns of the grid, what binds, and what it costs.
+    /// The designs, with the columns of the grid, active constraints and prices.
     pub designs: Designs,
 }
 
 impl PageFront {
-    /// Returns the columns that are axes: the objectives; beside a single one what is required first, or the first variable.
+    /// Returns the columns of the axes: the objectives; for a single one also the first requirement or variable.
     fn axes(&self) -> Vec<&str> {
         let objectives = self.objectives.iter().map(|objective| objective.column.as_ref());
         let required = self.requirements.iter().map(|requirement| requirement.column.as_str());
@@ -50,7 +50,7 @@ impl PageFront {
         objectives.chain(others.take(usize::from(self.objectives.len() == 1))).collect()
     }
 
-    /// Draws what was found over the designs of `grid`: a panel for each pair of axes.
+    /// Draws the found designs over the designs of `grid`, with a panel for each pair of axes.
     pub(super) fn figure(&self, grid: &Designs) -> String {
         let axes = self.axes();
         let pairs = (0..axes.len()).flat_map(|i| (i + 1..axes.len()).map(move |j| (i, j)));
@@ -75,7 +75,7 @@ impl PageFront {
         sheet(WIDTH, above + rows * (PANEL + below), "What a search has found", inside)
     }
 
-    /// Draws two axes: the designs of the grid, and above them those that were found, joined by a line where they are a front of two.
+    /// Draws one panel: designs of the grid, found designs, and a line if they form a front of two objectives.
     fn panel(&self, grid: &Designs, pair: &[&str; 2], area: Area, panels: usize) -> Vec<Element> {
         let axis = |column: &str| {
             let values = grid.numbers(column).chain(self.designs.numbers(column));

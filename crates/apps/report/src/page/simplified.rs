@@ -1,10 +1,11 @@
-//! Curves with no more points than a reader can tell apart.
+//! Simplification of curves.
 
-/// Distance of a point that is left out from the curve that stays, over the size of the curve.
+/// Maximum distance of an omitted point from the curve, relative to the size of the curve.
 const TOLERANCE: f64 = 5e-4;
 
-/// Returns the points of a curve without those that lie on the line between their neighbours, as well as can be seen (Ramer, 1972,
-/// doi 10.1016/S0146-664X(72)80017-0; Douglas and Peucker, 1973).
+/// Simplifies a curve by the algorithm of Ramer, Douglas and Peucker.
+///
+/// Ramer (1972), doi 10.1016/S0146-664X(72)80017-0; Douglas and Peucker (1973).
 pub(super) fn simplified(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let Some(last) = points.len().checked_sub(1) else { return Vec::new() };
     let size = [0, 1].map(|k| {
@@ -14,7 +15,7 @@ pub(super) fn simplified(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     });
     let mut kept = vec![false; points.len()];
     [kept[0], kept[last]] = [true, true];
-    // A list, because a recursion might go as deep as the curve has points.
+    // An explicit stack, because recursion could be as deep as the number of points.
     let mut parts = vec![(0, last)];
     while let Some((first, last)) = parts.pop() {
         let line = [points[first], points[last]];
