@@ -8,7 +8,7 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
-use optimisation::SearchMeter;
+use optimisation::SearchProgress;
 use run::{Progress, WorkMeter};
 
 use crate::interrupt::Interrupt;
@@ -95,7 +95,7 @@ impl<W> Drop for Display<W> {
     }
 }
 
-impl Watched for SearchMeter {
+impl Watched for SearchProgress {
     fn look(&self, elapsed: Duration) -> (f64, String) {
         let (part, done, tasks) = self.progress();
         let share = self.share();

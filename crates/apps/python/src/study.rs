@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use ::run::{Options, Program, Start};
 use ::uncertainty::{
-    Analysis, DesignTolerance, NoAnalysis, SOURCE_COLUMNS, SampleStore, TOLERANCE_COLUMNS,
+    Analysis, AnalysisError, DesignTolerance, SOURCE_COLUMNS, SampleStore, TOLERANCE_COLUMNS,
     YIELD_COLUMNS,
 };
 use optimisation::{
@@ -160,7 +160,7 @@ pub fn optimise(
     let (folder, start) = (keywords.folder(goal.space.sweep()), keywords.start());
     let (place, threads) = (folder.clone(), threads_of(keywords.threads));
     let searched = watched(py, keywords.progress, move |watch| {
-        let options = SearchOptions { threads, start, stop: &watch.stop, meter: &watch.search };
+        let options = SearchOptions { threads, start, stop: &watch.stop, progress: &watch.search };
         let found = optimisation::optimise(&goal, &place, &options, &PROGRAM);
         let Some(found) = found.or_failed("optimise")? else { return Err(interrupted()) };
         let folder = RunFolder::new(&place);
@@ -195,13 +195,13 @@ pub fn tolerance(
     let analysed = watched(py, keywords.progress, move |watch| {
         let analysis = Analysis::new(&sweep, &requirements, samples, PROGRAM, &watch.stop);
         let analyse = |index| analysis.design(index, &store);
-        let all = || -> Result<Vec<DesignTolerance>, NoAnalysis> {
+        let all = || -> Result<Vec<DesignTolerance>, AnalysisError> {
             (0..sweep.grid().len()).into_par_iter().map(analyse).collect()
         };
         pool.install(all)
     })?;
     let all = analysed.map_err(|error| match error {
-        NoAnalysis::Stopped { .. } => interrupted(),
+        AnalysisError::Stopped { .. } => interrupted(),
         error => error::failed("tolerance", &error.to_string()),
     })?;
     Ok([

@@ -6,7 +6,7 @@ use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::thread::{self, available_parallelism};
 use std::time::Duration;
 
-use optimisation::SearchMeter;
+use optimisation::SearchProgress;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -32,7 +32,7 @@ pub struct Watch {
     /// How far a run is.
     pub run: WorkMeter,
     /// How far a search is.
-    pub search: SearchMeter,
+    pub search: SearchProgress,
 }
 
 impl Watch {

@@ -4,7 +4,9 @@ use std::sync::atomic::AtomicBool;
 use std::thread::available_parallelism;
 
 use anyhow::{Context as _, bail};
-use optimisation::{Answer, BestDesign, DesignGoal, Found, Judgement, SearchMeter, SearchOptions};
+use optimisation::{
+    Answer, BestDesign, DesignGoal, Found, Judgement, SearchOptions, SearchProgress,
+};
 use ranking::{CRITERIA, RankedDesign, Ranking, TetrahedralGrid, Weights};
 use run::{Program, Start};
 use sweep::number;
@@ -204,8 +206,8 @@ fn search(goal: &str) -> anyhow::Result<Found> {
     let (folder, stop) =
         (tempfile::tempdir().context("no temporary folder")?, AtomicBool::new(false));
     let threads = available_parallelism().map_or(1, usize::from);
-    let meter = SearchMeter::default();
-    let options = SearchOptions { threads, start: Start::New, stop: &stop, meter: &meter };
+    let meter = SearchProgress::default();
+    let options = SearchOptions { threads, start: Start::New, stop: &stop, progress: &meter };
     // The folder is temporary: no later search has to know this one.
     let program = Program { version: env!("CARGO_PKG_VERSION"), revision: "" };
     let found = optimisation::optimise(&goal, folder.path(), &options, &program)?;

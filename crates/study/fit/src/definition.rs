@@ -9,7 +9,7 @@ use sweep::{
     VariableValues, WrongValue, read_entries,
 };
 
-use crate::measured::{InvalidMeasured, MeasuredCurve, Test};
+use crate::measured_curve::{InvalidMeasured, MeasuredCurve, Test};
 
 /// Curves, and what is sought behind them.
 #[derive(Debug)]

@@ -13,11 +13,11 @@
 //! | [`Fitted`], [`Estimate`], [`FittedCurve`] | what was found, and how surely |
 
 mod definition;
-mod fitted;
-mod measured;
+mod fit_result;
+mod measured_curve;
 mod model;
 mod search;
 
 pub use definition::{FitDefinition, InvalidFit, Unknown};
-pub use fitted::{Estimate, Fitted, FittedCurve, NoFit};
-pub use measured::{InvalidMeasured, MeasuredCurve, Test};
+pub use fit_result::{Estimate, FitError, Fitted, FittedCurve};
+pub use measured_curve::{InvalidMeasured, MeasuredCurve, Test};

@@ -7,7 +7,7 @@ use skin::CurvePoint;
 use sweep::{Case, Parameter, Scalar};
 
 use crate::definition::{FitDefinition, Source, TestCurve, Unknown};
-use crate::measured::Test;
+use crate::measured_curve::Test;
 
 /// A curve of the model at the places of a measured one.
 #[derive(Clone, Debug)]

@@ -11,7 +11,7 @@ use basin::{
 use run::{Evaluator, WorkMeter, WorkPiece};
 
 use crate::definition::FitDefinition;
-use crate::fitted::NoFit;
+use crate::fit_result::FitError;
 use crate::model::ModelCurve;
 
 /// Points that are looked at for each unknown, and how many of them, the best, are improved.
@@ -97,14 +97,14 @@ impl<'a> Residuals<'a> {
     }
 
     /// The curves of the model at some shares.
-    pub(crate) fn solved(&self, shares: &[f64]) -> Result<Solved, NoFit> {
+    pub(crate) fn solved(&self, shares: &[f64]) -> Result<Solved, FitError> {
         if let Some((at, solved)) = &*self.last.borrow()
             && at == shares
         {
             return Ok(solved.clone());
         }
         if self.stop.load(Ordering::Relaxed) {
-            return Err(NoFit::Stopped);
+            return Err(FitError::Stopped);
         }
         *self.solutions.borrow_mut() += 1;
         match &*self.piece.borrow() {
@@ -127,7 +127,7 @@ impl<'a> Residuals<'a> {
     }
 
     /// All residuals over the noise of their curves.
-    fn weighted(&self, shares: &[f64]) -> Result<Vec<f64>, NoFit> {
+    fn weighted(&self, shares: &[f64]) -> Result<Vec<f64>, FitError> {
         // Where one curve has no solution, none counts: the skins of a fit stand together.
         let Some(model) = self.solved(shares)? else {
             let points = self.definition.curves.iter().map(|curve| curve.measured.points.len());
@@ -148,7 +148,7 @@ impl<'a> Residuals<'a> {
     }
 
     /// The shares at which the sum of squares is the least that is found from `start`.
-    pub(crate) fn minimise(&self, start: Vec<f64>) -> Result<Vec<f64>, NoFit> {
+    pub(crate) fn minimise(&self, start: Vec<f64>) -> Result<Vec<f64>, FitError> {
         let solver = BoundedLevenbergMarquardt::new()
             .with_absolute_scaled_gradient_tolerance(FLAT)
             .with_relative_cost_change_tolerance(CHANGED);
@@ -166,18 +166,18 @@ impl<'a> Residuals<'a> {
 
     /// The shares with the least sum of squares that is found from the best of those that fill the ranges. Where scales and needle come
     /// to rub or touch otherwise the sum has kinks, and beside them minima of their own.
-    pub(crate) fn best(&self) -> Result<Vec<f64>, NoFit> {
+    pub(crate) fn best(&self) -> Result<Vec<f64>, FitError> {
         let count = self.lower.len();
-        let cost = |shares: &[f64]| -> Result<f64, NoFit> {
+        let cost = |shares: &[f64]| -> Result<f64, FitError> {
             Ok(self.weighted(shares)?.iter().map(|r| r * r).sum())
         };
         let filling = (0..=STARTS * count).map(|k| filling(k, count));
         let with_cost = |shares: Vec<f64>| Ok((cost(&shares)?, shares));
-        let mut starts = filling.map(with_cost).collect::<Result<Vec<_>, NoFit>>()?;
+        let mut starts = filling.map(with_cost).collect::<Result<Vec<_>, FitError>>()?;
         starts.sort_by(|a, b| a.0.total_cmp(&b.0));
         starts.truncate(IMPROVED);
         let improved = starts.into_iter().map(|(_, start)| with_cost(self.minimise(start)?));
-        let improved = improved.collect::<Result<Vec<_>, NoFit>>()?;
+        let improved = improved.collect::<Result<Vec<_>, FitError>>()?;
         let best = improved.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
         Ok(best.map_or_else(Vec::new, |(_, shares)| shares))
     }
@@ -193,9 +193,9 @@ fn filling(k: usize, count: usize) -> Vec<f64> {
 impl Residual for &Residuals<'_> {
     type Param = Vec<f64>;
     type Output = Vec<f64>;
-    type Error = NoFit;
+    type Error = FitError;
 
-    fn residual(&self, shares: &Vec<f64>) -> Result<Vec<f64>, NoFit> {
+    fn residual(&self, shares: &Vec<f64>) -> Result<Vec<f64>, FitError> {
         self.weighted(shares)
     }
 }
@@ -203,7 +203,7 @@ impl Residual for &Residuals<'_> {
 impl Jacobian for &Residuals<'_> {
     type Jacobian = DenseMatrix;
 
-    fn jacobian(&self, shares: &Vec<f64>) -> Result<DenseMatrix, NoFit> {
+    fn jacobian(&self, shares: &Vec<f64>) -> Result<DenseMatrix, FitError> {
         let points = self.definition.curves.iter().map(|curve| curve.measured.points.len()).sum();
         let count = shares.len();
         let columns: Vec<_> = match self.solved(shares)? {

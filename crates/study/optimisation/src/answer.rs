@@ -6,7 +6,7 @@ use crate::evaluations::Halt;
 use crate::front::{self, Front};
 use crate::improvement::{Plan, improved};
 use crate::local::Search;
-use crate::meter::SearchPart;
+use crate::progress::SearchPart;
 
 /// The answer to a goal.
 #[derive(Clone, Debug)]
@@ -30,7 +30,7 @@ pub(crate) fn answer(
         (0..search.judge.objectives()).map(|k| Target { objective: k, floors: Vec::new() });
     let mut targets: Vec<Target> = targets.collect();
     for target in &targets {
-        search.meter.begin(SearchPart::Climb, plan.tasks());
+        search.progress.begin(SearchPart::Climb, plan.tasks());
         history.extend(improved(search, history, target, plan)?);
         // Without floors all targets ask for the same: what one does not find none of them does.
         let is_feasible = |c: &Candidate| matches!(search.merit(c, target), Merit::Met(_));

@@ -4,11 +4,11 @@ use results::DesignRow;
 use sweep::Measure;
 
 use crate::candidate::{Candidate, Merit, Target};
+use crate::coverage_piece::CoveragePiece;
 use crate::evaluations::Halt;
 use crate::local::Search;
 use crate::price::{Binding, bindings};
 use crate::sampled::confirmation::Confirmation;
-use crate::tooth::Tooth;
 
 /// A distance between two starts, a share of the intervals, at least.
 const APART: f64 = 0.12;
@@ -52,7 +52,7 @@ pub(crate) type Region = (Vec<usize>, Option<u32>, Option<bool>);
 pub(crate) fn region(search: &Search<'_>, candidate: &Candidate) -> Region {
     let teeth =
         search.judge.is_about(Measure::Coverage).then(|| search.space.case(&candidate.point));
-    let peak = teeth.and_then(|case| Tooth::beside(&case).first().map(|tooth| tooth.peak));
+    let peak = teeth.and_then(|case| CoveragePiece::beside(&case).first().map(|piece| piece.peak));
     let flexure = candidate.result.flexure.filter(|_| search.judge.is_about(Measure::Flexure));
     let contact = flexure.and_then(|flexure| flexure.measures.contact);
     (candidate.point.chosen.clone(), peak, contact)

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use results::DesignResult;
 
+use crate::judgement::Judgement;
 use crate::space::SpacePoint;
-use crate::worth::Judgement;
 
 /// The stage of a search in which a design was looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

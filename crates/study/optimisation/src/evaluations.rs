@@ -15,7 +15,7 @@ use uncertainty::Sampler;
 
 use crate::error::OptimisationError;
 use crate::goal::DesignGoal;
-use crate::meter::SearchMeter;
+use crate::progress::SearchProgress;
 use crate::sample::{SampleJudge, Samples};
 use crate::space::{DesignSpace, Interval, SpacePoint};
 use evaluation_journal::{EvaluationKey, JournalLine, Known, PointKey, SamplesLine, SolvedLine};
@@ -42,7 +42,7 @@ pub(crate) struct Evaluations<'a> {
     sampler: Sampler,
     journal: Mutex<Journal<Known>>,
     stop: &'a AtomicBool,
-    meter: &'a SearchMeter,
+    progress: &'a SearchProgress,
 }
 
 impl<'a> Evaluations<'a> {
@@ -52,7 +52,7 @@ impl<'a> Evaluations<'a> {
         folder: &Path,
         start: run::Start,
         program: &Program,
-        (stop, meter): (&'a AtomicBool, &'a SearchMeter),
+        (stop, progress): (&'a AtomicBool, &'a SearchProgress),
     ) -> Result<Self, OptimisationError> {
         let journal = evaluation_journal::begin(folder, goal.to_toml(), program, start)?;
         let measures = goal.space.sweep().plain_measures();
@@ -64,7 +64,7 @@ impl<'a> Evaluations<'a> {
             sampler: Sampler::new(&measures, goal.space.sweep().deviations()),
             journal: Mutex::new(journal),
             stop,
-            meter,
+            progress,
         })
     }
 
@@ -149,7 +149,7 @@ impl<'a> Evaluations<'a> {
         self.go_on()?;
         // Unlocked meanwhile: two threads may solve one point, and write the same line twice.
         let solve = || evaluator.row(self.number(0), case);
-        let mut result = self.meter.slow().told("a design of the search", solve).result;
+        let mut result = self.progress.slow().told("a design of the search", solve).result;
         // Lengths in mm move others, over the thickness. Where material varies, a sample with another thickness or modulus moves in other parameters, too.
         let has_material = self.space.parameters().any(|p| p.section == "material");
         let is_variable = |key| self.space.parameters().any(|p| p.key == key);
@@ -187,7 +187,7 @@ impl<'a> Evaluations<'a> {
         let values = (first..last).into_par_iter().map(|sample| {
             self.go_on()?;
             let solve = || self.sampler.solve(self.number(0), &case, BEFORE + sample);
-            let sampled = self.meter.slow().told("a sample of the search", solve);
+            let sampled = self.progress.slow().told("a sample of the search", solve);
             Ok(sampled.map_or_else(|| judge.no_values(), |sampled| judge.values(&sampled.row)))
         });
         let values: Vec<Vec<Option<f64>>> = values.collect::<Result<_, Halt>>()?;

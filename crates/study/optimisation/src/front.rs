@@ -7,9 +7,9 @@ use crate::best::{BestDesign, best_design};
 use crate::candidate::{Candidate, Merit, Target};
 use crate::evaluations::Halt;
 use crate::improvement::{Plan, improved};
+use crate::judgement::Judgement;
 use crate::local::Search;
-use crate::meter::SearchPart;
-use crate::worth::Judgement;
+use crate::progress::SearchPart;
 
 /// Rounds in which points are put into the widest gaps, at most.
 const REFILLS: usize = 3;
@@ -172,7 +172,7 @@ fn improve(
     targets: &[Target],
     plan: Plan,
 ) -> Result<(), Halt> {
-    search.meter.begin(SearchPart::Front, targets.len() * plan.tasks());
+    search.progress.begin(SearchPart::Front, targets.len() * plan.tasks());
     // Noted in the order of the targets, whichever ends first: a search looks at the same designs on every machine.
     let walks = targets.par_iter().map(|target| improved(search, history, target, plan));
     let walks: Vec<Vec<Candidate>> = walks.collect::<Result<_, _>>()?;

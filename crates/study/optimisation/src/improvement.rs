@@ -47,7 +47,7 @@ pub(crate) fn improved(
     target: &Target,
     plan: Plan,
 ) -> Result<Vec<Candidate>, Halt> {
-    let mut looked: Vec<Candidate> = Vec::new();
+    let mut evaluated: Vec<Candidate> = Vec::new();
     // Many a little, some more, few to the end: a few steps tell which regions are worth the rest.
     let stages = [
         (plan.regions, Effort::PROBE),
@@ -56,14 +56,14 @@ pub(crate) fn improved(
     ];
     for (count, effort) in stages {
         // Each knows only its own start, so that what is found does not depend on which ends first.
-        let starts = starts(search, history.iter().chain(&looked), target, count);
+        let starts = starts(search, history.iter().chain(&evaluated), target, count);
         let walks = starts.into_par_iter().map(|start| {
             let walk = search.improve(target, &start, effort);
-            search.meter.step();
+            search.progress.step();
             walk
         });
         let walks: Vec<_> = walks.collect::<Result<_, _>>()?;
-        looked.extend(walks.into_iter().flatten());
+        evaluated.extend(walks.into_iter().flatten());
     }
-    Ok(looked)
+    Ok(evaluated)
 }

@@ -7,12 +7,12 @@ use results::{DesignResult, DesignRow};
 use sweep::{Case, DesignNumber, Measure, Parameter};
 
 use crate::column::NumberColumn;
-use crate::looked::{LookedRow, Use};
-use crate::margin::{Bound, has_folded};
+use crate::evaluated_row::{EvaluatedRow, StatisticUse};
+use crate::judgement::{Judgement, NominalWorth};
+use crate::requirement_bounds::{Bound, has_folded};
 use crate::sample::{SampleJudge, Samples};
 use crate::slopes::Slopes;
 use crate::statistic::Statistic;
-use crate::worth::{Judgement, NominalWorth};
 
 /// What a design is judged by.
 enum Source {
@@ -42,11 +42,11 @@ impl Judge {
     }
 
     /// The uses of statistics, each with the index of its statistic.
-    pub(crate) fn uses(&self) -> impl Iterator<Item = (Use, usize)> {
+    pub(crate) fn uses(&self) -> impl Iterator<Item = (StatisticUse, usize)> {
         let objectives = self.objectives.iter().map(|(_, source)| source).enumerate();
-        let objectives = objectives.map(|(k, source)| (Use::Objective(k), source));
+        let objectives = objectives.map(|(k, source)| (StatisticUse::Objective(k), source));
         let required = self.requirements.iter().map(|required| &required.column).enumerate();
-        let required = required.map(|(k, source)| (Use::Requirement(k), source));
+        let required = required.map(|(k, source)| (StatisticUse::Requirement(k), source));
         objectives.chain(required).filter_map(|(of, source)| match source {
             Source::Statistic(q) => Some((of, *q)),
             Source::Nominal(_) | Source::Margin => None,
@@ -65,12 +65,12 @@ impl Judge {
     }
 
     /// Whether a use is that of a statistic.
-    pub(crate) fn is_statistic(&self, of: Use) -> bool {
+    pub(crate) fn is_statistic(&self, of: StatisticUse) -> bool {
         self.uses().any(|(other, _)| other == of)
     }
 
     /// Whether a use is that of a yield.
-    pub(crate) fn is_yield(&self, of: Use) -> bool {
+    pub(crate) fn is_yield(&self, of: StatisticUse) -> bool {
         self.uses().any(|(other, q)| other == of && self.samples.statistics[q].is_yield())
     }
 
@@ -219,10 +219,10 @@ impl Judge {
     }
 
     /// The derivatives of what a design is judged by.
-    fn slopes(&self, of: Use, row: &LookedRow, parameter: &Parameter) -> Slopes {
+    fn slopes(&self, of: StatisticUse, row: &EvaluatedRow, parameter: &Parameter) -> Slopes {
         let source = match of {
-            Use::Objective(k) => &self.objectives[k].1,
-            Use::Requirement(k) => &self.requirements[k].column,
+            StatisticUse::Objective(k) => &self.objectives[k].1,
+            StatisticUse::Requirement(k) => &self.requirements[k].column,
         };
         match source {
             Source::Nominal(column) => column.slopes(&row.nominal, parameter),
@@ -235,22 +235,27 @@ impl Judge {
     pub(crate) fn objective_slopes(
         &self,
         k: usize,
-        row: &LookedRow,
+        row: &EvaluatedRow,
         parameter: &Parameter,
     ) -> Slopes {
-        self.slopes(Use::Objective(k), row, parameter).scaled(self.sign(k))
+        self.slopes(StatisticUse::Objective(k), row, parameter).scaled(self.sign(k))
     }
 
     /// The derivative of objective `k` of a nominal design with respect to a parameter; `None` at a kink, of a row without derivatives,
     /// or of a statistic.
     pub fn objective_slope(&self, k: usize, row: &DesignRow, parameter: &Parameter) -> Option<f64> {
-        let row = LookedRow { nominal: row.clone(), statistics: Vec::new() };
-        self.slopes(Use::Objective(k), &row, parameter).smooth()
+        let row = EvaluatedRow { nominal: row.clone(), statistics: Vec::new() };
+        self.slopes(StatisticUse::Objective(k), &row, parameter).smooth()
     }
 
     /// The derivatives of how far the design is within requirement `k`, relative to the limit.
-    pub(crate) fn margin_slopes(&self, k: usize, row: &LookedRow, parameter: &Parameter) -> Slopes {
-        let of = Use::Requirement(k);
+    pub(crate) fn margin_slopes(
+        &self,
+        k: usize,
+        row: &EvaluatedRow,
+        parameter: &Parameter,
+    ) -> Slopes {
+        let of = StatisticUse::Requirement(k);
         // The margin of the sample that has to meet is relative already.
         let rate =
             if self.is_yield(of) { 1.0 } else { self.requirements[k].requirement.margin_rate() };

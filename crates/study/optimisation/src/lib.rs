@@ -21,18 +21,18 @@
 //! | [`Judge`], [`Judgement`], [`NominalWorth`] | what a design is worth by the goal |
 //! | [`Statistic`], [`Confirmation`], [`Estimate`] | a quantile or yield over samples, and its test with other samples |
 //! | [`optimise`], [`SearchOptions`] | the search |
-//! | [`SearchMeter`], [`SearchPart`] | how far it is |
+//! | [`SearchProgress`], [`SearchPart`] | how far it is |
 //! | [`Found`], [`Answer`], [`BestDesign`], [`Front`], [`LeftOutDesigns`] | what it found |
 //! | [`Candidate`], [`SearchStage`], [`Target`] | a design that was looked at, in which stage, and what for |
 //! | [`write_found`] | writes the tables of what was found |
-//! | [`Words`] | what binds and what it costs, in words |
+//! | [`BindingText`] | what binds and what it costs, in words |
 //! | [`Binding`], [`Limit`] | what keeps a design from being better, and its price |
 //! | [`OptimisationError`] | why there was no search |
 //!
 //! ```
 //! use std::sync::atomic::AtomicBool;
 //!
-//! use optimisation::{Answer, DesignGoal, SearchMeter, SearchOptions, optimise};
+//! use optimisation::{Answer, DesignGoal, SearchProgress, SearchOptions, optimise};
 //! use run::{Program, Start};
 //!
 //! // Scales of 45° cover more, the narrower their gaps: λ = 1 − d (Eq. G2).
@@ -40,8 +40,8 @@
 //!             [designs]\nlength_over_t = 1\nslant_deg = 45\n[goal]\nmaximize = 'coverage'\nsamples = 8";
 //! let goal = DesignGoal::parse(text, "covered.toml", &[])?;
 //! let (folder, stop) = (tempfile::tempdir()?, AtomicBool::new(false));
-//! let meter = SearchMeter::default();
-//! let options = SearchOptions { threads: 1, start: Start::New, stop: &stop, meter: &meter };
+//! let progress = SearchProgress::default();
+//! let options = SearchOptions { threads: 1, start: Start::New, stop: &stop, progress: &progress };
 //! let program = Program { version: "1.0", revision: "none" };
 //! let found = optimise(&goal, folder.path(), &options, &program)?.expect("nobody stops it");
 //! let Answer::Optimum(best) = found.answer else { panic!("there is one objective") };
@@ -51,42 +51,44 @@
 
 mod answer;
 mod best;
+mod binding_text;
 mod candidate;
 mod column;
+mod contact_margin;
+mod coverage_peaks;
+mod coverage_piece;
 mod error;
+mod evaluated_row;
 mod evaluations;
-mod fill;
 mod front;
 mod goal;
 mod improvement;
 mod judge;
+mod judgement;
 mod local;
-mod looked;
-mod margin;
-mod meter;
-mod peaks;
 mod price;
-mod room;
+mod progress;
+mod requirement_bounds;
 mod sample;
 mod sampled;
 mod search;
 mod slopes;
 mod space;
+mod space_filling;
 mod statistic;
 mod tables;
-mod tooth;
-mod words;
-mod worth;
 
 pub use answer::Answer;
 pub use best::BestDesign;
+pub use binding_text::BindingText;
 pub use candidate::{Candidate, SearchStage, Target};
 pub use error::OptimisationError;
 pub use front::Front;
 pub use goal::DesignGoal;
 pub use judge::Judge;
-pub use meter::{SearchMeter, SearchPart};
+pub use judgement::{Judgement, NominalWorth};
 pub use price::{Binding, Limit};
+pub use progress::{SearchPart, SearchProgress};
 pub use sampled::confirmation::{Confirmation, Estimate};
 pub use search::{Found, LeftOutDesigns, SearchOptions, optimise};
 pub use space::{Choice, DesignSpace, Interval, SpacePoint};
@@ -95,5 +97,3 @@ pub use tables::{
     FRONT, GOAL, HISTORY, NEAREST_DEFINITION, OPTIMUM, OPTIMUM_DEFINITION, history_columns,
     optimum_columns, write_found,
 };
-pub use words::Words;
-pub use worth::{Judgement, NominalWorth};

@@ -2,7 +2,7 @@
 //! derivatives where values jump.
 
 mod bundle;
-mod climb;
+mod gradient_search;
 mod polish;
 mod problem;
 mod ridge;
@@ -11,12 +11,12 @@ mod samples;
 use std::cell::RefCell;
 
 use crate::candidate::{Candidate, Merit, SearchStage, Target, best};
+use crate::evaluated_row::EvaluatedRow;
 use crate::evaluations::{Evaluations, Halt};
 use crate::judge::Judge;
-use crate::looked::LookedRow;
-use crate::meter::SearchMeter;
+use crate::judgement::Judgement;
+use crate::progress::SearchProgress;
 use crate::space::{DesignSpace, SpacePoint};
-use crate::worth::Judgement;
 use samples::SampledPoint;
 
 /// Rounds along ridges, without derivatives, and along derivatives again, at most.
@@ -52,7 +52,7 @@ pub(crate) struct Search<'a> {
     pub space: &'a DesignSpace,
     pub evaluations: &'a Evaluations<'a>,
     pub judge: &'a Judge,
-    pub meter: &'a SearchMeter,
+    pub progress: &'a SearchProgress,
 }
 
 /// How much a local search may take.
@@ -96,12 +96,12 @@ impl Effort {
 
 impl Search<'_> {
     /// Looks at the design at `point`.
-    pub fn look(
+    pub fn evaluate(
         &self,
         stage: SearchStage,
         point: &SpacePoint,
         differentiated: bool,
-    ) -> Result<(Candidate, LookedRow), Halt> {
+    ) -> Result<(Candidate, EvaluatedRow), Halt> {
         let Self { space, evaluations, .. } = *self;
         let result = evaluations.solve(point, differentiated)?;
         let nominal = evaluations.row(0, point, &result);
@@ -115,9 +115,9 @@ impl Search<'_> {
             }
             _ => Vec::new(),
         };
-        self.meter.look();
+        self.progress.evaluate();
         let candidate = Candidate { stage, point: point.clone(), result, verdict };
-        Ok((candidate, LookedRow { nominal, statistics }))
+        Ok((candidate, EvaluatedRow { nominal, statistics }))
     }
 
     /// The merit of a design under a target.
@@ -158,9 +158,9 @@ impl Search<'_> {
                     let mut point = best.point.clone();
                     point.shares[j] = (from + step * f64::from(k)).min(1.0);
                     // Without derivatives: a scaling only compares values, and all its designs share one solution.
-                    let looked = self.look(SearchStage::Gradient, &point, false)?.0;
-                    if self.merit(&looked, target).compare(self.merit(&best, target)).is_gt() {
-                        best = looked;
+                    let evaluated = self.evaluate(SearchStage::Gradient, &point, false)?.0;
+                    if self.merit(&evaluated, target).compare(self.merit(&best, target)).is_gt() {
+                        best = evaluated;
                     }
                 }
                 (from, to) = (best.point.shares[j] - step, best.point.shares[j] + step);
@@ -191,7 +191,7 @@ impl Search<'_> {
         start: &Candidate,
         effort: Effort,
     ) -> Result<Vec<Candidate>, Halt> {
-        self.meter.start();
+        self.progress.start();
         let walk = LocalSearch {
             search: self,
             target,
@@ -251,7 +251,7 @@ impl LocalSearch<'_> {
         stage: SearchStage,
         shares: &[f64],
         differentiated: bool,
-    ) -> Result<(Candidate, LookedRow), Halt> {
+    ) -> Result<(Candidate, EvaluatedRow), Halt> {
         let chosen = self.best.borrow().point.chosen.clone();
         // An end that is missed by round-off is meant: tables show 60, not 59.99999999999999.
         let ended = |share: &f64| match *share {
@@ -260,9 +260,10 @@ impl LocalSearch<'_> {
             share => share,
         };
         let shares = shares.iter().map(ended).collect();
-        let looked = self.search.look(stage, &SpacePoint { shares, chosen }, differentiated)?;
-        self.note(&looked.0);
-        Ok(looked)
+        let evaluated =
+            self.search.evaluate(stage, &SpacePoint { shares, chosen }, differentiated)?;
+        self.note(&evaluated.0);
+        Ok(evaluated)
     }
 
     fn note(&self, candidate: &Candidate) {

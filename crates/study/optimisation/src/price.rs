@@ -11,12 +11,12 @@ use nalgebra::{DMatrix, DVector};
 use sweep::{Measure, Parameter};
 
 use crate::candidate::{Candidate, SearchStage, Target};
+use crate::contact_margin::{contact_margin, contact_margin_slopes};
+use crate::evaluated_row::{EvaluatedRow, StatisticUse};
 use crate::evaluations::Halt;
+use crate::judgement::Judgement;
 use crate::local::{Search, floor_size};
-use crate::looked::{LookedRow, Use};
-use crate::room::{bending_room, bending_room_slopes};
 use crate::slopes::Slopes;
-use crate::worth::Judgement;
 
 /// A limit binds that is this near, relative to its size.
 const NEAR: f64 = 1e-5;
@@ -60,14 +60,14 @@ pub(crate) fn bindings(
     target: &Target,
 ) -> Result<Vec<Binding>, Halt> {
     let limits = binding_limits(search, best, target);
-    // Looked at once more: a polish or a scaling finds its best design without derivatives.
-    let (looked, row) = search.look(SearchStage::Gradient, &best.point, true)?;
-    let is_whole = matches!(looked.verdict, Judgement::Judged(_));
+    // Evaluated again with derivatives: a polish or a scaling evaluates its best design without them.
+    let (evaluated, row) = search.evaluate(SearchStage::Gradient, &best.point, true)?;
+    let is_whole = matches!(evaluated.verdict, Judgement::Judged(_));
     let prices = if is_whole { prices(search, &row, target, &limits) } else { None };
     let prices =
         prices.map_or_else(|| vec![None; limits.len()], |p| p.into_iter().map(Some).collect());
     // What a step of a yield costs, no derivative tells.
-    let is_yield = |limit: &Limit| matches!(*limit, Limit::Requirement(k) if search.judge.is_yield(Use::Requirement(k)));
+    let is_yield = |limit: &Limit| matches!(*limit, Limit::Requirement(k) if search.judge.is_yield(StatisticUse::Requirement(k)));
     let bindings = limits.into_iter().zip(prices);
     let binding = |(limit, price): (Limit, Option<f64>)| Binding {
         price: price.filter(|_| !is_yield(&limit)),
@@ -80,11 +80,12 @@ fn binding_limits(search: &Search<'_>, best: &Candidate, target: &Target) -> Vec
     let Judgement::Judged(worth) = &best.verdict else { return Vec::new() };
     let near = |of| if search.judge.is_statistic(of) { NEAR_SAMPLES } else { NEAR };
     let requirements = worth.margins.iter().enumerate();
-    let required = requirements.filter(|(k, margin)| **margin < near(Use::Requirement(*k)));
+    let required =
+        requirements.filter(|(k, margin)| **margin < near(StatisticUse::Requirement(*k)));
     let mut limits: Vec<Limit> = required.map(|(k, _)| Limit::Requirement(k)).collect();
     for &(k, floor) in &target.floors {
         let turned = search.judge.sign(k) * worth.objectives[k];
-        if turned - floor < near(Use::Objective(k)) * floor_size(floor) {
+        if turned - floor < near(StatisticUse::Objective(k)) * floor_size(floor) {
             limits.push(Limit::Floor(k));
         }
     }
@@ -96,7 +97,7 @@ fn binding_limits(search: &Search<'_>, best: &Candidate, target: &Target) -> Vec
         }
     }
     let case = search.space.case(&best.point);
-    let touches = search.judge.is_about(Measure::Flexure) && bending_room(&case).abs() < NEAR;
+    let touches = search.judge.is_about(Measure::Flexure) && contact_margin(&case).abs() < NEAR;
     limits.extend(touches.then_some(Limit::Touch));
     limits
 }
@@ -104,7 +105,7 @@ fn binding_limits(search: &Search<'_>, best: &Candidate, target: &Target) -> Vec
 /// The multipliers of the limits, in units of the objective over that of the limit; `None` if they do not balance the gradient.
 fn prices(
     search: &Search<'_>,
-    row: &LookedRow,
+    row: &EvaluatedRow,
     target: &Target,
     limits: &[Limit],
 ) -> Option<Vec<f64>> {
@@ -125,7 +126,7 @@ fn prices(
             Limit::Floor(k) => gradient(&|p| judge.objective_slopes(k, row, p))?,
             Limit::Lower(j) => unit(intervals.len(), j, 1.0),
             Limit::Upper(j) => unit(intervals.len(), j, -1.0),
-            Limit::Touch => gradient(&|p| bending_room_slopes(&row.nominal.case, p))?,
+            Limit::Touch => gradient(&|p| contact_margin_slopes(&row.nominal.case, p))?,
         });
     }
     let multipliers = multipliers(&columns, &objective)?;

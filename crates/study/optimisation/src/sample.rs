@@ -5,7 +5,7 @@ use results::{DesignRow, QUANTILES, quantile_places};
 use serde::{Deserialize, Serialize};
 
 use crate::column::NumberColumn;
-use crate::margin::Bounds;
+use crate::requirement_bounds::Bounds;
 use crate::statistic::Statistic;
 
 /// What is known of the samples of a design: of each the values in the columns of the bounds, then a value for every statistic, which of

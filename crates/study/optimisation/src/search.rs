@@ -13,19 +13,19 @@ use crate::answer::{Answer, answer};
 use crate::best::{Region, region};
 use crate::candidate::{Candidate, SearchStage};
 use crate::column::ends_over;
+use crate::coverage_peaks::points_on_peaks;
 use crate::error::OptimisationError;
 use crate::evaluations::{Evaluations, Halt};
-use crate::fill;
 use crate::goal::DesignGoal;
 use crate::improvement::Plan;
 use crate::judge::Judge;
+use crate::judgement::Judgement;
 use crate::local::Search;
-use crate::margin::has_folded;
-use crate::meter::{SearchMeter, SearchPart};
-use crate::peaks::points_on_peaks;
+use crate::progress::{SearchPart, SearchProgress};
+use crate::requirement_bounds::has_folded;
 use crate::sampled::search::{SEEDS, Searches};
 use crate::space::SpacePoint;
-use crate::worth::Judgement;
+use crate::space_filling;
 
 /// How a search is carried out.
 #[derive(Clone, Copy, Debug)]
@@ -37,7 +37,7 @@ pub struct SearchOptions<'a> {
     /// Set to request a stop; what is solved so far stays in the journal.
     pub stop: &'a AtomicBool,
     /// Where the search tells how far it is.
-    pub meter: &'a SearchMeter,
+    pub progress: &'a SearchProgress,
 }
 
 /// The outcome of a search.
@@ -80,7 +80,7 @@ pub fn optimise(
     options: &SearchOptions<'_>,
     program: &Program,
 ) -> Result<Option<Found>, OptimisationError> {
-    let watch = (options.stop, options.meter);
+    let watch = (options.stop, options.progress);
     let evaluations = Evaluations::begin(goal, folder, options.start, program, watch)?;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(options.threads).build();
     let pool = pool.map_err(|error| OptimisationError::Threads {
@@ -88,7 +88,7 @@ pub fn optimise(
         reason: error.to_string(),
     })?;
     // In a pool of its own: as many threads as were asked for, whatever the rest of the process uses.
-    let found = pool.install(|| find(goal, &evaluations, options.meter));
+    let found = pool.install(|| find(goal, &evaluations, options.progress));
     // Also of a search that was asked to stop: what it has solved is what the next one goes on from.
     evaluations.sync()?;
     match found {
@@ -105,18 +105,18 @@ pub fn optimise(
 fn find(
     goal: &DesignGoal,
     evaluations: &Evaluations<'_>,
-    meter: &SearchMeter,
+    progress: &SearchProgress,
 ) -> Result<Found, Halt> {
-    meter.expect(expected(goal));
-    let points = fill::points(&goal.space, goal.samples, goal.seed);
+    progress.expect(expected(goal));
+    let points = space_filling::points(&goal.space, goal.samples, goal.seed);
     // Solved before there is a judge: the fitness is rescaled over these.
-    let rows = sample_rows(evaluations, &points, meter)?;
+    let rows = sample_rows(evaluations, &points, progress)?;
     let rescaled = ends(goal, rows);
     // One set of ends for all three: a fitness between other ends would be another function.
     let judges =
         [&goal.nominal(), goal, &goal.finer()].map(|goal| Judge::rescaling(goal, &rescaled));
     let [nominal, search, finer] =
-        judges.each_ref().map(|judge| Search { space: &goal.space, evaluations, judge, meter });
+        judges.each_ref().map(|judge| Search { space: &goal.space, evaluations, judge, progress });
     // A goal about parameters and mass alone meets no contact and no kink: peaks tell it nothing.
     let on_peaks = if nominal.judge.has_regions() {
         points_on_peaks(&goal.space, nominal.judge, goal.seed)
@@ -125,8 +125,9 @@ fn find(
     };
     let points = [points, on_peaks].concat();
     // Points that fill the space are in the journal by now: only those on peaks are solved here.
-    let look = |point| Ok(nominal.look(SearchStage::Sample, &point, false)?.0);
-    let mut history: Vec<Candidate> = points.into_par_iter().map(look).collect::<Result<_, _>>()?;
+    let evaluate = |point| Ok(nominal.evaluate(SearchStage::Sample, &point, false)?.0);
+    let mut history: Vec<Candidate> =
+        points.into_par_iter().map(evaluate).collect::<Result<_, _>>()?;
     let answer = if goal.is_about_samples() {
         let searches = Searches { nominal: &nominal, sampled: &search, finer: &finer };
         searches.answer(goal, &mut history)?
@@ -141,7 +142,7 @@ fn find(
             regions.push(region);
         }
     }
-    let (starts, evaluations) = (meter.starts(), evaluations.count());
+    let (starts, evaluations) = (progress.starts(), evaluations.count());
     Ok(Found { history, answer, left_out, starts, regions: regions.len(), evaluations, rescaled })
 }
 
@@ -177,12 +178,12 @@ fn expected(goal: &DesignGoal) -> Vec<(SearchPart, f64)> {
 fn sample_rows(
     evaluations: &Evaluations<'_>,
     points: &[SpacePoint],
-    meter: &SearchMeter,
+    progress: &SearchProgress,
 ) -> Result<Vec<DesignRow>, Halt> {
-    meter.begin(SearchPart::Sample, points.len());
+    progress.begin(SearchPart::Sample, points.len());
     let row = |point: &SpacePoint| {
         let result = evaluations.solve(point, false)?;
-        meter.step();
+        progress.step();
         Ok(evaluations.row(0, point, &result))
     };
     points.par_iter().map(row).collect()

@@ -8,15 +8,15 @@ use results::{
 
 use crate::answer::Answer;
 use crate::best::BestDesign;
+use crate::binding_text::BindingText;
 use crate::candidate::Candidate;
 use crate::column::NumberColumn;
 use crate::goal::DesignGoal;
 use crate::judge::Judge;
-use crate::margin::has_folded;
+use crate::judgement::Judgement;
+use crate::requirement_bounds::has_folded;
 use crate::search::Found;
 use crate::statistic::Statistic;
-use crate::words::Words;
-use crate::worth::Judgement;
 
 /// The table of the best design.
 pub const OPTIMUM: &str = "optimum.csv";
@@ -107,7 +107,7 @@ fn fitness_column(goal: &DesignGoal) -> Option<(String, &'static str, &'static s
 pub fn history_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
     let plain = |name: &str, meaning| (name.to_owned(), "-", meaning);
     let first = [
-        plain("evaluation", "place among the designs that were looked at"),
+        plain("evaluation", "place among the designs that were evaluated at"),
         plain(
             "stage",
             "sample: points that fill the space; gradient: a step along derivatives; ridge: a step along those on both sides of a kink; polish: a step without; tolerance: the first look at the samples of a design",
@@ -243,7 +243,7 @@ fn refuse_edited(folder: &RunFolder, tables: &[FoundTable]) -> Result<(), Journa
 /// The rows of `optimum.csv` or `front.csv`.
 fn best_rows(goal: &DesignGoal, designs: &[BestDesign]) -> Vec<Cells> {
     let sweep = goal.space.sweep();
-    let (words, known) = (Words::new(goal), design_columns(sweep));
+    let (words, known) = (BindingText::new(goal), design_columns(sweep));
     let row = |(index, best): (usize, &BestDesign)| {
         // By its place in the front: `--design 3` chooses a design of the folder by this number.
         let row = DesignRow { number: sweep.grid().number(index as u64), ..best.row.clone() };

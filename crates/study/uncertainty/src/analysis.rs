@@ -9,12 +9,12 @@ use run::{Evaluator, JournalHeader, Program};
 use skin::Imperfection;
 use sweep::{Case, Measure, Subset, Sweep};
 
+use crate::analysis_error::AnalysisError;
 use crate::draw;
 use crate::linear::{Gradients, LinearSpread};
-use crate::measured::MeasuredColumns;
-use crate::no_analysis::NoAnalysis;
+use crate::measured_columns::MeasuredColumns;
 use crate::sample_store::{SampleStore, SolvedSample};
-use crate::sampled::Sampled;
+use crate::sampled_spread::SampledSpread;
 use crate::sampler::Sampler;
 use crate::yields::{RequirementYield, yields};
 
@@ -71,7 +71,7 @@ pub struct MeasureTolerance {
     /// The spread that the derivatives predict.
     pub linear: Option<LinearSpread>,
     /// The spread over solved samples.
-    pub sampled: Option<Sampled>,
+    pub sampled: Option<SampledSpread>,
     /// Samples without a value.
     pub failed: usize,
 }
@@ -86,7 +86,7 @@ impl MeasureTolerance {
 
     /// Whether the prediction is off by more than the statistical error of the samples explains, two standard errors.
     pub fn is_off(&self) -> bool {
-        let error = |sampled: &Sampled| 2.0 * sampled.spread_error / sampled.spread;
+        let error = |sampled: &SampledSpread| 2.0 * sampled.spread_error / sampled.spread;
         let error = self.sampled.as_ref().map(error);
         self.discrepancy().zip(error).is_some_and(|(off, error)| off.abs() > error)
     }
@@ -112,7 +112,11 @@ impl<'a> Analysis<'a> {
     ///
     /// # Errors
     /// If the work is to stop, a requirement is about no column, or the disk is at fault.
-    pub fn design(&self, index: u64, store: &SampleStore) -> Result<DesignTolerance, NoAnalysis> {
+    pub fn design(
+        &self,
+        index: u64,
+        store: &SampleStore,
+    ) -> Result<DesignTolerance, AnalysisError> {
         let nominal = self.nominal(index, store)?;
         let columns = self.columns(&nominal.measured);
         let samples = self.samples(&nominal, &columns, store)?;
@@ -122,7 +126,7 @@ impl<'a> Analysis<'a> {
     }
 
     /// Solves a design without deviations, and looks for the columns that are required.
-    fn nominal(&self, index: u64, store: &SampleStore) -> Result<Nominal, NoAnalysis> {
+    fn nominal(&self, index: u64, store: &SampleStore) -> Result<Nominal, AnalysisError> {
         let (number, case) = (self.sweep.grid().number(index), self.sweep.grid().case(index));
         // Imperfect samples of its own would be solved for nothing.
         let straight = Case { imperfection: Imperfection::default(), ..case };
@@ -148,7 +152,7 @@ impl<'a> Analysis<'a> {
         nominal: &Nominal,
         columns: &[String],
         store: &SampleStore,
-    ) -> Result<Vec<SolvedSample>, NoAnalysis> {
+    ) -> Result<Vec<SolvedSample>, AnalysisError> {
         let (design, case) = (nominal.row.number, &nominal.case);
         let solve = |sample: u64| match self.sampler.solve(design, case, sample) {
             Some(skin) => [skin.deviations, nominal.measured.values(&skin.row)].concat(),
@@ -195,7 +199,7 @@ impl<'a> Analysis<'a> {
                 unit: column.unit,
                 value,
                 linear: is_predicted.then(|| gradients.spread(column)).flatten(),
-                sampled: Sampled::of(&known),
+                sampled: SampledSpread::of(&known),
                 failed: values.len() - known.len(),
             });
         }

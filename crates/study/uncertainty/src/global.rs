@@ -7,11 +7,11 @@ use run::{Evaluator, Program};
 use sweep::{Case, Sweep};
 
 use crate::analysis::header;
+use crate::analysis_error::AnalysisError;
 use crate::draw;
-use crate::measured::MeasuredColumns;
-use crate::no_analysis::NoAnalysis;
+use crate::measured_columns::MeasuredColumns;
 use crate::sample_store::{SampleStore, SolvedSample};
-use crate::sampled::Sampled;
+use crate::sampled_spread::SampledSpread;
 use crate::sobol::{Evaluation, SobolIndices, sobol_indices};
 
 /// The label under which the samples are kept.
@@ -58,7 +58,7 @@ impl GlobalAnalysis<'_> {
     ///
     /// # Errors
     /// If the work is to stop, or the disk does not take the samples.
-    pub fn solve(&self, store: &SampleStore) -> Result<GlobalSensitivity, NoAnalysis> {
+    pub fn solve(&self, store: &SampleStore) -> Result<GlobalSensitivity, AnalysisError> {
         let evaluator = Evaluator::new(self.sweep.measures());
         let (number, case) = (self.sweep.grid().number(0), self.sweep.grid().case(0));
         // Tells which columns hold text; its values are not used.
@@ -125,7 +125,7 @@ fn indices(
     let whole: Vec<Evaluation> = samples.iter().filter_map(evaluation).collect();
     let indices = sobol_indices(&whole)?;
     let both: Vec<f64> = whole.iter().flat_map(|e| [e.first, e.second]).collect();
-    let spread = Sampled::of(&both)?.spread;
+    let spread = SampledSpread::of(&both)?.spread;
     let (solved, failed) = (whole.len(), samples.len() - whole.len());
     Some(MeasureIndices { name, spread, indices, samples: solved, failed })
 }

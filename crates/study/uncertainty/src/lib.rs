@@ -11,14 +11,14 @@
 //!
 //! ```text
 //! deviations ─► derivatives ─► LinearSpread ─┐
-//!          └──► samples ─────► Sampled ──────┴─► MeasureTolerance ─► tolerance.csv
+//!          └──► samples ─────► SampledSpread ──────┴─► MeasureTolerance ─► tolerance.csv
 //!                       └────► Proportion ─────► RequirementYield ─► yield.csv
 //! ```
 //!
 //! | Type | Role |
 //! |---|---|
 //! | [`Analysis`], [`DesignTolerance`] | the tolerances of a design |
-//! | [`MeasureTolerance`], [`LinearSpread`], [`Sampled`] | the spread of a measure, predicted and solved |
+//! | [`MeasureTolerance`], [`LinearSpread`], [`SampledSpread`] | the spread of a measure, predicted and solved |
 //! | [`SourceShare`], [`DeviationLevel`] | the part of a source in it; whether all scales of a batch share the deviation |
 //! | [`RequirementYield`], [`Proportion`] | the share of samples that meet a requirement, with its interval |
 //! | [`SampledQuantile`] | a quantile over samples, with its interval |
@@ -27,7 +27,7 @@
 //! | [`GlobalAnalysis`], [`GlobalSensitivity`], [`MeasureIndices`] | global sensitivity: the share of every variable in the variance |
 //! | [`sobol_indices`], [`Evaluation`], [`SobolIndices`], [`IndexEstimate`] | the estimators, for any function |
 //! | [`TOLERANCE_COLUMNS`], [`SOURCE_COLUMNS`], [`YIELD_COLUMNS`], [`INDEX_COLUMNS`] | the tables |
-//! | [`NoAnalysis`] | why an analysis fails |
+//! | [`AnalysisError`] | why an analysis fails |
 //!
 //! ```
 //! use std::sync::atomic::AtomicBool;
@@ -52,30 +52,30 @@
 //! ```
 
 mod analysis;
+mod analysis_error;
 mod draw;
 mod global;
 mod linear;
-mod measured;
+mod measured_columns;
 mod moments;
-mod no_analysis;
 mod proportion;
 mod quantile;
 mod sample_store;
-mod sampled;
+mod sampled_spread;
 mod sampler;
 mod sobol;
 mod tables;
 mod yields;
 
 pub use analysis::{Analysis, DesignTolerance, MeasureTolerance};
+pub use analysis_error::AnalysisError;
 pub use global::{GlobalAnalysis, GlobalSensitivity, MeasureIndices};
 pub use linear::{DeviationLevel, LinearSpread, SourceShare};
-pub use measured::NoSuchColumn;
-pub use no_analysis::NoAnalysis;
+pub use measured_columns::NoSuchColumn;
 pub use proportion::Proportion;
 pub use quantile::SampledQuantile;
 pub use sample_store::{SampleStore, SolvedSample};
-pub use sampled::Sampled;
+pub use sampled_spread::SampledSpread;
 pub use sampler::{Sample, Sampler};
 pub use sobol::{Evaluation, IndexEstimate, SobolIndices, sobol_indices};
 pub use tables::{INDEX_COLUMNS, SOURCE_COLUMNS, TOLERANCE_COLUMNS, YIELD_COLUMNS};

@@ -13,7 +13,7 @@ use results::{Cell, Column, CsvFormat, RunFolder, WrittenTable, write_rows};
 use run::{JournalError, JournalHeader, Start, WorkMeter};
 use serde::{Deserialize, Serialize};
 
-use crate::no_analysis::NoAnalysis;
+use crate::analysis_error::AnalysisError;
 
 /// Digits of a digest that tell the journals of one label apart: two of ten thousand definitions share them once in a hundred
 /// times, and are then refused.
@@ -89,7 +89,7 @@ impl SampleStore {
         count: usize,
         stop: &AtomicBool,
         solve: impl Fn(u64) -> Vec<Option<f64>> + Sync,
-    ) -> Result<Vec<SolvedSample>, NoAnalysis> {
+    ) -> Result<Vec<SolvedSample>, AnalysisError> {
         if count == 0 {
             return Ok(Vec::new());
         }
@@ -131,7 +131,7 @@ impl SampleStore {
         let samples = kept.map(|(&number, values)| SolvedSample { number, values: values.clone() });
         let samples: Vec<SolvedSample> = samples.collect();
         if samples.len() < count {
-            return Err(NoAnalysis::Stopped { done: samples.len(), of: count });
+            return Err(AnalysisError::Stopped { done: samples.len(), of: count });
         }
         // Each time, from the journal: a table that somebody has changed does not stay.
         write_rows(&self.folder, &table, CsvFormat::Plain, &columns, &samples)?;

@@ -7,7 +7,7 @@ use crate::analysis::{DesignTolerance, MeasureTolerance};
 use crate::global::MeasureIndices;
 use crate::linear::{DeviationLevel, LinearSpread, SourceShare};
 use crate::proportion::Proportion;
-use crate::sampled::Sampled;
+use crate::sampled_spread::SampledSpread;
 use crate::sobol::SobolIndices;
 use crate::yields::RequirementYield;
 
@@ -126,6 +126,6 @@ pub static INDEX_COLUMNS: &[Column<(MeasureIndices, &'static str, SobolIndices)>
     "failed", "-", |(m, ..)| m.failed, "samples that lack a value, which are left out";
 };
 
-fn sampled(measure: &MeasureTolerance, value: fn(&Sampled) -> f64) -> Option<f64> {
+fn sampled(measure: &MeasureTolerance, value: fn(&SampledSpread) -> f64) -> Option<f64> {
     measure.sampled.as_ref().map(value)
 }

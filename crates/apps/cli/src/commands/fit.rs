@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use ::fit::{Estimate, FitDefinition, Fitted, FittedCurve, NoFit};
+use ::fit::{Estimate, FitDefinition, FitError, Fitted, FittedCurve};
 use anyhow::Context as _;
 use clap::Args;
 use report::{FitPanel, fit_figure};
@@ -82,7 +82,7 @@ pub fn fit(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     // Removes the bar before anything is printed.
     drop(display);
     let fitted = match fitted {
-        Err(stopped @ NoFit::Stopped) => {
+        Err(stopped @ FitError::Stopped) => {
             note(&format!("{path}: {stopped}"));
             return Ok(interrupt.exit_code().unwrap_or(INCOMPLETE));
         }

@@ -12,7 +12,7 @@ use std::time::Instant;
 
 use ::report::Figure;
 use clap::Args;
-use optimisation::{Answer, DesignGoal, Found, SearchMeter, SearchOptions, write_found};
+use optimisation::{Answer, DesignGoal, Found, SearchOptions, SearchProgress, write_found};
 use ranking::TILTING_ONLY;
 use results::RunFolder;
 
@@ -121,13 +121,13 @@ pub fn optimise(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<
 fn options<'i>(
     arguments: &Arguments,
     interrupt: &'i Interrupt,
-    display: &'i Display<SearchMeter>,
+    display: &'i Display<SearchProgress>,
 ) -> SearchOptions<'i> {
     SearchOptions {
         threads: arguments.solving.threads.count(),
         start: arguments.earlier.start(),
         stop: interrupt.stop(),
-        meter: display.watched(),
+        progress: display.watched(),
     }
 }
 

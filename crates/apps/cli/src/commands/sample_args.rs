@@ -6,7 +6,7 @@ use anyhow::Context as _;
 use clap::Args;
 use results::{Claim, Maker, RunFolder};
 use sweep::Sweep;
-use uncertainty::{NoAnalysis, SampleStore};
+use uncertainty::{AnalysisError, SampleStore};
 
 use super::options::SolveOptions;
 use super::source::{Definition, folder_within};
@@ -55,7 +55,7 @@ impl<'a> SampleFolder<'a> {
     pub fn solved<T: Send>(
         &self,
         (samples, interrupt): (u64, &Interrupt),
-        solve: impl FnOnce(&SampleStore) -> Result<T, NoAnalysis> + Send,
+        solve: impl FnOnce(&SampleStore) -> Result<T, AnalysisError> + Send,
     ) -> anyhow::Result<Option<(T, Claim<'_>)>> {
         let store = SampleStore::new(&self.folder.file("samples"));
         interrupt.ask_first();
@@ -67,7 +67,7 @@ impl<'a> SampleFolder<'a> {
         match solved {
             // Claimed after the samples, because a claim removes the earlier tables.
             Ok(solved) => Ok(Some((solved, Claim::take(&self.folder, self.maker)?))),
-            Err(stopped @ NoAnalysis::Stopped { .. }) => {
+            Err(stopped @ AnalysisError::Stopped { .. }) => {
                 note(&format!(
                     "{stopped}, which are kept; to continue, run the same command again"
                 ));

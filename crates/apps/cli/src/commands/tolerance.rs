@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use results::{CsvFormat, Maker, RunFolder, write_rows};
 use sweep::Sweep;
 use uncertainty::{
-    Analysis, DesignTolerance, NoAnalysis, SOURCE_COLUMNS, SampleStore, TOLERANCE_COLUMNS,
+    Analysis, AnalysisError, DesignTolerance, SOURCE_COLUMNS, SampleStore, TOLERANCE_COLUMNS,
     YIELD_COLUMNS,
 };
 
@@ -142,7 +142,7 @@ fn analysed(
     analysis: &Analysis<'_>,
     designs: &[u64],
     store: &SampleStore,
-) -> Result<Vec<DesignTolerance>, NoAnalysis> {
+) -> Result<Vec<DesignTolerance>, AnalysisError> {
     let analyse = |&index: &u64| {
         let mut design = analysis.design(index, store)?;
         // Only the figures of a single design need the samples, which would fill the memory.

@@ -9,17 +9,17 @@ use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha12Rng;
 use rayon::prelude::*;
 
-use crate::made::{Made, Place};
+use crate::synthetic_curves::{Place, SyntheticCurve};
 
 /// A skin, the same with what is to be found again, and the curves that it has, each with what its table says besides.
 struct Trial {
     skin: String,
     sought: String,
-    curves: Vec<(Made<'static>, &'static str)>,
+    curves: Vec<(SyntheticCurve<'static>, &'static str)>,
     truth: Vec<f64>,
 }
 
-const PUNCTURE: Made<'_> = Made {
+const PUNCTURE: SyntheticCurve<'_> = SyntheticCurve {
     file: "a.csv",
     bending: false,
     to: 0.5,
@@ -61,8 +61,10 @@ fn both_moduli_and_an_offset(random: &mut ChaCha12Rng) -> Trial {
     let known = format!(
         "material.substrate_modulus_MPa = {modulus}\nmaterial.membrane_modulus_MPa = {membrane}\n"
     );
-    let second = Made { file: "b.csv", to: 0.6, offsets: [offset, 0.0], seed: 2, ..PUNCTURE };
-    let strip = Made { file: "c.csv", bending: true, to: 0.03, points: 25, seed: 3, ..PUNCTURE };
+    let second =
+        SyntheticCurve { file: "b.csv", to: 0.6, offsets: [offset, 0.0], seed: 2, ..PUNCTURE };
+    let strip =
+        SyntheticCurve { file: "c.csv", bending: true, to: 0.03, points: 25, seed: 3, ..PUNCTURE };
     Trial {
         sought: format!(
             "{}[variables]\nsubstrate_modulus_MPa = {{ from = 0.05, to = 2 }}\nmembrane_modulus_MPa = {{ from = 0.5, to = 20 }}\n",
@@ -101,7 +103,7 @@ fn gap_and_friction(random: &mut ChaCha12Rng) -> Trial {
     let offset = random.random_range(-0.02..0.02);
     let shared = "name = 'free'\ndesigns.length_over_t = 1\ndesigns.slant_deg = 60\nmaterial.thickness_mm = 1\n\
                   material.substrate_modulus_MPa = 0.3\n";
-    let curve = Made { to: 0.4, offsets: [0.0, offset], ..PUNCTURE };
+    let curve = SyntheticCurve { to: 0.4, offsets: [0.0, offset], ..PUNCTURE };
     Trial {
         sought: format!(
             "{shared}[variables]\ngap_over_t = {{ from = 0.08, to = 0.5 }}\nfriction = {{ from = 0.01, to = 0.8 }}\n"
@@ -132,7 +134,7 @@ impl Trial {
             let kind = if curve.bending { "bending" } else { "puncture" };
             let file = curve.file;
             let seed = 10 * number + curve.seed;
-            place.make(&specimen(&self.skin, keys), &Made { noise, seed, ..curve });
+            place.make(&specimen(&self.skin, keys), &SyntheticCurve { noise, seed, ..curve });
             write!(text, "[[curve]]\nfile = '{file}'\nkind = '{kind}'\n{keys}").expect("a text");
         }
         place.fit(&text).expect("an answer")
@@ -245,7 +247,7 @@ fn what_cannot_be_told_apart_is_named() {
     let skin = format!(
         "{shared}material.membrane_modulus_MPa = 4\nflexure.membrane_thickness_over_t = 0.1\n"
     );
-    let strip = Made { bending: true, to: 0.005, points: 30, noise: 0.01, ..PUNCTURE };
+    let strip = SyntheticCurve { bending: true, to: 0.005, points: 30, noise: 0.01, ..PUNCTURE };
     place.make(&skin, &strip);
     let sought = format!(
         "{shared}[variables]\nmembrane_modulus_MPa = {{ from = 1, to = 10 }}\nmembrane_thickness_over_t = {{ from = 0.05, to = 0.3 }}\n\
@@ -282,7 +284,7 @@ fn what_no_curve_follows_is_named() {
 #[test]
 fn tissue_is_found_behind_two_specimens() {
     let shared = skin(0.3, 0.6, 30.0) + "puncture.needle_friction = 0.3\n";
-    let second = Made { file: "b.csv", to: 0.4, points: 10, seed: 2, ..PUNCTURE };
+    let second = SyntheticCurve { file: "b.csv", to: 0.4, points: 10, seed: 2, ..PUNCTURE };
     let trial = Trial {
         sought: format!(
             "{shared}[variables]\nsubstrate_modulus_MPa = {{ from = 0.2, to = 1 }}\ntissue_thickness_over_t = {{ from = 1, to = 4 }}\n"
@@ -290,7 +292,10 @@ fn tissue_is_found_behind_two_specimens() {
         skin: format!(
             "{shared}material.substrate_modulus_MPa = 0.5\nsubstrate.tissue_thickness_over_t = 2\n"
         ),
-        curves: vec![(Made { points: 10, ..PUNCTURE }, ""), (second, "gap_over_t = 0.8\n")],
+        curves: vec![
+            (SyntheticCurve { points: 10, ..PUNCTURE }, ""),
+            (second, "gap_over_t = 0.8\n"),
+        ],
         truth: vec![0.5, 2.0],
     };
     let fitted = trial.fitted(0, 0.0);
@@ -303,7 +308,7 @@ fn tissue_is_found_behind_two_specimens() {
 fn where_something_sticks_differences_are_taken() {
     let shared = "name = 'rubs'\ndesigns.gap_over_t = 0.2\ndesigns.length_over_t = 1\ndesigns.slant_deg = 75\n\
                   material.thickness_mm = 2\nmaterial.membrane_modulus_MPa = 4\n";
-    let strip = Made { bending: true, to: 0.03, ..PUNCTURE };
+    let strip = SyntheticCurve { bending: true, to: 0.03, ..PUNCTURE };
     let trial = Trial {
         sought: format!("{shared}[variables]\nfriction = {{ from = 0.02, to = 0.9 }}\n"),
         skin: format!("{shared}contact.friction = 0.3\n"),

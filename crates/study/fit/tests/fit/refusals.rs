@@ -2,10 +2,10 @@
 
 use std::sync::atomic::AtomicBool;
 
-use fit::{FitDefinition, NoFit};
+use fit::{FitDefinition, FitError};
 use run::WorkMeter;
 
-use crate::made::Place;
+use crate::synthetic_curves::Place;
 
 const SKIN: &str =
     "name = 'x'\ndesigns.gap_over_t = 0.2\ndesigns.length_over_t = 1\ndesigns.slant_deg = 0\n";
@@ -43,7 +43,7 @@ fn a_fit_that_is_told_to_stop_has_no_answer() {
     place.write("test.toml", &format!("{SKIN}{sought}"));
     let definition = FitDefinition::read(&place.path("test.toml"), &[]).expect("a definition");
     let stopped = definition.fit(&AtomicBool::new(true), &WorkMeter::default());
-    assert!(matches!(stopped, Err(NoFit::Stopped)), "{stopped:?}");
+    assert!(matches!(stopped, Err(FitError::Stopped)), "{stopped:?}");
 }
 
 #[test]

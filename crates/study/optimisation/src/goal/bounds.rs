@@ -9,8 +9,8 @@ use sweep::number;
 
 use super::refusal::not_accepted;
 use super::section::GoalSection;
+use crate::coverage_piece::{COMPLIANCES, open_share};
 use crate::space::{DesignSpace, SpacePoint};
-use crate::tooth::{COMPLIANCES, open_share};
 
 /// Intervals whose corners are all looked at, at most.
 const CORNERED: usize = 12;

@@ -7,7 +7,7 @@ use sweep::Measure;
 use super::{Judge, Source};
 use crate::column::NumberColumn;
 use crate::goal::DesignGoal;
-use crate::margin::{Bound, Bounds, soundness};
+use crate::requirement_bounds::{Bound, Bounds, soundness};
 use crate::sample::{SampleJudge, UsedStatistic};
 use crate::statistic::Statistic;
 

@@ -20,7 +20,7 @@ mod tests;
 
 use std::iter;
 
-use crate::fill::Sequence;
+use crate::space_filling::Sequence;
 use model::{Cut, Model};
 
 /// The part of the gain that is told which makes a step be taken.
@@ -90,7 +90,7 @@ pub(super) fn descend<P: PiecewiseSmooth>(
         sequence: Sequence::new(start.len(), 0),
         drawn: 0,
     };
-    if bundle.look(start.to_vec())?.is_none() {
+    if bundle.evaluate(start.to_vec())?.is_none() {
         return Ok(());
     }
     while bundle.left > 0 && bundle.radius >= options.smallest {
@@ -121,7 +121,7 @@ struct Bundle<'p, P> {
 
 impl<P: PiecewiseSmooth> Bundle<'_, P> {
     /// Looks at a place, and returns its index if it has a cost.
-    fn look(&mut self, place: Vec<f64>) -> Result<Option<usize>, P::Error> {
+    fn evaluate(&mut self, place: Vec<f64>) -> Result<Option<usize>, P::Error> {
         self.left = self.left.saturating_sub(1);
         let pieces = self.problem.pieces(&place)?;
         Ok(pieces.map(|pieces| {
@@ -155,7 +155,7 @@ impl<P: PiecewiseSmooth> Bundle<'_, P> {
         // A place beyond the cube moves to its face and is not left out, so that the ball gets as many as it lacks.
         let place: Vec<f64> = shifted.map(|x| x.clamp(0.0, 1.0)).collect();
         let merit = self.merit(self.centre);
-        if let Some(index) = self.look(place)?
+        if let Some(index) = self.evaluate(place)?
             && better(self.merit(index), merit) > 0.0
         {
             self.centre = index;
@@ -168,7 +168,7 @@ impl<P: PiecewiseSmooth> Bundle<'_, P> {
         // A step that ends well within the ball has its end from the tangents: a larger ball would not lengthen it.
         let far = distance(&to, &self.seen[self.centre].place) > 0.9 * self.radius;
         // Where there is no cost there is no tangent that would keep the next step from going there: the ball has to.
-        let Some(index) = self.look(to)? else {
+        let Some(index) = self.evaluate(to)? else {
             self.shrink(0.5);
             return Ok(());
         };

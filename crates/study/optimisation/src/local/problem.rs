@@ -10,12 +10,12 @@ use sweep::{Measure, Parameter};
 
 use super::{LocalSearch, floor_size};
 use crate::candidate::{Merit, SearchStage};
+use crate::contact_margin::{contact_margin, contact_margin_slopes};
+use crate::coverage_piece::{CoveragePiece, continue_compliance};
+use crate::evaluated_row::EvaluatedRow;
 use crate::evaluations::Halt;
-use crate::looked::LookedRow;
-use crate::room::{bending_room, bending_room_slopes};
+use crate::judgement::Judgement;
 use crate::slopes::Slopes;
-use crate::tooth::{Tooth, continue_compliance};
-use crate::worth::Judgement;
 
 /// A step that hardly moves, a share of the intervals.
 const STILL: f64 = 1e-7;
@@ -63,7 +63,7 @@ pub(super) struct LocalProblem<'a> {
     /// Whether the search stays where bending brings no scales into contact: compliances jump where it does, and no derivative tells.
     stays_open: bool,
     /// The piece of coverage in which the search stays.
-    tooth: Option<Tooth>,
+    piece: Option<CoveragePiece>,
     /// Whether the shares end with one more variable, by which requirements and floors may be missed, and which is the cost (O9).
     pub is_elastic: bool,
     /// Where it looked last, and how often in a row it has hardly moved.
@@ -73,9 +73,9 @@ pub(super) struct LocalProblem<'a> {
 }
 
 /// A design that can be judged.
-pub(super) struct Looked {
+pub(super) struct EvaluatedPoint {
     pub worth: Worth,
-    pub row: LookedRow,
+    pub row: EvaluatedRow,
     /// Whether it meets everything.
     pub met: bool,
 }
@@ -85,7 +85,7 @@ impl<'a> LocalProblem<'a> {
     pub fn new(
         walk: &'a LocalSearch<'a>,
         stage: SearchStage,
-        tooth: Option<Tooth>,
+        piece: Option<CoveragePiece>,
         missed: Option<f64>,
     ) -> Option<Self> {
         let best = walk.best.borrow();
@@ -98,7 +98,7 @@ impl<'a> LocalProblem<'a> {
             // Chosen at the start for the whole search, or costs of two places had no order.
             scale: if value > 0.0 { CostScale::Logarithm } else { CostScale::Linear(value.abs()) },
             stays_open: walk.search.judge.is_about(Measure::Flexure) && is_open(&best.result),
-            tooth,
+            piece,
             is_elastic: missed.is_some(),
             still: RefCell::default(),
             lower: vec![0.0; count + usize::from(missed.is_some())],
@@ -108,21 +108,21 @@ impl<'a> LocalProblem<'a> {
     }
 
     /// The design at some shares, with its derivatives.
-    pub fn look(&self, shares: &[f64]) -> Result<Option<Looked>, Halt> {
+    pub fn evaluate(&self, shares: &[f64]) -> Result<Option<EvaluatedPoint>, Halt> {
         let shares = &shares[..self.walk.search.space.intervals().len()];
         let (mut candidate, mut row) = self.walk.at(self.stage, shares, true)?;
         // Of the design as it is: continued beyond a border it may keep limits that it breaks.
         let met = matches!(self.walk.search.merit(&candidate, self.walk.target), Merit::Met(_));
         self.end_if_stalled(shares)?;
-        if let Some(tooth) = self.tooth {
-            tooth.continue_coverage(&mut row.nominal);
+        if let Some(piece) = self.piece {
+            piece.continue_coverage(&mut row.nominal);
             if self.stays_open {
                 continue_compliance(&mut row.nominal);
             }
             candidate.verdict = self.walk.search.judge.verdict(&row.nominal);
         }
         let Judgement::Judged(worth) = candidate.verdict else { return Ok(None) };
-        Ok(Some(Looked { worth, row, met }))
+        Ok(Some(EvaluatedPoint { worth, row, met }))
     }
 
     /// Ends a climb that does not move any more: at a kink, steps along derivatives become ever smaller.
@@ -165,17 +165,17 @@ impl<'a> LocalProblem<'a> {
 
     /// The number of limits: requirements, floors, borders of the piece, and room in bending.
     pub fn limit_count(&self) -> usize {
-        let borders = self.tooth.map_or(0, |_| Tooth::BORDERS);
+        let borders = self.piece.map_or(0, |_| CoveragePiece::BORDERS);
         self.asked_count() + borders + usize::from(self.stays_open)
     }
 
     /// How far a design is beyond each limit; not above 0 where it keeps to it.
-    pub fn limits(&self, looked: &Looked) -> Vec<f64> {
-        let Looked { worth, row, .. } = looked;
+    pub fn limits(&self, evaluated: &EvaluatedPoint) -> Vec<f64> {
+        let EvaluatedPoint { worth, row, .. } = evaluated;
         // In the order in which `limit_gradient` numbers them.
-        let room = self.stays_open.then(|| CLEAR - bending_room(&row.nominal.case));
+        let contact = self.stays_open.then(|| CLEAR - contact_margin(&row.nominal.case));
         let borders = self.borders();
-        let borders = borders.filter_map(|(tooth, border)| tooth.beyond(border, &row.nominal.case));
+        let borders = borders.filter_map(|(piece, border)| piece.beyond(border, &row.nominal.case));
         let turned = |k: usize| self.walk.search.judge.sign(k) * worth.objectives[k];
         let floors = self.walk.target.floors.iter();
         let floors = floors.map(|&(k, floor)| (floor - turned(k)) / floor_size(floor));
@@ -185,20 +185,28 @@ impl<'a> LocalProblem<'a> {
             .map(|margin| -margin)
             .chain(floors)
             .chain(borders)
-            .chain(room)
+            .chain(contact)
             .collect()
     }
 
     /// The borders of the piece.
-    fn borders(&self) -> impl Iterator<Item = (Tooth, usize)> {
-        self.tooth.into_iter().flat_map(|tooth| (0..Tooth::BORDERS).map(move |k| (tooth, k)))
+    fn borders(&self) -> impl Iterator<Item = (CoveragePiece, usize)> {
+        self.piece
+            .into_iter()
+            .flat_map(|piece| (0..CoveragePiece::BORDERS).map(move |k| (piece, k)))
     }
 
     /// The gradient of the cost, made of the slopes that are picked.
-    pub fn cost_gradient(&self, shares: &[f64], looked: &Looked, pick: Pick) -> Option<Vec<f64>> {
+    pub fn cost_gradient(
+        &self,
+        shares: &[f64],
+        evaluated: &EvaluatedPoint,
+        pick: Pick,
+    ) -> Option<Vec<f64>> {
         let (judge, objective) = (self.walk.search.judge, self.walk.target.objective);
-        let rate = self.scale.cost(looked.worth.objectives[objective]).1;
-        let slopes = |p: &Parameter| judge.objective_slopes(objective, &looked.row, p).scaled(rate);
+        let rate = self.scale.cost(evaluated.worth.objectives[objective]).1;
+        let slopes =
+            |p: &Parameter| judge.objective_slopes(objective, &evaluated.row, p).scaled(rate);
         self.falling(shares, slopes, pick)
     }
 
@@ -207,21 +215,21 @@ impl<'a> LocalProblem<'a> {
         &self,
         k: usize,
         shares: &[f64],
-        looked: &Looked,
+        evaluated: &EvaluatedPoint,
         pick: Pick,
     ) -> Option<Vec<f64>> {
-        let (judge, row) = (self.walk.search.judge, &looked.row);
+        let (judge, row) = (self.walk.search.judge, &evaluated.row);
         let required = judge.requirements().count();
         if k < required {
             return self.falling(shares, |p| judge.margin_slopes(k, row, p), pick);
         }
         let floors = &self.walk.target.floors;
-        if let Some((tooth, border)) =
+        if let Some((piece, border)) =
             (k - required).checked_sub(floors.len()).and_then(|k| self.borders().nth(k))
         {
             return self.falling(
                 shares,
-                |p| tooth.border_slopes(border, &row.nominal.case, p),
+                |p| piece.border_slopes(border, &row.nominal.case, p),
                 pick,
             );
         }
@@ -231,7 +239,7 @@ impl<'a> LocalProblem<'a> {
                 let size = floor_size(floor).recip();
                 self.falling(shares, |p| slopes(p).scaled(size), pick)
             }
-            None => self.falling(shares, |p| bending_room_slopes(&row.nominal.case, p), pick),
+            None => self.falling(shares, |p| contact_margin_slopes(&row.nominal.case, p), pick),
         }
     }
 

@@ -3,9 +3,9 @@
 use results::DesignRow;
 use sweep::Parameter;
 
+use crate::evaluated_row::{StatisticSlopes, StatisticUse};
 use crate::evaluations::{Evaluations, Halt};
 use crate::judge::Judge;
-use crate::looked::{StatisticSlopes, Use};
 use crate::sample::{OrderStatistic, SampleJudge, Samples};
 use crate::slopes::Slopes;
 use crate::space::{DesignSpace, SpacePoint};
@@ -25,8 +25,8 @@ impl SampledPoint<'_> {
         let mut slopes = Vec::new();
         for (of, q) in judge.uses() {
             let requirement = match of {
-                Use::Objective(_) => None,
-                Use::Requirement(k) => judge.requirements().nth(k),
+                StatisticUse::Objective(_) => None,
+                StatisticUse::Requirement(k) => judge.requirements().nth(k),
             };
             let mut rows = Vec::new();
             // A quantile is a value of one sample, or lies between two: only these are solved with derivatives, not

@@ -4,9 +4,9 @@ use ranking::Requirement;
 use serde::Serialize;
 use uncertainty::{Proportion, SampledQuantile};
 
+use crate::evaluated_row::StatisticUse;
 use crate::evaluations::Halt;
 use crate::local::Search;
-use crate::looked::Use;
 use crate::sample::{SampleJudge, Samples};
 use crate::space::SpacePoint;
 use crate::statistic::Statistic;
@@ -69,7 +69,7 @@ pub(super) fn confirm(
         (0..judge.statistics.len()).map(|q| estimate(judge, q, &seen, &fresh)).collect();
     let required: Vec<&Requirement> = search.judge.requirements().collect();
     let broken = search.judge.uses().filter_map(|(of, q)| {
-        let Use::Requirement(k) = of else { return None };
+        let StatisticUse::Requirement(k) = of else { return None };
         let is_kept = all[q].value.is_some_and(|value| required[k].is_met(value));
         (!is_kept).then(|| Requirement { column: all[q].name.clone(), ..required[k].clone() })
     });

@@ -12,7 +12,7 @@ use crate::evaluations::Halt;
 use crate::goal::DesignGoal;
 use crate::improvement::Plan;
 use crate::local::{Effort, Search};
-use crate::meter::SearchPart;
+use crate::progress::SearchPart;
 use crate::space::SpacePoint;
 
 /// Points of a front of nominal designs, at most: a front of sampled ones begins there.
@@ -50,14 +50,15 @@ impl Searches<'_> {
         if !is_admitted {
             return Ok(first);
         }
-        sampled.meter.begin(SearchPart::Samples, seeds.len());
-        let look = |point: SpacePoint| {
-            let looked = sampled.look(SearchStage::Tolerance, &point, false)?.0;
-            sampled.meter.step();
-            Ok(looked)
+        sampled.progress.begin(SearchPart::Samples, seeds.len());
+        let evaluate = |point: SpacePoint| {
+            let evaluated = sampled.evaluate(SearchStage::Tolerance, &point, false)?.0;
+            sampled.progress.step();
+            Ok(evaluated)
         };
-        let looked: Vec<Candidate> = seeds.into_par_iter().map(look).collect::<Result<_, _>>()?;
-        history.extend(looked);
+        let evaluated: Vec<Candidate> =
+            seeds.into_par_iter().map(evaluate).collect::<Result<_, _>>()?;
+        history.extend(evaluated);
         let mut answer = answer(sampled, history, Plan::SAMPLED, goal.points)?;
         match &mut answer {
             Answer::Optimum(best) => {
@@ -84,31 +85,31 @@ fn refine(
 ) -> Result<bool, Halt> {
     let Searches { sampled, finer, .. } = searches;
     let starts = starts(sampled, history.iter(), &best.target, REFINED);
-    finer.meter.begin(SearchPart::Refine, starts.len());
-    let mut looked = Vec::new();
+    finer.progress.begin(SearchPart::Refine, starts.len());
+    let mut evaluated = Vec::new();
     for start in starts {
-        let start = finer.look(SearchStage::Tolerance, &start.point, false)?.0;
+        let start = finer.evaluate(SearchStage::Tolerance, &start.point, false)?.0;
         // The whole way: a yield that falls by a tenth under more samples is seldom mended near by.
-        looked.extend(finer.improve(&best.target, &start, Effort::WHOLE)?);
+        evaluated.extend(finer.improve(&best.target, &start, Effort::WHOLE)?);
         // Its walk leaves the start out, which may be the best that more samples know.
-        looked.push(start);
-        finer.meter.step();
+        evaluated.push(start);
+        finer.progress.step();
     }
     let is_met = |candidate| matches!(finer.merit(candidate, &best.target), Merit::Met(_));
-    let is_refined = looked.iter().any(is_met);
+    let is_refined = evaluated.iter().any(is_met);
     if is_refined {
         // Of these alone: the verdicts on all others rest on fewer samples.
-        *best = best_design(finer, &looked, best.target.clone())?;
+        *best = best_design(finer, &evaluated, best.target.clone())?;
     }
-    history.append(&mut looked);
+    history.append(&mut evaluated);
     Ok(is_refined)
 }
 
 /// Adds to the best designs what other samples say of them.
 fn check(search: &Search<'_>, best: &mut [BestDesign]) -> Result<(), Halt> {
-    search.meter.begin(SearchPart::Check, best.len());
+    search.progress.begin(SearchPart::Check, best.len());
     best.par_iter_mut().try_for_each(|best| {
-        search.meter.step();
+        search.progress.step();
         best.confirmation = confirm(search, &best.candidate.point)?;
         Ok(())
     })

@@ -5,7 +5,7 @@ use std::sync::atomic::AtomicBool;
 
 use journal::Seal;
 use optimisation::{
-    Answer, BestDesign, DesignGoal, Found, Judgement, Limit, SearchMeter, SearchOptions,
+    Answer, BestDesign, DesignGoal, Found, Judgement, Limit, SearchOptions, SearchProgress,
     SearchStage, optimise, write_found,
 };
 use results::{CsvFormat, Results};
@@ -19,8 +19,8 @@ const COVERED: &str = "name = 'covered'\nmeasures = 'coverage'\n[variables]\n\
     [material]\nthickness_mm = 1\nscale_density_kg_m3 = 1000\n";
 
 pub(crate) fn found_in(folder: &Path, goal: &DesignGoal, threads: usize, start: Start) -> Found {
-    let (stop, meter) = (AtomicBool::new(false), SearchMeter::default());
-    let options = SearchOptions { threads, start, stop: &stop, meter: &meter };
+    let (stop, progress) = (AtomicBool::new(false), SearchProgress::default());
+    let options = SearchOptions { threads, start, stop: &stop, progress: &progress };
     optimise(goal, folder, &options, &PROGRAM).expect("a search").expect("an end")
 }
 
@@ -274,8 +274,8 @@ fn points_of_a_front_over_decades_have_equal_ratios() {
         assert!((1.3..2.5).contains(&ratio), "{one:?} {other:?}");
     }
     // What differs in thickness alone is solved once, with derivatives and without.
-    let looked = found.history.len();
-    assert!(found.evaluations * 3 < looked * 2, "{} of {looked}", found.evaluations);
+    let evaluated = found.history.len();
+    assert!(found.evaluations * 3 < evaluated * 2, "{} of {evaluated}", found.evaluations);
 }
 
 #[test]
@@ -301,8 +301,8 @@ fn threads_and_interruptions_change_nothing() {
 
 /// The message of a search that does not begin.
 fn refused(folder: &Path, goal: &DesignGoal, start: Start) -> String {
-    let (stop, meter) = (AtomicBool::new(false), SearchMeter::default());
-    let options = SearchOptions { threads: 1, start, stop: &stop, meter: &meter };
+    let (stop, progress) = (AtomicBool::new(false), SearchProgress::default());
+    let options = SearchOptions { threads: 1, start, stop: &stop, progress: &progress };
     optimise(goal, folder, &options, &PROGRAM).expect_err("refused").to_string()
 }
 
@@ -353,8 +353,9 @@ fn an_old_optimum_does_not_outlive_its_search() {
     write_found(&folder, &old, &found, &figures, CsvFormat::Plain).expect("writable");
     assert!(folder.holds("optimum.csv") && folder.holds("history.svg"));
     // Another search begins afresh, and is ended before it has found anything.
-    let (stop, meter) = (AtomicBool::new(true), SearchMeter::default());
-    let options = SearchOptions { threads: 1, start: Start::Fresh, stop: &stop, meter: &meter };
+    let (stop, progress) = (AtomicBool::new(true), SearchProgress::default());
+    let options =
+        SearchOptions { threads: 1, start: Start::Fresh, stop: &stop, progress: &progress };
     let ended = optimise(&new, place.path(), &options, &PROGRAM).expect("a search");
     assert!(ended.is_none());
     for file in ["optimum.csv", "optimum.toml", "goal.toml", "history.csv", "history.svg"] {

@@ -2,7 +2,7 @@
 
 mod global;
 mod guide;
-mod kept;
+mod interrupted_analysis;
 mod spreads;
 
 use std::path::Path;
@@ -10,7 +10,7 @@ use std::sync::atomic::AtomicBool;
 
 use run::Program;
 use sweep::Sweep;
-use uncertainty::{Analysis, DesignTolerance, NoAnalysis, SampleStore};
+use uncertainty::{Analysis, AnalysisError, DesignTolerance, SampleStore};
 
 /// Measures that take little time.
 const QUICK: &str = "'coverage', 'puncture'";
@@ -30,7 +30,7 @@ fn analysed(
     samples: usize,
     folder: &Path,
     stop: bool,
-) -> Result<DesignTolerance, NoAnalysis> {
+) -> Result<DesignTolerance, AnalysisError> {
     let requirements: Vec<_> = require.iter().map(|r| r.parse().expect("valid")).collect();
     let stop = AtomicBool::new(stop);
     let analysis = Analysis::new(sweep, &requirements, samples, PROGRAM, &stop);

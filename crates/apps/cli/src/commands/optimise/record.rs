@@ -1,6 +1,6 @@
 //! JSON output of `squama optimise`.
 
-use optimisation::{Answer, BestDesign, Candidate, DesignGoal, Found, Judgement, Words};
+use optimisation::{Answer, BestDesign, BindingText, Candidate, DesignGoal, Found, Judgement};
 use ranking::Requirement;
 use results::columns::design_columns;
 use serde_json::{Map, Value, json};
@@ -9,7 +9,7 @@ use super::report::unmet;
 
 /// Returns the result of a search as JSON.
 pub fn record(goal: &DesignGoal, found: &Found) -> Value {
-    let words = Words::new(goal);
+    let words = BindingText::new(goal);
     let left_out = &found.left_out;
     let failed = left_out.failed.iter().map(|(why, count)| (why.to_string(), json!(count)));
     let mut record = json!({
@@ -42,7 +42,7 @@ fn variables(goal: &DesignGoal, candidate: &Candidate) -> Map<String, Value> {
     variables.map(|p| (p.key.to_owned(), json!(p.get(&case)))).collect()
 }
 
-fn design(goal: &DesignGoal, words: &Words<'_>, best: &BestDesign) -> Value {
+fn design(goal: &DesignGoal, words: &BindingText<'_>, best: &BestDesign) -> Value {
     let columns = design_columns(goal.space.sweep());
     let measures = columns.iter().filter(|column| column.name != "design");
     let measures = measures.map(|c| (c.name.to_string(), json!(c.cell(&best.row))));
@@ -76,7 +76,7 @@ fn objectives(goal: &DesignGoal, best: &BestDesign) -> Map<String, Value> {
 
 fn infeasible(
     goal: &DesignGoal,
-    words: &Words<'_>,
+    words: &BindingText<'_>,
     found: &Found,
     nearest: Option<usize>,
 ) -> Value {

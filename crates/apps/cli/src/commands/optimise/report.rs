@@ -3,7 +3,9 @@
 use std::fmt::Write as _;
 use std::time::Duration;
 
-use optimisation::{Answer, BestDesign, Candidate, DesignGoal, Found, Front, Judgement, Words};
+use optimisation::{
+    Answer, BestDesign, BindingText, Candidate, DesignGoal, Found, Front, Judgement,
+};
 use ranking::{Requirement, Unmet};
 use results::Outcome;
 use results::columns::{Cell, design_columns};
@@ -71,7 +73,7 @@ impl SearchReport<'_> {
     }
 
     fn optimum(&self, best: &BestDesign) -> String {
-        let words = Words::new(self.goal);
+        let words = BindingText::new(self.goal);
         let mut rows: Vec<[String; 2]> = self.variables(&best.candidate);
         rows.extend(self.values(best));
         let mut text = format!("The best design\n{}", aligned(&rows));
@@ -175,7 +177,7 @@ impl SearchReport<'_> {
     }
 
     fn front(&self, front: &Front) -> String {
-        let words = Words::new(self.goal);
+        let words = BindingText::new(self.goal);
         let (title, designs) = (self.title(front), &front.designs);
         let Some(first) = designs.first() else { return title };
         let named = |best: &BestDesign| {
@@ -204,7 +206,7 @@ impl SearchReport<'_> {
     }
 
     fn infeasible(&self, nearest: Option<usize>) -> String {
-        let words = Words::new(self.goal);
+        let words = BindingText::new(self.goal);
         let requirements: Vec<Requirement> = words.requirements().into_iter().cloned().collect();
         let unmet = unmet(self.goal, self.found, &requirements, nearest);
         // Requirements on columns also act within a yield, so designs without one were not evaluated.

@@ -8,7 +8,7 @@ use results::columns::measure_name;
 use results::columns::name::{AREAL_MASS, FOLD_FORCE, GAP_STRETCH_MIN};
 use sweep::Sweep;
 use uncertainty::{
-    DesignTolerance, MeasureTolerance, Proportion, RequirementYield, Sampled, SolvedSample,
+    DesignTolerance, MeasureTolerance, Proportion, RequirementYield, SampledSpread, SolvedSample,
 };
 
 use crate::print::{aligned, change, counted, rounded};
@@ -75,8 +75,9 @@ pub fn is_shown(name: &str, requirements: &[Requirement]) -> bool {
 
 fn measure_row(measure: &MeasureTolerance) -> Vec<String> {
     let linear = measure.linear.as_ref();
-    let sampled =
-        |value: fn(&Sampled) -> String| measure.sampled.as_ref().map_or("none".to_owned(), value);
+    let sampled = |value: fn(&SampledSpread) -> String| {
+        measure.sampled.as_ref().map_or("none".to_owned(), value)
+    };
     let off = measure.discrepancy().map_or("unknown".to_owned(), |off| {
         let mark = if measure.is_off() { " (!)" } else { "" };
         format!("{}{mark}", change(100.0 * off, 0))

@@ -6,11 +6,11 @@ use ranking::Requirement;
 use results::DesignResult;
 use sweep::{Case, DesignNumber};
 
-use crate::fill;
+use crate::contact_margin::contact_margin;
+use crate::coverage_piece::{self, COMPLIANCES, open_share};
 use crate::judge::Judge;
-use crate::room::bending_room;
 use crate::space::{DesignSpace, SpacePoint};
-use crate::tooth::{self, COMPLIANCES, open_share};
+use crate::space_filling;
 
 /// Points from which peaks are looked for.
 const POINTS: usize = 512;
@@ -32,7 +32,7 @@ pub(crate) fn points_on_peaks(space: &DesignSpace, judge: &Judge, seed: u64) -> 
     let number = space.sweep().grid().number(0);
     // Ordered, so that the same goal has the same points in the same order in every session.
     let mut on_peaks: BTreeMap<u32, Vec<(f64, SpacePoint)>> = BTreeMap::new();
-    for point in fill::points(space, POINTS, seed) {
+    for point in space_filling::points(space, POINTS, seed) {
         for interval in 0..point.shares.len() {
             for (peak, found) in peaks_along(space, &point, interval) {
                 let shortfall = known_shortfall(judge, &space.case(&found), number);
@@ -50,7 +50,7 @@ fn peaks_along(space: &DesignSpace, point: &SpacePoint, interval: usize) -> Vec<
         moved.shares[interval] = share;
         moved
     };
-    let place = |share| tooth::place(&space.case(&at(share)));
+    let place = |share| coverage_piece::place(&space.case(&at(share)));
     let Some((first, last)) = place(0.0).zip(place(1.0)) else { return Vec::new() };
     let (low, high) = (first.min(last), first.max(last));
     // The place `S/p` grows or falls all along an interval, whichever length it is.
@@ -80,7 +80,7 @@ fn known_shortfall(judge: &Judge, case: &Case, number: DesignNumber) -> f64 {
     };
     // Where scales touch in bending, no compliance is left.
     let bends = |r: &&Requirement| r.column == COMPLIANCES[0] && r.direction() > 0.0;
-    let touching = judge.requirements().find(bends).map_or(0.0, |_| bending_room(case).min(0.0));
+    let touching = judge.requirements().find(bends).map_or(0.0, |_| contact_margin(case).min(0.0));
     -judge.known(case, number, result).into_iter().map(margin).sum::<f64>() - touching
 }
 

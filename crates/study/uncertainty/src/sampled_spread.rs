@@ -4,7 +4,7 @@ use results::Statistics;
 
 /// The spread of a measure over solved samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sampled {
+pub struct SampledSpread {
     /// Samples that have a value, at least two.
     pub count: usize,
     /// Mean and quantiles.
@@ -18,7 +18,7 @@ pub struct Sampled {
 /// Part of the values up to which their spread is round-off, and counts as none.
 const ROUND_OFF: f64 = 1e-13;
 
-impl Sampled {
+impl SampledSpread {
     /// The spread of `values`; `None` if there are fewer than two.
     pub fn of(values: &[f64]) -> Option<Self> {
         let count = values.len();
@@ -41,17 +41,20 @@ impl Sampled {
 
 #[cfg(test)]
 mod tests {
-    use super::Sampled;
+    use super::SampledSpread;
 
     #[test]
     fn the_error_of_a_spread_is_that_of_the_distribution() {
         // Equally spaced values are as good as uniform ones: kurtosis 9/5, so the error is s √(0.8/4n).
         let values: Vec<f64> = (0..1001).map(f64::from).collect();
-        let sampled = Sampled::of(&values).expect("values");
+        let sampled = SampledSpread::of(&values).expect("values");
         assert!((sampled.spread - 1000.0 / 12.0_f64.sqrt()).abs() < 0.5);
         let expected = sampled.spread * (0.8 / 4004.0_f64).sqrt();
         assert!((sampled.spread_error / expected - 1.0).abs() < 0.01);
-        assert_eq!(Sampled::of(&[1.0]), None);
-        assert_eq!(Sampled::of(&[2.0, 2.0]).map(|s| (s.spread, s.spread_error)), Some((0.0, 0.0)));
+        assert_eq!(SampledSpread::of(&[1.0]), None);
+        assert_eq!(
+            SampledSpread::of(&[2.0, 2.0]).map(|s| (s.spread, s.spread_error)),
+            Some((0.0, 0.0))
+        );
     }
 }

@@ -73,7 +73,7 @@ pub struct FittedCurve {
 
 /// A fit that has no answer.
 #[derive(Debug, thiserror::Error)]
-pub enum NoFit {
+pub enum FitError {
     /// It was told to stop.
     #[error("stopped before an answer was found")]
     Stopped,
@@ -118,14 +118,14 @@ impl FitDefinition {
     ///
     /// # Errors
     /// If there are too few points, nothing is sought, no skin can be solved, or it was told to stop.
-    pub fn fit(&self, stop: &AtomicBool, work: &WorkMeter) -> Result<Fitted, NoFit> {
+    pub fn fit(&self, stop: &AtomicBool, work: &WorkMeter) -> Result<Fitted, FitError> {
         let points = self.curves.iter().map(|curve| curve.measured.points.len()).sum();
         let unknowns = self.unknowns.len();
         if unknowns == 0 {
-            return Err(NoFit::NothingSought);
+            return Err(FitError::NothingSought);
         }
         if points <= unknowns {
-            return Err(NoFit::TooFew { points, unknowns });
+            return Err(FitError::TooFew { points, unknowns });
         }
         // Curves alone are asked of it, and no measure.
         let evaluator = Evaluator::new(&[]);
@@ -159,12 +159,12 @@ struct Directions {
 }
 
 impl Residuals<'_> {
-    fn directions(&self, shares: &[f64]) -> Result<Directions, NoFit> {
-        let model = self.solved(shares)?.ok_or(NoFit::Unsolvable)?;
+    fn directions(&self, shares: &[f64]) -> Result<Directions, FitError> {
+        let model = self.solved(shares)?.ok_or(FitError::Unsolvable)?;
         let columns: Vec<f64> = (0..shares.len()).flat_map(|j| self.column(&model, j)).collect();
         let jacobian = DMatrix::from_vec(columns.len() / shares.len(), shares.len(), columns);
         let svd = jacobian.svd(true, true);
-        let (points, unknowns) = svd.u.zip(svd.v_t).ok_or(NoFit::Unsolvable)?;
+        let (points, unknowns) = svd.u.zip(svd.v_t).ok_or(FitError::Unsolvable)?;
         Ok(Directions {
             values: svd.singular_values.as_slice().to_vec(),
             unknowns: unknowns.transpose(),
@@ -173,9 +173,9 @@ impl Residuals<'_> {
     }
 
     /// The noise of each curve: the mean square of its residuals, over its points less its part in the unknowns.
-    fn noise_at(&self, shares: &[f64], sizes: &[f64]) -> Result<Vec<f64>, NoFit> {
+    fn noise_at(&self, shares: &[f64], sizes: &[f64]) -> Result<Vec<f64>, FitError> {
         let directions = self.directions(shares)?;
-        let model = self.solved(shares)?.ok_or(NoFit::Unsolvable)?;
+        let model = self.solved(shares)?.ok_or(FitError::Unsolvable)?;
         let largest = directions.values.iter().copied().fold(0.0, f64::max);
         let mut first = 0;
         let noise = self.of_curves(&model).into_iter().zip(sizes).map(|(residuals, size)| {
@@ -195,7 +195,7 @@ impl Residuals<'_> {
         Ok(noise.collect())
     }
 
-    fn fitted(&self, shares: &[f64]) -> Result<Fitted, NoFit> {
+    fn fitted(&self, shares: &[f64]) -> Result<Fitted, FitError> {
         let definition = self.definition;
         let count = shares.len();
         let Directions { values: sizes, unknowns: directions, points } = self.directions(shares)?;
@@ -246,8 +246,8 @@ impl Residuals<'_> {
         })
     }
 
-    fn curves(&self, shares: &[f64]) -> Result<Vec<FittedCurve>, NoFit> {
-        let model = self.solved(shares)?.ok_or(NoFit::Unsolvable)?;
+    fn curves(&self, shares: &[f64]) -> Result<Vec<FittedCurve>, FitError> {
+        let model = self.solved(shares)?.ok_or(FitError::Unsolvable)?;
         let curves = self.definition.curves.iter().zip(&*model).zip(&self.noise);
         let curve = |((curve, model), noise): ((&TestCurve, &ModelCurve), &f64)| {
             let measured = &curve.measured;

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use uncertainty::NoAnalysis;
+use uncertainty::AnalysisError;
 
 use crate::{QUICK, analysed, sweep};
 
@@ -19,10 +19,10 @@ fn an_analysis_goes_on_where_it_was() {
     let at_once = analysed(&sweep, &[], 250, &whole, false).expect("tolerances");
     // Told to stop before the first sample, then after 150, then not at all.
     let stopped = analysed(&sweep, &[], 250, &parts, true).expect_err("stopped");
-    assert!(matches!(stopped, NoAnalysis::Stopped { done: 0, of: 250 }));
+    assert!(matches!(stopped, AnalysisError::Stopped { done: 0, of: 250 }));
     analysed(&sweep, &[], 150, &parts, false).expect("tolerances");
     let stopped = analysed(&sweep, &[], 250, &parts, true).expect_err("stopped");
-    assert!(matches!(stopped, NoAnalysis::Stopped { done: 150, of: 250 }));
+    assert!(matches!(stopped, AnalysisError::Stopped { done: 150, of: 250 }));
     let again = analysed(&sweep, &[], 250, &parts, false).expect("tolerances");
     assert_eq!((&again.samples, &again.measures), (&at_once.samples, &at_once.measures));
     let [table] = files(&parts, "csv").try_into().expect("one table");

@@ -3,11 +3,11 @@
 use results::OutputError;
 use run::JournalError;
 
-use crate::measured::NoSuchColumn;
+use crate::measured_columns::NoSuchColumn;
 
 /// Why there is no analysis.
 #[derive(Debug, thiserror::Error)]
-pub enum NoAnalysis {
+pub enum AnalysisError {
     /// The work was to stop. The samples so far are kept.
     #[error("interrupted after {done} of {of} samples")]
     Stopped {

@@ -25,7 +25,7 @@ pub enum SearchPart {
 
 /// How far a search is: written by the search, read by whoever watches.
 #[derive(Debug, Default)]
-pub struct SearchMeter {
+pub struct SearchProgress {
     parts: Mutex<Parts>,
     done: AtomicUsize,
     /// The largest share that was told, as bits: a bar does not go back.
@@ -58,7 +58,7 @@ impl SearchPart {
     }
 }
 
-impl SearchMeter {
+impl SearchProgress {
     /// The part that is in hand, how many of its tasks are done, and of how many.
     pub fn progress(&self) -> (SearchPart, usize, usize) {
         let parts = self.parts();
@@ -125,7 +125,7 @@ impl SearchMeter {
     }
 
     /// A design was looked at.
-    pub(crate) fn look(&self) {
+    pub(crate) fn evaluate(&self) {
         self.designs.fetch_add(1, Ordering::Relaxed);
     }
 }
@@ -137,22 +137,28 @@ mod tests {
 
     #[test]
     fn tasks_are_counted_part_by_part_and_the_share_over_all() {
-        let meter = SearchMeter::default();
-        assert_eq!(meter.share(), 0.0);
-        meter.expect(vec![(Sample, 1.0), (Climb, 2.0), (Front, 3.0), (Climb, 2.0), (Check, 2.0)]);
-        meter.begin(Sample, 12);
-        meter.step();
-        meter.look();
-        assert_eq!((meter.progress(), meter.designs()), ((Sample, 1, 12), 1));
-        meter.begin(Climb, 4);
-        meter.step();
-        assert_eq!((meter.progress(), meter.share()), ((Climb, 1, 4), 0.15));
-        meter.begin(Front, 1);
-        assert_eq!(meter.share(), 0.3);
-        meter.begin(Climb, 4);
-        assert_eq!(meter.share(), 0.6);
+        let progress = SearchProgress::default();
+        assert_eq!(progress.share(), 0.0);
+        progress.expect(vec![
+            (Sample, 1.0),
+            (Climb, 2.0),
+            (Front, 3.0),
+            (Climb, 2.0),
+            (Check, 2.0),
+        ]);
+        progress.begin(Sample, 12);
+        progress.step();
+        progress.evaluate();
+        assert_eq!((progress.progress(), progress.designs()), ((Sample, 1, 12), 1));
+        progress.begin(Climb, 4);
+        progress.step();
+        assert_eq!((progress.progress(), progress.share()), ((Climb, 1, 4), 0.15));
+        progress.begin(Front, 1);
+        assert_eq!(progress.share(), 0.3);
+        progress.begin(Climb, 4);
+        assert_eq!(progress.share(), 0.6);
         // A part that was not foreseen again does not lead back.
-        meter.begin(Front, 2);
-        assert_eq!((meter.progress(), meter.share()), ((Front, 0, 2), 0.6));
+        progress.begin(Front, 2);
+        assert_eq!((progress.progress(), progress.share()), ((Front, 0, 2), 0.6));
     }
 }

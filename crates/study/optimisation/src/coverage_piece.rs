@@ -24,7 +24,7 @@ pub(crate) const COMPLIANCES: [&str; 2] = [name::COMPLIANCE, name::INITIAL_COMPL
 
 /// One side of a peak of coverage.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Tooth {
+pub(crate) struct CoveragePiece {
     /// The number `k` of the peak.
     pub peak: u32,
     /// Whether coverage rises with the slant here.
@@ -51,7 +51,7 @@ impl Lengths {
     }
 }
 
-impl Tooth {
+impl CoveragePiece {
     /// The pieces that a design belongs to: one, or those on both sides of a border.
     pub fn beside(case: &Case) -> Vec<Self> {
         let Some(lengths) = Lengths::of(case) else { return Vec::new() };
@@ -59,7 +59,7 @@ impl Tooth {
         let sides = |peak| [true, false].map(|rising| Self { peak, rising });
         // A place is behind one peak and before the next; beside a border both sides are asked.
         let near = [whole, whole + 1].into_iter().flat_map(sides);
-        let holds = |tooth: &Self| tooth.borders(lengths).iter().all(|beyond| *beyond <= BORDER);
+        let holds = |piece: &Self| piece.borders(lengths).iter().all(|beyond| *beyond <= BORDER);
         near.filter(holds).collect()
     }
 
@@ -146,7 +146,7 @@ mod tests {
         for slant in 1..75 {
             let case = case(0.13, 0.31, f64::from(slant));
             let coverage = case.design.row().expect("a row").coverage();
-            let pieces = Tooth::beside(&case);
+            let pieces = CoveragePiece::beside(&case);
             assert_eq!(pieces.len(), 1, "{slant}");
             let of_piece = pieces[0].coverage(&case).expect("a coverage");
             assert!((of_piece - coverage).abs() < 1e-12, "{slant}: {of_piece} {coverage}");
@@ -159,7 +159,7 @@ mod tests {
     #[test]
     fn a_peak_belongs_to_both_of_its_sides() {
         let slant = 0.88_f64.atan().to_degrees();
-        let sides = Tooth::beside(&case(0.13, 0.31, slant));
+        let sides = CoveragePiece::beside(&case(0.13, 0.31, slant));
         assert_eq!(sides.iter().map(|side| side.peak).collect::<Vec<_>>(), [2, 2]);
         assert_ne!(sides[0].rising, sides[1].rising);
     }

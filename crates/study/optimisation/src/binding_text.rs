@@ -5,9 +5,9 @@ use results::columns::explain_value;
 use sweep::number;
 
 use crate::candidate::Target;
+use crate::evaluated_row::StatisticUse;
 use crate::goal::DesignGoal;
 use crate::judge::Judge;
-use crate::looked::Use;
 use crate::price::{Binding, Limit};
 use crate::space::Interval;
 use crate::statistic::Statistic;
@@ -16,12 +16,12 @@ use crate::statistic::Statistic;
 const OPEN: f64 = 0.1;
 
 /// Says what binds and what it costs.
-pub struct Words<'a> {
+pub struct BindingText<'a> {
     goal: &'a DesignGoal,
     judge: Judge,
 }
 
-impl<'a> Words<'a> {
+impl<'a> BindingText<'a> {
     /// The words for a goal.
     pub fn new(goal: &'a DesignGoal) -> Self {
         Self { goal, judge: Judge::new(goal) }
@@ -36,7 +36,8 @@ impl<'a> Words<'a> {
     pub fn limit(&self, limit: &Limit, target: &Target) -> String {
         match *limit {
             Limit::Requirement(k)
-                if self.judge.is_soundness(k) && self.judge.is_statistic(Use::Requirement(k)) =>
+                if self.judge.is_soundness(k)
+                    && self.judge.is_statistic(StatisticUse::Requirement(k)) =>
             {
                 "the surface of more samples is about to fold".to_owned()
             }
@@ -65,7 +66,7 @@ impl<'a> Words<'a> {
 
     /// The cost of a limit, e.g. `0.01 more coverage costs 0.12 of critical_force`; `None` if nobody knows.
     pub fn price(&self, binding: &Binding, target: &Target) -> Option<String> {
-        if matches!(binding.limit, Limit::Requirement(k) if self.judge.is_yield(Use::Requirement(k)))
+        if matches!(binding.limit, Limit::Requirement(k) if self.judge.is_yield(StatisticUse::Requirement(k)))
         {
             return Some("no price: a share of samples moves in steps".to_owned());
         }
@@ -107,7 +108,7 @@ impl<'a> Words<'a> {
 
     /// The cost of gaps that stay open by a part of their width at rest, where requirement `k` is that the surface has not folded.
     fn openness(&self, k: usize, price: f64, objective: &Criterion) -> String {
-        let of = if self.judge.is_statistic(Use::Requirement(k)) {
+        let of = if self.judge.is_statistic(StatisticUse::Requirement(k)) {
             "the gaps of these samples"
         } else {
             "every gap"
@@ -183,7 +184,7 @@ mod tests {
                     slant_deg = 75\n[material]\nthickness_mm = 1\nsubstrate_modulus_MPa = 1\nscale_density_kg_m3 = 1000\n\
                     [goal]\nminimize = 'areal_mass_kg_m2'\nrequire = ['critical_force_N >= 2', 'penetration <= 0.4']";
         let goal = DesignGoal::parse(text, "x.toml", &[]).expect("a goal");
-        let words = Words::new(&goal);
+        let words = BindingText::new(&goal);
         let target = Target { objective: 0, floors: Vec::new() };
         let say = |limit: Limit, price| {
             let binding = Binding { limit, price: Some(price) };

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
-use fit::{FitDefinition, Fitted, NoFit};
+use fit::{FitDefinition, FitError, Fitted};
 use rand::SeedableRng as _;
 use rand_chacha::ChaCha12Rng;
 use rand_distr::{Distribution as _, Normal};
@@ -19,7 +19,7 @@ pub struct Place {
 }
 
 /// A curve to be made of a skin: in mm and N, or 1/mm and N mm.
-pub struct Made<'a> {
+pub struct SyntheticCurve<'a> {
     pub file: &'a str,
     pub bending: bool,
     /// Where it ends, in mm or 1/mm, and how many points it has.
@@ -46,7 +46,7 @@ impl Place {
     }
 
     /// Writes the curve that the skin of a definition has.
-    pub fn make(&self, skin: &str, curve: &Made) {
+    pub fn make(&self, skin: &str, curve: &SyntheticCurve) {
         let case = Sweep::parse(skin, "skin.toml", &[]).expect("a skin").grid().case(0);
         let values = exact(&case, curve);
         let largest = values.iter().map(|value| value.abs()).fold(0.0, f64::max);
@@ -68,7 +68,7 @@ impl Place {
         self.write(curve.file, &text);
     }
 
-    pub fn fit(&self, text: &str) -> Result<Fitted, NoFit> {
+    pub fn fit(&self, text: &str) -> Result<Fitted, FitError> {
         self.write("test.toml", text);
         let definition = FitDefinition::read(&self.path("test.toml"), &[]);
         let work = WorkMeter::default();
@@ -86,12 +86,12 @@ impl Place {
     }
 }
 
-fn place(curve: &Made, k: usize) -> f64 {
+fn place(curve: &SyntheticCurve, k: usize) -> f64 {
     curve.to * (k as f64 + 1.0) / curve.points as f64
 }
 
 /// The values of a curve, without noise: solved one by one, apart from what a fit does.
-fn exact(case: &Case, curve: &Made) -> Vec<f64> {
+fn exact(case: &Case, curve: &SyntheticCurve) -> Vec<f64> {
     use results::Quantity::{Force, Length, Moment, Radius};
     let unit = |quantity: results::Quantity| quantity.physical(1.0, case).expect("a material");
     let evaluator = Evaluator::new(&[]);

@@ -12,9 +12,9 @@ use sweep::Measure;
 use super::problem::LocalProblem;
 use super::{Effort, LocalSearch};
 use crate::candidate::{Merit, SearchStage};
+use crate::coverage_piece::CoveragePiece;
 use crate::evaluations::Halt;
 use crate::slopes::Slopes;
-use crate::tooth::Tooth;
 
 /// Accuracy of constraints and objective, both about 1 in size.
 const ACCURACY: f64 = 1e-11;
@@ -36,7 +36,7 @@ impl LocalSearch<'_> {
     /// Climbs from the best design, in one smooth piece of coverage after the other as long as the best stands on a border; what it
     /// comes by is noted.
     fn climb_for(&self, effort: Effort, is_elastic: bool) -> Result<(), Halt> {
-        let mut climbed: Vec<Option<Tooth>> = Vec::new();
+        let mut climbed: Vec<Option<CoveragePiece>> = Vec::new();
         while climbed.len() < effort.pieces {
             // Asked anew for each climb: the best design may have come to a border, from where another piece goes on.
             let pieces = self.pieces();
@@ -49,17 +49,22 @@ impl LocalSearch<'_> {
     }
 
     /// The pieces of coverage that the best design belongs to; none, once, if the goal is not about coverage.
-    fn pieces(&self) -> Vec<Option<Tooth>> {
+    fn pieces(&self) -> Vec<Option<CoveragePiece>> {
         let judge = self.search.judge;
         // Samples of one design lie in several pieces.
         if !judge.is_about(Measure::Coverage) || judge.samples().is_some() {
             return vec![None];
         }
         let case = self.search.space.case(&self.best.borrow().point);
-        Tooth::beside(&case).into_iter().map(Some).collect()
+        CoveragePiece::beside(&case).into_iter().map(Some).collect()
     }
 
-    fn climb_in(&self, piece: Option<Tooth>, effort: Effort, is_elastic: bool) -> Result<(), Halt> {
+    fn climb_in(
+        &self,
+        piece: Option<CoveragePiece>,
+        effort: Effort,
+        is_elastic: bool,
+    ) -> Result<(), Halt> {
         let missed = match self.best_merit() {
             Merit::Short(missed) if is_elastic => Some(missed),
             // An earlier piece has led to where nothing is missed.
@@ -89,11 +94,11 @@ impl CostFunction for LocalProblem<'_> {
     type Error = Halt;
 
     fn cost(&self, shares: &Vec<f64>) -> Result<f64, Halt> {
-        let looked = self.look(shares)?;
+        let evaluated = self.evaluate(shares)?;
         // What cannot be judged is worse than anything that can.
-        Ok(looked.map_or(f64::INFINITY, |looked| match self.missed(shares) {
+        Ok(evaluated.map_or(f64::INFINITY, |evaluated| match self.missed(shares) {
             Some(missed) => missed,
-            None => self.cost_of(&looked.worth),
+            None => self.cost_of(&evaluated.worth),
         }))
     }
 }
@@ -105,9 +110,9 @@ impl Gradient for LocalProblem<'_> {
         if self.is_elastic {
             return Ok((1..=shares.len()).map(|k| f64::from(k == shares.len())).collect());
         }
-        let looked = self.look(shares)?;
+        let evaluated = self.evaluate(shares)?;
         // Without a derivative there is no way to go: SLSQP ends at a number that is not finite.
-        let gradient = looked.and_then(|l| self.cost_gradient(shares, &l, Slopes::uphill));
+        let gradient = evaluated.and_then(|l| self.cost_gradient(shares, &l, Slopes::uphill));
         Ok(gradient.unwrap_or_else(|| vec![f64::NAN; shares.len()]))
     }
 }
@@ -137,7 +142,8 @@ impl NonlinearInequalityValues for LocalProblem<'_> {
     ) -> Result<Vec<f64>, ConstraintSolveError<Halt>> {
         // As for the cost: what cannot be judged keeps to no limit.
         let none = || vec![f64::INFINITY; self.limit_count()];
-        let mut limits = self.look(shares)?.map_or_else(none, |looked| self.limits(&looked));
+        let mut limits =
+            self.evaluate(shares)?.map_or_else(none, |evaluated| self.limits(&evaluated));
         let asked = limits.iter_mut().take(self.asked_count());
         asked.for_each(|limit| *limit -= self.missed(shares).unwrap_or(0.0));
         Ok(limits)
@@ -153,9 +159,9 @@ impl ConstraintJacobian for LocalProblem<'_> {
         &self,
         shares: &Vec<f64>,
     ) -> Result<DenseMatrix, ConstraintSolveError<Halt>> {
-        let looked = self.look(shares)?;
+        let evaluated = self.evaluate(shares)?;
         let row = |k| {
-            let mut row = self.limit_gradient(k, shares, looked.as_ref()?, Slopes::uphill)?;
+            let mut row = self.limit_gradient(k, shares, evaluated.as_ref()?, Slopes::uphill)?;
             row.extend(self.missed(shares).map(|_| -f64::from(k < self.asked_count())));
             Some(row)
         };

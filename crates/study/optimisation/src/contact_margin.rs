@@ -13,11 +13,11 @@ const STEP: f64 = 1e-5;
 
 /// The logarithm of the curvature at which scales first touch, in closed form (F5), over that at the end of bending: below 0, bending
 /// brings them into contact.
-pub(crate) fn bending_room(case: &Case) -> f64 {
-    known_room(case).unwrap_or(AMPLE)
+pub(crate) fn contact_margin(case: &Case) -> f64 {
+    finite_contact_margin(case).unwrap_or(AMPLE)
 }
 
-fn known_room(case: &Case) -> Option<f64> {
+fn finite_contact_margin(case: &Case) -> Option<f64> {
     let touching = contact_curvature(&case.design, &case.flexure).ok()??;
     let row = case.design.row().ok()?;
     let length = gaps(&row, &case.flexure) * row.pitch();
@@ -26,14 +26,14 @@ fn known_room(case: &Case) -> Option<f64> {
 }
 
 /// The derivatives of the room.
-pub(crate) fn bending_room_slopes(case: &Case, parameter: &Parameter) -> Slopes {
-    let here = bending_room(case);
+pub(crate) fn contact_margin_slopes(case: &Case, parameter: &Parameter) -> Slopes {
+    let here = contact_margin(case);
     let on = |sign: f64| {
         let step = sign * STEP * parameter.size(case)?;
-        let at = |by| known_room(&parameter.moved(case, by)?);
+        let at = |by| finite_contact_margin(&parameter.moved(case, by)?);
         // Of the second order, from one side.
         Some((4.0 * at(step)? - at(2.0 * step)? - 3.0 * here) / (2.0 * step))
     };
-    let known = known_room(case).is_some_and(|room| room < AMPLE);
+    let known = finite_contact_margin(case).is_some_and(|margin| margin < AMPLE);
     if known { Slopes { left: on(-1.0), right: on(1.0) } } else { Slopes::FLAT }
 }
