@@ -1,5 +1,7 @@
-//! The search from one design to a better one near by: along exact derivatives, along ridges where those end at kinks, and without
-//! derivatives where values jump.
+//! Local search: gradient steps, bundle steps along ridges, and derivative-free steps.
+//!
+//! The bundle method takes over where the gradient search ends at kinks; the derivative-free search
+//! handles jumps.
 
 mod bundle;
 mod gradient_search;
@@ -19,35 +21,36 @@ use crate::progress::SearchProgress;
 use crate::space::{DesignSpace, SpacePoint};
 use samples::SampledPoint;
 
-/// Rounds along ridges, without derivatives, and along derivatives again, at most.
+/// Maximum number of rounds of ridge search, polish and gradient search.
 const ROUNDS: usize = 4;
 
-/// Round-off of a share.
+/// Tolerance within which a share counts as an end of its interval.
 const ROUND_OFF: f64 = 1e-13;
 
-/// Steps of a scaling in each of its rounds.
+/// Grid steps in each round of a search along a scaling interval.
 const STEPS: u32 = 8;
 
-/// Rounds of a scaling.
+/// Rounds of a search along a scaling interval.
 const SCALINGS: usize = 15;
 
-/// How fine a local search becomes before it ends.
+/// Termination tolerances of a local search.
 #[derive(Clone, Copy, Debug)]
 struct Fineness {
-    /// A relative gain below which a round has come to its end.
+    /// Relative gain of a round below which the search ends.
     gain: f64,
-    /// The smallest step without derivatives, a share of the intervals.
+    /// Smallest step of the derivative-free search, as a fraction of the intervals.
     step: f64,
 }
 
 impl Fineness {
-    /// Among nominal designs.
+    /// Tolerances for nominal designs.
     const NOMINAL: Self = Self { gain: 1e-8, step: 1e-7 };
-    /// Among sampled designs, whose number of samples leaves quantiles and yields uncertain by per cents.
+    /// Tolerances for sampled designs: a finite number of samples leaves quantiles and yields
+    /// uncertain by some per cent.
     const SAMPLED: Self = Self { gain: 1e-3, step: 1e-4 };
 }
 
-/// The parts that all searches share: the space, its evaluations, the judge.
+/// Space, evaluations and judge, shared by all local searches.
 pub(crate) struct Search<'a> {
     pub space: &'a DesignSpace,
     pub evaluations: &'a Evaluations<'a>,
@@ -55,34 +58,37 @@ pub(crate) struct Search<'a> {
     pub progress: &'a SearchProgress,
 }
 
-/// How much a local search may take.
+/// Evaluation budget of a local search.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Effort {
-    /// Designs of a climb for each variable, at most: a smooth one takes fewer, and one that takes more goes to and fro across a ridge.
+    /// Maximum evaluations of a gradient search, per variable.
+    ///
+    /// Smooth problems need fewer; searches that need more zigzag across a ridge.
     pub looks: u64,
-    /// Pieces of coverage that a climb goes through.
+    /// Maximum number of coverage branches in a gradient search.
     pub pieces: usize,
-    /// Rounds.
+    /// Maximum number of rounds.
     pub rounds: usize,
-    /// First step along ridges and without derivatives, a share of the intervals.
+    /// First step of ridge search and polish, as a fraction of the intervals.
     pub reach: f64,
-    /// Designs along ridges in a round, for each variable.
+    /// Maximum evaluations of the ridge search in a round, per variable.
     pub ridge: usize,
-    /// Designs without derivatives in a round, for each variable.
+    /// Maximum evaluations of the polish in a round, per variable.
     pub polish: usize,
 }
 
 impl Effort {
-    /// A few steps along derivatives, which tell regions that are worth more.
+    /// A few gradient steps, enough to compare regions.
     pub const PROBE: Self = Self { looks: 4, pieces: 1, ..Self::CLIMB };
-    /// Along derivatives alone.
+    /// Gradient search alone.
     pub const CLIMB: Self =
         Self { looks: 15, pieces: 2, rounds: 0, reach: 0.0, ridge: 0, polish: 0 };
-    /// To the end.
+    /// Full local search, to convergence.
     pub const WHOLE: Self =
         Self { rounds: ROUNDS, reach: 0.06, ridge: 20, polish: 8, ..Self::CLIMB };
 
-    /// As much as it may take where each design costs as many solutions as it has samples.
+    /// Returns a smaller budget for sampled designs: each costs as many solutions as it has
+    /// samples.
     fn on_samples(self) -> Self {
         Self {
             looks: self.looks.min(8),
@@ -95,7 +101,7 @@ impl Effort {
 }
 
 impl Search<'_> {
-    /// Looks at the design at `point`.
+    /// Evaluates the design at `point`, with its samples if the goal is about them.
     pub fn evaluate(
         &self,
         stage: SearchStage,
@@ -120,19 +126,20 @@ impl Search<'_> {
         Ok((candidate, EvaluatedRow { nominal, statistics }))
     }
 
-    /// The merit of a design under a target.
+    /// Returns the merit of a design for a target.
     pub fn merit(&self, candidate: &Candidate, target: &Target) -> Merit {
         self.merit_within(candidate, target, 0.0)
     }
 
-    /// The merit of a design that may miss requirements and floors by the part `slack` of their limits.
+    /// Returns the merit with requirements and lower bounds relaxed by `slack`, relative to the
+    /// limits.
     pub fn merit_within(&self, candidate: &Candidate, target: &Target, slack: f64) -> Merit {
         let Judgement::Judged(worth) = &candidate.verdict else { return Merit::None };
         let turned = |k: usize| self.judge.sign(k) * worth.objectives[k];
         let short = target.floors.iter().map(|&(k, floor)| (floor - turned(k)) / floor_size(floor));
         let floors = short.fold(0.0, f64::max);
         let is_met = worth.met || worth.shortfall() < slack;
-        // A floor is kept but for round-off, as a requirement is.
+        // Lower bounds tolerate round-off, as requirements do.
         if is_met && floors <= slack.max(1e-9) {
             return Merit::Met(
                 self.judge.sign(target.objective) * worth.compared[target.objective],
@@ -141,7 +148,10 @@ impl Search<'_> {
         Merit::Short(worth.shortfall().max(floors).max(f64::MIN_POSITIVE))
     }
 
-    /// The best design for a target among those that differ from `start` in intervals that only scale it, one after the other.
+    /// Searches the scaling intervals one after the other, and returns the best design for a
+    /// target.
+    ///
+    /// Scaling intervals change physical units alone, so all these designs share one solution.
     pub fn scaled(
         &self,
         target: &Target,
@@ -151,13 +161,15 @@ impl Search<'_> {
         let mut best = start.clone();
         for &j in scaling {
             let (mut from, mut to) = (0.0, 1.0);
-            // Each round leaves two of the steps round the best: fifteen rounds come to round-off of the shares.
+            // Each round keeps two of the eight steps around the best: 15 rounds reach round-off of
+            // the shares.
             for _ in 0..SCALINGS {
                 let step = (to - from) / f64::from(STEPS);
                 for k in 0..=STEPS {
                     let mut point = best.point.clone();
                     point.shares[j] = (from + step * f64::from(k)).min(1.0);
-                    // Without derivatives: a scaling only compares values, and all its designs share one solution.
+                    // Without derivatives: this search only compares values, and all designs share
+                    // one solution.
                     let evaluated = self.evaluate(SearchStage::Gradient, &point, false)?.0;
                     if self.merit(&evaluated, target).compare(self.merit(&best, target)).is_gt() {
                         best = evaluated;
@@ -174,7 +186,7 @@ impl Search<'_> {
         if self.judge.samples().is_some() { Fineness::SAMPLED } else { Fineness::NOMINAL }
     }
 
-    /// The best of some designs under a target.
+    /// Returns the best of `candidates` for a target.
     pub fn best<'c>(
         &self,
         candidates: impl Iterator<Item = &'c Candidate> + Clone,
@@ -184,7 +196,9 @@ impl Search<'_> {
         candidates.into_iter().nth(index)
     }
 
-    /// Improves `start` for `target`, its choices held; returns every design that was looked at, `start` not among them.
+    /// Improves `start` for `target` with its choices fixed.
+    ///
+    /// Returns every evaluated design except `start`.
     pub fn improve(
         &self,
         target: &Target,
@@ -198,7 +212,7 @@ impl Search<'_> {
             best: RefCell::new(start.clone()),
             log: RefCell::default(),
         };
-        // Choices are held by every local search: without intervals there is nothing to move.
+        // Local searches keep the choices: without intervals no variable is left.
         if start.point.shares.is_empty() {
             return Ok(Vec::new());
         }
@@ -207,8 +221,8 @@ impl Search<'_> {
         walk.climb(effort)?;
         for _ in 0..effort.rounds {
             let before = walk.best_merit();
-            // Ridges first: tangents tell the way along them, which polls hardly find, since they know no direction
-            // better than another.
+            // The ridge search goes first: tangents give a direction along the ridge, which the
+            // polls of a direct search rarely hit.
             walk.follow(reach, effort.ridge * variables)?;
             walk.polish(reach, effort.polish * variables)?;
             if !gained(before, walk.best_merit(), self.fineness().gain) {
@@ -221,22 +235,22 @@ impl Search<'_> {
     }
 }
 
-/// The size of a floor, which shortfalls are relative to.
+/// Returns the size of a lower bound, to which shortfalls are relative.
 pub(crate) fn floor_size(floor: f64) -> f64 {
     if floor == 0.0 { 1.0 } else { floor.abs() }
 }
 
-/// Whether a merit has become better by more than a part `gain` of it.
+/// Returns true if the merit improved by more than the fraction `gain`.
 fn gained(before: Merit, after: Merit, gain: f64) -> bool {
     match (before, after) {
         (Merit::Met(before), Merit::Met(after)) => after - before > gain * before.abs(),
         (Merit::Short(before), Merit::Short(after)) => before - after > gain * before,
-        // From short to met, or from nothing to short, is a gain whatever its size.
+        // A change of class is always a gain.
         _ => before != after,
     }
 }
 
-/// A local search that is under way.
+/// State of a local search: the best design so far and a log of all evaluations.
 struct LocalSearch<'a> {
     search: &'a Search<'a>,
     target: &'a Target,
@@ -245,7 +259,7 @@ struct LocalSearch<'a> {
 }
 
 impl LocalSearch<'_> {
-    /// The design at `shares` of the intervals, with the choices of the start.
+    /// Evaluates the design at `shares` of the intervals, with the choices of the start.
     fn at(
         &self,
         stage: SearchStage,
@@ -253,7 +267,7 @@ impl LocalSearch<'_> {
         differentiated: bool,
     ) -> Result<(Candidate, EvaluatedRow), Halt> {
         let chosen = self.best.borrow().point.chosen.clone();
-        // An end that is missed by round-off is meant: tables show 60, not 59.99999999999999.
+        // Snap to the ends: tables should show 60, not 59.99999999999999.
         let ended = |share: &f64| match *share {
             share if share < ROUND_OFF => 0.0,
             share if share > 1.0 - ROUND_OFF => 1.0,
@@ -268,8 +282,8 @@ impl LocalSearch<'_> {
 
     fn note(&self, candidate: &Candidate) {
         let is_known = |other: &Candidate| other.point == candidate.point;
-        // Cost, gradient and limits of one place are asked for one after the other, and each looks at it: it is noted
-        // once.
+        // The solver requests cost, gradient and limits at the same point one after the other: log
+        // the point once.
         if self.log.borrow().iter().rev().take(3).any(is_known) {
             return;
         }

@@ -1,4 +1,4 @@
-//! The search: points that fill the space, the best of them improved, and what was found.
+//! Runs a search: sample the space, improve the best samples, collect the results.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -27,53 +27,57 @@ use crate::sampled::search::{SEEDS, Searches};
 use crate::space::SpacePoint;
 use crate::space_filling;
 
-/// How a search is carried out.
+/// Settings of a search.
 #[derive(Clone, Copy, Debug)]
 pub struct SearchOptions<'a> {
-    /// The number of designs that are solved at a time.
+    /// Number of designs solved at the same time.
     pub threads: usize,
-    /// Whether results that are there are refused, used or thrown away.
+    /// Whether existing results are refused, continued or discarded.
     pub start: Start,
-    /// Set to request a stop; what is solved so far stays in the journal.
+    /// Set to request a stop; the journal keeps every design solved so far.
     pub stop: &'a AtomicBool,
-    /// Where the search tells how far it is.
+    /// Receives the progress of the search.
     pub progress: &'a SearchProgress,
 }
 
 /// The outcome of a search.
 #[derive(Clone, Debug)]
 pub struct Found {
-    /// Every design that was looked at, in an order that does not depend on the threads.
+    /// Every evaluated design, in an order that is independent of the number of threads.
     pub history: Vec<Candidate>,
     /// The answer.
     pub answer: Answer,
-    /// How many designs could not be counted on.
+    /// Numbers of designs without a valid judgement.
     pub left_out: LeftOutDesigns,
     /// The number of local searches.
     pub starts: usize,
-    /// The number of regions that designs were looked at in: of choices, peaks of coverage, strips whose scales touch or do not.
+    /// Number of regions with at least one evaluated design.
+    /// A region is a combination of choices, coverage peak, and contact or no contact in bending.
     pub regions: usize,
-    /// The number of evaluations, with derivatives and without.
+    /// Number of evaluations, with and without derivatives.
     pub evaluations: usize,
-    /// The ends between which the criteria of the fitness were rescaled.
+    /// Ends used to rescale the criteria of the fitness.
     pub rescaled: Vec<CriterionEnds>,
 }
 
-/// Designs that could not be counted on, by the reason.
+/// Designs without a valid judgement, by reason.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct LeftOutDesigns {
-    /// Designs with a measure that has no value.
+    /// Designs that failed in some measure.
     pub failed: BTreeMap<Outcome, usize>,
-    /// Designs whose surface has folded.
+    /// Designs with a folded surface.
     pub folded: usize,
-    /// Designs without a number in a column of the goal.
+    /// Designs without a number in a column of the goal, by column.
     pub missing: BTreeMap<String, usize>,
 }
 
-/// Searches for the best designs of `goal`, with the journal in `folder`. `None` if it was asked to stop.
+/// Searches for the best designs of `goal`, with the journal in `folder`.
+///
+/// Returns `None` if a stop was requested.
 ///
 /// # Errors
-/// If the folder holds something else, the disk does not take the journal, or no design has a number in a column of the goal.
+/// If the folder holds other results, the journal cannot be written, or no design has a number in
+/// some column of the goal.
 pub fn optimise(
     goal: &DesignGoal,
     folder: &Path,
@@ -87,16 +91,17 @@ pub fn optimise(
         count: options.threads,
         reason: error.to_string(),
     })?;
-    // In a pool of its own: as many threads as were asked for, whatever the rest of the process uses.
+    // A separate pool uses exactly the requested number of threads, whatever the rest of the
+    // process uses.
     let found = pool.install(|| find(goal, &evaluations, options.progress));
-    // Also of a search that was asked to stop: what it has solved is what the next one goes on from.
+    // Also after a stop request: the next session continues from these evaluations.
     evaluations.sync()?;
     match found {
         Ok(found) => {
             check_columns(&found)?;
             Ok(Some(found))
         }
-        // A climb that stalls is no reason to end a search.
+        // `LocalSearch` handles stalled gradient searches, so `Stalled` does not get here.
         Err(Halt::Interrupted | Halt::Stalled) => Ok(None),
         Err(Halt::Output(error)) => Err(error.into()),
     }
@@ -109,22 +114,22 @@ fn find(
 ) -> Result<Found, Halt> {
     progress.expect(expected(goal));
     let points = space_filling::points(&goal.space, goal.samples, goal.seed);
-    // Solved before there is a judge: the fitness is rescaled over these.
+    // Solved before the judge exists, because the fitness is rescaled over these rows.
     let rows = sample_rows(evaluations, &points, progress)?;
     let rescaled = ends(goal, rows);
-    // One set of ends for all three: a fitness between other ends would be another function.
+    // All three judges share one set of ends: other ends define another fitness.
     let judges =
         [&goal.nominal(), goal, &goal.finer()].map(|goal| Judge::rescaling(goal, &rescaled));
     let [nominal, search, finer] =
         judges.each_ref().map(|judge| Search { space: &goal.space, evaluations, judge, progress });
-    // A goal about parameters and mass alone meets no contact and no kink: peaks tell it nothing.
+    // Goals about parameters and mass alone have no contacts and no kinks, so peaks do not matter.
     let on_peaks = if nominal.judge.has_regions() {
         points_on_peaks(&goal.space, nominal.judge, goal.seed)
     } else {
         Vec::new()
     };
     let points = [points, on_peaks].concat();
-    // Points that fill the space are in the journal by now: only those on peaks are solved here.
+    // The journal holds the space-filling points already: only points on peaks are solved here.
     let evaluate = |point| Ok(nominal.evaluate(SearchStage::Sample, &point, false)?.0);
     let mut history: Vec<Candidate> =
         points.into_par_iter().map(evaluate).collect::<Result<_, _>>()?;
@@ -146,14 +151,16 @@ fn find(
     Ok(Found { history, answer, left_out, starts, regions: regions.len(), evaluations, rescaled })
 }
 
-/// The parts of the search for a goal, each with the solutions that it takes: of the goals in `sweeps` within a factor of two.
+/// Estimates the number of solutions in each part of the search.
+///
+/// The estimates are within a factor of two for the goals in `sweeps`.
 fn expected(goal: &DesignGoal) -> Vec<(SearchPart, f64)> {
     let (objectives, variables) = (goal.objectives.len(), goal.space.intervals().len() as f64);
     let answer = |plan: Plan, each: f64| {
         let each = variables * each;
-        // A design that is improved to the end takes as many solutions as seven others.
+        // A full local search takes as many solutions as seven short ones.
         let climbs = (11 * plan.tasks() + 64 * plan.finalists) as f64 * each;
-        // Half of the points of a front first, then those between them.
+        // The front is searched in two parts: half of the points, then the points between them.
         let halves = if objectives > 1 { 2 } else { 0 };
         let front = vec![(SearchPart::Front, goal.points as f64 * 80.0 * each); halves];
         [vec![(SearchPart::Climb, climbs); objectives], front].concat()
@@ -161,7 +168,7 @@ fn expected(goal: &DesignGoal) -> Vec<(SearchPart, f64)> {
     let mut parts = vec![(SearchPart::Sample, goal.samples as f64)];
     parts.extend(answer(Plan::NOMINAL, 1.0));
     if goal.is_about_samples() {
-        // Samples are punctured one by one, but neither differentiated nor bent where no requirement asks for it.
+        // A sample costs less than a nominal design: no derivatives, and bending only if required.
         let each = 0.25 * goal.realisations as f64;
         parts.push((SearchPart::Samples, (objectives * SEEDS) as f64 * each));
         parts.extend(answer(Plan::SAMPLED, each));
@@ -174,7 +181,7 @@ fn expected(goal: &DesignGoal) -> Vec<(SearchPart, f64)> {
     parts
 }
 
-/// The rows of the points that fill the space.
+/// Solves the space-filling points and returns their rows.
 fn sample_rows(
     evaluations: &Evaluations<'_>,
     points: &[SpacePoint],
@@ -189,11 +196,11 @@ fn sample_rows(
     points.par_iter().map(row).collect()
 }
 
-/// The ends between which the criteria of the fitness are rescaled: from here on the fitness is one function.
+/// Determines the ends used to rescale the criteria; they fix the fitness function.
 fn ends(goal: &DesignGoal, mut rows: Vec<DesignRow>) -> Vec<CriterionEnds> {
     let Some(fitness) = &goal.fitness else { return Vec::new() };
     let judge = Judge::rescaling(&goal.nominal(), &fitness.ends);
-    // A design that does not count would stretch the scale to where no search may come.
+    // Invalid designs would stretch the scale beyond the values that a search can reach.
     rows.retain(|row| judge.is_whole(row));
     ends_over(fitness, goal.space.sweep(), &rows)
 }
@@ -208,7 +215,8 @@ impl LeftOutDesigns {
                     *left_out.missing.entry(column.clone()).or_default() += 1;
                 }
                 Judgement::Folded => left_out.folded += 1,
-                // Folded at the end, it is judged as one that falls short, and counted too.
+                // A design folded at the end is judged as infeasible, and counted here as folded
+                // too.
                 Judgement::Judged(_) | Judgement::Nominal(_) if search.judge.wants_sound() => {
                     let row = search.evaluations.row(0, &candidate.point, &candidate.result);
                     left_out.folded += usize::from(has_folded(&row));
@@ -220,9 +228,10 @@ impl LeftOutDesigns {
     }
 }
 
-/// Refuses a goal with a column in which no design has a number.
+/// Returns an error if no design has a number in some column of the goal.
 fn check_columns(found: &Found) -> Result<(), OptimisationError> {
-    // A column that only some designs lack is no error: they are left out, and told by its name.
+    // Designs that lack a value are left out and reported by column; only a column without any
+    // value is an error.
     let is_left_out =
         |c: &Candidate| matches!(c.verdict, Judgement::Failed(_) | Judgement::Missing(_));
     if !found.history.iter().all(is_left_out) {

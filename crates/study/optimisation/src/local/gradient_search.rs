@@ -1,4 +1,6 @@
-//! The climb along exact derivatives: sequential least squares (SLSQP), with one-sided derivatives at kinks.
+//! Gradient search by SLSQP (sequential least-squares programming).
+//!
+//! At kinks it uses one-sided derivatives.
 
 use basin::{
     BoxBounds, ConstraintDescription, ConstraintJacobian, ConstraintSet, ConstraintSolveError,
@@ -16,11 +18,14 @@ use crate::coverage_piece::CoveragePiece;
 use crate::evaluations::Halt;
 use crate::slopes::Slopes;
 
-/// Accuracy of constraints and objective, both about 1 in size.
+/// Tolerance on constraints and objective; both are scaled to about 1.
 const ACCURACY: f64 = 1e-11;
 
 impl LocalSearch<'_> {
-    /// Climbs from the best design; where that does not come to meet all, for what is missed alone, and then for the objective again.
+    /// Runs a gradient search from the best design.
+    ///
+    /// If the result is infeasible, it minimises the shortfall alone, and then returns to the
+    /// objective.
     pub(super) fn climb(&self, effort: Effort) -> Result<(), Halt> {
         let is_short = || matches!(self.best_merit(), Merit::Short(_));
         self.climb_for(effort, false)?;
@@ -33,14 +38,15 @@ impl LocalSearch<'_> {
         Ok(())
     }
 
-    /// Climbs from the best design, in one smooth piece of coverage after the other as long as the best stands on a border; what it
-    /// comes by is noted.
+    /// Runs gradient searches in successive coverage branches, while the best design is on a
+    /// border.
     fn climb_for(&self, effort: Effort, is_elastic: bool) -> Result<(), Halt> {
         let mut climbed: Vec<Option<CoveragePiece>> = Vec::new();
         while climbed.len() < effort.pieces {
-            // Asked anew for each climb: the best design may have come to a border, from where another piece goes on.
+            // Recomputed each time: the best design may have reached the border of another branch.
             let pieces = self.pieces();
-            // No piece twice, or two that share a border would hand the best design to and fro.
+            // Visit each branch once; otherwise the search could alternate between two adjacent
+            // branches.
             let Some(&piece) = pieces.iter().find(|piece| !climbed.contains(piece)) else { break };
             self.climb_in(piece, effort, is_elastic)?;
             climbed.push(piece);
@@ -48,10 +54,10 @@ impl LocalSearch<'_> {
         Ok(())
     }
 
-    /// The pieces of coverage that the best design belongs to; none, once, if the goal is not about coverage.
+    /// Returns the coverage branches of the best design; one `None` if coverage does not matter.
     fn pieces(&self) -> Vec<Option<CoveragePiece>> {
         let judge = self.search.judge;
-        // Samples of one design lie in several pieces.
+        // The samples of one design lie in several branches.
         if !judge.is_about(Measure::Coverage) || judge.samples().is_some() {
             return vec![None];
         }
@@ -67,7 +73,7 @@ impl LocalSearch<'_> {
     ) -> Result<(), Halt> {
         let missed = match self.best_merit() {
             Merit::Short(missed) if is_elastic => Some(missed),
-            // An earlier piece has led to where nothing is missed.
+            // The search in an earlier branch found a feasible design.
             _ if is_elastic => return Ok(()),
             _ => None,
         };
@@ -82,7 +88,8 @@ impl LocalSearch<'_> {
             Err(ConstraintSolveError::Evaluation(halt)) if !matches!(halt, Halt::Stalled) => {
                 Err(halt)
             }
-            // Stalled, or at its end: the bounds and the number of constraints are as they were declared.
+            // Stalled or converged. Other errors cannot occur: bounds and constraint count match
+            // the problem.
             Ok(_) | Err(_) => Ok(()),
         }
     }
@@ -111,7 +118,7 @@ impl Gradient for LocalProblem<'_> {
             return Ok((1..=shares.len()).map(|k| f64::from(k == shares.len())).collect());
         }
         let evaluated = self.evaluate(shares)?;
-        // Without a derivative there is no way to go: SLSQP ends at a number that is not finite.
+        // Without a derivative no direction is defined: SLSQP stops at a non-finite number.
         let gradient = evaluated.and_then(|l| self.cost_gradient(shares, &l, Slopes::uphill));
         Ok(gradient.unwrap_or_else(|| vec![f64::NAN; shares.len()]))
     }
@@ -140,7 +147,7 @@ impl NonlinearInequalityValues for LocalProblem<'_> {
         &self,
         shares: &Vec<f64>,
     ) -> Result<Vec<f64>, ConstraintSolveError<Halt>> {
-        // As for the cost: what cannot be judged keeps to no limit.
+        // Like the cost: a design that cannot be judged violates every limit.
         let none = || vec![f64::INFINITY; self.limit_count()];
         let mut limits =
             self.evaluate(shares)?.map_or_else(none, |evaluated| self.limits(&evaluated));

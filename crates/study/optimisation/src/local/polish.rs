@@ -1,4 +1,6 @@
-//! The polish without derivatives: a few steps of mesh adaptive direct search (`OrthoMADS`), which sees past jumps.
+//! Derivative-free polish: a few steps of mesh adaptive direct search (`OrthoMADS`).
+//!
+//! Direct search can step across jumps.
 
 use basin::{
     BoxBounds, ConstraintDescription, ConstraintSet, ConstraintSolveError, Constraints,
@@ -10,13 +12,15 @@ use crate::candidate::{Merit, SearchStage};
 use crate::evaluations::Halt;
 
 impl LocalSearch<'_> {
-    /// Improves the best design by steps of `reach` and less of the intervals, over at most `most` designs. As long as none meets all
-    /// that is asked for, the largest shortfall is made small; from then on whoever falls short is no step.
+    /// Polishes the best design with steps of at most `reach` and at most `most` evaluations.
+    ///
+    /// While no design is feasible, it minimises the largest shortfall; afterwards infeasible
+    /// designs are rejected.
     pub(super) fn polish(&self, reach: f64, most: usize) -> Result<(), Halt> {
         loop {
             let start = self.best_shares();
             let before = self.best_merit();
-            // Where nothing can be judged no step is better than another.
+            // No step can be compared if the best design cannot be judged.
             if before == Merit::None {
                 return Ok(());
             }
@@ -37,7 +41,7 @@ impl LocalSearch<'_> {
             if let Err(ConstraintSolveError::Evaluation(halt)) = polished {
                 return Err(halt);
             }
-            // Once all is met, the objective counts.
+            // After the first feasible design, repeat for the objective.
             if !(only_short && matches!(self.best_merit(), Merit::Met(_))) {
                 return Ok(());
             }
@@ -45,7 +49,7 @@ impl LocalSearch<'_> {
     }
 }
 
-/// The problem of a polish: what falls short is as bad as can be, unless all that is known does.
+/// Problem with an extreme barrier: infeasible designs cost infinity once a feasible one is known.
 struct Barrier<'a> {
     walk: &'a LocalSearch<'a>,
     only_short: bool,
@@ -59,10 +63,10 @@ impl CostFunction for Barrier<'_> {
     type Error = Halt;
 
     fn cost(&self, shares: &Vec<f64>) -> Result<f64, Halt> {
-        // Without derivatives, which cost more than the value and are of no use at a jump.
+        // Derivatives cost more than the value, and do not help at a jump.
         let (candidate, _) = self.walk.at(SearchStage::Polish, shares, false)?;
         Ok(match self.walk.search.merit(&candidate, self.walk.target) {
-            // Nothing is less short than this: the run ends with what meets all, and another one begins for the
+            // A shortfall of 0 cannot be improved, so this run ends and the next one uses the
             // objective.
             Merit::Met(_) if self.only_short => 0.0,
             Merit::Met(objective) => -objective,

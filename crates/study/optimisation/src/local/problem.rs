@@ -1,5 +1,6 @@
-//! The problem of a local search along derivatives: a cost that is to be small and limits, both about 1 in size, over shares of the
-//! intervals.
+//! Problem of a gradient or ridge search: cost and limits over shares of the intervals.
+//!
+//! Cost (to be minimised) and limits are scaled to about 1.
 
 use std::cell::RefCell;
 use std::iter;
@@ -17,27 +18,28 @@ use crate::evaluations::Halt;
 use crate::judgement::Judgement;
 use crate::slopes::Slopes;
 
-/// A step that hardly moves, a share of the intervals.
+/// Largest step that counts as stalled, as a fraction of the intervals.
 const STILL: f64 = 1e-7;
 
-/// Such steps in a row that end a climb.
+/// Number of successive stalled steps that ends a gradient search.
 const STALLED: usize = 3;
 
-/// Room that is kept before scales touch in bending: a climb ends up to some 1e-9 beyond its limits, and beyond this one compliance is lost
-/// at once.
+/// Slack before contact that the search keeps in bending.
+///
+/// A gradient search ends up to about 1e-9 beyond its limits, and the compliance jumps at contact.
 const CLEAR: f64 = 1e-7;
 
-/// How an objective becomes a cost of about 1 in size.
+/// Scaling of the objective to a cost of about 1.
 #[derive(Clone, Copy)]
 enum CostScale {
-    /// Its logarithm: objectives vary by powers of ten.
+    /// Logarithm, because objectives vary by powers of ten.
     Logarithm,
-    /// Over a size, where it is not above 0.
+    /// Division by a reference size, for an objective that is not positive.
     Linear(f64),
 }
 
 impl CostScale {
-    /// The cost of a value, and its derivative, for one that is to be small.
+    /// Returns the cost of a value and its derivative, for an objective to be minimised.
     fn cost(self, value: f64) -> (f64, f64) {
         match self {
             Self::Logarithm if value > 0.0 => (value.ln(), value.recip()),
@@ -50,38 +52,41 @@ impl CostScale {
     }
 }
 
-/// Whether bending brings no scales into contact.
+/// Returns true if bending causes no contact.
 fn is_open(result: &DesignResult) -> bool {
     result.flexure.is_some_and(|flexure| flexure.measures.contact == Some(false))
 }
 
-/// The problem of a local search from its best design.
+/// Problem of a local search that starts from its best design.
 pub(super) struct LocalProblem<'a> {
     walk: &'a LocalSearch<'a>,
     stage: SearchStage,
     scale: CostScale,
-    /// Whether the search stays where bending brings no scales into contact: compliances jump where it does, and no derivative tells.
+    /// Whether the search is restricted to designs without contact in bending: compliance jumps at
+    /// contact, which no derivative shows.
     stays_open: bool,
-    /// The piece of coverage in which the search stays.
+    /// Coverage branch to which the search is restricted.
     piece: Option<CoveragePiece>,
-    /// Whether the shares end with one more variable, by which requirements and floors may be missed, and which is the cost (O9).
+    /// Whether the last variable is a slack on requirements and lower bounds, and the cost (O9).
     pub is_elastic: bool,
-    /// Where it looked last, and how often in a row it has hardly moved.
+    /// Last evaluated shares, and the number of successive stalled steps.
     still: RefCell<(Vec<f64>, usize)>,
     pub lower: Vec<f64>,
     pub upper: Vec<f64>,
 }
 
-/// A design that can be judged.
+/// An evaluated design with a valid judgement.
 pub(super) struct EvaluatedPoint {
     pub worth: Worth,
     pub row: EvaluatedRow,
-    /// Whether it meets everything.
+    /// Whether it is feasible.
     pub met: bool,
 }
 
 impl<'a> LocalProblem<'a> {
-    /// The problem from the best design of `walk`, elastic if that misses something by `missed`; none if it cannot be judged.
+    /// Builds the problem at the best design of `walk`; `None` if it has no valid judgement.
+    ///
+    /// With `missed`, the problem is elastic and its slack starts at this shortfall.
     pub fn new(
         walk: &'a LocalSearch<'a>,
         stage: SearchStage,
@@ -95,23 +100,24 @@ impl<'a> LocalProblem<'a> {
         Some(Self {
             walk,
             stage,
-            // Chosen at the start for the whole search, or costs of two places had no order.
+            // Fixed for the whole search, because costs on different scales cannot be compared.
             scale: if value > 0.0 { CostScale::Logarithm } else { CostScale::Linear(value.abs()) },
             stays_open: walk.search.judge.is_about(Measure::Flexure) && is_open(&best.result),
             piece,
             is_elastic: missed.is_some(),
             still: RefCell::default(),
             lower: vec![0.0; count + usize::from(missed.is_some())],
-            // Nobody goes where more is missed than at the start.
+            // The slack may not exceed its initial value.
             upper: iter::repeat_n(1.0, count).chain(missed).collect(),
         })
     }
 
-    /// The design at some shares, with its derivatives.
+    /// Evaluates the design at `shares` with derivatives.
     pub fn evaluate(&self, shares: &[f64]) -> Result<Option<EvaluatedPoint>, Halt> {
         let shares = &shares[..self.walk.search.space.intervals().len()];
         let (mut candidate, mut row) = self.walk.at(self.stage, shares, true)?;
-        // Of the design as it is: continued beyond a border it may keep limits that it breaks.
+        // Judged before continuation: a continued value may satisfy a limit that the design
+        // violates.
         let met = matches!(self.walk.search.merit(&candidate, self.walk.target), Merit::Met(_));
         self.end_if_stalled(shares)?;
         if let Some(piece) = self.piece {
@@ -125,18 +131,20 @@ impl<'a> LocalProblem<'a> {
         Ok(Some(EvaluatedPoint { worth, row, met }))
     }
 
-    /// Ends a climb that does not move any more: at a kink, steps along derivatives become ever smaller.
+    /// Returns `Halt::Stalled` if a gradient search no longer moves.
+    ///
+    /// At a kink, gradient steps become ever smaller.
     fn end_if_stalled(&self, shares: &[f64]) -> Result<(), Halt> {
         let (last, count) = &mut *self.still.borrow_mut();
-        // The cost, the gradient and the limits at one place are no steps.
+        // Cost, gradient and limits at the same point are not steps.
         if last.as_slice() == shares {
             return Ok(());
         }
-        // The largest of all intervals: a climb that still moves in one has not come to its end.
+        // Maximum over all intervals: a search that still moves in one has not converged.
         let step = last.iter().zip(shares).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         *count = if !last.is_empty() && step < STILL { *count + 1 } else { 0 };
         shares.clone_into(last);
-        // A search along ridges ends by its radius, and in its smallest ball every step is a small one.
+        // The ridge search ends by its radius, so small steps near its end are normal.
         if *count >= STALLED && self.stage == SearchStage::Gradient {
             Err(Halt::Stalled)
         } else {
@@ -144,35 +152,35 @@ impl<'a> LocalProblem<'a> {
         }
     }
 
-    /// The cost, to be small; infinite where there is none.
+    /// Returns the cost to be minimised; infinite if undefined.
     pub fn cost_of(&self, worth: &Worth) -> f64 {
         let objective = self.walk.target.objective;
         let sign = self.walk.search.judge.sign(objective);
         let cost = -sign * self.scale.cost(worth.objectives[objective]).0;
-        // A logarithm that does not exist is no way to go, whichever sign is good.
+        // An undefined logarithm counts as infinite cost, for either direction of the objective.
         if cost.is_finite() { cost } else { f64::INFINITY }
     }
 
-    /// By how much a requirement or a floor may be missed at some shares.
+    /// Returns the slack variable of an elastic problem.
     pub fn missed(&self, shares: &[f64]) -> Option<f64> {
         shares.last().copied().filter(|_| self.is_elastic)
     }
 
-    /// The number of requirements and floors, which come first among the limits.
+    /// Returns the number of requirements and lower bounds, which come first among the limits.
     pub fn asked_count(&self) -> usize {
         self.walk.search.judge.requirements().count() + self.walk.target.floors.len()
     }
 
-    /// The number of limits: requirements, floors, borders of the piece, and room in bending.
+    /// Returns the number of limits: requirements, lower bounds, branch borders and bending slack.
     pub fn limit_count(&self) -> usize {
         let borders = self.piece.map_or(0, |_| CoveragePiece::BORDERS);
         self.asked_count() + borders + usize::from(self.stays_open)
     }
 
-    /// How far a design is beyond each limit; not above 0 where it keeps to it.
+    /// Returns the excess over each limit; at most 0 where the limit is satisfied.
     pub fn limits(&self, evaluated: &EvaluatedPoint) -> Vec<f64> {
         let EvaluatedPoint { worth, row, .. } = evaluated;
-        // In the order in which `limit_gradient` numbers them.
+        // The order must match `limit_gradient`.
         let contact = self.stays_open.then(|| CLEAR - contact_margin(&row.nominal.case));
         let borders = self.borders();
         let borders = borders.filter_map(|(piece, border)| piece.beyond(border, &row.nominal.case));
@@ -189,14 +197,14 @@ impl<'a> LocalProblem<'a> {
             .collect()
     }
 
-    /// The borders of the piece.
+    /// Returns the borders of the coverage branch.
     fn borders(&self) -> impl Iterator<Item = (CoveragePiece, usize)> {
         self.piece
             .into_iter()
             .flat_map(|piece| (0..CoveragePiece::BORDERS).map(move |k| (piece, k)))
     }
 
-    /// The gradient of the cost, made of the slopes that are picked.
+    /// Computes the gradient of the cost, with `pick` choosing between one-sided slopes.
     pub fn cost_gradient(
         &self,
         shares: &[f64],
@@ -210,7 +218,7 @@ impl<'a> LocalProblem<'a> {
         self.falling(shares, slopes, pick)
     }
 
-    /// The gradient of limit `k`, made of the slopes that are picked.
+    /// Computes the gradient of limit `k`, with `pick` choosing between one-sided slopes.
     pub fn limit_gradient(
         &self,
         k: usize,
@@ -243,7 +251,9 @@ impl<'a> LocalProblem<'a> {
         }
     }
 
-    /// The gradient over shares of the negative of what has these slopes; at the ends of an interval the side within counts.
+    /// Computes the gradient, over shares, of the negative of the quantity with these slopes.
+    ///
+    /// At an end of an interval, the inward one-sided slope is used.
     fn falling(
         &self,
         shares: &[f64],
@@ -264,5 +274,5 @@ impl<'a> LocalProblem<'a> {
     }
 }
 
-/// What is made of the two slopes of a value that is to be large.
+/// Chooses one slope from the two one-sided slopes of a quantity to be maximised.
 pub(super) type Pick = fn(Slopes) -> Option<f64>;

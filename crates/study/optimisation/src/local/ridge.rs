@@ -1,4 +1,4 @@
-//! The search along ridges, where the climb ends: with the pieces that were seen near by.
+//! Ridge search by the bundle method, where the gradient search ends at kinks.
 
 use super::LocalSearch;
 use super::bundle::{BundleOptions, Piece, Pieces, PiecewiseSmooth, descend};
@@ -8,17 +8,20 @@ use crate::evaluated_row::StatisticUse;
 use crate::evaluations::Halt;
 use crate::slopes::Slopes;
 
-/// The smallest radius, a share of the intervals: kinks are told from further away than that.
+/// Smallest radius, as a fraction of the intervals; kinks are resolved at larger distances.
 const SMALLEST: f64 = 1e-6;
 
 impl LocalSearch<'_> {
-    /// Follows the ridge on which the best design stands, by steps of `reach` and less of the intervals, over at most `most` designs.
+    /// Searches along the ridge through the best design.
+    ///
+    /// Steps are at most `reach` of the intervals, and evaluations at most `most`.
     pub(super) fn follow(&self, reach: f64, most: usize) -> Result<(), Halt> {
-        // A staircase has no tangents.
+        // A yield is a step function, and has no tangents.
         if self.search.judge.is_yield(StatisticUse::Objective(self.target.objective)) {
             return Ok(());
         }
-        // In no piece of coverage: borders of pieces are ridges, and this search goes along them.
+        // Not restricted to a coverage branch: borders of branches are ridges, and this search
+        // follows them.
         let Some(problem) = LocalProblem::new(self, SearchStage::Ridge, None, None) else {
             return Ok(());
         };
@@ -44,7 +47,7 @@ impl PiecewiseSmooth for LocalProblem<'_> {
         };
         let limits: Vec<Piece> =
             self.limits(&evaluated).into_iter().enumerate().map(limit).collect();
-        // Room in bending is no requirement, and yet a limit of this search.
+        // The slack before contact in bending is not a requirement, but limits this search too.
         let met = evaluated.met && limits.iter().all(|limit| limit.value <= 1e-9);
         Ok(Some(Pieces { cost: Piece { value: cost, gradient }, limits, met }))
     }

@@ -1,4 +1,4 @@
-//! Derivatives of statistics over samples: those of the samples that make them, with respect to the nominal design.
+//! Derivatives of statistics over samples, from the derivatives of single samples.
 
 use results::DesignRow;
 use sweep::Parameter;
@@ -10,7 +10,7 @@ use crate::sample::{OrderStatistic, SampleJudge, Samples};
 use crate::slopes::Slopes;
 use crate::space::{DesignSpace, SpacePoint};
 
-/// A point with its samples, of which derivatives are asked for.
+/// A point with its samples, to be differentiated.
 pub(super) struct SampledPoint<'a> {
     pub space: &'a DesignSpace,
     pub evaluations: &'a Evaluations<'a>,
@@ -20,7 +20,7 @@ pub(super) struct SampledPoint<'a> {
 }
 
 impl SampledPoint<'_> {
-    /// The derivatives of every statistic of the goal of `judge`.
+    /// Computes the derivatives of every statistic that `judge` uses.
     pub fn slopes(&self, judge: &Judge) -> Result<Vec<StatisticSlopes>, Halt> {
         let mut slopes = Vec::new();
         for (of, q) in judge.uses() {
@@ -29,8 +29,8 @@ impl SampledPoint<'_> {
                 StatisticUse::Requirement(k) => judge.requirements().nth(k),
             };
             let mut rows = Vec::new();
-            // A quantile is a value of one sample, or lies between two: only these are solved with derivatives, not
-            // all.
+            // A quantile is the value of one sample or interpolates two: only these need
+            // derivatives.
             for order in self.judge.order_statistics(q, requirement, self.samples) {
                 rows.extend(self.row(order.sample)?.map(|row| (order, row)));
             }
@@ -44,7 +44,7 @@ impl SampledPoint<'_> {
         Ok(slopes)
     }
 
-    /// The row of a sample, solved with derivatives; `None` if there is no such sample.
+    /// Solves a sample with derivatives; `None` if the sample does not exist.
     fn row(&self, sample: u64) -> Result<Option<DesignRow>, Halt> {
         let Some(result) = self.evaluations.even_sample(self.point, sample)? else {
             return Ok(None);
@@ -54,9 +54,12 @@ impl SampledPoint<'_> {
         Ok(case.map(|case| DesignRow { case, ..nominal }))
     }
 
-    /// The part of a sample in the derivatives of statistic `q`: the sample moves as the design does, with the same deviations.
+    /// Computes the contribution of a sample to the derivatives of statistic `q`.
+    ///
+    /// The sample moves with the nominal design, at constant deviations.
     fn part(&self, q: usize, of: OrderStatistic, row: &DesignRow, parameter: &Parameter) -> Slopes {
-        // With its scatter, as it was judged: the even row may have another tightest bound.
+        // Uses the judged sample, with scatter between scales: without scatter another bound may be
+        // the tightest.
         let values = &self.samples.0[of.sample as usize - 1];
         let Some((column, factor)) = self.judge.moving(q, values) else { return Slopes::UNKNOWN };
         let nominal = self.space.case(self.point);

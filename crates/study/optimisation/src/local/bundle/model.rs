@@ -1,4 +1,4 @@
-//! The step that is best for all tangents: a linear program, which sequential least squares solves.
+//! Model of tangents; the best step solves a linear program, by SLSQP.
 
 use std::convert::Infallible;
 
@@ -10,29 +10,29 @@ use basin::{
 
 use super::Piece;
 
-/// How much more the cost counts than the squares by which least squares begin.
+/// Weight of the linear cost against the quadratic term with which SLSQP starts.
 const WEIGHT: f64 = 1e3;
 
-/// Room that steps keep to limits, so that what is left of a curvature does not pass them.
+/// Margin that steps keep to limits, so that residual curvature does not violate them.
 const MARGIN: f64 = 1e-10;
 
-/// Iterations of a linear program, at most.
+/// Maximum iterations for the linear program.
 const ITERATIONS: u64 = 20;
 
-/// The tangent of what.
+/// Function to which a tangent belongs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Cut {
-    /// The cost, or what is to be small in its place.
+    /// The cost, or the excess over limits while the centre is infeasible.
     Cost,
     /// A limit.
     Limit,
 }
 
-/// Tangents round a centre: rows `slope·u ≤ right + s` of the step `u` in radii.
+/// Tangents around a centre: rows `slope·u ≤ right + s` of the step `u`, in radii.
 pub(super) struct Model<'c> {
     centre: &'c [f64],
     radius: f64,
-    /// What is to be small, at the centre.
+    /// Cost or excess at the centre.
     worst: f64,
     cuts: Vec<(Cut, Vec<f64>, f64)>,
 }
@@ -42,40 +42,40 @@ impl<'c> Model<'c> {
         Self { centre, radius, worst, cuts: Vec::new() }
     }
 
-    /// Adds the tangent of a piece that was seen at `place`, not above the value `here` of the centre.
+    /// Adds the tangent of a function at `place`, limited to its value `here` at the centre.
     pub fn add(&mut self, cut: Cut, piece: &Piece, here: f64, place: &[f64]) {
         let Some(gradient) = &piece.gradient else { return };
         let along =
             gradient.iter().zip(self.centre.iter().zip(place)).map(|(g, (x, y))| g * (x - y));
-        // Of a piece that is not convex the tangent may lie above what the centre has, and would rule out the centre
-        // itself.
+        // For a non-convex function the tangent may exceed the value at the centre, and exclude the
+        // centre.
         let value = (piece.value + along.sum::<f64>()).min(here);
-        // A skin without a value is beyond its limits without end.
+        // An undefined value gives an infinite excess, which no tangent describes.
         if !(value.is_finite() && self.worst.is_finite()) {
             return;
         }
         let slope = gradient.iter().map(|g| g * self.radius).collect();
         let right = match cut {
             Cut::Cost => self.worst - value,
-            // Not below 0: to stay must be allowed, also where the centre stands on a limit.
+            // Not below 0: a zero step must remain feasible, also on a limit.
             Cut::Limit => (-MARGIN - value).max(0.0),
         };
         self.cuts.push((cut, slope, right));
     }
 
-    /// The place of the best step, and the gain that the tangents tell.
+    /// Returns the end of the best step, and the gain predicted by the tangents.
     pub fn step(&self) -> Option<(Vec<f64>, f64)> {
         let costs = || self.cuts.iter().filter(|(cut, ..)| *cut == Cut::Cost);
         let size = |slope: &[f64]| slope.iter().map(|x| x.abs()).sum::<f64>();
         let scale = costs().map(|(_, slope, _)| size(slope)).fold(0.0, f64::max);
-        // Flat in all tangents: no step promises anything.
+        // All tangents are flat, so no step predicts a gain.
         if scale <= 0.0 {
             return None;
         }
         let step = self.solve(scale)?;
         let dot = |slope: &[f64]| slope.iter().zip(&step).map(|(g, u)| g * u).sum::<f64>();
         let rises = costs().map(|(_, slope, right)| dot(slope) - right);
-        // Not the last coordinate of the program: that is scaled, and as accurate as its solver.
+        // Not the last coordinate of the program: it is scaled, and only as accurate as the solver.
         let gain = -rises.fold(f64::NEG_INFINITY, f64::max);
         let moved =
             self.centre.iter().zip(&step).map(|(x, u)| (x + self.radius * u).clamp(0.0, 1.0));
@@ -87,8 +87,8 @@ impl<'c> Model<'c> {
         let mut rows = Vec::new();
         let mut right = Vec::new();
         for (cut, slope, limit) in &self.cuts {
-            // Tangents of the cost share one scale, or their order would change; a limit is the same whatever it is
-            // multiplied by.
+            // Tangents of the cost need a common scale to keep their order; limits can be scaled
+            // individually.
             let size = match cut {
                 Cut::Cost => scale,
                 Cut::Limit => slope.iter().map(|x| x.abs()).sum(),
@@ -99,7 +99,7 @@ impl<'c> Model<'c> {
                 right.push(limit / size);
             }
         }
-        // The ends of the cube, in radii, where they are nearer than the border of the ball.
+        // Bounds of the cube in radii, where they are nearer than the border of the ball.
         let end = |x: f64| [(-x / self.radius).max(-1.0), ((1.0 - x) / self.radius).min(1.0)];
         let ends: Vec<[f64; 2]> = self.centre.iter().map(|x| end(*x)).collect();
         let program = LinearProgram {
@@ -116,7 +116,7 @@ impl<'c> Model<'c> {
     }
 }
 
-/// The smallest last coordinate that rows and bounds allow.
+/// Linear program: minimise the last coordinate under rows and bounds.
 struct LinearProgram {
     rows: DenseMatrix,
     right: Vec<f64>,
