@@ -1,7 +1,7 @@
-//! Tells the program which revision of its source it is made from.
+//! Records the source revision in the program.
 //!
-//! A build from a clean checkout is known by its commit. Any other is known by its sources too: two builds of different
-//! sources never have the same name, so none goes on with the results of the other.
+//! A clean checkout is identified by its commit, any other build by a hash of its sources too. Different
+//! sources never have the same revision, so they do not continue each other's results.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -36,7 +36,7 @@ fn commit() -> Option<(String, bool)> {
     Some((revision, changes.is_empty()))
 }
 
-/// A hash of everything that the program is made from: the sources of all crates, and what is locked.
+/// Returns a hash of the sources of all crates and the lock file.
 fn sources() -> String {
     let mut files =
         vec![PathBuf::from("../../../Cargo.toml"), PathBuf::from("../../../Cargo.lock")];

@@ -14,7 +14,7 @@ struct Groups {
     handle: u32,
 }
 
-/// Fixed handles of what others refer to: block records of model and paper, and their table.
+/// Fixed handles of the block records of model and paper space, and of their table.
 const MODEL: &str = "1F";
 const PAPER: &str = "1B";
 
@@ -30,7 +30,7 @@ pub(crate) fn write(sheet: &Sheet) -> String {
         for outline in sheet.outlines() {
             groups.entity("LWPOLYLINE", MODEL);
             groups.add(&[(100, "AcDbEntity"), (8, outline.layer), (100, "AcDbPolyline")]);
-            // 70 = 1: the last corner is joined to the first, so that none is written twice.
+            // 70 = 1: closed polyline.
             groups.add(&[(90, &outline.corners.len().to_string()), (70, "1")]);
             for [x, y] in &outline.corners {
                 groups.add(&[(10, &x.to_string()), (20, &y.to_string())]);
@@ -76,7 +76,7 @@ impl Groups {
         self.add(&[(0, kind), (5, &handle), (330, owner)]);
     }
 
-    /// The tables that `AutoCAD` refuses to do without, most of them empty.
+    /// Writes the tables that `AutoCAD` requires, most of them empty.
     fn tables(&mut self) {
         self.section("TABLES", |groups| {
             groups.table("VPORT", "8", |_, _| {});
@@ -140,7 +140,7 @@ impl Groups {
         self.add(&[(100, "AcDbSymbolTableRecord"), (100, class), (2, name), (70, "0")]);
     }
 
-    /// A block without contents: what it stands for is in the section of entities.
+    /// Writes an empty block; its content is in the section of entities.
     fn block(&mut self, name: &str, record: &str, [begin, end]: [&str; 2]) {
         self.add(&[(0, "BLOCK"), (5, begin), (330, record), (100, "AcDbEntity"), (8, "0")]);
         self.add(&[(100, "AcDbBlockBegin"), (2, name), (70, "0")]);

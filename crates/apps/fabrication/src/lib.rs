@@ -1,7 +1,7 @@
 //! Files for makers: a patch of skin in millimetres, for printers (3MF, STL), CAD programs (STEP) and laser cutters (DXF, SVG).
 //!
-//! All solids are [prisms](Prism): a scale is a parallelogram, the membrane a rectangle, extruded across the rows. The files are
-//! written here because each takes a page, and because a skin needs none of what the large libraries are made for.
+//! All solids are [prisms](Prism): a scale is a parallelogram, the membrane a rectangle, extruded across
+//! the rows. The formats are written without libraries, because each writer takes a page.
 
 mod dxf;
 mod mesh;
@@ -31,7 +31,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// The format whose files end in `extension`, without the dot and in any case of letters.
+    /// Returns the format for a file extension without the dot, ignoring case.
     pub fn of_extension(extension: &str) -> Option<Self> {
         Some(match extension.to_ascii_lowercase().as_str() {
             "3mf" => Self::ThreeMf,
@@ -43,12 +43,12 @@ impl Format {
         })
     }
 
-    /// Whether the file holds outlines to cut, not solids.
+    /// Returns true for formats with outlines to cut.
     pub fn is_flat(self) -> bool {
         matches!(self, Self::Dxf | Self::Svg)
     }
 
-    /// The contents of the file. Solids are those of `patch`, outlines those of `sheet`.
+    /// Returns the file: solids from `patch`, or outlines from `sheet`.
     pub fn bytes(self, patch: &Patch, sheet: &Sheet) -> Vec<u8> {
         match self {
             Self::ThreeMf => three_mf::write(patch),

@@ -19,7 +19,7 @@ pub struct Patch {
     gap_across: f64,
 }
 
-/// Why there is no such patch.
+/// Errors of a patch.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum NoPatch {
     /// A length is not positive.
@@ -40,7 +40,7 @@ pub struct Prism {
 }
 
 impl Patch {
-    /// A patch of rows of `row`, whose lengths are over the `thickness`; `scales` along and across.
+    /// Creates a patch from rows like `row` (lengths over `thickness`), with `scales` along and across.
     ///
     /// # Errors
     /// If a length is not positive, or the number of scales is out of range.
@@ -171,7 +171,7 @@ pub(crate) mod tests {
 
     use super::*;
 
-    /// Scales 2 mm thick with a base of 1.6 mm that lean by 60°, 5 along and 4 across.
+    /// Creates scales 2 mm thick with a base of 1.6 mm and a slant of 60°, 5 along and 4 across.
     pub fn patch() -> Patch {
         let row = Row::new(Parallelogram::new(0.4, 60.0).expect("a scale"), 0.3).expect("a row");
         Patch::new(row, 2.0, [3.0, 0.25, 0.6], [5, 4]).expect("a patch")

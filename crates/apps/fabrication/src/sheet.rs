@@ -1,4 +1,4 @@
-//! What a laser cutter cuts from sheets: the scales from the side, and a template that holds them while they are glued.
+//! Outlines for laser cutters: profiles of the scales, and a template that holds them for gluing.
 
 use crate::Patch;
 
@@ -11,13 +11,13 @@ const RIM: f64 = 10.0;
 /// The least web between two holes of a template, mm: thinner ones burn away.
 const LEAST_WEB: f64 = 0.2;
 
-/// Side of the square that tells whether a file came through in millimetres.
+/// Side of the square to check the units after import, mm.
 const CHECK: f64 = 100.0;
 
 /// A closed outline on a layer; the last corner is joined to the first.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outline {
-    /// Name of the layer, which says what the outline is for.
+    /// Name of the layer, by purpose.
     pub layer: &'static str,
     /// Corners, counter-clockwise, mm.
     pub corners: Vec<[f64; 2]>,
@@ -30,7 +30,7 @@ pub struct Sheet {
     web: f64,
 }
 
-/// Why there is no such sheet.
+/// Errors of a sheet.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum NoSheet {
     /// A length below zero, or none.
@@ -42,7 +42,7 @@ pub enum NoSheet {
 }
 
 impl Sheet {
-    /// The layers, in the order in which they are cut: holes before what holds them.
+    /// The layers in the order of cutting: holes before their parts.
     pub const LAYERS: [&'static str; 3] = ["PROFILES", "GLUE_TEMPLATE", "CHECK_100_MM"];
 
     /// The outlines of a patch, for a beam that burns a line as wide as `kerf`, and a template from a sheet as thick as `template`.
@@ -55,7 +55,7 @@ impl Sheet {
                 return Err(NoSheet::Length(name, length));
             }
         }
-        // A leaning scale needs a longer hole, by what it leans within the sheet.
+        // A slanted scale needs a longer hole, by its horizontal shift within the sheet.
         let lean = patch.shift() / patch.thickness() * template;
         let hole = [patch.base() + lean, patch.width()];
         let smallest = hole[0].min(hole[1]);
@@ -67,7 +67,7 @@ impl Sheet {
         let mut sheet = Self { outlines: Vec::new(), web: (along - lean).min(across) };
         let top = sheet.profiles(patch, kerf);
         let top = if sheet.has_template() { sheet.template(patch, hole, kerf, top) } else { top };
-        // The square is measured, not used: it is drawn as it is, without kerf.
+        // The square is only measured, so it has no kerf.
         sheet.add(Self::LAYERS[2], rectangle([0.0, top + SPACING], [CHECK; 2], 0.0));
         Ok(sheet)
     }
@@ -82,7 +82,7 @@ impl Sheet {
         self.web
     }
 
-    /// Whether there is a template: its webs would hold.
+    /// Returns true if the webs of the template are wide enough.
     pub fn has_template(&self) -> bool {
         self.web >= LEAST_WEB
     }
@@ -104,7 +104,7 @@ impl Sheet {
     fn profiles(&mut self, patch: &Patch, kerf: f64) -> f64 {
         // The beam burns half of its width on the inside of the line, which belongs to the part.
         let profile = grown(patch.profile(), kerf / 2.0);
-        // Parts lean alike, so they stand closer than their lengths: what counts is the distance across their sides.
+        // Parts have equal slants, so only the distance perpendicular to their sides matters.
         let slant = (patch.shift() / patch.thickness()).atan();
         let step = patch.base() + (SPACING + kerf) / slant.cos();
         let [nx, ny] = patch.scales();
@@ -116,7 +116,7 @@ impl Sheet {
         ny as f64 * rise
     }
 
-    /// The template above what ends at `top`; returns where it ends.
+    /// Adds the template above `top`; returns its upper end.
     fn template(&mut self, patch: &Patch, hole: [f64; 2], kerf: f64, top: f64) -> f64 {
         let [length, width, _] = patch.membrane_size();
         let size = [length + 2.0 * RIM, width + 2.0 * RIM];
@@ -136,7 +136,7 @@ fn rectangle([x, y]: [f64; 2], [length, width]: [f64; 2], by: f64) -> [[f64; 2];
     grown([[x, y], [x + length, y], [x + length, y + width], [x, y + width]], by)
 }
 
-/// A parallelogram whose sides are moved outwards by `by`.
+/// Offsets the sides of a parallelogram outwards by `by`.
 fn grown(corners: [[f64; 2]; 4], by: f64) -> [[f64; 2]; 4] {
     let side = |from: usize| -> [f64; 2] {
         let (a, b) = (corners[from], corners[(from + 1) % 4]);

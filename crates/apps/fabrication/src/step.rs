@@ -6,8 +6,8 @@ use nalgebra::Vector3;
 
 use crate::{Patch, Prism};
 
-/// What stands before the solids: a product in millimetres, which are known to 1e-7 mm. The representation (#20) follows the solids.
-// The date is fixed: that of writing would make files of the same design differ.
+/// The header: a product in millimetres with an accuracy of 1e-7 mm. Its representation (#20) follows the solids.
+// The date is fixed, so that equal designs give equal files.
 const PRODUCT: &str = "ISO-10303-21;
 HEADER;
 FILE_DESCRIPTION(('skin of scales on a membrane'),'2;1');
@@ -142,7 +142,7 @@ fn triple(values: Vector3<f64>) -> String {
 
 /// A number as STEP writes it: with a point always, and a capital E.
 fn real(value: f64) -> String {
-    // The debug form, because the other one leaves the point of whole numbers away.
+    // The debug format, because the display format omits the point of whole numbers.
     let text = format!("{value:?}");
     match text.split_once('e') {
         Some((digits, exponent)) if digits.contains('.') => format!("{digits}E{exponent}"),

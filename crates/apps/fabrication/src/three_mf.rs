@@ -23,7 +23,7 @@ const RELATIONSHIPS: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 "#;
 
 pub(crate) fn write(patch: &Patch) -> Vec<u8> {
-    // The time of writing would make files of the same design differ.
+    // No time stamp, so that equal designs give equal files.
     let options = SimpleFileOptions::default().last_modified_time(DateTime::default());
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
     let model = model(patch);

@@ -17,7 +17,7 @@ fn exception<'py>(
     class.and_then(|class| class.call1(arguments)).map_or_else(|error| error, PyErr::from_value)
 }
 
-/// A parameter with a value that it does not take.
+/// Creates the exception for an invalid value of a parameter.
 pub fn invalid_parameter(
     py: Python<'_>,
     key: &str,
@@ -27,20 +27,20 @@ pub fn invalid_parameter(
     exception(py, "InvalidParameter", (key, value, expected))
 }
 
-/// Work that could not be done, for a reason.
+/// Creates the exception for failed work.
 pub fn failed(what: &str, reason: &str) -> PyErr {
     Python::attach(|py| exception(py, "Failed", (what, reason)))
 }
 
 /// Errors of the crates as exceptions.
 pub trait OrFailed<T> {
-    /// The value, or the exception that `what` failed.
+    /// Returns the value, or an exception that names the failed operation.
     fn or_failed(self, what: &str) -> PyResult<T>;
 }
 
 impl<T, E: Display> OrFailed<T> for Result<T, E> {
     fn or_failed(self, what: &str) -> PyResult<T> {
-        // What a command is told by flags, a function is told by keywords.
+        // Messages name flags of commands; functions have keywords instead.
         let spoken = |text: String| {
             let text = text.replace("squama run --resume", "squama.run(..., resume=True)");
             text.replace("--resume", "resume=True").replace("--fresh", "fresh=True")
@@ -49,7 +49,7 @@ impl<T, E: Display> OrFailed<T> for Result<T, E> {
     }
 }
 
-/// What is wrong with a definition, where `given` are the values that came from Python.
+/// Creates the exception for an invalid definition; `given` are the values from Python.
 pub fn invalid_definition(
     py: Python<'_>,
     error: &InvalidDefinition,
@@ -58,7 +58,7 @@ pub fn invalid_definition(
     match error {
         InvalidDefinition::Several(errors) if !errors.is_empty() => {
             let error_of = invalid_definition(py, &errors[0], given);
-            // The first is the exception, and the others are told with it.
+            // The first problem is the exception; the others are attached to it.
             for other in &errors[1..] {
                 let _ = error_of.value(py).call_method1("add", (other.to_string(),));
             }
@@ -81,7 +81,7 @@ pub fn invalid_definition(
     }
 }
 
-/// The value that a problem is about, and what would be right.
+/// Returns the value in question, and a description of valid values.
 fn explained(problem: &Problem) -> (Option<String>, String) {
     match problem {
         Problem::Value(

@@ -1,4 +1,4 @@
-//! Derivatives of measures, and of all that columns make of them.
+//! Derivatives of measures and derived columns.
 
 use std::collections::BTreeSet;
 
@@ -15,10 +15,10 @@ use crate::solved::reason;
 /// Step of the differences along rows that are extrapolated on straight lines: they have the rounding of a formula alone.
 const STEP: f64 = 1e-6;
 
-/// The derivatives where a parameter decreases and where it increases, and what changes between them.
+/// Left and right derivative, and the event at a kink.
 type Slopes = (Option<f64>, Option<f64>, Option<String>);
 
-/// The values of `measures`, and of each the derivatives by `keys`.
+/// Computes `measures` and their derivatives with respect to `keys`.
 #[pyfunction]
 pub fn gradients(
     skin: &Bound<'_, Skin>,
@@ -33,7 +33,7 @@ pub fn gradients(
         found.ok_or_else(|| PyKeyError::new_err(format!("there is no measure {name}")))
     };
     let asked = measures.iter().map(column).collect::<PyResult<Vec<_>>>()?;
-    // Only what the columns are made of is solved; a column of parameters alone needs nothing, and coverage costs nothing.
+    // Solves only the measures that the columns need.
     let needed = asked.iter().map(|c| measure_of(&c.name).unwrap_or(Measure::Coverage));
     let needed: BTreeSet<_> = needed.chain([Measure::Sensitivity]).collect();
     let (evaluator, number) = (evaluator(&Vec::from_iter(needed)), of.sweep.grid().number(0));
@@ -45,7 +45,7 @@ pub fn gradients(
 fn parameter(skin: &Bound<'_, Skin>, key: &str) -> PyResult<&'static Parameter> {
     let (py, case) = (skin.py(), skin.get().case());
     let parameter = Parameter::named(key).ok_or_else(|| unknown(py, key))?;
-    // Lengths in mm and moduli move nothing but what follows from them, which is continuous.
+    // Lengths in mm and moduli only affect continuous quantities.
     let is_smooth = parameter.has(Role::Continuous) || parameter.has(Role::Made);
     if !is_smooth || parameter.size(&case).is_none() {
         let expected = "a parameter that is given as a number and changes continuously";

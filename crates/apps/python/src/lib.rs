@@ -1,13 +1,13 @@
-//! The Python package squama: what needs the solver. The rest of the package is Python, in `python/squama/`.
+//! The part of the Python package squama that needs the solver. The rest of the package is Python, in `python/squama/`.
 //!
 //! | Module | Role |
 //! |---|---|
 //! | `skin` | a skin, made from keywords or a definition, and solved |
-//! | `solved` | what solving gave, taken column by column |
+//! | `solved` | results, column by column |
 //! | `gradient` | values with their derivatives |
 //! | `many` | many skins on all cores |
 //! | `study` | runs, rankings, searches and tolerances in folders |
-//! | `work` | work that can be interrupted and tells how far it is |
+//! | `work` | interruptible work with progress |
 //! | `value`, `error` | values and errors between the two languages |
 
 #![expect(clippy::needless_pass_by_value, reason = "what comes from Python is taken by value")]
@@ -29,7 +29,7 @@ use sweep::{PARAMETERS, Parameter, Role, Sweep};
 /// Key, section, unit, meaning, values that it takes, and the default as text; geometry has none.
 type Explained = (&'static str, &'static str, &'static str, &'static str, String, Option<String>);
 
-/// Everything that the documentation of parameters is made from.
+/// Returns the documentation of all parameters.
 #[pyfunction]
 fn parameters() -> Vec<Explained> {
     let explained = |p: &'static Parameter| {
@@ -40,7 +40,7 @@ fn parameters() -> Vec<Explained> {
     PARAMETERS.iter().map(explained).collect()
 }
 
-/// Everything that the documentation of results is made from: name, unit and meaning of every value, of skins with materials too.
+/// Returns name, unit and meaning of every measure, including measures in physical units.
 #[pyfunction]
 fn columns() -> PyResult<Vec<(String, &'static str, &'static str)>> {
     let text = "name = 'x'\nmaterial = { thickness_mm = 1, substrate_modulus_MPa = 1, membrane_modulus_MPa = 1, \

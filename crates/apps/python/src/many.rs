@@ -111,8 +111,9 @@ fn differing(skins: &[Py<Skin>]) -> impl Iterator<Item = &'static Parameter> {
     all().filter(move |parameter| !same.iter().any(|other| other.key == parameter.key))
 }
 
-/// What the columns of a skin depend on: whether its needle is guided and its gaps are random, which parameters are given and which
-/// have another value than that by default, and lists, whose values stand in names.
+/// The properties of a skin that determine its columns.
+///
+/// Guided needle, random gaps, given and non-default parameters, and lists with values in column names.
 type Kind = ([bool; 2], Vec<[bool; 2]>, [Option<Scalar>; 2]);
 
 fn kind(skin: &Skin) -> Kind {

@@ -1,4 +1,4 @@
-//! A skin with everything that it is solved with.
+//! A skin and its parameters.
 
 use std::collections::BTreeMap;
 use std::collections::hash_map::DefaultHasher;
@@ -92,7 +92,7 @@ fn python(py: Python<'_>, scalar: Scalar) -> PyResult<Bound<'_, PyAny>> {
     })
 }
 
-/// The measures of that name, which may be that of a value too, or of a list of names; "all" are those that need no derivatives.
+/// Parses measures: a name, a column, a list, or "all" (all without derivatives).
 pub fn measures(of: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<Measure>> {
     let Some(of) = of.filter(|of| !of.is_none()) else { return Ok(Measure::USUAL.to_vec()) };
     let names = of.extract().map(|name: String| vec![name]).or_else(|_| of.extract())?;
@@ -180,7 +180,7 @@ impl Skin {
         Ok(Self::new(&sweep_of(&given)?, 0))
     }
 
-    /// How many designs a definition has, and the skins of all or of the one at an index.
+    /// Returns the number of designs of a definition, and all skins or the one at an index.
     #[staticmethod]
     fn _designs(
         py: Python<'_>,
@@ -238,7 +238,7 @@ impl Skin {
         RESULT.import(py, "squama._result", "Result")?.call1((slf, solved))
     }
 
-    /// The row at rest and, if the path gets there, at the critical tilt.
+    /// Draws the row at rest and, if the path reaches it, at the critical tilt.
     fn _repr_svg_(&self, py: Python<'_>) -> PyResult<String> {
         py.detach(|| {
             let case = self.case();

@@ -1,4 +1,4 @@
-//! A solved skin, of which Python takes what it asks for.
+//! A solved skin; Python takes results on demand.
 
 use std::collections::HashMap;
 
@@ -19,7 +19,7 @@ pub struct Solved {
     pub design: SolvedDesign,
 }
 
-/// The reason why what a column is about could not be found.
+/// Returns the reason why a column has no value.
 pub fn reason(row: &DesignRow, column: &str) -> Option<&'static str> {
     let mut failures = row.result.failures.iter();
     let failure = failures.find(|failure| Some(failure.measure) == measure_of(column));
@@ -45,7 +45,7 @@ impl Solved {
         path_tables(&self.design).into_iter().map(named).collect()
     }
 
-    /// What failed: the measure, the reason, and what that means.
+    /// Returns the failures: measure, reason, and explanation.
     fn failures(&self) -> Vec<(&'static str, &'static str, &'static str)> {
         let failures = self.design.row.result.failures.iter();
         failures.map(|of| (of.measure.key(), of.outcome.text(), of.outcome.meaning())).collect()

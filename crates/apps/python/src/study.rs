@@ -38,7 +38,7 @@ const TABLES_EVERY: Duration = Duration::from_secs(30);
 pub struct Keywords<'py> {
     /// The folder.
     out: Option<PathBuf>,
-    /// In place of what the definition says: dotted keys and their values.
+    /// Settings that override the definition: dotted keys and values.
     set: Option<Bound<'py, PyDict>>,
     resume: bool,
     fresh: bool,
@@ -63,7 +63,7 @@ impl Keywords<'_> {
         self.out.clone().unwrap_or_else(|| Path::new("results").join(sweep.name()))
     }
 
-    /// What becomes of earlier results.
+    /// Treatment of earlier results.
     fn start(&self) -> Start {
         match (self.resume, self.fresh) {
             (true, _) => Start::Resume,

@@ -1,4 +1,4 @@
-//! Between Python and the values of definitions and tables.
+//! Conversion between Python and the values of definitions and tables.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -24,12 +24,12 @@ pub fn place() -> Place {
     Place::Argument("squama".into())
 }
 
-/// A thing as text. Not by `to_string`, which would take an interrupt for a text that cannot be made, and swallow it.
+/// Converts an object to text; unlike `to_string`, propagates interrupts.
 pub fn text(of: &Bound<'_, PyAny>) -> PyResult<String> {
     of.str()?.extract()
 }
 
-/// A value as a definition would write it. What no definition can hold is kept as text, to be refused by name.
+/// Converts a value for a definition; unsupported types become text, which is rejected with its name.
 pub fn value(of: &Bound<'_, PyAny>) -> PyResult<Value> {
     // Asked first, since in Python a boolean is a whole number, too.
     if of.is_instance_of::<PyBool>() {
@@ -150,7 +150,7 @@ impl ArrowCells {
             Self::Numbers(bytes) => {
                 let (numbers, _) = bytes.as_chunks();
                 let numbers = numbers.iter().map(|of| f64::from_ne_bytes(*of));
-                // What is NaN here is a value that does not exist, for which Arrow has a mark.
+                // NaN means a missing value, which Arrow represents as null.
                 let numbers = numbers.map(|of| (!of.is_nan()).then_some(of));
                 Arc::new(numbers.collect::<Float64Array>())
             }

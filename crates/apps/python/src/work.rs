@@ -1,4 +1,4 @@
-//! Work without the interpreter's lock: it can be interrupted, and tells how far it is.
+//! Work without the interpreter lock, with interrupts and progress.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -14,10 +14,10 @@ use run::{Progress, WorkMeter};
 
 use crate::error::OrFailed as _;
 
-/// How often a signal is looked for, and progress told.
+/// Interval between checks for signals and progress reports.
 const PAUSE: Duration = Duration::from_millis(50);
 
-/// How long an interrupted call waits for the designs in hand. Longer, and Ctrl-C would seem to do nothing.
+/// Time that an interrupted call waits for designs in progress, so that Ctrl-C responds.
 const GRACE: Duration = Duration::from_millis(600);
 
 /// Work that is watched while it is done.
@@ -49,7 +49,7 @@ impl Watch {
         }
     }
 
-    /// The part of the work that is done, and a few words about it.
+    /// Returns the completed fraction and a description.
     fn progress(&self) -> (f64, String) {
         let (part, _, tasks) = self.search.progress();
         if tasks > 0 {
@@ -62,12 +62,12 @@ impl Watch {
     }
 }
 
-/// As many threads as are asked for, or one for each core.
+/// Returns the requested number of threads, or the number of cores.
 pub fn threads(asked: Option<usize>) -> usize {
     asked.unwrap_or_else(|| available_parallelism().map_or(1, usize::from)).max(1)
 }
 
-/// What Ctrl-C raises.
+/// Returns the exception of Ctrl-C.
 pub fn interrupted() -> PyErr {
     PyKeyboardInterrupt::new_err(())
 }
@@ -77,9 +77,9 @@ pub fn pool(asked: Option<usize>) -> PyResult<ThreadPool> {
     ThreadPoolBuilder::new().num_threads(threads(asked)).build().or_failed("threads")
 }
 
-/// Does `work` in a thread of its own, so that this one sees signals and tells `progress`.
+/// Runs `work` in its own thread, while this one handles signals and reports `progress`.
 ///
-/// After Ctrl-C the work is told to stop. What does not end soon, a single long design, ends by itself later, unseen.
+/// Ctrl-C stops the work; a single long design continues in the background until it ends.
 pub fn watched<T: Send + 'static>(
     py: Python<'_>,
     progress: Option<Bound<'_, PyAny>>,

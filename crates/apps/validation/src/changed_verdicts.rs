@@ -1,4 +1,4 @@
-//! The claims in another model, beside those of the paper's.
+//! Claims with a different verdict in another model.
 
 use crate::page::lines;
 use crate::{CheckedClaim, Finding};
@@ -8,18 +8,20 @@ use crate::{CheckedClaim, Finding};
 pub struct ChangedVerdicts {
     /// The statements with another verdict, as rows of their table.
     turned: Vec<String>,
-    /// How many of the statements keep theirs.
+    /// The number of statements with the same verdict.
     kept: usize,
 }
 
 impl ChangedVerdicts {
-    /// Compares the claims of the paper's model with those of `others`, with a base of `L` and, if there are two `bases`, of `2L`.
+    /// Compares the verdicts in the paper's model with the verdicts in `others`.
+    ///
+    /// With two `bases`, for a base of `L` and of `2L`; otherwise for `L` only.
     pub(crate) fn compare(
         paper: &[CheckedClaim],
         others: &[&[CheckedClaim]],
         bases: usize,
     ) -> Self {
-        // All come from one table of claims, and so in one order.
+        // All models have the same claims in the same order.
         let turned = paper.iter().enumerate().flat_map(|(k, claim)| {
             let others: Vec<_> = others.iter().map(|claims| &claims[k]).collect();
             claim.rows_beside(&others, bases, turns)
@@ -29,7 +31,7 @@ impl ChangedVerdicts {
         Self { kept: all - turned.len(), turned }
     }
 
-    /// Returns which statements have another verdict with a friction of 0.1 or 0.3, as a table, or that none has.
+    /// Returns a table of the statements with another verdict for a friction of 0.1 or 0.3.
     pub(crate) fn in_words(&self) -> String {
         let kept = self.kept;
         let setting = "With a friction of 0.1 and of 0.3, and the base L,";
@@ -42,13 +44,13 @@ impl ChangedVerdicts {
         )
     }
 
-    /// Returns the parts of the page in Markdown: the rows, and the count of what keeps its verdict, by these names.
+    /// Returns the parts of the page in Markdown: the rows, and the number of unchanged verdicts.
     pub(crate) fn parts(&self, [turned, kept]: [&'static str; 2]) -> [(&'static str, String); 2] {
         [(turned, lines(&self.turned, String::clone)), (kept, self.kept.to_string())]
     }
 }
 
-/// Whether the findings of a statement have several verdicts.
+/// Returns true if the findings of a statement have different verdicts.
 fn turns(found: &[&Finding]) -> bool {
     found.windows(2).any(|pair| pair[0].verdict != pair[1].verdict)
 }

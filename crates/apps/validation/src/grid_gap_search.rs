@@ -1,4 +1,4 @@
-//! What a search between the points of the grid finds that the 720 designs do not have.
+//! Searches between the grid points, compared with the 720 designs of the grid.
 
 use std::sync::atomic::AtomicBool;
 use std::thread::available_parallelism;
@@ -15,7 +15,7 @@ use crate::claims::{digits, named};
 use crate::page::lines;
 use crate::study::{MeasuredDesign, Study};
 
-/// The box of the grid, and what the searches in it share. No design whose surface has folded counts.
+/// The parameter box of the grid, with the settings of all searches. Designs with a fold are left out.
 const BOX: &str = "name = \"between\"\nmeasures = [\"coverage\", \"puncture\", \"flexure\"]\n\
     [variables]\ngap_over_t = { from = 0.1, to = 1 }\nlength_over_t = { from = 0.025, to = 1 }\nslant_deg = { from = 0, to = 75 }\n\
     [goal]\nsamples = 256\n";
@@ -25,7 +25,7 @@ const BOX: &str = "name = \"between\"\nmeasures = [\"coverage\", \"puncture\", \
 const FRONT: &str = "maximize = [\"critical_force\", \"coverage\"]\nrequire = [\"compliance >= 0.2\"]\npoints = 4\n";
 const LEAST_COMPLIANCE: f64 = 0.2;
 
-/// Said of a search that finds no design, or was stopped.
+/// Error of a search without a result.
 const NO_OPTIMUM: &str = "a search between the grid points has no optimum";
 
 /// The best designs on the grid and between its points.
@@ -46,7 +46,7 @@ pub struct FittestDesign {
     pub on_grid: String,
     /// Its fitness.
     pub grid_fitness: f64,
-    /// The design that the search finds.
+    /// The design found by the search.
     pub found: String,
     /// Its fitness, in which the best of the grid is 1 in every criterion.
     pub found_fitness: f64,
@@ -57,11 +57,11 @@ pub struct FittestDesign {
 pub struct FrontOverGrid {
     /// The number of its designs.
     pub designs: usize,
-    /// Designs of the grid that do not fold and bend well enough.
+    /// The number of grid designs without a fold and with sufficient compliance.
     pub grid: usize,
-    /// Those among them that no design of the grid beats.
+    /// The number of these that are not dominated by another grid design.
     pub grid_front: usize,
-    /// Designs of the grid that no design of the front equals or beats in both.
+    /// The number of grid designs that no design of the front equals or dominates.
     pub undominated: usize,
 }
 
@@ -80,7 +80,7 @@ impl GridGapSearch {
         let weights = alone.chain([(Weights::BALANCED, "all four alike")]);
         let fittest = weights.map(|weights| {
             let winner = ranking.winner(weights.0);
-            // The ranking counts the rows of sound designs alone.
+            // The rows of the ranking are indices into the designs without a fold.
             let on_grid = named(&study.designs[rows[winner.row()]]);
             fittest(weights, &ends, (winner.fitness, on_grid))
         });
@@ -99,7 +99,7 @@ impl GridGapSearch {
 }
 
 impl FittestDesign {
-    /// How much fitter the design is that the search finds, relative to that of the grid.
+    /// Returns the relative gain in fitness over the best grid design.
     pub fn gain(&self) -> f64 {
         self.found_fitness / self.grid_fitness - 1.0
     }
@@ -146,7 +146,7 @@ fn objectives(best: &BestDesign) -> Option<&[f64]> {
     }
 }
 
-/// Whether one is at least as good as the other in both, but for round-off.
+/// Returns true if one is at least as good as the other in both objectives, up to round-off.
 fn at_least(one: &[f64], other: &[f64]) -> bool {
     // Equal designs of the grid and of a search differ by the round-off of their paths.
     one.iter().zip(other).all(|(a, b)| *a >= b * (1.0 - 1e-9))
@@ -156,10 +156,10 @@ fn is_sound(design: &MeasuredDesign) -> bool {
     design.fold_force.is_none() && design.gap_stretch_min.is_none_or(|least| least > 0.0)
 }
 
-/// The worst and the best value of every criterion over the designs of a ranking, as a goal has them.
+/// Formats the worst and best value of every criterion of a ranking for a goal.
 fn ends(ranking: &Ranking<'_>) -> String {
     let designs: Vec<_> = ranking.by_fitness(Weights::BALANCED).collect();
-    // Values, not criteria: of a penetration the goal itself takes the inverse.
+    // Values, not criteria, because the goal inverts the penetration itself.
     let ends = CRITERIA.iter().enumerate().map(|(c, criterion)| {
         let better = |a: &&RankedDesign<'_>, b: &&RankedDesign<'_>| {
             a.criterion(c).total_cmp(&b.criterion(c))
@@ -173,7 +173,7 @@ fn ends(ranking: &Ranking<'_>) -> String {
     format!("{{ {} }}", ends.collect::<Vec<_>>().join(", "))
 }
 
-/// The fittest design by `weights` between the points of the grid, on which the fittest has that fitness and name.
+/// Searches the fittest design by `weights` between the grid points.
 fn fittest(
     weights: (Weights, &str),
     ends: &str,
@@ -183,7 +183,7 @@ fn fittest(
     let weighted = CRITERIA.iter().zip(weights.values());
     let weighted: Vec<_> =
         weighted.map(|(c, weight)| format!("{} = {}", c.column, number::text(*weight))).collect();
-    // The ranking of the grid leaves out what does not cover; the search has to be told.
+    // The ranking of the grid leaves out designs without coverage, so the search requires it.
     let found = search(&format!(
         "{BOX}maximize = \"fitness\"\nrequire = \"coverage > 0\"\nweights = {{ {} }}\nrescale = {ends}\n",
         weighted.join(", ")
@@ -208,7 +208,7 @@ fn search(goal: &str) -> anyhow::Result<Found> {
     let threads = available_parallelism().map_or(1, usize::from);
     let meter = SearchProgress::default();
     let options = SearchOptions { threads, start: Start::New, stop: &stop, progress: &meter };
-    // The folder is temporary: no later search has to know this one.
+    // No revision, because the folder is temporary.
     let program = Program { version: env!("CARGO_PKG_VERSION"), revision: "" };
     let found = optimisation::optimise(&goal, folder.path(), &options, &program)?;
     found.context(NO_OPTIMUM)

@@ -6,18 +6,18 @@
 //! |ours/reference − 1| ≤ band
 //! ```
 //!
-//! where the band is the error of the reference where that is an approximation itself. A claim of Shafiei et al. (2021,
+//! where the band is the error of the reference if that is an approximation. A claim of Shafiei et al. (2021,
 //! doi 10.1016/j.jmps.2020.104176) is reproduced, reproduced in part, or not; nothing is tuned.
 //!
 //! | Item | Role |
 //! |---|---|
 //! | [`benchmarks()`], [`Benchmark`] | problems with known answers (their closed forms are in [`analytical`]) |
 //! | [`claims()`], [`Claim`], [`CheckedClaim`], [`CheckedStatement`], [`Verdict`] | the statements of the paper, and their verdicts |
-//! | [`GridGapSearch`], [`FittestDesign`], [`FrontOverGrid`] | what a search between the points of the grid finds |
+//! | [`GridGapSearch`], [`FittestDesign`], [`FrontOverGrid`] | searches between the grid points |
 //! | [`StripLength`] | the claims on the most compliant designs, for strips with the same number of gaps |
 //! | [`Sensitivity`], [`Headlines`], [`ChoiceEffects`], [`ChoiceEffect`] | the dependence of the main results on the open choices |
 //! | [`SurfaceFolds`] | folds of the surface, and the claims on a substrate that cannot fold |
-//! | [`ChangedVerdicts`] | the claims under a needle that is guided, and where scales rub |
+//! | [`ChangedVerdicts`] | the claims with a guided needle, and with friction between scales |
 //! | [`SettingSearch`], [`ScoredSetting`] | combinations of open choices, by the number of claims that they reproduce |
 //! | [`Validation`], [`PartProgress`] | all parts, one after the other, and the page in Markdown |
 //!
@@ -58,7 +58,7 @@ const BASES: [(&str, &str); 2] = [
     ("base 2L", "name = \"paper-as-written\"\nscale.base = \"2L\""),
 ];
 
-/// What these sweeps are solved with: the choices of the paper, and others beside which its claims are seen.
+/// Models of the sweeps: the choices of the paper, and alternatives.
 const MODELS: [(&str, &str); 3] = [
     ("paper sweep", ""),
     ("neo-Hookean substrate", "substrate.law = \"neo-hookean\""),
@@ -76,13 +76,13 @@ pub struct Validation {
     pub benchmarks: Vec<Benchmark>,
     /// The claims of the paper with their verdicts.
     pub claims: Vec<CheckedClaim>,
-    /// Where the model holds, and the claims on a substrate that cannot fold.
+    /// Folds of the surface, and the claims on a substrate that cannot fold.
     pub soundness: SurfaceFolds,
     /// The claims under a needle that is guided.
     pub needle: ChangedVerdicts,
-    /// The claims where scales rub.
+    /// The claims with friction between scales.
     pub friction: ChangedVerdicts,
-    /// The best designs between the points of the grid, if they were searched for.
+    /// The best designs between the grid points, if searched.
     pub between: Option<GridGapSearch>,
     /// The claims on the most compliant designs, for strips with the same number of gaps in every design.
     pub gap_counts: Vec<StripLength>,
@@ -116,7 +116,9 @@ pub struct PartProgress<'a> {
 }
 
 impl Validation {
-    /// Carries out all parts, the `searches` between the grid points if they are asked for; `progress` is called when a part begins.
+    /// Runs all parts, with `searches` between the grid points if requested.
+    ///
+    /// `progress` is called at the start of each part.
     ///
     /// # Errors
     /// If a benchmark has no result or the temporary folder cannot be written.

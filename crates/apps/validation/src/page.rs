@@ -34,7 +34,7 @@ impl Validation {
         let mut page = PAGE.to_owned();
         match &self.between {
             Some(between) => parts.extend(between.parts()),
-            // The names in braces of a part that is left out would stay.
+            // Removes the section, or its placeholders would stay.
             None => page.truncate(PAGE.find(BETWEEN).unwrap_or(PAGE.len())),
         }
         for (name, text) in parts {
@@ -43,7 +43,7 @@ impl Validation {
         page
     }
 
-    /// How many claims have which verdict, with one of the two bases.
+    /// Counts the claims by verdict, for one of the two bases.
     fn counts(&self, base: usize) -> String {
         let count = |verdict| self.claims.iter().filter(|c| c.verdicts[base] == verdict).count();
         let [yes, part, no] =
@@ -61,7 +61,7 @@ impl ChoiceEffect {
     /// Returns the row of the table in Markdown.
     pub fn row(&self) -> String {
         let [low, median, high] = self.changes.map(|change| match 100.0 * change {
-            // Below what is shown the sign is that of round-off, and a test compares the page.
+            // Below the displayed digits the sign is round-off, and a test compares the page.
             percent if percent.abs() < 0.05 => "0 %".to_owned(),
             percent => format!("{percent:+.1} %"),
         });

@@ -7,14 +7,14 @@ use crate::page::marked;
 use crate::study::Study;
 
 /// Strips of 40 to 45 gaps in every design, of either base. Punctures do not depend on them.
-// With 41 to 44 gaps the claims come out as printed; 40 and 45 show where that ends.
+// With 41 to 44 gaps the claims are reproduced; 40 and 45 are the first counts where they are not.
 const STRIPS: &str = "name = \"gaps\"\nmeasures = [\"coverage\", \"flexure\"]\n\
                       designs.gaps = [40, 41, 42, 43, 44, 45]\ndesigns.base = [\"L\", \"2L\"]";
 
 /// The claims that name the most compliant designs.
 const CLAIMS: [&str; 3] = ["C22", "C23", "C26"];
 
-/// The fate of the claims on the most compliant designs on strips of one setting.
+/// Verdicts on the most compliant designs, for strips with one number of gaps.
 #[derive(Clone, Debug)]
 pub struct StripLength {
     /// The setting, as `key = value`.

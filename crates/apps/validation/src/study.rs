@@ -40,12 +40,12 @@ pub(crate) struct MeasuredDesign {
 }
 
 impl MeasuredDesign {
-    /// Sections 3 and 4 of the paper call a length of 0.1 the smallest; the two smaller ones occur in section 5 only.
+    /// Returns true for the lengths of sections 3 and 4 of the paper, at least 0.1.
     pub(crate) fn is_in_figures(&self) -> bool {
         self.length >= 0.1
     }
 
-    /// Section 5 leaves out the designs that leave the substrate exposed.
+    /// Returns true if the design covers the substrate; section 5 leaves out the others.
     pub(crate) fn is_covered(&self) -> bool {
         // `None` is less than any value: a design without a coverage is left out, too.
         self.coverage > Some(0.0)
@@ -68,13 +68,13 @@ impl Study {
     /// If the temporary folder cannot be written.
     pub(crate) fn run(sweep: Sweep) -> anyhow::Result<Self> {
         let folder = tempfile::tempdir().context("no temporary folder")?;
-        // The folder is temporary: no later run has to know this one.
+        // No revision, because the folder is temporary.
         let program = Program { version: env!("CARGO_PKG_VERSION"), revision: "" };
         let options = Options {
             threads: available_parallelism().map_or(1, usize::from),
             format: None,
             fail_fast: false,
-            // Nobody reads the tables before the end.
+            // The tables are read only at the end.
             tables_every: Duration::MAX,
             stop: &AtomicBool::new(false),
             work: &WorkMeter::default(),
@@ -85,7 +85,7 @@ impl Study {
         Ok(Self { base: sweep.grid().case(0), sweep, results, designs })
     }
 
-    /// Returns the study of each setting: of each combination of the values of the axes that are not those of the geometry.
+    /// Splits the study by setting: by the values of all axes except the geometry.
     pub(crate) fn settings(&self) -> Vec<(String, Self)> {
         // A list and not a map, so that settings keep the order of the sweep.
         let mut settings = Vec::<(String, Vec<usize>)>::new();
@@ -109,7 +109,7 @@ impl Study {
     }
 
     fn only(&self, rows: &[usize]) -> Self {
-        // What is not geometry is the same in all of these rows: the first stands for them.
+        // All of these rows share their parameters, except the geometry.
         let first = rows.first().map_or(0, |&row| row as u64);
         Self {
             sweep: self.sweep.clone(),
@@ -119,8 +119,7 @@ impl Study {
         }
     }
 
-    /// Returns the designs of `sweep` as a study of their own, if this study has them all: with its geometries, and all
-    /// other parameters alike.
+    /// Returns the designs of `sweep` as a study, if this study contains them all.
     pub(crate) fn part(&self, sweep: &Sweep) -> Option<Self> {
         let (ours, wanted) = (self.sweep.grid(), sweep.grid());
         // The index in the grid is the row: a study solves all of its designs.

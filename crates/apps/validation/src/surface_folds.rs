@@ -1,10 +1,10 @@
-//! Where the model holds: folds of the surface, and what a substrate that cannot fold makes of the claims.
+//! Folds of the surface, and the claims on a substrate that cannot fold.
 
 use crate::claims::{CheckedClaim, DesignValue, digits, named};
 use crate::page::lines;
 use crate::study::{MeasuredDesign, Study};
 
-/// Claims that rest on the strongest and steepest designs.
+/// Claims about the strongest and steepest designs.
 const CONCERNED: [&str; 6] = ["C12", "C13", "C15", "C18", "C27", "C28"];
 
 /// Designs with the largest critical force of which the folded ones are counted.
@@ -13,17 +13,18 @@ const STRONGEST: usize = 60;
 /// The folds of both laws of the substrate, and the claims that they concern.
 #[derive(Clone, Debug)]
 pub struct SurfaceFolds {
-    /// The text of the page in a row: what is counted, and with a base of `L` and `2L`, linear and neo-Hookean in turn.
+    /// Rows of the page: quantity, then linear and neo-Hookean for a base of `L` and of `2L`.
     rows: Vec<[String; 5]>,
-    /// Likewise the statements of the claims concerned, as rows of their table.
+    /// The statements of the claims about strong and steep designs, as rows of their table.
     claims: Vec<String>,
     /// Other claims whose verdict the law changes.
     turned: Vec<String>,
 }
 
 impl SurfaceFolds {
-    /// Compares studies on a linear substrate with those on a neo-Hookean one, in each with a base of `L` and of `2L`; `claims` are those
-    /// of either.
+    /// Compares studies on a linear and a neo-Hookean substrate, each with a base of `L` and of `2L`.
+    ///
+    /// `claims` are the checked claims on either substrate.
     pub(crate) fn compare(
         linear: &[Study; 2],
         neo_hookean: &[Study; 2],
@@ -58,7 +59,7 @@ impl SurfaceFolds {
     }
 }
 
-/// Returns what is counted of each study.
+/// Returns the rows of the counts of each study.
 fn rows(linear: &[Study; 2], neo_hookean: &[Study; 2]) -> Vec<[String; 5]> {
     let studies = [&linear[0], &neo_hookean[0], &linear[1], &neo_hookean[1]];
     let of_each = |what: &str, count: fn(&Study) -> String| {
@@ -91,7 +92,7 @@ fn rows(linear: &[Study; 2], neo_hookean: &[Study; 2]) -> Vec<[String; 5]> {
         let what = format!(
             "`F_c*` against linear springs, of designs {what} there: smallest, median, largest"
         );
-        // The columns of linear springs stay empty: the change is counted from them.
+        // The columns of linear springs stay empty, because they are the reference.
         rows.push([what, String::new(), paper, String::new(), as_written]);
     }
     rows
@@ -118,14 +119,14 @@ fn largest(study: &Study, value: DesignValue) -> String {
     best.map_or_else(String::new, |(value, design)| format!("{} {}", digits(value), named(design)))
 }
 
-/// Formats how the critical force changes from one study to another, of the designs that fold in the first or of the others.
+/// Formats the change of the critical force between two studies, for designs with or without a fold.
 fn changes(from: &Study, to: &Study, folded: bool) -> String {
     // Both studies have the same designs in the same order: only the law differs.
     let pairs = from.designs.iter().zip(&to.designs).filter(|(a, _)| folds(a) == folded);
     let change = |(a, b): (&MeasuredDesign, &MeasuredDesign)| {
         Some(100.0 * (b.critical_force? / a.critical_force? - 1.0))
     };
-    // To add 0 makes 0 of −0, which would be told as -0.0 %.
+    // Adding 0 turns −0 into 0, which would be printed as -0.0 %.
     spread(pairs.filter_map(change), |percent| format!("{:+.1} %", percent + 0.0))
 }
 
@@ -135,7 +136,7 @@ fn spread(values: impl IntoIterator<Item = f64>, format: impl Fn(f64) -> String)
     values.sort_by(f64::total_cmp);
     let last = values.len().saturating_sub(1);
     let mut places = vec![0, values.len() / 2, last];
-    // Of one value or two the median is one of the ends, and is told once.
+    // For one or two values the median is an end, which is printed once.
     places.dedup();
     let shown = places.into_iter().filter_map(|place| values.get(place).copied().map(&format));
     shown.collect::<Vec<_>>().join(", ")
@@ -146,7 +147,7 @@ mod tests {
     use super::{digits, spread};
 
     #[test]
-    fn a_spread_is_three_values_or_as_many_as_there_are() {
+    fn a_spread_has_three_values_or_fewer() {
         assert_eq!(spread([3.0, 1.0, 2.0, 5.0, 4.0], digits), "1.000, 3.000, 5.000");
         assert_eq!(spread([2.0], digits), "2.000");
         assert_eq!(spread([], digits), "");

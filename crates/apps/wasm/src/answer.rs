@@ -1,4 +1,4 @@
-//! What a page gets.
+//! The answer to a request.
 
 pub(crate) mod written;
 
@@ -16,13 +16,13 @@ use crate::path::{BentStrip, PuncturedRow};
 pub struct Answer {
     /// The number of the request.
     pub id: u64,
-    /// Whether it is the answer for a hand that rests.
+    /// True for a complete answer, false for a fast one during a drag.
     pub fine: bool,
     /// The columns of `designs.csv` that have a value.
     pub values: Vec<Value>,
     /// The requirements, in their order.
     pub requirements: Vec<Required>,
-    /// What stands in the way of trusting the numbers, in sentences.
+    /// Warnings about the validity of the results.
     pub warnings: Vec<String>,
     /// A length of 1, a force of 1, a moment of 1 in mm, N and N mm, as far as the material tells.
     pub units: Units,
@@ -30,7 +30,7 @@ pub struct Answer {
     pub puncture: Option<PuncturedRow>,
     /// The bending, if it could begin.
     pub flexure: Option<BentStrip>,
-    /// The derivatives of the measures, for a hand that rests.
+    /// The derivatives of the measures, in a complete answer.
     pub slopes: Vec<Slope>,
     /// The design of the sweep that is closest.
     pub closest: Option<Closest>,
@@ -38,7 +38,7 @@ pub struct Answer {
     pub settings: Vec<String>,
     /// A definition of this design alone.
     pub toml: String,
-    /// Where a walk along a parameter came to its end, if one was asked for.
+    /// The end of a walk along a parameter, if requested.
     pub follow: Option<Followed>,
 }
 
@@ -57,16 +57,16 @@ pub struct Value {
     pub text: String,
 }
 
-/// A requirement and how a design stands to it.
+/// A requirement and its status.
 #[derive(Clone, Debug, Serialize)]
 pub struct Required {
     /// The requirement, as in `coverage >= 0.6`.
     pub text: String,
     /// The value of its column, if there is one.
     pub value: Option<f64>,
-    /// Whether the value keeps it; no value keeps none.
+    /// True if the value meets it; false without a value.
     pub met: bool,
-    /// Whether it is the one that leaves the least room.
+    /// True for the tightest requirement.
     pub limits: bool,
 }
 
@@ -81,14 +81,14 @@ pub struct Units {
     pub moment: Option<f64>,
 }
 
-/// Which way a parameter is to go for a measure to become better.
+/// The direction of a parameter that improves a measure.
 #[derive(Clone, Debug, Serialize)]
 pub struct Slope {
     /// The measure, as its column.
     pub measure: &'static str,
     /// The key of the parameter.
     pub parameter: &'static str,
-    /// 1 for larger, −1 for smaller, 0 where neither way is better.
+    /// 1 for larger, −1 for smaller, 0 if neither improves the measure.
     pub better: i8,
     /// Per cent of the measure for one per cent of the parameter that way.
     pub gain: Option<f64>,
@@ -150,7 +150,7 @@ impl Slope {
         let good = if plain_goal(measure) == Some(Goal::Minimize) { -1.0 } else { 1.0 };
         let [smaller, larger] = [left.map(|slope| -good * slope), right.map(|slope| good * slope)];
         let gain = |side: Option<f64>| side.filter(|gain| *gain > 0.0).unwrap_or(0.0);
-        // At a kink both ways may be better: the steeper one is told.
+        // At a kink both directions may improve the measure; the steeper one is reported.
         let (better, side) = match (gain(smaller), gain(larger)) {
             (smaller, larger) if larger > smaller => (1, larger),
             (0.0, _) => (0, 0.0),

@@ -1,7 +1,7 @@
 //! The names that a module of WebAssembly exports.
 //!
-//! A page writes a request as UTF-8 to where [`squama_room`] points, calls [`squama_answer`] with its length, and reads that many
-//! bytes as it returns from where [`squama_room`] points then.
+//! A page writes a request as UTF-8 to the address that [`squama_room`] returns, calls [`squama_answer`]
+//! with its length, and reads the returned number of bytes from the new address of [`squama_room`].
 #![allow(unsafe_code)]
 
 use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};
@@ -16,7 +16,7 @@ fn module() -> MutexGuard<'static, (Solver, Vec<u8>)> {
     MODULE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Makes room for `length` bytes of a request, if that is more than there is, and returns where.
+/// Reserves `length` bytes for a request, and returns the address of the buffer.
 #[unsafe(no_mangle)]
 pub extern "C" fn squama_room(length: usize) -> *const u8 {
     let mut module = module();
@@ -26,7 +26,7 @@ pub extern "C" fn squama_room(length: usize) -> *const u8 {
     module.1.as_ptr()
 }
 
-/// Answers the request that stands in the first `length` bytes of the room, and returns the length of the answer, which stands there then.
+/// Answers the request in the first `length` bytes of the buffer; returns the length of the answer in it.
 #[unsafe(no_mangle)]
 pub extern "C" fn squama_answer(length: usize) -> usize {
     let mut module = module();

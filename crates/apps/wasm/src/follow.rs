@@ -1,4 +1,4 @@
-//! A walk along one parameter for the sake of a measure, to where something ends it.
+//! A walk along one parameter that improves a measure, up to the first limit.
 
 use ranking::Requirement;
 use results::columns::{Goal, name, plain_goal};
@@ -10,23 +10,23 @@ use crate::answer::{Required, Value};
 use crate::request::{Follow, Setting, put};
 use crate::solver::values;
 
-/// Steps of a walk over the whole way: what is narrower than one may be passed over, as under a hand.
+/// Number of steps over the whole range; features narrower than a step may be missed.
 const STEPS: u32 = 24;
-/// Halvings of the step in which a walk ends: to a thousandth of the step, finer than a slider shows.
+/// Number of bisections of the last step: to a thousandth of the step, below the resolution of a slider.
 const HALVINGS: u32 = 10;
 
-/// Where a walk ended.
+/// The end of a walk.
 #[derive(Clone, Debug, Serialize)]
 pub struct Followed {
     /// The key of the parameter.
     pub key: String,
     /// The last value before the limit.
     pub value: f64,
-    /// What the limit is, in a few words.
+    /// A short description of the limit.
     pub reason: String,
 }
 
-/// What one look at a design says.
+/// The evaluation of a design.
 struct Look {
     /// The measure, negative where less is better.
     worth: Option<f64>,
@@ -34,7 +34,7 @@ struct Look {
     required: Vec<Required>,
 }
 
-/// Walks from `case` for as long as the measure improves, what is required and was met stays met, and no fold begins.
+/// Walks from `case` while the measure improves, met requirements stay met, and no fold begins.
 ///
 /// # Errors
 /// If there is no such parameter, or a value on the way is refused.
@@ -78,7 +78,7 @@ pub(crate) fn follow(
             let ahead = look(value_at(middle))?;
             match limit(&good, &ahead, walk) {
                 None => (good, share) = (ahead, middle),
-                // A finer step may meet another limit before the one that the walk had seen.
+                // A finer step may reach a different limit first.
                 limit => (reason, beyond) = (limit, middle),
             }
         }
@@ -87,7 +87,7 @@ pub(crate) fn follow(
     Ok(Followed { key: walk.key.clone(), value: value_at(share), reason })
 }
 
-/// What ends a walk between two designs.
+/// Returns the limit between two designs, if there is one.
 fn limit(here: &Look, ahead: &Look, walk: &Follow) -> Option<String> {
     let broken =
         here.required.iter().zip(&ahead.required).find(|(here, ahead)| here.met && !ahead.met);

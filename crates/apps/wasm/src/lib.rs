@@ -1,8 +1,8 @@
-//! The solver as a page calls it: a request in, an answer out, both JSON.
+//! The solver for interactive pages: JSON requests and answers.
 //!
-//! A page has no file system, no threads and no time to lose, but it has a definition and the hand of a designer. So this crate
-//! takes the definition as text, with the parameters under the hand beside it, solves that one design by the evaluator of runs,
-//! and answers with the columns of its tables, its paths, and the states that are to be drawn.
+//! A page has no file system and no threads. This crate takes a definition as text and the values of
+//! the sliders, solves one design with the evaluator of runs, and returns the columns of its tables, its
+//! paths, and the states to draw.
 //!
 //! ```text
 //! {"definition": "name = 'x' …", "set": {"gap_over_t": 0.2}, "drawn": [1, 0.5]}

@@ -52,15 +52,16 @@ pub struct BentStrip {
 }
 
 impl PuncturedRow {
-    /// The row with the state at the share `drawn` of its way; `path` is the one that `solve` finds with larger steps. None if it
-    /// is refused, which its measures tell of.
+    /// Solves the row with the state at the fraction `drawn` of its path.
+    ///
+    /// `path` is the path with larger steps. `None` on an error, which the measures report.
     pub(crate) fn new(
         case: &Case,
         path: &Puncture,
         drawn: f64,
         solve: impl Fn(&[At]) -> Result<Snapshots, OutOfRange>,
     ) -> Option<Self> {
-        // A guided needle is told how deep to go; a free one may come back up while the scale tilts on.
+        // Depth controls a guided needle; a free needle may move up again while the tilt increases.
         let is_guided = case.puncture.needle.is_guided();
         let along =
             |point: &PuncturePoint| if is_guided { point.displacement } else { point.tilt_deg };
@@ -69,7 +70,7 @@ impl PuncturedRow {
         let place = if is_guided { At::Displacement(place) } else { At::Tilt(place) };
         let is_between = drawn > 0.0 && drawn < 1.0;
         let solved = solve(if is_between { std::slice::from_ref(&place) } else { &[] }).ok()?;
-        // Other steps come to another last digit, so that the end is not looked for by its place.
+        // Different steps change the last digits, so the end is not found by its value.
         let state = solved.at.into_iter().flatten().next().unwrap_or(solved.end);
         // At rest nothing is drawn but the path.
         let state = (drawn > 0.0).then_some(state);

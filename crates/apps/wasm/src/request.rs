@@ -1,4 +1,4 @@
-//! What a page asks for.
+//! The request of a page.
 
 use std::collections::BTreeMap;
 
@@ -21,10 +21,10 @@ pub struct Request {
     /// Requirements, as in `coverage >= 0.6`.
     #[serde(default)]
     pub require: Vec<String>,
-    /// Whether the hand rests: then derivatives, smooth curves and the neighbouring gaps are solved for, too.
+    /// True for a complete answer, with derivatives, smooth curves and neighbouring gaps.
     #[serde(default)]
     pub fine: bool,
-    /// How far along its path the needle, and then bending, is to be drawn: 0 at rest, 1 at the end.
+    /// Position on the paths of puncture and bending to draw: 0 at rest, 1 at the end.
     #[serde(default)]
     pub drawn: Option<[f64; 2]>,
     /// A parameter that is to be followed to the next limit.
@@ -48,9 +48,9 @@ pub enum Setting {
 pub struct Follow {
     /// The key of the parameter.
     pub key: String,
-    /// The value at which the walk ends if nothing ends it before.
+    /// The value at which the walk ends without a limit.
     pub to: f64,
-    /// The column that is to become better.
+    /// The column to improve.
     pub measure: String,
 }
 
@@ -61,7 +61,7 @@ impl Request {
         all[..if self.fine { 4 } else { 3 }].to_vec()
     }
 
-    /// `case` with the parameters that are set.
+    /// Applies the parameters of the request to `case`.
     ///
     /// # Errors
     /// If there is no such parameter, or a value is refused: with the text that commands have for it.
@@ -70,7 +70,7 @@ impl Request {
     }
 }
 
-/// `case` with another value of the parameter `key`.
+/// Sets the parameter `key` of `case`.
 pub(crate) fn put(case: &Case, key: &str, value: &Setting) -> Result<Case, String> {
     let parameter = Parameter::named(key).ok_or_else(|| format!("{key}: no such parameter"))?;
     // As text, so that bounds and refusals are those of a definition.

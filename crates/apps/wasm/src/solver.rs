@@ -1,4 +1,4 @@
-//! How a request is solved.
+//! The solver of requests.
 
 use ranking::Requirement;
 use results::DesignRow;
@@ -15,7 +15,7 @@ use crate::path::{BentStrip, PuncturedRow};
 use crate::request::Request;
 use crate::warnings::warnings;
 
-/// Largest step along the curves of a hand that rests, as a fraction of the path: close enough for a line.
+/// Largest step along the curves of a complete answer, as a fraction of the path.
 const CURVE_STEP: f64 = 0.02;
 
 /// Answers requests one after the other.
@@ -23,12 +23,12 @@ const CURVE_STEP: f64 = 0.02;
 pub struct Solver {
     /// The definition of the last request.
     sweep: Option<(String, Sweep)>,
-    /// What has been measured so far, each with its calibrations: a hand that comes back finds them.
+    /// The evaluators used so far, with their calibrations.
     evaluators: Vec<(Vec<Measure>, Evaluator)>,
 }
 
 impl Solver {
-    /// The answer to `request`, both JSON. What is wrong with a request is an answer, too: `{"id": …, "error": "…"}`.
+    /// Answers `request`, both JSON. Errors are answers too: `{"id": …, "error": "…"}`.
     pub fn answer(&mut self, request: &str) -> String {
         let request = match serde_json::from_str::<Request>(request) {
             Ok(request) => request,
@@ -47,7 +47,7 @@ impl Solver {
     /// If the definition, a parameter or a requirement is refused: with the text that commands have for it.
     pub fn solve(&mut self, request: &Request) -> Result<Answer, String> {
         let sweep = self.sweep(&request.definition)?;
-        // Samples of imperfect rows take hundreds of times as long as the design that is under the hand.
+        // Without samples of imperfect rows, which take hundreds of times as long.
         let base = Case { imperfection: Imperfection::default(), ..sweep.grid().case(0) };
         let case = request.case(&base)?;
         if case.tissue_thickness.is_some() {
@@ -124,7 +124,7 @@ impl Solver {
     }
 
     fn evaluator(&mut self, measures: Vec<Measure>) -> &Evaluator {
-        // There are never more than two: of the hand that moves, and of the one that rests.
+        // At most two: for fast and for complete answers.
         let known = self.evaluators.iter().position(|(others, _)| *others == measures);
         let place = known.unwrap_or_else(|| {
             let evaluator = Evaluator::new(&measures);

@@ -1,4 +1,4 @@
-//! What stands in the way of trusting the numbers of a design, in sentences.
+//! Warnings about the validity of the results of a design.
 
 use results::columns::name;
 use results::{DesignRow, Outcome};
@@ -49,7 +49,7 @@ pub(crate) fn warnings(
     sentences
 }
 
-/// A sentence for each measure that changes by half where the gap changes by a tenth.
+/// Returns a sentence for each measure that changes by half if the gap changes by a tenth.
 fn cliffs(change: &GapChange) -> impl Iterator<Item = String> {
     change.measures.iter().filter(|measure| measure.cliffs().contains(&true)).map(|measure| {
         let [smaller, larger] = measure.changed.map(|changed| {

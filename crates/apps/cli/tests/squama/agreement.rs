@@ -56,7 +56,7 @@ impl<'t> Number<'t> {
         }
         let alike = self.decimals == other.decimals || self.significant == other.significant;
         let apart = (self.value - other.value).abs();
-        // Half a unit more for what the difference of two decimal fractions is rounded to.
+        // Half a unit more for the rounding of the difference of two decimal fractions.
         alike && apart < 1.5 * self.unit().max(other.unit())
     }
 }

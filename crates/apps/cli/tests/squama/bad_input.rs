@@ -1,4 +1,4 @@
-//! Bad input is one line that names file, key, value and what would be right, and exit code 2.
+//! Bad input gives exit code 2 and one line with file, key, value and the expected value.
 
 use crate::{FEW, Place};
 

@@ -42,7 +42,7 @@ fn the_best_designs_are_solved_again_with_other_gaps() {
 }
 
 #[test]
-fn a_cliff_is_told_in_words() {
+fn sensitivity_to_the_gap_is_reported() {
     let (_, printed) = ranked(
         STEEP,
         "--require length_over_t==0.2 --require slant_deg==60 --require gap_over_t==0.1",
@@ -74,14 +74,14 @@ fn the_best_design_is_solved_again_with_the_whole_tissue_coupled() {
         measure["full"] != measure["nearest"]
     };
     assert!(moved("penetration") && !moved("coverage"), "{printed}");
-    // Of a sweep that has it coupled already nothing is told.
+    // A sweep with full coupling needs no check.
     let (_, printed) = ranked(&format!("substrate.coupling = 'full'\n{FEW}"), "--json");
     let ranking: Value = serde_json::from_str(&printed).expect("JSON");
     assert_eq!(ranking["full_coupling"], Value::Array(Vec::new()));
 }
 
 #[test]
-fn without_a_definition_nothing_is_said_of_gaps() {
+fn sensitivity_to_the_gap_needs_a_definition() {
     let (place, _) = ranked(FEW, "");
     std::fs::create_dir(place.path("alone")).expect("a folder");
     std::fs::copy(place.path("results/few/designs.csv"), place.path("alone/designs.csv"))
@@ -110,7 +110,7 @@ fn a_map_is_drawn_over_any_two_parameters() {
 }
 
 #[test]
-fn a_map_that_makes_no_sense_is_refused() {
+fn invalid_maps_are_rejected() {
     let (place, _) = ranked(STEEP, "");
     let refused = [
         "--x gap --y slant_deg --of critical_force",

@@ -31,7 +31,7 @@ fn change(place: &Place, file: &str, old: &str, new: &str) {
 }
 
 #[test]
-fn a_run_that_is_not_whole_is_used_only_if_that_is_asked_for() {
+fn an_incomplete_run_needs_the_option_partial() {
     let place = incomplete();
     for reader in READERS {
         let message = place.refused(reader);
@@ -60,7 +60,7 @@ fn a_run_that_is_not_whole_is_used_only_if_that_is_asked_for() {
 }
 
 #[test]
-fn a_run_without_a_statement_is_refused() {
+fn a_run_without_checksums_is_rejected() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --out r").assert().code(0);
     fs::remove_file(place.path("r/contents.toml")).expect("a file");
@@ -77,7 +77,7 @@ fn a_run_without_a_statement_is_refused() {
 }
 
 #[test]
-fn a_changed_digit_is_noticed_and_mended() {
+fn a_changed_digit_is_detected_and_repaired() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --out r").assert().code(0);
     let sound = place.read("r/designs.csv");
@@ -159,7 +159,7 @@ fn reseal(place: &Place, journal: &str, key: &str, change: impl Fn(&mut serde_js
 }
 
 #[test]
-fn a_journal_that_was_changed_and_sealed_again_is_not_believed() {
+fn a_forged_journal_is_rejected() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --out r").assert().code(0);
     let sound = place.read("r/journal.jsonl");
@@ -186,7 +186,7 @@ fn a_journal_that_was_changed_and_sealed_again_is_not_believed() {
 }
 
 #[test]
-fn evaluations_that_were_changed_and_sealed_again_are_not_believed() {
+fn forged_evaluations_are_rejected() {
     let goal = "name = 'goal'\nmeasures = ['coverage', 'flexure']\n[variables]\nslant_deg = { from = 0, to = 60 }\n\
         [designs]\ngap_over_t = 0.3\nlength_over_t = 1\n[goal]\nmaximize = 'coverage'\nsamples = 16\n";
     let place = Place::with(goal);
@@ -213,7 +213,7 @@ fn evaluations_that_were_changed_and_sealed_again_are_not_believed() {
         assert_eq!(place.read(&format!("found/{file}")), *table);
         fs::write(place.path(journal), &sound).expect("writable");
     }
-    // What is lost is found again, in whatever order lines stand.
+    // Lost lines are solved again, in any order of the lines.
     let mut lines: Vec<&str> = sound.lines().collect();
     lines.swap(3, 5);
     fs::write(place.path(journal), lines[..lines.len() / 2].join("\n") + "\n").expect("writable");
@@ -224,7 +224,7 @@ fn evaluations_that_were_changed_and_sealed_again_are_not_believed() {
 }
 
 #[test]
-fn samples_that_were_changed_and_sealed_again_are_not_believed() {
+fn forged_samples_are_rejected() {
     let place = Place::with(
         "name = 'x'\nmeasures = 'coverage'\n[designs]\ngap_over_t = 0.3\nlength_over_t = 1\nslant_deg = 45\n\
          [tolerance]\ngap_over_t = { batch_sd = 0.01 }\n",
@@ -251,7 +251,7 @@ fn samples_that_were_changed_and_sealed_again_are_not_believed() {
 }
 
 #[test]
-fn requirements_that_nobody_ranked_by_are_noticed() {
+fn changed_requirements_of_a_ranking_are_detected() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --out r").assert().code(0);
     place.prints("rank r --require coverage>=0.1");
@@ -269,7 +269,7 @@ fn requirements_that_nobody_ranked_by_are_noticed() {
 }
 
 #[test]
-fn tables_that_the_journal_has_left_behind_are_noticed() {
+fn tables_older_than_the_journal_are_detected() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --out r").assert().code(0);
     let tables = ["designs.csv", "contents.toml", "run.toml", "critical_force.csv"];
@@ -301,14 +301,14 @@ fn tables_that_the_journal_has_left_behind_are_noticed() {
 }
 
 #[test]
-fn a_ranking_that_did_not_come_to_its_end_is_no_sheet_of_a_workbook() {
+fn an_interrupted_ranking_is_not_exported() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --out r").assert().code(0);
     place.prints("rank r");
     change(&place, "r/pareto.csv", "0006", "0007");
     insta::assert_snapshot!(place.refused("export r --xlsx x.xlsx"), @"error: r/pareto.csv: was changed after squama wrote it; squama rank r writes it again");
     place.prints("rank r");
-    // As if the ranking had been killed before it stated what it had written.
+    // Simulates a ranking that was killed before it wrote its checksums.
     let record = place.read("r/derived/ranking.toml");
     let digest = record.lines().find(|line| line.contains("ranking.csv")).expect("a file");
     change(&place, "r/derived/ranking.toml", digest, "\"ranking.csv\" = \"\"");
@@ -322,7 +322,7 @@ fn a_ranking_that_did_not_come_to_its_end_is_no_sheet_of_a_workbook() {
 }
 
 #[test]
-fn what_is_made_from_a_run_goes_with_it() {
+fn products_are_removed_with_their_run() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --out r").assert().code(0);
     for command in ["rank r", "plot r", "report r", "export r --xlsx r/a.xlsx"] {
@@ -344,7 +344,7 @@ fn what_is_made_from_a_run_goes_with_it() {
 }
 
 #[test]
-fn lines_that_a_journal_has_lost_are_noticed() {
+fn lost_lines_of_a_journal_are_detected() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --out r").assert().code(0);
     place.squama("rerun r -q --design 8 --set contact.c1=2").assert().code(0);

@@ -68,7 +68,7 @@ fn takes_the_load_away_again() {
     }
 }
 
-/// A load that does not come back to zero is told, with the reason.
+/// Unloading that does not reach zero is reported with the reason.
 #[test]
 fn says_why_a_way_back_has_no_end() {
     let place = Place::with("name = 'x'");

@@ -34,7 +34,7 @@ fn a_measured_curve_lies_over_the_solved_one_in_its_units() {
 }
 
 #[test]
-fn what_cannot_be_laid_over_is_refused() {
+fn incompatible_measured_curves_are_rejected() {
     let place = Place::with(
         "name = 'bare'\n[designs]\ngap_over_t = 0.2\nlength_over_t = 1\nslant_deg = 0\n",
     );
@@ -101,7 +101,7 @@ fn what_the_curves_do_not_tell_gives_exit_code_1() {
 }
 
 #[test]
-fn what_makes_a_fit_doubtful_is_said() {
+fn doubtful_fits_are_reported() {
     let skin = SKIN.replace("substrate_modulus_MPa = 0.5\n", "");
     let place = Place::with(&format!(
         "{skin}[variables]\nsubstrate_modulus_MPa = {{ from = 0.1, to = 9 }}\n[[curve]]\nfile = 'a.csv'\nkind = 'puncture'\n"

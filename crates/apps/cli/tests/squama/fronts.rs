@@ -9,7 +9,7 @@ const GOAL: &str = "name = 'goal'\nmeasures = 'coverage'\n[variables]\ngap_over_
                     slant_deg = { from = 0, to = 60 }\n[designs]\nlength_over_t = 1\nwidth_over_t = 2\n[goal]\nsamples = 32\n\
                     points = 4\nrequire = 'slant_deg <= 50'\n";
 
-/// The data of the page of the grid, with what a search for `objectives` has found.
+/// Returns the data of the page of the grid, with the designs of a search for `objectives`.
 fn page(place: &Place, objectives: &str) -> String {
     std::fs::write(place.path("goal.toml"), format!("{GOAL}{objectives}\n")).expect("writable");
     place.squama("optimise goal.toml --out found --fresh").assert().code(0);
@@ -35,7 +35,7 @@ fn a_front_stands_over_the_designs_of_the_grid() {
         "{found}"
     );
     assert!(html.contains("\"variables\":[\"gap_over_t\",\"slant_deg\"]"));
-    // What the search holds otherwise is told; what it varies is not.
+    // Different fixed parameters are reported; variables are not.
     assert!(found.contains("\"differences\":[\"scale.width_over_t 2 instead of 1\"]"), "{found}");
 }
 

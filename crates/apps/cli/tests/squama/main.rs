@@ -72,7 +72,7 @@ impl Place {
         std::fs::read_to_string(self.path(file)).expect("a file")
     }
 
-    /// Names of what stands in `folder`, sorted.
+    /// Returns the sorted names of the files in `folder`.
     fn list(&self, folder: &str) -> String {
         let entries = std::fs::read_dir(self.path(folder)).expect("a folder");
         let name = |entry: std::io::Result<std::fs::DirEntry>| entry.expect("an entry").file_name();

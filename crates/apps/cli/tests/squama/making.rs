@@ -25,7 +25,7 @@ fn each_format_has_its_file_and_a_list_of_parts() {
 }
 
 #[test]
-fn the_list_has_sizes_counts_masses_and_what_deviations_do() {
+fn the_list_has_sizes_counts_masses_and_deviations() {
     let place = Place::with(SKIN);
     insta::assert_snapshot!(
         place.prints("make x.toml --design 1 --scales 3x2 --gap-across-mm 0.5")
@@ -42,7 +42,7 @@ fn a_search_is_made_from_its_folder() {
 }
 
 #[test]
-fn what_cannot_be_made_is_refused() {
+fn impossible_patches_are_rejected() {
     let place = Place::with(SKIN);
     let refused = [
         "--out skin.obj",

@@ -90,7 +90,7 @@ fn a_modulus_in_another_unit_is_questioned_and_that_of_the_scales_stands_for_its
     let checked = place.squama("check x.toml").assert().code(0).get_output().stderr.clone();
     let question = "note: material.substrate_modulus_MPa is 310000 MPa, 310 GPa:";
     assert!(String::from_utf8_lossy(&checked).starts_with(question));
-    // Scales that are a hundred times as stiff as what they lie on.
+    // Scales 100 times as stiff as the substrate.
     let known = "design x.toml --set material.substrate_modulus_MPa=0.31 --json";
     let force = |set: &str| {
         let json: serde_json::Value =

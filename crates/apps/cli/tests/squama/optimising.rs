@@ -1,4 +1,4 @@
-//! `squama optimise`: goals, what is printed and written, and bad goals.
+//! `squama optimise`: goals, output, and bad goals.
 
 use crate::Place;
 
@@ -38,7 +38,7 @@ fn the_optimum_is_a_design_like_any_other() {
 }
 
 #[test]
-fn a_run_says_that_it_does_not_go_through_variables() {
+fn a_run_notes_that_it_does_not_vary_variables() {
     let (definition, _) = GOAL.split_once("[goal]").expect("a goal");
     let assert = Place::with(definition).squama("run x.toml --quiet").assert().code(0);
     let told = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
@@ -71,7 +71,7 @@ fn tables_do_not_depend_on_threads_or_interruptions() {
 }
 
 #[test]
-fn an_answer_for_programs() {
+fn json_output_contains_the_optimum() {
     let place = Place::with(GOAL);
     let text = place.prints("optimise x.toml --json");
     let record: serde_json::Value = serde_json::from_str(&text).expect("JSON");
@@ -87,14 +87,14 @@ fn an_answer_for_programs() {
     let output = place.squama(told).assert().code(1).get_output().stdout.clone();
     let record: serde_json::Value = serde_json::from_slice(&output).expect("JSON");
     let infeasible = &record["infeasible"];
-    // The values that are told beside the requirements are those of the design that is told.
+    // The values beside the requirements belong to the reported design.
     assert_eq!(infeasible["requirements"][0]["nearest"], infeasible["nearest"]["gap_over_t"]);
     // The design that comes nearest is a definition like that of the best.
     place.squama("run y/nearest.toml -q --out z").assert().code(0);
 }
 
 #[test]
-fn bad_goals_are_one_line() {
+fn bad_goals_are_reported_on_one_line() {
     let message = |from: &str, to: &str| Place::refused_goal(GOAL, from, to);
     let messages = [
         (
@@ -142,7 +142,7 @@ fn bad_goals_are_one_line() {
 }
 
 #[test]
-fn the_fitness_tells_its_criteria_and_their_ends() {
+fn the_fitness_reports_its_criteria_and_their_bounds() {
     let goal = GOAL.replace(
         "minimize = 'areal_mass_kg_m2'\nrequire = 'coverage >= 0.5'",
         "maximize = 'fitness'\nweights = { coverage = 1, areal_mass_kg_m2 = 3 }",
@@ -176,7 +176,7 @@ fn the_fitness_tells_its_criteria_and_their_ends() {
 }
 
 #[test]
-fn what_can_not_be_compared_is_no_objective() {
+fn incomparable_measures_are_rejected_as_objectives() {
     let text = "name = 'x'\n[variables]\ngap_over_t = { from = 0.1, to = 1 }\nmax_end_rotation_deg = { from = 30, to = 90 }\n\
         [designs]\nlength_over_t = 1\nslant_deg = 45\n[goal]\nmaximize = 'compliance'\n";
     let place = Place::with(text);
@@ -191,7 +191,7 @@ fn what_can_not_be_compared_is_no_objective() {
     }
 }
 
-/// The tilt at which a skin takes a given force: the requirement binds, and its price is what the derivative with respect to the tilt says.
+/// At the smallest critical tilt for a force the requirement is active; its price follows from the derivative.
 #[test]
 fn the_least_critical_tilt_for_a_force_is_found() {
     let text = "name = 'x'\nmeasures = 'puncture'\n[variables]\ncritical_tilt_deg = { from = 5, to = 15 }\n[goal]\nminimize = 'critical_tilt_deg'\n\
@@ -206,7 +206,7 @@ fn the_least_critical_tilt_for_a_force_is_found() {
 }
 
 #[test]
-fn a_folder_of_a_run_is_left_alone() {
+fn a_search_does_not_touch_the_folder_of_a_run() {
     let place = Place::with(crate::FEW);
     place.squama("run x.toml --out r -q --set measures=coverage").assert().code(0);
     std::fs::write(place.path("g.toml"), GOAL).expect("writable");

@@ -5,7 +5,7 @@ use std::process::Stdio;
 use crate::{FEW, Place};
 
 #[test]
-fn check_says_what_would_run() {
+fn check_describes_the_run() {
     let place = Place::with(FEW);
     insta::assert_snapshot!(
         place.prints("check x.toml --set designs.c1={from=0.01,to=1,step=0.01}")
@@ -31,7 +31,7 @@ fn calibrate_prints_six_coefficients() {
 
 /// On tissue as thick as two scales, force along the row goes with rotation and with force across it.
 #[test]
-fn calibrate_prints_what_a_layer_couples() {
+fn calibrate_prints_the_couplings_of_a_layer() {
     let place = Place::new();
     let text = place.prints("calibrate --gap 0.1 --length 1 --tissue-thickness 2");
     insta::assert_snapshot!(text);
@@ -41,7 +41,7 @@ fn calibrate_prints_what_a_layer_couples() {
 
 /// A page has no springs of layers.
 #[test]
-fn a_page_of_a_layer_is_refused_with_the_reason() {
+fn explore_rejects_a_layer_with_the_reason() {
     let place = Place::with("name = 'x'\nsubstrate.tissue_thickness_over_t = 2");
     let text = place.refused("explore x.toml --no-open");
     assert!(
@@ -52,7 +52,7 @@ fn a_page_of_a_layer_is_refused_with_the_reason() {
 
 /// What many skins meet or not is no requirement of the one under the hand: it stood there in red, without a value.
 #[test]
-fn a_page_leaves_requirements_of_samples_out() {
+fn explore_leaves_out_requirements_on_samples() {
     let place = Place::with("name = 'x'");
     let mut command =
         place.squama("explore x.toml --no-open --require yield>=0.9 --require coverage>=0.5");
@@ -63,9 +63,9 @@ fn a_page_leaves_requirements_of_samples_out() {
     assert!(page.contains("coverage >= 0.5") && !page.contains("yield >="));
 }
 
-/// The command that a page copies starts from what the page was made with.
+/// The command on a page uses the definition and settings of the page.
 #[test]
-fn a_page_knows_the_settings_that_it_was_made_with() {
+fn a_page_contains_its_settings() {
     let place = Place::with("name = 'x'");
     place.prints("explore x.toml --no-open --set contact.friction=0.1 --set scale.base=2L");
     let source = "x.toml --set contact.friction=0.1 --set scale.base=2L";
@@ -74,7 +74,7 @@ fn a_page_knows_the_settings_that_it_was_made_with() {
 
 /// What a page of a goal copies is a command that takes the goal; without a design of its own there is none yet.
 #[test]
-fn a_goal_gives_designs_that_are_chosen_by_their_values() {
+fn designs_of_a_goal_are_selected_by_value() {
     let place = Place::with(
         "name = 'x'\nmeasures = ['coverage']\n[variables]\ngap_mm = { from = 0.2, to = 2 }\nlength_mm = { from = 1, to = 4 }\n\
          thickness_mm = { from = 1, to = 2 }\n[designs]\nslant_deg = 60\n[goal]\nmaximize = 'coverage'",
@@ -156,7 +156,7 @@ fn a_run_ends_with_a_summary() {
 }
 
 #[test]
-fn a_reader_that_leaves_is_no_error() {
+fn a_closed_pipe_is_no_error() {
     let place = Place::with(FEW);
     let mut child = std::process::Command::new(assert_cmd::cargo::cargo_bin!("squama"))
         .args(["design", "x.toml", "--design", "1"])

@@ -8,7 +8,7 @@ use std::process::{Child, Command, ExitStatus, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-/// How long a test waits for what must happen, on however busy a machine.
+/// Timeout for an expected event, even on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(120);
 
 /// How often a test looks whether it has happened.

@@ -38,7 +38,7 @@ fn place() -> Place {
 }
 
 #[test]
-fn no_command_writes_over_a_file_of_a_stranger() {
+fn no_command_overwrites_a_foreign_file() {
     for (command, file) in WRITERS {
         let place = place();
         fs::create_dir(place.path("out")).expect("a folder");
@@ -59,7 +59,7 @@ fn no_command_writes_over_a_file_of_a_stranger() {
 }
 
 #[test]
-fn a_table_that_is_not_made_any_more_goes_and_a_strangers_stays() {
+fn obsolete_tables_are_removed_and_foreign_ones_kept() {
     let place = place();
     place.prints("tolerance x.toml --samples 4 --require coverage>=0.1 --out out");
     assert!(place.list("out").contains("yield.csv"));
@@ -71,7 +71,7 @@ fn a_table_that_is_not_made_any_more_goes_and_a_strangers_stays() {
 }
 
 #[test]
-fn a_goal_is_not_written_over_by_its_search() {
+fn a_search_does_not_overwrite_its_goal() {
     let place = Place::new();
     let goal = format!("# Mine.\n{GOAL}");
     fs::write(place.path("goal.toml"), &goal).expect("writable");
@@ -83,7 +83,7 @@ fn a_goal_is_not_written_over_by_its_search() {
 }
 
 #[test]
-fn a_changed_optimum_is_noticed_and_mended() {
+fn a_changed_optimum_is_detected_and_repaired() {
     let place = place();
     place.prints("optimise my/goal.toml --out found");
     place.prints("report r --front found");
@@ -102,7 +102,7 @@ fn a_changed_optimum_is_noticed_and_mended() {
 }
 
 #[test]
-fn a_changed_analysis_and_a_changed_definition_of_an_optimum_are_noticed_and_mended() {
+fn a_changed_analysis_or_optimum_is_detected_and_repaired() {
     let place = place();
     let tolerance = "tolerance x.toml --samples 4 --require coverage>=0.1 --out made";
     let search = "optimise my/goal.toml --out found --resume";
@@ -130,7 +130,7 @@ fn a_changed_analysis_and_a_changed_definition_of_an_optimum_are_noticed_and_men
 }
 
 #[test]
-fn a_record_of_others_removes_nothing_outside_of_its_folder() {
+fn a_foreign_record_removes_nothing_outside_its_folder() {
     let place = place();
     let record = "product = 'p'\ncommand = 'c'\nfrom = ''\n[files]\n'../mine.txt' = ''\n";
     fs::write(place.path("mine.txt"), "mine").expect("writable");
@@ -164,7 +164,7 @@ fn samples_of_each_definition_are_kept() {
 }
 
 #[test]
-fn a_million_designs_are_refused_at_once() {
+fn a_million_designs_are_rejected_immediately() {
     let many = "{ from = 0.1, to = 1, step = 0.001 }";
     let slants = "{ from = 0, to = 70, step = 0.01 }";
     let text = COVERED.replace("[0.1, 0.3]", many).replace("[30, 45]", slants);
@@ -174,7 +174,7 @@ fn a_million_designs_are_refused_at_once() {
 }
 
 #[test]
-fn what_a_kill_has_left_is_removed_by_the_next_command() {
+fn partial_files_of_a_killed_process_are_removed() {
     let place = place();
     place.prints("optimise my/goal.toml --out found");
     let abandoned = ".x.csv.squama-1-2.partial";
@@ -201,7 +201,7 @@ fn what_a_kill_has_left_is_removed_by_the_next_command() {
 
 #[cfg(unix)]
 #[test]
-fn pipes_and_devices_are_no_stores() {
+fn pipes_and_devices_are_rejected_as_stores() {
     use std::os::unix::fs::symlink;
 
     let pipe = |place: &Place, file: &str| {
@@ -237,7 +237,7 @@ fn pipes_and_devices_are_no_stores() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_folder_may_have_a_name_that_is_no_text() {
+fn a_folder_name_may_be_invalid_utf8() {
     use std::ffi::OsStr;
     use std::os::unix::ffi::OsStrExt as _;
 

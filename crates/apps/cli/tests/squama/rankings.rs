@@ -1,4 +1,4 @@
-//! `squama rank` and `squama compare`: what they print, what they write, what they refuse.
+//! `squama rank` and `squama compare`: output, files and errors.
 
 use crate::{FEW, Place};
 
@@ -46,7 +46,7 @@ const FOLDED: &str =
 ";
 
 #[test]
-fn beside_a_winner_that_has_folded_over_stands_the_best_that_has_not() {
+fn the_best_design_without_a_fold_is_listed_beside_a_folded_winner() {
     let place = Place::new();
     put(&place, "a", FOLDED);
     let printed = place.prints("rank a --weights 0,1,0,0");
@@ -70,7 +70,7 @@ fn beside_a_winner_that_has_folded_over_stands_the_best_that_has_not() {
 }
 
 #[test]
-fn the_tables_may_go_elsewhere() {
+fn tables_can_be_written_to_another_folder() {
     let place = place();
     place.prints("rank a --weights 0.4,0.3,0.2,0.1 --out b");
     assert_eq!(place.list("a"), "designs.csv");
@@ -89,7 +89,7 @@ fn one_design_is_ranked_alone() {
 }
 
 #[test]
-fn a_run_takes_the_ranking_of_an_earlier_one_away() {
+fn a_new_run_removes_an_earlier_ranking() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q").assert().code(0);
     place.prints("rank results/few");
@@ -142,7 +142,7 @@ fn the_design_that_meets_all_requirements_is_found() {
 }
 
 #[test]
-fn where_none_meets_the_requirements_the_nearest_one_is_told() {
+fn the_nearest_design_is_reported_if_none_meets_the_requirements() {
     let place = place();
     place.prints("rank a");
     let arguments = "rank a --require coverage>=0.8 --require critical_force>3";

@@ -38,7 +38,7 @@ fn what_is_missing_is_named_and_added_later() {
     place.squama("run x.toml -q --shard 2/3 --out 2").assert().code(0);
     place.squama("merge 1 2 3 --out all").assert().code(0);
     place.assert_same_tables("whole", "all");
-    // A whole is also what a run goes on with.
+    // A merged folder can be resumed.
     place.squama("merge 1 3 --out part").assert().code(1);
     place.squama("run x.toml -q --resume --out part").assert().code(0);
     place.assert_same_tables("whole", "part");

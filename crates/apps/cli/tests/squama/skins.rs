@@ -1,4 +1,4 @@
-//! `squama optimise` of what is made: what is printed and written, and bad goals.
+//! `squama optimise` on statistics over samples: output and bad goals.
 
 use crate::Place;
 
@@ -8,7 +8,7 @@ const GOAL: &str = "name = 'made'\nmeasures = 'coverage'\n[variables]\ngap_over_
     minimize = 'areal_mass_kg_m2'\nrequire = ['coverage >= 0.5', 'yield >= 0.9']\nsamples = 64\n";
 
 #[test]
-fn the_best_for_some_skins_is_shown_to_others() {
+fn the_best_design_is_confirmed_on_new_samples() {
     let place = Place::with(GOAL);
     let text = place.prints("optimise x.toml --threads 1");
     let (_, answer) = text.split_once("\n\n").expect("an answer");
@@ -66,7 +66,7 @@ fn tables_of_skins_do_not_depend_on_threads_or_interruptions() {
 }
 
 #[test]
-fn bad_goals_about_skins_are_one_line() {
+fn bad_goals_on_samples_are_reported_on_one_line() {
     let message = |from: &str, to: &str| Place::refused_goal(GOAL, from, to);
     let deviations = "[tolerance]\ngap_over_t = { batch_sd = 0.02 }\n";
     let objective = "'areal_mass_kg_m2'";

@@ -14,7 +14,7 @@ fn blocks(text: &str, kind: &str) -> Vec<String> {
     blocks.map(|block| block.split("```").next().expect("a fence").to_owned()).collect()
 }
 
-/// The words of a command, as a shell takes them: what stands in quotes is one word.
+/// Splits a command into words like a shell, with quotes.
 fn words(line: &str) -> Vec<String> {
     let mut words = vec![String::new()];
     for (k, part) in line.split('\'').enumerate() {
@@ -44,7 +44,7 @@ fn copy_sweeps(place: &Place) {
 }
 
 #[test]
-fn every_command_does_what_it_says() {
+fn every_command_of_the_tutorial_prints_its_block() {
     let text = fs::read_to_string(Path::new(ROOT).join("docs/tutorial.md")).expect("a tutorial");
     let place = Place::new();
     copy_sweeps(&place);

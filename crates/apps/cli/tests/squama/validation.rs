@@ -1,10 +1,10 @@
-//! The validation, and the page that says what came out of it.
+//! The validation and its page.
 
 use crate::agreement::disagreement;
 use crate::{Place, long_campaigns};
 
 #[test]
-fn the_committed_page_says_what_the_command_finds() {
+fn the_committed_page_matches_the_command() {
     let place = Place::new();
     // Every benchmark lies in its band.
     let options = if long_campaigns() { "" } else { "--quick" };

@@ -1,4 +1,4 @@
-//! `squama export`: the workbook of a run, and what happens when it cannot be written.
+//! `squama export`: the workbook of a run, and write errors.
 
 use crate::{FEW, Place};
 
@@ -21,7 +21,7 @@ fn a_run_becomes_a_workbook() {
 }
 
 #[test]
-fn searches_and_tolerances_become_workbooks_and_say_what_else_they_are_for() {
+fn searches_and_tolerances_are_exported_and_rejected_elsewhere() {
     let place = Place::with(
         "name = 'x'\nmeasures = 'coverage'\n[variables]\ngap_over_t = { from = 0.1, to = 1 }\n\
          slant_deg = { from = 0, to = 60 }\n[designs]\nlength_over_t = 1\n[goal]\n\

@@ -1,4 +1,4 @@
-// Force over depth and moment over curvature, each with a mark that a hand or a key moves along the path.
+// Force against depth and moment against curvature, each with a mark that moves along the path.
 
 (() => {
   const { svg, at, live } = squama;

@@ -1,4 +1,4 @@
-// What the buttons do, and what is shown first.
+// Buttons and the initial state.
 
 (() => {
   const { at, live } = squama;
@@ -22,14 +22,14 @@
   at("live-sheet").addEventListener("click", () => {
     const open = at("live-sheet").getAttribute("aria-expanded") !== "true";
     at("live-sheet").setAttribute("aria-expanded", String(open));
-    // What the sliders move stays in sight above them.
+    // Keeps the drawing in sight above the sliders.
     if (open) at("live-rest").scrollIntoView();
   });
 
-  /** Puts a design under the hand, by the keys and values of its parameters; what it does not name is as the page was opened with. */
+  /** Opens a design by keys and values of its parameters; others keep their initial values. */
   squama.take = (pairs) => {
     const known = pairs.filter(([key, value]) => value !== null && live.control(key));
-    // What a search found may lie beyond the values of the sweep.
+    // Values of a search may exceed the range of the sweep.
     for (const [control, value] of known.map(([key, own]) => [live.control(key), own])) Object.assign(control, { min: Math.min(control.min, value), max: Math.max(control.max, value) });
     live.set({ ...live.opened, ...Object.fromEntries(known) });
   };
@@ -54,7 +54,7 @@
     at("live").classList.toggle("waiting", live.solving() !== null);
   });
 
-  /** On the page of a run: the best designs for what is required, and a design that is chosen comes under the hand. */
+  /** On the page of a run: lists the best designs, and opens a selected design. */
   const joinPage = () => {
     squama.listen("design", chosen);
     squama.listen("selection", () => {

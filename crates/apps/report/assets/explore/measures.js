@@ -1,11 +1,11 @@
-// What the skin does: its measures, what is required of it, and what stands in the way of trusting the numbers.
+// Measures, requirements and warnings.
 
 (() => {
   const { element, at, live } = squama;
   const named = (answer, name) => answer?.values.find((value) => value.name === name);
   /** A measure in physical units where the material tells, else as it is. */
   const shown = (answer, { name, physical }) => named(answer, physical) ?? named(answer, name);
-  // Units of dimensionless values say what they are relative to, in symbols that only theory.md explains.
+  // Dimensionless units are hidden: their symbols are explained only in theory.md.
   const unitOf = (value) => (/^(N|mm)/.test(value.unit) ? value.unit : "");
 
   const compared = (value, measure) => {

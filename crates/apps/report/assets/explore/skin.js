@@ -1,4 +1,4 @@
-// The skin under the hand: its parameters, what is pinned, what the solver said last; and how it stands in the address.
+// State of the explorer: parameters, pinned design, last answer, and its form in the address.
 
 squama.live = (() => {
   const data = JSON.parse(squama.at("live-data").textContent);
@@ -6,16 +6,16 @@ squama.live = (() => {
   const listeners = { moved: [], answered: [] };
   const live = { data, answer: null, pinned: null, drawn: [1, 1], chosen: data.measures[1].name, said: "", times: [] };
 
-  // Whether a hand has moved something since a design was put under it.
+  // True if the user changed the design since it was opened.
   live.moved = false;
   live.listen = (topic, listener) => listeners[topic].push(listener);
   const tell = (topic) => listeners[topic].forEach((listener) => listener());
   live.show = () => tell("answered");
-  /** What stands where an answer will be, until there is one. */
+  /** Placeholder until there is an answer. */
   live.solving = () => (live.answer ? null : live.error ? "no answer" : "solving …");
 
   live.guided = () => controls.get("needle")?.value === "guided";
-  /** The controls that act: some do under a needle of one kind alone. */
+  /** The active controls: some apply only to one kind of needle. */
   live.controls = () => [...controls.values()].filter(({ only }) => !only || live.guided() === (only === "guided"));
   live.control = (key) => controls.get(key);
   live.value = (key) => controls.get(key).value;
@@ -23,7 +23,7 @@ squama.live = (() => {
   live.digits = (number, count = 4) => (number === null || number === undefined ? "–" : String(Number(number.toPrecision(count))));
   /** A millimetre for a length over t, where the thickness is known. */
   live.millimetres = () => controls.get("thickness_mm")?.value ?? data.thickness;
-  /** What a value of a control is shown times, and its unit. */
+  /** Display factor and unit of a control. */
   live.shownAs = ({ unit }) => {
     const thickness = live.millimetres();
     if (unit === "t" && thickness) return [thickness, "mm"];
@@ -35,7 +35,7 @@ squama.live = (() => {
     return `${live.digits(control.value * factor, 3)}${unit === "°" ? "" : " "}${unit}`.trim();
   };
 
-  /** What is required: on the page of a run what its reader requires. */
+  /** The requirements: on the page of a run, the requirements of the page. */
   live.required = () => squama.required?.().filter(({ sign }) => sign !== "~").map(squama.ranking.written) ?? data.requirements;
 
   const request = () => ({
@@ -51,10 +51,10 @@ squama.live = (() => {
   };
   for (const control of controls.values()) control.value = clamped(control, control.value);
   live.opened = Object.fromEntries([...controls.values()].map(({ key, value }) => [key, value]));
-  // So long an arrow walks to its limit, ms: the eye is to follow what changes.
+  // Duration of a walk to a limit, ms: slow enough to follow.
   const WALK = 1200;
   let walking = null;
-  /** Moves parameters, within their ranges, and solves. A hand that moves something ends a walk. */
+  /** Sets parameters within their ranges, and solves. User input ends a walk. */
   live.set = (values, said = "", isStep = false) => {
     if (!isStep) cancelAnimationFrame(walking);
     for (const [key, value] of Object.entries(values)) {
@@ -67,13 +67,13 @@ squama.live = (() => {
     live.solve();
     if (!isStep) live.remember();
   };
-  /** Draws the needle, or bending, at a share of its way. */
+  /** Draws puncture or bending at a fraction of its path. */
   live.draw = (load, share) => {
     live.drawn[load] = Math.min(1, Math.max(0, share));
     tell("moved");
     live.solve();
   };
-  /** Follows a parameter to where the chosen measure, or something else, ends it. */
+  /** Moves a parameter until the chosen measure stops improving or a limit is reached. */
   live.follow = (key, up) => {
     const { min, max } = controls.get(key);
     squama.solver.follow(request(), { key, to: up ? max : min, measure: live.chosen });
@@ -98,7 +98,7 @@ squama.live = (() => {
     if (question) live.times.push(performance.now() - question.at);
     if (answer.follow) return walk(answer.follow);
     live.error = answer.error ?? null;
-    // An answer for a moving hand has no derivatives: those of the last rest are shown until the next.
+    // Fast answers have no derivatives: the last ones are shown until the next complete answer.
     if (!answer.error) live.answer = answer.fine ? answer : { ...answer, slopes: live.answer?.slopes ?? [] };
     tell("answered");
   };

@@ -1,9 +1,9 @@
-// What the page asks of the solver: the latest question alone, coarse while the hand moves and fine when it rests.
+// Requests to the solver: only the latest one, fast during input and complete afterwards.
 
 squama.solver = (() => {
-  // A hand that has not moved for so long rests, ms.
+  // Time without input before a complete answer is requested, ms.
   const REST = 160;
-  // So long a question that nobody waits for any more may go on, ms: a new thread starts in less than a slow question takes.
+  // Grace time of an obsolete request, ms: restarting the thread is faster than a slow request.
   const GRACE = 60;
   let module, worker, listen, ready = false, asked = null, waiting = null, resting, giving = null, id = 0;
 
@@ -24,7 +24,7 @@ squama.solver = (() => {
     const question = asked;
     asked = null;
     if (answer.trapped) start();
-    // What the hand has left behind is shown as long as it moves: it is the best there is.
+    // During input, outdated answers are shown too.
     if (!waiting || !question?.fine) listen(answer, question);
     next();
   };
@@ -45,7 +45,7 @@ squama.solver = (() => {
   return {
     begin: async (listener) => {
       listen = listener;
-      // What stands on the page is drawn first, and answers to the hand meanwhile.
+      // The page is drawn first, so that it responds meanwhile.
       await new Promise((drawn) => { requestAnimationFrame(() => setTimeout(drawn)); });
       try {
         module = await WebAssembly.compile(await squama.unpacked("live-module", "gzip").arrayBuffer());
@@ -54,7 +54,7 @@ squama.solver = (() => {
         listen({ error: `This browser cannot run the solver (${error.message}); use a current browser` });
       }
     },
-    /** Solves for a request: at once without what takes long, and whole when the hand rests. */
+    /** Solves a request: fast immediately, complete after a pause. */
     solve: (request) => {
       clearTimeout(resting);
       ask(request);

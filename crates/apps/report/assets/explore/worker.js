@@ -7,7 +7,7 @@ const answer = (request) => {
   const room = solver.squama_room(text.length);
   new Uint8Array(solver.memory.buffer, room, text.length).set(text);
   const length = solver.squama_answer(text.length);
-  // The memory may have grown, so where the answer stands is asked for anew.
+  // The memory may have grown, so the address of the answer is requested again.
   return JSON.parse(new TextDecoder().decode(new Uint8Array(solver.memory.buffer, solver.squama_room(0), length)));
 };
 
@@ -20,7 +20,7 @@ self.onmessage = async ({ data }) => {
   try {
     self.postMessage(answer(data));
   } catch (error) {
-    // A module that has trapped is of no use any more; the page starts another.
+    // A trapped module cannot be used again; the page starts another.
     self.postMessage({ id: data.id, error: `The solver stopped (${error.message}) and was started again`, trapped: true });
   }
 };

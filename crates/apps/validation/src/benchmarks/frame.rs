@@ -20,7 +20,7 @@ impl FrameNode {
 /// The control parameter of a path of a frame, and its last value.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Drive {
-    /// The depth by which the loaded node sinks.
+    /// The downward displacement of the loaded node.
     Depth(f64),
     /// The load.
     Load(f64),

@@ -1,4 +1,4 @@
-//! The evidence of a study: what its tables do not have is solved here.
+//! The evidence of a study; results that are not in its tables are solved here.
 
 use ranking::{Ranking, TetrahedralGrid, Weights};
 use rayon::prelude::*;
@@ -16,10 +16,10 @@ use crate::study::{MeasuredDesign, Study};
 /// `u/t` of the rows in Fig. 6, and so the end of its curves.
 const DEPTH: f64 = 0.7;
 
-/// The number of depths up to there at which contact forces are looked at.
+/// The number of depths at which contact forces are evaluated.
 const DEPTHS: usize = 14;
 
-/// A scale carries a part of the load if it carries at least this much of it.
+/// Minimum fraction of the load for a scale to count as loaded.
 const CARRIES: f64 = 0.05;
 
 /// Largest step of the paths on which slopes are compared.
@@ -207,7 +207,7 @@ fn balanced(study: &Study) -> Option<Balanced> {
         best: design(best.row())?,
         fitness: best.fitness,
         share: 100.0 * best.share(),
-        // Who wins no weights is not among the winners, and wins 0 % of them.
+        // A design that is not among the winners wins 0 % of the weights.
         share_of_printed: printed.map_or(0.0, |winner| 100.0 * winner.share()),
     })
 }

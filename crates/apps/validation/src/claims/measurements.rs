@@ -1,4 +1,4 @@
-//! What is measured of each statement.
+//! The measurement for each statement.
 
 use critical_force::{FORCE, INITIAL_STIFFNESS, LARGEST_STIFFNESS};
 use puncture::trend;
@@ -10,7 +10,7 @@ use super::statistics::{GAP, LENGTH, SLANT, TrendSteps};
 use super::{critical_force, digits, flexure, named, puncture};
 use crate::study::MeasuredDesign;
 
-/// Returns what is measured of a statement, by its number.
+/// Returns the measurement of a statement, by its number.
 pub(super) fn measurement(id: &str) -> Option<Measurement> {
     Some(match id {
         // Of the largest coverage: if that is 0, so are all the others.

@@ -1,4 +1,4 @@
-//! A design in the words of commands and definitions.
+//! Options and definitions for a design.
 
 use sweep::{Axis, Case, PARAMETERS, Parameter, Scalar, Setting, Sweep};
 
@@ -37,7 +37,7 @@ pub(crate) fn alone(sweep: &Sweep, base: &Case, case: &Case) -> Result<Sweep, St
     Sweep::parse(&on_axes.to_toml(), "definition", &settings).map_err(|error| error.to_string())
 }
 
-/// The settings of what is no axis and differs from the definition.
+/// Returns the settings that differ from the definition, except axes.
 fn others(sweep: &Sweep, base: &Case, case: &Case) -> impl Iterator<Item = String> {
     // What follows from another parameter is left out: a definition with both is refused.
     let differs = |one: &&Parameter| {

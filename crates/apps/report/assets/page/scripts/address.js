@@ -47,7 +47,7 @@
     for (const key of ["design", "pinned"]) next[key] = squama.rowOf(parts.get(key));
   };
 
-  /** Takes the state from a text; what makes no sense is passed over, and requirements of that kind are named. */
+  /** Reads the state from a text; invalid parts are ignored, and invalid requirements are reported. */
   squama.read = (text) => {
     const parts = new URLSearchParams(text), next = squama.initial();
     const asked = parts.getAll("require").map((one) => [one, ranking.requirement(squama, one)]);
@@ -61,17 +61,17 @@
     Object.assign(state, next);
   };
 
-  /** Tells everyone about a state that is new as a whole. */
+  /** Notifies all listeners of a new state. */
   squama.showAll = () => {
     if (state.design === null && squama.count > 0) state.design = squama.ranking.order(squama.contestNow(), squama.weights(), 1)[0]?.row ?? 0;
     squama.refresh();
     ["view", "design", "pinned"].forEach(squama.tell);
   };
 
-  // Written a moment after the last change: a slider changes often, and browsers allow only so many.
+  // Delayed, because sliders change often and browsers limit the rate.
   let timer = null, own = null, known = location.hash;
   const write = () => {
-    // An address that came from outside since the last look has the last word.
+    // An address changed from outside takes precedence.
     if (location.hash !== known && location.hash.includes("=")) return;
     own = `#${squama.written()}`;
     try { history.replaceState(null, "", own); } catch { /* The page works without an address. */ }

@@ -1,5 +1,5 @@
-// Which designs can be compared: a criterion says nothing between designs that are not measured alike. By which parameters
-// a column is measured comes from the program; `squama rank` refuses where they differ.
+// Comparable designs: criteria can be compared only if they are measured under the same parameters.
+// The program provides these parameters; `squama rank` reports an error if they differ.
 
 squama.comparable = (() => {
   const { state } = squama;

@@ -5,7 +5,7 @@
   const section = squama.at("compare");
   const pair = () => [state.pinned, state.design];
 
-  /** How two numbers stand to each other. */
+  /** Formats the change from one number to another. */
   const ratio = (a, b) => {
     if (typeof a !== "number" || typeof b !== "number") return a === b ? "" : "≠";
     if (a === b) return "=";

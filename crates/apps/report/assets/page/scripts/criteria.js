@@ -21,7 +21,7 @@
     squama.refresh();
   };
 
-  /** A criterion in words; resistance to penetration is another thing than penetration. */
+  /** Names a criterion; penetration resistance differs from penetration. */
   squama.criterionName = ({ column, goal }) => {
     if (isPaper()) return squama.paper.find((one) => one.column === column)?.name ?? squama.label(column);
     return `${goal === "max" ? "large " : "small "}${squama.label(column)}`;
@@ -72,7 +72,7 @@
 
   const quoted = (text) => `'${text}'`;
 
-  /** The command that ranks as the page does; parts of texts are a matter of the page alone. */
+  /** Returns the equivalent command; text filters exist only on the page. */
   squama.rankCommand = () => [
     `squama rank ${squama.folder}`,
     ...squama.required().filter(({ sign }) => sign !== "~").map((one) => `--require ${quoted(ranking.written(one))}`),
@@ -100,7 +100,7 @@
       squama.element("td", {}, String(rank)), own, squama.element("td", {}, fitness.toFixed(4)), ...shown().map((name) => squama.element("td", {}, cell(name))));
   };
 
-  /** Names the best design whose surface does not fold, where the best of all folds. */
+  /** Names the best design without a fold, if the best of all folds. */
   const showSound = (best) => {
     const note = squama.at("best-sound");
     note.hidden = !(best && squama.folded(best.row));
@@ -110,7 +110,7 @@
       ...(other ? ["The best without is ", squama.element("button", { type: "button", onclick: () => squama.choose(other.row) }, squama.title(other.row)), `, fitness ${other.fitness.toFixed(4)}.`] : []));
   };
 
-  /** Says among which designs the ranking goes, because others are not measured alike. */
+  /** States which designs are ranked, if not all are comparable. */
   const showIncomparable = () => {
     const found = squama.comparable.now();
     const note = squama.at("incomparable");
@@ -125,7 +125,7 @@
     note.replaceChildren("Ranked are designs of", ...found.map(chooser), `, because ${found.map(why).join(", and ")}.`);
   };
 
-  /** Says how far the best design moves with its gap, where that is known. */
+  /** Shows the sensitivity of the best design to its gap, if known. */
   const showGap = (best) => {
     const note = squama.at("best-gap"), isKnown = best && squama.gap.known(best.row).length > 0;
     note.hidden = !isKnown;

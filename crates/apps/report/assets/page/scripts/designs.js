@@ -1,4 +1,4 @@
-// The table of the sweep: columns, cells, and how people call them.
+// The table of the sweep: columns, cells and their names.
 
 /** Columns of the criteria of the paper. */
 [squama.coverage, squama.criticalForce, squama.penetration, squama.compliance] = squama.paper.map(({ column }) => column);
@@ -14,7 +14,7 @@ squama.place = new Map(squama.names.map((name, place) => [name, place]));
 /** Whether there is a column. */
 squama.has = (name) => squama.place.has(name);
 
-/** Which values of a column are good, "max" or "min"; null where that is not plain. */
+/** Direction of improvement of a column, "max" or "min"; null if undefined. */
 squama.goal = (name) => squama.columns[squama.place.get(name)]?.goal ?? null;
 
 /** Cell of a row: a number, a text, or null. */
@@ -46,7 +46,7 @@ squama.rowOf = (() => {
   return (number) => known.get(plain(number)) ?? null;
 })();
 
-/** What the page holds of a design that was solved again: drawing, curves; nothing of others. */
+/** Drawing and curves of a design that was solved again; undefined for others. */
 squama.solved = (() => {
   const known = new Map(squama.drawings.map((own) => [own.design, own]));
   return (row) => known.get(squama.number(row));
@@ -129,7 +129,7 @@ squama.slant = (() => {
 const SHORT = { gap_over_t: "d/t", length_over_t: "L/t", slant_deg: "α", width_over_t: "b/t", membrane_thickness_over_t: "h/t", contact_modulus_over_substrate: "Ect/Es", contact_modulus_over_membrane: "Ect/Em", critical_tilt_deg: "θc" };
 const TITLED = [...new Set(["gap_over_t", "length_over_t", "slant_deg", ...squama.varied])].filter(squama.has);
 
-/** Parameters that tell a design from all others. */
+/** Parameters that identify a design. */
 squama.parameters = (row) => TITLED
   .map((name) => `${SHORT[name] ?? squama.label(name).replace(/ \(°\)$/, "")} ${squama.short(squama.cell(row, name))}${name.endsWith("_deg") ? "°" : ""}`)
   .join(", ");

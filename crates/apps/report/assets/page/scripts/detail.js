@@ -27,7 +27,7 @@
     return [button, squama.element("p", { class: "note" }, "At rest and at the critical tilt; a click enlarges it.")];
   };
 
-  /** What stands in the way of trusting the numbers of a design, in words for everyone. */
+  /** Warnings about the validity of the results of a design. */
   squama.doubts = (row) => {
     const doubts = [];
     if (squama.folded(row)) {

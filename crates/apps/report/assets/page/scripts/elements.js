@@ -26,7 +26,7 @@ squama.svg = (name, attributes = {}, ...children) => {
 /** The element of an id. */
 squama.at = (id) => document.getElementById(id);
 
-/** What the element of an id holds packed: seven bits stand in each letter of its text; the last are filled up. */
+/** Decodes the content of an element: seven bits per character, padded. */
 squama.unpacked = (id, format = "deflate-raw") => {
   const text = squama.at(id).textContent, packed = new Uint8Array(Math.floor((text.length * 7) / 8));
   for (let held = 0, count = 0, at = 0, k = 0; at < packed.length; k++) {
@@ -40,7 +40,7 @@ squama.unpacked = (id, format = "deflate-raw") => {
 squama.dropdown = (attributes, options, chosen) => squama.element("select", attributes,
   ...options.map(([value, text]) => squama.element("option", { value, selected: value === chosen }, text)));
 
-/** What makes an element do something, by click or by key. */
+/** Attributes of an element that reacts to clicks and keys. */
 squama.pressed = (act) => ({
   tabindex: 0,
   onclick: act,
@@ -51,7 +51,7 @@ squama.pressed = (act) => ({
   },
 });
 
-/** What makes an element choose a design. */
+/** Attributes of an element that selects a design. */
 squama.chooser = (row) => squama.pressed(() => squama.choose(row));
 
 /** The sign of a design whose surface folds; nothing for others. */

@@ -1,4 +1,4 @@
-// The figures, as the program has drawn them: those in sight are unpacked; their marks are pointed at, chosen, and hidden by
+// The figures drawn by the program: visible ones are unpacked; marks are selected, and hidden by
 // requirements. Nothing is drawn here.
 
 squama.charts = [];
@@ -20,7 +20,7 @@ squama.charts = [];
     return { element, row: squama.rowOf(element.dataset.design), front: element.dataset.front, x: x + width / 2, y: y + height / 2 };
   });
 
-  /** Hides what does not meet the requirements, and puts rings around the designs that are chosen and pinned. */
+  /** Hides designs that do not meet the requirements, and rings the selected and pinned designs. */
   const restyle = (chart) => {
     chart.stale = false;
     for (const mark of chart.marks) {
@@ -56,7 +56,7 @@ squama.charts = [];
     restyle(chart);
   };
 
-  // What is out of sight waits; one chart in each slice of time, so that what answers to the reader is not kept waiting.
+  // Charts out of sight wait; one chart per time slice, so that the page stays responsive.
   const seen = new IntersectionObserver((entries) => {
     for (const { target, isIntersecting } of entries) squama.charts.find(({ area }) => area === target).seen = isIntersecting;
     later();
@@ -120,7 +120,7 @@ squama.charts = [];
     tip.style.top = `${event.clientY + 16 + tip.offsetHeight > innerHeight ? event.clientY - tip.offsetHeight - 8 : event.clientY + 16}px`;
   };
 
-  /** A click chooses; another click on marks in one place goes to the next of them. A design of a front comes under the hand. */
+  /** Selects by click; further clicks cycle through overlapping marks. Designs of a front open in the explorer. */
   const click = (chart, event) => {
     const marks = near(chart, event), rows = marks.map(({ row }) => row).filter((row) => row !== null);
     if (rows.length > 0) squama.choose(rows[(rows.indexOf(state.design) + 1) % rows.length]);

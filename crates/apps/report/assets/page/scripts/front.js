@@ -1,4 +1,4 @@
-// The designs that a search has found between those of the grid: a front over the grid's designs, and a table.
+// Designs found by a search, over the designs of the grid, and a table.
 
 (() => {
   const { found, ranking } = squama;
@@ -8,10 +8,10 @@
   const columns = [...new Set([...found.variables, ...found.objectives.map(({ column }) => column), ...found.requirements.map(({ column }) => column)])];
   const isFront = found.objectives.length > 1;
 
-  /** Designs of the grid that could have been found: those that keep the bounds of the search. */
+  /** Designs of the grid within the bounds of the search. */
   const could = new Set(ranking.meeting(squama, found.requirements.filter(({ column }) => squama.has(column)), (row) => !(found.sound && squama.folded(row))));
 
-  /** Whether the design that was found is at least as good as one of the grid in every objective, and better in one. */
+  /** Returns true if the found design dominates a design of the grid. */
   const beats = (k, row) => {
     const better = found.objectives.map(({ column, goal }) => {
       const [own, other] = [cell(k, column), squama.numbers(column)[row]];

@@ -1,11 +1,11 @@
-// How far the measures of a design move with its gap: known of designs that were solved again with a gap 10 % smaller and larger.
+// Sensitivity to the gap, for designs solved again with a gap 10 % smaller and larger.
 
 squama.gap = (() => {
-  // A measure that moves by this factor where the gap moves by a tenth stands at a cliff.
+  // A change by this factor for a change of the gap by a tenth counts as sensitive.
   const CLIFF = 1.5;
   const LARGE = 2;
 
-  /** What is known of a row: `{ column, factors }` for the smaller and the larger gap. */
+  /** Changes of a row: `{ column, factors }` for the smaller and the larger gap. */
   const known = (row) => squama.solved(row)?.gapFactors ?? [];
 
   /** A factor in words. */
@@ -30,7 +30,7 @@ squama.gap = (() => {
     return steep.length === 0 ? [] : [`This design stands at a cliff: where its gap comes out 10 % smaller / larger, ${steep.map(({ column, factors }) => `${squama.label(column)} changes by ${both(factors)}`).join(", ")}.`];
   };
 
-  /** All that is known of a row, in one sentence. */
+  /** Describes all changes of a row in one sentence. */
   const sentence = (row) => `Where the gap of ${squama.number(row)} comes out 10 % smaller / larger: ${known(row).map(({ column, factors }) => `${squama.label(column)} ${both(factors)}`).join(", ")}.`;
 
   return { known, both, cliffs, warning, sentence };

@@ -1,5 +1,5 @@
-// How designs are chosen: requirements, criteria, fitness, fronts. Nothing here knows the page; `squama rank` does the
-// same, in the same order of operations, and scripts/check-page holds both together.
+// Ranking: requirements, criteria, fitness, fronts, independent of the page. `squama rank` uses the same
+// order of operations; scripts/check-page compares both.
 
 squama.ranking = (() => {
   const ROUND_OFF = 1e-9;
@@ -51,7 +51,7 @@ squama.ranking = (() => {
   /** The goal that a column has unless something else is said. */
   const plainGoal = (table, column) => table.goal(column) ?? "max";
 
-  /** What a value is worth, larger being better (R1); NaN if an inverse or a logarithm does not exist. */
+  /** Converts a value to a criterion, larger being better (R1); NaN if an inverse or logarithm does not exist. */
   const worth = (scale, goal, value) => {
     if (scale === "linear" || (scale === "paper" && goal === "max")) return goal === "max" ? value : -value;
     if (!(value > 0)) return NaN;
@@ -95,7 +95,7 @@ squama.ranking = (() => {
     const covered = criteria.some(({ column }) => column === COVERAGE) ? table.numbers(COVERAGE) : null;
     const ranked = rows.filter((row) => !(covered && covered[row] <= 0) && all.every((values) => !Number.isNaN(values[row])));
     const worths = all.map((values) => picked(values, ranked));
-    // Values tell whether anything but round-off tells designs apart: a logarithm may be near 0.
+    // Compares values, because a logarithm may be near 0.
     const isTie = criteria.map(({ column }) => same(...ends(picked(table.numbers(column), ranked))));
     const terms = worths.map((values, c) => rescaled(values, isTie[c])).map((values) => (scale === "paper" ? values.map(Math.log) : values));
     return { rows: ranked, worths, terms, scale };
@@ -152,7 +152,7 @@ squama.ranking = (() => {
     return better;
   };
 
-  /** Rows that no other beats in all criteria. */
+  /** Returns the non-dominated rows. */
   const front = ({ rows, worths }) => {
     const sorted = rows.map((_, i) => i).sort((a, b) => {
       for (const values of worths) if (values[a] !== values[b]) return values[b] - values[a];
@@ -162,7 +162,7 @@ squama.ranking = (() => {
     for (const i of sorted) {
       const by = kept.findIndex((other) => beats(worths, other, i));
       if (by < 0) kept.push(i);
-      // Who beats one is likely to beat the next: it is asked first.
+      // A design that dominates one is likely to dominate the next, so it is tested first.
       else [kept[0], kept[by]] = [kept[by], kept[0]];
     }
     return new Set(kept.map((i) => rows[i]));

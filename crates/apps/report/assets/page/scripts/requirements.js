@@ -23,7 +23,7 @@
       squama.element("input", { type: "text", inputmode: isText ? null : "decimal", value: one.limit, "aria-label": `Limit of ${label}`, oninput: (event) => {
         const limit = isText ? event.target.value : ranking.number(event.target.value), isRead = isText || Number.isFinite(limit);
         event.target.setAttribute("aria-invalid", String(!isRead));
-        // What cannot be read requires nothing: no limit acts that is not shown.
+        // Invalid input sets no requirement, so that only visible limits act.
         change(k, { limit: isRead ? limit : null });
       } }),
       squama.element("small", {}, isText ? "" : range(one.column)),
@@ -44,7 +44,7 @@
     });
   };
 
-  /** The design that comes nearest to requirements that none meets, and what stands in the way. */
+  /** Shows the nearest design if none meets the requirements, and the obstacle. */
   const nearest = () => {
     const rows = squama.rows.filter((one) => !state.sound || !squama.folded(one));
     const { nearest: own, binding } = ranking.unmet(squama, rows, squama.required());

@@ -1,8 +1,8 @@
-// What the reader has chosen, who wants to know, and how it stands in the address, so that it can be sent.
+// State of the page, its listeners, and its form in the address.
 
 squama.listeners = new Map();
 
-/** Calls `tell` whenever something of `topics` changes: selection, weights, view, design, pinned, theme. */
+/** Calls `tell` on changes of `topics`: selection, weights, view, design, pinned, theme. */
 squama.listen = (topics, tell) => topics.split(" ").forEach((topic) => {
   squama.listeners.set(topic, [...(squama.listeners.get(topic) ?? []), tell]);
 });
@@ -42,7 +42,7 @@ squama.weights = () => squama.state.weights.map((hundredth) => hundredth / 100);
 /** The requirements whose limits can be read. */
 squama.required = () => squama.state.requirements.filter(({ limit }) => limit !== null);
 
-/** What a link asked for and nobody could read. */
+/** Invalid requirements of a link. */
 squama.unread = [];
 
 /** The designs that are ranked by the state as it is. */
@@ -52,7 +52,7 @@ squama.contestNow = () => {
   return squama.ranking.contest(squama, criteria.length > 0 ? squama.comparable.ranked(squama.meeting, criteria) : [], criteria, scale);
 };
 
-/** Makes what follows from requirements, criteria and the switch for folded designs, and tells. */
+/** Recomputes the ranking from requirements, criteria and the switch for folds, and notifies listeners. */
 squama.refresh = () => {
   squama.contest = squama.contestNow();
   squama.passes = new Uint8Array(squama.count);

@@ -2,7 +2,7 @@
 
 (() => {
   const { state, filters } = squama;
-  // As high as a finger where one points.
+  // Taller for touch input.
   const coarse = matchMedia("(pointer: coarse), (max-width: 40rem)");
   const height = () => (coarse.matches ? 44 : 27);
   const AROUND = 12;
@@ -40,7 +40,7 @@
   const filter = (name) => squama.element("input", { type: "text", "aria-label": `filter ${squama.label(name)}`, "data-column": name, oninput: (event) => {
     const requirements = filters.read(name, event.target.value.trim());
     event.target.setAttribute("aria-invalid", String(requirements === null));
-    // What cannot be read requires nothing: no limit acts that is not shown.
+    // Invalid input sets no requirement, so that only visible limits act.
     filters.set(name, requirements ?? []);
   } });
 

@@ -1,4 +1,4 @@
-// All ways to share a weight among four criteria, and the design that is best for each.
+// All weightings of four criteria, and the best design for each.
 
 squama.weightings = (() => {
   // Steps from corner to corner, as `squama rank` has them.
