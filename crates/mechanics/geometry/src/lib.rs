@@ -3,7 +3,7 @@
 //! A scale is a parallelogram of height `t` that leans by the slant `α`; scales with bases `2a` at gaps `d` form a row
 //! of pitch `p = 2a + d`. Lengths are in units of the scale thickness `t`; `y` points up out of the substrate and angles
 //! are counter-clockwise. The coverage of a row is the part of a vertical line, dropped from the top right corner of a
-//! scale, that lies inside of the scales to its right (Eq. G2 of `docs/theory.md`):
+//! scale, that lies inside of the scales to its right (Eq. G2 of `docs/theory/model.md`):
 //!
 //! ```text
 //! λ = Σₖ |[S − k p, S − k p + 2a] ∩ [0, S]| / S,     S = t tan α,  k = 1, 2 …

@@ -34,7 +34,7 @@ impl Row {
         2.0 * self.scale.half_base() + self.gap
     }
 
-    /// Returns the coverage `λ = t_s / t` (`docs/theory.md`, Eq. G2): the total length, over the thickness, that a vertical
+    /// Returns the coverage `λ = t_s / t` (`docs/theory/model.md`, Eq. G2): the total length, over the thickness, that a vertical
     /// line dropped from the top right corner of a scale cuts in the scales to its right.
     ///
     /// The coverage is 0 where the substrate is exposed, and always below 1.

@@ -11,7 +11,7 @@
 //!
 //! the reactions of three rigid rectangles when the middle one is displaced by a unit and its
 //! neighbours are held. They depend on `d/a`, `b/a` and `ν` alone. The equations are numbered
-//! (S1)–(S22) here and in `docs/theory.md`.
+//! (S1)–(S22) here and in `docs/theory/model.md`.
 //!
 //! | Type | Role |
 //! |---|---|

@@ -3,7 +3,7 @@
 use skin::Design;
 use sweep::{Case, Sweep, key};
 
-/// The kind of a dimensionless value, which says what one unit of it is worth (`docs/theory.md`, U1–U7).
+/// The kind of a dimensionless value, which says what one unit of it is worth (`docs/theory/model.md`, U1–U7).
 ///
 /// With the thickness `t`, the moduli `E_s` and `E_m`, the width `b`, and `I_m = b h³/12` of the membrane:
 ///

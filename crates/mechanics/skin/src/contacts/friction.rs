@@ -5,13 +5,13 @@
 //! the edge and the slip coordinate `s` of the left scale in that direction
 //!
 //! ```text
-//! |T| ≤ μ Λ,    stick:  s = s₀, T unknown,    slip:  T = −μ Λ sign ṡ                          (R1)
+//! |T| ≤ μ Λ,    stick:  s = s₀, T unknown,    slip:  T = −μ Λ sign ṡ                          (Q1)
 //! ```
 //!
 //! Sticking is an equality constraint. Its unknown is the *stick multiplier* `a = T + μ Λ`, which
 //! vanishes where the contact starts to slip forward; backward slip starts where `2 μ Λ − a`
 //! vanishes. The unknown of a slipping contact is its slip distance, which only grows: where it
-//! would decrease the contact sticks (R2). Friction thus adds two constraints per contact:
+//! would decrease the contact sticks (Q2). Friction thus adds two constraints per contact:
 //!
 //! ```text
 //! 0 ≤ a   while sticking          0 ≤ σ (s − s₀)  ⟂  2 μ Λ − a ≥ 0

@@ -1,4 +1,4 @@
-//! Transitions of contacts with friction at events (R2).
+//! Transitions of contacts with friction at events (Q2).
 
 use contact::{CornerContact, CornerEdge, Force};
 
