@@ -34,7 +34,7 @@ use surface_fold::FoldObserver;
 use system::{Chain, RowLayout};
 
 use crate::arrangement::Arrangement;
-use crate::contacts::{SkinPoint, pair_constraints};
+use crate::contacts::pair_constraints;
 use crate::record::{ContactEvent, Iteration, PathFunction, Record};
 use crate::{Common, Design, Sample, Status, Unloading};
 

@@ -9,7 +9,7 @@ use super::mesh::Resolution;
 use super::problem::{Bent, FlexureProblem};
 use super::strip::Strip;
 use super::{Flexure, FlexureParameters};
-use crate::contacts::{Contacts, SkinPoint, SkinState};
+use crate::contacts::{Contacts, SkinState};
 use crate::record::{PathFunction, Record, Skin};
 use crate::sensitivity::{
     self, Curve, CurvePoint, Derivative, MeasuredPoint, MeasuredQuantity, curve_point, derivatives,

@@ -8,7 +8,7 @@ use super::frame::{displacements, frames, place};
 use super::problem::FlexureProblem;
 use super::strip::Strip;
 use crate::arrangement::Arrangement;
-use crate::contacts::{Contact, SkinPoint, SkinState};
+use crate::contacts::{Contact, SkinState};
 use crate::record::Skin;
 use crate::{Common, Design};
 

@@ -2,7 +2,7 @@
 
 use solver::{AnchoredPoint, Neighbours, PathAnchor, Point, Settings};
 
-use super::{Derivative, MeasuredPoint, ValueOf, derivatives, quantity};
+use super::{MeasuredPoint, ValueOf, derivatives, quantity};
 use crate::contacts::SkinPoint;
 use crate::record::Skin;
 

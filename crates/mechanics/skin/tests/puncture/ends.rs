@@ -2,7 +2,7 @@
 
 use approx::assert_relative_eq;
 use rayon::prelude::*;
-use skin::puncture::{Instability, Puncture, PunctureParameters, PuncturePoint};
+use skin::puncture::{Instability, Puncture, PunctureParameters};
 use skin::{Base, Common, Design, Status};
 use solver::{Settings, Stop};
 use substrate::{Calibrations, SubstrateLaw};

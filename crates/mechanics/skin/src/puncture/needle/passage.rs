@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::mode::{OutlinePart, TipState, Touch};
+use super::mode::{OutlinePart, TipState};
 use crate::contacts::{SkinPoint, SkinState};
 use crate::puncture::adaptive_row::Segment;
 use crate::puncture::system::Chain;
