@@ -44,9 +44,9 @@
 //! let puncture = puncture::solve(&design, &springs, &Common::default(), &parameters)?;
 //! assert_eq!(puncture.status, Status::Complete);
 //!
-//! Several scales share the load, not only the punctured one.
+//! // Several scales share the load, not only the punctured one.
 //! assert!(puncture.measures.engaged_scales > Some(2));
-//! The load at the critical tilt is the largest: no instability precedes it.
+//! // The load at the critical tilt is the largest: no instability precedes it.
 //! assert_eq!(puncture.measures.peak_force, puncture.measures.critical_force);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

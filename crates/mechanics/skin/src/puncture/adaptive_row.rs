@@ -22,7 +22,6 @@ use crate::contacts::{SkinPoint, SkinState};
 ///                ▲                     │ yes
 ///                └── extend the row ◄──┘ repeat the step
 /// ```
-/// ```
 pub(super) struct AdaptiveRowPath<'a> {
     problem: &'a Problem<'a>,
     pub(super) path: Path<Chain>,
