@@ -27,6 +27,11 @@ pub fn invalid_parameter(
     exception(py, "InvalidParameter", (key, value, expected))
 }
 
+/// Creates the exception for a definition that cannot be used, for the reason in `message`.
+pub fn refused_definition(py: Python<'_>, message: &str) -> PyErr {
+    exception(py, "InvalidDefinition", (message,))
+}
+
 /// Creates the exception for failed work.
 pub fn failed(what: &str, reason: &str) -> PyErr {
     Python::attach(|py| exception(py, "Failed", (what, reason)))

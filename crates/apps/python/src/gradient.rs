@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
-use results::columns::{design_columns, measure_name, measure_of};
+use results::columns::{design_columns, measure_name, measure_of, name};
 use results::{Column, DesignRow, SlopeSide};
 use sweep::{Measure, Parameter, Role};
 
@@ -18,19 +18,24 @@ const STEP: f64 = 1e-6;
 /// Left and right derivative, and the event at a kink.
 type Slopes = (Option<f64>, Option<f64>, Option<String>);
 
-/// Computes `measures` and their derivatives with respect to `keys`.
+/// The value of a measure, and its derivatives by every key.
+type Gradient = (f64, Vec<Slopes>);
+
+/// Returns `measures` with their derivatives with respect to `keys`, and the force at the first fold.
+///
+/// The force is `None` if nothing folds, or if no measure depends on the path beyond the fold.
 #[pyfunction]
 pub fn gradients(
     skin: &Bound<'_, Skin>,
     measures: Vec<String>,
     keys: Vec<String>,
-) -> PyResult<Vec<(f64, Vec<Slopes>)>> {
+) -> PyResult<(Vec<Gradient>, Option<f64>)> {
     let (py, of) = (skin.py(), skin.get());
     let by = keys.iter().map(|key| parameter(skin, key)).collect::<PyResult<Vec<_>>>()?;
     let columns = design_columns(&of.sweep);
-    let column = |name: &String| {
-        let found = columns.iter().find(|column| column.name == *name);
-        found.ok_or_else(|| PyKeyError::new_err(format!("there is no measure {name}")))
+    let column = |asked: &String| {
+        let found = columns.iter().find(|column| column.name == *asked);
+        found.ok_or_else(|| PyKeyError::new_err(format!("there is no measure {asked}")))
     };
     let asked = measures.iter().map(column).collect::<PyResult<Vec<_>>>()?;
     // Solves only the measures that the columns need.
@@ -38,7 +43,15 @@ pub fn gradients(
     let needed: BTreeSet<_> = needed.chain([Measure::Sensitivity]).collect();
     let (evaluator, number) = (evaluator(&Vec::from_iter(needed)), of.sweep.grid().number(0));
     let row = py.detach(|| evaluator.row(number, &of.case()));
-    asked.into_iter().map(|column| gradient(py, column, &row, &by)).collect()
+    let beyond_fold = |column: &&Column<DesignRow>| {
+        let source = measure_name(&column.name);
+        measure_of(source) == Some(Measure::Puncture)
+            && ![name::FOLD_FORCE, name::SOUND_FORCE].contains(&source)
+    };
+    let fold = columns.iter().find(|c| c.name == name::FOLD_FORCE && asked.iter().any(beyond_fold));
+    let fold = fold.and_then(|column| column.cell(&row).number());
+    let gradients = asked.into_iter().map(|column| gradient(py, column, &row, &by));
+    Ok((gradients.collect::<PyResult<_>>()?, fold))
 }
 
 /// The parameter of a key, which has to be continuous.
@@ -60,7 +73,7 @@ fn gradient(
     column: &Column<DesignRow>,
     row: &DesignRow,
     by: &[&'static Parameter],
-) -> PyResult<(f64, Vec<Slopes>)> {
+) -> PyResult<Gradient> {
     let Some(value) = column.cell(row).number() else {
         let reason = reason(row, &column.name).unwrap_or("the skin has no such value");
         return Err(error::failed(&column.name, reason));

@@ -40,15 +40,41 @@ fn parameters() -> Vec<Explained> {
     PARAMETERS.iter().map(explained).collect()
 }
 
-/// Returns name, unit and meaning of every measure, including measures in physical units.
-#[pyfunction]
-fn columns() -> PyResult<Vec<(String, &'static str, &'static str)>> {
-    let text = "name = 'x'\nmaterial = { thickness_mm = 1, substrate_modulus_MPa = 1, membrane_modulus_MPa = 1, \
-                scale_density_kg_m3 = 1 }\nimperfection.gap_cv = 0.1\ncontact.friction = 0.1\nflexure.unbend = true\n\
-                puncture = { needle = 'guided', depth_over_t = 1, places = 3, unload = true }";
-    let sweep = Sweep::parse(text, "x.toml", &[]);
+/// The keys of `[material]`, in the order in which messages name them.
+const MATERIAL: [&str; 4] =
+    ["thickness_mm", "substrate_modulus_MPa", "membrane_modulus_MPa", "scale_density_kg_m3"];
+
+/// Name, unit and meaning of every column of a skin with this material.
+fn columns_with(material: &[&str]) -> PyResult<Vec<(String, &'static str, &'static str)>> {
+    let material: Vec<_> = material.iter().map(|key| format!("{key} = 1")).collect();
+    let text = format!(
+        "name = 'x'\nmaterial = {{ {} }}\nimperfection.gap_cv = 0.1\ncontact.friction = 0.1\n\
+         flexure.unbend = true\npuncture = {{ needle = 'guided', depth_over_t = 1, places = 3, \
+         unload = true }}",
+        material.join(", ")
+    );
+    let sweep = Sweep::parse(&text, "x.toml", &[]);
     let columns = design_columns(&sweep.or_failed("columns")?).into_iter().skip(1);
     Ok(columns.map(|column| (column.name.into_owned(), column.unit, column.meaning)).collect())
+}
+
+/// Name, unit and meaning of every column, for the documentation; includes those of a material.
+#[pyfunction]
+fn columns() -> PyResult<Vec<(String, &'static str, &'static str)>> {
+    columns_with(&MATERIAL)
+}
+
+/// The keys of `[material]` that the column `name` needs.
+#[pyfunction]
+fn needs(name: &str) -> PyResult<Vec<&'static str>> {
+    let mut needed = Vec::new();
+    for key in MATERIAL {
+        let others: Vec<_> = MATERIAL.into_iter().filter(|other| *other != key).collect();
+        if !columns_with(&others)?.iter().any(|(column, ..)| column == name) {
+            needed.push(key);
+        }
+    }
+    Ok(needed)
 }
 
 #[pymodule]
@@ -58,7 +84,7 @@ mod _squama {
         columns,
         gradient::gradients,
         many::solve_many,
-        parameters,
+        needs, parameters,
         skin::Skin,
         solved::Solved,
         study::{optimise, rank, read, run, tolerance},

@@ -24,10 +24,10 @@ pub fn solve_many(
     py: Python<'_>,
     skins: Vec<Py<Skin>>,
     measures: Option<&Bound<'_, PyAny>>,
-    threads: Option<usize>,
+    threads: Option<Bound<'_, PyAny>>,
     progress: Option<Bound<'_, PyAny>>,
 ) -> PyResult<Vec<NamedCells>> {
-    let (evaluator, pool) = (evaluator(&measures_of(measures)?), pool(threads)?);
+    let (evaluator, pool) = (evaluator(&measures_of(measures)?), pool(threads.as_ref())?);
     let solved = watched(py, progress, move |watch| {
         watch.all.store(skins.len(), Ordering::Relaxed);
         columns(&skins, |first, skins| pool.install(|| solve(skins, first, &evaluator, watch)))

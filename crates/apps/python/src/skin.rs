@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::collections::hash_map::DefaultHasher;
 use std::hash::{Hash as _, Hasher as _};
 use std::path::Path;
+use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use pyo3::exceptions::PyAttributeError;
@@ -23,6 +24,9 @@ use crate::error::{self, OrFailed as _};
 use crate::solved::Solved;
 use crate::value::{place, text, value};
 use crate::work::watched;
+
+/// Largest number of skins in a list: each takes about a kilobyte.
+const MAX_SKINS: u64 = 1_000_000;
 
 /// The name of the sweep of a single skin.
 const NAME: &str = "skin";
@@ -189,8 +193,22 @@ impl Skin {
     ) -> PyResult<(u64, Vec<Self>)> {
         let sweep = Self::definition(py, definition, &[])?;
         let count = sweep.grid().len();
-        let asked = index.map_or(0..count, |index| index..count.min(index.saturating_add(1)));
-        Ok((count, asked.map(|index| Self::new(&sweep, index)).collect()))
+        if let Some(index) = index {
+            let skin = (index < count).then(|| Self::new(&sweep, index));
+            return Ok((count, skin.into_iter().collect()));
+        }
+        if count > MAX_SKINS {
+            let message = format!(
+                "the definition has {count} designs, expected at most {MAX_SKINS} for a list of \
+                 skins: squama.run solves larger grids"
+            );
+            return Err(error::refused_definition(py, &message));
+        }
+        let skins = watched(py, None, move |watch| {
+            let goes_on = |_: &u64| !watch.stop.load(Ordering::Relaxed);
+            (0..count).take_while(goes_on).map(|index| Self::new(&sweep, index)).collect()
+        })?;
+        Ok((count, skins))
     }
 
     /// The skin as a complete definition, which `squama run` and `Skin.from_toml` read.

@@ -1,6 +1,9 @@
 //! Runs, searches and tolerances in folders: calls of the crates behind the commands.
 
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
+use std::thread;
 use std::time::Duration;
 
 use ::run::{Options, Program, Start};
@@ -22,12 +25,15 @@ use sweep::{Setting, Subset, Sweep};
 
 use crate::error::{self, OrFailed as _};
 use crate::skin::Skin;
-use crate::value::{NamedCells, table, text, value};
-use crate::work::{interrupted, pool, threads as threads_of, watched};
+use crate::value::{Cells, NamedCells, table, text, value};
+use crate::work::{interrupted, pool, threads as threads_of, watched, whole};
 
 /// This program, which a run notes in its folder.
 const PROGRAM: Program =
     Program { version: env!("CARGO_PKG_VERSION"), revision: env!("SQUAMA_REVISION") };
+
+/// The numbers of samples that `squama tolerance` accepts, too.
+const SAMPLES: RangeInclusive<usize> = 0..=1_000_000;
 
 /// How often the tables are written while a run goes on.
 const TABLES_EVERY: Duration = Duration::from_secs(30);
@@ -42,7 +48,7 @@ pub struct Keywords<'py> {
     set: Option<Bound<'py, PyDict>>,
     resume: bool,
     fresh: bool,
-    threads: Option<usize>,
+    threads: Option<Bound<'py, PyAny>>,
     progress: Option<Bound<'py, PyAny>>,
 }
 
@@ -82,7 +88,7 @@ pub fn run(
 ) -> PyResult<PathBuf> {
     let sweep = Skin::definition(py, definition, &keywords.settings()?)?;
     let (folder, start) = (keywords.folder(&sweep), keywords.start());
-    let (place, threads) = (folder.clone(), threads_of(keywords.threads));
+    let (place, threads) = (folder.clone(), threads_of(keywords.threads.as_ref())?);
     let finished = watched(py, keywords.progress, move |watch| {
         let options = Options {
             threads,
@@ -107,13 +113,32 @@ fn results(folder: &Path, file: &'static str) -> PyResult<Results> {
 
 /// The table of designs in a folder: names and cells of its columns.
 #[pyfunction]
-pub fn read(folder: PathBuf) -> PyResult<Vec<(String, Vec<String>)>> {
-    let files = [RunFolder::DESIGNS, OPTIMUM, FRONT];
-    let file = files.into_iter().find(|file| folder.join(file).is_file());
-    let results = results(&folder, file.unwrap_or(RunFolder::DESIGNS))?;
-    let cells =
-        |column| (0..results.len()).map(|row| results.text(row, column).into_owned()).collect();
-    Ok(results.header().iter().cloned().enumerate().map(|(k, name)| (name, cells(k))).collect())
+pub fn read(py: Python<'_>, folder: PathBuf) -> PyResult<Vec<(String, Py<PyAny>)>> {
+    let columns = watched(py, None, move |watch| {
+        let files = [RunFolder::DESIGNS, OPTIMUM, FRONT];
+        let file = files.into_iter().find(|file| folder.join(file).is_file());
+        let results = results(&folder, file.unwrap_or(RunFolder::DESIGNS))?;
+        let mut columns = Vec::new();
+        for (column, name) in results.header().iter().enumerate() {
+            if watch.stop.load(Ordering::Relaxed) {
+                break;
+            }
+            let cells = (0..results.len()).map(|row| results.text(row, column).into_owned());
+            let cells = match name.as_str() {
+                "design" => Cells::words(cells.collect()),
+                _ => Cells::of_texts(cells.collect()),
+            };
+            columns.push((name.clone(), cells));
+        }
+        Ok::<_, PyErr>(columns)
+    })??;
+    let mut converted = Vec::with_capacity(columns.len());
+    for (name, cells) in columns {
+        converted.push((name, cells.into_pyobject(py)?.unbind()));
+        // A table of a million designs takes seconds: other threads of Python run in between.
+        py.detach(thread::yield_now);
+    }
+    Ok(converted)
 }
 
 /// The designs of a run that meet requirements, by fitness.
@@ -158,7 +183,7 @@ pub fn optimise(
 ) -> PyResult<(PathBuf, Option<PathBuf>)> {
     let goal = DesignGoal::read(&goal, &keywords.settings()?).or_failed("optimise")?;
     let (folder, start) = (keywords.folder(goal.space.sweep()), keywords.start());
-    let (place, threads) = (folder.clone(), threads_of(keywords.threads));
+    let (place, threads) = (folder.clone(), threads_of(keywords.threads.as_ref())?);
     let searched = watched(py, keywords.progress, move |watch| {
         let options = SearchOptions { threads, start, stop: &watch.stop, progress: &watch.search };
         let found = optimisation::optimise(&goal, &place, &options, &PROGRAM);
@@ -181,7 +206,7 @@ pub fn tolerance(
     py: Python<'_>,
     definition: &Bound<'_, PyAny>,
     require: Vec<String>,
-    samples: usize,
+    samples: &Bound<'_, PyAny>,
     keywords: Keywords<'_>,
 ) -> PyResult<[Vec<NamedCells>; 3]> {
     let sweep = Skin::definition(py, definition, &keywords.settings()?)?;
@@ -189,9 +214,10 @@ pub fn tolerance(
         let expected = "a definition with deviations, or such as set={\"tolerance.gap_over_t\": {\"batch_sd\": 0.02}}";
         return Err(error::invalid_parameter(py, "tolerance", None, expected));
     }
+    let samples = whole("samples", samples, SAMPLES)?;
     let requirements = requirements(&require)?;
     let store = SampleStore::new(&keywords.folder(&sweep));
-    let pool = pool(keywords.threads)?;
+    let pool = pool(keywords.threads.as_ref())?;
     let analysed = watched(py, keywords.progress, move |watch| {
         let analysis = Analysis::new(&sweep, &requirements, samples, PROGRAM, &watch.stop);
         let analyse = |index| analysis.design(index, &store);

@@ -9,7 +9,7 @@ use arrow_array::{
 };
 use pyo3::prelude::*;
 use pyo3::pybacked::PyBackedBytes;
-use pyo3::types::{PyBool, PyCapsule, PyDict, PyFloat, PyInt, PyString};
+use pyo3::types::{PyBool, PyCapsule, PyDict, PyFloat, PyInt, PyList, PyString, PyTuple};
 use results::{Cell, Column};
 use sweep::number;
 use sweep::toml_source::{KeyValue, Place, Value};
@@ -29,36 +29,53 @@ pub fn text(of: &Bound<'_, PyAny>) -> PyResult<String> {
     of.str()?.extract()
 }
 
-/// Converts a value for a definition; unsupported types become text, which is rejected with its name.
-pub fn value(of: &Bound<'_, PyAny>) -> PyResult<Value> {
+/// Largest depth of lists and tables in a value. No key of a definition needs more than three levels; without a limit a
+/// list that contains itself would overflow the stack.
+const MAX_DEPTH: usize = 8;
+
+/// Converts a value to its form in a definition.
+///
+/// Values that no definition can hold are kept as text, so that the parser refuses them by the name of their key.
+pub fn value(object: &Bound<'_, PyAny>) -> PyResult<Value> {
+    nested_value(object, MAX_DEPTH)
+}
+
+fn nested_value(object: &Bound<'_, PyAny>, depth: usize) -> PyResult<Value> {
+    if depth == 0 {
+        return Ok(Value::Other(format!("a value of more than {MAX_DEPTH} levels")));
+    }
     // Asked first, since in Python a boolean is a whole number, too.
-    if of.is_instance_of::<PyBool>() {
-        return Ok(Value::Other(text(of)?.to_lowercase()));
+    if object.is_instance_of::<PyBool>() {
+        return Ok(Value::Other(text(object)?.to_lowercase()));
     }
-    if of.is_instance_of::<PyString>() {
-        return Ok(Value::Text(text(of)?));
+    if object.is_instance_of::<PyString>() {
+        return Ok(Value::Text(text(object)?));
     }
-    if of.is_instance_of::<PyInt>() {
+    if object.is_instance_of::<PyInt>() {
         // As text: whole numbers of Python have no bounds.
-        return Ok(Value::Number(text(of)?));
+        return Ok(Value::Number(text(object)?));
     }
-    if of.is_instance_of::<PyFloat>() {
-        return Ok(Value::Number(number::text(of.extract()?)));
+    if object.is_instance_of::<PyFloat>() {
+        return Ok(Value::Number(number::text(object.extract()?)));
     }
-    if let Ok(entries) = of.cast::<PyDict>() {
-        let entry = |(key, of): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
-            Ok(KeyValue { key: text(&key)?, value: value(&of)?, place: place() })
-        };
-        return entries.iter().map(entry).collect::<PyResult<_>>().map(Value::Table);
+    if let Ok(entries) = object.cast::<PyDict>() {
+        let mut table = Vec::with_capacity(entries.len());
+        for (key, entry) in entries.iter() {
+            let value = nested_value(&entry, depth - 1)?;
+            table.push(KeyValue { key: text(&key)?, value, place: place() });
+        }
+        return Ok(Value::Table(table));
     }
     // Scalars and arrays of numpy become plain numbers and lists.
-    if of.hasattr("tolist")? {
-        return value(&of.call_method0("tolist")?);
+    if object.hasattr("tolist")? {
+        return nested_value(&object.call_method0("tolist")?, depth - 1);
     }
-    match of.try_iter() {
-        Ok(items) => items.map(|item| value(&item?)).collect::<PyResult<_>>().map(Value::List),
-        Err(_) => Ok(Value::Other(of.repr()?.extract()?)),
+    // Other iterables are refused: sets have no order, and generators need not end.
+    if object.is_instance_of::<PyList>() || object.is_instance_of::<PyTuple>() {
+        let items = object.try_iter()?.map(|item| nested_value(&item?, depth - 1));
+        return items.collect::<PyResult<_>>().map(Value::List);
     }
+    Ok(Value::Other(format!("a value of type {}", object.get_type().name()?)))
 }
 
 /// The cell of a table: a number, a text, or `None`.
@@ -108,6 +125,26 @@ impl Extend<Cell> for Cells {
                 bytes.extend(cells.iter().flat_map(number));
             }
         }
+    }
+}
+
+impl Cells {
+    /// The cells of a column that is stored as text: numbers if every cell is a number or empty.
+    pub fn of_texts(cells: Vec<String>) -> Self {
+        let number =
+            |cell: &String| if cell.is_empty() { Some(f64::NAN) } else { cell.parse::<f64>().ok() };
+        match cells.iter().map(number).collect::<Option<Vec<_>>>() {
+            Some(numbers) => {
+                Self::Numbers(numbers.into_iter().flat_map(f64::to_ne_bytes).collect())
+            }
+            None => Self::words(cells),
+        }
+    }
+
+    /// The cells of a column of words, such as the numbers of designs, which have leading zeros.
+    pub fn words(cells: Vec<String>) -> Self {
+        let cell = |text: String| PythonCell::from(Cell::Text(text.into()));
+        Self::Texts(cells.into_iter().map(cell).collect())
     }
 }
 

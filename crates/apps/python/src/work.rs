@@ -1,5 +1,6 @@
 //! Work without the interpreter lock, with interrupts and progress.
 
+use std::ops::RangeInclusive;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
@@ -9,10 +10,11 @@ use std::time::Duration;
 use optimisation::SearchProgress;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
+use pyo3::types::PyBool;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use run::{Progress, WorkMeter};
 
-use crate::error::OrFailed as _;
+use crate::error::{self, OrFailed as _};
 
 /// Interval between checks for signals and progress reports.
 const PAUSE: Duration = Duration::from_millis(50);
@@ -62,9 +64,24 @@ impl Watch {
     }
 }
 
-/// Returns the requested number of threads, or the number of cores.
-pub fn threads(asked: Option<usize>) -> usize {
-    asked.unwrap_or_else(|| available_parallelism().map_or(1, usize::from)).max(1)
+/// The numbers of threads that the command accepts, too.
+const THREADS: RangeInclusive<usize> = 1..=1024;
+
+/// Returns the whole number `value`, or raises `InvalidParameter` if it is outside of `range`.
+pub fn whole(key: &str, value: &Bound<'_, PyAny>, range: RangeInclusive<usize>) -> PyResult<usize> {
+    let number = if value.is_instance_of::<PyBool>() { None } else { value.extract().ok() };
+    number.filter(|number| range.contains(number)).ok_or_else(|| {
+        let expected = format!("a whole number from {} to {}", range.start(), range.end());
+        error::invalid_parameter(value.py(), key, Some(value.clone()), &expected)
+    })
+}
+
+/// Returns the number of threads given by the argument `threads`; `None` is one for each core.
+pub fn threads(given: Option<&Bound<'_, PyAny>>) -> PyResult<usize> {
+    match given {
+        Some(given) => whole("threads", given, THREADS),
+        None => Ok(available_parallelism().map_or(1, usize::from)),
+    }
 }
 
 /// Returns the exception of Ctrl-C.
@@ -73,8 +90,8 @@ pub fn interrupted() -> PyErr {
 }
 
 /// The threads of work that has none of its own.
-pub fn pool(asked: Option<usize>) -> PyResult<ThreadPool> {
-    ThreadPoolBuilder::new().num_threads(threads(asked)).build().or_failed("threads")
+pub fn pool(given: Option<&Bound<'_, PyAny>>) -> PyResult<ThreadPool> {
+    ThreadPoolBuilder::new().num_threads(threads(given)?).build().or_failed("threads")
 }
 
 /// Runs `work` in its own thread, while this one handles signals and reports `progress`.

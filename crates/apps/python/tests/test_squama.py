@@ -21,7 +21,7 @@ from scipy.optimize import check_grad, minimize
 import squama
 from squama import _manual
 
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[4]
 SMOKE = ROOT / "sweeps" / "smoke.toml"
 GOAL = ROOT / "sweeps/goals/strong-and-covered.toml"
 SKIN = squama.Skin(gap_over_t=0.1, length_over_t=0.3, slant_deg=60)
@@ -514,3 +514,107 @@ def test_the_notebook_runs():
     file = Path(__file__).parents[1] / "examples" / "paper.ipynb"
     notebook = nbformat.read(file, as_version=4)
     nbclient.NotebookClient(notebook, timeout=120, resources={"metadata": {"path": file.parent}}).execute()
+
+
+def test_values_that_contain_themselves_or_are_nested_deeply_are_refused(tmp_path):
+    own, deep, table = [], [], {}
+    own.append(own)
+    table["a"] = table
+    for _ in range(100_000):
+        deep = [deep]
+    for value in (own, deep, table):
+        with pytest.raises(squama.InvalidParameter, match="gap_over_t: .* is not accepted"):
+            squama.Skin(gap_over_t=value, length_over_t=0.3, slant_deg=60)
+        with pytest.raises(squama.InvalidParameter, match="is not accepted"):
+            squama.run(SKIN, out=tmp_path / "out", set={"tolerance.gap_over_t": value})
+
+
+@pytest.mark.parametrize("value", [b"\x01", {0.1, 0.2}, range(3), (gap for gap in [0.1]), object()], ids=lambda value: type(value).__name__)
+def test_only_lists_tuples_and_arrays_are_lists(value):
+    with pytest.raises(squama.InvalidParameter, match="gap_over_t: .* is not accepted"):
+        squama.Skin(gap_over_t=value, length_over_t=0.3, slant_deg=60)
+
+
+def test_a_list_of_too_many_skins_is_refused():
+    definition = """name = "b"
+    [designs]
+    gap_over_t = { from = 0.001, to = 1, step = 0.001 }
+    length_over_t = { from = 0.001, to = 1, step = 0.001 }
+    slant_deg = { from = 0, to = 79.92, step = 0.08 }"""
+    with pytest.raises(squama.InvalidDefinition, match="has 1000000000 designs, expected at most 1000000"):
+        squama.Skin.all_from_toml(definition)
+    assert squama.Skin.from_toml(definition, 10**9).slant_deg == pytest.approx(79.92)
+
+
+@pytest.mark.parametrize("threads", [0, -1, 1025, 10**9, 10**30, 1.5, "2", True])
+def test_numbers_of_threads_out_of_range_are_refused(threads, tmp_path):
+    for call in (
+        lambda: squama.solve_many([SKIN], threads=threads),
+        lambda: squama.run(SMOKE, out=tmp_path / "out", threads=threads),
+        lambda: squama.tolerance(SKIN, set={"tolerance.gap_over_t": {"batch_sd": 0.02}}, samples=0, threads=threads),
+    ):
+        with pytest.raises(squama.InvalidParameter, match="threads: .* is not accepted, expected a whole number from 1 to 1024"):
+            call()
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_function_refuses_points_of_another_length():
+    f, jac = squama.function(SKIN, ["gap_over_t", "slant_deg"], "coverage")
+    for point in ([], [0.2], [0.2, 60, 99], [[0.2, 60]]):
+        for call in (f, jac):
+            with pytest.raises(squama.InvalidParameter, match="x: .* expected 2 numbers: gap_over_t, slant_deg"):
+                call(point)
+
+
+def test_other_threads_run_while_definitions_and_results_are_read(tmp_path):
+    definition = """name = "big"
+    measures = ["coverage"]
+    [designs]
+    gap_over_t = { from = 0.01, to = 1, step = 0.01 }
+    length_over_t = { from = 0.01, to = 1, step = 0.01 }
+    slant_deg = { from = 1, to = 4, step = 1 }"""
+    squama.run(definition, out=tmp_path / "big")
+    ticks, stop = [], False
+
+    def tick():
+        while not stop:
+            time.sleep(0.001)
+            ticks.append(None)
+
+    with ThreadPoolExecutor(1) as executor:
+        ticking = executor.submit(tick)
+        try:
+            # One call of the extension each: other threads can only run if it releases the lock.
+            for call, argument in ((squama._squama.read, tmp_path / "big"), (lambda text: squama.Skin._designs(text, None), definition)):
+                before = len(ticks)
+                call(argument)
+                assert len(ticks) > before + 1
+        finally:
+            stop = True
+        ticking.result()
+
+
+def test_gradients_of_folded_designs_warn_once():
+    folded = squama.Skin(gap_over_t=0.1, length_over_t=0.1, slant_deg=75)
+    fold = folded.solve()["fold_force"]
+    assert fold < folded.solve()["critical_force"]
+    with pytest.warns(squama.FoldWarning, match="use sound_force") as caught:
+        folded.value_and_gradient("critical_force", ["length_over_t"])
+    assert caught[0].message.fold_force == fold
+    f, jac = squama.function(folded, ["length_over_t"], "critical_force")
+    with pytest.warns(squama.FoldWarning) as caught:
+        f([0.1]), jac([0.1]), f([0.11])
+    assert len([w for w in caught if w.category is squama.FoldWarning]) == 1
+    assert pickle.loads(pickle.dumps(caught[0].message)).fold_force > 0
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", squama.FoldWarning)
+        folded.value_and_gradient("sound_force", ["length_over_t"], "mean")
+        folded.value_and_gradient("coverage", ["length_over_t"], "mean")
+
+
+def test_a_missing_material_is_named_by_the_keys_that_are_missing():
+    with_thickness = squama.Skin(gap_over_t=0.1, length_over_t=0.3, slant_deg=60, thickness_mm=2)
+    with pytest.raises(KeyError, match="needs substrate_modulus_MPa'"):
+        with_thickness.solve()["critical_force_N"]
+    with pytest.raises(KeyError, match="needs thickness_mm and substrate_modulus_MPa"):
+        SKIN.solve()["critical_force_N"]

@@ -35,6 +35,10 @@ class KinkWarning(UserWarning):
     change: str
     def __init__(self, measure: str, key: str, left: float, right: float, change: str) -> None: ...
 
+class FoldWarning(UserWarning):
+    fold_force: float
+    def __init__(self, fold_force: float) -> None: ...
+
 class Table(Mapping[str, NDArray[Any]]):
     units: dict[str, str]
     meanings: dict[str, str]

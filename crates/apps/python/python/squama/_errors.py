@@ -12,7 +12,7 @@ class InvalidParameter(ValueError):
         self.key, self.value, self.expected = key, value, expected
 
     def __str__(self):
-        found = "is missing" if self.value is None else f"{self.value!r} is not accepted"
+        found = "is missing" if self.value is None else f"{_shown(self.value)} is not accepted"
         return "\n".join([f"{self.key}: {found}, expected {self.expected}", *self.others])
 
     @property
@@ -23,6 +23,15 @@ class InvalidParameter(ValueError):
     def add(self, line):
         """Adds a further problem."""
         self.__dict__.setdefault("_others", []).append(line)
+
+
+def _shown(value):
+    """``value`` for a message: shortened, and its type if it has no ``repr``, such as a deeply nested list."""
+    try:
+        text = repr(value)
+    except Exception:  # noqa: BLE001
+        return f"a value of type {type(value).__name__}"
+    return text if len(text) <= 200 else f"{text[:200]}…"
 
 
 class InvalidDefinition(ValueError):
@@ -54,5 +63,19 @@ class KinkWarning(UserWarning):
     def __str__(self):
         return (
             f"{self.measure} has a kink ({self.change}): its derivative with respect to {self.key} is {self.left:.6g} "
-            f"for a decrease and {self.right:.6g} for an increase; at_kinks selects one of them"
+            f"for a decrease and {self.right:.6g} for an increase; at_kinks=\"left\", \"right\" or \"mean\" selects one"
         )
+
+
+class FoldWarning(UserWarning):
+    """The surface of the substrate folds at ``fold_force``, before the path ends: beyond it the model does not hold.
+
+    Optimise ``"sound_force"`` in place of ``"critical_force"``: it is the force up to the fold.
+    """
+
+    def __init__(self, fold_force):
+        super().__init__(fold_force)
+        self.fold_force = fold_force
+
+    def __str__(self):
+        return f"the surface folds at fold_force {self.fold_force:.6g}, beyond which the model does not hold: use sound_force"

@@ -5,7 +5,7 @@ import warnings
 import numpy as np
 
 from . import _squama
-from ._errors import InvalidParameter, KinkWarning
+from ._errors import FoldWarning, InvalidParameter, KinkWarning
 
 
 AT_KINKS = {
@@ -16,11 +16,14 @@ AT_KINKS = {
 }
 
 
-def _gradient(skin, measures, keys, at_kinks, level):
+def _gradient(skin, measures, keys, at_kinks, level, warn_of_fold=True):
     if at_kinks not in AT_KINKS:
         raise InvalidParameter("at_kinks", at_kinks, 'None, "left", "right" or "mean"')
     values, rows = [], []
-    for measure, (value, slopes) in zip(measures, _squama.gradients(skin, measures, keys)):
+    gradients, fold = _squama.gradients(skin, measures, keys)
+    if fold is not None and warn_of_fold:
+        warnings.warn(FoldWarning(fold), stacklevel=level)
+    for measure, (value, slopes) in zip(measures, gradients):
         row = []
         for key, (left, right, change) in zip(keys, slopes):
             left, right = (float("nan") if side is None else side for side in (left, right))
@@ -31,7 +34,7 @@ def _gradient(skin, measures, keys, at_kinks, level):
                 row.append(AT_KINKS[at_kinks](left, right))
         values.append(value)
         rows.append(row)
-    return np.array(values), np.array(rows)
+    return np.array(values), np.array(rows), fold
 
 
 def value_and_gradient(self, measure, keys, at_kinks=None):
@@ -40,10 +43,11 @@ def value_and_gradient(self, measure, keys, at_kinks=None):
     ``measure`` is any column of numbers with derivatives, in physical units too (``"critical_force_N"``); keys are
     continuous parameters, or lengths in mm. At a kink there is no derivative: the gradient is NaN, and a
     `squama.KinkWarning` reports both one-sided derivatives. ``at_kinks`` replaces NaN by the derivative for a decrease of
-    the parameter (``"left"``), for an increase (``"right"``), or their ``"mean"``; the warning remains.
-    Raises `squama.Failed` if the measure has no value.
+    the parameter (``"left"``), for an increase (``"right"``), or their ``"mean"``; the warning remains. If the surface of
+    the substrate folds before the path ends, a `squama.FoldWarning` reports the force at the fold: the model does not
+    hold beyond it, and ``"sound_force"`` is the force up to it. Raises `squama.Failed` if the measure has no value.
     """
-    values, rows = _gradient(self, [measure], list(keys), at_kinks, 3)
+    values, rows, _ = _gradient(self, [measure], list(keys), at_kinks, 3)
     return float(values[0]), rows[0]
 
 
@@ -52,13 +56,17 @@ class _Solution:
 
     def __init__(self, skin, keys, measures, at_kinks):
         self.skin, self.keys, self.measures, self.at_kinks = skin, list(keys), measures, at_kinks
-        self.x, self.found = None, None
+        self.x, self.found, self.has_folded = None, None, False
 
     def at(self, x):
         x = np.atleast_1d(np.asarray(x, dtype=float))
+        if x.shape != (len(self.keys),):
+            raise InvalidParameter("x", x.tolist(), f"{len(self.keys)} numbers: {', '.join(self.keys)}")
         if self.x is None or not np.array_equal(x, self.x):
             skin = self.skin.replace(**dict(zip(self.keys, x.tolist())))
-            self.found = _gradient(skin, self.measures, self.keys, self.at_kinks, 4)
+            *self.found, fold = _gradient(skin, self.measures, self.keys, self.at_kinks, 4, not self.has_folded)
+            # An optimiser visits many folded designs: one warning is enough.
+            self.has_folded |= fold is not None
             self.x = x.copy()
         return self.found
 

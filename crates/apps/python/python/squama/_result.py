@@ -79,7 +79,7 @@ class Result:
         return {name: (value, reason) for name, _, _, value, reason in self._values}
 
     def __getitem__(self, name):
-        value, reason = find(self._by_name, name, "measure")
+        value, reason = find(self._by_name, name, "measure", self.skin.parameters)
         if value is not None:
             return value
         if reason is not None:

@@ -4,7 +4,6 @@ import os
 import shutil
 import subprocess
 import tempfile
-from array import array
 
 from . import _squama
 from ._errors import Failed
@@ -30,7 +29,7 @@ class Run(Table):
         self.folder = os.fspath(folder)
         known = {name: (unit, meaning) for name, unit, meaning in _squama.columns()}
         known.update({key: (unit, meaning) for key, _, unit, meaning, _, _ in _squama.parameters()})
-        columns = ((name, *known.get(name, ("-", "")), _numbers(name, cells)) for name, cells in _squama.read(folder))
+        columns = ((name, *known.get(name, ("-", "")), cells) for name, cells in _squama.read(folder))
         super().__init__(columns)
 
     def rank(self, require=(), maximize=(), minimize=(), weights=None):
@@ -54,14 +53,6 @@ class Run(Table):
         if done.returncode:
             raise Failed("report", done.stderr.strip())
         return out
-
-
-def _numbers(name, cells):
-    """Converts the cells of a column to numbers if possible; design numbers keep their leading zeros."""
-    try:
-        return cells if name == "design" else array("d", (float(cell or "nan") for cell in cells)).tobytes()
-    except ValueError:
-        return [cell or None for cell in cells]
 
 
 def read(folder):

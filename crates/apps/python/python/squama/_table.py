@@ -9,15 +9,15 @@ import numpy as np
 from . import _squama
 
 
-def find(known, name, what):
-    """Returns ``known[name]``; if it is missing, the error suggests a similar name."""
+def find(known, name, what, given=()):
+    """Returns ``known[name]``; the error suggests a similar name, or the material that is needed and not ``given``."""
     try:
         return known[name]
     except KeyError:
         # Tables have lengths over the thickness, even if the skin was given in mm.
         over_t = str(name).removesuffix("_mm") + "_over_t"
         if over_t not in known and any(name == column for column, *_ in _squama.columns()):
-            needed = "the material, say thickness_mm" if str(name).endswith(("_N", "_mm", "_N_mm", "_mJ", "_m2")) else "other parameters or measures"
+            needed = " and ".join(key for key in _squama.needs(name) if key not in given) or "other parameters or measures"
             raise KeyError(f"this skin has no {what} {name}: it needs {needed}") from None
         near = [f"{over_t}, times thickness_mm"] if over_t in known else get_close_matches(str(name), known, 1)
         raise KeyError(f"there is no {what} {name}" + (f"; did you mean {near[0]}?" if near else "")) from None
