@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Puts the shards of a sweep together; see submit.sh. Fails, and names them, while designs are missing.
+# Merges the shards of a sweep of squama; see submit.sh. Fails and names the missing designs until all are solved.
 #SBATCH --open-mode=append
 set -euo pipefail
 . "$1/sweep.sh"

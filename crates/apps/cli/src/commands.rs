@@ -19,6 +19,7 @@ mod man;
 mod merge;
 mod optimise;
 mod options;
+mod own_files;
 mod plot;
 mod rank;
 mod report;

@@ -44,6 +44,8 @@ pub(crate) fn write(sheet: &Sheet) -> String {
     });
     // Written last, though it comes first: it names the next free handle.
     let mut header = Groups { text: String::new(), handle: 0 };
+    // 999 is a comment.
+    header.add(&[(999, "squama")]);
     let [low, high] = sheet.bounds().map(|at| at.map(|length| length.to_string()));
     header.section("HEADER", |header| {
         header.add(&[(9, "$ACADVER"), (1, "AC1015")]);

@@ -32,5 +32,5 @@ pub(crate) fn write(sheet: &Sheet) -> String {
         }
         text.push_str("</g>\n");
     }
-    text + "</svg>\n"
+    text + "</svg>\n<!-- squama -->\n"
 }

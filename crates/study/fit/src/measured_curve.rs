@@ -1,10 +1,9 @@
 //! Measured curves: two columns of a CSV file, whose names say what they are and in which unit.
 
-use std::fs;
 use std::path::Path;
 
 use results::{Quantity, bending_units, puncture_units};
-use sweep::{Case, reason};
+use sweep::{Case, read_input, reason};
 
 /// The test that a curve was measured in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -85,6 +84,9 @@ pub struct MeasuredCurve {
     pub points: Vec<[f64; 2]>,
 }
 
+/// Largest file of a measured curve: a million points with ten columns.
+const MAX_BYTES: u64 = 1 << 28;
+
 /// A file of measurements that cannot be understood.
 #[derive(Debug, thiserror::Error)]
 #[error("{file}{}: {problem}", line.map(|line| format!(":{line}")).unwrap_or_default())]
@@ -101,7 +103,7 @@ impl MeasuredCurve {
     /// If the file cannot be read, has no two columns of one test, or not a number in each line of them.
     pub fn read(path: &Path, columns: Option<&[String]>) -> Result<Self, InvalidMeasured> {
         let file = path.display().to_string();
-        match fs::read_to_string(path) {
+        match read_input(path, MAX_BYTES) {
             Ok(text) => Self::parse(&text, &file, columns),
             Err(error) => {
                 let problem = format!("cannot be read ({}), expected a CSV file", reason(&error));

@@ -11,13 +11,13 @@ pub(crate) mod suggestion;
 mod to_toml;
 mod variables;
 
-use std::fs::File;
-use std::io::Read as _;
+use std::io;
 use std::path::Path;
 
 use crate::case::Case;
 use crate::deviation::Deviation;
 use crate::grid::{Axis, Grid};
+use crate::input::read_input;
 use crate::number;
 use crate::parameter::Scalar;
 use crate::parameter::{PARAMETERS, Parameter, key};
@@ -223,6 +223,9 @@ const STIFFEST_TISSUE: f64 = 1e3;
 /// Bytes of a definition, at most: a million values of an axis take a third of them.
 const LONGEST: u64 = 1 << 26;
 
+/// Largest number of keys in a definition. Each takes a kilobyte once it is parsed, so a file of sections would exhaust memory.
+const MAX_KEYS: usize = 100_000;
+
 /// The keys and values of the definition in the file at `path` once `settings` are put in its place.
 ///
 /// # Errors
@@ -247,20 +250,29 @@ pub fn entries(
     Ok(table)
 }
 
-/// The text of the definition in the file at `path`, which may be a pipe but not an endless one.
+/// Reads the text of the definition at `path`.
 ///
 /// # Errors
-/// If the file cannot be read.
+/// If the file cannot be read, or is larger than any definition.
 pub fn read_text(path: &Path) -> Result<String, InvalidDefinition> {
-    let mut text = String::new();
-    // One byte more than may be, to tell a file that is too long from one that just fits.
-    let read = File::open(path).and_then(|file| file.take(LONGEST + 1).read_to_string(&mut text));
-    let reason = match read {
-        Err(error) => reason(&error),
-        Ok(_) if text.len() as u64 > LONGEST => "it has more than 64 MB".to_owned(),
-        Ok(_) => return Ok(text),
+    let checked = read_input(path, LONGEST).and_then(|text| match keys(&text) {
+        0..=MAX_KEYS => Ok(text),
+        _ => Err(io::Error::other(format!("it has more than {MAX_KEYS} keys"))),
+    });
+    checked.map_err(|error| {
+        let reason = reason(&error);
+        InvalidDefinition::Unreadable { file: path.display().to_string(), reason }
+    })
+}
+
+/// The number of keys and sections of a definition, or a few more: an estimate that needs no memory.
+fn keys(text: &str) -> usize {
+    let is_section = |line: &&str| {
+        let name = line.trim_start().trim_start_matches('[');
+        name.len() < line.trim_start().len()
+            && name.starts_with(|start: char| start.is_alphabetic() || "\"'_".contains(start))
     };
-    Err(InvalidDefinition::Unreadable { file: path.display().to_string(), reason })
+    text.matches('=').count() + text.lines().filter(is_section).count()
 }
 
 /// A run's own record holds its definition in a table of that name.

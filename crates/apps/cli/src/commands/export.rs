@@ -9,6 +9,7 @@ use results::{Column, FileEntry, Maker, VerifiedFolder};
 use uncertainty::{INDEX_COLUMNS, SOURCE_COLUMNS, TOLERANCE_COLUMNS, YIELD_COLUMNS};
 
 use super::fit::{ESTIMATES, FILES, POINTS};
+use super::own_files::require_own;
 use super::source::{Partial, require_folder_of, verified_folder};
 use super::{DONE, derivation};
 use crate::print::{aligned, counted, print, shortfall};
@@ -42,6 +43,7 @@ pub fn export(arguments: &Arguments) -> anyhow::Result<u8> {
     // A full disk is reported as an error, not as the panic of a library.
     std::panic::set_hook(Box::new(|_| ()));
     require_folder_of("--xlsx", &arguments.xlsx)?;
+    require_own(&arguments.xlsx)?;
     let (path, completeness) = (&arguments.results, arguments.partial.completeness());
     // `verified_folder` would reject folders of searches and analyses.
     let mut others_of = results::FILES.iter().filter(|file| is_other(file));

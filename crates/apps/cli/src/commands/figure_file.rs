@@ -12,6 +12,7 @@ use results::{AtomicFile, VerifiedFolder};
 
 use super::derivation;
 use super::options::decimal;
+use super::own_files::require_own;
 use crate::print::{note, print};
 
 /// Options for the format and folder of figures.
@@ -81,7 +82,9 @@ impl<'a> FigureFiles<'a> {
         };
         // The image is rendered first, so that a failure writes neither file.
         let image = output.png.then(|| image(&svg, output.dpi)).transpose()?;
-        self.write(format!("{name}.svg"), svg.as_bytes())?;
+        // By this comment a later command knows that it may replace the file.
+        let marked = format!("{svg}<!-- squama -->\n");
+        self.write(format!("{name}.svg"), marked.as_bytes())?;
         image.map_or(Ok(()), |image| self.write(format!("{name}.png"), &image))
     }
 
@@ -171,12 +174,13 @@ fn image(_: &str, _: f64) -> anyhow::Result<Vec<u8>> {
     )
 }
 
-/// Writes a file atomically.
+/// Writes a file atomically. A file that squama did not write is kept, which is an error.
 pub fn write(
     folder: &Path,
     name: &str,
     written: impl FnOnce(&mut BufWriter<AtomicFile>) -> io::Result<()>,
 ) -> anyhow::Result<()> {
+    require_own(&folder.join(name))?;
     let mut file = BufWriter::new(AtomicFile::create(folder, name)?);
     let written = written(&mut file).and_then(|()| file.flush());
     written.with_context(|| format!("{}: cannot be written", file.get_ref().path().display()))?;
@@ -188,8 +192,11 @@ pub fn write(
 pub fn write_file(file: &Path, bytes: &[u8]) -> anyhow::Result<()> {
     let folder = file.parent().unwrap_or(Path::new(""));
     results::make_folder(folder)?;
-    let name = file.file_name().unwrap_or_default().to_string_lossy();
-    write(folder, &name, |file| file.write_all(bytes))
+    let name = file.file_name().unwrap_or_default();
+    let name = name.to_str().with_context(|| {
+        format!("{}: cannot be written, expected a name in UTF-8", file.display())
+    })?;
+    write(folder, name, |file| file.write_all(bytes))
 }
 
 #[cfg(test)]

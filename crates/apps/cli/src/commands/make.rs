@@ -12,6 +12,7 @@ use uncertainty::{Analysis, SampleStore};
 
 use super::figure_file::write_file;
 use super::options::decimal;
+use super::own_files::require_own;
 use super::selection::{SelectedDesign, Selection, select};
 use super::source::{Definition, require_folder_of};
 use super::{DONE, PROGRAM};
@@ -108,8 +109,12 @@ pub fn make(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> 
     // Before writing, because this may fail.
     list.push_str(&tolerances(design, out, interrupt)?);
     let list_file = out.with_extension("parts.txt");
+    for file in [out, &list_file] {
+        require_own(file)?;
+    }
+    // The list first: if it cannot be written, an earlier part stays as it was.
+    write_file(&list_file, format!("{list}\nWritten by squama make.\n").as_bytes())?;
     write_file(out, &format.bytes(&patch, &sheet))?;
-    write_file(&list_file, list.as_bytes())?;
     print(&format!("{list}\n{} {}\n", out.display(), list_file.display()))?;
     Ok(DONE)
 }

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Command, CommandFactory as _};
 use clap_mangen::Man;
 
+use super::own_files::require_own;
 use super::{Arguments as Squama, DONE};
 use crate::print::{counted, print};
 
@@ -33,7 +34,9 @@ pub fn man(arguments: &Arguments) -> anyhow::Result<u8> {
     for (name, command) in &pages {
         let mut page = Vec::new();
         Man::new(command.clone()).title(name.to_uppercase()).render(&mut page)?;
-        results::write_text(folder, &format!("{name}.1"), &String::from_utf8_lossy(&page))?;
+        let file = format!("{name}.1");
+        require_own(&folder.join(&file))?;
+        results::write_text(folder, &file, &String::from_utf8_lossy(&page))?;
     }
     let count = counted(pages.len() as u64, "page");
     print(&format!("{}: {count}; to read the first: man -l {0}/squama.1\n", folder.display()))?;

@@ -9,6 +9,7 @@ use sweep::Sweep;
 
 use super::DONE;
 use super::options::whole;
+use super::own_files::require_own;
 use super::source::{Definition, folder_of, read};
 use crate::print::print;
 
@@ -55,12 +56,17 @@ pub fn slurm(arguments: &Arguments) -> anyhow::Result<u8> {
     let folder = results.join("slurm");
     make_folder(&folder)?;
     for (name, text) in SCRIPTS {
+        require_own(&folder.join(name))?;
         write_text(&folder, name, text)?;
         make_executable(&folder.join(name))?;
     }
+    for name in ["sweep.sh", "sweep.toml"] {
+        require_own(&folder.join(name))?;
+    }
     write_text(&folder, "sweep.sh", &settings(&sweep, arguments.shards)?)?;
     // The complete definition, so that later shards use the same settings and defaults.
-    write_text(&folder, "sweep.toml", &sweep.to_toml())?;
+    let definition = format!("# Written by squama slurm.\n{}", sweep.to_toml());
+    write_text(&folder, "sweep.toml", &definition)?;
     print(&format!(
         "{}: sweep.toml sweep.sh submit.sh array.sh merge.sh\n\
          {} designs in {} shards; to submit them: {}\n",

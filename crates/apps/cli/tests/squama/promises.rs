@@ -199,6 +199,100 @@ fn partial_files_of_a_killed_process_are_removed() {
     }
 }
 
+/// Commands that write files outside of the records of a results folder, each with these files.
+const FILE_WRITERS: [(&str, &[&str]); 12] = [
+    ("make m.toml --out out/s.3mf", &["s.3mf", "s.parts.txt"]),
+    ("make m.toml --out out/s.stl", &["s.stl", "s.parts.txt"]),
+    ("make m.toml --out out/s.step", &["s.step"]),
+    ("make m.toml --out out/s.dxf", &["s.dxf"]),
+    ("make m.toml --out out/s.svg", &["s.svg"]),
+    ("explore x.toml --no-open --out out/explore.html", &["explore.html"]),
+    ("report r --out out/report.html", &["report.html"]),
+    (
+        "slurm x.toml --shards 1 --out out",
+        &["slurm/submit.sh", "slurm/merge.sh", "slurm/array.sh", "slurm/sweep.toml"],
+    ),
+    ("man out", &["squama.1", "squama-run.1"]),
+    ("export r --xlsx out/x.xlsx", &["x.xlsx"]),
+    ("draw m.toml --design 1 --out out", &["design-0001-puncture-at-critical-tilt.svg"]),
+    ("draw m.toml --design 1 --animate --out out", &["design-0001-puncture.html"]),
+];
+
+#[test]
+fn files_that_squama_did_not_write_are_never_replaced() {
+    let place = place();
+    let material = COVERED.replace("[designs]", "[material]\nthickness_mm = 2\n[designs]");
+    fs::write(place.path("m.toml"), material).expect("writable");
+    for (command, files) in FILE_WRITERS {
+        fs::create_dir_all(place.path("out/slurm")).expect("a folder");
+        // A command replaces its own files.
+        for _ in 0..2 {
+            place.squama(command).assert().code(0);
+        }
+        for file in files {
+            let path = place.path(format!("out/{file}"));
+            fs::write(&path, "mine").expect(file);
+            let message = place.refused(command);
+            assert!(
+                message.starts_with(&format!("error: out/{file}: cannot be written")),
+                "{message}"
+            );
+            assert_eq!(fs::read(&path).expect(file), b"mine", "{command}");
+            fs::remove_file(&path).expect(file);
+        }
+        fs::remove_dir_all(place.path("out")).expect("a folder");
+    }
+}
+
+#[test]
+fn a_part_is_not_replaced_if_its_list_cannot_be_written() {
+    let place = place();
+    let material = COVERED.replace("[designs]", "[material]\nthickness_mm = 2\n[designs]");
+    fs::write(place.path("m.toml"), material).expect("writable");
+    fs::create_dir(place.path("a.parts.txt")).expect("a folder");
+    fs::write(place.path("a.step"), "an earlier part by squama").expect("writable");
+    place.refused("make m.toml --out a.step");
+    assert_eq!(place.read("a.step"), "an earlier part by squama");
+}
+
+#[cfg(unix)]
+#[test]
+fn inputs_without_end_are_refused() {
+    let place = place();
+    let made = std::process::Command::new("mkfifo").arg(place.path("p")).status();
+    assert!(made.expect("mkfifo").success());
+    let fit = |file: &str| {
+        format!(
+            "name = 'f'\n[designs]\ngap_over_t = 0.2\nlength_over_t = 0.8\nslant_deg = 60\n\
+             [material]\nthickness_mm = 2\n[variables]\nsubstrate_modulus_MPa = {{ from = 0.1, to = 2 }}\n\
+             [[curve]]\nfile = '{file}'\nkind = 'puncture'\n"
+        )
+    };
+    fs::write(place.path("pipe.toml"), fit("p")).expect("writable");
+    fs::write(place.path("zero.toml"), fit("/dev/zero")).expect("writable");
+    let sections: String = (0..150_000).map(|k| format!("[s{k}]\n")).collect();
+    fs::write(place.path("sections.toml"), sections).expect("writable");
+    let commands = [
+        ("fit pipe.toml", "p: cannot be read (it is not a regular file)"),
+        ("fit zero.toml", "/dev/zero: cannot be read (it is not a regular file)"),
+        ("check p", "not a regular file"),
+        ("run p", "not a regular file"),
+        ("make p", "not a regular file"),
+        ("optimise p", "not a regular file"),
+        ("explore p --no-open", "not a regular file"),
+        ("fit p", "not a regular file"),
+        ("check /dev/zero", "not a regular file"),
+        ("check sections.toml", "it has more than 100000 keys"),
+    ];
+    for (command, reason) in commands {
+        let mut squama = place.squama(command);
+        let assert = squama.timeout(Duration::from_secs(60)).assert().code(2);
+        let message = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
+        assert!(message.contains(reason), "{command}: {message}");
+        assert_eq!(message.lines().count(), 1, "{command}: {message}");
+    }
+}
+
 #[cfg(unix)]
 #[test]
 fn pipes_and_devices_are_rejected_as_stores() {

@@ -1,0 +1,84 @@
+//! Protects files that squama did not write from being replaced.
+//!
+//! Every file that a command writes outside of the records of a results folder names squama: in a comment, a header or the
+//! properties of its format. A command replaces a file only if it finds that name.
+
+use std::fs::{self, File};
+use std::io::{self, Read, Seek as _, SeekFrom};
+use std::path::Path;
+
+use results::OutputError;
+use zip::ZipArchive;
+
+/// The name that marks a file as written by squama.
+const MARK: &[u8] = b"squama";
+
+/// Number of bytes at each end of a file that are searched for the mark.
+const SEARCHED: u64 = 8192;
+
+/// The entries of zip archives that name the program: of a workbook, and of a 3MF file.
+const ZIP_ENTRIES: [&str; 2] = ["docProps/core.xml", "3D/3dmodel.model"];
+
+/// Refuses to replace the file at `path` if it was not written by squama.
+///
+/// A missing or empty file may be written. Links are not followed, and folders and devices are never replaced.
+pub fn require_own(path: &Path) -> Result<(), OutputError> {
+    let Ok(metadata) = fs::symlink_metadata(path) else { return Ok(()) };
+    // An image cannot hold the mark; it belongs to the drawing beside it.
+    let marked = if path.extension().is_some_and(|extension| extension == "png") {
+        path.with_extension("svg")
+    } else {
+        path.to_owned()
+    };
+    let is_own = metadata.is_file() && (metadata.len() == 0 || has_mark(&marked).unwrap_or(false));
+    if is_own { Ok(()) } else { Err(OutputError::strange(path)) }
+}
+
+fn has_mark(path: &Path) -> io::Result<bool> {
+    let mut file = File::open(path)?;
+    let length = file.metadata()?.len();
+    let mut start = Vec::new();
+    (&mut file).take(SEARCHED).read_to_end(&mut start)?;
+    if start.starts_with(b"PK") {
+        return Ok(zip_has_mark(file));
+    }
+    let mut end = Vec::new();
+    file.seek(SeekFrom::Start(length.saturating_sub(SEARCHED)))?;
+    file.take(SEARCHED).read_to_end(&mut end)?;
+    Ok(holds_mark(&start) || holds_mark(&end))
+}
+
+fn zip_has_mark(file: File) -> bool {
+    let Ok(mut archive) = ZipArchive::new(file) else { return false };
+    ZIP_ENTRIES.iter().any(|name| {
+        let Ok(entry) = archive.by_name(name) else { return false };
+        let mut start = Vec::new();
+        entry.take(SEARCHED).read_to_end(&mut start).is_ok() && holds_mark(&start)
+    })
+}
+
+fn holds_mark(bytes: &[u8]) -> bool {
+    bytes.windows(MARK.len()).any(|window| window == MARK)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_files_that_name_squama_are_replaced() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("x.svg");
+        let image = path.with_extension("png");
+        let refused = |path: &Path| require_own(path).is_err();
+        assert!(!refused(&path), "a missing file");
+        fs::write(&path, "").expect("writable");
+        assert!(!refused(&path), "an empty file");
+        fs::write(&path, "mine").expect("writable");
+        fs::write(&image, "mine").expect("writable");
+        assert!(refused(&path) && refused(&image));
+        fs::write(&path, format!("{}<!-- squama -->", " ".repeat(100_000))).expect("writable");
+        assert!(!refused(&path) && !refused(&image));
+        assert!(refused(folder.path()), "a folder");
+    }
+}

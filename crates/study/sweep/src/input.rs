@@ -1,0 +1,29 @@
+//! Reads text files that people name: definitions, goals and measured curves.
+
+use std::fs::{self, File};
+use std::io::{self, Read as _};
+use std::path::Path;
+
+/// Folders of the streams that a shell passes to a command, such as `/dev/stdin` and `<(...)`.
+const STREAMS: [&str; 3] = ["/dev/stdin", "/dev/fd/", "/proc/self/fd/"];
+
+/// Reads the text at `path`, of at most `max_bytes` bytes.
+///
+/// Named pipes and devices are refused because reading one may never end; the streams of a shell are accepted.
+///
+/// # Errors
+/// If the file cannot be read, is too long or is not UTF-8.
+pub fn read_input(path: &Path, max_bytes: u64) -> io::Result<String> {
+    let is_stream = STREAMS.iter().any(|stream| path.to_string_lossy().starts_with(stream));
+    if !is_stream && !fs::metadata(path)?.is_file() {
+        return Err(io::Error::other("it is not a regular file"));
+    }
+    let mut text = String::new();
+    // One byte more than is accepted shows that the file is too long.
+    File::open(path)?.take(max_bytes + 1).read_to_string(&mut text)?;
+    if text.len() as u64 > max_bytes {
+        let limit = max_bytes >> 20;
+        return Err(io::Error::other(format!("it has more than {limit} MiB")));
+    }
+    Ok(text)
+}
