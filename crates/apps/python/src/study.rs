@@ -20,7 +20,7 @@ use ranking::{
     Criterion, Goal, Preferences, Ranking, Requirement, TetrahedralGrid, Weights, ranking_columns,
 };
 use rayon::prelude::*;
-use results::{Completeness, CsvFormat, Results, RunFolder, VerifiedFolder};
+use results::{Completeness, Results, RunFolder, VerifiedFolder};
 use sweep::{Setting, Subset, Sweep};
 
 use crate::error::{self, OrFailed as _};
@@ -189,7 +189,7 @@ pub fn optimise(
         let found = optimisation::optimise(&goal, &place, &options, &PROGRAM);
         let Some(found) = found.or_failed("optimise")? else { return Err(interrupted()) };
         let folder = RunFolder::new(&place);
-        let written = write_found(&folder, &goal, &found, &[], CsvFormat::default());
+        let written = write_found(&folder, &goal, &found, &[], folder.csv_format());
         written.or_failed("optimise").map(|_| found.answer)
     })?;
     match searched? {

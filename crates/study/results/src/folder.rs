@@ -1,12 +1,14 @@
 //! The folder of results: every file that squama writes there, an entry each, and how files get there.
 
-use std::fs;
+use std::fs::{self, File};
+use std::io::{BufRead as _, BufReader};
 use std::path::{Path, PathBuf};
 
 use journal::{AtomicFile, JournalError, OutputError, Start, make_folder, sync_folder, write_text};
 use sweep::Measure;
 
 use crate::columns::name;
+use crate::tables::csv_format::CsvFormat;
 
 /// The tables of one measure, named by the value that they are about.
 pub const MEASURE_TABLES: [(&str, Measure); 4] = [
@@ -240,6 +242,21 @@ impl RunFolder {
     /// Whether it holds the file `name`.
     pub fn holds(&self, name: &str) -> bool {
         self.file(name).is_file()
+    }
+
+    /// The format of the tables in this folder, or of the run that it belongs to; plain if there are none.
+    ///
+    /// Results of `design` and `tolerance` stand one or two levels below their run.
+    pub fn csv_format(&self) -> CsvFormat {
+        for folder in self.path.ancestors().take(3) {
+            for table in [Self::DESIGNS, "optimum.csv"] {
+                let Ok(file) = File::open(folder.join(table)) else { continue };
+                if let Ok(start) = BufReader::new(file).fill_buf() {
+                    return CsvFormat::of(start).0;
+                }
+            }
+        }
+        CsvFormat::default()
     }
 
     /// Makes the folder and those above it, and removes what killed processes have left half-written there.

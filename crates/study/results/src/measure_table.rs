@@ -8,7 +8,6 @@ use crate::columns::{Cell, Column};
 use crate::design::row::DesignRow;
 use crate::folder::RunFolder;
 use crate::tables::csv_file::write_rows;
-use crate::tables::csv_format::CsvFormat::Plain;
 
 /// A cell of `designs.csv` with all that is to be known of its column.
 #[derive(Clone, Debug)]
@@ -42,6 +41,12 @@ pub fn write_measures(
         unit: column.unit,
         meaning: column.meaning,
     };
-    write_rows(folder, RunFolder::MEASURES, Plain, MEASURE_COLUMNS, columns.iter().map(measure))?;
+    write_rows(
+        folder,
+        RunFolder::MEASURES,
+        folder.csv_format(),
+        MEASURE_COLUMNS,
+        columns.iter().map(measure),
+    )?;
     Ok(RunFolder::MEASURES)
 }

@@ -12,7 +12,6 @@ use crate::columns::{
 use crate::design::row::SolvedDesign;
 use crate::folder::RunFolder;
 use crate::tables::csv_file::write_rows;
-use crate::tables::csv_format::CsvFormat::Plain;
 
 /// A table of the paths of one design.
 pub struct PathTable {
@@ -62,8 +61,9 @@ pub fn write_path_tables(
     folder: &RunFolder,
     solved: &SolvedDesign,
 ) -> Result<Vec<&'static str>, OutputError> {
+    let format = folder.csv_format();
     let write = |PathTable { file, columns, rows }: PathTable| {
-        write_rows(folder, file, Plain, &columns, 0..rows).map(|_| file)
+        write_rows(folder, file, format, &columns, 0..rows).map(|_| file)
     };
     path_tables(solved).into_iter().map(write).collect()
 }

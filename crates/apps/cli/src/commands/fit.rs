@@ -8,7 +8,7 @@ use ::fit::{Estimate, FitDefinition, FitError, Fitted, FittedCurve};
 use anyhow::Context as _;
 use clap::Args;
 use report::{FitPanel, fit_figure};
-use results::{Claim, Column, CsvFormat, Maker, RunFolder, columns, write_rows};
+use results::{Claim, Column, Maker, RunFolder, columns, write_rows};
 use run::WorkMeter;
 use serde_json::{Value, json};
 
@@ -99,10 +99,11 @@ pub fn fit(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
 fn write(folder: &RunFolder, fitted: &Fitted) -> anyhow::Result<()> {
     let claim = Claim::take(folder, Maker::Fit)?;
     let [table, residuals, figure, definition] = FILES;
-    write_rows(folder, table, CsvFormat::Plain, ESTIMATES, &fitted.estimates)?;
+    let format = folder.csv_format();
+    write_rows(folder, table, format, ESTIMATES, &fitted.estimates)?;
     let rows = fitted.curves.iter().flat_map(|curve| curve.points.iter().map(move |p| (curve, *p)));
     let rows: Vec<Point> = rows.map(|(curve, point)| (curve.file.clone(), point)).collect();
-    write_rows(folder, residuals, CsvFormat::Plain, POINTS, rows)?;
+    write_rows(folder, residuals, format, POINTS, rows)?;
     let panels = fitted.curves.iter().map(|curve| {
         let FittedCurve { file, axes, points, noise, .. } = curve;
         FitPanel { file, axes, points, noise: *noise }

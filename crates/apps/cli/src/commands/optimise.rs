@@ -108,7 +108,7 @@ pub fn optimise(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<
         return Ok(interrupt.exit_code().unwrap_or(INCOMPLETE));
     };
     let written = RunFolder::new(&folder);
-    let format = arguments.format.csv.unwrap_or_default();
+    let format = arguments.format.csv.unwrap_or_else(|| written.csv_format());
     let figures = figures(&goal, &found);
     let figures = figures.into_iter().map(|Figure { name, svg }| (format!("{name}.svg"), svg));
     let files = write_found(&written, &goal, &found, &figures.collect::<Vec<_>>(), format)?;

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use anyhow::ensure;
 use clap::Args;
-use results::{CsvFormat, MEASURE_TABLES, Maker, write_rows};
+use results::{MEASURE_TABLES, Maker, write_rows};
 use serde_json::{Value, json};
 use sweep::Sweep;
 use uncertainty::{
@@ -69,7 +69,7 @@ pub fn sensitivity(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Resu
     };
     let folder = &sampled.folder;
     let rows = found.measures.iter().flat_map(|measure| measure.rows(&found.variables));
-    write_rows(folder, TABLE, CsvFormat::Plain, INDEX_COLUMNS, rows)?;
+    write_rows(folder, TABLE, folder.csv_format(), INDEX_COLUMNS, rows)?;
     claim.state(&[TABLE])?;
     let record = || record(&sweep, &found, folder.path());
     let report = || report(&sweep, &found, samples);

@@ -10,7 +10,7 @@ use std::ops::RangeInclusive;
 use anyhow::ensure;
 use clap::Args;
 use rayon::prelude::*;
-use results::{CsvFormat, Maker, RunFolder, write_rows};
+use results::{Maker, RunFolder, write_rows};
 use sweep::Sweep;
 use uncertainty::{
     Analysis, AnalysisError, DesignTolerance, SOURCE_COLUMNS, SampleStore, TOLERANCE_COLUMNS,
@@ -158,7 +158,7 @@ fn analysed(
 /// Writes the tables and returns the names of the files.
 fn write(folder: &RunFolder, all: &[DesignTolerance]) -> anyhow::Result<Vec<String>> {
     let mut files = Vec::new();
-    let format = CsvFormat::Plain;
+    let format = folder.csv_format();
     let measures = all.iter().flat_map(DesignTolerance::measure_rows);
     write_rows(folder, "tolerance.csv", format, TOLERANCE_COLUMNS, measures)?;
     files.push("tolerance.csv".to_owned());

@@ -244,6 +244,42 @@ fn files_that_squama_did_not_write_are_never_replaced() {
     }
 }
 
+/// The CSV files of a folder and of the folders below it.
+fn tables_below(folder: &std::path::Path) -> Vec<std::path::PathBuf> {
+    let mut tables = Vec::new();
+    for entry in fs::read_dir(folder).expect("a folder").flatten() {
+        let path = entry.path();
+        if path.is_dir() {
+            tables.extend(tables_below(&path));
+        } else if path.extension().is_some_and(|extension| extension == "csv") {
+            tables.push(path);
+        }
+    }
+    tables
+}
+
+#[test]
+fn every_command_keeps_the_format_of_the_folder_that_it_writes_into() {
+    let place = place();
+    for command in [
+        "run x.toml -q --csv excel-eu --out eu",
+        "tolerance eu --samples 2",
+        "design eu --design 1",
+        "sensitivity --global my/box.toml --samples 4 --out eu/box",
+        "rank eu --maximize coverage",
+        "optimise my/goal.toml --out found --csv excel-eu",
+        "optimise my/goal.toml --out found --resume",
+    ] {
+        place.squama(command).assert().code(0);
+    }
+    let tables = [tables_below(&place.path("eu")), tables_below(&place.path("found"))].concat();
+    assert!(tables.len() > 12, "{tables:?}");
+    for table in tables {
+        let bytes = fs::read(&table).expect("a table");
+        assert!(bytes.starts_with("\u{feff}".as_bytes()), "{}", table.display());
+    }
+}
+
 #[test]
 fn a_part_is_not_replaced_if_its_list_cannot_be_written() {
     let place = place();
