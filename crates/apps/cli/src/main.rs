@@ -79,7 +79,7 @@ fn one_line(error: &clap::Error) -> anyhow::Error {
 fn no_such_command(found: &str) -> anyhow::Error {
     let squama = Arguments::command();
     let known: Vec<_> = squama.get_subcommands().map(clap::Command::get_name).collect();
-    let hint = match sweep::nearest(found, &known) {
+    let hint = match text::nearest(found, &known) {
         Some(near) => format!("did you mean {near}?"),
         None => format!("expected one of {}", known.join(", ")),
     };
@@ -90,9 +90,9 @@ fn no_such_command(found: &str) -> anyhow::Error {
 fn refuse(error: &anyhow::Error) -> ExitCode {
     for line in format!("{error:#}").lines() {
         // If stderr is closed, the exit code still reports the error.
-        let line = sweep::shortened(line);
+        let line = text::shortened(line);
         // Escaped after shortening, which could cut an escape sequence.
-        let _ = writeln!(std::io::stderr(), "error: {}", sweep::visible(&line));
+        let _ = writeln!(std::io::stderr(), "error: {}", text::visible(&line));
     }
     ExitCode::from(BAD_INPUT)
 }

@@ -8,7 +8,7 @@ use results::VerifiedFolder;
 /// Prints `text` with control characters escaped.
 pub fn print(text: &str) -> io::Result<()> {
     // Names of folders and foreign tables may contain control characters, which a terminal would execute.
-    print_raw(&sweep::visible(text))
+    print_raw(&text::visible(text))
 }
 
 /// Prints `text` unchanged. A closed pipe is no error.
@@ -30,7 +30,7 @@ pub fn shortfall(results: &VerifiedFolder) -> String {
 /// Prints a note to stderr.
 pub fn note(text: &str) {
     // If stderr is closed, the note is lost; the results contain the same fact.
-    let _ = writeln!(io::stderr(), "note: {}", sweep::visible(text));
+    let _ = writeln!(io::stderr(), "note: {}", text::visible(text));
 }
 
 /// Aligns the columns of `rows` and indents each line by two spaces.
@@ -67,7 +67,7 @@ pub fn digits(value: f64) -> String {
 
 /// Formats `value` with six digits, without trailing zeros.
 pub fn rounded(value: f64) -> String {
-    sweep::number::rounded(value, 6)
+    text::number::rounded(value, 6)
 }
 
 /// Formats a change in percent with its sign, never as `-0`.

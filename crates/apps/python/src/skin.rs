@@ -17,8 +17,9 @@ use run::Evaluator;
 use skin::flexure::Method;
 use skin::puncture::{Snapshots, snapshots};
 use substrate::{Coupling, RowStiffness};
-use sweep::toml_source::{KeyValue, Value};
-use sweep::{Axis, Case, Measure, PARAMETERS, Parameter, Role, Scalar, Sweep, key, nearest};
+use sweep::{Axis, Case, Measure, PARAMETERS, Parameter, Role, Scalar, Sweep, key};
+use text::nearest;
+use text::toml_source::{KeyValue, Value};
 
 use crate::error::{self, OrFailed as _};
 use crate::solved::Solved;

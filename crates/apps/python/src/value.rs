@@ -11,8 +11,8 @@ use pyo3::prelude::*;
 use pyo3::pybacked::PyBackedBytes;
 use pyo3::types::{PyBool, PyCapsule, PyDict, PyFloat, PyInt, PyList, PyString, PyTuple};
 use results::{Cell, Column};
-use sweep::number;
-use sweep::toml_source::{KeyValue, Place, Value};
+use text::number;
+use text::toml_source::{KeyValue, Place, Value};
 
 use crate::error::OrFailed as _;
 

@@ -14,7 +14,8 @@ pub use row::PunctureDrawing;
 pub use strip::FlexureDrawing;
 
 use skin::{Contact, Design};
-use sweep::{Case, number};
+use sweep::Case;
+use text::number;
 
 use crate::colors::INK;
 use crate::label::{Anchor, label, plain, width};

@@ -19,7 +19,7 @@ use rust_xlsxwriter::{DocProperties, ExcelDateTime, Workbook, Worksheet, XlsxErr
 
 use ranking::InvalidPreferences;
 use results::{CsvFormat, InvalidFolder, OutputError, RunFolder, VerifiedFolder, words};
-use sweep::reason;
+use text::reason;
 
 use measure_chart::MeasureChart;
 use profile::ColumnProfile;

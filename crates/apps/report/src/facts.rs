@@ -1,6 +1,6 @@
 //! Facts about a run, from its record.
 
-use sweep::toml_source::{self, KeyValue, Value};
+use text::toml_source::{self, KeyValue, Value};
 
 use crate::page::Fact;
 

@@ -12,7 +12,7 @@ mod simplified;
 use std::io::{self, Write};
 
 use serde::Serialize;
-use sweep::visible;
+use text::visible;
 
 use crate::designs::Designs;
 use crate::explore::{self, Explorer};

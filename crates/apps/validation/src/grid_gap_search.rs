@@ -9,7 +9,7 @@ use optimisation::{
 };
 use ranking::{CRITERIA, RankedDesign, Ranking, TetrahedralGrid, Weights};
 use run::{Program, Start};
-use sweep::number;
+use text::number;
 
 use crate::claims::{digits, named};
 use crate::page::lines;

@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 
 use serde::Deserialize;
-use sweep::toml_source::Value;
-use sweep::{Case, Measure, Parameter, number};
+use sweep::{Case, Measure, Parameter};
+use text::number;
+use text::toml_source::Value;
 
 /// A design that is to be solved.
 #[derive(Clone, Debug, Default, Deserialize)]

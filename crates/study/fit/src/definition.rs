@@ -3,11 +3,11 @@
 use std::fmt::Display;
 use std::path::Path;
 
-use sweep::toml_source::{KeyValue, KeyValues, Place, Value};
 use sweep::{
     Case, InvalidDefinition, InvalidSetting, Parameter, Problem, Role, Setting, Sweep, Variable,
     VariableValues, WrongValue, read_entries,
 };
+use text::toml_source::{KeyValue, KeyValues, Place, Value};
 
 use crate::measured_curve::{InvalidMeasured, MeasuredCurve, Test};
 

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use results::{Quantity, bending_units, puncture_units};
-use sweep::{Case, read_input, reason};
+use sweep::{Case, read_input};
+use text::reason;
 
 /// The test that a curve was measured in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest as _, Sha256};
-use sweep::reason;
+use text::reason;
 
 use crate::digest::digits;
 use crate::partial_file::{PartialFile, remove_abandoned_files};

@@ -1,11 +1,13 @@
 //! The header of a journal: what was solved, by which program.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Display;
 use std::path::Path;
 
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
-use sweep::Subset;
-use sweep::toml_source::{self, Value, one_line};
+use text::one_line;
+use text::toml_source::{self, Value};
 
 use crate::digest::sha256;
 use crate::error::JournalError;
@@ -24,10 +26,15 @@ pub struct Program {
     pub revision: &'static str,
 }
 
-/// The header of a journal: the definition, the subset of its designs, the program.
+/// The part of the designs that a journal holds: written to its header, shown in messages.
+pub trait Designs: Clone + Default + Display + PartialEq + Serialize + DeserializeOwned {}
+
+impl<D: Clone + Default + Display + PartialEq + Serialize + DeserializeOwned> Designs for D {}
+
+/// The header of a journal: the definition, the part `D` of its designs, the program.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct JournalHeader {
+#[serde(deny_unknown_fields, bound(deserialize = "D: Designs"))]
+pub struct JournalHeader<D> {
     /// The format of the lines.
     format: u64,
     /// Version of the program.
@@ -38,14 +45,14 @@ pub struct JournalHeader {
     definition_sha256: String,
     /// The designs that are solved.
     #[serde(default)]
-    subset: Subset,
+    subset: D,
     /// The definition, complete.
     definition: String,
 }
 
-impl JournalHeader {
+impl<D: Designs> JournalHeader<D> {
     /// The header of a journal of `subset` of the designs that `definition` describes.
-    pub fn new(definition: String, subset: Subset, program: &Program) -> Self {
+    pub fn new(definition: String, subset: D, program: &Program) -> Self {
         Self {
             format: FORMAT,
             version: program.version.to_owned(),
@@ -57,12 +64,15 @@ impl JournalHeader {
     }
 
     /// The first line of a journal, with its end.
-    pub(crate) fn line<R: Records>(&self) -> Vec<u8> {
+    pub(crate) fn line<R: Records<Designs = D>>(&self) -> Vec<u8> {
         Seal::default().seal(&BTreeMap::from([(R::KEY, self)]))
     }
 
     /// The header that the first line of the journal at `path` holds.
-    pub(crate) fn read<R: Records>(bytes: &mut [u8], path: &Path) -> Result<Self, JournalError> {
+    pub(crate) fn read<R: Records<Designs = D>>(
+        bytes: &mut [u8],
+        path: &Path,
+    ) -> Result<Self, JournalError> {
         let refuse = |problem: String| JournalError::NoHeader { path: path.to_owned(), problem };
         let object = Seal::default().open(bytes).map_err(refuse)?;
         if let Some((found, by)) = other_format::<R>(object) {
@@ -95,8 +105,8 @@ impl JournalHeader {
     }
 
     /// The designs that are solved.
-    pub fn subset(&self) -> Subset {
-        self.subset
+    pub fn subset(&self) -> &D {
+        &self.subset
     }
 
     /// SHA-256 of the definition.
@@ -109,11 +119,10 @@ impl JournalHeader {
         format!("{} ({})", self.version, self.revision)
     }
 
-    /// The header of the journal with all designs of all shards.
+    /// Returns the header of the same journal for another part of the designs.
     #[must_use]
-    pub fn of_all_shards(mut self) -> Self {
-        self.subset.shard = None;
-        self
+    pub fn with_subset(self, subset: D) -> Self {
+        Self { subset, ..self }
     }
 
     /// Refuses a journal at `path` that has this header where `wanted` is wanted, and says what is

@@ -59,7 +59,11 @@ impl<R: Records> Journal<R> {
     ///
     /// # Errors
     /// If it is in use, damaged, of something else, or there and `start` says nothing of it.
-    pub fn begin(path: &Path, header: JournalHeader, start: Start) -> Result<Self, JournalError> {
+    pub fn begin(
+        path: &Path,
+        header: JournalHeader<R::Designs>,
+        start: Start,
+    ) -> Result<Self, JournalError> {
         let file = lock_journal(path)?;
         if start == Start::Fresh {
             // What was there is thrown away, as it was asked for.
@@ -103,7 +107,11 @@ impl<R: Records> Journal<R> {
     }
 
     /// An empty file with its first line.
-    fn create(path: &Path, mut file: File, header: JournalHeader) -> Result<Self, JournalError> {
+    fn create(
+        path: &Path,
+        mut file: File,
+        header: JournalHeader<R::Designs>,
+    ) -> Result<Self, JournalError> {
         let bytes = header.line::<R>();
         let written =
             file.set_len(0).and_then(|()| file.write_all(&bytes)).and_then(|()| file.sync_all());

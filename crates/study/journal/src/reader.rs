@@ -7,10 +7,10 @@ use std::path::Path;
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use sweep::reason;
+use text::reason;
 
 use crate::error::JournalError;
-use crate::header::JournalHeader;
+use crate::header::{Designs, JournalHeader};
 use crate::lines::Lines;
 use crate::seal::BEFORE;
 
@@ -19,6 +19,9 @@ pub trait Records: Sized {
     /// The content of a line behind the first.
     type Line: Serialize + DeserializeOwned;
 
+    /// The part of the designs that the header states.
+    type Designs: Designs;
+
     /// The key under which the first line names the header.
     const KEY: &'static str;
 
@@ -26,7 +29,11 @@ pub trait Records: Sized {
     ///
     /// # Errors
     /// If the header makes no sense, with the problem.
-    fn begin(header: JournalHeader, length: u64, path: &Path) -> Result<Self, String>;
+    fn begin(
+        header: JournalHeader<Self::Designs>,
+        length: u64,
+        path: &Path,
+    ) -> Result<Self, String>;
 
     /// Takes the line that stands at these bytes of the file.
     ///
@@ -35,7 +42,7 @@ pub trait Records: Sized {
     fn take(&mut self, line: Self::Line, bytes: Range<u64>) -> Result<(), String>;
 
     /// The header.
-    fn header(&self) -> &JournalHeader;
+    fn header(&self) -> &JournalHeader<Self::Designs>;
 
     /// Whether there is nothing yet that would be lost with the journal.
     fn is_empty(&self) -> bool;

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use sweep::toml_source::one_line;
+use text::one_line;
 
 /// The bytes before the checksum of a line.
 pub(crate) const BEFORE: &[u8] = b"{\"crc\":\"";

@@ -2,7 +2,7 @@
 
 use ranking::{Criterion, Goal, Requirement};
 use results::columns::explain_value;
-use sweep::number;
+use text::number;
 
 use crate::candidate::Target;
 use crate::evaluated_row::StatisticUse;

@@ -1,7 +1,8 @@
 //! Designs whose values cannot be compared, because they are not measured alike.
 
 use results::{InvalidResults, Results, yardsticks};
-use sweep::{PARAMETERS, Parameter, Role, number};
+use sweep::{PARAMETERS, Parameter, Role};
+use text::number;
 
 use crate::filter::RequirementFilter;
 use crate::preferences::Preferences;

@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 
 use results::{InvalidFolder, RunFolder, VerifiedFolder};
-use sweep::number;
-use sweep::toml_source::{self, KeyValue, Place, SyntaxError, Value, quoted};
+use text::number;
+use text::toml_source::{self, KeyValue, Place, SyntaxError, Value, quoted};
 
 use crate::criterion::{CRITERIA, Criterion};
 use crate::requirement::Requirement;

@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use results::round_off::{ROUND_OFF, same};
 use serde::{Serialize, Serializer};
-use sweep::number;
+use text::number;
 
 use crate::standard::Standard;
 

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use sweep::number;
+use text::number;
 
 use crate::tetrahedral_grid::{Steps, TetrahedralGrid};
 

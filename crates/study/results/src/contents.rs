@@ -90,7 +90,7 @@ impl Contents {
             (digest == sha256(text)).then_some(text)
         });
         let text = sealed.ok_or("its checksum does not match")?;
-        toml::from_str(text).map_err(|error| sweep::toml_source::one_line(error.message()))
+        toml::from_str(text).map_err(|error| text::one_line(error.message()))
     }
 
     /// Whether every design is done.

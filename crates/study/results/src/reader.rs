@@ -10,7 +10,8 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::columns::{parameter_of, physical_source, tells_apart};
-use sweep::{Parameter, Sweep, has_part, nearest, number, reason};
+use sweep::{Parameter, Sweep};
+use text::{has_part, nearest, number, reason};
 
 use crate::contents::verified_folder::{Completeness, InvalidFolder, VerifiedFolder};
 use crate::folder::RunFolder;

@@ -5,7 +5,8 @@ use std::str::FromStr;
 use journal::JournalError;
 use results::columns::design_columns;
 use results::{Cell, Column, DesignRow};
-use sweep::{NoSuchDesign, nearest};
+use sweep::NoSuchDesign;
+use text::nearest;
 
 use crate::run_journal::{Archive, JournalEntry};
 

@@ -81,7 +81,7 @@ pub fn merge(
         };
     }
     // All sources are of one sweep, so any of them names it.
-    let header = sources[0].archive.header().clone().of_all_shards();
+    let header = sources[0].archive.header_of_all_shards();
     out.make().map_err(RunError::from)?;
     // Resumed, not new: merging twice is merging once, and a merger that was killed goes on.
     let mut journal = run_journal::begin(&out, header, Start::Resume)?;
@@ -151,8 +151,8 @@ fn open(folders: &[PathBuf], out: &RunFolder) -> Result<Vec<ShardResults>, Merge
         // A copy that was cut short looks like a shard with less to do.
         archive.require_all_lines(&folder)?;
         if let Some(first) = sources.first() {
-            let wanted = first.archive.header().clone().of_all_shards();
-            let header = archive.header().clone().of_all_shards();
+            let wanted = first.archive.header_of_all_shards();
+            let header = archive.header_of_all_shards();
             header.require(&wanted, &folder.journal(), ALIKE)?;
         }
         sources.push(ShardResults { folder, archive });

@@ -118,7 +118,7 @@ fn require_program(
     program: &Program,
 ) -> Result<(), JournalError> {
     let header = archive.header();
-    let wanted = run_journal::header(archive.sweep(), header.subset(), program);
+    let wanted = run_journal::header(archive.sweep(), *header.subset(), program);
     header.require(&wanted, &folder.journal(), "the program that solved the others")
 }
 

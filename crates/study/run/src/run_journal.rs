@@ -2,20 +2,23 @@
 //!
 //! The first line names what is solved, by which program; a line of its own begins every session; the rest are designs, in the
 //! order in which they were done. A design that stands there several times was solved again: its lines carry the number of their
-//! rerun, and the largest counts, wherever it stands. What a journal promises of its lines is said in the crate `store`.
+//! rerun, and the largest counts, wherever it stands. What a journal promises of its lines is said in the crate `journal`.
 
 mod archive;
 mod edited;
 mod entry;
 mod index;
 
-use journal::{JournalError, JournalHeader, Program, Start};
+use journal::{JournalError, Program, Start};
 use results::{Maker, RunFolder};
 use sweep::{Subset, Sweep};
 
 pub(crate) use archive::Entries;
 pub use archive::{Archive, LatestSession};
 pub use entry::{JournalEntry, Line, SessionStart};
+
+/// The header of a journal of designs.
+pub type JournalHeader = journal::JournalHeader<Subset>;
 
 /// The journal of a run that is being written.
 pub(crate) type Journal = journal::Journal<Archive>;

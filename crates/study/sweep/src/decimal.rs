@@ -82,7 +82,7 @@ fn parse(text: &str) -> Option<Decimal> {
 
 impl fmt::Display for Decimal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let short = crate::number::text(self.to_f64());
+        let short = text::number::text(self.to_f64());
         // A decimal may have more digits than the `f64` next to it: those are told, too.
         if short.parse() == Ok(*self) {
             f.write_str(&short)

@@ -18,15 +18,16 @@ use crate::case::Case;
 use crate::deviation::Deviation;
 use crate::grid::{Axis, Grid};
 use crate::input::read_input;
-use crate::number;
 use crate::parameter::Scalar;
 use crate::parameter::{PARAMETERS, Parameter, key};
-use crate::toml_source::{self, KeyValue, KeyValues, Place, Value};
 use crate::variable::Variable;
-use invalid::{InvalidDefinition, reason};
+use invalid::InvalidDefinition;
 use measure::Measure;
 use reader::Reader;
 use setting::Setting;
+use text::number;
+use text::reason;
+use text::toml_source::{self, KeyValue, KeyValues, Place, Value};
 
 /// A sweep that can run: its name, what it measures, its designs.
 #[derive(Clone, Debug)]

@@ -1,8 +1,8 @@
 //! How far what is made differs from what is drawn.
 
 use crate::case::Case;
-use crate::number;
 use crate::parameter::{Parameter, Role, key, length};
+use text::number;
 
 /// How a parameter differs from its value in the definition: in common for all scales of a batch, and from scale to scale.
 #[derive(Clone, Debug, PartialEq)]

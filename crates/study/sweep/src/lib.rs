@@ -4,13 +4,12 @@
 //! the number of a design gives its parameters, and its parameters give its number.
 //!
 //! ```text
-//! file ─► toml_source ─► Sweep ─► Grid ─► Case
+//! file ─► text::toml_source ─► Sweep ─► Grid ─► Case
 //!        settings ─┘   (valid)  number ─┘
 //! ```
 //!
 //! | Type | Role |
 //! |---|---|
-//! | [`toml_source`] | a definition as it is written: keys, values and their places |
 //! | [`Setting`] | a key set from outside, in place of what is written |
 //! | [`PARAMETERS`], [`Parameter`], [`Scalar`] | the list of everything that may be set, with what is right; a value |
 //! | [`Role`], [`key`] | what a parameter is to the skin; the keys that code names |
@@ -49,18 +48,14 @@ mod deviation;
 mod grid;
 mod input;
 mod material;
-pub mod number;
 mod parameter;
 mod subset;
-pub mod toml_source;
 mod variable;
-mod visible;
 
 pub use case::{Case, Samples};
-pub use definition::invalid::{InvalidDefinition, Problem, reason, refuse};
+pub use definition::invalid::{InvalidDefinition, Problem, refuse};
 pub use definition::measure::Measure;
 pub use definition::setting::{InvalidSetting, Setting};
-pub use definition::suggestion::{has_part, nearest};
 pub use definition::{Sweep, entries, read_entries, read_text};
 pub use deviation::{BatchDeviation, Deviation};
 pub use grid::{Axis, DesignNumber, Grid, NoSuchDesign, TooManyDesigns};
@@ -69,4 +64,3 @@ pub use material::Material;
 pub use parameter::{PARAMETERS, Parameter, Role, Scalar, WrongValue, key};
 pub use subset::{NoShard, RandomSample, SampleTooLarge, Shard, Subset, SubsetDesigns};
 pub use variable::{Variable, VariableValues};
-pub use visible::{shortened, visible};

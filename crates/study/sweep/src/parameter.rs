@@ -14,8 +14,8 @@ use skin::puncture::{MOST_NUMBERS, NumberList};
 
 use crate::case::Case;
 use crate::decimal::Decimal;
-use crate::number;
-use crate::toml_source::Value;
+use text::number;
+use text::toml_source::Value;
 
 pub use list::PARAMETERS;
 pub use role::Role;

@@ -1,8 +1,8 @@
 //! A parameter that is searched over, or drawn at random, between bounds or among values.
 
 use crate::case::Case;
-use crate::number;
 use crate::parameter::{Parameter, Scalar};
+use text::number;
 
 /// A parameter of `[variables]`: no design of the sweep fixes it, an optimisation searches over it and a global sensitivity
 /// analysis draws it.

@@ -2,7 +2,8 @@
 
 use results::columns::design_columns;
 use results::{Cell, Column, DesignRow};
-use sweep::{Measure, Sweep, nearest};
+use sweep::{Measure, Sweep};
+use text::nearest;
 
 /// A column that no design has, or that holds no numbers.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

@@ -12,6 +12,7 @@ use rayon::prelude::*;
 use results::{Cell, Column, CsvFormat, RunFolder, WrittenTable, write_rows};
 use run::{JournalError, JournalHeader, Start, WorkMeter};
 use serde::{Deserialize, Serialize};
+use sweep::Subset;
 
 use crate::analysis_error::AnalysisError;
 
@@ -45,6 +46,8 @@ struct KeptSamples {
 
 impl Records for KeptSamples {
     type Line = SolvedSample;
+
+    type Designs = Subset;
 
     const KEY: &'static str = "samples";
 

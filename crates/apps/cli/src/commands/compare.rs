@@ -7,7 +7,7 @@ use anyhow::{bail, ensure};
 use clap::Args;
 use ranking::{ColumnDifference, Comparison, Extreme};
 use results::Results;
-use sweep::number;
+use text::number;
 
 use super::source::{Partial, verified_folder};
 use super::{DIFFERENT, DONE};

@@ -207,7 +207,7 @@ impl Sheet {
             self.add(&[
                 &name,
                 &format!("{}{}{ties}", leader.first, best.doubt(&leader.first, column)),
-                &sweep::number::rounded(leader.value, 6),
+                &text::number::rounded(leader.value, 6),
                 unit,
             ])?;
         }
@@ -226,7 +226,7 @@ impl Sheet {
         }
         self.part(&["Ranking: criteria", "weight", "column"])?;
         for (criterion, weight) in preferences.criteria.iter().zip(preferences.weights.values()) {
-            self.add(&[&criterion.name, &sweep::number::text(*weight), &criterion.to_string()])?;
+            self.add(&[&criterion.name, &text::number::text(*weight), &criterion.to_string()])?;
         }
         self.add(&["scale", preferences.scale.name()])?;
         self.part(&["Ranking: best designs", "design", "fitness"])?;

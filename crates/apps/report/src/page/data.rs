@@ -7,7 +7,7 @@ use ranking::{CRITERIA, Criterion};
 use results::columns::{Goal, Shown, name, plain_goal, shown};
 use results::{shell_word, yardsticks};
 use serde_json::{Value, json};
-use sweep::visible;
+use text::visible;
 
 use super::{Page, PageDesign, PageFront};
 use crate::designs::Designs;

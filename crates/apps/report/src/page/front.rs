@@ -2,7 +2,7 @@
 
 use ranking::{Criterion, Requirement};
 use serde_json::{Map, Value, json};
-use sweep::visible;
+use text::visible;
 
 use super::data::cells;
 use crate::axis::ChartAxis;

@@ -94,6 +94,8 @@ pub(super) struct Known {
 impl Records for Known {
     type Line = JournalLine;
 
+    type Designs = Subset;
+
     const KEY: &'static str = "optimisation";
 
     fn begin(header: JournalHeader, _length: u64, _path: &Path) -> Result<Self, String> {

@@ -5,7 +5,7 @@
 use ranking::Requirement;
 use results::columns::name;
 use sweep::InvalidDefinition;
-use sweep::number;
+use text::number;
 
 use super::refusal::not_accepted;
 use super::section::GoalSection;

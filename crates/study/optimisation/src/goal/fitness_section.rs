@@ -2,7 +2,7 @@
 
 use ranking::{CRITERIA, Criterion, CriterionEnds, FitnessGoal, Goal, Scale, Weights};
 use sweep::InvalidDefinition;
-use sweep::toml_source::{KeyValue, KeyValues, Place, Value};
+use text::toml_source::{KeyValue, KeyValues, Place, Value};
 
 use super::refusal::{no_effect, not_accepted};
 

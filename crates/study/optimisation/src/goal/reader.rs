@@ -6,11 +6,12 @@ use std::path::Path;
 use ranking::{FitnessGoal, Relation, Requirement};
 use results::columns::{design_columns, measure_of};
 use results::yardsticks;
-use sweep::toml_source::{KeyValue, KeyValues, Place, Value};
 use sweep::{
     Axis, InvalidDefinition, Problem, Role, Setting, Sweep, Variable, VariableValues, entries,
-    nearest, read_entries, refuse,
+    read_entries, refuse,
 };
+use text::nearest;
+use text::toml_source::{KeyValue, KeyValues, Place, Value};
 
 use super::bounds::out_of_bounds;
 use super::refusal::not_accepted;

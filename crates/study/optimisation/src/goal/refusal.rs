@@ -2,8 +2,8 @@
 
 use std::fmt::Display;
 
-use sweep::toml_source::Place;
 use sweep::{InvalidDefinition, WrongValue, refuse};
+use text::toml_source::Place;
 
 pub(super) fn not_accepted(
     place: &Place,

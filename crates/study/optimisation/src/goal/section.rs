@@ -3,8 +3,9 @@
 use std::str::FromStr;
 
 use ranking::{Criterion, Goal, Relation, Requirement, Standard};
-use sweep::toml_source::{KeyValue, Place, Value};
-use sweep::{InvalidDefinition, Problem, nearest, refuse};
+use sweep::{InvalidDefinition, Problem, refuse};
+use text::nearest;
+use text::toml_source::{KeyValue, Place, Value};
 
 use super::fitness_section::FitnessSection;
 use super::refusal::not_accepted;

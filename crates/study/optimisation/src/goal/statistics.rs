@@ -36,7 +36,7 @@ fn not_of_numbers(column: &str, sweep: &Sweep) -> Option<String> {
         let is_asked =
             |name: &&&str| measure_of(name).is_some_and(|m| sweep.measures().contains(&m));
         let asked = names.iter().find(is_asked).copied();
-        let near = sweep::nearest(column, &names).or(asked).unwrap_or(name::COVERAGE);
+        let near = text::nearest(column, &names).or(asked).unwrap_or(name::COVERAGE);
         return Some(format!("a quantile of a column of designs.csv, e.g. {}", quantiles(near)));
     };
     let is_measured = measure_of(column).is_none_or(|m| sweep.measures().contains(&m));

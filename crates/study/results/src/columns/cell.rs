@@ -4,7 +4,8 @@ use std::borrow::Cow;
 use std::fmt;
 
 use serde::Serialize;
-use sweep::{Scalar, number};
+use sweep::Scalar;
+use text::number;
 
 use crate::design::failure::finite;
 

@@ -1,6 +1,7 @@
 //! The columns of measures at tilts on the way, in runs that ask for several critical tilts.
 
-use sweep::{Parameter, Scalar, Sweep, key, number};
+use sweep::{Parameter, Scalar, Sweep, key};
+use text::number;
 
 use super::column::Column;
 use super::measured_value::{MeasuredValue, TiltValue};

@@ -6,7 +6,7 @@ use std::io::{ErrorKind, Read as _, Seek as _};
 use std::path::{Path, PathBuf};
 
 use journal::{read_text, sha256, sha256_of};
-use sweep::reason;
+use text::reason;
 
 use super::derivation::Derivation;
 use super::{Contents, JournalExtent};

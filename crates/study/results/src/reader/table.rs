@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use sweep::number;
+use text::number;
 
 /// The cells of a table below its header. What was written can be read again to the letter, whether a column is kept as
 /// numbers or as texts.

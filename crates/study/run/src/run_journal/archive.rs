@@ -5,10 +5,12 @@ use std::io::{self, BufRead};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use journal::{JournalError, JournalHeader, Records, Seal, Windows};
+use journal::{JournalError, Records, Seal, Windows};
 use results::{Contents, CsvFormat, DesignRow, JournalExtent, RunFolder};
-use sweep::{SubsetDesigns, Sweep, reason};
+use sweep::{Subset, SubsetDesigns, Sweep};
+use text::reason;
 
+use super::JournalHeader;
 use super::entry::{JournalEntry, Line, SessionStart};
 use super::index::Index;
 
@@ -44,12 +46,14 @@ pub struct LatestSession {
 impl Records for Archive {
     type Line = Line;
 
+    type Designs = Subset;
+
     const KEY: &'static str = "journal";
 
     fn begin(header: JournalHeader, length: u64, path: &Path) -> Result<Self, String> {
         let sweep = Sweep::parse(header.definition(), "definition", &[]);
         let sweep = sweep.map_err(|error| error.to_string())?;
-        let designs = SubsetDesigns::new(sweep.grid().len(), header.subset());
+        let designs = SubsetDesigns::new(sweep.grid().len(), *header.subset());
         let designs = designs.map_err(|error| error.to_string())?;
         Ok(Self {
             path: path.to_owned(),
@@ -126,6 +130,12 @@ impl Archive {
     /// The header.
     pub fn header(&self) -> &JournalHeader {
         &self.header
+    }
+
+    /// Returns the header of the journal that holds the designs of all shards.
+    pub(crate) fn header_of_all_shards(&self) -> JournalHeader {
+        let subset = Subset { shard: None, ..*self.header.subset() };
+        self.header.clone().with_subset(subset)
     }
 
     /// The sweep that it is of.

@@ -43,7 +43,7 @@ pub(crate) fn solve<T: Send>(
             // A thread that cannot be started ends those that were, or the scope would wait for them for ever.
             start(scope, move || work(|| next(worker), solve, &sender)).map_err(|error| {
                 abandoned.store(true, Ordering::Relaxed);
-                RunError::Threads { count: threads, reason: sweep::reason(&error) }
+                RunError::Threads { count: threads, reason: text::reason(&error) }
             })?;
         }
         // The results end when the last worker does.

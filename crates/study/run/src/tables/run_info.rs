@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use journal::{OutputError, Program};
 use results::RunFolder;
-use sweep::toml_source::quoted;
+use text::toml_source::quoted;
 
 use super::summary::Summary;
 use crate::options::Options;
@@ -46,7 +46,7 @@ impl<'a> RunInfo<'a> {
     }
 
     fn run(&self, archive: &Archive, summary: &Summary) -> String {
-        let subset = archive.header().subset();
+        let subset = *archive.header().subset();
         let started = archive.sessions().first().map(|session| session.started.as_str());
         let designs = archive.designs().len();
         let mut text = format!(

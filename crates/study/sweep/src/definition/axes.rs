@@ -7,7 +7,7 @@ use crate::case::Case;
 use crate::decimal::{self, Decimal};
 use crate::grid::Axis;
 use crate::parameter::{Parameter, Scalar, WrongValue};
-use crate::toml_source::{self, KeyValue, KeyValues, Value};
+use text::toml_source::{self, KeyValue, KeyValues, Value};
 
 /// The axes that every grid has, with the values that they take unless a definition says otherwise:
 /// those of the paper.

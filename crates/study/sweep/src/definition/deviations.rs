@@ -1,10 +1,9 @@
 //! The table `[tolerance]` as it is written.
 
 use super::invalid::Problem;
-use super::suggestion;
 use crate::deviation::{BatchDeviation, Deviation};
 use crate::parameter::{Parameter, Role, WrongValue};
-use crate::toml_source::{KeyValue, KeyValues, Value};
+use text::toml_source::{KeyValue, KeyValues, Value};
 
 /// The keys of a deviation.
 const KEYS: [&str; 3] = ["batch_sd", "batch_within", "scale_sd"];
@@ -63,7 +62,7 @@ fn wrong(entry: &KeyValue, problem: String) -> Problem {
 fn unknown(entry: &KeyValue) -> Problem {
     let possible = Parameter::with(Role::Made);
     let known: Vec<_> = possible.map(|parameter| parameter.key).collect();
-    let hint = match suggestion::nearest(&entry.key, &known) {
+    let hint = match text::nearest(&entry.key, &known) {
         Some(near) => format!("did you mean {near}?"),
         None => format!("expected one of {}", known.join(", ")),
     };

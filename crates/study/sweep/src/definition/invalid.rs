@@ -2,7 +2,7 @@
 
 use crate::grid::TooManyDesigns;
 use crate::parameter::WrongValue;
-use crate::toml_source::{Place, SyntaxError};
+use text::toml_source::{Place, SyntaxError};
 
 /// A definition that cannot run. Each message is one line that names the file, the key, the value
 /// and what would be right; of a definition that has several errors, all are told.
@@ -140,10 +140,4 @@ pub enum Problem {
 pub fn refuse(place: &Place, key: &str, problem: impl Into<Problem>) -> InvalidDefinition {
     let (place, key) = (place.clone(), key.to_owned());
     InvalidDefinition::Refused { place, key, problem: Box::new(problem.into()) }
-}
-
-/// The message of an error of the system, without its error number.
-pub fn reason(error: &std::io::Error) -> String {
-    let text = error.to_string();
-    text.split(" (os error").next().unwrap_or(&text).to_owned()
 }

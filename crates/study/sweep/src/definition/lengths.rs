@@ -4,9 +4,9 @@
 use super::invalid::Problem;
 use crate::case::Case;
 use crate::grid::{Axis, Grid};
-use crate::number;
 use crate::parameter::{Parameter, Scalar, WrongValue, key};
 use crate::variable::{Variable, VariableValues};
+use text::number;
 
 /// What is wrong with `given`, a length in mm or the modulus of the scales, in the designs of a grid and of its variables, if something is.
 pub(super) fn check(given: &Parameter, grid: &Grid, variables: &[Variable]) -> Result<(), Problem> {

@@ -3,9 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::invalid::Problem;
-use super::suggestion;
 use crate::parameter::{WrongValue, any_of};
-use crate::toml_source::Value;
+use text::toml_source::Value;
 
 /// Something that a sweep measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -87,13 +86,11 @@ impl Measure {
         let Value::Text(text) = value else {
             return Err(WrongValue::not_accepted(value, names()));
         };
-        Self::named(text).ok_or_else(|| {
-            match suggestion::nearest(text, &Self::ALL.map(Self::key)) {
-                Some(near) => {
-                    WrongValue::not_accepted(value, format!("{}; did you mean {near}?", names()))
-                }
-                None => WrongValue::not_accepted(value, names()),
+        Self::named(text).ok_or_else(|| match text::nearest(text, &Self::ALL.map(Self::key)) {
+            Some(near) => {
+                WrongValue::not_accepted(value, format!("{}; did you mean {near}?", names()))
             }
+            None => WrongValue::not_accepted(value, names()),
         })
     }
 }

@@ -11,10 +11,10 @@ use crate::case::Case;
 use crate::definition::Sweep;
 use crate::deviation::Deviation;
 use crate::grid::{Axis, Grid};
-use crate::number;
 use crate::parameter::{Parameter, Scalar, WrongValue, key};
-use crate::toml_source::{KeyValue, KeyValues, Place, Value};
 use crate::variable::{Variable, VariableValues};
+use text::number;
+use text::toml_source::{KeyValue, KeyValues, Place, Value};
 
 /// Keys that are refused before the rest is left unread: nobody corrects more at a time.
 const MOST: usize = 50;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::suggestion::VARIABLES;
 use crate::case::Case;
 use crate::parameter::{Parameter, key};
-use crate::toml_source::{self, KeyValue, KeyValues, Place, Value};
+use text::toml_source::{self, KeyValue, KeyValues, Place, Value};
 
 /// Parts of a dotted key, at most. None has more than two, but a mistyped one is refused by name.
 const DEEPEST: usize = 8;
@@ -49,7 +49,7 @@ impl Setting {
     /// As [`Self::parse`].
     pub fn from_option(option: &str, text: &str) -> Result<Self, InvalidSetting> {
         // An argument may have several lines, and each refusal is one.
-        let place = Place::Argument(Arc::from(toml_source::one_line(option)));
+        let place = Place::Argument(Arc::from(text::one_line(option)));
         let refuse = |problem: String| InvalidSetting { place: place.clone(), problem };
         // At the first one: a table or a text may have more of them.
         let (key, value) =

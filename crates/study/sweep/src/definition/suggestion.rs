@@ -1,4 +1,6 @@
-//! Suggestions for unknown keys.
+//! Suggests keys in place of unknown ones.
+
+use text::nearest;
 
 use crate::parameter::{PARAMETERS, Parameter, key};
 
@@ -14,16 +16,8 @@ pub(crate) const TOLERANCE: &str = "tolerance";
 /// Keys outside of the sections of parameters.
 const TOP: [&str; 4] = ["name", "measures", VARIABLES, TOLERANCE];
 
-/// Endings of names that are units.
-const UNITS: [&str; 7] = ["_over_t", "_mm", "_deg", "_MPa", "_kg_m2", "_kg_m3", "_N"];
-
 /// Keys that say the same, one of puncture and the other of bending.
 const TWINS: [[&str; 2]; 1] = [[key::UNLOAD, key::UNBEND]];
-
-/// The quantity that a name stands for, without its unit.
-fn quantity(name: &str) -> &str {
-    UNITS.iter().find_map(|unit| name.strip_suffix(unit)).unwrap_or(name)
-}
 
 /// Whether a definition has a section of that name.
 pub(crate) fn is_section(key: &str) -> bool {
@@ -73,40 +67,6 @@ fn keys_of(section: &str) -> Vec<&'static str> {
     PARAMETERS.iter().filter(belongs).map(|parameter| parameter.key).collect()
 }
 
-/// Whether `part` is one of the words of a name, or its last ones.
-pub fn has_part(name: &str, part: &str) -> bool {
-    name.split('_').any(|word| word == part)
-        || name.strip_suffix(part).is_some_and(|rest| rest.ends_with('_'))
-}
-
-/// The candidate that `key` is the beginning or a misspelling of, if one is near enough.
-pub fn nearest<'c>(key: &str, candidates: &[&'c str]) -> Option<&'c str> {
-    // The unit is what is left out most: `gap` is `gap_over_t` before it is `gaps`; but `depth` is no `depth_stability_force`.
-    if let Some(whole) = candidates.iter().find(|c| **c != key && quantity(c) == key) {
-        return Some(whole);
-    }
-    // A part of several names, as `force` and `force_N` are, is no slip of the pen for one of them.
-    if candidates.iter().filter(|c| has_part(c, key)).count() > 1 {
-        return None;
-    }
-    // A name with a unit stands for something that has one: `gap_mm` is neither `gaps` nor `gap_cv`.
-    let (has_unit, all) = (quantity(key) != key, candidates);
-    let kept: Vec<&'c str> =
-        all.iter().copied().filter(|c| !has_unit || quantity(c) != *c).collect();
-    if has_unit && let Some(same) = kept.iter().find(|c| quantity(c) == quantity(key)) {
-        return Some(same);
-    }
-    let typos = |candidate: &str| strsim::damerau_levenshtein(key, candidate);
-    let typed = kept.iter().min_by_key(|candidate| typos(candidate))?;
-    if typos(typed) <= key.chars().count() / 3 {
-        return Some(typed);
-    }
-    // A part of a key, say `slant`, is far from it in typos.
-    let similarity = |candidate: &str| strsim::jaro_winkler(key, candidate);
-    let alike = kept.iter().max_by(|a, b| similarity(a).total_cmp(&similarity(b)))?;
-    (similarity(alike) > 0.8).then_some(alike)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -115,7 +75,6 @@ mod tests {
     fn hints_are_near_or_none() {
         assert_eq!(for_key("contact", "cc2"), "did you mean contact.c2?");
         assert_eq!(for_key("contact", "c3"), "expected one of c1, c2, friction");
-        assert_eq!(nearest("depth", &["depth_stability_force", "stable_under_depth"]), None);
         assert_eq!(for_key("designs", "slant"), "did you mean designs.slant_deg?");
         assert_eq!(for_key("designs", "gap"), "did you mean designs.gap_over_t?");
         assert_eq!(for_key("designs", "lenght"), "did you mean designs.length_over_t?");
@@ -127,8 +86,6 @@ mod tests {
         assert_eq!(for_key("puncture", "unbend"), "did you mean puncture.unload?");
         assert_eq!(for_key("scale", "width"), "did you mean scale.width_over_t?");
         assert_eq!(for_key("scale", "width_m"), "did you mean scale.width_mm?");
-        assert_eq!(nearest("gap_mm", &["gaps", "gap_cv", "bend_radius_mm"]), None);
-        assert_eq!(nearest("force", &["fold_force_N", "critical_force"]), None);
         assert_eq!(for_key("", "conatct"), "did you mean contact?");
         assert_eq!(for_key("", "mesures"), "did you mean measures?");
     }

@@ -7,7 +7,7 @@ use super::suggestion::{TOLERANCE, VARIABLES, sections};
 use crate::definition::Sweep;
 use crate::grid::Axis;
 use crate::parameter::{Parameter, Scalar};
-use crate::toml_source::quoted;
+use text::toml_source::quoted;
 
 impl Sweep {
     /// The complete definition in TOML, which reads back as the same sweep.

@@ -3,8 +3,8 @@
 use super::axes;
 use super::invalid::Problem;
 use crate::parameter::{Parameter, Scalar, WrongValue};
-use crate::toml_source::{KeyValues, Value};
 use crate::variable::{Variable, VariableValues};
+use text::toml_source::{KeyValues, Value};
 
 /// The variable that `value` describes.
 pub(crate) fn read(parameter: &'static Parameter, value: &Value) -> Result<Variable, Problem> {

@@ -5,7 +5,7 @@ use std::fmt;
 use serde::Serialize;
 use skin::puncture::NumberList;
 
-use crate::number;
+use text::number;
 
 /// The value of one parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

@@ -19,7 +19,7 @@ pub fn text(made: &Confirmation) -> String {
     let mut text = format!(
         "\nSamples of the best design: {} in the search, {} new\n{}",
         made.seen,
-        sweep::number::text(made.fresh as f64),
+        text::number::text(made.fresh as f64),
         aligned(&rows)
     );
     let (open, broken): (Vec<_>, Vec<_>) = made.broken.iter().partition(|r| made.is_open(r));
@@ -62,7 +62,7 @@ pub fn of_all(designs: &[BestDesign]) -> String {
     let made: Vec<&Confirmation> =
         designs.iter().filter_map(|best| best.confirmation.as_ref()).collect();
     let Some(first) = made.first() else { return String::new() };
-    let fresh = sweep::number::text(first.fresh as f64);
+    let fresh = text::number::text(first.fresh as f64);
     let mut text = format!(
         "  Quantiles and yields come from {fresh} new samples of each design; front.csv has their intervals and the values of the search. Differences smaller than an interval are not significant\n"
     );

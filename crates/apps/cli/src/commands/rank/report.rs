@@ -217,7 +217,7 @@ fn shown_cells(results: &Results, preferences: &Preferences, row: usize) -> Vec<
             }
             Ok(_) if column == "design" => text.into_owned(),
             // 12 digits identify the design and hide the round-off of a division by the thickness.
-            Ok(number) if parameter_of(column).is_some() => sweep::number::rounded(number, 12),
+            Ok(number) if parameter_of(column).is_some() => text::number::rounded(number, 12),
             Ok(number) => digits(number),
             _ => text.into_owned(),
         }

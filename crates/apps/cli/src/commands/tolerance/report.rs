@@ -114,7 +114,7 @@ fn percent(share: f64) -> String {
 
 /// Formats a value with three digits.
 fn short(value: f64) -> String {
-    sweep::number::rounded(value, 3)
+    text::number::rounded(value, 3)
 }
 
 /// Lists the designs with the highest yield, or in their order without requirements.

@@ -1,34 +1,43 @@
-//! Texts as they are shown to people: nothing in them is hidden, turns the line around or fills the screen.
+//! Prepares text for messages: escapes invisible characters, shortens, joins lines.
 
 use std::borrow::Cow;
 
-/// Characters of a message, at most.
+/// Maximum number of characters of a message.
 const LONGEST: usize = 600;
 
-/// Characters at the end of a message that is cut, where it says what would be right.
+/// Number of characters kept at the end of a shortened message, where it states the expected value.
 const END: usize = 250;
 
-/// `text` with the characters escaped that a terminal or a page would obey instead of showing them.
+/// Escapes the characters that a terminal or a browser would interpret.
 pub fn visible(text: &str) -> Cow<'_, str> {
-    // Nearly every text is as it should be, and is not copied.
+    // Avoid the copy: nearly no text has such characters.
     if !text.contains(is_hidden) {
         return text.into();
     }
-    let shown = |c: char| if is_hidden(c) { c.escape_unicode().to_string() } else { c.to_string() };
-    text.chars().map(shown).collect::<String>().into()
+    let mut escaped = String::with_capacity(text.len());
+    for c in text.chars() {
+        if is_hidden(c) {
+            escaped.extend(c.escape_unicode());
+        } else {
+            escaped.push(c);
+        }
+    }
+    escaped.into()
 }
 
-/// Whether a character controls the text around it: control characters but for the end of a line, the marks of writing
-/// direction of Unicode's bidirectional algorithm (UAX 9), and what has no width.
+/// Returns true for control characters other than newline and for invisible characters.
+///
+/// Invisible are zero-width characters and the direction marks of Unicode's bidirectional
+/// algorithm (UAX 9).
 fn is_hidden(c: char) -> bool {
     (c.is_control() && c != '\n')
         || matches!(c, '\u{61c}' | '\u{200b}' | '\u{200e}' | '\u{200f}' | '\u{feff}')
         || matches!(c, '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// A message of at most a few hundred characters: of a longer one the middle is left out and counted.
+/// Replaces the middle of a long message by the number of omitted characters.
 pub fn shortened(message: &str) -> Cow<'_, str> {
-    // Characters, because cutting between the bytes of one would panic.
+    // Count characters: a byte offset within a character would panic.
     let count = message.chars().count();
     if count <= LONGEST {
         return message.into();
@@ -38,19 +47,30 @@ pub fn shortened(message: &str) -> Cow<'_, str> {
     format!("{begin} … {} more characters … {end}", count - LONGEST).into()
 }
 
+/// Trims the lines of `message` and joins them by commas.
+pub fn one_line(message: &str) -> String {
+    message.lines().map(str::trim).collect::<Vec<_>>().join(", ")
+}
+
+/// Returns the message of an operating system error without its error number.
+pub fn reason(error: &std::io::Error) -> String {
+    let text = error.to_string();
+    text.split(" (os error").next().unwrap_or(&text).to_owned()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn what_cannot_be_seen_is_escaped() {
+    fn invisible_characters_are_escaped() {
         let texts = ["größe 1\n", "a\u{202e}b", "\u{1b}[31mred", "tab\there"];
         let shown = ["größe 1\n", "a\\u{202e}b", "\\u{1b}[31mred", "tab\\u{9}here"];
         assert_eq!(texts.map(visible), shown);
     }
 
     #[test]
-    fn a_long_message_keeps_both_ends() {
+    fn a_shortened_message_keeps_both_ends() {
         let message = format!("x.toml:1: name: {}, expected a name", "a".repeat(100_000));
         let short = shortened(&message);
         assert!(short.starts_with("x.toml:1: name: aaa") && short.ends_with("a, expected a name"));

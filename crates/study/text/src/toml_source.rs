@@ -5,6 +5,8 @@ use std::sync::Arc;
 
 use toml::de::{DeTable, DeValue};
 
+use crate::message::one_line;
+
 /// The place of a key or a value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Place {
@@ -122,11 +124,6 @@ pub fn parse(text: &str, name: &str) -> Result<KeyValues, SyntaxError> {
     if mistakes.is_empty() { Ok(source.table(table.get_ref())) } else { Err(SyntaxError(mistakes)) }
 }
 
-/// The lines of `message`, trimmed and joined by commas.
-pub fn one_line(message: &str) -> String {
-    message.lines().map(str::trim).collect::<Vec<_>>().join(", ")
-}
-
 /// A document with its name, from which the places of keys are found.
 struct Document<'a> {
     text: &'a str,
@@ -205,7 +202,7 @@ fn value_of(value: &DeValue<'_>, place: &dyn Fn(usize) -> Place) -> Value {
 ///
 /// # Errors
 /// If it opens a string, list or table and is no TOML.
-pub(crate) fn parse_argument(text: &str, place: &Place) -> Result<Value, String> {
+pub fn parse_argument(text: &str, place: &Place) -> Result<Value, String> {
     let text = text.trim();
     let error = match DeValue::parse(text) {
         Ok(value) => return Ok(value_of(value.get_ref(), &|_| place.clone())),

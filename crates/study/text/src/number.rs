@@ -1,10 +1,10 @@
-//! Numbers as text.
+//! Writes numbers as text.
 
 use std::fmt::{self, Write};
 
-/// The shortest text that reads back as `value`: `0.3`, `1`, `1e-7`.
+/// Returns the shortest text that reads back as `value`: `0.3`, `1`, `1e-7`.
 ///
-/// Very small and very large numbers take the exponent form, which spreadsheets read as well.
+/// Very small and very large numbers are written with an exponent, which spreadsheets read as well.
 pub fn text(value: f64) -> String {
     let mut text = String::new();
     // Writing to a string cannot fail.
@@ -12,20 +12,20 @@ pub fn text(value: f64) -> String {
     text
 }
 
-/// The text of `value` rounded to so many significant digits, without zeros at its end.
+/// Rounds `value` to `digits` significant digits and omits trailing zeros.
 pub fn rounded(value: f64, digits: usize) -> String {
-    // Through decimal text: what is multiplied and divided by powers of ten has digits of its own behind the last.
+    // Round in decimal text: scaling by a power of ten would add round-off digits.
     let rounded = format!("{value:.0$e}", digits.saturating_sub(1)).parse();
     rounded.map_or_else(|_| value.to_string(), text)
 }
 
-/// Writes what [`text`] returns.
+/// Writes the shortest text of `value`; see [`text`].
 ///
 /// # Errors
-/// Those of the writer.
+/// Returns the errors of the writer.
 pub fn write(to: &mut impl Write, value: f64) -> fmt::Result {
     let size = value.abs();
-    // Minus zero, too, which Rust writes as `-0`.
+    // Includes minus zero, which Rust writes as `-0`.
     if size == 0.0 {
         to.write_char('0')
     } else if (1e-5..1e15).contains(&size) {
@@ -43,13 +43,13 @@ mod tests {
     use super::{rounded, text};
 
     #[test]
-    fn numbers_are_as_short_as_they_can_be() {
+    fn numbers_take_their_shortest_text() {
         let texts = [0.1 + 0.2, 1.0, -0.0, 1e-7, 12345.0, 1e15, 9677.0, -1.5e-12].map(text);
         assert_eq!(texts.join(" "), "0.30000000000000004 1 0 1e-7 12345 1e15 9677 -1.5e-12");
     }
 
     #[test]
-    fn numbers_are_rounded_without_zeros_at_their_ends() {
+    fn rounded_numbers_have_no_trailing_zeros() {
         let texts = [0.114_362_956_956, 0.3, 57.670_830_9, 1_234_567.0, 0.0, f64::INFINITY];
         let texts = texts.map(|value| rounded(value, 6));
         assert_eq!(texts.join(" "), "0.114363 0.3 57.6708 1234570 0 inf");

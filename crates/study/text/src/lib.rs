@@ -1,0 +1,17 @@
+//! Text helpers that all crates of a study share. The crate depends on no other crate of the
+//! workspace.
+//!
+//! | Item | Role |
+//! |---|---|
+//! | [`number`] | writes numbers as the shortest text, or rounded to significant digits |
+//! | [`visible`], [`shortened`], [`one_line`], [`reason`] | make text safe and short enough for a message |
+//! | [`nearest`], [`has_part`] | suggest the name that a misspelled one may mean |
+//! | [`toml_source`] | parses TOML and keeps the line of each key |
+
+mod message;
+mod nearest;
+pub mod number;
+pub mod toml_source;
+
+pub use message::{one_line, reason, shortened, visible};
+pub use nearest::{has_part, nearest};
