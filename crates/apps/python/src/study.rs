@@ -20,7 +20,7 @@ use ranking::{
     Criterion, Goal, Preferences, Ranking, Requirement, TetrahedralGrid, Weights, ranking_columns,
 };
 use rayon::prelude::*;
-use results::{Completeness, Results, RunFolder, VerifiedFolder};
+use results::{Completeness, Results, ResultsFolder, VerifiedFolder};
 use sweep::{Setting, Subset, Sweep};
 
 use crate::error::{self, OrFailed as _};
@@ -115,9 +115,9 @@ fn results(folder: &Path, file: &'static str) -> PyResult<Results> {
 #[pyfunction]
 pub fn read(py: Python<'_>, folder: PathBuf) -> PyResult<Vec<(String, Py<PyAny>)>> {
     let columns = watched(py, None, move |watch| {
-        let files = [RunFolder::DESIGNS, OPTIMUM, FRONT];
+        let files = [ResultsFolder::DESIGNS, OPTIMUM, FRONT];
         let file = files.into_iter().find(|file| folder.join(file).is_file());
-        let results = results(&folder, file.unwrap_or(RunFolder::DESIGNS))?;
+        let results = results(&folder, file.unwrap_or(ResultsFolder::DESIGNS))?;
         let mut columns = Vec::new();
         for (column, name) in results.header().iter().enumerate() {
             if watch.stop.load(Ordering::Relaxed) {
@@ -161,7 +161,7 @@ pub fn rank(
     let weights = weights.map(|of| Weights::new(&of)).transpose().or_failed("rank")?;
     let preferences = Preferences::new(requirements, criteria, weights, ranking::Scale::Paper);
     let preferences = preferences.or_failed("rank")?;
-    let results = results(&folder, RunFolder::DESIGNS)?;
+    let results = results(&folder, ResultsFolder::DESIGNS)?;
     ranking::check_comparable(&results, &preferences).or_failed("rank")?;
     let ranking = Ranking::by(&results, preferences, TetrahedralGrid::default());
     let ranking = ranking.or_failed("rank")?;
@@ -188,7 +188,7 @@ pub fn optimise(
         let options = SearchOptions { threads, start, stop: &watch.stop, progress: &watch.search };
         let found = optimisation::optimise(&goal, &place, &options, &PROGRAM);
         let Some(found) = found.or_failed("optimise")? else { return Err(interrupted()) };
-        let folder = RunFolder::new(&place);
+        let folder = ResultsFolder::new(&place);
         let written = write_found(&folder, &goal, &found, &[], folder.csv_format());
         written.or_failed("optimise").map(|_| found.answer)
     })?;

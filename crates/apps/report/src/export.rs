@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 use rust_xlsxwriter::{DocProperties, ExcelDateTime, Workbook, Worksheet, XlsxError};
 
 use ranking::InvalidPreferences;
-use results::{CsvFormat, InvalidFolder, OutputError, RunFolder, VerifiedFolder, words};
+use results::{CsvFormat, InvalidFolder, OutputError, ResultsFolder, VerifiedFolder, words};
 use text::reason;
 
 use measure_chart::MeasureChart;
@@ -109,11 +109,11 @@ pub fn export(
     let name = name.ok_or_else(|| ExportError::NoWorkbook { file: file.to_owned() })?;
     let mut others = others.to_vec();
     others.retain(|table| results.holds(table.file));
-    if !results.holds(RunFolder::DESIGNS) && others.is_empty() {
+    if !results.holds(ResultsFolder::DESIGNS) && others.is_empty() {
         return Err(ExportError::NoDesigns { folder: results.path().to_owned() });
     }
     let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
-    let folder = &RunFolder::new(folder.unwrap_or(Path::new(".")));
+    let folder = &ResultsFolder::new(folder.unwrap_or(Path::new(".")));
     folder.make()?;
     // The writer of workbooks panics if its temporary file cannot be written.
     let written = catch_unwind(AssertUnwindSafe(|| write(results, &others, folder, name)));
@@ -123,7 +123,7 @@ pub fn export(
 fn write(
     results: &VerifiedFolder,
     others: &[OtherTable],
-    folder: &RunFolder,
+    folder: &ResultsFolder,
     name: &str,
 ) -> Result<Exported, ExportError> {
     let failed = |error: XlsxError| match error {
@@ -136,13 +136,13 @@ fn write(
     workbook.set_tempdir(folder.path()).map_err(failed)?;
     let mut guide = Guide::new(&mut workbook).map_err(failed)?;
     let (mut tables, mut pages, mut best) = (Vec::new(), Vec::new(), BestValues::default());
-    let is_run = results.holds(RunFolder::DESIGNS);
+    let is_run = results.holds(ResultsFolder::DESIGNS);
     let all = others.iter().map(|table| table.file.to_owned());
     for file in results.tables().into_iter().chain(all) {
         let table = file.trim_end_matches(".csv").to_owned();
         let path = results.path().join(&file);
         let (profiles, values) = look_over((&path, results.file(&file)?))?;
-        if file == RunFolder::DESIGNS {
+        if file == ResultsFolder::DESIGNS {
             best = values;
         }
         let sheet = Sheet::new(&mut workbook, &table, &profiles).map_err(failed)?;
@@ -231,7 +231,7 @@ fn open(file: File) -> io::Result<(CsvFormat, csv::Reader<BufReader<File>>)> {
     Ok((format, format.reader(file)))
 }
 
-fn unwritable(folder: &RunFolder, name: &str, reason: &str) -> ExportError {
+fn unwritable(folder: &ResultsFolder, name: &str, reason: &str) -> ExportError {
     OutputError::file(&folder.file(name), &io::Error::other(reason.to_owned())).into()
 }
 

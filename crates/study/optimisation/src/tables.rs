@@ -3,7 +3,7 @@
 use journal::JournalError;
 use results::columns::{Cell, design_columns};
 use results::{
-    Claim, Column, CsvFormat, DesignRow, Maker, RunFolder, WrittenTable, finite, write_rows,
+    Claim, Column, CsvFormat, DesignRow, Maker, ResultsFolder, WrittenTable, finite, write_rows,
 };
 
 use crate::answer::Answer;
@@ -146,7 +146,7 @@ fn cells(
     columns: impl Iterator<Item = (String, &'static str, &'static str)>,
 ) -> Vec<Column<Cells>> {
     let column = |(index, (name, unit, meaning)): (usize, (String, _, _))| {
-        Column::made(name.into(), unit, meaning, move |row: &Cells| row[index].clone())
+        Column::computed(name.into(), unit, meaning, move |row: &Cells| row[index].clone())
     };
     columns.enumerate().map(column).collect()
 }
@@ -157,7 +157,7 @@ fn cells(
 /// # Errors
 /// If the search found something else before in the same journal, or the folder or the disk does not take them.
 pub fn write_found(
-    folder: &RunFolder,
+    folder: &ResultsFolder,
     goal: &DesignGoal,
     found: &Found,
     figures: &[(String, String)],
@@ -216,7 +216,7 @@ fn found_tables(goal: &DesignGoal, found: &Found) -> Vec<FoundTable> {
 
 /// Refuses tables that say something else than those of the same search in `folder` that are as they were written: it finds the same
 /// again in a journal that is as it was.
-fn refuse_edited(folder: &RunFolder, tables: &[FoundTable]) -> Result<(), JournalError> {
+fn refuse_edited(folder: &ResultsFolder, tables: &[FoundTable]) -> Result<(), JournalError> {
     let Some(stated) = Claim::stated(folder, Maker::Search) else { return Ok(()) };
     for FoundTable { name, columns, rows } in tables {
         let Some(table) = WrittenTable::as_stated(folder, name, &stated) else { continue };
@@ -230,7 +230,7 @@ fn refuse_edited(folder: &RunFolder, tables: &[FoundTable]) -> Result<(), Journa
         let first = changed?.into_iter().next();
         if let Some(line) = first.or_else(|| rows.next().map(|row| row[0].to_string())) {
             return Err(JournalError::Edited {
-                path: folder.file(RunFolder::EVALUATIONS),
+                path: folder.file(ResultsFolder::EVALUATIONS),
                 line: format!("{} {line}", columns[0].name),
                 table: (*name).to_owned(),
                 again: "with --fresh",

@@ -10,7 +10,9 @@ use std::path::Path;
 
 use rayon::prelude::*;
 use results::columns::parameter_of;
-use results::{Claim, InvalidResults, Maker, OutputError, Results, RunFolder, Table, write_rows};
+use results::{
+    Claim, InvalidResults, Maker, OutputError, Results, ResultsFolder, Table, write_rows,
+};
 use sweep::Parameter;
 
 use matching::Matching;
@@ -287,16 +289,16 @@ impl Comparison<'_> {
     /// # Errors
     /// If the folder or the disk does not take them.
     fn write(&self, folder: &Path) -> Result<[&'static str; 2], OutputError> {
-        let folder = RunFolder::new(folder);
+        let folder = ResultsFolder::new(folder);
         let claim = Claim::take(&folder, Maker::Comparison)?;
-        let [by_column, by_cell] = RunFolder::COMPARISON;
+        let [by_column, by_cell] = ResultsFolder::COMPARISON;
         let format = self.first.format();
         write_rows(&folder, by_column, format, COMPARISON_COLUMNS, &self.columns)?;
         let parameters: Vec<_> = self.first.parameters().collect();
         let columns = difference_columns(&parameters);
         write_rows(&folder, by_cell, format, &columns, self.differences())?;
-        claim.state(&RunFolder::COMPARISON)?;
-        Ok(RunFolder::COMPARISON)
+        claim.state(&ResultsFolder::COMPARISON)?;
+        Ok(ResultsFolder::COMPARISON)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Designs whose values cannot be compared, because they are not measured alike.
 
-use results::{InvalidResults, Results, yardsticks};
+use results::{InvalidResults, Results, measurement_conditions};
 use sweep::{PARAMETERS, Parameter, Role};
 use text::number;
 
@@ -100,7 +100,8 @@ fn differing(
     let mut found = Vec::new();
     for Parameter { key, .. } in PARAMETERS {
         let mut columns = preferences.criteria.iter().map(|criterion| criterion.column.as_ref());
-        let Some(column) = columns.find(|column| yardsticks(column).contains(key)) else {
+        let Some(column) = columns.find(|column| measurement_conditions(column).contains(key))
+        else {
             continue;
         };
         let values = values(results, preferences, key)?;

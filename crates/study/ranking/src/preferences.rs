@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use results::{InvalidFolder, RunFolder, VerifiedFolder};
+use results::{InvalidFolder, ResultsFolder, VerifiedFolder};
 use text::number;
 use text::toml_source::{self, KeyValue, Place, SyntaxError, Value, quoted};
 
@@ -122,11 +122,11 @@ impl Preferences {
     /// # Errors
     /// If the file cannot be read, or is not as `squama rank` wrote it.
     pub fn read(folder: &VerifiedFolder) -> Result<Option<Self>, InvalidPreferences> {
-        if !folder.holds(RunFolder::PREFERENCES) {
+        if !folder.holds(ResultsFolder::PREFERENCES) {
             return Ok(None);
         }
-        let text = folder.text(RunFolder::PREFERENCES)?;
-        let name = folder.path().join(RunFolder::PREFERENCES);
+        let text = folder.text(ResultsFolder::PREFERENCES)?;
+        let name = folder.path().join(ResultsFolder::PREFERENCES);
         Self::parse(&text, &name.display().to_string()).map(Some)
     }
 

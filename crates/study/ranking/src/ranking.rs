@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use results::columns::{name, parameter_of};
 use results::round_off::ROUND_OFF;
 use results::{
-    Claim, InvalidResults, Maker, OutputError, Results, RunFolder, VerifiedFolder, write_rows,
+    Claim, InvalidResults, Maker, OutputError, Results, ResultsFolder, VerifiedFolder, write_rows,
 };
 
 use crate::criterion::Criterion;
@@ -343,18 +343,18 @@ pub fn write_ranking(
     folder: &Path,
     ranking: &Ranking<'_>,
 ) -> Result<(Vec<&'static str>, File), OutputError> {
-    let folder = RunFolder::new(folder);
+    let folder = ResultsFolder::new(folder);
     // Removes the earlier tables: those for all weights would outlive a change of the criteria.
     let claim = Claim::take(&folder, Maker::Ranking)?;
     let parameters: Vec<_> = ranking.results.parameters().collect();
-    let [by_fitness, pareto, winners, quaternary] = RunFolder::RANKING;
+    let [by_fitness, pareto, winners, quaternary] = ResultsFolder::RANKING;
     let format = ranking.results.format();
     let (parameters, preferences) = (&parameters, &ranking.preferences);
     let rows = ranking.by_fitness(preferences.weights);
     write_rows(&folder, by_fitness, format, &ranking_columns(parameters, preferences), rows)?;
     write_rows(&folder, pareto, format, &pareto_columns(parameters, preferences), ranking.front())?;
-    folder.write_text(RunFolder::PREFERENCES, &preferences.to_toml())?;
-    let mut files = vec![by_fitness, pareto, RunFolder::PREFERENCES];
+    folder.write_text(ResultsFolder::PREFERENCES, &preferences.to_toml())?;
+    let mut files = vec![by_fitness, pareto, ResultsFolder::PREFERENCES];
     if preferences.criteria.len() == FOUR {
         write_rows(
             &folder,
@@ -385,10 +385,10 @@ pub fn write_unmet(
     folder: &Path,
     preferences: &Preferences,
 ) -> Result<(&'static str, File), OutputError> {
-    let folder = RunFolder::new(folder);
+    let folder = ResultsFolder::new(folder);
     let claim = Claim::take(&folder, Maker::Ranking)?;
     // Kept although no design meets them: the page of the run opens with these requirements.
-    folder.write_text(RunFolder::PREFERENCES, &preferences.to_toml())?;
-    let lock = claim.state(&[RunFolder::PREFERENCES])?;
-    Ok((RunFolder::PREFERENCES, lock))
+    folder.write_text(ResultsFolder::PREFERENCES, &preferences.to_toml())?;
+    let lock = claim.state(&[ResultsFolder::PREFERENCES])?;
+    Ok((ResultsFolder::PREFERENCES, lock))
 }

@@ -1,10 +1,10 @@
 //! The one list of columns: every table, and every explanation of a column, comes from here.
 
+mod builders;
 pub mod cell;
 mod column;
-mod entry;
+mod derived_columns;
 mod failures;
-mod made;
 pub(crate) mod measured_value;
 pub mod name;
 mod path;
@@ -18,9 +18,9 @@ use std::borrow::Borrow;
 use sweep::{Axis, Measure, Parameter, Role, Sweep, key};
 
 use crate::design::row::{DesignRow, FailureRow};
-use crate::folder::{MEASURE_TABLES, RunFolder};
+use crate::folder::{MEASURE_TABLES, ResultsFolder};
 use crate::quantity::Quantity;
-use made::{COLUMNS, ValueColumn};
+use derived_columns::{COLUMNS, ValueColumn};
 use tilts::{explain_tilt_value, tilt_columns};
 use values::VALUES;
 
@@ -102,10 +102,12 @@ pub struct TableLayout {
 /// The tables of `sweep`: `designs.csv`, and those of the measures that it asks for.
 pub fn tables(sweep: &Sweep) -> Vec<TableLayout> {
     let asked = MEASURE_TABLES.iter().filter(|(_, measure)| sweep.measures().contains(measure));
-    let mut tables =
-        vec![TableLayout { file: RunFolder::DESIGNS.to_owned(), columns: design_columns(sweep) }];
+    let mut tables = vec![TableLayout {
+        file: ResultsFolder::DESIGNS.to_owned(),
+        columns: design_columns(sweep),
+    }];
     tables.extend(asked.map(|(table, _)| TableLayout {
-        file: RunFolder::measure_table(table),
+        file: ResultsFolder::measure_table(table),
         columns: columns(sweep, Some(table)),
     }));
     tables

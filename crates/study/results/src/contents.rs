@@ -16,7 +16,7 @@ use std::path::Path;
 use journal::{OutputError, read_text, sha256, sha256_of};
 use serde::{Deserialize, Serialize};
 
-use crate::folder::RunFolder;
+use crate::folder::ResultsFolder;
 
 /// The line that seals the text before it.
 const SEAL: &str = "sha256_of_the_above = ";
@@ -64,7 +64,7 @@ impl Contents {
     ///
     /// # Errors
     /// If the folder or the disk does not take them.
-    pub fn write(&self, folder: &RunFolder) -> Result<(), OutputError> {
+    pub fn write(&self, folder: &ResultsFolder) -> Result<(), OutputError> {
         // Numbers and texts always have a form in TOML.
         let table = toml::to_string(self).unwrap_or_default();
         let text = format!(
@@ -73,13 +73,13 @@ impl Contents {
         );
         // Over the text as it stands, not over what it says: an edit that keeps the meaning is one too.
         let sealed = format!("# {SEAL}{}\n{text}", sha256(&text));
-        folder.write_text(RunFolder::CONTENTS, &sealed).map(|_| ())
+        folder.write_text(ResultsFolder::CONTENTS, &sealed).map(|_| ())
     }
 
     /// The contents that are stated in `folder`, if they are there and sound.
-    pub fn stated_in(folder: &RunFolder) -> Option<Self> {
+    pub fn stated_in(folder: &ResultsFolder) -> Option<Self> {
         // What is wrong with a damaged statement `VerifiedFolder` says; here it is as good as none.
-        let text = read_text(&folder.file(RunFolder::CONTENTS)).ok()?;
+        let text = read_text(&folder.file(ResultsFolder::CONTENTS)).ok()?;
         Self::parse(&text).ok()
     }
 
@@ -101,7 +101,7 @@ impl Contents {
     /// The tables that it states, as one SHA-256: the same for equal tables, whenever they were written.
     pub fn digest(&self) -> String {
         // The record of the run says when it was.
-        let tables = self.files.iter().filter(|(name, _)| *name != RunFolder::RUN_INFO);
+        let tables = self.files.iter().filter(|(name, _)| *name != ResultsFolder::RUN_INFO);
         let lines = tables.map(|(name, digest)| format!("{digest}  {name}\n"));
         sha256(lines.collect::<String>())
     }

@@ -49,7 +49,7 @@ impl Maker {
     pub(crate) fn names(self) -> (&'static str, &'static str) {
         match self {
             Self::Run => ("run", "squama run"),
-            Self::Ranking => (RunFolder::RANKING_RECORD, "squama rank"),
+            Self::Ranking => (ResultsFolder::RANKING_RECORD, "squama rank"),
             Self::Comparison => ("comparison", "squama compare"),
             Self::Design => ("design", "squama design"),
             Self::Search => ("search", "squama optimise"),
@@ -99,26 +99,26 @@ const fn plain(name: &'static str, maker: Maker, role: Role) -> FileEntry {
 /// Every file of a fixed name that squama leaves in a folder of results, in the order in which people read them.
 pub static FILES: [FileEntry; 47] = [
     // A journal grows behind what is stated of it: each of its lines bears a checksum instead.
-    plain(RunFolder::JOURNAL, Maker::Run, Role::Journal),
-    stated(RunFolder::DESIGNS, Maker::Run, Role::Table),
+    plain(ResultsFolder::JOURNAL, Maker::Run, Role::Journal),
+    stated(ResultsFolder::DESIGNS, Maker::Run, Role::Table),
     stated("coverage.csv", Maker::Run, Role::Table),
     stated("critical_force.csv", Maker::Run, Role::Table),
     stated("penetration.csv", Maker::Run, Role::Table),
     stated("compliance.csv", Maker::Run, Role::Table),
-    stated(RunFolder::SENSITIVITY, Maker::Run, Role::Table),
-    stated(RunFolder::FAILURES, Maker::Run, Role::Table),
-    stated(RunFolder::RERUNS, Maker::Run, Role::Table),
-    stated(RunFolder::RUN_INFO, Maker::Run, Role::Record),
-    plain(RunFolder::CONTENTS, Maker::Run, Role::Statement),
-    stated(RunFolder::RANKING[0], Maker::Ranking, Role::Table),
-    stated(RunFolder::RANKING[1], Maker::Ranking, Role::Table),
-    stated(RunFolder::RANKING[2], Maker::Ranking, Role::Table),
-    stated(RunFolder::RANKING[3], Maker::Ranking, Role::Table),
+    stated(ResultsFolder::SENSITIVITY, Maker::Run, Role::Table),
+    stated(ResultsFolder::FAILURES, Maker::Run, Role::Table),
+    stated(ResultsFolder::RERUNS, Maker::Run, Role::Table),
+    stated(ResultsFolder::RUN_INFO, Maker::Run, Role::Record),
+    plain(ResultsFolder::CONTENTS, Maker::Run, Role::Statement),
+    stated(ResultsFolder::RANKING[0], Maker::Ranking, Role::Table),
+    stated(ResultsFolder::RANKING[1], Maker::Ranking, Role::Table),
+    stated(ResultsFolder::RANKING[2], Maker::Ranking, Role::Table),
+    stated(ResultsFolder::RANKING[3], Maker::Ranking, Role::Table),
     // Workbook and page read from it what the ranking goes by: a changed one would lie about it.
-    stated(RunFolder::PREFERENCES, Maker::Ranking, Role::Record),
-    stated(RunFolder::COMPARISON[0], Maker::Comparison, Role::Table),
-    stated(RunFolder::COMPARISON[1], Maker::Comparison, Role::Table),
-    plain(RunFolder::EVALUATIONS, Maker::Search, Role::Journal),
+    stated(ResultsFolder::PREFERENCES, Maker::Ranking, Role::Record),
+    stated(ResultsFolder::COMPARISON[0], Maker::Comparison, Role::Table),
+    stated(ResultsFolder::COMPARISON[1], Maker::Comparison, Role::Table),
+    plain(ResultsFolder::EVALUATIONS, Maker::Search, Role::Journal),
     stated("goal.toml", Maker::Search, Role::Record),
     stated("history.csv", Maker::Search, Role::Record),
     stated("optimum.csv", Maker::Search, Role::Record),
@@ -134,20 +134,20 @@ pub static FILES: [FileEntry; 47] = [
     stated("residuals.svg", Maker::Fit, Role::Record),
     stated("fitted.toml", Maker::Fit, Role::Record),
     plain("design.toml", Maker::Design, Role::Record),
-    plain(RunFolder::MEASURES, Maker::Design, Role::Record),
+    plain(ResultsFolder::MEASURES, Maker::Design, Role::Record),
     // A name that runs have too: who looks it up finds the entry of the run, which stands first and is checked.
-    plain(RunFolder::SENSITIVITY, Maker::Design, Role::Record),
-    plain(RunFolder::PUNCTURE[0], Maker::Design, Role::Record),
-    plain(RunFolder::PUNCTURE[1], Maker::Design, Role::Record),
-    plain(RunFolder::PUNCTURE[2], Maker::Design, Role::Record),
-    plain(RunFolder::PUNCTURE[3], Maker::Design, Role::Record),
-    plain(RunFolder::FLEXURE[0], Maker::Design, Role::Record),
-    plain(RunFolder::FLEXURE[1], Maker::Design, Role::Record),
-    plain(RunFolder::FLEXURE[2], Maker::Design, Role::Record),
-    plain(RunFolder::FLEXURE[3], Maker::Design, Role::Record),
-    plain(RunFolder::WAY_BACK[0], Maker::Design, Role::Record),
-    plain(RunFolder::WAY_BACK[1], Maker::Design, Role::Record),
-    plain(RunFolder::PLACES, Maker::Design, Role::Record),
+    plain(ResultsFolder::SENSITIVITY, Maker::Design, Role::Record),
+    plain(ResultsFolder::PUNCTURE[0], Maker::Design, Role::Record),
+    plain(ResultsFolder::PUNCTURE[1], Maker::Design, Role::Record),
+    plain(ResultsFolder::PUNCTURE[2], Maker::Design, Role::Record),
+    plain(ResultsFolder::PUNCTURE[3], Maker::Design, Role::Record),
+    plain(ResultsFolder::FLEXURE[0], Maker::Design, Role::Record),
+    plain(ResultsFolder::FLEXURE[1], Maker::Design, Role::Record),
+    plain(ResultsFolder::FLEXURE[2], Maker::Design, Role::Record),
+    plain(ResultsFolder::FLEXURE[3], Maker::Design, Role::Record),
+    plain(ResultsFolder::WAY_BACK[0], Maker::Design, Role::Record),
+    plain(ResultsFolder::WAY_BACK[1], Maker::Design, Role::Record),
+    plain(ResultsFolder::PLACES, Maker::Design, Role::Record),
 ];
 
 impl FileEntry {
@@ -164,11 +164,11 @@ impl FileEntry {
 
 /// The folder of a run. It owns the names of all files that squama writes there and reads back.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct RunFolder {
+pub struct ResultsFolder {
     path: PathBuf,
 }
 
-impl RunFolder {
+impl ResultsFolder {
     /// The journal: every finished design, from which the tables are written.
     pub const JOURNAL: &'static str = "journal.jsonl";
     /// The name of the journal of a search.
@@ -345,10 +345,10 @@ mod tests {
         let names: BTreeSet<_> = FILES.iter().map(|file| (file.maker.key(), file.name)).collect();
         assert_eq!(names.len(), FILES.len());
         for (value, _) in MEASURE_TABLES {
-            let file = FileEntry::of(&RunFolder::measure_table(value)).expect("an entry");
+            let file = FileEntry::of(&ResultsFolder::measure_table(value)).expect("an entry");
             assert_eq!((file.maker, file.role), (Maker::Run, Role::Table));
         }
-        for name in RunFolder::RANKING.into_iter().chain([RunFolder::PREFERENCES]) {
+        for name in ResultsFolder::RANKING.into_iter().chain([ResultsFolder::PREFERENCES]) {
             assert!(FileEntry::of(name).is_some_and(|file| file.maker == Maker::Ranking));
         }
     }
@@ -357,7 +357,7 @@ mod tests {
     fn no_run_writes_over_a_file_of_a_stranger() {
         for file in FileEntry::products(Maker::Run) {
             let place = tempfile::tempdir().expect("a folder");
-            let folder = RunFolder::new(place.path());
+            let folder = ResultsFolder::new(place.path());
             fs::write(folder.file(file.name), "a stranger's").expect("writable");
             let refused = folder.require_own(Maker::Run, Start::Resume).expect_err(file.name);
             assert!(refused.to_string().contains(file.name), "{refused}");
@@ -370,10 +370,10 @@ mod tests {
     #[test]
     fn a_folder_has_one_maker() {
         for (maker, journal) in
-            [(Maker::Run, RunFolder::EVALUATIONS), (Maker::Search, RunFolder::JOURNAL)]
+            [(Maker::Run, ResultsFolder::EVALUATIONS), (Maker::Search, ResultsFolder::JOURNAL)]
         {
             let place = tempfile::tempdir().expect("a folder");
-            let folder = RunFolder::new(place.path());
+            let folder = ResultsFolder::new(place.path());
             fs::write(folder.file(journal), "").expect("writable");
             let refused = folder.require_own(maker, Start::Fresh).expect_err("another's");
             assert!(refused.to_string().contains("holds the results of a"), "{refused}");

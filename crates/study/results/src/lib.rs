@@ -18,7 +18,7 @@
 //! | [`mod@columns`], [`Column`], [`Cell`] | the list of everything that stands in a table |
 //! | [`Quantity`], [`areal_mass()`], [`puncture_units`], [`bending_units`] | from dimensionless values to millimetres, newtons and kilograms |
 //! | [`CsvFormat`], [`CsvFile`] | how tables are written |
-//! | [`RunFolder`], [`FILES`], [`FileEntry`] | the folder, and an entry for every file in it: name, maker, whether its SHA-256 is stated |
+//! | [`ResultsFolder`], [`FILES`], [`FileEntry`] | the folder, and an entry for every file in it: name, maker, whether its SHA-256 is stated |
 //! | [`write_measures`] | writes the measures of one design, a row each |
 //! | [`path_tables()`], [`PathTable`], [`write_path_tables`] | the paths, events, scales and iterations of one design, in memory and as files |
 //! | [`round_off`] | which numbers are the same but for round-off, and which of them is the best |
@@ -28,16 +28,16 @@
 //!
 //! ```
 //! use results::columns::design_columns;
-//! use results::{CsvFormat, DesignResult, DesignRow, Results, RunFolder, write_rows};
+//! use results::{CsvFormat, DesignResult, DesignRow, Results, ResultsFolder, write_rows};
 //! use sweep::Sweep;
 //!
 //! let sweep = Sweep::parse("name = 'x'\nmeasures = 'coverage'", "x.toml", &[])?;
 //! let (number, case) = (sweep.grid().number(2), sweep.grid().case(2));
 //! let result = DesignResult { coverage: Some(0.5), ..DesignResult::default() };
 //! let place = tempfile::tempdir()?;
-//! let (folder, columns) = (RunFolder::new(place.path()), design_columns(&sweep));
+//! let (folder, columns) = (ResultsFolder::new(place.path()), design_columns(&sweep));
 //! let rows = [DesignRow { number, case, result }];
-//! write_rows(&folder, RunFolder::DESIGNS, CsvFormat::Plain, &columns, &rows)?;
+//! write_rows(&folder, ResultsFolder::DESIGNS, CsvFormat::Plain, &columns, &rows)?;
 //!
 //! let results = Results::read(place.path())?;
 //! assert_eq!(results.design(0), "0003");
@@ -46,6 +46,7 @@
 //! ```
 
 pub mod columns;
+mod comparability;
 mod contents;
 mod design;
 mod folder;
@@ -54,14 +55,13 @@ mod path_tables;
 mod quantity;
 mod reader;
 pub mod round_off;
-mod shell;
 mod tables;
-mod yardstick;
 
 pub use columns::cell::Cell;
 pub use columns::{
     Column, DERIVATIVE_COLUMNS, RERUN_COLUMNS, failure_columns, failure_detail_columns,
 };
+pub use comparability::{incomparable_by, measurement_conditions};
 pub use contents::claim::Claim;
 pub use contents::derivation::Derivation;
 pub use contents::verified_folder::{Completeness, InvalidFolder, VerifiedFolder, verify_record};
@@ -76,7 +76,7 @@ pub use design::row::{DerivativeRow, DesignRow, FailureRow, SolvedDesign};
 pub use design::sample_statistics::{
     QUANTILES, SampleStatistics, Statistics, quantile, quantile_places,
 };
-pub use folder::{FILES, FileEntry, MEASURE_TABLES, Maker, Role, RunFolder};
+pub use folder::{FILES, FileEntry, MEASURE_TABLES, Maker, ResultsFolder, Role};
 pub use journal::{
     AtomicFile, OutputError, exit_without_partial_files, make_folder, sha256, sync_folder,
     write_text,
@@ -86,8 +86,6 @@ pub use path_tables::{PathTable, path_tables, write_path_tables};
 pub use quantity::{Quantity, areal_mass, bending_units, puncture_units};
 pub use reader::table::Table;
 pub use reader::{InvalidResults, Results, words};
-pub use shell::{quoted, shell_word};
 pub use tables::csv_file::{CsvFile, write_rows};
 pub use tables::csv_format::{CsvFormat, UnknownCsvFormat};
 pub use tables::written_table::WrittenTable;
-pub use yardstick::{incomparable_by, yardsticks};

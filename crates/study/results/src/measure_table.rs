@@ -6,7 +6,7 @@ use std::borrow::Cow;
 use crate::columns;
 use crate::columns::{Cell, Column};
 use crate::design::row::DesignRow;
-use crate::folder::RunFolder;
+use crate::folder::ResultsFolder;
 use crate::tables::csv_file::write_rows;
 
 /// A cell of `designs.csv` with all that is to be known of its column.
@@ -31,7 +31,7 @@ pub static MEASURE_COLUMNS: &[Column<DesignMeasure>] = &columns! { DesignMeasure
 /// # Errors
 /// If the folder or the disk does not take it.
 pub fn write_measures(
-    folder: &RunFolder,
+    folder: &ResultsFolder,
     columns: &[Column<DesignRow>],
     row: &DesignRow,
 ) -> Result<&'static str, OutputError> {
@@ -43,10 +43,10 @@ pub fn write_measures(
     };
     write_rows(
         folder,
-        RunFolder::MEASURES,
+        ResultsFolder::MEASURES,
         folder.csv_format(),
         MEASURE_COLUMNS,
         columns.iter().map(measure),
     )?;
-    Ok(RunFolder::MEASURES)
+    Ok(ResultsFolder::MEASURES)
 }

@@ -10,7 +10,7 @@ use crate::columns::{
     tip_force_columns,
 };
 use crate::design::row::SolvedDesign;
-use crate::folder::RunFolder;
+use crate::folder::ResultsFolder;
 use crate::tables::csv_file::write_rows;
 
 /// A table of the paths of one design.
@@ -30,7 +30,7 @@ impl PathTable {
         let filled = |column: &Column<R>| {
             let cells: Vec<Cell> = rows.iter().map(|row| column.cell(row)).collect();
             let cell = move |&row: &usize| cells[row].clone();
-            Column::made(column.name.clone(), column.unit, column.meaning, cell)
+            Column::computed(column.name.clone(), column.unit, column.meaning, cell)
         };
         Self { file, columns: columns.iter().map(filled).collect(), rows: rows.len() }
     }
@@ -48,7 +48,7 @@ pub fn path_tables(solved: &SolvedDesign) -> Vec<PathTable> {
     }
     if !row.result.sensitivity.is_empty() {
         let rows: Vec<_> = row.derivatives().collect();
-        tables.push(PathTable::new(RunFolder::SENSITIVITY, DERIVATIVE_COLUMNS, &rows));
+        tables.push(PathTable::new(ResultsFolder::SENSITIVITY, DERIVATIVE_COLUMNS, &rows));
     }
     tables
 }
@@ -58,7 +58,7 @@ pub fn path_tables(solved: &SolvedDesign) -> Vec<PathTable> {
 /// # Errors
 /// If the folder or the disk does not take them.
 pub fn write_path_tables(
-    folder: &RunFolder,
+    folder: &ResultsFolder,
     solved: &SolvedDesign,
 ) -> Result<Vec<&'static str>, OutputError> {
     let format = folder.csv_format();
@@ -69,7 +69,7 @@ pub fn write_path_tables(
 }
 
 fn of_puncture(puncture: &Puncture) -> Vec<PathTable> {
-    let [path, events, scales, steps] = RunFolder::PUNCTURE;
+    let [path, events, scales, steps] = ResultsFolder::PUNCTURE;
     let mut columns = path_columns(!puncture.measures.passage.is_none(), puncture.has_friction());
     let points = puncture.path.iter().copied().zip(puncture.instability.iter().copied());
     let mut tables = vec![
@@ -85,16 +85,16 @@ fn of_puncture(puncture: &Puncture) -> Vec<PathTable> {
         columns.retain(|column| !column.name.starts_with("unstable"));
         let points = back.path.iter().map(|&point| (point, Instability::default()));
         let points: Vec<_> = points.collect();
-        tables.push(PathTable::new(RunFolder::WAY_BACK[0], &columns, &points));
+        tables.push(PathTable::new(ResultsFolder::WAY_BACK[0], &columns, &points));
     }
     if !puncture.places.is_empty() {
-        tables.push(PathTable::new(RunFolder::PLACES, LOADED_PLACES, &puncture.places));
+        tables.push(PathTable::new(ResultsFolder::PLACES, LOADED_PLACES, &puncture.places));
     }
     tables
 }
 
 fn of_flexure(flexure: &Flexure) -> Vec<PathTable> {
-    let [path, events, scales, steps] = RunFolder::FLEXURE;
+    let [path, events, scales, steps] = ResultsFolder::FLEXURE;
     let columns = flexure_path_columns(flexure.has_friction());
     // A path that never began has no shape, and its table no rows.
     let shape = flexure.shape(flexure.path.len().saturating_sub(1)).unwrap_or_default();
@@ -106,7 +106,7 @@ fn of_flexure(flexure: &Flexure) -> Vec<PathTable> {
         PathTable::new(steps, FLEXURE_STEPS, &flexure.history),
     ];
     if let Some(back) = &flexure.unloading {
-        tables.push(PathTable::new(RunFolder::WAY_BACK[1], &columns, &back.path));
+        tables.push(PathTable::new(ResultsFolder::WAY_BACK[1], &columns, &back.path));
     }
     tables
 }

@@ -14,7 +14,7 @@ use sweep::{Parameter, Sweep};
 use text::{has_part, nearest, number, reason};
 
 use crate::contents::verified_folder::{Completeness, InvalidFolder, VerifiedFolder};
-use crate::folder::RunFolder;
+use crate::folder::ResultsFolder;
 use crate::tables::csv_format::CsvFormat;
 use table::Table;
 use thinning::Thinning;
@@ -105,7 +105,7 @@ impl Results {
     /// # Errors
     /// As [`Results::read_from`].
     pub fn thinned(folder: &VerifiedFolder, most: usize) -> Result<Self, InvalidResults> {
-        Self::of_table(folder, RunFolder::DESIGNS, most, |_| true)
+        Self::of_table(folder, ResultsFolder::DESIGNS, most, |_| true)
     }
 
     /// The results in `folder`, of whose columns those are read that `is_read` names: of a million designs all columns take
@@ -117,7 +117,7 @@ impl Results {
         folder: &VerifiedFolder,
         is_read: impl Fn(&str) -> bool,
     ) -> Result<Self, InvalidResults> {
-        Self::of_table(folder, RunFolder::DESIGNS, usize::MAX, is_read)
+        Self::of_table(folder, ResultsFolder::DESIGNS, usize::MAX, is_read)
     }
 
     /// The designs of another table of designs in `folder`, such as those that a search has found.
@@ -283,11 +283,11 @@ impl Results {
 
 /// The sweep, if there is a record of the run.
 fn definition(folder: &VerifiedFolder) -> Result<Option<Sweep>, InvalidFolder> {
-    if !folder.holds(RunFolder::RUN_INFO) {
+    if !folder.holds(ResultsFolder::RUN_INFO) {
         return Ok(None);
     }
-    let text = folder.text(RunFolder::RUN_INFO)?;
-    Ok(Sweep::parse(&text, RunFolder::RUN_INFO, &[]).ok())
+    let text = folder.text(ResultsFolder::RUN_INFO)?;
+    Ok(Sweep::parse(&text, ResultsFolder::RUN_INFO, &[]).ok())
 }
 
 /// Reads a table, or some of its rows and columns: how it is written, its cells, and the number of rows that it has.

@@ -6,7 +6,7 @@
 use std::path::Path;
 
 use results::columns::design_columns;
-use results::{Cell, Column, DesignRow, RunFolder};
+use results::{Cell, Column, DesignRow, ResultsFolder};
 use skin::flexure::{self, Method};
 use sweep::{Case, DesignNumber, Measure, Sweep};
 
@@ -81,7 +81,7 @@ impl Audit {
     /// # Errors
     /// If the journal cannot be read or threads cannot be started.
     pub fn of(folder: &Path, share: f64, options: &Options<'_>) -> Result<Self, RunError> {
-        let archive = Archive::open(&RunFolder::new(folder))?;
+        let archive = Archive::open(&ResultsFolder::new(folder))?;
         let sweep = archive.sweep();
         let columns = design_columns(sweep);
         // The designs are known before the threads begin: groups must see neighbours, of which a share is far apart.

@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 use journal::{JournalError, Program, Start};
-use results::{CsvFormat, RunFolder};
+use results::{CsvFormat, ResultsFolder};
 use sweep::{SubsetDesigns, Sweep};
 
 use crate::options::Options;
@@ -71,7 +71,7 @@ pub fn merge(
     program: &Program,
 ) -> Result<Merged, MergeError> {
     let clock = Instant::now();
-    let out = RunFolder::new(out);
+    let out = ResultsFolder::new(out);
     let sources = open(folders, &out)?;
     if sources.is_empty() {
         return if folders.is_empty() {
@@ -94,7 +94,7 @@ pub fn merge(
 
 /// The tables in `out`, written again from the journal there.
 fn written_again(
-    out: RunFolder,
+    out: ResultsFolder,
     format: Option<CsvFormat>,
     program: &Program,
 ) -> Result<Merged, MergeError> {
@@ -105,7 +105,7 @@ fn written_again(
 
 fn finish(
     journal: Journal,
-    out: RunFolder,
+    out: ResultsFolder,
     format: Option<CsvFormat>,
     added: u64,
     program: &Program,
@@ -130,19 +130,19 @@ fn finish(
 
 /// The results of one folder.
 struct ShardResults {
-    folder: RunFolder,
+    folder: ResultsFolder,
     archive: Archive,
 }
 
 /// Opens the folders other than `out`, all of one sweep.
-fn open(folders: &[PathBuf], out: &RunFolder) -> Result<Vec<ShardResults>, MergeError> {
+fn open(folders: &[PathBuf], out: &ResultsFolder) -> Result<Vec<ShardResults>, MergeError> {
     let same = |folder: &&PathBuf| match (folder.canonicalize(), out.path().canonicalize()) {
         // By their real paths, as `results/x` and `./results/x/` are one folder.
         (Ok(folder), Ok(out)) => folder == out,
         _ => false,
     };
     let mut sources: Vec<ShardResults> = Vec::new();
-    for folder in folders.iter().filter(|folder| !same(folder)).map(RunFolder::new) {
+    for folder in folders.iter().filter(|folder| !same(folder)).map(ResultsFolder::new) {
         // A shard that is still being solved would be merged short of its last designs, and nobody would notice.
         if journal::in_use(&folder.journal()) {
             return Err(JournalError::InUse(folder.path().to_owned()).into());
@@ -164,7 +164,7 @@ fn open(folders: &[PathBuf], out: &RunFolder) -> Result<Vec<ShardResults>, Merge
 fn gather(
     journal: &mut Journal,
     sources: &[ShardResults],
-    out: &RunFolder,
+    out: &ResultsFolder,
     format: CsvFormat,
 ) -> Result<u64, MergeError> {
     let designs = journal.records().designs().clone();
@@ -242,7 +242,7 @@ fn choose(
     there: Option<JournalEntry>,
     readers: &mut [(&ShardResults, Entries<'_>)],
     holders: &[usize],
-    out: &RunFolder,
+    out: &ResultsFolder,
 ) -> Result<Vec<JournalEntry>, MergeError> {
     let known = there.as_ref().map(|entry| entry.rerun);
     let mut best = there.map(|entry| (entry, out.path()));

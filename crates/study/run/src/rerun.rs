@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use journal::{JournalError, Program};
-use results::{RunFolder, SEPARATOR};
+use results::{ResultsFolder, SEPARATOR};
 use sweep::{DesignNumber, PARAMETERS, Setting, Sweep};
 
 use crate::filter::{Filter, InvalidFilter};
@@ -18,7 +18,7 @@ use crate::tables::run_info::RunInfo;
 /// Designs of a run, and what they are to be solved with.
 #[derive(Debug)]
 pub struct Rerun {
-    folder: RunFolder,
+    folder: ResultsFolder,
     sweep: Sweep,
     settings: String,
     designs: Vec<u64>,
@@ -65,7 +65,7 @@ impl Rerun {
         settings: &[Setting],
         program: &Program,
     ) -> Result<Self, InvalidRerun> {
-        let folder = RunFolder::new(folder);
+        let folder = ResultsFolder::new(folder);
         let archive = Archive::open(&folder)?;
         // Two programs in one table would differ for reasons that no setting explains.
         require_program(&archive, &folder, program)?;
@@ -114,7 +114,7 @@ impl Rerun {
 
 fn require_program(
     archive: &Archive,
-    folder: &RunFolder,
+    folder: &ResultsFolder,
     program: &Program,
 ) -> Result<(), JournalError> {
     let header = archive.header();

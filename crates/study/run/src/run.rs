@@ -5,7 +5,7 @@ use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 use journal::{Program, Start};
-use results::{CsvFormat, Derivation, RunFolder};
+use results::{CsvFormat, Derivation, ResultsFolder};
 use sweep::{Subset, SubsetDesigns, Sweep};
 
 use crate::options::Options;
@@ -38,7 +38,7 @@ pub fn run(
     let clock = Instant::now();
     // A subset that does not exist leaves no folder behind.
     SubsetDesigns::new(sweep.grid().len(), subset)?;
-    let folder = RunFolder::new(folder);
+    let folder = ResultsFolder::new(folder);
     folder.make()?;
     let journal = run_journal::begin(&folder, run_journal::header(sweep, subset, program), start)?;
     let removed = if start == Start::Fresh { Derivation::remove_all(&folder) } else { Vec::new() };
@@ -79,7 +79,7 @@ impl<'a> Run<'a> {
     /// A run that has solved nothing yet, and leaves no trace in `journal`, which is in `folder`.
     pub fn new(
         journal: Journal,
-        folder: RunFolder,
+        folder: ResultsFolder,
         options: &'a Options<'a>,
         info: RunInfo<'a>,
     ) -> Self {

@@ -10,7 +10,7 @@ mod entry;
 mod index;
 
 use journal::{JournalError, Program, Start};
-use results::{Maker, RunFolder};
+use results::{Maker, ResultsFolder};
 use sweep::{Subset, Sweep};
 
 pub(crate) use archive::Entries;
@@ -33,7 +33,7 @@ pub(crate) fn header(sweep: &Sweep, subset: Subset, program: &Program) -> Journa
 /// # Errors
 /// If it is in use, damaged, of another run, or there and `start` says nothing of it.
 pub(crate) fn begin(
-    folder: &RunFolder,
+    folder: &ResultsFolder,
     header: JournalHeader,
     start: Start,
 ) -> Result<Journal, JournalError> {
@@ -47,12 +47,12 @@ pub(crate) fn begin(
 ///
 /// # Errors
 /// If there is none, or it is in use or damaged.
-pub(crate) fn resume(folder: &RunFolder) -> Result<Journal, JournalError> {
+pub(crate) fn resume(folder: &ResultsFolder) -> Result<Journal, JournalError> {
     checked(Journal::resume(&folder.journal())?, folder)
 }
 
 /// The journal, checked against the tables in `folder` that were written from it, with a word about the lines that it has lost since.
-fn checked(mut journal: Journal, folder: &RunFolder) -> Result<Journal, JournalError> {
+fn checked(mut journal: Journal, folder: &ResultsFolder) -> Result<Journal, JournalError> {
     edited::refuse(journal.records(), folder)?;
     if let Some(lost) = journal.records().lost_lines(folder) {
         journal.note(format!("{}: {lost}", folder.journal().display()));

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BinaryHeap};
 use std::path::Path;
 
 use journal::JournalError;
-use results::{Completeness, Derivation, RunFolder, VerifiedFolder};
+use results::{Completeness, Derivation, ResultsFolder, VerifiedFolder};
 use sweep::DesignNumber;
 
 use crate::run_journal::{Archive, JournalEntry};
@@ -46,7 +46,7 @@ impl RunStatus {
     /// # Errors
     /// If there is no run, or its journal is damaged.
     pub fn of(folder: &Path) -> Result<Self, JournalError> {
-        let folder = RunFolder::new(folder);
+        let folder = ResultsFolder::new(folder);
         // Asked before the journal is read: a run that ends in between is told as going on, and not as short of designs.
         let in_use = journal::in_use(&folder.journal());
         let archive = Archive::open(&folder)?;
@@ -66,7 +66,7 @@ impl RunStatus {
     }
 
     /// Checks the tables against what the run states of them, if nobody is writing them.
-    fn check(&mut self, folder: &RunFolder) {
+    fn check(&mut self, folder: &ResultsFolder) {
         // Tables lag behind the journal while a run goes on; that is no fault.
         if self.in_use {
             return;

@@ -9,7 +9,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use journal::{Journal, Records};
 use rayon::prelude::*;
-use results::{Cell, Column, CsvFormat, RunFolder, WrittenTable, write_rows};
+use results::{Cell, Column, CsvFormat, ResultsFolder, WrittenTable, write_rows};
 use run::{JournalError, JournalHeader, Start, WorkMeter};
 use serde::{Deserialize, Serialize};
 use sweep::Subset;
@@ -34,7 +34,7 @@ pub struct SolvedSample {
 /// table.
 #[derive(Clone, Debug)]
 pub struct SampleStore {
-    folder: RunFolder,
+    folder: ResultsFolder,
     work: Arc<WorkMeter>,
 }
 
@@ -72,7 +72,7 @@ impl Records for KeptSamples {
 impl SampleStore {
     /// The store in `folder`, which is made when there is something to keep.
     pub fn new(folder: &Path) -> Self {
-        Self { folder: RunFolder::new(folder), work: Arc::default() }
+        Self { folder: ResultsFolder::new(folder), work: Arc::default() }
     }
 
     /// How far the work is, in samples; whoever asks for them says first how many there will be.
@@ -166,7 +166,7 @@ fn columns(names: &[String]) -> Vec<Column<SolvedSample>> {
         Cell::Count(sample.number as i64)
     });
     let others = names.iter().enumerate().map(|(index, name)| {
-        Column::made(name.clone().into(), "", "", move |sample: &SolvedSample| {
+        Column::computed(name.clone().into(), "", "", move |sample: &SolvedSample| {
             sample.values[index].into()
         })
     });

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use std::{fs, io};
 
 use anyhow::Context as _;
-use results::{Derivation, OutputError, RunFolder, VerifiedFolder, sha256, shell_word};
+use results::{Derivation, OutputError, ResultsFolder, VerifiedFolder, sha256};
+use text::shell_word;
 
 /// Digits of the SHA-256 of a path in the name of a record.
 const DIGITS: usize = 8;
@@ -29,9 +30,9 @@ pub fn record(
     }
     // Readers verify the tables of a ranking by this record. A ranking in another folder is a
     // product like any other.
-    let is_ranking = product == RunFolder::RANKING_RECORD && inside.as_deref() == Some("");
+    let is_ranking = product == ResultsFolder::RANKING_RECORD && inside.as_deref() == Some("");
     let record = if is_ranking { product.to_owned() } else { record_name(product, &derivation) };
-    let written = derivation.write(&RunFolder::new(results.path()), &record);
+    let written = derivation.write(&ResultsFolder::new(results.path()), &record);
     // A results folder may be read-only; products in other folders are written all the same.
     written.or_else(|error: OutputError| if inside.is_some() { Err(error.into()) } else { Ok(()) })
 }

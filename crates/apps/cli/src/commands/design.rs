@@ -6,8 +6,8 @@ use anyhow::ensure;
 use clap::Args;
 use results::columns::design_columns;
 use results::{
-    Cell, Claim, Column, DesignRow, Maker, Outcome, ParameterDerivative, RunFolder, SolvedDesign,
-    write_measures, write_path_tables,
+    Cell, Claim, Column, DesignRow, Maker, Outcome, ParameterDerivative, ResultsFolder,
+    SolvedDesign, write_measures, write_path_tables,
 };
 use run::Evaluator;
 use serde_json::{Map, Value, json};
@@ -65,7 +65,7 @@ pub fn design(arguments: &Arguments) -> anyhow::Result<u8> {
     }
     // Solved before the claim, which removes the files of the previous call.
     let chosen = SolvedChoice::new(design);
-    let folder = RunFolder::new(chosen.folder(arguments));
+    let folder = ResultsFolder::new(chosen.folder(arguments));
     let claim = Claim::take(&folder, Maker::Design)?;
     let mut files = write_path_tables(&folder, &chosen.solved)?;
     files.push(write_measures(&folder, &chosen.columns, &chosen.solved.row)?);

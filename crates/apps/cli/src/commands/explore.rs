@@ -9,8 +9,8 @@ use clap::Args;
 use optimisation::Statistic;
 use ranking::Requirement;
 use report::Explorer;
-use results::shell_word;
 use sweep::{Sweep, key};
+use text::shell_word;
 
 use super::figure_file::write_file;
 use super::requirement_args::RequirementArgs;

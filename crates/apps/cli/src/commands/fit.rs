@@ -8,7 +8,7 @@ use ::fit::{Estimate, FitDefinition, FitError, Fitted, FittedCurve};
 use anyhow::Context as _;
 use clap::Args;
 use report::{FitPanel, fit_figure};
-use results::{Claim, Column, Maker, RunFolder, columns, write_rows};
+use results::{Claim, Column, Maker, ResultsFolder, columns, write_rows};
 use run::WorkMeter;
 use serde_json::{Value, json};
 
@@ -71,7 +71,7 @@ pub fn fit(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let definition = FitDefinition::read(&arguments.path, &settings(&arguments.settings)?)?;
     question(definition.sweep());
     let default = || folder_of(definition.sweep(), None).join("fit");
-    let folder = RunFolder::new(arguments.out.clone().unwrap_or_else(default));
+    let folder = ResultsFolder::new(arguments.out.clone().unwrap_or_else(default));
     // Foreign files in the folder are rejected before the fit, not after it.
     Claim::check(&folder, Maker::Fit)?;
     interrupt.ask_first();
@@ -96,7 +96,7 @@ pub fn fit(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     Ok(if is_told { DONE } else { INCOMPLETE })
 }
 
-fn write(folder: &RunFolder, fitted: &Fitted) -> anyhow::Result<()> {
+fn write(folder: &ResultsFolder, fitted: &Fitted) -> anyhow::Result<()> {
     let claim = Claim::take(folder, Maker::Fit)?;
     let [table, residuals, figure, definition] = FILES;
     let format = folder.csv_format();

@@ -14,7 +14,7 @@ use ::report::Figure;
 use clap::Args;
 use optimisation::{Answer, DesignGoal, Found, SearchOptions, SearchProgress, write_found};
 use ranking::TILTING_ONLY;
-use results::RunFolder;
+use results::ResultsFolder;
 
 use super::options::{EarlierResults, SolveOptions, TableFormat};
 use super::requirement_args::RequirementArgs;
@@ -107,7 +107,7 @@ pub fn optimise(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<
         ));
         return Ok(interrupt.exit_code().unwrap_or(INCOMPLETE));
     };
-    let written = RunFolder::new(&folder);
+    let written = ResultsFolder::new(&folder);
     let format = arguments.format.csv.unwrap_or_else(|| written.csv_format());
     let figures = figures(&goal, &found);
     let figures = figures.into_iter().map(|Figure { name, svg }| (format!("{name}.svg"), svg));

@@ -13,8 +13,8 @@ use sweep::{Case, PARAMETERS};
 
 use super::draw::{check_place, substrate};
 use super::figure_file::{FigureFiles, FigureOutput, check_sizes, joined};
+use super::folder_contents::FolderContents;
 use super::options::decimal;
-use super::results_folder::ResultsFolder;
 use super::selection::{SelectedDesign, Selection, select};
 use super::source::{Definition, Partial, folder_within, verified_folder};
 use super::{DONE, INCOMPLETE};
@@ -145,7 +145,7 @@ pub fn plot(arguments: &Arguments) -> anyhow::Result<u8> {
 fn plot_results(results: &Path, arguments: &Arguments) -> anyhow::Result<u8> {
     check_sizes(&arguments.output)?;
     // All designs; the figures thin out marks themselves.
-    let results = ResultsFolder::read(
+    let results = FolderContents::read(
         &verified_folder(results, arguments.partial.completeness())?,
         usize::MAX,
     )?;
@@ -170,7 +170,7 @@ fn plot_map(arguments: &MapArguments) -> anyhow::Result<u8> {
     };
     let at = arguments.at.iter().map(held).collect::<anyhow::Result<Vec<_>>>()?;
     let verified = verified_folder(&arguments.results, arguments.partial.completeness())?;
-    let results = ResultsFolder::read(&verified, usize::MAX)?;
+    let results = FolderContents::read(&verified, usize::MAX)?;
     let request =
         MapRequest { x: arguments.x.clone(), y: arguments.y.clone(), of: arguments.of.clone(), at };
     let figure = map(&results.title(), &results.designs, &request)?;

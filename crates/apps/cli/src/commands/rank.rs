@@ -11,7 +11,7 @@ use ranking::{
     Weights, check_comparable,
 };
 use results::columns::name;
-use results::{Results, RunFolder};
+use results::{Results, ResultsFolder};
 use serde_json::json;
 
 use super::options::whole;
@@ -123,7 +123,7 @@ fn ranked(arguments: &Arguments, results: &Results, ranking: &Ranking<'_>) -> an
     let folder = arguments.out.as_deref().unwrap_or(results.folder());
     // Locked until the files are recorded: a concurrent ranking would remove them.
     let (files, lock) = ranking::write_ranking(folder, ranking)?;
-    derivation::record(results.verified_folder(), RunFolder::RANKING_RECORD, folder, &files)?;
+    derivation::record(results.verified_folder(), ResultsFolder::RANKING_RECORD, folder, &files)?;
     drop(lock);
     let changes = gap_changes(results, ranking);
     let couplings = couplings(results, ranking);
@@ -148,7 +148,7 @@ fn none_meets(
     let folder = arguments.out.as_deref().unwrap_or(results.folder());
     // Removes an earlier ranking, which would appear to be based on these requirements.
     let (file, lock) = ranking::write_unmet(folder, preferences)?;
-    derivation::record(results.verified_folder(), RunFolder::RANKING_RECORD, folder, &[file])?;
+    derivation::record(results.verified_folder(), ResultsFolder::RANKING_RECORD, folder, &[file])?;
     drop(lock);
     let (record, text) =
         (|| unmet_record(results, unmet), || unmet_report(results, preferences, unmet));

@@ -10,14 +10,15 @@ use ranking::{CRITERIA, Preferences, Ranking, Weights};
 use rayon::prelude::*;
 use report::{Explorer, GapFactors, Page, PageDesign, drawings};
 use results::columns::design_columns;
-use results::{bending_units, puncture_units, shell_word};
+use results::{bending_units, puncture_units};
 use run::{GapChange, MeasureChange};
 use skin::{flexure, puncture};
 use sweep::Case;
+use text::shell_word;
 
 use super::draw::substrate;
 use super::figure_file::write;
-use super::results_folder::ResultsFolder;
+use super::folder_contents::FolderContents;
 use super::source::{Partial, require_folder_of, verified_folder};
 use super::{DONE, PROGRAM, derivation};
 use crate::print::print;
@@ -67,7 +68,7 @@ const DRAWING_BYTES: usize = 1_500_000;
 /// Writes the page of a sweep.
 pub fn report(arguments: &Arguments) -> anyhow::Result<u8> {
     let verified = verified_folder(&arguments.results, arguments.partial.completeness())?;
-    let results = ResultsFolder::read(&verified, HELD)?;
+    let results = FolderContents::read(&verified, HELD)?;
     let out: PathBuf = arguments.out.clone().unwrap_or_else(|| results.folder.join("report.html"));
     let ending = out.extension().unwrap_or("html".as_ref());
     ensure!(
@@ -89,7 +90,7 @@ pub fn report(arguments: &Arguments) -> anyhow::Result<u8> {
     Ok(DONE)
 }
 
-fn page(results: &ResultsFolder) -> anyhow::Result<Page> {
+fn page(results: &FolderContents) -> anyhow::Result<Page> {
     let sweep = &results.sweep;
     let known = design_columns(sweep);
     let column = |header: &String| {
@@ -143,7 +144,7 @@ fn opening(preferences: &Preferences) -> String {
 }
 
 /// Solves the leading designs of each comparable group again, for curves and drawings.
-fn solved(results: &ResultsFolder, rankings: &[Ranking<'_>]) -> Vec<PageDesign> {
+fn solved(results: &FolderContents, rankings: &[Ranking<'_>]) -> Vec<PageDesign> {
     let mut groups: Vec<_> = rankings.iter().map(|ranking| leading(ranking).into_iter()).collect();
     let mut rows: Vec<usize> = Vec::new();
     // Alternates between groups, so that no group dominates.
@@ -194,7 +195,7 @@ fn leading(ranking: &Ranking<'_>) -> Vec<usize> {
 }
 
 /// Solves a design for its curves, and its drawing if `is_drawn`; `None` if it cannot be solved.
-fn solve(results: &ResultsFolder, row: usize, is_drawn: bool) -> Option<PageDesign> {
+fn solve(results: &FolderContents, row: usize, is_drawn: bool) -> Option<PageDesign> {
     let number = results.designs.design(row);
     let grid = results.sweep.grid();
     let mut case = grid.case(grid.parse_number(number).ok()?);
@@ -225,7 +226,7 @@ fn scaled([x, y]: [f64; 2], units: Option<[f64; 3]>) -> [f64; 2] {
 }
 
 /// Computes the change of the criteria with the gap.
-fn gap_factors(results: &ResultsFolder, number: &str) -> Vec<GapFactors> {
+fn gap_factors(results: &FolderContents, number: &str) -> Vec<GapFactors> {
     let columns: Vec<&str> = CRITERIA.iter().map(|criterion| criterion.column.as_ref()).collect();
     let change = GapChange::of(&results.sweep, number, &columns);
     let measures = change.map_or_else(Vec::new, |change| change.measures);

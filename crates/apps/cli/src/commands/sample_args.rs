@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::Context as _;
 use clap::Args;
-use results::{Claim, Maker, RunFolder};
+use results::{Claim, Maker, ResultsFolder};
 use sweep::Sweep;
 use uncertainty::{AnalysisError, SampleStore};
 
@@ -33,7 +33,7 @@ pub struct SampleFolder<'a> {
     definition: &'a Definition,
     arguments: &'a SampleArgs,
     maker: Maker,
-    pub folder: RunFolder,
+    pub folder: ResultsFolder,
 }
 
 impl<'a> SampleFolder<'a> {
@@ -46,7 +46,7 @@ impl<'a> SampleFolder<'a> {
         (name, maker): (&str, Maker),
     ) -> anyhow::Result<Self> {
         let default = || folder_within(definition, sweep, name);
-        let folder = RunFolder::new(arguments.out.clone().unwrap_or_else(default));
+        let folder = ResultsFolder::new(arguments.out.clone().unwrap_or_else(default));
         Claim::check(&folder, maker)?;
         Ok(Self { definition, arguments, maker, folder })
     }

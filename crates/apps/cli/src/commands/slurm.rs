@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, ensure};
 use clap::Args;
-use results::{make_folder, quoted, shell_word, write_text};
+use results::{make_folder, write_text};
 use sweep::Sweep;
+use text::{shell_quoted, shell_word};
 
 use super::DONE;
 use super::options::whole;
@@ -104,8 +105,8 @@ fn settings(sweep: &Sweep, shards: u64) -> anyhow::Result<String> {
          SHARDS={shards}\n\
          # The program, on the nodes.\n\
          SQUAMA=${{SQUAMA:-{}}}\n",
-        quoted(sweep.name()),
-        quoted(&program.display().to_string())
+        shell_quoted(sweep.name()),
+        shell_quoted(&program.display().to_string())
     ))
 }
 

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{bail, ensure};
 use clap::Args;
 use optimisation::DesignGoal;
-use results::{Completeness, RunFolder, VerifiedFolder, verify_record};
+use results::{Completeness, ResultsFolder, VerifiedFolder, verify_record};
 use sweep::{InvalidSetting, Setting, Sweep, entries, read_text};
 
 use crate::print::note;
@@ -101,7 +101,7 @@ pub fn definition_file(path: &Path) -> anyhow::Result<PathBuf> {
         verify_record(path)?;
         return Ok(path.to_owned());
     }
-    let record = path.join(RunFolder::RUN_INFO);
+    let record = path.join(ResultsFolder::RUN_INFO);
     let optimum = path.join("optimum.toml");
     if !record.is_file() && optimum.is_file() {
         // Rejects an edited optimum.
@@ -121,7 +121,7 @@ pub fn definition_file(path: &Path) -> anyhow::Result<PathBuf> {
     ensure!(
         record.is_file(),
         "{folder}: holds no {}, expected a definition in TOML or a results folder",
-        RunFolder::RUN_INFO
+        ResultsFolder::RUN_INFO
     );
     verify_record(&record)?;
     Ok(record)
@@ -134,7 +134,7 @@ pub fn results_folder(path: &Path) -> anyhow::Result<PathBuf> {
         refuse_folder_of_runs(path)?;
         return Ok(path.to_owned());
     }
-    if path.ends_with(RunFolder::RUN_INFO) {
+    if path.ends_with(ResultsFolder::RUN_INFO) {
         return Ok(path.parent().map_or_else(PathBuf::new, Path::to_owned));
     }
     let folder = folder_of(&Sweep::read(path, &[])?, None);
@@ -151,7 +151,9 @@ pub fn results_folder(path: &Path) -> anyhow::Result<PathBuf> {
 fn refuse_folder_of_runs(path: &Path) -> anyhow::Result<()> {
     // A run in progress has a journal but no record.
     let is_run = |folder: &Path| {
-        [RunFolder::RUN_INFO, RunFolder::JOURNAL].iter().any(|file| folder.join(file).is_file())
+        [ResultsFolder::RUN_INFO, ResultsFolder::JOURNAL]
+            .iter()
+            .any(|file| folder.join(file).is_file())
     };
     if is_run(path) {
         return Ok(());

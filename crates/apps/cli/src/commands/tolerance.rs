@@ -10,7 +10,7 @@ use std::ops::RangeInclusive;
 use anyhow::ensure;
 use clap::Args;
 use rayon::prelude::*;
-use results::{Maker, RunFolder, write_rows};
+use results::{Maker, ResultsFolder, write_rows};
 use sweep::Sweep;
 use uncertainty::{
     Analysis, AnalysisError, DesignTolerance, SOURCE_COLUMNS, SampleStore, TOLERANCE_COLUMNS,
@@ -156,7 +156,7 @@ fn analysed(
 }
 
 /// Writes the tables and returns the names of the files.
-fn write(folder: &RunFolder, all: &[DesignTolerance]) -> anyhow::Result<Vec<String>> {
+fn write(folder: &ResultsFolder, all: &[DesignTolerance]) -> anyhow::Result<Vec<String>> {
     let mut files = Vec::new();
     let format = folder.csv_format();
     let measures = all.iter().flat_map(DesignTolerance::measure_rows);

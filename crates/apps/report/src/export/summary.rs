@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use ranking::{CRITERIA, Criterion, Goal, Preferences};
 use results::columns::{measure_of, name};
 use results::round_off::Leader;
-use results::{CsvFormat, RunFolder, VerifiedFolder, incomparable_by};
+use results::{CsvFormat, ResultsFolder, VerifiedFolder, incomparable_by};
 use rust_xlsxwriter::{Format, FormatAlign, Worksheet, XlsxError};
 use sweep::{Measure, PARAMETERS, Sweep};
 
@@ -99,8 +99,8 @@ pub(super) struct SummaryFacts {
 impl SummaryFacts {
     /// The facts in `folder`.
     pub fn read(folder: &VerifiedFolder) -> Result<Self, ExportError> {
-        let has_record = folder.holds(RunFolder::RUN_INFO);
-        let record = has_record.then(|| folder.text(RunFolder::RUN_INFO)).transpose()?;
+        let has_record = folder.holds(ResultsFolder::RUN_INFO);
+        let record = has_record.then(|| folder.text(ResultsFolder::RUN_INFO)).transpose()?;
         let preferences = Preferences::read(folder)?;
         let leading = if preferences.is_some() { leading(folder)? } else { Vec::new() };
         Ok(Self { record: record.unwrap_or_default(), preferences, leading })
@@ -121,7 +121,7 @@ pub(super) fn summary(
         page.set_column_width(place, width)?;
     }
     let mut sheet = Sheet { page, row: 0, bold: Format::new().set_bold() };
-    let definition = Sweep::parse(&facts.record, RunFolder::RUN_INFO, &[]).ok();
+    let definition = Sweep::parse(&facts.record, ResultsFolder::RUN_INFO, &[]).ok();
     sheet.title(definition.as_ref())?;
     sheet.run(&facts.record, folder.shortfall(), best)?;
     sheet.best(best, definition.as_ref())?;
@@ -266,7 +266,7 @@ fn is_design_number(cell: &str) -> bool {
 
 /// Rank, number and fitness of the first designs of the ranking of a folder.
 fn leading(folder: &VerifiedFolder) -> Result<Vec<[String; 3]>, ExportError> {
-    let [ranking, ..] = RunFolder::RANKING;
+    let [ranking, ..] = ResultsFolder::RANKING;
     // A ranking that no design meets has preferences and no tables.
     if !folder.holds(ranking) {
         return Ok(Vec::new());

@@ -5,8 +5,9 @@ use std::io::{self, Write};
 
 use ranking::{CRITERIA, Criterion};
 use results::columns::{Goal, Shown, name, plain_goal, shown};
-use results::{shell_word, yardsticks};
+use results::measurement_conditions;
 use serde_json::{Value, json};
+use text::shell_word;
 use text::visible;
 
 use super::{Page, PageDesign, PageFront};
@@ -49,7 +50,10 @@ pub(super) fn of(page: &Page, figures: &[Value]) -> Value {
     let columns = headers.iter().zip(&page.columns);
     let varied = page.designs.varied();
     let measured_by = |name: &str| -> Vec<_> {
-        yardsticks(name).into_iter().filter(|parameter| varied.contains(parameter)).collect()
+        measurement_conditions(name)
+            .into_iter()
+            .filter(|parameter| varied.contains(parameter))
+            .collect()
     };
     let column = |(name, (unit, meaning)): (&String, &(String, String))| json!({"name": name, "unit": unit, "meaning": meaning, "goal": plain_goal(name).map(Goal::key), "measuredBy": measured_by(name)});
     let criterion =

@@ -9,7 +9,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use journal::{Journal, Records, lock_journal};
-use results::{Claim, DesignResult, Maker, RunFolder};
+use results::{Claim, DesignResult, Maker, ResultsFolder};
 use run::{JournalHeader, Program, Start};
 use serde::{Deserialize, Serialize};
 use sweep::Subset;
@@ -134,12 +134,12 @@ pub(super) fn begin(
     program: &Program,
     start: Start,
 ) -> Result<Journal<Known>, OptimisationError> {
-    let folder = RunFolder::new(folder);
+    let folder = ResultsFolder::new(folder);
     folder.require_own(Maker::Search, start)?;
     // A file of our names that no search has written here may be the very goal that is searched for.
     Claim::check(&folder, Maker::Search)?;
     folder.make()?;
-    let path = folder.file(RunFolder::EVALUATIONS);
+    let path = folder.file(ResultsFolder::EVALUATIONS);
     if start == Start::Fresh {
         // Before the old journal goes: a kill in between would leave the optimum of one goal beside the journal of another.
         let _alone = lock_journal(&path)?;

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use ranking::{FitnessGoal, Relation, Requirement};
 use results::columns::{design_columns, measure_of};
-use results::yardsticks;
+use results::measurement_conditions;
 use sweep::{
     Axis, InvalidDefinition, Problem, Role, Setting, Sweep, Variable, VariableValues, entries,
     read_entries, refuse,
@@ -221,8 +221,9 @@ fn senseless(
     // A requirement compares no designs: the least tilt under a given force is a goal.
     let objectives = named.iter().filter(|named| named.key != "goal.require");
     let incomparable = objectives.flat_map(|Written { column, key, place }| {
-        let fails =
-            |v: &&Variable| yardsticks(Statistic::base(column)).contains(&v.parameter().key);
+        let fails = |v: &&Variable| {
+            measurement_conditions(Statistic::base(column)).contains(&v.parameter().key)
+        };
         sweep.variables().iter().filter(fails).map(|variable| {
             let found = format!("an objective with {} as a variable", variable.parameter().key);
             not_accepted(place, key, found, "values that can be compared between designs")

@@ -159,7 +159,7 @@ fn samples_do_not_depend_on_threads_or_interruptions() {
     };
     let folder = tempfile::tempdir().expect("a folder");
     let whole = found_in(folder.path(), &goal, 1, Start::New);
-    let journal = folder.path().join(results::RunFolder::EVALUATIONS);
+    let journal = folder.path().join(results::ResultsFolder::EVALUATIONS);
     let bytes = std::fs::read(&journal).expect("a journal");
     for share in [0.3, 0.6, 0.95] {
         let kept = (bytes.len() as f64 * share) as usize;

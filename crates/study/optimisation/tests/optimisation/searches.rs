@@ -287,7 +287,7 @@ fn threads_and_interruptions_change_nothing() {
     };
     let folder = tempfile::tempdir().expect("a folder");
     let whole = found_in(folder.path(), &goal, 1, Start::New);
-    let journal = folder.path().join(results::RunFolder::EVALUATIONS);
+    let journal = folder.path().join(results::ResultsFolder::EVALUATIONS);
     let bytes = std::fs::read(&journal).expect("a journal");
     for share in [3, 2] {
         // Cut in the middle of a line.
@@ -311,7 +311,7 @@ fn a_damaged_line_costs_nothing_of_a_search() {
     let goal = goal("maximize = 'coverage'\nminimize = 'areal_mass_kg_m2'\npoints = 2");
     let folder = tempfile::tempdir().expect("a folder");
     found_in(folder.path(), &goal, 1, Start::New);
-    let journal = folder.path().join(results::RunFolder::EVALUATIONS);
+    let journal = folder.path().join(results::ResultsFolder::EVALUATIONS);
     let sound = std::fs::read_to_string(&journal).expect("a journal");
     let lines: Vec<&str> = sound.split_inclusive('\n').collect();
     let damage = |line: usize| {
@@ -347,7 +347,7 @@ fn a_damaged_line_costs_nothing_of_a_search() {
 fn an_old_optimum_does_not_outlive_its_search() {
     let (old, new) = (goal("maximize = 'coverage'"), goal("minimize = 'areal_mass_kg_m2'"));
     let place = tempfile::tempdir().expect("a folder");
-    let folder = results::RunFolder::new(place.path());
+    let folder = results::ResultsFolder::new(place.path());
     let found = found_in(place.path(), &old, 1, Start::New);
     let figures = [("history.svg".to_owned(), "<svg/>".to_owned())];
     write_found(&folder, &old, &found, &figures, CsvFormat::Plain).expect("writable");
@@ -368,7 +368,7 @@ fn an_old_optimum_does_not_outlive_its_search() {
 fn what_is_no_journal_is_left_alone() {
     let goal = goal("maximize = 'coverage'\nminimize = 'areal_mass_kg_m2'\npoints = 2");
     let folder = tempfile::tempdir().expect("a folder");
-    let journal = folder.path().join(results::RunFolder::EVALUATIONS);
+    let journal = folder.path().join(results::ResultsFolder::EVALUATIONS);
     let target = folder.path().join("target");
     std::fs::write(&target, "a stranger's").expect("writable");
     std::os::unix::fs::symlink(&target, &journal).expect("a link");

@@ -71,9 +71,12 @@ pub fn quaternary_columns<'a>(
 ) -> RankedColumns<'a> {
     let weight = |(c, criterion): (usize, &Criterion)| {
         let name = format!("{}_weight", criterion.column);
-        Column::made(name.into(), "-", "weight of the criterion", move |s: &RankedDesign<'a>| {
-            s.weights.values()[c].into()
-        })
+        Column::computed(
+            name.into(),
+            "-",
+            "weight of the criterion",
+            move |s: &RankedDesign<'a>| s.weights.values()[c].into(),
+        )
     };
     let mut columns: RankedColumns<'a> =
         preferences.criteria.iter().enumerate().map(weight).collect();
@@ -111,7 +114,7 @@ fn criteria<'a>(preferences: &Preferences) -> RankedColumns<'a> {
     let column = |(c, criterion): (usize, &Criterion)| {
         let (unit, meaning) = explain_value(&criterion.column).unwrap_or(("-", ""));
         let name = criterion.column.clone().into_owned();
-        Column::made(name.into(), unit, meaning, move |s: &RankedDesign<'a>| s.value(c).into())
+        Column::computed(name.into(), unit, meaning, move |s: &RankedDesign<'a>| s.value(c).into())
     };
     preferences.criteria.iter().enumerate().filter(is_measured).map(column).collect()
 }
@@ -121,7 +124,9 @@ fn rescaled<'a>(preferences: &Preferences) -> RankedColumns<'a> {
         // By its key: where the penetration is the column, it is the resistance that is rescaled.
         let name = format!("{}_rescaled", criterion.key());
         let meaning = "criterion from 0, the worst of all ranked designs, to 1, the best";
-        Column::made(name.into(), "-", meaning, move |s: &RankedDesign<'a>| s.rescaled(c).into())
+        Column::computed(name.into(), "-", meaning, move |s: &RankedDesign<'a>| {
+            s.rescaled(c).into()
+        })
     };
     preferences.criteria.iter().enumerate().map(column).collect()
 }

@@ -21,9 +21,9 @@ pub struct Column<R> {
 // A static list holds functions alone: what a closure owns has no place in a constant.
 enum CellSource<R> {
     /// One of a static list of columns.
-    Plain(fn(&R) -> Cell),
+    Function(fn(&R) -> Cell),
     /// One that is made, which knows what it is made from.
-    Made(Box<dyn Fn(&R) -> Cell + Send + Sync>),
+    Closure(Box<dyn Fn(&R) -> Cell + Send + Sync>),
 }
 
 impl<R> Column<R> {
@@ -34,17 +34,17 @@ impl<R> Column<R> {
         meaning: &'static str,
         cell: fn(&R) -> Cell,
     ) -> Self {
-        Self { name: Cow::Borrowed(name), unit, meaning, cell: CellSource::Plain(cell) }
+        Self { name: Cow::Borrowed(name), unit, meaning, cell: CellSource::Function(cell) }
     }
 
     /// A column that is made from something that `cell` knows.
-    pub fn made(
+    pub fn computed(
         name: Cow<'static, str>,
         unit: &'static str,
         meaning: &'static str,
         cell: impl Fn(&R) -> Cell + Send + Sync + 'static,
     ) -> Self {
-        Self { name, unit, meaning, cell: CellSource::Made(Box::new(cell)) }
+        Self { name, unit, meaning, cell: CellSource::Closure(Box::new(cell)) }
     }
 
     /// The column of a parameter.
@@ -52,14 +52,14 @@ impl<R> Column<R> {
         parameter: &'static Parameter,
         cell: impl Fn(&R) -> Cell + Send + Sync + 'static,
     ) -> Self {
-        Self::made(header(parameter).into(), parameter.unit, parameter.meaning, cell)
+        Self::computed(header(parameter).into(), parameter.unit, parameter.meaning, cell)
     }
 
     /// The cell of this column in a row.
     pub fn cell(&self, row: &R) -> Cell {
         match &self.cell {
-            CellSource::Plain(cell) => cell(row),
-            CellSource::Made(cell) => cell(row),
+            CellSource::Function(cell) => cell(row),
+            CellSource::Closure(cell) => cell(row),
         }
     }
 }

@@ -238,7 +238,7 @@ impl MeasuredValue {
         };
         // In physical units the membrane is part of the number, and any two designs compare.
         let is_unit = quantity.is_none() && self.unit.contains("E_m I_m");
-        // What is made is no yardstick: skins that rub are compared with such as do not.
+        // Manufactured properties stay comparable: designs with and without friction may compete.
         let marks = self.needs.contains(&parameter.key) && !parameter.has(Role::Made);
         marks
             || (ends && self.place.depends_on_end())

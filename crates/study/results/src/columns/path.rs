@@ -57,7 +57,7 @@ pub fn tip_force_columns(forces: &[TipForces]) -> Vec<Column<usize>> {
         let on = |of: &TipForces| of.iter().find(|(touched, _)| *touched == scale).map(|of| of.1);
         // A scale that the tip does not touch bears nothing: that is known, and no empty cell.
         let values: Vec<f64> = forces.iter().map(|of| on(of).unwrap_or(0.0)).collect();
-        Column::made(
+        Column::computed(
             format!("tip_force_{scale}").into(),
             "E_s L t/(1-nu^2)",
             "normal force of a round tip on that scale: 0 is the punctured one, -1 its left neighbour",

@@ -24,7 +24,7 @@ pub(super) fn tilt_columns(sweep: &Sweep, table: Option<&str>) -> Vec<Column<Des
     let columns = columns.flat_map(|(value, at_tilts)| {
         places.iter().enumerate().map(move |(index, place)| {
             let name = format!("{}_at_{place}", value.name);
-            Column::made(name.into(), value.unit, at_tilts.meaning, move |row: &DesignRow| {
+            Column::computed(name.into(), value.unit, at_tilts.meaning, move |row: &DesignRow| {
                 let at = row.result.at_tilts.get(index).and_then(Option::as_ref);
                 at.map(at_tilts.value).into()
             })

@@ -5,11 +5,11 @@ use skin::puncture::{CriticalEvent, PunctureMeasures};
 
 use sweep::key;
 
-use super::cell::Cell;
-use super::entry::{
+use super::builders::{
     BOTH, COMPLIANCE, COVERAGE, DEPTH, FORCE, NONE, bending, depth, force, number, other,
     other_thing, same, stiffness, value,
 };
+use super::cell::Cell;
 use super::measured_value::MeasuredValue;
 use super::measured_value::Place::{
     Anywhere, Contact, End, Fold, FoldOrEnd, Instability, Peak, Rest,

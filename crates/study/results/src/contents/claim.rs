@@ -9,12 +9,12 @@ use std::fs::{self, File};
 use journal::{OutputError, lock_folder, sha256_of};
 
 use super::derivation::Derivation;
-use crate::folder::{FileEntry, Maker, RunFolder};
+use crate::folder::{FileEntry, Maker, ResultsFolder};
 
 /// The claim of one command to its files in one folder, which it writes alone.
 #[derive(Debug)]
 pub struct Claim<'f> {
-    folder: &'f RunFolder,
+    folder: &'f ResultsFolder,
     maker: Maker,
     made: Derivation,
     // Held as long as the claim: the system gives it back when the file is closed.
@@ -26,10 +26,11 @@ impl<'f> Claim<'f> {
     ///
     /// # Errors
     /// If there is one.
-    pub fn check(folder: &RunFolder, maker: Maker) -> Result<(), OutputError> {
+    pub fn check(folder: &ResultsFolder, maker: Maker) -> Result<(), OutputError> {
         let stated = Self::stated(folder, maker);
         // A record that was damaged tells no names, but that there were some.
-        if stated.is_none() && folder.holds(&format!("{}/{}.toml", RunFolder::DERIVED, maker.key()))
+        if stated.is_none()
+            && folder.holds(&format!("{}/{}.toml", ResultsFolder::DERIVED, maker.key()))
         {
             return Ok(());
         }
@@ -39,7 +40,7 @@ impl<'f> Claim<'f> {
     }
 
     /// SHA-256 of the files that `maker` states in `folder`, by their names; `None` if it states nothing.
-    pub fn stated(folder: &RunFolder, maker: Maker) -> Option<BTreeMap<String, String>> {
+    pub fn stated(folder: &ResultsFolder, maker: Maker) -> Option<BTreeMap<String, String>> {
         Derivation::read(folder, maker.key()).map(|made| made.files)
     }
 
@@ -48,7 +49,7 @@ impl<'f> Claim<'f> {
     ///
     /// # Errors
     /// If a file is a stranger's, another process is writing there, or the disk does not take the record.
-    pub fn take(folder: &'f RunFolder, maker: Maker) -> Result<Self, OutputError> {
+    pub fn take(folder: &'f ResultsFolder, maker: Maker) -> Result<Self, OutputError> {
         folder.make()?;
         let lock = lock_folder(folder.path())?;
         // Asked under the lock, although a command may have asked before: somebody may have written since.
@@ -94,17 +95,17 @@ impl<'f> Claim<'f> {
     }
 
     /// Removes the files of `maker` in `folder` that are as they were written, and its record.
-    pub fn release(folder: &RunFolder, maker: Maker) {
+    pub fn release(folder: &ResultsFolder, maker: Maker) {
         if let Some(made) = Derivation::read(folder, maker.key()) {
             made.remove(folder);
-            RunFolder::new(folder.file(RunFolder::DERIVED))
+            ResultsFolder::new(folder.file(ResultsFolder::DERIVED))
                 .remove(&format!("{}.toml", maker.key()));
         }
     }
 }
 
 /// Refuses to write the file `name` if there is anything of that name.
-fn require_none(folder: &RunFolder, name: &str) -> Result<(), OutputError> {
+fn require_none(folder: &ResultsFolder, name: &str) -> Result<(), OutputError> {
     let path = folder.file(name);
     // No link is followed: one is a stranger's, wherever it leads.
     let is_there = fs::symlink_metadata(&path).is_ok();
@@ -120,7 +121,7 @@ mod tests {
     fn no_command_claims_a_file_of_a_stranger_and_every_one_its_own() {
         for file in FILES.iter().filter(|file| file.maker != Maker::Run) {
             let place = tempfile::tempdir().expect("a folder");
-            let folder = RunFolder::new(place.path());
+            let folder = ResultsFolder::new(place.path());
             let write = |text: &str| fs::write(folder.file(file.name), text).expect("writable");
             if FileEntry::products(file.maker).all(|product| product.name != file.name) {
                 continue;
@@ -150,7 +151,7 @@ mod tests {
     #[test]
     fn what_somebody_has_changed_is_not_removed_with_the_rest() {
         let place = tempfile::tempdir().expect("a folder");
-        let folder = RunFolder::new(place.path());
+        let folder = ResultsFolder::new(place.path());
         let claim = Claim::take(&folder, Maker::Tolerance).expect("a claim");
         let files = ["tolerance.csv", "yield.csv"];
         let write = |name: &str, text: &str| fs::write(folder.file(name), text).expect("writable");
@@ -171,7 +172,7 @@ mod tests {
     #[test]
     fn one_command_writes_at_a_time() {
         let place = tempfile::tempdir().expect("a folder");
-        let folder = RunFolder::new(place.path());
+        let folder = ResultsFolder::new(place.path());
         let _claim = Claim::take(&folder, Maker::Comparison).expect("a claim");
         let refused = Claim::take(&folder, Maker::Design).expect_err("in use").to_string();
         assert!(refused.contains("another squama is writing there"), "{refused}");

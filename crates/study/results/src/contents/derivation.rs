@@ -8,7 +8,7 @@ use journal::{OutputError, read_text, sha256};
 use serde::{Deserialize, Serialize};
 
 use super::verified_folder::VerifiedFolder;
-use crate::folder::RunFolder;
+use crate::folder::ResultsFolder;
 
 /// A product of the tables of a results folder: a ranking, a workbook, figures, a page.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -38,8 +38,8 @@ impl Derivation {
     ///
     /// # Errors
     /// If the folder or the disk does not take it.
-    pub fn write(&self, folder: &RunFolder, record: &str) -> Result<(), OutputError> {
-        let records = RunFolder::new(folder.file(RunFolder::DERIVED));
+    pub fn write(&self, folder: &ResultsFolder, record: &str) -> Result<(), OutputError> {
+        let records = ResultsFolder::new(folder.file(ResultsFolder::DERIVED));
         records.make()?;
         // Texts always have a form in TOML.
         let table = toml::to_string(self).unwrap_or_default();
@@ -49,20 +49,20 @@ impl Derivation {
     }
 
     /// The product in `folder` that is noted under the name `record`.
-    pub fn read(folder: &RunFolder, record: &str) -> Option<Self> {
-        let path = folder.file(RunFolder::DERIVED).join(format!("{record}.toml"));
+    pub fn read(folder: &ResultsFolder, record: &str) -> Option<Self> {
+        let path = folder.file(ResultsFolder::DERIVED).join(format!("{record}.toml"));
         // A record that is damaged speaks for nothing.
         toml::from_str(&read_text(&path).ok()?).ok()
     }
 
     /// All products of `folder`, in the order of their records.
-    pub fn all(folder: &RunFolder) -> Vec<Self> {
+    pub fn all(folder: &ResultsFolder) -> Vec<Self> {
         Self::records(folder).iter().filter_map(|record| Self::read(folder, record)).collect()
     }
 
     /// The names of the records of `folder`, in their order.
-    fn records(folder: &RunFolder) -> Vec<String> {
-        let entries = fs::read_dir(folder.file(RunFolder::DERIVED)).into_iter().flatten();
+    fn records(folder: &ResultsFolder) -> Vec<String> {
+        let entries = fs::read_dir(folder.file(ResultsFolder::DERIVED)).into_iter().flatten();
         let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
         let mut records: Vec<_> =
             names.filter_map(|name| name.strip_suffix(".toml").map(str::to_owned)).collect();
@@ -72,13 +72,13 @@ impl Derivation {
     }
 
     /// Whether any of its files is still there.
-    pub fn is_there(&self, folder: &RunFolder) -> bool {
+    pub fn is_there(&self, folder: &ResultsFolder) -> bool {
         self.files.keys().any(|name| folder.file(name).is_file())
     }
 
     /// Removes those of its files in `folder` that are as they were made, and returns their names. What stands elsewhere,
     /// or was changed by somebody, is not squama's to remove.
-    pub(super) fn remove(&self, folder: &RunFolder) -> Vec<String> {
+    pub(super) fn remove(&self, folder: &ResultsFolder) -> Vec<String> {
         // Without a digest it was not finished, and whatever is there of it is ours.
         let is_ours = |(name, digest): &(&String, &String)| {
             let path = folder.file(name);
@@ -97,9 +97,9 @@ impl Derivation {
         removed
     }
     /// Removes all products of `folder` that are as they were made, and the records of all; returns the names of the files.
-    pub fn remove_all(folder: &RunFolder) -> Vec<String> {
+    pub fn remove_all(folder: &ResultsFolder) -> Vec<String> {
         let removed = Self::all(folder).iter().flat_map(|made| made.remove(folder)).collect();
-        let records = RunFolder::new(folder.file(RunFolder::DERIVED));
+        let records = ResultsFolder::new(folder.file(ResultsFolder::DERIVED));
         for record in Self::records(folder) {
             records.remove(&format!("{record}.toml"));
         }

@@ -10,8 +10,8 @@ use text::reason;
 
 use super::derivation::Derivation;
 use super::{Contents, JournalExtent};
-use crate::folder::{FileEntry, Maker, RunFolder};
-use crate::shell::shell_word;
+use crate::folder::{FileEntry, Maker, ResultsFolder};
+use text::shell_word;
 
 /// Whether results are used that are not whole.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -27,7 +27,7 @@ pub enum Completeness {
 /// alone, of which nobody states anything.
 #[derive(Clone, Debug)]
 pub struct VerifiedFolder {
-    folder: RunFolder,
+    folder: ResultsFolder,
     contents: Option<Contents>,
     /// Whether the journal goes on beyond the tables.
     behind: bool,
@@ -68,7 +68,7 @@ impl VerifiedFolder {
     /// If the contents are missing though there is a journal, are damaged or do not fit the journal; and, unless partial
     /// results will do, if designs are missing or the journal goes on beyond the tables.
     pub fn open(folder: &Path, completeness: Completeness) -> Result<Self, InvalidFolder> {
-        let folder = RunFolder::new(folder);
+        let folder = ResultsFolder::new(folder);
         let contents = read(&folder)?;
         // Tables that are sound by themselves would hide the designs that are in the journal alone.
         let behind = match &contents {
@@ -121,12 +121,13 @@ impl VerifiedFolder {
     /// The names of the tables that are there, and of those that should be, in the order in which people read them.
     pub fn tables(&self) -> Vec<String> {
         let stated = self.contents.iter().flat_map(|contents| contents.files.keys());
-        let ranking = Derivation::read(&self.folder, RunFolder::RANKING_RECORD);
+        let ranking = Derivation::read(&self.folder, ResultsFolder::RANKING_RECORD);
         // A ranking that was removed as a whole is not missed.
         let ranking = ranking.filter(|made| self.contents.is_some() && made.is_there(&self.folder));
         let ranked = ranking.iter().flat_map(|made| made.files.keys());
         let expected: BTreeSet<&str> = stated.chain(ranked).map(String::as_str).collect();
-        let tables = RunFolder::tables().filter(|name| expected.contains(name) || self.holds(name));
+        let tables =
+            ResultsFolder::tables().filter(|name| expected.contains(name) || self.holds(name));
         tables.map(str::to_owned).collect()
     }
 
@@ -203,7 +204,7 @@ impl VerifiedFolder {
 
     /// The SHA-256 that a file of the ranking must have.
     fn ranked(&self, name: &str, contents: &Contents) -> Result<String, InvalidFolder> {
-        let ranking = Derivation::read(&self.folder, RunFolder::RANKING_RECORD);
+        let ranking = Derivation::read(&self.folder, ResultsFolder::RANKING_RECORD);
         let unrecorded = || {
             let problem =
                 "no record in derived says that squama rank wrote it; move it out of the folder";
@@ -226,7 +227,7 @@ impl VerifiedFolder {
         let made = Derivation::read(&self.folder, file.maker.key());
         // A search has its journal from the beginning, and a record only once it writes what it has
         // found: a journal without a record is that of a search that was ended.
-        if made.is_none() && !self.folder.file(RunFolder::EVALUATIONS).exists() {
+        if made.is_none() && !self.folder.file(ResultsFolder::EVALUATIONS).exists() {
             return Ok(None);
         }
         let stated = made.and_then(|made| made.files.get(file.name).cloned());
@@ -276,9 +277,9 @@ impl VerifiedFolder {
 pub fn verify_record(path: &Path) -> Result<(), InvalidFolder> {
     let (Some(name), Some(folder)) = (path.file_name(), path.parent()) else { return Ok(()) };
     // Under another name a copy is a definition of its own, as the message advises.
-    let is_record = name == RunFolder::RUN_INFO && path.is_file();
-    let stated = is_record.then(|| Contents::stated_in(&RunFolder::new(folder))).flatten();
-    let expected = stated.and_then(|contents| contents.files.get(RunFolder::RUN_INFO).cloned());
+    let is_record = name == ResultsFolder::RUN_INFO && path.is_file();
+    let stated = is_record.then(|| Contents::stated_in(&ResultsFolder::new(folder))).flatten();
+    let expected = stated.and_then(|contents| contents.files.get(ResultsFolder::RUN_INFO).cloned());
     let found = expected.is_some().then(|| fs::read(path).map(sha256).ok()).flatten();
     if found == expected {
         return Ok(());
@@ -287,19 +288,19 @@ pub fn verify_record(path: &Path) -> Result<(), InvalidFolder> {
     let problem = format!(
         "was edited; copy it under another name to use it as a definition; {mend} writes it again"
     );
-    Err(InvalidFolder::new(folder.join(RunFolder::RUN_INFO), problem))
+    Err(InvalidFolder::new(folder.join(ResultsFolder::RUN_INFO), problem))
 }
 
 /// The contents of `folder`; `None` if it holds tables alone.
-fn read(folder: &RunFolder) -> Result<Option<Contents>, InvalidFolder> {
+fn read(folder: &ResultsFolder) -> Result<Option<Contents>, InvalidFolder> {
     let mend = mend(folder.path());
-    let path = folder.file(RunFolder::CONTENTS);
+    let path = folder.file(ResultsFolder::CONTENTS);
     let parsed = match read_text(&path) {
         Ok(text) => Contents::parse(&text),
         Err(error) if error.kind() == ErrorKind::NotFound && folder.journal().exists() => {
             let problem = format!(
                 "holds a journal but no {}, which a run writes last; {mend} writes the tables of the designs that are solved",
-                RunFolder::CONTENTS
+                ResultsFolder::CONTENTS
             );
             return Err(InvalidFolder::new(folder.path(), problem));
         }
@@ -315,7 +316,7 @@ fn read(folder: &RunFolder) -> Result<Option<Contents>, InvalidFolder> {
 }
 
 /// Whether the journal in `folder` goes on beyond `extent`. Tables may be copied without their journal.
-fn is_behind(folder: &RunFolder, extent: &JournalExtent) -> Result<bool, InvalidFolder> {
+fn is_behind(folder: &ResultsFolder, extent: &JournalExtent) -> Result<bool, InvalidFolder> {
     let path = folder.journal();
     let Ok(metadata) = fs::metadata(&path) else { return Ok(false) };
     let refuse = |problem: &str| {
@@ -348,8 +349,8 @@ mod tests {
     use crate::folder::FILES;
 
     /// A folder whose run states these files.
-    fn folder(place: &Path, files: BTreeMap<String, String>) -> RunFolder {
-        let folder = RunFolder::new(place);
+    fn folder(place: &Path, files: BTreeMap<String, String>) -> ResultsFolder {
+        let folder = ResultsFolder::new(place);
         let journal = JournalExtent { bytes: 0, lines: 0, sha256: sha256("") };
         let program = "0 (none)".to_owned();
         let contents = Contents { program, designs: 0, done: 0, journal, files };
@@ -363,7 +364,7 @@ mod tests {
             let place = tempfile::tempdir().expect("a folder");
             let folder = folder(place.path(), BTreeMap::new());
             fs::write(folder.file(file.name), "forged").expect("writable");
-            fs::write(folder.file(RunFolder::EVALUATIONS), "").expect("writable");
+            fs::write(folder.file(ResultsFolder::EVALUATIONS), "").expect("writable");
             let open = || VerifiedFolder::open(folder.path(), Completeness::Whole);
             let refused = open().and_then(|folder| folder.text(file.name)).expect_err(file.name);
             assert!(refused.to_string().contains(file.name), "{refused}");

@@ -9,7 +9,7 @@ use sweep::{Case, DesignNumber};
 use super::design_result::{DesignResult, SEPARATOR};
 use super::failure::Failure;
 use super::parameter_derivative::ParameterDerivative;
-use crate::shell::shell_word;
+use text::shell_word;
 
 /// A row of `designs.csv`: a design and its result.
 #[derive(Clone, Debug, PartialEq)]

@@ -8,7 +8,7 @@ use journal::{AtomicFile, OutputError};
 
 use super::csv_format::CsvFormat;
 use crate::columns::Column;
-use crate::folder::RunFolder;
+use crate::folder::ResultsFolder;
 
 /// Rows whose lines are in memory at a time.
 const PORTION: usize = 1024;
@@ -26,7 +26,7 @@ impl<'c, R> CsvFile<'c, R> {
     /// # Errors
     /// If the folder or the disk does not take it.
     pub fn create(
-        folder: &RunFolder,
+        folder: &ResultsFolder,
         name: &str,
         format: CsvFormat,
         columns: &'c [Column<R>],
@@ -114,7 +114,7 @@ impl<'c, R> CsvFile<'c, R> {
 /// # Errors
 /// If the folder or the disk does not take it.
 pub fn write_rows<R>(
-    folder: &RunFolder,
+    folder: &ResultsFolder,
     name: &str,
     format: CsvFormat,
     columns: &[Column<R>],

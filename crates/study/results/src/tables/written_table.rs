@@ -11,7 +11,7 @@ use journal::sha256_of;
 
 use super::csv_format::CsvFormat;
 use crate::columns::Column;
-use crate::folder::RunFolder;
+use crate::folder::ResultsFolder;
 
 /// A table that was written before.
 pub struct WrittenTable {
@@ -21,7 +21,7 @@ pub struct WrittenTable {
 
 impl WrittenTable {
     /// The table `name` in `folder`; `None` if there is none.
-    pub fn open(folder: &RunFolder, name: &str) -> Option<Self> {
+    pub fn open(folder: &ResultsFolder, name: &str) -> Option<Self> {
         let path = folder.file(name);
         // Opening a pipe may never return.
         path.is_file().then_some(())?;
@@ -33,7 +33,7 @@ impl WrittenTable {
 
     /// The table `name` in `folder`, if its SHA-256 is the one that is `stated` of files by their names.
     pub fn as_stated(
-        folder: &RunFolder,
+        folder: &ResultsFolder,
         name: &str,
         stated: &BTreeMap<String, String>,
     ) -> Option<Self> {

@@ -83,9 +83,9 @@ fn a_depth_has_a_force() {
     assert!(headers("name = 'x'\n[puncture]\ndepth_over_t = 0.3").contains(",force_at_depth,"));
     let material = "name = 'x'\n[puncture]\ndepth_mm = 0.3\n[material]\nthickness_mm = 1\nsubstrate_modulus_MPa = 1";
     assert!(headers(material).contains(",force_at_depth_N,"));
-    assert_eq!(results::yardsticks("force_at_depth").first(), Some(&"needle"));
-    assert!(results::yardsticks("force_at_depth").contains(&"depth_over_t"));
-    assert!(!results::yardsticks("critical_force").contains(&"depth_over_t"));
+    assert_eq!(results::measurement_conditions("force_at_depth").first(), Some(&"needle"));
+    assert!(results::measurement_conditions("force_at_depth").contains(&"depth_over_t"));
+    assert!(!results::measurement_conditions("critical_force").contains(&"depth_over_t"));
 }
 
 /// The weakest place is told where places are tried.
@@ -96,7 +96,7 @@ fn places_have_a_weakest() {
     assert!(headers(places).contains(",weakest_force,weakest_place,weakest_status,"));
     let material = "[material]\nthickness_mm = 1\nsubstrate_modulus_MPa = 1";
     assert!(headers(&format!("{places}\n{material}")).contains(",weakest_force_N,"));
-    assert!(results::yardsticks("weakest_force").contains(&"places"));
+    assert!(results::measurement_conditions("weakest_force").contains(&"places"));
 }
 
 /// One path has columns for each of several critical tilts, or frictions, behind the others.

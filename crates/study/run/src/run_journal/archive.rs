@@ -6,7 +6,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use journal::{JournalError, Records, Seal, Windows};
-use results::{Contents, CsvFormat, DesignRow, JournalExtent, RunFolder};
+use results::{Contents, CsvFormat, DesignRow, JournalExtent, ResultsFolder};
 use sweep::{Subset, SubsetDesigns, Sweep};
 use text::reason;
 
@@ -104,7 +104,7 @@ impl Archive {
     ///
     /// # Errors
     /// If there is none, or it is damaged.
-    pub fn open(folder: &RunFolder) -> Result<Self, JournalError> {
+    pub fn open(folder: &ResultsFolder) -> Result<Self, JournalError> {
         let path = folder.journal();
         // Also if the first line is torn: nothing was solved then.
         let missing = || JournalError::Missing(folder.path().to_owned());
@@ -149,7 +149,7 @@ impl Archive {
     }
 
     /// The message if the journal has fewer lines than it had when the tables in `folder` were written.
-    pub(crate) fn lost_lines(&self, folder: &RunFolder) -> Option<String> {
+    pub(crate) fn lost_lines(&self, folder: &ResultsFolder) -> Option<String> {
         // Only whole lines are counted: a torn one was never stated.
         let stated = Contents::stated_in(folder)?.journal.lines;
         let lost = stated.checked_sub(self.lines).filter(|lost| *lost > 0)?;
@@ -164,7 +164,7 @@ impl Archive {
     }
 
     /// Refuses it if it has lost lines.
-    pub(crate) fn require_all_lines(&self, folder: &RunFolder) -> Result<(), JournalError> {
+    pub(crate) fn require_all_lines(&self, folder: &ResultsFolder) -> Result<(), JournalError> {
         let path = self.path.clone();
         self.lost_lines(folder).map_or(Ok(()), |lost| Err(JournalError::LinesLost { path, lost }))
     }

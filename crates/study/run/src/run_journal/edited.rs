@@ -2,21 +2,21 @@
 
 use journal::JournalError;
 use results::columns::{design_columns, name};
-use results::{Contents, JournalExtent, RunFolder, WrittenTable};
+use results::{Contents, JournalExtent, ResultsFolder, WrittenTable};
 
 use super::archive::Archive;
 
 /// Refuses the journal in `folder` if a design in it is not what the table of designs says that was written from it.
 ///
 /// Nothing is compared as long as the journal begins as it did then. Lines that were removed, doubled or swapped change no design.
-pub(super) fn refuse(archive: &Archive, folder: &RunFolder) -> Result<(), JournalError> {
+pub(super) fn refuse(archive: &Archive, folder: &ResultsFolder) -> Result<(), JournalError> {
     let Some(contents) = Contents::stated_in(folder) else { return Ok(()) };
     let stated = &contents.journal;
     let found = JournalExtent::of(&folder.journal(), stated.bytes, stated.lines);
     if found.is_ok_and(|found| found == *stated) {
         return Ok(());
     }
-    let table = WrittenTable::as_stated(folder, RunFolder::DESIGNS, &contents.files);
+    let table = WrittenTable::as_stated(folder, ResultsFolder::DESIGNS, &contents.files);
     let Some(table) = table else { return Ok(()) };
     let (columns, grid) = (design_columns(archive.sweep()), archive.sweep().grid());
     let settings = columns.iter().position(|column| column.name == name::SETTINGS);
@@ -38,7 +38,7 @@ pub(super) fn refuse(archive: &Archive, folder: &RunFolder) -> Result<(), Journa
     Err(JournalError::Edited {
         path: folder.journal(),
         line: format!("design {design}"),
-        table: RunFolder::DESIGNS.to_owned(),
+        table: ResultsFolder::DESIGNS.to_owned(),
         again: "with --fresh",
     })
 }

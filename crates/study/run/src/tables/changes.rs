@@ -2,14 +2,16 @@
 
 use journal::JournalError;
 use results::columns::{design_columns, name};
-use results::{Cell, Column, CsvFile, CsvFormat, DesignRow, RERUN_COLUMNS, RerunChange, RunFolder};
+use results::{
+    Cell, Column, CsvFile, CsvFormat, DesignRow, RERUN_COLUMNS, RerunChange, ResultsFolder,
+};
 
 use crate::run_journal::Archive;
 
 /// Writes the table of what reruns have changed if there is anything to tell, and returns its name and its SHA-256.
 pub(super) fn write(
     archive: &Archive,
-    folder: &RunFolder,
+    folder: &ResultsFolder,
     format: CsvFormat,
 ) -> Result<Option<(String, String)>, JournalError> {
     let mut pairs = archive.entries()?.replaced().peekable();
@@ -18,14 +20,14 @@ pub(super) fn write(
         return Ok(None);
     }
     let columns = design_columns(archive.sweep());
-    let mut table = CsvFile::create(folder, RunFolder::RERUNS, format, RERUN_COLUMNS)?;
+    let mut table = CsvFile::create(folder, ResultsFolder::RERUNS, format, RERUN_COLUMNS)?;
     for pair in pairs {
         let (old, new) = pair?;
         let rerun = new.rerun;
         let rows = [archive.row(old), archive.row(new)];
         changes(&columns, rerun, &rows).iter().try_for_each(|change| table.write(change))?;
     }
-    Ok(Some((RunFolder::RERUNS.to_owned(), table.finish()?)))
+    Ok(Some((ResultsFolder::RERUNS.to_owned(), table.finish()?)))
 }
 
 /// Every value that changed; one change without a column if none did.

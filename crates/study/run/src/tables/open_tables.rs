@@ -3,7 +3,7 @@
 use results::columns::TableLayout;
 use results::{
     Column, CsvFile, CsvFormat, DERIVATIVE_COLUMNS, DerivativeRow, DesignRow, FailureRow,
-    OutputError, RunFolder,
+    OutputError, ResultsFolder,
 };
 use sweep::{Measure, Sweep};
 
@@ -26,7 +26,7 @@ pub(super) struct TableLines {
 impl<'a> OpenTables<'a> {
     /// Begins the tables of a sweep.
     pub fn create(
-        folder: &RunFolder,
+        folder: &ResultsFolder,
         format: CsvFormat,
         sweep: &Sweep,
         layouts: &'a [TableLayout],
@@ -36,9 +36,9 @@ impl<'a> OpenTables<'a> {
             CsvFile::create(folder, &layout.file, format, &layout.columns)
         };
         let designs = layouts.iter().map(create).collect::<Result<_, _>>()?;
-        let failures = CsvFile::create(folder, RunFolder::FAILURES, format, failures)?;
+        let failures = CsvFile::create(folder, ResultsFolder::FAILURES, format, failures)?;
         let derivatives =
-            || CsvFile::create(folder, RunFolder::SENSITIVITY, format, DERIVATIVE_COLUMNS);
+            || CsvFile::create(folder, ResultsFolder::SENSITIVITY, format, DERIVATIVE_COLUMNS);
         // Not an empty table if nobody asked: whoever finds it would look for derivatives.
         let is_asked = sweep.measures().contains(&Measure::Sensitivity);
         let derivatives = is_asked.then(derivatives).transpose()?;
@@ -80,9 +80,9 @@ impl<'a> OpenTables<'a> {
         for (layout, table) in self.layouts.iter().zip(self.designs) {
             files.push((layout.file.clone(), table.finish()?));
         }
-        files.push((RunFolder::FAILURES.to_owned(), self.failures.finish()?));
+        files.push((ResultsFolder::FAILURES.to_owned(), self.failures.finish()?));
         if let Some(table) = self.derivatives {
-            files.push((RunFolder::SENSITIVITY.to_owned(), table.finish()?));
+            files.push((ResultsFolder::SENSITIVITY.to_owned(), table.finish()?));
         }
         Ok(files)
     }

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::time::{Duration, Instant};
 
 use journal::{OutputError, Program};
-use results::RunFolder;
+use results::ResultsFolder;
 use text::toml_source::quoted;
 
 use super::summary::Summary;
@@ -37,12 +37,12 @@ impl<'a> RunInfo<'a> {
     pub fn write(
         &self,
         archive: &Archive,
-        folder: &RunFolder,
+        folder: &ResultsFolder,
         summary: &Summary,
     ) -> Result<String, OutputError> {
         let definition = archive.sweep().to_toml_under("definition");
         let text = format!("{}{}\n{definition}", self.run(archive, summary), statuses(summary));
-        folder.write_text(RunFolder::RUN_INFO, &text)
+        folder.write_text(ResultsFolder::RUN_INFO, &text)
     }
 
     fn run(&self, archive: &Archive, summary: &Summary) -> String {

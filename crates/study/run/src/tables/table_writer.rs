@@ -7,7 +7,7 @@ use journal::{JournalError, OutputError};
 use rayon::iter::ParallelIterator as _;
 use rayon::slice::ParallelSlice as _;
 use results::columns::tables;
-use results::{Contents, CsvFormat, DesignRow, RunFolder, failure_columns};
+use results::{Contents, CsvFormat, DesignRow, ResultsFolder, failure_columns};
 
 use super::changes;
 use super::open_tables::OpenTables;
@@ -30,7 +30,7 @@ type WrittenTables = Vec<(String, String)>;
 
 /// Writes the tables of one run.
 pub(crate) struct TableWriter<'a> {
-    folder: RunFolder,
+    folder: ResultsFolder,
     format: CsvFormat,
     every: Duration,
     threads: usize,
@@ -43,7 +43,7 @@ pub(crate) struct TableWriter<'a> {
 impl<'a> TableWriter<'a> {
     /// A writer of tables to `folder`, as the options say.
     pub fn new(
-        folder: RunFolder,
+        folder: ResultsFolder,
         format: CsvFormat,
         options: &Options<'_>,
         info: RunInfo<'a>,
@@ -69,7 +69,7 @@ impl<'a> TableWriter<'a> {
         // Tables that this run does not have are those of an earlier one.
         self.folder.remove_tables_but(&names);
         let record = self.info.write(archive, &self.folder, &summary)?;
-        let record = (RunFolder::RUN_INFO.to_owned(), record);
+        let record = (ResultsFolder::RUN_INFO.to_owned(), record);
         let contents = self.contents(archive, tables.into_iter().chain([record]).collect())?;
         // Last of all: from here on readers take the tables for what the run wrote.
         contents.write(&self.folder)?;

@@ -9,10 +9,10 @@ use report::{Designs, PageFront};
 use results::{Completeness, Results, VerifiedFolder};
 use sweep::{PARAMETERS, Parameter, Scalar, Sweep};
 
-use crate::commands::results_folder::ResultsFolder;
+use crate::commands::folder_contents::FolderContents;
 
 /// Reads the designs of a search, to show them beside the designs of `grid`.
-pub fn front(folder: &Path, grid: &ResultsFolder) -> anyhow::Result<PageFront> {
+pub fn front(folder: &Path, grid: &FolderContents) -> anyhow::Result<PageFront> {
     let name = folder.display();
     // A search has no expected number of designs.
     let found = VerifiedFolder::open(folder, Completeness::Partial)?;
@@ -85,7 +85,7 @@ fn tolerances_of(goal: &DesignGoal) -> Option<String> {
 }
 
 /// Lists the fixed parameters that differ between the search and the grid, with both values.
-fn differences(goal: &DesignGoal, grid: &ResultsFolder) -> Vec<String> {
+fn differences(goal: &DesignGoal, grid: &FolderContents) -> Vec<String> {
     let is_variable = |key: &str| goal.space.parameters().any(|variable| variable.key == key);
     let held = PARAMETERS.iter().filter(|parameter| !is_variable(parameter.key));
     let difference = |parameter: &Parameter| {

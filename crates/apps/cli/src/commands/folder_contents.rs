@@ -6,13 +6,13 @@ use ranking::{
     InvalidRanking, Preferences, Ranking, TetrahedralGrid, check_comparable, comparable_groups,
 };
 use report::{Designs, Fact, facts};
-use results::{InvalidResults, Results, RunFolder, VerifiedFolder};
+use results::{InvalidResults, Results, ResultsFolder, VerifiedFolder};
 use sweep::Sweep;
 
 use crate::print::note;
 
 /// The contents of a results folder.
-pub struct ResultsFolder {
+pub struct FolderContents {
     /// The path of the folder.
     pub folder: PathBuf,
     /// The sweep that was run.
@@ -24,7 +24,7 @@ pub struct ResultsFolder {
     results: Results,
 }
 
-impl ResultsFolder {
+impl FolderContents {
     /// Returns the verified folder.
     pub fn verified(&self) -> &VerifiedFolder {
         self.results.verified_folder()
@@ -45,12 +45,12 @@ impl ResultsFolder {
     }
 }
 
-impl ResultsFolder {
+impl FolderContents {
     /// Reads `run.toml` and `designs.csv`; thins out a table of more than `most` designs.
     pub fn read(verified: &VerifiedFolder, most: usize) -> anyhow::Result<Self> {
         let folder = verified.path();
-        let run = verified.text(RunFolder::RUN_INFO)?;
-        let record = folder.join(RunFolder::RUN_INFO).display().to_string();
+        let run = verified.text(ResultsFolder::RUN_INFO)?;
+        let record = folder.join(ResultsFolder::RUN_INFO).display().to_string();
         let sweep = Sweep::parse(&run, &record, &[])?;
         let results = Results::thinned(verified, most)?;
         let designs = Designs::of(&results);

@@ -1,21 +1,26 @@
-//! Parameters that say how something is measured: designs in which they differ cannot be compared.
+//! Parameters that define how a value is measured; designs must share them to be compared.
 
 use sweep::{PARAMETERS, Sweep};
 
 use crate::columns::about;
 
-/// The parameters that say how a column is measured: only designs of the same values can be compared by it.
-pub fn yardsticks(column: &str) -> Vec<&'static str> {
+/// Returns the keys of the parameters that define how a column is measured.
+///
+/// Designs can be compared by the column only if they have the same values of these parameters.
+pub fn measurement_conditions(column: &str) -> Vec<&'static str> {
     let Some((value, quantity)) = about(column) else { return Vec::new() };
-    let measuring = PARAMETERS.iter().filter(|parameter| value.is_measured_by(parameter, quantity));
-    measuring.map(|parameter| parameter.key).collect()
+    PARAMETERS
+        .iter()
+        .filter(|parameter| value.is_measured_by(parameter, quantity))
+        .map(|parameter| parameter.key)
+        .collect()
 }
 
-/// The parameter in which the designs of a sweep differ so that they cannot be compared by a column, if there is one.
+/// Returns a varied parameter that makes the designs of a sweep incomparable by a column.
 pub fn incomparable_by(sweep: &Sweep, column: &str) -> Option<&'static str> {
-    let differs =
-        |parameter: &&str| sweep.grid().axis(parameter).is_some_and(|axis| axis.len() > 1);
-    yardsticks(column).into_iter().find(differs)
+    measurement_conditions(column)
+        .into_iter()
+        .find(|parameter| sweep.grid().axis(parameter).is_some_and(|axis| axis.len() > 1))
 }
 
 #[cfg(test)]
@@ -37,10 +42,9 @@ mod tests {
         assert_eq!(incomparable_by(&membranes, "flexural_rigidity_N_mm2"), None);
     }
 
-    /// What is measured where a path ends depends on where that is, and nothing else does.
     #[test]
-    fn whatever_depends_on_the_end_of_a_puncture_is_measured_by_its_tilt() {
-        let at_the_end = [
+    fn only_values_at_the_end_of_a_puncture_depend_on_the_critical_tilt() {
+        let values_at_end = [
             "critical_force",
             "peak_force",
             "sound_force",
@@ -60,9 +64,9 @@ mod tests {
             "critical_force_p05_N",
             "friction_work",
         ];
-        for column in at_the_end {
-            let by = ["needle", "critical_tilt_deg", "needle_friction"];
-            assert_eq!(yardsticks(column), by, "{column}");
+        for column in values_at_end {
+            let conditions = ["needle", "critical_tilt_deg", "needle_friction"];
+            assert_eq!(measurement_conditions(column), conditions, "{column}");
         }
         for column in [
             "initial_stiffness",
@@ -72,14 +76,14 @@ mod tests {
             "contact_curvature",
             "locking_curvature",
         ] {
-            assert!(yardsticks(column).is_empty(), "{column}");
+            assert!(measurement_conditions(column).is_empty(), "{column}");
         }
         let bending = ["membrane_length_over_t", "membrane_length_mm", "max_end_rotation_deg"];
-        assert_eq!(yardsticks("membrane_strain_max"), bending);
-        assert_eq!(yardsticks("flexural_rigidity_N_mm2"), bending);
-        assert_eq!(yardsticks("max_moment_N_mm"), bending);
-        assert!(yardsticks("flexure_friction_work").contains(&bending[2]));
+        assert_eq!(measurement_conditions("membrane_strain_max"), bending);
+        assert_eq!(measurement_conditions("flexural_rigidity_N_mm2"), bending);
+        assert_eq!(measurement_conditions("max_moment_N_mm"), bending);
+        assert!(measurement_conditions("flexure_friction_work").contains(&bending[2]));
         let unit = ["membrane_thickness_over_t", "membrane_thickness_mm"];
-        assert_eq!(yardsticks("initial_compliance"), unit);
+        assert_eq!(measurement_conditions("initial_compliance"), unit);
     }
 }

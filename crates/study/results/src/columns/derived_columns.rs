@@ -35,29 +35,30 @@ const STATISTICS: [(&str, &str); 4] = [
 
 /// Every column of measured values, in the order of `designs.csv`, where the tables of their own begin with what they are about.
 pub(super) static COLUMNS: LazyLock<Vec<ValueColumn>> = LazyLock::new(|| {
-    let mut columns: Vec<_> = VALUES.iter().filter(|value| value.is_nominal()).map(of).collect();
-    columns.extend(VALUES.iter().flat_map(of_samples));
+    let mut columns: Vec<_> =
+        VALUES.iter().filter(|value| value.is_nominal()).map(value_column).collect();
+    columns.extend(VALUES.iter().flat_map(statistics_columns));
     columns.extend(in_physical_units());
     columns
 });
 
 /// The column of the value itself.
-fn of(value: &'static MeasuredValue) -> ValueColumn {
+fn value_column(value: &'static MeasuredValue) -> ValueColumn {
     let (name, meaning) = (value.name.into(), value.meaning.into());
     ValueColumn { value, quantity: None, statistic: None, name, unit: value.unit, meaning }
 }
 
 /// The columns of the statistics of a value, or of a count of samples.
-fn of_samples(value: &'static MeasuredValue) -> Vec<ValueColumn> {
+fn statistics_columns(value: &'static MeasuredValue) -> Vec<ValueColumn> {
     let statistics = value.samples.iter().flat_map(|samples| {
         STATISTICS.iter().enumerate().map(|(k, (ending, words))| ValueColumn {
             statistic: Some(k),
             name: format!("{}_{ending}", value.name).into(),
             meaning: format!("{words} of the {} over the imperfect samples", samples.noun).into(),
-            ..of(value)
+            ..value_column(value)
         })
     });
-    let count = matches!(value.value, Value::Samples(_)).then(|| of(value));
+    let count = matches!(value.value, Value::Samples(_)).then(|| value_column(value));
     count.into_iter().chain(statistics).collect()
 }
 
@@ -73,7 +74,8 @@ fn in_physical_units() -> impl Iterator<Item = ValueColumn> {
     };
     let sampled = VALUES.iter().filter(|value| value.samples.is_some());
     let sampled = sampled.filter_map(|value| Some((value, value.physical.first()?)));
-    let mass = VALUES.iter().filter(|value| matches!(value.value, Value::ArealMass)).map(of);
+    let mass =
+        VALUES.iter().filter(|value| matches!(value.value, Value::ArealMass)).map(value_column);
     let nominal: Vec<_> = values.iter().flat_map(nominal).collect();
     nominal.into_iter().chain(sampled.flat_map(|(v, p)| physical_statistics(v, p))).chain(mass)
 }
@@ -87,7 +89,7 @@ fn physical_column(value: &'static MeasuredValue, physical: &Physical) -> ValueC
         name,
         unit: quantity.unit(),
         meaning: meaning.into(),
-        ..of(value)
+        ..value_column(value)
     }
 }
 
@@ -98,20 +100,22 @@ fn physical_statistics(
     Physical { quantity, other }: &'static Physical,
 ) -> impl Iterator<Item = ValueColumn> {
     let inverse = quantity.is_inverse();
-    of_samples(value).into_iter().enumerate().skip(usize::from(inverse)).map(move |(k, column)| {
-        let stem = other.map_or(value.name, |(name, _)| name);
-        let (ending, words) = STATISTICS[k];
-        let meaning =
-            || format!("{words} of the {} over the imperfect samples", stem.replace('_', " "));
-        ValueColumn {
-            quantity: Some(*quantity),
-            statistic: Some(if inverse { STATISTICS.len() - k } else { k }),
-            name: format!("{stem}_{ending}_{}", quantity.suffix()).into(),
-            unit: quantity.unit(),
-            meaning: other.map_or(column.meaning, |_| meaning().into()),
-            ..column
-        }
-    })
+    statistics_columns(value).into_iter().enumerate().skip(usize::from(inverse)).map(
+        move |(k, column)| {
+            let stem = other.map_or(value.name, |(name, _)| name);
+            let (ending, words) = STATISTICS[k];
+            let meaning =
+                || format!("{words} of the {} over the imperfect samples", stem.replace('_', " "));
+            ValueColumn {
+                quantity: Some(*quantity),
+                statistic: Some(if inverse { STATISTICS.len() - k } else { k }),
+                name: format!("{stem}_{ending}_{}", quantity.suffix()).into(),
+                unit: quantity.unit(),
+                meaning: other.map_or(column.meaning, |_| meaning().into()),
+                ..column
+            }
+        },
+    )
 }
 
 impl MeasuredValue {
@@ -197,6 +201,6 @@ impl ValueColumn {
     }
 
     pub(super) fn column(&'static self) -> Column<DesignRow> {
-        Column::made(self.name.clone(), self.unit, &self.meaning, |row| self.cell(row))
+        Column::computed(self.name.clone(), self.unit, &self.meaning, |row| self.cell(row))
     }
 }
