@@ -226,7 +226,7 @@ fn copy(
 
 fn open(file: File) -> io::Result<(CsvFormat, csv::Reader<BufReader<File>>)> {
     let mut file = BufReader::new(file);
-    let (format, start) = CsvFormat::of(file.fill_buf()?);
+    let (format, start) = CsvFormat::detect(file.fill_buf()?);
     file.consume(start);
     Ok((format, format.reader(file)))
 }

@@ -88,7 +88,11 @@ impl Solver {
         let row = &solved.row;
         let values = values(&own, row);
         let change = request.fine.then(|| {
-            GapChange::of(&own, &row.number.to_string(), &[name::CRITICAL_FORCE, name::COMPLIANCE])
+            GapChange::solve(
+                &own,
+                &row.number.to_string(),
+                &[name::CRITICAL_FORCE, name::COMPLIANCE],
+            )
         });
         let walk =
             request.follow.as_ref().map(|walk| follow(&own, &case, walk, &requirements, evaluator));

@@ -149,7 +149,7 @@ impl<'a> Evaluations<'a> {
         self.go_on()?;
         // Unlocked meanwhile: two threads may solve one point, and write the same line twice.
         let solve = || evaluator.row(self.number(0), case);
-        let mut result = self.progress.slow().told("a design of the search", solve).result;
+        let mut result = self.progress.slow().track("a design of the search", solve).result;
         // Lengths in mm move others, over the thickness. Where material varies, a sample with another thickness or modulus moves in other parameters, too.
         let has_material = self.space.parameters().any(|p| p.section == "material");
         let is_variable = |key| self.space.parameters().any(|p| p.key == key);
@@ -187,7 +187,7 @@ impl<'a> Evaluations<'a> {
         let values = (first..last).into_par_iter().map(|sample| {
             self.go_on()?;
             let solve = || self.sampler.solve(self.number(0), &case, BEFORE + sample);
-            let sampled = self.progress.slow().told("a sample of the search", solve);
+            let sampled = self.progress.slow().track("a sample of the search", solve);
             Ok(sampled.map_or_else(|| judge.no_values(), |sampled| judge.values(&sampled.row)))
         });
         let values: Vec<Vec<Option<f64>>> = values.collect::<Result<_, Halt>>()?;

@@ -54,7 +54,7 @@ impl JournalExtent {
     ///
     /// # Errors
     /// If the file cannot be read.
-    pub fn of(path: &Path, bytes: u64, lines: u64) -> io::Result<Self> {
+    pub fn read(path: &Path, bytes: u64, lines: u64) -> io::Result<Self> {
         Ok(Self { bytes, lines, sha256: sha256_of(File::open(path)?.take(bytes))? })
     }
 }

@@ -152,7 +152,7 @@ pub static FILES: [FileEntry; 47] = [
 
 impl FileEntry {
     /// The entry of the file `name`, if it is one of squama's; of several makers, that of the run.
-    pub fn of(name: &str) -> Option<&'static Self> {
+    pub fn named(name: &str) -> Option<&'static Self> {
         FILES.iter().find(|file| file.name == name)
     }
 
@@ -252,7 +252,7 @@ impl ResultsFolder {
             for table in [Self::DESIGNS, "optimum.csv"] {
                 let Ok(file) = File::open(folder.join(table)) else { continue };
                 if let Ok(start) = BufReader::new(file).fill_buf() {
-                    return CsvFormat::of(start).0;
+                    return CsvFormat::detect(start).0;
                 }
             }
         }
@@ -345,11 +345,11 @@ mod tests {
         let names: BTreeSet<_> = FILES.iter().map(|file| (file.maker.key(), file.name)).collect();
         assert_eq!(names.len(), FILES.len());
         for (value, _) in MEASURE_TABLES {
-            let file = FileEntry::of(&ResultsFolder::measure_table(value)).expect("an entry");
+            let file = FileEntry::named(&ResultsFolder::measure_table(value)).expect("an entry");
             assert_eq!((file.maker, file.role), (Maker::Run, Role::Table));
         }
         for name in ResultsFolder::RANKING.into_iter().chain([ResultsFolder::PREFERENCES]) {
-            assert!(FileEntry::of(name).is_some_and(|file| file.maker == Maker::Ranking));
+            assert!(FileEntry::named(name).is_some_and(|file| file.maker == Maker::Ranking));
         }
     }
 

@@ -300,7 +300,7 @@ fn read_table(
     let in_table = if most == usize::MAX { 0 } else { count_rows(&file)? };
     file.rewind()?;
     let mut file = BufReader::new(file);
-    let (format, start) = CsvFormat::of(file.fill_buf()?);
+    let (format, start) = CsvFormat::detect(file.fill_buf()?);
     file.consume(start);
     let mut csv = format.reader(file);
     let header: Vec<_> = csv.headers()?.iter().map(str::to_owned).collect();

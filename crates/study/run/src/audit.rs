@@ -80,7 +80,7 @@ impl Audit {
     ///
     /// # Errors
     /// If the journal cannot be read or threads cannot be started.
-    pub fn of(folder: &Path, share: f64, options: &Options<'_>) -> Result<Self, RunError> {
+    pub fn solve(folder: &Path, share: f64, options: &Options<'_>) -> Result<Self, RunError> {
         let archive = Archive::open(&ResultsFolder::new(folder))?;
         let sweep = archive.sweep();
         let columns = design_columns(sweep);

@@ -34,7 +34,7 @@ impl CouplingChange {
     /// The measures in `columns` of design `number` of `sweep`; columns without a number are left out. `None` if there is no such
     /// design, if it has the whole substrate coupled already, if nothing moves, or if solving it again would take long. Samples of imperfect rows
     /// are not solved.
-    pub fn of(sweep: &Sweep, number: &str, columns: &[&str]) -> Option<Self> {
+    pub fn solve(sweep: &Sweep, number: &str, columns: &[&str]) -> Option<Self> {
         let couplings = [Coupling::Nearest, Coupling::Full];
         let (case, solved) = again(sweep, number, couplings, |case, own| case.coupling = own)?;
         (case.coupling == Coupling::Nearest).then_some(())?;

@@ -35,7 +35,7 @@ pub struct Estimate {
 
 impl Estimate {
     /// Solves a few designs of `sweep`, evenly spread, and judges all by them.
-    pub fn of(sweep: &Sweep) -> Self {
+    pub fn solve(sweep: &Sweep) -> Self {
         let (evaluator, grid) = (Evaluator::new(sweep.measures()), sweep.grid());
         let (begun, mut solved, mut bytes) = (Instant::now(), 0, 0);
         // On one thread: how threads share springs and memory is not guessed, `--threads` divides what is told.
@@ -93,7 +93,7 @@ mod tests {
             let text = format!(
                 "name = 'x'\nmeasures = 'coverage'\n[designs]\ngap_over_t = {{ from = 1, to = {values}, step = 1 }}"
             );
-            Estimate::of(&Sweep::parse(&text, "x.toml", &[]).expect("a sweep")).bytes
+            Estimate::solve(&Sweep::parse(&text, "x.toml", &[]).expect("a sweep")).bytes
         };
         let ratio = bytes(200) / bytes(100);
         assert!((ratio - 2.0).abs() < 0.1, "{ratio}");

@@ -63,7 +63,7 @@ impl MeasureChange {
 impl GapChange {
     /// The changes of the measures in `columns` of design `number` of `sweep`; columns without a number are left out. `None` if
     /// there is no such design, or solving it again would take long. Samples of imperfect rows are not solved.
-    pub fn of(sweep: &Sweep, number: &str, columns: &[&str]) -> Option<Self> {
+    pub fn solve(sweep: &Sweep, number: &str, columns: &[&str]) -> Option<Self> {
         let gaps = [1.0, PARTS[0], PARTS[1]];
         let (case, solved) = again(sweep, number, gaps, |case, part| case.design.gap *= part)?;
         let meant = case.design.gap;

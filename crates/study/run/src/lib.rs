@@ -84,6 +84,6 @@ pub use run::run;
 pub use run_journal::{Archive, JournalEntry, JournalHeader, LatestSession, Line, SessionStart};
 pub use solve::curve::CurvePoints;
 pub use solve::evaluator::Evaluator;
-pub use solve::work::{WorkMeter, WorkPiece, told};
+pub use solve::work::{WorkMeter, WorkPiece, report_slow};
 pub use status::RunStatus;
 pub use tables::summary::{Best, Summary};

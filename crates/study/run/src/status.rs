@@ -45,7 +45,7 @@ impl RunStatus {
     ///
     /// # Errors
     /// If there is no run, or its journal is damaged.
-    pub fn of(folder: &Path) -> Result<Self, JournalError> {
+    pub fn read(folder: &Path) -> Result<Self, JournalError> {
         let folder = ResultsFolder::new(folder);
         // Asked before the journal is read: a run that ends in between is told as going on, and not as short of designs.
         let in_use = journal::in_use(&folder.journal());

@@ -83,8 +83,8 @@ impl Deviation {
         }
     }
 
-    /// As [`Self::moved`]; `None` if a parameter then leaves its bounds, so that there is no such skin.
-    pub fn made(&self, case: &Case, by: f64) -> Option<Case> {
+    /// Moves `case` as [`Self::moved`] does; `None` if a parameter leaves its bounds.
+    pub fn applied(&self, case: &Case, by: f64) -> Option<Case> {
         let moved = self.moved(case, by)?;
         let is_made =
             Parameter::with(Role::Made).all(|parameter| parameter.contains(parameter.get(&moved)));

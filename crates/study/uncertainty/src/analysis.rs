@@ -131,7 +131,7 @@ impl<'a> Analysis<'a> {
         // Imperfect samples of its own would be solved for nothing.
         let straight = Case { imperfection: Imperfection::default(), ..case };
         let solve = || self.differentiating.row(number, &straight);
-        let row = store.work().told(&format!("design {number}"), solve);
+        let row = store.work().track(&format!("design {number}"), solve);
         let measured = MeasuredColumns::of(self.sweep, &row);
         let asked = self.sweep.measures();
         let place = |r: &Requirement| measured.required(&r.column, &row, asked);

@@ -29,7 +29,7 @@ pub(crate) fn sample(
         // A deviation that leaves the bounds is drawn again, which cuts the distribution off there.
         let possible = |_| {
             let by = draw(batch, &mut random);
-            Some((deviation.made(&made, by)?, by))
+            Some((deviation.applied(&made, by)?, by))
         };
         // From the case as made so far: whether a load can stand depends on what was drawn before.
         let (moved, by) = (0..DRAWS).find_map(possible)?;

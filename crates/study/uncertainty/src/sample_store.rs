@@ -123,7 +123,7 @@ impl SampleStore {
             if stop.load(Ordering::Relaxed) {
                 return Ok(());
             }
-            let values = self.work.told(&format!("{label}, sample {number}"), || solve(number));
+            let values = self.work.track(&format!("{label}, sample {number}"), || solve(number));
             self.work.count(1);
             lock().append(SolvedSample { number, values })
         })?;

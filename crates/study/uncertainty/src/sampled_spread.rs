@@ -22,7 +22,7 @@ impl SampledSpread {
     /// The spread of `values`; `None` if there are fewer than two.
     pub fn of(values: &[f64]) -> Option<Self> {
         let count = values.len();
-        let statistics = Statistics::of(values.to_vec()).filter(|_| count > 1)?;
+        let statistics = Statistics::from_values(values.to_vec()).filter(|_| count > 1)?;
         let n = count as f64;
         let moment = |power: i32| {
             let sum: f64 = values.iter().map(|value| (value - statistics.mean).powi(power)).sum();

@@ -158,7 +158,7 @@ fn estimate(sweep: &Sweep) -> Vec<[String; 2]> {
     if sweep.grid().len() < LARGE {
         return Vec::new();
     }
-    let estimate = Estimate::of(sweep);
+    let estimate = Estimate::solve(sweep);
     let threads = available_parallelism().map_or(1, usize::from);
     let estimated = Duration::try_from_secs_f64(estimate.seconds / threads as f64);
     let duration = estimated.map_or_else(

@@ -117,7 +117,7 @@ impl SolvedChoice {
         let number = design.number.unwrap_or(design.sweep.grid().number(0));
         let tell = |text| eprintln!("{text}");
         let solve = || evaluator.solve(number, &design.case());
-        let solved = run::told(&format!("design {number}"), tell, solve);
+        let solved = run::report_slow(&format!("design {number}"), tell, solve);
         let columns = design_columns(&design.sweep);
         Self { design, solved, columns }
     }

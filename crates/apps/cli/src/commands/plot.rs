@@ -190,7 +190,7 @@ fn plot_curves(arguments: &CurvesArguments) -> anyhow::Result<u8> {
     let solved = with_bar(cases.len(), |work| {
         let solved = cases.iter().zip(&designs).map(|(case, design)| {
             let name = format!("design {}", design.label());
-            let solved = work.told(&name, || solve(case, arguments.to));
+            let solved = work.track(&name, || solve(case, arguments.to));
             work.count(1);
             solved
         });

@@ -228,7 +228,7 @@ fn scaled([x, y]: [f64; 2], units: Option<[f64; 3]>) -> [f64; 2] {
 /// Computes the change of the criteria with the gap.
 fn gap_factors(results: &FolderContents, number: &str) -> Vec<GapFactors> {
     let columns: Vec<&str> = CRITERIA.iter().map(|criterion| criterion.column.as_ref()).collect();
-    let change = GapChange::of(&results.sweep, number, &columns);
+    let change = GapChange::solve(&results.sweep, number, &columns);
     let measures = change.map_or_else(Vec::new, |change| change.measures);
     let factors = |MeasureChange { column, value, changed }| {
         // A measure of zero has no factor.

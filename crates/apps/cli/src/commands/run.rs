@@ -100,7 +100,7 @@ pub fn run(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
         let finished = run::run(&sweep, subset, &folder, start, options, &PROGRAM, show)?;
         // No audit after an interruption.
         let share = arguments.audit.filter(|_| interrupt.exit_code().is_none());
-        let audited = share.map(|share| run::Audit::of(&folder, share, options)).transpose()?;
+        let audited = share.map(|share| run::Audit::solve(&folder, share, options)).transpose()?;
         anyhow::Ok((finished, audited))
     })?;
     conclude(&folder, &finished);

@@ -35,7 +35,7 @@ pub struct Arguments {
 
 /// Shows the status of a run.
 pub fn status(arguments: &Arguments) -> anyhow::Result<u8> {
-    let status = run::RunStatus::of(&results_folder(&arguments.results)?)?;
+    let status = run::RunStatus::read(&results_folder(&arguments.results)?)?;
     if arguments.json {
         json::print(&as_json(&status))?;
     } else {

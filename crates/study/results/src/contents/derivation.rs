@@ -29,7 +29,7 @@ pub struct Derivation {
 
 impl Derivation {
     /// A product of `results` which `command` makes, none if nobody states what the tables are.
-    pub fn of(results: &VerifiedFolder, product: &str, command: String) -> Option<Self> {
+    pub fn new(results: &VerifiedFolder, product: &str, command: String) -> Option<Self> {
         let (from, made_from) = (results.digest()?, results.shortfall());
         Some(Self { product: product.to_owned(), command, from, made_from, files: BTreeMap::new() })
     }

@@ -183,7 +183,7 @@ impl VerifiedFolder {
 
     /// The SHA-256 that the file `name` must have, if anybody states it.
     fn expected(&self, name: &str) -> Result<Option<String>, InvalidFolder> {
-        let entry = FileEntry::of(name).filter(|file| file.is_stated);
+        let entry = FileEntry::named(name).filter(|file| file.is_stated);
         // The contents are those of a run: other commands have records of their own.
         if let Some(file) = entry.filter(|file| !matches!(file.maker, Maker::Run | Maker::Ranking))
         {
@@ -250,7 +250,7 @@ impl VerifiedFolder {
     }
 
     fn changed(&self, name: &str) -> InvalidFolder {
-        let maker = FileEntry::of(name).map_or(Maker::Run, |entry| entry.maker);
+        let maker = FileEntry::named(name).map_or(Maker::Run, |entry| entry.maker);
         self.refusal(name, maker, "was changed after squama wrote it")
     }
 
@@ -333,7 +333,7 @@ fn is_behind(folder: &ResultsFolder, extent: &JournalExtent) -> Result<bool, Inv
         return Err(refuse(&format!("it had {} bytes and has {}", extent.bytes, metadata.len())));
     }
     // A run that goes on appends to it: only what the tables were written from must not change.
-    let found = JournalExtent::of(&path, extent.bytes, extent.lines);
+    let found = JournalExtent::read(&path, extent.bytes, extent.lines);
     let found = found.map_err(|error| refuse(&reason(&error)))?;
     if found != *extent {
         return Err(refuse("its beginning has changed"));

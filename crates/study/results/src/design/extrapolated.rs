@@ -92,7 +92,7 @@ fn extrapolated(
 ) -> Option<f64> {
     let part = |MovedParameter { parameter, by }: &MovedParameter<'_>| {
         let derivative = derivatives.iter().find(|d| d.parameter == parameter.key);
-        derivative.map_or(Some(0.0), |derivative| Some(by * side.of(derivative, *by)?))
+        derivative.map_or(Some(0.0), |derivative| Some(by * side.slope(derivative, *by)?))
     };
     let change: Option<f64> = changes.iter().map(part).sum();
     Some(derivatives[0].value + change?)
@@ -100,7 +100,7 @@ fn extrapolated(
 
 impl SlopeSide {
     /// The derivative on this side.
-    fn of(self, derivative: &ParameterDerivative, by: f64) -> Option<f64> {
+    fn slope(self, derivative: &ParameterDerivative, by: f64) -> Option<f64> {
         let is_left = self == Self::Left || (self == Self::Ahead && by < 0.0);
         if is_left { derivative.left } else { derivative.right }
     }

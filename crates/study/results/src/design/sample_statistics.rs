@@ -33,7 +33,7 @@ pub fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
 impl Statistics {
     /// The statistics of `values`; `None` if there are no values, or one of the results is not
     /// finite.
-    pub fn of(mut values: Vec<f64>) -> Option<Self> {
+    pub fn from_values(mut values: Vec<f64>) -> Option<Self> {
         values.sort_by(f64::total_cmp);
         let [low, middle, high] = QUANTILES.map(|(_, share)| quantile(&values, share));
         // Without values this is 0/0, and so none.
@@ -74,15 +74,15 @@ mod tests {
     #[test]
     fn quantiles_lie_between_the_nearest_values() {
         let values: Vec<f64> = (0..=20).rev().map(f64::from).collect();
-        let statistics = Statistics::of(values).expect("values");
+        let statistics = Statistics::from_values(values).expect("values");
         assert_eq!(statistics, Statistics { mean: 10.0, quantiles: [1.0, 10.0, 19.0] });
-        let statistics = Statistics::of(vec![3.0, 1.0]).expect("values");
+        let statistics = Statistics::from_values(vec![3.0, 1.0]).expect("values");
         assert_eq!((statistics.mean, statistics.quantiles[1]), (2.0, 2.0));
         assert!((statistics.quantiles[0] - 1.1).abs() < 1e-15);
-        assert_eq!(Statistics::of(Vec::new()), None);
-        assert_eq!(Statistics::of(vec![f64::MAX, f64::MAX]), None);
+        assert_eq!(Statistics::from_values(Vec::new()), None);
+        assert_eq!(Statistics::from_values(vec![f64::MAX, f64::MAX]), None);
         assert_eq!(
-            Statistics::of(vec![7.0]).map(|statistics| statistics.quantiles),
+            Statistics::from_values(vec![7.0]).map(|statistics| statistics.quantiles),
             Some([7.0; 3])
         );
     }

@@ -14,7 +14,7 @@ use crate::columns::values::VALUES;
 struct KnownName(&'static str);
 
 impl KnownName {
-    fn of(text: &str) -> Option<Self> {
+    fn parse(text: &str) -> Option<Self> {
         // Derivatives borrow their names from the program: one that it does not have is refused.
         let value = VALUES.iter().filter(|value| value.has_derivatives());
         let measure = value.map(|value| value.name).find(|name| *name == text);
@@ -25,7 +25,8 @@ impl KnownName {
 impl<'de> Deserialize<'de> for KnownName {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let text = Cow::<str>::deserialize(deserializer)?;
-        Self::of(&text).ok_or_else(|| D::Error::custom(format!("no measure or parameter {text}")))
+        Self::parse(&text)
+            .ok_or_else(|| D::Error::custom(format!("no measure or parameter {text}")))
     }
 }
 

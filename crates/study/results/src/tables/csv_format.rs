@@ -71,7 +71,7 @@ impl CsvFormat {
 
     /// The format of a file that begins so, and where its text begins. The header tells: a spreadsheet
     /// puts the byte-order mark before either separator, or leaves it out.
-    pub fn of(beginning: &[u8]) -> (Self, usize) {
+    pub fn detect(beginning: &[u8]) -> (Self, usize) {
         let start = if beginning.starts_with(MARK) { MARK.len() } else { 0 };
         let header = beginning[start..].split(|byte| matches!(byte, b'\r' | b'\n')).next();
         let header = header.unwrap_or_default();
@@ -134,7 +134,7 @@ mod tests {
     #[test]
     fn the_header_tells_the_format_with_and_without_a_mark() {
         use CsvFormat::{ExcelEu, Plain};
-        let of = |text: &str| CsvFormat::of(text.as_bytes());
+        let of = |text: &str| CsvFormat::detect(text.as_bytes());
         assert_eq!(of("design,gap\r\n1,\"2;3\""), (Plain, 0));
         assert_eq!(of("design;gap\r\n1;2,3"), (ExcelEu, 0));
         assert_eq!(of("\u{feff}design,gap\r\n1;2"), (Plain, 3));

@@ -26,7 +26,7 @@ impl WrittenTable {
         // Opening a pipe may never return.
         path.is_file().then_some(())?;
         let mut file = BufReader::new(File::open(path).ok()?);
-        let (format, start) = CsvFormat::of(file.fill_buf().ok()?);
+        let (format, start) = CsvFormat::detect(file.fill_buf().ok()?);
         file.consume(start);
         Some(Self { format, rows: format.reader(file) })
     }

@@ -174,7 +174,7 @@ impl Archive {
     /// # Errors
     /// If the file cannot be read.
     pub fn extent(&self) -> Result<JournalExtent, JournalError> {
-        let extent = JournalExtent::of(&self.path, self.length, self.lines);
+        let extent = JournalExtent::read(&self.path, self.length, self.lines);
         extent.map_err(|error| self.unreadable(&error))
     }
 

@@ -12,7 +12,7 @@ use super::archive::Archive;
 pub(super) fn refuse(archive: &Archive, folder: &ResultsFolder) -> Result<(), JournalError> {
     let Some(contents) = Contents::stated_in(folder) else { return Ok(()) };
     let stated = &contents.journal;
-    let found = JournalExtent::of(&folder.journal(), stated.bytes, stated.lines);
+    let found = JournalExtent::read(&folder.journal(), stated.bytes, stated.lines);
     if found.is_ok_and(|found| found == *stated) {
         return Ok(());
     }

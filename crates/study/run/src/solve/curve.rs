@@ -25,10 +25,10 @@ impl Evaluator {
         let varied = |parameter| Varied { case, parameter, slopes: Some(&slopes) };
         let variation =
             |&parameter: &&'static Parameter| varied(parameter).variation(Varied::punctured);
-        let (found, known) = known(parameters.iter().map(variation));
+        let (exists, variations) = existing(parameters.iter().map(variation));
         let input = punctured(case, slopes.stiffness.clone());
-        let curve = solved(|| puncture::force_curve(&input, &known, displacements))?;
-        Ok(in_place(curve, &found))
+        let curve = solved(|| puncture::force_curve(&input, &variations, displacements))?;
+        Ok(in_place(curve, &exists))
     }
 
     /// The moment `M*` of bending at each of the curvatures `κ*`, with its derivatives with respect to `parameters`.
@@ -43,26 +43,28 @@ impl Evaluator {
     ) -> Result<CurvePoints, Outcome> {
         let varied = |parameter| Varied { case, parameter, slopes: None };
         let variation = |&parameter: &&'static Parameter| varied(parameter).variation(Varied::bent);
-        let (found, known) = known(parameters.iter().map(variation));
-        let curve = solved(|| flexure::moment_curve(&bent(case), &known, curvatures))?;
-        Ok(in_place(curve, &found))
+        let (exists, variations) = existing(parameters.iter().map(variation));
+        let curve = solved(|| flexure::moment_curve(&bent(case), &variations, curvatures))?;
+        Ok(in_place(curve, &exists))
     }
 }
 
-/// The variations that there are, and which of all they are.
-fn known<P>(
+/// Returns for each variation whether it exists, and the existing ones.
+fn existing<P>(
     variations: impl Iterator<Item = Option<Neighbours<P>>>,
 ) -> (Vec<bool>, Vec<Neighbours<P>>) {
     let all: Vec<_> = variations.collect();
     (all.iter().map(Option::is_some).collect(), all.into_iter().flatten().collect())
 }
 
-/// The points with a rate for each parameter: none for those that have no variation.
-fn in_place(mut curve: CurvePoints, found: &[bool]) -> CurvePoints {
+/// Expands the rates of each point to all parameters, with `None` where no variation exists.
+fn in_place(mut curve: CurvePoints, exists: &[bool]) -> CurvePoints {
     for point in curve.iter_mut().flatten() {
         let mut rates = std::mem::take(&mut point.rates).into_iter();
-        point.rates =
-            found.iter().map(|&is| if is { rates.next().flatten() } else { None }).collect();
+        point.rates = exists
+            .iter()
+            .map(|&exists| if exists { rates.next().flatten() } else { None })
+            .collect();
     }
     curve
 }

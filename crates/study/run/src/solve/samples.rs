@@ -20,22 +20,23 @@ pub(super) fn puncture(
     let (mut force, mut penetration) = (Vec::new(), Vec::new());
     for number in 1..=case.samples.count as u64 {
         // A sample whose scales would overlap is counted as failed, not drawn again: that would bend the distribution.
-        let punctured = own(case, number).and_then(|row| punctured(case, substrate, &row));
+        let punctured =
+            imperfect_row(case, number).and_then(|row| punctured(case, substrate, &row));
         let measures = punctured.map(|result| result.measures);
         work.row_done();
         force.extend(measures.and_then(|measures| measures.critical_force));
         penetration.extend(measures.and_then(|measures| measures.penetration));
     }
     statistics.puncture_failed = Some(case.samples.count - force.len());
-    statistics.critical_force = Statistics::of(force);
-    statistics.penetration = Statistics::of(penetration);
+    statistics.critical_force = Statistics::from_values(force);
+    statistics.penetration = Statistics::from_values(penetration);
 }
 
 /// Bends the samples of `case`, and adds what they gave to `statistics`; tells `work` of each.
 pub(super) fn flexure(case: &Case, statistics: &mut SampleStatistics, work: &DesignWork<'_>) {
     let (mut compliance, mut closing_range) = (Vec::new(), Vec::new());
     for number in 1..=case.samples.count as u64 {
-        let flexure = own(case, number).and_then(|row| bent(case, &row));
+        let flexure = imperfect_row(case, number).and_then(|row| bent(case, &row));
         work.strip_done();
         let Some(flexure) = flexure else { continue };
         if let Some(value) = FlexureResult::of_sample(&flexure).measures.compliance {
@@ -44,13 +45,13 @@ pub(super) fn flexure(case: &Case, statistics: &mut SampleStatistics, work: &Des
             closing_range.extend(flexure.closing_range);
         }
     }
-    statistics.closing_range = Statistics::of(closing_range);
+    statistics.closing_range = Statistics::from_values(closing_range);
     statistics.flexure_failed = Some(case.samples.count - compliance.len());
-    statistics.compliance = Statistics::of(compliance);
+    statistics.compliance = Statistics::from_values(compliance);
 }
 
-/// The imperfect row of that number of the design of `case`; `None` if there is no such row.
-fn own(case: &Case, number: u64) -> Option<Sample> {
+/// Returns imperfect row `number` of the design of `case`, or `None` if no such row exists.
+fn imperfect_row(case: &Case, number: u64) -> Option<Sample> {
     case.imperfection.sample(&case.design, case.samples.seed as u64, number).ok()
 }
 

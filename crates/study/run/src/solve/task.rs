@@ -51,7 +51,7 @@ impl<'a> Task<'a> {
         let grid = self.grid();
         let number = grid.number(index);
         let solve = || self.evaluator.row_metered(number, &grid.case(index), self.work);
-        let mut result = self.work.told(&format!("design {number}"), solve).result;
+        let mut result = self.work.track(&format!("design {number}"), solve).result;
         result.settings.clone_from(&self.settings);
         let at = self.clock.elapsed();
         let seconds = seconds(at.saturating_sub(begun));

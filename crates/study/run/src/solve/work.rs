@@ -21,12 +21,16 @@ pub struct WorkMeter {
     slow: Arc<Mutex<Vec<String>>>,
 }
 
-/// Does the work of the design that is called `design`, and tells in words how far it is if it takes longer than five seconds.
-pub fn told<T>(design: &str, tell: impl Fn(String) + 'static, work: impl FnOnce() -> T) -> T {
-    told_after(PATIENCE, design, tell, work)
+/// Does the work of the design named `design` and reports progress if it takes over five seconds.
+pub fn report_slow<T>(
+    design: &str,
+    tell: impl Fn(String) + 'static,
+    work: impl FnOnce() -> T,
+) -> T {
+    report_after(PATIENCE, design, tell, work)
 }
 
-fn told_after<T>(
+fn report_after<T>(
     patience: Duration,
     design: &str,
     tell: impl Fn(String) + 'static,
@@ -50,11 +54,11 @@ impl WorkMeter {
         std::mem::take(&mut *self.slow.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// Does the work of one design, and keeps for [`Self::take_slow`] how far it is if it takes long.
-    pub fn told<T>(&self, design: &str, work: impl FnOnce() -> T) -> T {
+    /// Does the work of one design and stores its progress for [`Self::take_slow`] if it is slow.
+    pub fn track<T>(&self, design: &str, work: impl FnOnce() -> T) -> T {
         let slow = Arc::clone(&self.slow);
         let tell = move |text| slow.lock().unwrap_or_else(PoisonError::into_inner).push(text);
-        told(design, tell, work)
+        report_slow(design, tell, work)
     }
 
     /// The share of the work that is done, from 0 to 1.
@@ -120,7 +124,7 @@ struct Parts {
 }
 
 impl Parts {
-    fn of(case: &Case, measures: &[Measure]) -> Self {
+    fn count(case: &Case, measures: &[Measure]) -> Self {
         let has = |measure| u64::from(measures.contains(&measure));
         let places = case.puncture.places.unwrap_or(0) as u64;
         let (punctures, bends) = (has(Measure::Puncture) * (1 + places), has(Measure::Flexure));
@@ -140,7 +144,7 @@ impl Parts {
 
 /// The work of a design that is solved for `measures`.
 pub(crate) fn work_of(case: &Case, measures: &[Measure]) -> u64 {
-    Parts::of(case, measures).sum()
+    Parts::count(case, measures).sum()
 }
 
 /// The work of one design while it is solved.
@@ -152,7 +156,7 @@ pub(crate) struct DesignWork<'m> {
 impl<'m> DesignWork<'m> {
     /// The work of `case`, none of it done.
     pub fn new(meter: &'m WorkMeter, case: &Case, measures: &[Measure]) -> Self {
-        let parts = Parts::of(case, measures);
+        let parts = Parts::count(case, measures);
         Self { piece: WorkPiece::new(meter, parts.sum()), parts }
     }
 
@@ -200,7 +204,7 @@ mod tests {
         let (told, heard) = (Arc::<Mutex<Vec<String>>>::default(), Duration::ZERO);
         let tell = Arc::clone(&told);
         let tell = move |text| tell.lock().expect("a lock").push(text);
-        told_after(heard, "design 0417", tell, || evaluator.solve(number, &case));
+        report_after(heard, "design 0417", tell, || evaluator.solve(number, &case));
         let told = told.lock().expect("a lock").join("\n");
         assert!(told.starts_with("design 0417: 0 s so far, 1 points, at 0.0 %"), "{told}");
     }

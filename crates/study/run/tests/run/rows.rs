@@ -72,7 +72,8 @@ fn a_row_alone_is_that_of_a_design_with_its_paths() {
 fn measures_move_with_the_gap_as_their_closed_form_says() {
     let text = "name = 'x'\nmeasures = 'coverage'\n[designs]\ngap_over_t = [0.2, 0.4]\nlength_over_t = 0.5\nslant_deg = 60";
     let sweep = Sweep::parse(text, "x.toml", &[]).expect("a valid sweep");
-    let change = GapChange::of(&sweep, "0002", &["critical_force", "coverage"]).expect("a design");
+    let change =
+        GapChange::solve(&sweep, "0002", &["critical_force", "coverage"]).expect("a design");
     assert_eq!((change.design.as_str(), change.gap), ("0002", 0.4));
     let [coverage] = change.measures.as_slice() else { panic!("{change:?}") };
     let expected = |gap: f64| {
@@ -85,7 +86,7 @@ fn measures_move_with_the_gap_as_their_closed_form_says() {
     assert_eq!(coverage.value, expected(0.4));
     assert_eq!(coverage.changed, [Some(expected(0.9 * 0.4)), Some(expected(1.1 * 0.4))]);
     assert!(coverage.changed[0] > Some(coverage.value));
-    assert_eq!(GapChange::of(&sweep, "0003", &["coverage"]), None);
+    assert_eq!(GapChange::solve(&sweep, "0003", &["coverage"]), None);
 }
 
 #[test]
@@ -94,7 +95,7 @@ fn no_one_waits_for_the_gaps_of_long_chains() {
         let text = format!(
             "name = 'x'\nmeasures = ['coverage', 'flexure']\n[designs]\ngap_over_t = 0.2\nlength_over_t = 0.5\nslant_deg = 0\n[flexure]\nmethod = 'chain'\ngaps = {gaps}"
         );
-        GapChange::of(
+        GapChange::solve(
             &Sweep::parse(&text, "x.toml", &[]).expect("a valid sweep"),
             "1",
             &["coverage"],

@@ -36,7 +36,7 @@ pub enum InvalidDefinition {
 
 impl InvalidDefinition {
     /// Nothing if there are no `errors`; a single one stays as it is.
-    pub(crate) fn of(errors: Vec<Self>) -> Result<(), Self> {
+    pub(crate) fn refuse_any(errors: Vec<Self>) -> Result<(), Self> {
         if errors.is_empty() { Ok(()) } else { Err(Self::several(errors)) }
     }
 

@@ -141,7 +141,7 @@ impl Reader {
         let wrong_together = self.wrong_together(file);
         self.refused.extend(wrong_together);
         // What follows looks at designs, which only keys without contradictions make.
-        InvalidDefinition::of(std::mem::take(&mut self.refused))?;
+        InvalidDefinition::refuse_any(std::mem::take(&mut self.refused))?;
         let written: Vec<_> = self.written().map(|(k, p, place)| (k, p, place.clone())).collect();
         let measures = self.measures.unwrap_or_else(|| Measure::USUAL.to_vec());
         let variables: Vec<_> = self.variables.into_iter().map(|(variable, _)| variable).collect();

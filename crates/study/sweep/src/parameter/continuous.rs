@@ -8,8 +8,8 @@ use crate::case::Case;
 const LEAST_FRICTION: f64 = 1e-4;
 
 impl Parameter {
-    /// The value of this parameter in `case`, which is its own: `None` if its alternative is given, from which it follows.
-    fn own(&self, case: &Case) -> Option<Scalar> {
+    /// Returns the value of this parameter in `case`, or `None` if an alternative key defines it.
+    fn written_value(&self, case: &Case) -> Option<Scalar> {
         let first = self.instead().map(|first| first.get(case));
         // A word such as `auto` or `none` leaves the value to this parameter.
         let follows = first.is_some_and(|value| !matches!(value, Scalar::Word(_)));
@@ -29,7 +29,7 @@ impl Parameter {
             }
             ParameterKind::OptionalNumber { field, .. } => *field(&mut moved).as_mut()? += by,
             ParameterKind::Numbers { set, .. } => {
-                set(&mut moved, Scalar::Number(self.own(case)?.number()? + by));
+                set(&mut moved, Scalar::Number(self.written_value(case)?.number()? + by));
             }
             _ => return None,
         }
@@ -49,7 +49,7 @@ impl Parameter {
         };
         let value = match self.over_t() {
             Some(_) => self.millimetres(case)?.abs(),
-            None => self.own(case)?.number()?.abs(),
+            None => self.written_value(case)?.number()?.abs(),
         };
         if self.key == key::FRICTION && value < LEAST_FRICTION {
             // A path of scales that do not rub knows nothing of how they slip, and so not what a little friction does.

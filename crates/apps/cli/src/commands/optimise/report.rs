@@ -104,7 +104,7 @@ impl SearchReport<'_> {
         let columns = measured(asked.chain(required));
         let alone = space.sweep().at(&space.case(&best.point));
         let number = alone.grid().number(0).to_string();
-        let change = CouplingChange::of(&alone, &number, &columns);
+        let change = CouplingChange::solve(&alone, &number, &columns);
         let named =
             change.map(|change| CouplingChange { design: "the best design".to_owned(), ..change });
         couplings_report(named.as_slice(), requirements)

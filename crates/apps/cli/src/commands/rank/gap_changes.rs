@@ -28,7 +28,7 @@ pub fn gap_changes(results: &Results, ranking: &Ranking<'_>) -> Vec<GapChange> {
             numbers.push(number);
         }
     }
-    numbers.par_iter().filter_map(|number| GapChange::of(sweep, number, &columns)).collect()
+    numbers.par_iter().filter_map(|number| GapChange::solve(sweep, number, &columns)).collect()
 }
 
 /// Solves the best design, and the best without a fold, with full substrate coupling.
@@ -36,7 +36,10 @@ pub fn couplings(results: &Results, ranking: &Ranking<'_>) -> Vec<CouplingChange
     let Some(sweep) = results.definition() else { return Vec::new() };
     let columns = measured_columns(ranking.preferences());
     let best = [Some(ranking.winner(ranking.preferences().weights)), ranking.best_unfolded()];
-    best.iter().flatten().filter_map(|d| CouplingChange::of(sweep, d.design(), &columns)).collect()
+    best.iter()
+        .flatten()
+        .filter_map(|d| CouplingChange::solve(sweep, d.design(), &columns))
+        .collect()
 }
 
 /// Returns the measured columns among the criteria and requirements.
