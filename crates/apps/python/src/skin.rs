@@ -262,7 +262,8 @@ impl Skin {
         py.detach(|| {
             let case = self.case();
             let footprint = case.footprint().or_failed("drawing")?;
-            let substrate = RowStiffness::of(&footprint, case.coupling).or_failed("drawing")?;
+            let substrate =
+                RowStiffness::compute(&footprint, case.coupling).or_failed("drawing")?;
             let solved = snapshots(&case.design, &substrate, &case.common, &case.punctured(), &[]);
             let Snapshots { end, is_critical, .. } = solved.or_failed("drawing")?;
             let states = if is_critical { std::slice::from_ref(&end) } else { &[] };

@@ -179,11 +179,11 @@ pub fn quarter(v: Vec2) -> Vec2 {
 impl Pair {
     /// Neighbours of the shape `scale`, their nodes `pitch` apart (over `t`).
     pub fn new(scale: Parallelogram, pitch: f64) -> Self {
-        Self::of([scale; 2], pitch)
+        Self::between([scale; 2], pitch)
     }
 
     /// Neighbours of any two shapes, the left and the right one, their nodes `pitch` apart (over `t`).
-    pub fn of(scales: [Parallelogram; 2], pitch: f64) -> Self {
+    pub fn between(scales: [Parallelogram; 2], pitch: f64) -> Self {
         let meeting = |corner_edge: CornerEdge| {
             let [left, right] = &scales;
             let (a, b) = if corner_edge.corner_is_left() { (left, right) } else { (right, left) };

@@ -144,7 +144,7 @@ impl Elastica {
     /// # Panics
     /// If the state `z` has neither [`Self::unknowns`] nor five entries.
     pub fn derivatives(&self, z: &[f64]) -> Derivatives {
-        let State { psi, force, phi, .. } = State::new(z);
+        let ElasticaState { psi, force, phi, .. } = ElasticaState::new(z);
         let ([axial, bending], f) = (self.stiffness(), z.len() - 5);
         let (lever, stiffness) = (self.lever(phi), self.rule.stiffness.view((1, 1), (f, f)));
         let mut gradient = DVector::zeros(z.len());
@@ -216,7 +216,7 @@ impl Elastica {
     /// If the state `z` has neither [`Self::unknowns`] nor five entries.
     pub fn axis(&self, z: &[f64], intervals: usize) -> Vec<Vec2> {
         let angles = self.angles(z);
-        let force = State::new(z).force;
+        let force = ElasticaState::new(z).force;
         let tangent = |xi: f64| {
             let section = Direction::new(self.rule.interpolate(&angles, xi), force);
             (1.0 + section.strain) * section.along
@@ -240,7 +240,7 @@ impl Elastica {
     /// # Panics
     /// If the state `z` has neither [`Self::unknowns`] nor five entries.
     pub fn transferred(&self, z: &[f64], to: &Self) -> Vec<f64> {
-        let deviations = self.angles(z) - State::new(z).phi * &self.rule.points;
+        let deviations = self.angles(z) - ElasticaState::new(z).phi * &self.rule.points;
         let points = to.rule.points.iter().skip(1).take(to.order() - 1);
         let psi = points.map(|&xi| self.rule.interpolate(&deviations, xi));
         psi.chain(z[z.len() - 5..].iter().copied()).collect()
@@ -269,14 +269,14 @@ impl Elastica {
 
     /// `Δ`.
     fn base_to_base(&self, z: &[f64]) -> Vec2 {
-        let State { displacement, phi, .. } = State::new(z);
+        let ElasticaState { displacement, phi, .. } = ElasticaState::new(z);
         let node = Vec2::new(self.pitch(), 0.0) + displacement;
         node + self.lever(phi) - self.arms()[0].lever(0.0)
     }
 
     /// Directions `θᵢ` at the points (M20).
     fn angles(&self, z: &[f64]) -> DVector<f64> {
-        let State { psi, phi, .. } = State::new(z);
+        let ElasticaState { psi, phi, .. } = ElasticaState::new(z);
         let mut angles = phi * &self.rule.points;
         let mut inner = angles.rows_mut(1, psi.len());
         inner += psi;
@@ -290,7 +290,7 @@ impl Elastica {
 
     /// The sections at the points, in order.
     fn sections<'a>(&'a self, z: &'a [f64]) -> impl Iterator<Item = (usize, Direction)> + 'a {
-        let State { psi, force, phi, .. } = State::new(z);
+        let ElasticaState { psi, force, phi, .. } = ElasticaState::new(z);
         (0..=self.order()).map(move |i| {
             // A state without `ψ` is one of pure bending, and bends to an arc.
             let deviation = if (1..=psi.len()).contains(&i) { psi[i - 1] } else { 0.0 };
@@ -300,14 +300,14 @@ impl Elastica {
 }
 
 /// The parts of a state (M22).
-struct State<'a> {
+struct ElasticaState<'a> {
     psi: DVectorView<'a, f64>,
     force: Vec2,
     displacement: Vec2,
     phi: f64,
 }
 
-impl<'a> State<'a> {
+impl<'a> ElasticaState<'a> {
     fn new(z: &'a [f64]) -> Self {
         let (psi, rest) = z.split_at(z.len() - 5);
         Self {

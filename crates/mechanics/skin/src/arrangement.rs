@@ -90,7 +90,7 @@ impl Arrangement {
                 let last = row.gaps().len();
                 let pair = |left: usize, right: usize| {
                     let pitch = (left..right).map(|i| row.pitch(i)).sum();
-                    Pair::of([row.scales()[left], row.scales()[right]], pitch)
+                    Pair::between([row.scales()[left], row.scales()[right]], pitch)
                 };
                 // Pairs that reach beyond the end get the last scale as a placeholder. They are
                 // never evaluated.

@@ -45,7 +45,7 @@ pub(crate) const HOLDS: f64 = 1.0;
 pub(crate) type SkinState = solver::State<SkinMode>;
 
 /// Equilibrium point on the path of a skin.
-pub(crate) type SkinPoint = solver::Point<SkinMode>;
+pub(crate) type SkinPoint = solver::Equilibrium<SkinMode>;
 
 /// The contacts of a row of scales, and the layout of their unknowns.
 ///
@@ -129,7 +129,7 @@ impl Contacts {
     ///
     /// With friction these are all constraints of its pair: any of them may start to slip at the
     /// same event.
-    pub(crate) fn companions(&self, constraint: usize) -> std::ops::Range<usize> {
+    pub(crate) fn coupled(&self, constraint: usize) -> std::ops::Range<usize> {
         if !self.has_friction() {
             return constraint..constraint + 1;
         }

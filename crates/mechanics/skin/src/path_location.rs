@@ -1,6 +1,6 @@
 //! Locates equilibria at given values of a quantity, between the points of a path.
 
-use solver::{Bracket, Path, Point, State, System};
+use solver::{Bracket, Continuation, Equilibrium, State, System};
 
 /// A quantity has reached its value within this tolerance, relative to one plus its magnitude.
 const CLOSE: f64 = 1e-12;
@@ -29,10 +29,10 @@ impl<S: System> PathLocation<S> {
     /// value.
     pub(crate) fn between(
         &self,
-        path: &mut Path<S>,
-        from: &Point<S::Mode>,
-        to: &Point<S::Mode>,
-    ) -> Option<Point<S::Mode>> {
+        path: &mut Continuation<S>,
+        from: &Equilibrium<S::Mode>,
+        to: &Equilibrium<S::Mode>,
+    ) -> Option<Equilibrium<S::Mode>> {
         let low = (0.0, self.off(path.system(), &from.state));
         let high = (1.0, self.off(path.system(), &to.state));
         // Check the end before the signs: round-off may give the difference either sign there.
@@ -61,13 +61,13 @@ impl<S: System> PathLocation<S> {
 pub(crate) struct PointLocator<S: System> {
     locations: Vec<PathLocation<S>>,
     /// One point per location; `None` while the path has not reached it.
-    pub(crate) points: Vec<Option<Point<S::Mode>>>,
+    pub(crate) points: Vec<Option<Equilibrium<S::Mode>>>,
 }
 
 impl<S: System> PointLocator<S> {
     /// Starts at the first point of a path.
     pub(crate) fn new(
-        path: &Path<S>,
+        path: &Continuation<S>,
         locations: impl IntoIterator<Item = PathLocation<S>>,
     ) -> Self {
         let locations: Vec<_> = locations.into_iter().collect();
@@ -82,9 +82,9 @@ impl<S: System> PointLocator<S> {
     /// Searches between two points of the path.
     pub(crate) fn follow(
         &mut self,
-        path: &mut Path<S>,
-        from: &Point<S::Mode>,
-        to: &Point<S::Mode>,
+        path: &mut Continuation<S>,
+        from: &Equilibrium<S::Mode>,
+        to: &Equilibrium<S::Mode>,
     ) {
         for (location, found) in self.locations.iter().zip(&mut self.points) {
             // A reversing path passes a value again: keep the first point.

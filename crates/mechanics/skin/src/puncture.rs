@@ -28,7 +28,7 @@ use needle::NEEDLE_UNKNOWNS;
 use observers::PathObservers;
 use point::scales;
 use row_exterior::{Beyond, RowExterior};
-use solver::{Path, Settings, Stop};
+use solver::{Continuation, Settings, Termination};
 use substrate::{FarField, RowStiffness, SubstrateLaw};
 use surface_fold::FoldObserver;
 use system::{Chain, RowLayout};
@@ -260,7 +260,7 @@ impl PunctureParameters {
 struct Followed {
     watch: PathObservers,
     passage: Passage,
-    path: Path<Chain>,
+    path: Continuation<Chain>,
     status: Status,
 }
 
@@ -479,13 +479,17 @@ impl<'a> Problem<'a> {
         let is_untilted = self.parameters.needle.is_guided() && passage.critical_event.is_none();
         // At some load the path of a scale pushed in its middle bifurcates.
         let is_straight = || watch.record.path.iter().all(|at| at.tilt_deg.abs() < STRAIGHT_DEG);
-        let status = match Status::of(&path, path.stop().unwrap_or(Stop::Reached)) {
+        let status = match Status::of(&path, path.termination().unwrap_or(Termination::Reached)) {
             // A row that should have grown further has no valid end.
             _ if !growing.has_room => Status::RowLimit,
             // An upright scale loaded in its middle does not tilt even in the first step.
-            Status::Stopped(Stop::Singular) if watch.record.path.len() == 1 => Status::Untilted,
+            Status::Stopped(Termination::Singular) if watch.record.path.len() == 1 => {
+                Status::Untilted
+            }
             Status::Complete if is_untilted => Status::Untilted,
-            Status::Stopped(Stop::NoConvergence | Stop::Jumps) if is_untilted && is_straight() => {
+            Status::Stopped(Termination::NoConvergence | Termination::Jumps)
+                if is_untilted && is_straight() =>
+            {
                 Status::Untilted
             }
             status => ending::classify(status, &watch.record.path),

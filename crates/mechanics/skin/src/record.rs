@@ -4,7 +4,7 @@ use std::cell::OnceCell;
 use std::sync::Arc;
 
 use contact::CornerEdge;
-use solver::{Change, Path, Peak, Summit, System};
+use solver::{Change, Continuation, Peak, Summit, System};
 
 use crate::contacts::{ContactChange, Contacts, SkinMode, SkinPoint, SkinState};
 
@@ -99,7 +99,12 @@ pub(crate) struct Work {
 
 impl Work {
     /// Adds the dissipation between two neighbouring points.
-    pub(crate) fn add<S: Skin>(&mut self, path: &Path<S>, from: &SkinPoint, to: &SkinPoint) {
+    pub(crate) fn add<S: Skin>(
+        &mut self,
+        path: &Continuation<S>,
+        from: &SkinPoint,
+        to: &SkinPoint,
+    ) {
         let skin = path.system();
         if skin.has_friction() {
             let spans = path.spans(from, to);
@@ -144,7 +149,7 @@ pub(crate) struct Record<S: Skin> {
 
 impl<S: Skin> Record<S> {
     /// Starts the record of a path, and tracks the maxima of some `functions`.
-    pub(crate) fn new(path: &Path<S>, functions: &[PathFunction<S>]) -> Self {
+    pub(crate) fn new(path: &Continuation<S>, functions: &[PathFunction<S>]) -> Self {
         let (skin, start) = (path.system(), path.point());
         let mut record = Self {
             path: vec![skin.path_point(start)],
@@ -163,7 +168,12 @@ impl<S: Skin> Record<S> {
     }
 
     /// Records a new `point`, with `from` as its predecessor.
-    pub(crate) fn visit(&mut self, path: &mut Path<S>, from: &Arc<SkinPoint>, point: &SkinPoint) {
+    pub(crate) fn visit(
+        &mut self,
+        path: &mut Continuation<S>,
+        from: &Arc<SkinPoint>,
+        point: &SkinPoint,
+    ) {
         let residuals = path.take_history();
         let (mut here, step) = (path.system().path_point(point), self.path.len());
         // Add the segment first: the recorded point includes its dissipation.
@@ -195,7 +205,7 @@ impl<S: Skin> Record<S> {
         self.visit_peaks(path, Some(from));
     }
 
-    fn visit_peaks(&mut self, path: &Path<S>, from: Option<&Arc<SkinPoint>>) {
+    fn visit_peaks(&mut self, path: &Continuation<S>, from: Option<&Arc<SkinPoint>>) {
         // The path has grown, so a cached maximum may be outdated.
         self.stiffness_summit.take();
         self.stiffness.visit(path, from, S::stiffness);
@@ -247,7 +257,7 @@ impl<S: Skin> Record<S> {
     }
 
     /// Returns the largest stiffness and its location.
-    pub(crate) fn stiffness_summit(&self, path: &mut Path<S>) -> Option<&Summit<S::Mode>> {
+    pub(crate) fn stiffness_summit(&self, path: &mut Continuation<S>) -> Option<&Summit<S::Mode>> {
         // The search solves for equilibria, so share its result between measure and derivatives.
         self.stiffness_summit.get_or_init(|| self.stiffness.summit(path, S::stiffness)).as_ref()
     }
@@ -260,7 +270,11 @@ impl<S: Skin> Record<S> {
     }
 
     /// Returns the largest value of a tracked function, and its location.
-    pub(crate) fn summit(&self, path: &mut Path<S>, followed: usize) -> Option<Summit<S::Mode>> {
+    pub(crate) fn summit(
+        &self,
+        path: &mut Continuation<S>,
+        followed: usize,
+    ) -> Option<Summit<S::Mode>> {
         let (f, peak) = self.followed.get(followed)?;
         peak.summit(path, *f)
     }

@@ -9,7 +9,7 @@
 mod curve;
 mod measured_points;
 
-use solver::{AnchoredPoint, Change, Linearisation, Moved, Neighbours, Settings};
+use solver::{AnchoredPoint, Change, Linearisation, MovedPoint, Neighbours, Settings};
 
 use crate::ContactChange;
 use crate::contacts::SkinState;
@@ -174,7 +174,7 @@ impl<M> Sides<M> {
 /// Motion of a point on one side of a parameter value.
 struct SideMotion<M> {
     /// The point below and above; `None` if this side has no equilibrium.
-    moved: Option<[Moved<M>; 2]>,
+    moved: Option<[MovedPoint<M>; 2]>,
     /// The contact change on this side.
     change: Option<String>,
 }
@@ -198,7 +198,7 @@ impl<S: Skin> Linearised<'_, S> {
         &self,
         neighbours: &Neighbours<S>,
         side: usize,
-        mut moved: [Moved<S::Mode>; 2],
+        mut moved: [MovedPoint<S::Mode>; 2],
         mut violated: Option<Change>,
     ) -> SideMotion<S::Mode> {
         let (mut here, mut name) = (self.here.clone(), None);
@@ -321,7 +321,7 @@ impl<S: Skin> MeasuredQuantity<S> {
         let moved = motion.moved.as_ref()?;
         let systems = [&neighbours.below, &neighbours.above];
         let value = |side: usize, number: usize| {
-            let Moved { state, direction } = &moved[side];
+            let MovedPoint { state, direction } = &moved[side];
             (self.value)(systems[side], state, direction, number)
         };
         let on_side = contenders.iter().map(|&number| (number, value(side, number)));

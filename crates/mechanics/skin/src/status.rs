@@ -1,6 +1,6 @@
 //! Outcome of a path and its audit.
 
-use solver::{Path, Stop};
+use solver::{Continuation, Termination};
 
 use crate::contacts::SkinState;
 use crate::record::Skin;
@@ -11,7 +11,7 @@ pub enum Status {
     /// The path reached its end (in a puncture on a row of sufficient length) and passed the audit.
     Complete,
     /// The path stopped before its end.
-    Stopped(Stop),
+    Stopped(Termination),
     /// Load, depth and tilt have all turned back, and the path stopped before any of them recovered
     /// its maximum.
     LimitPoint,
@@ -31,10 +31,10 @@ pub enum Status {
 
 impl Status {
     /// Determines the status of a path from its stop reason.
-    pub(crate) fn of<S: Skin>(path: &Path<S>, stop: Stop) -> Self {
+    pub(crate) fn of<S: Skin>(path: &Continuation<S>, stop: Termination) -> Self {
         let (skin, end) = (path.system(), &path.point().state);
         match stop {
-            Stop::Reached => Self::audited(skin, end),
+            Termination::Reached => Self::audited(skin, end),
             // Newton's method also fails where the model itself ends: prefer a mechanical reason
             // visible in the state.
             stop if stop.is_numerical() && skin.interpenetrates(end) => Self::Interpenetration,

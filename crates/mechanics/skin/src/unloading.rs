@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
-use solver::{Path, Stop};
+use solver::{Continuation, Termination};
 
 use crate::contacts::SkinPoint;
 use crate::record::{Skin, Work};
@@ -13,8 +13,8 @@ use crate::record::{Skin, Work};
 pub struct Unloading<P> {
     /// Its equilibria, starting with the end of the loading path.
     pub path: Vec<P>,
-    /// Why it stopped: [`Stop::Unloaded`] at zero load.
-    pub stop: Stop,
+    /// Why it stopped: [`Termination::Unloaded`] at zero load.
+    pub stop: Termination,
     /// Work of the load that is not recovered, i.e. the area of the load loop, over `E* t³` or for
     /// a whole strip over `E_m t³`. It is dissipated by friction or remains stored.
     pub loop_work: Option<f64>,
@@ -31,7 +31,10 @@ pub struct Remains {
 
 impl<P> Unloading<P> {
     /// Reverses a path at its current point, after the dissipation `work`.
-    pub(crate) fn follow<S: Skin<PathPoint = P>>(path: &mut Path<S>, mut work: Work) -> Self {
+    pub(crate) fn follow<S: Skin<PathPoint = P>>(
+        path: &mut Continuation<S>,
+        mut work: Work,
+    ) -> Self {
         path.turn_back();
         // The first point repeats the end of the loading path, with the unloading stiffness.
         let mut points = vec![Self::noted(path.system(), path.point(), &work)];
@@ -41,12 +44,12 @@ impl<P> Unloading<P> {
             work.add(path, &from, &to);
             points.push(Self::noted(path.system(), &to, &work));
         }
-        let stop = path.stop().unwrap_or(Stop::Reached);
+        let stop = path.termination().unwrap_or(Termination::Reached);
         let (skin, end) = (path.system(), path.point());
         // The stored energy covers the whole strip, the dissipation only the solved gaps.
         let loop_work = || skin.stored(&end.state) + skin.repeats() * work.taken();
         // At a nonzero load the loop is not closed, and its area is meaningless.
-        Self { path: points, stop, loop_work: (stop == Stop::Unloaded).then(loop_work) }
+        Self { path: points, stop, loop_work: (stop == Termination::Unloaded).then(loop_work) }
     }
 
     fn noted<S: Skin<PathPoint = P>>(skin: &S, point: &SkinPoint, work: &Work) -> P {
@@ -57,7 +60,7 @@ impl<P> Unloading<P> {
 
     /// Evaluates the residual state, with `displacement` read from a recorded point.
     pub(crate) fn remains(&self, displacement: impl Fn(&P) -> f64) -> Remains {
-        let end = self.path.last().filter(|_| self.stop == Stop::Unloaded);
+        let end = self.path.last().filter(|_| self.stop == Termination::Unloaded);
         Remains { loop_work: self.loop_work, displacement: end.map(displacement) }
     }
 }

@@ -37,13 +37,13 @@ fn entries(scales: usize) -> Vec<(usize, usize, f64)> {
 }
 
 /// The tangent of a row of `scales`, and a right-hand side.
-struct Problem {
+struct RowTangent {
     scales: usize,
     entries: Vec<(usize, usize, f64)>,
     rhs: Vec<f64>,
 }
 
-impl Problem {
+impl RowTangent {
     fn new(scales: usize) -> Self {
         let rhs = (0..BLOCK * scales).map(|i| (i as f64).cos()).collect();
         Self { scales, entries: entries(scales), rhs }
@@ -108,7 +108,7 @@ impl Problem {
 fn linear(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("tangent of a row");
     for scales in [41, 401] {
-        let problem = Problem::new(scales);
+        let problem = RowTangent::new(scales);
         problem.in_blocks(&mut group);
         problem.in_band(&mut group);
         problem.sparse(&mut group);

@@ -1,8 +1,8 @@
 //! Events on the path: where they are.
 
 use crate::bracket::Bracket;
+use crate::continuation::{Candidate, Continuation, Equilibrium};
 use crate::newton::{Condition, FLOOR, Newton, NewtonFailure, guard_slope};
-use crate::path::{Candidate, Path, Point};
 use crate::system::{State, System};
 
 /// An event may lie this far before the point reached: constraints that change sides together are
@@ -44,14 +44,14 @@ pub struct Change {
     pub activated: bool,
 }
 
-impl<S: System> Path<S> {
+impl<S: System> Continuation<S> {
     /// The event that guards and their slopes predict within a distance, if it is the first one and not far from there.
     pub(crate) fn predicted_event(
         &mut self,
-        from: &Point<S::Mode>,
+        from: &Equilibrium<S::Mode>,
         distance: f64,
     ) -> Option<Candidate<S::Mode>> {
-        let rate = self.condition(from).of(&from.leaving);
+        let rate = self.condition(from).measure(&from.leaving);
         // Only the first one is aimed at: what happens behind it happens with another active set.
         let (constraint, along) = self.first_predicted()?;
         // What lies beyond the step is for a later one, which predicts it from nearer.
@@ -61,7 +61,7 @@ impl<S: System> Path<S> {
         let state = from.state.moved(along, &from.leaving);
         let located = self.locate_from(from, state, constraint).ok()?;
         let condition = self.condition(from);
-        let reached = condition.of(&located.state.z) - condition.value;
+        let reached = condition.measure(&located.state.z) - condition.value;
         let within = (0.0..=FARTHER * distance).contains(&reached)
             && self.progress(&located.state.z) <= self.system.target();
         // The prediction is of first order. Where the guard bends, its zero may lie far beyond, or Newton's method may
@@ -89,7 +89,7 @@ impl<S: System> Path<S> {
     /// The first event between the point reached and `candidate`, or `candidate` where there is none.
     pub(crate) fn first_event(
         &mut self,
-        from: &Point<S::Mode>,
+        from: &Equilibrium<S::Mode>,
         candidate: Candidate<S::Mode>,
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let guards = Newton::guards(&self.system, &candidate.state);
@@ -100,7 +100,7 @@ impl<S: System> Path<S> {
         // its end are sound.
         for fraction in self.dips(from, &candidate, &guards) {
             let condition = self.condition(from);
-            let distance = condition.of(&candidate.state.z) - condition.value;
+            let distance = condition.measure(&candidate.state.z) - condition.value;
             let inside = self.trial(from, fraction * distance)?;
             let guards = Newton::guards(&self.system, &inside.state);
             if let Some(constraint) = self.first_violated(&guards) {
@@ -129,19 +129,19 @@ impl<S: System> Path<S> {
     /// again: two events within a step, of which its ends show nothing.
     fn dips(
         &mut self,
-        from: &Point<S::Mode>,
+        from: &Equilibrium<S::Mode>,
         candidate: &Candidate<S::Mode>,
         after: &[f64],
     ) -> Vec<f64> {
         let condition = self.condition(from);
-        let distance = condition.of(&candidate.state.z) - condition.value;
-        let span = distance / condition.of(&from.leaving);
+        let distance = condition.measure(&candidate.state.z) - condition.value;
+        let span = distance / condition.measure(&from.leaving);
         // Of these alone the slope at the end is worked out: a guard that would still be positive there is not
         // expected to dip.
         let falls =
             |c: &usize| self.guards[*c] > FLOOR && self.guards[*c] + self.slopes[*c] * span < 0.0;
         let falling: Vec<usize> = (0..after.len()).filter(falls).collect();
-        let arriving = distance / condition.of(&candidate.direction);
+        let arriving = distance / condition.measure(&candidate.direction);
         let dips = falling.into_iter().filter_map(|c| {
             let slope = guard_slope(&self.system, &candidate.state, c, &candidate.direction);
             let ends = [self.guards[c], after[c]];
@@ -153,7 +153,7 @@ impl<S: System> Path<S> {
     /// The first event between the point reached and `beyond`, where `constraint` is violated.
     fn event(
         &mut self,
-        from: &Point<S::Mode>,
+        from: &Equilibrium<S::Mode>,
         mut beyond: Candidate<S::Mode>,
         mut constraint: usize,
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
@@ -164,7 +164,7 @@ impl<S: System> Path<S> {
             // It has just changed sides, or is the one whose condition a contact has passed to, and the path leaves in the
             // direction in which it stays valid: a step that ends otherwise was too long. To look for its zero would lead back
             // to where the path is, and from there the way that it came.
-            let is_sliding = self.system.companions(constraint).len() > 1;
+            let is_sliding = self.system.coupled(constraint).len() > 1;
             let is_at_no_rate = self.slopes[constraint].abs() < NO_RATE;
             self.undone += usize::from(changed && is_sliding && is_at_no_rate);
             return Err(NewtonFailure::TooManyIterations);
@@ -185,7 +185,7 @@ impl<S: System> Path<S> {
     /// The place between the point reached and `beyond` where the guard of a constraint vanishes.
     fn locate(
         &mut self,
-        from: &Point<S::Mode>,
+        from: &Equilibrium<S::Mode>,
         beyond: &Candidate<S::Mode>,
         constraint: usize,
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
@@ -194,8 +194,8 @@ impl<S: System> Path<S> {
         let after = Newton::guards(&self.system, &beyond.state)[constraint];
         let state = from.state.interpolated(&beyond.state, before / (before - after));
         let located = self.locate_from(from, state, constraint)?;
-        let span = condition.of(&beyond.state.z) - condition.value;
-        let reached = condition.of(&located.state.z) - condition.value;
+        let span = condition.measure(&beyond.state.z) - condition.value;
+        let reached = condition.measure(&located.state.z) - condition.value;
         // A guard that is below zero by round-off already, and falls, has had its zero here, however slowly it changes.
         if reached < -BACKWARD && self.guards[constraint] <= 0.0 && self.slopes[constraint] < 0.0 {
             let (state, direction) = (from.state.clone(), from.leaving.clone());
@@ -211,7 +211,7 @@ impl<S: System> Path<S> {
     /// The place near `state` where the guard of a constraint vanishes.
     fn locate_from(
         &mut self,
-        from: &Point<S::Mode>,
+        from: &Equilibrium<S::Mode>,
         mut state: State<S::Mode>,
         constraint: usize,
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
@@ -249,7 +249,7 @@ impl<S: System> Path<S> {
     /// Cuts a step short where a rate vanishes within it: that of the load, or that of a constraint whose unknown only grows.
     pub(crate) fn up_to_turn(
         &mut self,
-        from: &Point<S::Mode>,
+        from: &Equilibrium<S::Mode>,
         mut candidate: Candidate<S::Mode>,
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let load = self.system.load();
@@ -260,8 +260,8 @@ impl<S: System> Path<S> {
             candidate = self.extremum(from, &candidate, load)?;
             candidate.event = Some(Event::LoadExtremum);
         }
-        for number in 0..self.system.growing().len() {
-            let constraint = self.system.growing()[number];
+        for number in 0..self.system.monotone().len() {
+            let constraint = self.system.monotone()[number];
             let unknown = self.system.constraints()[constraint];
             let grows = from.state.active[constraint] && from.leaving[unknown] > 0.0;
             if grows && candidate.direction[unknown] < 0.0 {
@@ -276,12 +276,12 @@ impl<S: System> Path<S> {
     /// The point where an unknown turns.
     fn extremum(
         &mut self,
-        from: &Point<S::Mode>,
+        from: &Equilibrium<S::Mode>,
         beyond: &Candidate<S::Mode>,
         unknown: usize,
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let condition = self.condition(from);
-        let span = condition.of(&beyond.state.z) - condition.value;
+        let span = condition.measure(&beyond.state.z) - condition.value;
         let start = from.leaving[unknown];
         // Not halved every time: extrema of the load are kept to the last digit of what they were with this rule.
         let mut bracket = Bracket::patient((0.0, start), (span, beyond.direction[unknown]));
@@ -314,7 +314,7 @@ impl<S: System> Path<S> {
     /// The point before `beyond` where the load comes back to zero.
     pub(crate) fn unloaded(
         &mut self,
-        from: &Point<S::Mode>,
+        from: &Equilibrium<S::Mode>,
         beyond: &Candidate<S::Mode>,
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let load = self.system.load();

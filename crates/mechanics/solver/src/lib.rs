@@ -14,20 +14,20 @@
 //! | [`System`] | the problem: equations, tangent, constraints, control parameter; it never changes |
 //! | [`State`] | unknowns, active set, and the mode: which of several forms the equations have |
 //! | [`Residual`], [`Control`] | values and sizes of the equations; a coordinate that measures the path |
-//! | [`Path`], [`Point`] | an iterator over the equilibria; one of them, with its directions |
+//! | [`Continuation`], [`Equilibrium`] | an iterator over the equilibria; one of them, with its directions |
 //! | [`Event`], [`Change`] | constraints that change sides, extrema of the load, the target |
-//! | [`Settings`], [`Stop`] | steps and tolerances; why a path ended |
+//! | [`Settings`], [`Termination`] | steps and tolerances; why a path ended |
 //! | [`Peak`], [`Summit`] | the largest value of a quantity along the path, between its points too |
 //! | [`Newton`], [`Condition`], [`NewtonFailure`] | one equilibrium, by Newton's method |
 //! | [`Tangent`], [`Blocks`], [`BlockMatrix`], [`BlockElimination`] | derivatives of a row, eliminated block by block towards the block of the load |
 //! | [`BandMatrix`], [`BandLu`] | linear solves where blocks are not safe, or are not stated |
-//! | [`Linearisation`], [`AnchoredPoint`], [`PathAnchor`], [`Neighbours`], [`Moved`] | derivatives of an equilibrium with respect to a parameter of the system |
+//! | [`Linearisation`], [`AnchoredPoint`], [`PathAnchor`], [`Neighbours`], [`MovedPoint`] | derivatives of an equilibrium with respect to a parameter of the system |
 //! | [`SkylineMatrix`] | symmetric matrices, and how many negative eigenvalues they have |
 //! | [`Bracket`] | a root between two places, by the false position |
 //! | [`check_tangent`] | derivatives of a system against differences of its residual |
 //!
 //! ```
-//! use solver::{Control, Path, Residual, Settings, State, Stop, System, Tangent};
+//! use solver::{Control, Continuation, Residual, Settings, State, Termination, System, Tangent};
 //!
 //! /// The load `F = u (1 − u²)` that holds a spring which gives way: it has a maximum.
 //! struct SnapThrough([Control; 1]);
@@ -56,9 +56,9 @@
 //! // The control parameter is u, from 0 to 1: the load rises to 2/√27 at u = 1/√3, and falls to zero.
 //! let system = SnapThrough([Control { index: 0, scale: 1.0 }]);
 //! let rest = State::at_rest(&system);
-//! let mut path = Path::new(system, rest, Settings::default());
+//! let mut path = Continuation::new(system, rest, Settings::default());
 //! let loads: Vec<f64> = path.by_ref().map(|point| point.state.z[1]).collect();
-//! assert_eq!(path.stop(), Some(Stop::Reached));
+//! assert_eq!(path.termination(), Some(Termination::Reached));
 //! let largest = loads.iter().copied().fold(0.0, f64::max);
 //! assert!((largest - 2.0 / 27_f64.sqrt()).abs() < 1e-12);
 //! assert!(loads.last().is_some_and(|load| load.abs() < 1e-12));
@@ -68,34 +68,34 @@ mod block_elimination;
 mod block_matrix;
 mod bracket;
 mod check;
+mod continuation;
 mod event;
 mod linear;
 mod newton;
-mod path;
 mod peak;
+mod progress;
 mod rate_problem;
 mod sensitivity;
+mod settings;
 mod skyline;
-mod step;
-mod stop;
 mod system;
 mod tangent;
 mod tangent_solver;
-mod watch;
+mod termination;
 
 pub use block_elimination::{BlockElimination, LARGEST_BLOCK, UnsafeBlock};
 pub use block_matrix::{BlockMatrix, Blocks, FARTHEST_LINK, LINK};
 pub use bracket::Bracket;
 pub use check::{WrongDerivative, check_tangent};
+pub use continuation::{Continuation, Equilibrium};
 pub use event::{Change, Event, dip};
 pub use linear::{BandLu, BandMatrix, SingularMatrix};
 pub use newton::{Condition, Newton, NewtonFailure};
-pub use path::{Path, Point};
 pub use peak::{Peak, Summit};
-pub use sensitivity::{AnchoredPoint, Linearisation, Moved, Neighbours, PathAnchor};
+pub use progress::{PathProgress, report_progress};
+pub use sensitivity::{AnchoredPoint, Linearisation, MovedPoint, Neighbours, PathAnchor};
+pub use settings::Settings;
 pub use skyline::SkylineMatrix;
-pub use step::Settings;
-pub use stop::Stop;
 pub use system::{Control, Residual, State, System};
 pub use tangent::Tangent;
-pub use watch::{FarAlong, watched};
+pub use termination::Termination;

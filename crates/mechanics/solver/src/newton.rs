@@ -1,7 +1,7 @@
 //! Newton's method for one equilibrium.
 
 use crate::linear::SingularMatrix;
-use crate::step::Settings;
+use crate::settings::Settings;
 use crate::system::{Residual, State, System, inactive};
 use crate::tangent_solver::TangentSolver;
 
@@ -24,7 +24,7 @@ impl Condition {
     /// The condition with this left-hand side that `z` satisfies.
     pub fn through(row: Vec<(usize, f64)>, z: &[f64]) -> Self {
         let condition = Self::new(row, 0.0);
-        Self { value: condition.of(z), ..condition }
+        Self { value: condition.measure(z), ..condition }
     }
 
     /// The condition with this left-hand side and this value.
@@ -37,7 +37,7 @@ impl Condition {
     }
 
     /// The left-hand side at `z`.
-    pub fn of(&self, z: &[f64]) -> f64 {
+    pub fn measure(&self, z: &[f64]) -> f64 {
         self.row.iter().map(|&(index, coefficient)| coefficient * z[index]).sum()
     }
 }
@@ -102,7 +102,7 @@ impl Newton {
                 // The step has kept the left-hand side of the stand-in; what the condition itself lacks is made up
                 // along the path.
                 let direction = self.direction(system, condition);
-                let left = condition.value - condition.of(&state.z);
+                let left = condition.value - condition.measure(&state.z);
                 add(&mut state.z, left, &direction);
             }
             if norm <= settings.tolerance {
@@ -130,7 +130,7 @@ impl Newton {
         rest(system, state);
         for _ in 0..=settings.max_iterations {
             // The condition holds the state where it is, so that the guard alone says how far it has to go.
-            condition.value = condition.of(&state.z);
+            condition.value = condition.measure(&state.z);
             let norm = self.evaluate(system, state, &condition)?;
             let guard = guard(system, state, constraint);
             self.solver.solve(&mut self.step);
@@ -213,7 +213,7 @@ impl Newton {
         // That there are no factors is told last: an equation without a finite value is the cause where both happen.
         let factorised = self.solver.factorise(system, state, row, residual);
         let load = system.load();
-        residual.value[load] = condition.of(&state.z) - condition.value;
+        residual.value[load] = condition.measure(&state.z) - condition.value;
         residual.size[load] = condition.row.iter().map(|(_, c)| c.abs()).sum();
         for index in inactive(system, state) {
             residual.value[index] = 0.0;
@@ -240,7 +240,7 @@ impl Newton {
     fn direction<S: System>(&mut self, system: &S, condition: &Condition) -> Vec<f64> {
         let mut direction = self.solver.solve_unit(system.load(), system.size());
         if condition.stand_in.is_some() {
-            let growth = condition.of(&direction);
+            let growth = condition.measure(&direction);
             for x in &mut direction {
                 // The entry of the right-hand side was 1 for the stand-in.
                 *x /= growth;

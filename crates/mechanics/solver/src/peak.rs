@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::path::{Path, Point};
+use crate::continuation::{Continuation, Equilibrium};
 use crate::sensitivity::slope_along;
 use crate::system::{State, System};
 
@@ -38,8 +38,8 @@ pub struct Peak<M = ()> {
 /// A segment of the path that begins or ends at a kink.
 #[derive(Clone, Debug)]
 struct KinkSegment<M> {
-    from: Arc<Point<M>>,
-    to: Arc<Point<M>>,
+    from: Arc<Equilibrium<M>>,
+    to: Arc<Equilibrium<M>>,
     /// The larger value of its ends.
     value: f64,
 }
@@ -48,9 +48,9 @@ struct KinkSegment<M> {
 #[derive(Clone, Debug)]
 struct Best<M> {
     value: f64,
-    before: Option<Arc<Point<M>>>,
-    point: Arc<Point<M>>,
-    after: Option<Arc<Point<M>>>,
+    before: Option<Arc<Equilibrium<M>>>,
+    point: Arc<Equilibrium<M>>,
+    after: Option<Arc<Equilibrium<M>>>,
 }
 
 impl<M> Default for Peak<M> {
@@ -63,8 +63,8 @@ impl<M> Peak<M> {
     /// Takes the point that `path` has come to into account, which came `from` the point before, if there is one.
     pub fn visit<S>(
         &mut self,
-        path: &Path<S>,
-        from: Option<&Arc<Point<M>>>,
+        path: &Continuation<S>,
+        from: Option<&Arc<Equilibrium<M>>>,
         f: impl Fn(&S, &State<M>, &[f64]) -> f64,
     ) where
         S: System<Mode = M>,
@@ -92,18 +92,18 @@ impl<M> Peak<M> {
     }
 
     /// The point with the largest value of those visited. `None` if none was.
-    pub fn point(&self) -> Option<&Point<M>> {
+    pub fn point(&self) -> Option<&Equilibrium<M>> {
         self.best.as_ref().map(|best| &*best.point)
     }
 
     /// Replaces the points that are kept, where the path has gone on with another system, before maxima are looked for on it.
-    pub fn replace_points(&mut self, new: impl Fn(&Point<M>) -> Point<M>) {
+    pub fn replace_points(&mut self, new: impl Fn(&Equilibrium<M>) -> Equilibrium<M>) {
         let best = self.best.iter_mut().flat_map(|best| {
             [Some(&mut best.point), best.before.as_mut(), best.after.as_mut()].into_iter().flatten()
         });
         let kinks = self.kinks.iter_mut().flat_map(|segment| [&mut segment.from, &mut segment.to]);
         // A point where segments meet stays one point: by that those are known that need not be searched twice.
-        let mut replaced: Vec<[Arc<Point<M>>; 2]> = Vec::new();
+        let mut replaced: Vec<[Arc<Equilibrium<M>>; 2]> = Vec::new();
         for point in best.chain(kinks) {
             let known = replaced.iter().find(|[old, _]| Arc::ptr_eq(old, point));
             let by = known.map_or_else(|| Arc::new(new(point)), |[_, by]| Arc::clone(by));
@@ -123,7 +123,7 @@ impl<M> Peak<M> {
     /// maximum to show at a point beside it.
     pub fn summit<S>(
         &self,
-        path: &mut Path<S>,
+        path: &mut Continuation<S>,
         f: impl Fn(&S, &State<M>, &[f64]) -> f64,
     ) -> Option<Summit<M>>
     where
@@ -151,16 +151,16 @@ pub struct Summit<M = ()> {
     /// The largest value.
     pub value: f64,
     /// The point.
-    pub point: Arc<Point<M>>,
+    pub point: Arc<Equilibrium<M>>,
     /// The point of the path before it, where it is itself one of its points. `None` at the beginning.
-    pub before: Option<Arc<Point<M>>>,
+    pub before: Option<Arc<Equilibrium<M>>>,
     /// Whether the point lies between points of the path.
     pub is_inside: bool,
 }
 
 /// A place on a segment of the path, as a part of the segment, with the value there and its derivative by the place.
 #[derive(Clone, Copy, Debug)]
-struct Sample {
+struct SegmentSample {
     place: f64,
     value: f64,
     slope: f64,
@@ -168,12 +168,12 @@ struct Sample {
 
 /// A segment of a path that is searched for a maximum of `f`.
 struct Segment<'a, S: System, F> {
-    path: &'a mut Path<S>,
-    from: &'a Point<S::Mode>,
-    to: &'a Point<S::Mode>,
+    path: &'a mut Continuation<S>,
+    from: &'a Equilibrium<S::Mode>,
+    to: &'a Equilibrium<S::Mode>,
     f: &'a F,
     /// Points by their places: both ends, and those inside that were solved for.
-    known: Vec<(f64, Point<S::Mode>)>,
+    known: Vec<(f64, Equilibrium<S::Mode>)>,
     /// The largest value inside, and the number of its point.
     highest: Option<(f64, usize)>,
 }
@@ -184,9 +184,9 @@ where
     F: Fn(&S, &State<S::Mode>, &[f64]) -> f64,
 {
     fn new(
-        path: &'a mut Path<S>,
-        from: &'a Point<S::Mode>,
-        to: &'a Point<S::Mode>,
+        path: &'a mut Continuation<S>,
+        from: &'a Equilibrium<S::Mode>,
+        to: &'a Equilibrium<S::Mode>,
         f: &'a F,
     ) -> Self {
         // The end with the active set and the mode of the segment.
@@ -194,7 +194,7 @@ where
         let State { active, mode, .. } = from.state.clone();
         let state = State { z: to.state.z.clone(), active, mode };
         let (arriving, leaving) = (to.arriving.clone(), to.arriving.clone());
-        let end = Point { state, arriving, leaving, event: None };
+        let end = Equilibrium { state, arriving, leaving, event: None };
         Self { path, from, to, f, known: vec![(0.0, from.clone()), (1.0, end)], highest: None }
     }
 
@@ -220,7 +220,7 @@ where
     }
 
     /// Looks for the maximum within a bracket. `None` where Newton's method does not get to a place.
-    fn search(&mut self, [mut low, mut high]: [Sample; 2], least: f64) -> Option<()> {
+    fn search(&mut self, [mut low, mut high]: [SegmentSample; 2], least: f64) -> Option<()> {
         for _ in 0..ROUNDS {
             // No top inside: the larger end is the maximum, and it has been visited.
             let Some(top) = low.top(&high) else { break };
@@ -239,9 +239,10 @@ where
     }
 
     /// An end of the bracket, the lower or the upper one.
-    fn end(&mut self, place: f64, least: f64) -> Option<Sample> {
+    fn end(&mut self, place: f64, least: f64) -> Option<SegmentSample> {
         let is_lower = place == 0.0;
-        let Point { state, arriving, leaving, event } = if is_lower { self.from } else { self.to };
+        let Equilibrium { state, arriving, leaving, event } =
+            if is_lower { self.from } else { self.to };
         let direction = if is_lower { leaving } else { arriving };
         match event {
             Some(_) => self.beside(place, state, direction, least),
@@ -257,7 +258,7 @@ where
         state: &State<S::Mode>,
         direction: &[f64],
         least: f64,
-    ) -> Option<Sample> {
+    ) -> Option<SegmentSample> {
         let value = (self.f)(&self.path.system, state, direction);
         let inwards = 1.0 - 2.0 * kink;
         let beside = self.inside(kink + inwards * NEAR)?;
@@ -279,17 +280,22 @@ where
     }
 
     /// The sample at an end that is no kink.
-    fn at_end(&mut self, place: f64, state: &State<S::Mode>, direction: &[f64]) -> Option<Sample> {
+    fn at_end(
+        &mut self,
+        place: f64,
+        state: &State<S::Mode>,
+        direction: &[f64],
+    ) -> Option<SegmentSample> {
         let condition = self.path.condition(self.from);
-        let Path { newton, system, .. } = &mut *self.path;
+        let Continuation { newton, system, .. } = &mut *self.path;
         // The slope needs the factors of the tangent at this very point.
         newton.tangent(system, state, &condition).ok()?;
         Some(self.sample(place, state, direction))
     }
 
     /// The sample at a place inside, reached from the nearest point that is known.
-    fn inside(&mut self, place: f64) -> Option<Sample> {
-        let away = |known: &&(f64, Point<S::Mode>)| (known.0 - place).abs();
+    fn inside(&mut self, place: f64) -> Option<SegmentSample> {
+        let away = |known: &&(f64, Equilibrium<S::Mode>)| (known.0 - place).abs();
         let nearest = self.known.iter().min_by(|a, b| away(a).total_cmp(&away(b)));
         let near = nearest.map_or(self.from, |(_, point)| point);
         let point = self.path.between_from(self.from, self.to, place, near);
@@ -305,15 +311,15 @@ where
     }
 
     /// The sample at a point at which the tangent was factorised last.
-    fn sample(&mut self, place: f64, state: &State<S::Mode>, direction: &[f64]) -> Sample {
+    fn sample(&mut self, place: f64, state: &State<S::Mode>, direction: &[f64]) -> SegmentSample {
         let Self { path, from, to, f, .. } = self;
         let value = f(&path.system, state, direction);
         let slope = slope_along(&path.system, &mut path.newton, state, direction, f);
-        Sample { place, value, slope: path.rate_in(from, to, direction) * slope }
+        SegmentSample { place, value, slope: path.rate_in(from, to, direction) * slope }
     }
 }
 
-impl Sample {
+impl SegmentSample {
     /// The maximum of the cubic between two samples; `None` if it has none between them.
     fn top(&self, high: &Self) -> Option<Self> {
         let width = high.place - self.place;

@@ -1,10 +1,10 @@
 //! The rate complementarity problem: which way the path goes on where constraints change sides.
 
+use crate::continuation::{Continuation, Equilibrium};
 use crate::event::{Change, NO_RATE};
 use crate::newton::{Condition, FLOOR, Newton, guard, guard_slope};
-use crate::path::{Path, Point};
-use crate::stop::Stop;
 use crate::system::{State, System};
+use crate::termination::Termination;
 
 /// Events at least this far apart happen one after the other: where edges are nearly parallel forces
 /// change by 10⁵ over a unit of the path, and not even a short way may be skipped.
@@ -37,24 +37,24 @@ const MOST_REVERSALS: usize = 20;
 /// Stone 2009, *The Linear Complementarity Problem*, ch. 4, isbn 978-0-89871-686-3): first all constraints that are about
 /// to change sides do so at once, as they do by symmetry; if the direction then violates one of them, they do so one by one,
 /// the one that is violated fastest first.
-impl<S: System> Path<S> {
+impl<S: System> Continuation<S> {
     /// Lets constraints change sides in `state`, an equilibrium in which the path arrives along `arriving`, and returns the
     /// direction in which it goes on. `changes` are the constraints that are about to change sides, the first of them for
     /// certain; they are replaced by those that have.
     ///
     /// # Errors
-    /// [`Stop::Singular`] if there is no single direction, [`Stop::Cycling`] if no set of changes makes all valid.
+    /// [`Termination::Singular`] if there is no single direction, [`Termination::Cycling`] if no set of changes makes all valid.
     pub(crate) fn resolve_event(
         &mut self,
         state: &mut State<S::Mode>,
         arriving: &[f64],
         changes: &mut Vec<Change>,
-    ) -> Result<Vec<f64>, Stop> {
+    ) -> Result<Vec<f64>, Termination> {
         if let [change] = changes[..]
             && !change.activated
-            && self.system.growing().contains(&change.constraint)
+            && self.system.monotone().contains(&change.constraint)
         {
-            return self.stop_growing(state, arriving, change);
+            return self.end_growth(state, arriving, change);
         }
         // Symmetric rows close two contacts at once. One after the other would leave the symmetric path at its first
         // event.
@@ -66,12 +66,12 @@ impl<S: System> Path<S> {
             return Ok(leaving);
         }
         // What bears friction lets go of it as it opens: round-off alone says which of the two comes first.
-        let companions = self.system.companions(changes[0].constraint);
+        let companions = self.system.coupled(changes[0].constraint);
         let group = changes.iter().take_while(|change| companions.contains(&change.constraint));
         let group = group.count();
         changes[..group].sort_by_key(|change| change.constraint);
         let mut found: Option<Resolved<S::Mode>> = None;
-        let mut failure = Stop::Singular;
+        let mut failure = Termination::Singular;
         let before = self.is_positive;
         // Of changes that happen at once one may turn the path round, as a corner that closes where another lets go: only then is it asked
         // what comes of beginning with another of them.
@@ -89,10 +89,10 @@ impl<S: System> Path<S> {
         }
         let Resolved { state: next, leaving, changes: made, is_positive, along } =
             found.ok_or(failure)?;
-        if along < 0.0 && !self.system.growing().is_empty() {
+        if along < 0.0 && !self.system.monotone().is_empty() {
             self.reversals += 1;
             if self.reversals > MOST_REVERSALS {
-                return Err(Stop::Jumps);
+                return Err(Termination::Jumps);
             }
         }
         (*state, *changes, self.is_positive) = (next, made, is_positive);
@@ -123,10 +123,10 @@ impl<S: System> Path<S> {
         let meeting = (0..self.guards.len()).collect();
         let first = Pivoted { state, meeting, made: Vec::new(), holds: None, turns_back: true };
         let resolved = self.pivot_from(first, None, &back, false);
-        self.stop = resolved.as_ref().err().copied();
+        self.termination = resolved.as_ref().err().copied();
         if let Ok(Resolved { state, leaving, is_positive, .. }) = resolved {
             self.is_positive = is_positive;
-            self.begin(Point { state, arriving: leaving.clone(), leaving, event: None });
+            self.begin(Equilibrium { state, arriving: leaving.clone(), leaving, event: None });
         }
     }
 
@@ -142,7 +142,7 @@ impl<S: System> Path<S> {
         let (state, made) = (state.clone(), Vec::new());
         let before = Pivoted { state, meeting, made, holds: None, turns_back: false };
         let mut starts = Vec::new();
-        let companions = self.system.companions(change.constraint);
+        let companions = self.system.coupled(change.constraint);
         if companions.len() > 1
             && let Ok(after) = self.pivoted(&before, change)
         {
@@ -161,14 +161,14 @@ impl<S: System> Path<S> {
 
     /// Stops what only grows where it turns back. Its rate vanishes there, so the path goes on as it came: on both sides of the event
     /// the direction is the same, and the condition of the constraint, whose slope is zero along it, says nothing about its sign.
-    fn stop_growing(
+    fn end_growth(
         &mut self,
         state: &mut State<S::Mode>,
         arriving: &[f64],
         change: Change,
-    ) -> Result<Vec<f64>, Stop> {
+    ) -> Result<Vec<f64>, Termination> {
         // No complementarity problem is left to solve: a rate of zero satisfies both sides.
-        let valid = self.pivot(state, change).ok_or(Stop::Singular)?;
+        let valid = self.pivot(state, change).ok_or(Termination::Singular)?;
         let controls = self.system.controls();
         let row = controls.iter().map(|c| (c.index, arriving[c.index] / c.scale.powi(2))).collect();
         let condition = Condition::through(row, &state.z);
@@ -215,12 +215,12 @@ impl<S: System> Path<S> {
         change: Option<Change>,
         arriving: &[f64],
         is_single: bool,
-    ) -> Result<Resolved<S::Mode>, Stop> {
+    ) -> Result<Resolved<S::Mode>, Termination> {
         let mut waiting = vec![(first, change)];
         let mut tried = Vec::new();
         let has_companions =
-            (0..self.guards.len()).any(|other| self.system.companions(other).len() > 1);
-        let mut failure = if has_companions { Stop::Jumps } else { Stop::Cycling };
+            (0..self.guards.len()).any(|other| self.system.coupled(other).len() > 1);
+        let mut failure = if has_companions { Termination::Jumps } else { Termination::Cycling };
         while let Some((from, change)) = waiting.pop() {
             if tried.len() >= self.most_changes(has_companions) {
                 break;
@@ -234,7 +234,7 @@ impl<S: System> Path<S> {
                     *active == at.state.active && self.system.is_same_form(mode, &at.state.mode)
                 });
                 if is_known {
-                    return Err(Stop::Cycling);
+                    return Err(Termination::Cycling);
                 }
                 tried.push((at.state.active.clone(), at.state.mode.clone()));
                 let leaving = self.direction(&mut at.state, arriving, at.holds)?;
@@ -244,8 +244,8 @@ impl<S: System> Path<S> {
                 Ok(way) => way,
                 // Without companions there is one way to go on, and it has failed.
                 Err(stop) if is_single && !has_companions => return Err(stop),
-                Err(Stop::NoConvergence) => {
-                    failure = Stop::NoConvergence;
+                Err(Termination::NoConvergence) => {
+                    failure = Termination::NoConvergence;
                     continue;
                 }
                 Err(_) => continue,
@@ -270,16 +270,20 @@ impl<S: System> Path<S> {
     }
 
     /// What one change more makes of a set of changes.
-    fn pivoted(&self, from: &Pivoted<S::Mode>, change: Change) -> Result<Pivoted<S::Mode>, Stop> {
+    fn pivoted(
+        &self,
+        from: &Pivoted<S::Mode>,
+        change: Change,
+    ) -> Result<Pivoted<S::Mode>, Termination> {
         let mut next = from.clone();
-        let valid = self.pivot(&mut next.state, change).ok_or(Stop::Singular)?;
+        let valid = self.pivot(&mut next.state, change).ok_or(Termination::Singular)?;
         // A transition may hand the condition on, from a corner to the edge behind it, say.
         if !next.meeting.contains(&valid) {
-            next.meeting.extend(self.system.companions(valid));
+            next.meeting.extend(self.system.coupled(valid));
         }
         toggle(&mut next.made, change);
         // What changes elsewhere because of friction does not tell which way the path goes: that is said by what has happened.
-        let companions = self.system.companions(change.constraint);
+        let companions = self.system.coupled(change.constraint);
         let is_elsewhere = |holds: &usize| companions.len() > 1 && !companions.contains(holds);
         next.holds = next.holds.filter(is_elsewhere).or(Some(valid)).filter(|_| !next.turns_back);
         Ok(next)
@@ -290,7 +294,7 @@ impl<S: System> Path<S> {
         let mut meeting: Vec<usize> = Vec::new();
         for change in changes {
             if !meeting.contains(&change) {
-                meeting.extend(self.system.companions(change));
+                meeting.extend(self.system.coupled(change));
             }
         }
         meeting
@@ -311,8 +315,8 @@ impl<S: System> Path<S> {
         state: &mut State<S::Mode>,
         arriving: &[f64],
         valid: Option<usize>,
-    ) -> Result<Vec<f64>, Stop> {
-        let mut failure = Stop::Singular;
+    ) -> Result<Vec<f64>, Termination> {
+        let mut failure = Termination::Singular;
         // A corner that closes may turn the path so far that it goes on at right angles to the direction in which it
         // came; then one of the controls alone still grows.
         for condition in self.measures(state, arriving) {
@@ -330,7 +334,7 @@ impl<S: System> Path<S> {
                 guard(&self.system, &trial, valid).abs() <= ELSEWHERE * (1.0 + slope.abs())
             };
             if !valid.is_none_or(vanishes) {
-                failure = Stop::NoConvergence;
+                failure = Termination::NoConvergence;
                 continue;
             }
             if slope < 0.0 {
@@ -368,7 +372,7 @@ impl<S: System> Path<S> {
         };
         let meeting = slopes.filter(is_violated);
         // What only grows may not turn back at a kink either, however far it has come.
-        let growing = self.system.growing().iter().filter(|&&c| state.active[c]);
+        let growing = self.system.monotone().iter().filter(|&&c| state.active[c]);
         let growing = growing.map(|&c| (c, direction[self.system.constraints()[c]]));
         let turned = growing.filter(|&(_, rate)| rate < -FLOOR);
         let mut violated: Vec<(usize, f64)> = meeting.chain(turned).collect();

@@ -6,7 +6,7 @@ mod stationary;
 
 use crate::event::Change;
 use crate::newton::{Condition, FLOOR, Newton, NewtonFailure, guard};
-use crate::step::Settings;
+use crate::settings::Settings;
 use crate::system::{Residual, State, System};
 use differences::{difference, moved, rates, turning};
 
@@ -47,7 +47,7 @@ impl<S> Neighbours<S> {
 
 /// A place for a neighbouring value of a parameter, to first order.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Moved<M> {
+pub struct MovedPoint<M> {
     /// The equilibrium.
     pub state: State<M>,
     /// The direction of the path there.
@@ -112,7 +112,7 @@ impl<M: Clone> Linearisation<M> {
         system: &S,
         neighbours: &Neighbours<S>,
         turns: bool,
-    ) -> [Moved<M>; 2] {
+    ) -> [MovedPoint<M>; 2] {
         // First in the section, where the place is held along the path, then along it to where its anchor is met again.
         let mut unknowns = self.unknowns_in_section(system, neighbours);
         let along = self.distance(system, neighbours, &unknowns);
@@ -130,7 +130,7 @@ impl<M: Clone> Linearisation<M> {
         step: f64,
         unknowns: &[f64],
         turns: bool,
-    ) -> [Moved<M>; 2] {
+    ) -> [MovedPoint<M>; 2] {
         // Both sides are first-order predictions from one factorisation; nothing is solved for again.
         let states = [-step, step].map(|step| self.place.state.moved(step, unknowns));
         let direction = &self.place.direction;
@@ -141,8 +141,8 @@ impl<M: Clone> Linearisation<M> {
         };
         let [below, above] = states;
         [
-            Moved { state: below, direction: direction(-step) },
-            Moved { state: above, direction: direction(step) },
+            MovedPoint { state: below, direction: direction(-step) },
+            MovedPoint { state: above, direction: direction(step) },
         ]
     }
 
@@ -200,7 +200,7 @@ impl<M: Clone> Linearisation<M> {
     ) -> f64 {
         let Neighbours { below, above, step } = neighbours;
         let [lower, upper] = self.turned([below, above], *step, unknowns, true);
-        let rate = |system: &S, at: &Moved<M>| system.rate(&at.state, &at.direction, number);
+        let rate = |system: &S, at: &MovedPoint<M>| system.rate(&at.state, &at.direction, number);
         let change = (rate(above, &upper) - rate(below, &lower)) / (2.0 * step);
         let AnchoredPoint { state, direction, .. } = &self.place;
         let rate = |system: &S, state: &State<M>, v: &[f64]| system.rate(state, v, number);
@@ -209,12 +209,16 @@ impl<M: Clone> Linearisation<M> {
 
     /// The change of sides that the motion of the place calls for on one side of the parameter: that of the constraint whose
     /// sign is violated most in the state that has `moved` there. `None` if the active set holds.
-    pub fn violated<S: System<Mode = M>>(&self, system: &S, moved: &Moved<M>) -> Option<Change> {
+    pub fn violated<S: System<Mode = M>>(
+        &self,
+        system: &S,
+        moved: &MovedPoint<M>,
+    ) -> Option<Change> {
         let active = &self.place.state.active;
         // The guard that anchors the place is zero there by definition, and would be violated by round-off.
         let held = |constraint: usize| self.place.anchor == PathAnchor::Guard(constraint);
         // How far something has slid since an event is counted from a place of the path, not of the parameter.
-        let loaded = (0..active.len()).filter(|c| active[*c] && !system.growing().contains(c));
+        let loaded = (0..active.len()).filter(|c| active[*c] && !system.monotone().contains(c));
         let candidates = loaded.chain(self.near.iter().copied()).filter(|&c| !held(c));
         let guards = candidates.map(|c| (c, guard(system, &moved.state, c)));
         let violated = guards.filter(|(_, guard)| *guard < -FLOOR);

@@ -89,7 +89,7 @@ pub trait System {
 
     /// Numbers of the constraints whose unknown, once active, only grows, such as the way that something has slid with friction. Where
     /// it turns back the constraint becomes inactive, and its transition keeps in the mode how far it has come.
-    fn growing(&self) -> &[usize] {
+    fn monotone(&self) -> &[usize] {
         &[]
     }
 
@@ -98,7 +98,7 @@ pub trait System {
 
     /// Constraints that may change sides where this one does, because of it: what was at rest may begin to slip, say. Itself alone unless
     /// the system knows of others.
-    fn companions(&self, constraint: usize) -> std::ops::Range<usize> {
+    fn coupled(&self, constraint: usize) -> std::ops::Range<usize> {
         constraint..constraint + 1
     }
 

@@ -51,7 +51,7 @@ impl Calibrations {
         footprint: &Footprint,
         coupling: Coupling,
     ) -> Result<Arc<RowStiffness>, Unresolved> {
-        let solve = || RowStiffness::of(footprint, coupling).map(Arc::new);
+        let solve = || RowStiffness::compute(footprint, coupling).map(Arc::new);
         self.rows[coupling as usize].get_or_solve(footprint, solve)
     }
 
@@ -64,7 +64,7 @@ impl Calibrations {
         footprint: &Footprint,
         coupling: Coupling,
     ) -> Result<Arc<StiffnessSlopes>, Unresolved> {
-        let solve = || StiffnessSlopes::of(footprint, coupling).map(Arc::new);
+        let solve = || StiffnessSlopes::compute(footprint, coupling).map(Arc::new);
         self.slopes[coupling as usize].get_or_solve(footprint, solve)
     }
 }

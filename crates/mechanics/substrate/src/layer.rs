@@ -115,7 +115,7 @@ const KEPT: usize = 16;
 
 impl Layer {
     /// Returns the layer of a Poisson's ratio: its integrals depend on no thickness.
-    pub fn of(poisson_ratio: f64) -> Arc<Self> {
+    pub fn with_poisson_ratio(poisson_ratio: f64) -> Arc<Self> {
         // The layer is made under the lock: a thread that needs the same one waits for it instead of making it again.
         let mut made = MADE.lock().unwrap_or_else(PoisonError::into_inner);
         let known = made.iter().position(|layer| layer.poisson_ratio == poisson_ratio);

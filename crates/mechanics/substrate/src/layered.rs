@@ -184,12 +184,12 @@ impl Tractions<'_> {
 }
 
 /// A point of a cell with its weight, for the smooth part of the influence.
-type Point = [f64; 2];
+type QuadraturePoint = [f64; 2];
 
 /// The points over the cells of a mesh: of each column of cells along the row, and of each row of them across it.
 struct Quadrature {
-    columns: Vec<Vec<Point>>,
-    depth: Vec<Vec<Point>>,
+    columns: Vec<Vec<QuadraturePoint>>,
+    depth: Vec<Vec<QuadraturePoint>>,
 }
 
 impl Quadrature {
@@ -207,7 +207,7 @@ impl Quadrature {
                 };
                 (0..parts as usize).flat_map(pair).collect()
             };
-            (0..axis.cells()).map(cell).collect::<Vec<Vec<Point>>>()
+            (0..axis.cells()).map(cell).collect::<Vec<Vec<QuadraturePoint>>>()
         };
         let columns = mesh.across().zip(near.across()).flat_map(points).collect();
         Self { columns, depth: points((&mesh.depth, &near.depth)) }
@@ -216,7 +216,7 @@ impl Quadrature {
     /// The matrices of the two systems, each with the displacements along the row above those across it, `q` before `p`.
     fn equations(&self, mesh: &Mesh, footprint: &Footprint) -> [Mat<f64>; 2] {
         let n = mesh.unknowns();
-        let layer = Layer::of(footprint.poisson_ratio());
+        let layer = Layer::with_poisson_ratio(footprint.poisson_ratio());
         let mut systems = [Mat::zeros(2 * n, 2 * n), Mat::zeros(2 * n, 2 * n)];
         let depth = mesh.depth.cells();
         let fields: Vec<f64> = mesh.across().flat_map(GradedAxis::points).copied().collect();
@@ -242,7 +242,7 @@ impl Quadrature {
 
     /// The smooth influence at a field point of each cell with its image in `z`, and of their images in `x`.
     fn at(&self, layer: &Layer, thickness: f64, [x, z]: [f64; 2]) -> Vec<[Displacements; 2]> {
-        let of_cell = |column: &[Point], row: &[Point]| {
+        let of_cell = |column: &[QuadraturePoint], row: &[QuadraturePoint]| {
             let mut sums = [Displacements::default(); 2];
             for &[at_x, width] in column {
                 for &[at_z, depth] in row {
@@ -255,7 +255,7 @@ impl Quadrature {
             }
             sums
         };
-        let of_column = |column: &Vec<Point>| {
+        let of_column = |column: &Vec<QuadraturePoint>| {
             self.depth.iter().map(|row| of_cell(column, row)).collect::<Vec<_>>()
         };
         self.columns.iter().flat_map(of_column).collect()

@@ -90,7 +90,7 @@ impl RowStiffness {
     ///
     /// # Errors
     /// As [`Self::solve`].
-    pub fn of(footprint: &Footprint, coupling: Coupling) -> Result<Self, Unresolved> {
+    pub fn compute(footprint: &Footprint, coupling: Coupling) -> Result<Self, Unresolved> {
         let mut row = match table::row(footprint, coupling) {
             // The table bounds its error as a whole: it has no meshes to tell by.
             Some(row) => Self { error: table::error(coupling), ..Self::from_table(&row, 0) },

@@ -33,7 +33,7 @@ pub struct Springs {
 /// If the gap is lost in rounding (`d/a` below about 1e-15). Small gaps before that are served with
 /// a growing `error`.
 pub fn calibrate(footprint: &Footprint) -> Result<Springs, Unresolved> {
-    RowStiffness::of(footprint, Coupling::Nearest).map(|row| (&row).into())
+    RowStiffness::compute(footprint, Coupling::Nearest).map(|row| (&row).into())
 }
 
 impl From<&RowStiffness> for Springs {

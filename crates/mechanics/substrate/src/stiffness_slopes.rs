@@ -6,7 +6,7 @@ use crate::{Bases, Coupling, Footprint, RowStiffness, Unresolved, layered, table
 /// The stiffness of a row and its derivatives with respect to the numbers of the footprint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StiffnessSlopes {
-    /// The stiffness itself, bit by bit that of [`RowStiffness::of`].
+    /// The stiffness itself, bit by bit that of [`RowStiffness::compute`].
     pub stiffness: RowStiffness,
     /// Derivative with respect to `d/a`.
     pub by_gap: RowStiffness,
@@ -25,9 +25,9 @@ impl StiffnessSlopes {
     /// differences of solutions. What a layer adds is differentiated by differences.
     ///
     /// # Errors
-    /// As [`RowStiffness::of`].
-    pub fn of(footprint: &Footprint, coupling: Coupling) -> Result<Self, Unresolved> {
-        let stiffness = RowStiffness::of(footprint, coupling)?;
+    /// As [`RowStiffness::compute`].
+    pub fn compute(footprint: &Footprint, coupling: Coupling) -> Result<Self, Unresolved> {
+        let stiffness = RowStiffness::compute(footprint, coupling)?;
         // Polynomials are differentiated as they are: differences of them would lose digits.
         let [mut by_gap, mut by_width, mut by_poisson_ratio] = match table::row(footprint, coupling)
         {

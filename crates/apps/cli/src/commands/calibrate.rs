@@ -50,7 +50,7 @@ pub struct Arguments {
 pub fn calibrate(arguments: &Arguments) -> anyhow::Result<u8> {
     let footprint = footprint_of(arguments)?;
     // The table has nearest neighbours only; the others take much longer to compute.
-    let row = RowStiffness::of(&footprint, Coupling::Nearest)?;
+    let row = RowStiffness::compute(&footprint, Coupling::Nearest)?;
     print(&report(&footprint, &row))?;
     Ok(DONE)
 }

@@ -221,7 +221,7 @@ impl Drawing<'_> {
 pub fn substrate(case: &Case) -> anyhow::Result<RowStiffness> {
     let footprint = case.footprint();
     let footprint = footprint.context("the lengths differ too much for the boundary elements")?;
-    Ok(RowStiffness::of(&footprint, case.coupling)?)
+    Ok(RowStiffness::compute(&footprint, case.coupling)?)
 }
 
 /// Formats points on a path for the name of a file.

@@ -1,7 +1,9 @@
 //! Plane frames of co-rotational beams under one load, followed along their equilibrium path.
 
 use membrane::{CorotationalBeam, Ends};
-use solver::{Control, Event, Path, Residual, Settings, State, Stop, System, Tangent};
+use solver::{
+    Continuation, Control, Event, Residual, Settings, State, System, Tangent, Termination,
+};
 
 /// A node of a frame.
 #[derive(Clone, Copy, Debug)]
@@ -83,12 +85,12 @@ impl PlaneFrame {
     }
 
     /// Returns the path to the end of its drive; `None` if it stops before.
-    pub(super) fn path(self, max_step: f64) -> Option<Vec<solver::Point>> {
+    pub(super) fn path(self, max_step: f64) -> Option<Vec<solver::Equilibrium>> {
         let settings = Settings { first_step: max_step, max_step, ..Settings::default() };
         let rest = State::at_rest(&self);
-        let mut path = Path::new(self, rest, settings);
+        let mut path = Continuation::new(self, rest, settings);
         let points: Vec<_> = path.by_ref().collect();
-        (path.stop() == Some(Stop::Reached)).then_some(points)
+        (path.termination() == Some(Termination::Reached)).then_some(points)
     }
 
     /// Returns the load at its first extremum along the path.

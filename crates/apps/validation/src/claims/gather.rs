@@ -55,7 +55,7 @@ fn case(study: &Study, gap: f64, length: f64, slant: f64) -> Case {
 }
 
 fn substrate(case: &Case) -> Option<RowStiffness> {
-    RowStiffness::of(&case.footprint().ok()?, case.coupling).ok()
+    RowStiffness::compute(&case.footprint().ok()?, case.coupling).ok()
 }
 
 fn snapshots(case: &Case, at: &[At]) -> Option<Snapshots> {

@@ -338,7 +338,7 @@ impl Contacts {
     /// Computes the frictional dissipation between two neighbouring path points, `∫ μ Λ |ds|`.
     ///
     /// `spans` are the lengths of the segment in units of the outgoing direction at `from` and of
-    /// the incoming direction at `to` ([`solver::Path::spans`]). With them both factors are
+    /// the incoming direction at `to` ([`solver::Continuation::spans`]). With them both factors are
     /// accurate to third order.
     pub(crate) fn friction_work(&self, from: &SkinPoint, to: &SkinPoint, spans: [f64; 2]) -> f64 {
         let slips = from.state.mode.friction_states.iter().enumerate();

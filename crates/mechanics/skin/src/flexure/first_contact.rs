@@ -128,7 +128,7 @@ impl BareGap {
         parameters: &FlexureParameters,
     ) -> Self {
         let offset = parameters.membrane_axis_offset;
-        Self { pair: Pair::of(scales, pitch), width, offset }
+        Self { pair: Pair::between(scales, pitch), width, offset }
     }
 
     fn from_row(row: &Row, parameters: &FlexureParameters) -> Self {

@@ -1,6 +1,6 @@
 //! Rotation of one gap over its moment, solved on demand.
 
-use solver::{Event, Newton, Path, Settings};
+use solver::{Continuation, Event, Newton, Settings};
 
 use super::strip::Strip;
 use crate::ContactChange;
@@ -69,7 +69,7 @@ impl Knot {
 /// doi 10.1093/imanum/2.2.123). It only predicts where to solve and does not enter any result.
 #[derive(Debug)]
 pub(super) struct GapCurve {
-    path: Path<Strip>,
+    path: Continuation<Strip>,
     knots: Vec<Knot>,
     pub(super) iterations: usize,
 }
@@ -78,7 +78,7 @@ impl GapCurve {
     /// Starts the curve at rest.
     pub(super) fn new(strip: Strip, settings: Settings) -> Self {
         let rest = SkinState::at_rest(&strip);
-        let path = Path::new(strip, rest, settings);
+        let path = Continuation::new(strip, rest, settings);
         let knots = vec![Knot::new(path.system(), path.point().clone())];
         Self { path, knots, iterations: 0 }
     }

@@ -1,7 +1,7 @@
 //! Measures of bending.
 
 use serde::{Deserialize, Serialize};
-use solver::Path;
+use solver::Continuation;
 
 use super::FlexurePoint;
 use super::problem::LOCKED;
@@ -54,7 +54,7 @@ pub struct FlexureMeasures {
 
 impl FlexureMeasures {
     /// Computes the measures of a completed path.
-    pub(crate) fn new(record: &Record<Strip>, path: &mut Path<Strip>) -> Self {
+    pub(crate) fn new(record: &Record<Strip>, path: &mut Continuation<Strip>) -> Self {
         let first = record.first_contact();
         // Before contact the strip bends to arcs with constant stiffness, so there is no maximum to
         // search.
@@ -111,7 +111,7 @@ impl FlexureMeasures {
 }
 
 /// Returns the curvature of the last contact change, if contacts then stick and lock the strip.
-fn locking(record: &Record<Strip>, path: &Path<Strip>) -> Option<f64> {
+fn locking(record: &Record<Strip>, path: &Continuation<Strip>) -> Option<f64> {
     let [sticking, _] = Contacts::stick_slip_counts(&path.point().state);
     let (start, end) = record.path.first().zip(record.path.last())?;
     // Sticking contacts alone are not enough: a strip may continue to bend with some of them.

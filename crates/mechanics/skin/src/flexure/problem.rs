@@ -3,7 +3,7 @@
 use contact::ContactLaw;
 use geometry::{OutOfRange, Row};
 use membrane::{Membrane, Section, Span};
-use solver::{Path, Stop};
+use solver::{Continuation, Termination};
 
 use super::accuracy::change;
 use super::first_contact::{contact_curvature, first_of_gaps};
@@ -20,7 +20,7 @@ use crate::{Common, Design, Sample, Status, Unloading};
 /// A strip bent to the end of its path.
 pub(crate) struct Bent {
     pub(crate) record: Record<Strip>,
-    pub(crate) path: Path<Strip>,
+    pub(crate) path: Continuation<Strip>,
     pub(crate) status: Status,
     /// Largest change of any measure with a finer resolution; `None` if there is none.
     error: Option<f64>,
@@ -203,7 +203,7 @@ impl<'a> FlexureProblem<'a> {
         let rest = SkinState::at_rest(&strip);
         let alike = matches!(self.row, Arrangement::Even(_));
         let mut steps = vec![strip.steps(&rest.z)];
-        let mut path = Path::new(strip, rest, self.common.solver);
+        let mut path = Continuation::new(strip, rest, self.common.solver);
         let mut record = Record::new(&path, functions);
         let repeats = path.system().repeats;
         let mut locator = PointLocator::new(
@@ -228,8 +228,8 @@ impl<'a> FlexureProblem<'a> {
             steps.push(path.system().steps(&point.state.z));
         }
         // The path was left before it ended, so it has no stop reason of its own.
-        let stop = if flush { Some(Stop::Singular) } else { path.stop() };
-        let status = match Status::of(&path, stop.unwrap_or(Stop::Reached)) {
+        let stop = if flush { Some(Termination::Singular) } else { path.termination() };
+        let status = match Status::of(&path, stop.unwrap_or(Termination::Reached)) {
             Status::Stopped(stop) if stop.is_numerical() && (flush || locks(&record.path)) => {
                 Status::Locked
             }
@@ -268,7 +268,7 @@ impl<'a> FlexureProblem<'a> {
     fn error(
         &self,
         resolution: Resolution,
-        path: &Path<Strip>,
+        path: &Continuation<Strip>,
         record: &Record<Strip>,
     ) -> Result<Option<f64>, OutOfRange> {
         let Some(finer) = resolution.finer() else { return Ok(None) };

@@ -1,7 +1,7 @@
 //! Derivatives of the measures of bending.
 
 use geometry::OutOfRange;
-use solver::{Neighbours, Path};
+use solver::{Continuation, Neighbours};
 
 use super::first_contact::{curvature_derivatives, touches};
 use super::measures::larger;
@@ -179,7 +179,7 @@ impl FlexureProblem<'_> {
     fn measured_points(
         &self,
         record: &Record<Strip>,
-        path: &mut Path<Strip>,
+        path: &mut Continuation<Strip>,
     ) -> Vec<MeasuredPoint<Strip>> {
         let settings = &self.common.solver;
         let touching =

@@ -352,7 +352,7 @@ impl System for Strip {
         })
     }
 
-    fn growing(&self) -> &[usize] {
+    fn monotone(&self) -> &[usize] {
         &self.contacts.slip_distances
     }
 
@@ -360,8 +360,8 @@ impl System for Strip {
         self.contacts.stop_sliding(state);
     }
 
-    fn companions(&self, constraint: usize) -> std::ops::Range<usize> {
-        self.contacts.companions(constraint)
+    fn coupled(&self, constraint: usize) -> std::ops::Range<usize> {
+        self.contacts.coupled(constraint)
     }
 
     fn is_same_form(&self, one: &SkinMode, other: &SkinMode) -> bool {

@@ -3,7 +3,7 @@
 mod gap_by_gap;
 
 use contact::Law;
-use solver::{Path, Settings};
+use solver::{Continuation, Settings};
 
 use super::problem::FlexureProblem;
 use super::strip::Strip;
@@ -12,7 +12,7 @@ use crate::contacts::{SkinPoint, SkinState};
 use crate::{Base, Common, Design};
 
 /// Integrates `M dΦ` between two points by Boole's rule on five equilibria, equidistant in `Φ`.
-fn work(path: &mut Path<Strip>, from: &SkinPoint, to: &SkinPoint) -> f64 {
+fn work(path: &mut Continuation<Strip>, from: &SkinPoint, to: &SkinPoint) -> f64 {
     let inner = [0.25, 0.5, 0.75].map(|x| path.between(from, to, x).unwrap().state);
     let states = [&from.state, &inner[0], &inner[1], &inner[2], &to.state];
     let strip = path.system();
@@ -29,7 +29,7 @@ fn balance(design: &Design, common: &Common, parameters: &FlexureParameters) -> 
     let problem = FlexureProblem::even(design, common, parameters).unwrap();
     let strip = problem.resolved(&[], &[]).unwrap().0.path.system().clone();
     let rest = SkinState::at_rest(&strip);
-    let mut path = Path::new(strip, rest, common.solver);
+    let mut path = Continuation::new(strip, rest, common.solver);
     let (mut done, mut off, mut energies) = (0.0, 0.0_f64, [0.0; 3]);
     loop {
         let from = path.point().clone();

@@ -7,7 +7,7 @@
 use std::sync::Arc;
 
 use geometry::OutOfRange;
-use solver::{Change, Event, Path};
+use solver::{Change, Continuation, Event};
 use substrate::{FarField, SubstrateLaw};
 
 use super::Problem;
@@ -24,7 +24,7 @@ use crate::contacts::{SkinPoint, SkinState};
 /// ```
 pub(super) struct AdaptiveRowPath<'a> {
     problem: &'a Problem<'a>,
-    pub(super) path: Path<Chain>,
+    pub(super) path: Continuation<Chain>,
     longest: usize,
     /// False if the row had to grow beyond its limit.
     pub(super) has_room: bool,
@@ -47,7 +47,7 @@ pub(super) struct Segment {
 impl<'a> AdaptiveRowPath<'a> {
     pub(super) fn new(problem: &'a Problem<'a>, chain: Chain, longest: usize) -> Self {
         let rest = chain.at_rest();
-        let path = Path::new(chain, rest, problem.settings);
+        let path = Continuation::new(chain, rest, problem.settings);
         let (has_room, reach, shorter) = (true, [Reach::Short; 2], Vec::new());
         Self { problem, path, longest, has_room, reach, shorter, arrived: None }
     }

@@ -29,7 +29,7 @@ fn has_turned_back(path: &[PuncturePoint]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use solver::Stop;
+    use solver::Termination;
 
     use super::*;
 
@@ -52,10 +52,10 @@ mod tests {
 
     #[test]
     fn a_path_stopped_after_turning_back_has_a_limit_point() {
-        let stopped = Status::Stopped(Stop::Singular);
+        let stopped = Status::Stopped(Termination::Singular);
         let back = path(&[[0.0, 0.0, 0.0], [2.0, 1.0, 5.0], [1.0, 0.9, 4.0]]);
         assert_eq!(classify(stopped, &back), Status::LimitPoint);
-        let many = Status::Stopped(Stop::TooManyPoints);
+        let many = Status::Stopped(Termination::TooManyPoints);
         assert_eq!(
             (classify(many, &back), classify(Status::Complete, &back)),
             (many, Status::Complete)

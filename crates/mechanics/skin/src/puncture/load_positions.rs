@@ -5,7 +5,7 @@
 
 use geometry::OutOfRange;
 use serde::{Deserialize, Serialize};
-use solver::{Neighbours, Stop};
+use solver::{Neighbours, Termination};
 use substrate::RowStiffness;
 
 use super::needle::CriticalEvent;
@@ -142,7 +142,7 @@ impl Problem<'_> {
         let clockwise = self.pushed(position, CLOCKWISE)?;
         // A load left of the middle may tilt the scale counter-clockwise from the start; driven
         // clockwise it would have to pull.
-        let pulls = clockwise.status == Status::Stopped(Stop::Unloaded);
+        let pulls = clockwise.status == Status::Stopped(Termination::Unloaded);
         if pulls && clockwise.borne <= Some(0.0) {
             return self.pushed(position, COUNTER_CLOCKWISE);
         }

@@ -1,7 +1,7 @@
 //! Measures of a puncture.
 
 use serde::{Deserialize, Serialize};
-use solver::Path;
+use solver::Continuation;
 
 use super::surface_fold::Fold;
 use super::system::Chain;
@@ -88,7 +88,11 @@ pub struct PunctureMeasures {
 
 impl PunctureMeasures {
     /// Computes the measures of a completed path, with stiffness in `E_s t` and force in `E* t²`.
-    pub(crate) fn new(record: &Record<Chain>, folds: &[Fold], path: &mut Path<Chain>) -> Self {
+    pub(crate) fn new(
+        record: &Record<Chain>,
+        folds: &[Fold],
+        path: &mut Continuation<Chain>,
+    ) -> Self {
         let max_stiffness = record.stiffness_summit(path).map(|summit| summit.value);
         let (chain, state) = (path.system(), &path.point().state);
         let (end, modulus) = (chain.path_point(path.point()), chain.plane_modulus);

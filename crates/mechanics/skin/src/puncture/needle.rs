@@ -206,7 +206,7 @@ impl GuidedNeedle {
     ///
     /// With friction these are normal force and slips: opening a sticking touch also ends its stick
     /// constraint.
-    pub(super) fn companions(&self, constraint: usize) -> Range<usize> {
+    pub(super) fn coupled(&self, constraint: usize) -> Range<usize> {
         let number = constraint - self.contacts;
         let first = constraint - number % self.constraints_per_touch;
         let is_of_touch =

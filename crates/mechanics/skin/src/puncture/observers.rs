@@ -1,6 +1,6 @@
 //! Observers of the path of a puncture.
 
-use solver::Path;
+use solver::Continuation;
 
 use super::adaptive_row::{AdaptiveRowPath, Segment};
 use super::needle::{HistoryObserver, PassageObserver};
@@ -28,7 +28,7 @@ pub(super) struct PathObservers {
 
 impl PathObservers {
     pub(super) fn new(
-        path: &Path<Chain>,
+        path: &Continuation<Chain>,
         parameters: &PunctureParameters,
         functions: &[PathFunction<Chain>],
         places: &[At],
@@ -48,7 +48,7 @@ impl PathObservers {
     }
 
     /// Passes a segment to all observers.
-    pub(super) fn follow(&mut self, path: &mut Path<Chain>, segment: &Segment) {
+    pub(super) fn follow(&mut self, path: &mut Continuation<Chain>, segment: &Segment) {
         let Segment { from, to, left } = segment;
         self.history.follow(segment);
         self.passage.follow(path.system(), segment);

@@ -1,7 +1,7 @@
 //! Derivatives of the measures of a puncture.
 
 use geometry::OutOfRange;
-use solver::{AnchoredPoint, Neighbours, Path, PathAnchor};
+use solver::{AnchoredPoint, Continuation, Neighbours, PathAnchor};
 use substrate::RowStiffness;
 
 use super::needle::{HistoryVariable, anchors, event_before, history, with};
@@ -173,7 +173,7 @@ impl Problem<'_> {
     fn measured_points(
         &self,
         watch: &PathObservers,
-        path: &mut Path<Chain>,
+        path: &mut Continuation<Chain>,
     ) -> Vec<MeasuredPoint<Chain>> {
         let PathObservers { record, needle, passage, depth: marked, .. } = watch;
         let FoldObserver { folds, first } = &watch.folds;

@@ -1,6 +1,6 @@
 //! Stability along a path under load or depth control, and snap-through.
 
-use solver::{Bracket, Event, Path};
+use solver::{Bracket, Continuation, Event};
 
 use super::stability::Instability;
 use super::system::Chain;
@@ -52,7 +52,7 @@ impl SnapObserver {
     /// counted.
     pub(super) fn follow(
         &mut self,
-        path: &mut Path<Chain>,
+        path: &mut Continuation<Chain>,
         [from, to]: [&SkinPoint; 2],
         events_before: usize,
     ) {
@@ -62,7 +62,7 @@ impl SnapObserver {
     }
 
     /// Records the instability of `from`; at a singular point it is evaluated half-way to the next.
-    fn count(&mut self, path: &mut Path<Chain>, from: &SkinPoint, to: &SkinPoint) {
+    fn count(&mut self, path: &mut Continuation<Chain>, from: &SkinPoint, to: &SkinPoint) {
         if !self.has_unloaded {
             return self.instability.push(Instability::default());
         }
@@ -93,7 +93,7 @@ impl SnapObserver {
 
     fn follow_depth(
         &mut self,
-        path: &mut Path<Chain>,
+        path: &mut Continuation<Chain>,
         from: &SkinPoint,
         to: &SkinPoint,
         events_before: usize,
@@ -120,7 +120,7 @@ impl SnapObserver {
     /// Adds the stability measures, and returns the instability of every point and the snaps.
     pub(super) fn finish(
         mut self,
-        path: &Path<Chain>,
+        path: &Continuation<Chain>,
         measures: &mut PunctureMeasures,
     ) -> (Vec<Instability>, Vec<Snap>) {
         let end = if self.has_unloaded {
@@ -147,10 +147,11 @@ impl SnapObserver {
 
 impl Snap {
     /// Finds the point within a segment at which the depth is as large as at the snap again.
-    fn land(&mut self, path: &mut Path<Chain>, from: &SkinPoint, to: &SkinPoint) {
+    fn land(&mut self, path: &mut Continuation<Chain>, from: &SkinPoint, to: &SkinPoint) {
         let depth = self.point.displacement;
-        let is_below =
-            |path: &Path<Chain>, point: &SkinPoint| path.system().depth(&point.state.z) < depth;
+        let is_below = |path: &Continuation<Chain>, point: &SkinPoint| {
+            path.system().depth(&point.state.z) < depth
+        };
         if is_below(path, to) {
             return;
         }
@@ -172,8 +173,12 @@ impl Snap {
 }
 
 /// Finds the point at which the depth turns back, within a segment or at its start.
-fn turning_point(path: &mut Path<Chain>, from: &SkinPoint, to: &SkinPoint) -> Option<SkinPoint> {
-    let rate = |path: &Path<Chain>, point: &SkinPoint, direction: &[f64]| {
+fn turning_point(
+    path: &mut Continuation<Chain>,
+    from: &SkinPoint,
+    to: &SkinPoint,
+) -> Option<SkinPoint> {
+    let rate = |path: &Continuation<Chain>, point: &SkinPoint, direction: &[f64]| {
         path.system().depth_slope(&point.state.z, direction)
     };
     let leaving = rate(path, from, &from.leaving);

@@ -1,7 +1,7 @@
 //! Snapshots of a row at chosen points of its path.
 
 use geometry::OutOfRange;
-use solver::Stop;
+use solver::Termination;
 
 use super::system::Chain;
 use super::{
@@ -128,8 +128,8 @@ pub fn snapshots_to_end(
     let snapshot = |state: &SkinState| snapshot(chain, row.pitch(), state);
     let at = found.iter().map(|point| Some(snapshot(&point.as_ref()?.state))).collect();
     let end = snapshot(&followed.path.point().state);
-    let is_critical =
-        followed.path.stop() == Some(Stop::Reached) && followed.status != Status::Untilted;
+    let is_critical = followed.path.termination() == Some(Termination::Reached)
+        && followed.status != Status::Untilted;
     Ok(Snapshots { puncture: followed.puncture(false), at, end, is_critical })
 }
 

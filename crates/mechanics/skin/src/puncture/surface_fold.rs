@@ -1,6 +1,6 @@
 //! Stretch of the surface gaps along the path, and locations of folding.
 
-use solver::{Bracket, Path, dip};
+use solver::{Bracket, Continuation, dip};
 
 use super::PuncturePoint;
 use super::system::Chain;
@@ -62,7 +62,7 @@ impl FoldObserver {
     /// Finds the folds on a path segment; `events_before` contact events precede it.
     pub(super) fn follow(
         &mut self,
-        path: &mut Path<Chain>,
+        path: &mut Continuation<Chain>,
         [from, to]: [&SkinPoint; 2],
         events_before: usize,
     ) {
@@ -90,7 +90,11 @@ impl FoldObserver {
 ///
 /// If both ends have the same sign, the slopes indicate whether the stretch dips through zero in
 /// between.
-fn crossings(path: &mut Path<Chain>, from: &SkinPoint, to: &SkinPoint) -> Vec<FoldCrossing> {
+fn crossings(
+    path: &mut Continuation<Chain>,
+    from: &SkinPoint,
+    to: &SkinPoint,
+) -> Vec<FoldCrossing> {
     let spans = path.spans(from, to);
     let mut crossings = Vec::new();
     for pair in 0..path.system().layout.scales() - 1 {
@@ -132,7 +136,12 @@ impl FoldCrossing {
     /// Solves for the equilibrium at which the gap vanishes, and its fraction of the segment.
     ///
     /// If Newton's method fails, returns the last equilibrium found.
-    fn locate(&self, path: &mut Path<Chain>, from: &SkinPoint, to: &SkinPoint) -> (f64, SkinPoint) {
+    fn locate(
+        &self,
+        path: &mut Continuation<Chain>,
+        from: &SkinPoint,
+        to: &SkinPoint,
+    ) -> (f64, SkinPoint) {
         let mut bracket = self.bracket;
         let mut near = (0.0, from.clone());
         for _ in 0..EVALUATIONS {

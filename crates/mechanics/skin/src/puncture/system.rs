@@ -158,7 +158,7 @@ pub(crate) struct Chain {
     /// Unknowns of the contact forces, and of the constraints of a guided needle.
     constraints: Vec<usize>,
     /// Constraint numbers that only grow.
-    growing: Vec<usize>,
+    monotone: Vec<usize>,
     pub(super) controls: Vec<Control>,
     /// [`Common::whole_path`](crate::Common::whole_path).
     pub(super) whole_path: bool,
@@ -222,7 +222,7 @@ impl Chain {
         };
         let contacts = Contacts::new(arrangement, law, scales, forces, false);
         let of_needle = needle.iter().flat_map(|needle| needle.slip_distances.iter().copied());
-        let growing = contacts.slip_distances.iter().copied().chain(of_needle).collect();
+        let monotone = contacts.slip_distances.iter().copied().chain(of_needle).collect();
         // A round tip couples several scales across blocks, and contacts may reach farther than the
         // substrate. Band elimination handles both.
         let reach = neighbours.len().max(1);
@@ -231,7 +231,7 @@ impl Chain {
         let mut chain = Self {
             layout,
             contacts,
-            growing,
+            monotone,
             length,
             plane_modulus: 1.0 / (1.0 - parameters.poisson_ratio.powi(2)),
             half_base: a,
@@ -392,8 +392,8 @@ impl System for Chain {
         self.needle.as_ref().is_some_and(|needle| needle.ends(self, state, constraint))
     }
 
-    fn growing(&self) -> &[usize] {
-        &self.growing
+    fn monotone(&self) -> &[usize] {
+        &self.monotone
     }
 
     fn stop_sliding(&self, state: &mut SkinState) {
@@ -403,10 +403,10 @@ impl System for Chain {
         }
     }
 
-    fn companions(&self, constraint: usize) -> std::ops::Range<usize> {
+    fn coupled(&self, constraint: usize) -> std::ops::Range<usize> {
         match self.of_needle(constraint) {
-            Some((needle, _)) => needle.companions(constraint),
-            None => self.contacts.companions(constraint),
+            Some((needle, _)) => needle.coupled(constraint),
+            None => self.contacts.coupled(constraint),
         }
     }
 

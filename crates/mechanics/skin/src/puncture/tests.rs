@@ -11,7 +11,7 @@ use std::collections::HashSet;
 use approx::assert_relative_eq;
 use contact::{ContactLaw, CornerContact, FORCES, Law};
 use nalgebra::{DMatrix, DVector};
-use solver::{BandMatrix, Path, Settings, System, check_tangent};
+use solver::{BandMatrix, Continuation, Settings, System, check_tangent};
 use substrate::{Coupling, RowStiffness, calibrate};
 
 use self::needle::integral;
@@ -51,7 +51,7 @@ fn law(design: &Design, law: Law, modulus: f64) -> ContactLaw {
 }
 
 /// Starts the path of a row of 21 scales to a tilt of 10°.
-fn path(design: &Design, law: ContactLaw, load_position: f64) -> Path<Chain> {
+fn path(design: &Design, law: ContactLaw, load_position: f64) -> Continuation<Chain> {
     path_on(
         &(&calibrate(&design.footprint(0.5).unwrap()).unwrap()).into(),
         design,
@@ -61,8 +61,8 @@ fn path(design: &Design, law: ContactLaw, load_position: f64) -> Path<Chain> {
 }
 
 /// Starts the path of a row with full coupling, rotations included.
-fn coupled_path(design: &Design, law: ContactLaw, load_position: f64) -> Path<Chain> {
-    let stiffness = RowStiffness::of(&design.footprint(0.5).unwrap(), Coupling::Full).unwrap();
+fn coupled_path(design: &Design, law: ContactLaw, load_position: f64) -> Continuation<Chain> {
+    let stiffness = RowStiffness::compute(&design.footprint(0.5).unwrap(), Coupling::Full).unwrap();
     path_on(&stiffness, design, law, load_position)
 }
 
@@ -71,12 +71,12 @@ fn path_on(
     design: &Design,
     law: ContactLaw,
     load_position: f64,
-) -> Path<Chain> {
+) -> Continuation<Chain> {
     let layout = RowLayout { left: 10, right: 10, needle: 0, contacts: pair_constraints(&law) };
     let parameters = PunctureParameters { load_position, ..PunctureParameters::default() };
     let chain = whole(stiffness, design, law, layout, &parameters);
     let rest = SkinState::at_rest(&chain);
-    Path::new(chain, rest, Settings::default())
+    Continuation::new(chain, rest, Settings::default())
 }
 
 /// Builds a row with nothing beyond its ends.
@@ -93,8 +93,8 @@ fn whole(
 
 /// Calls `show` for each segment of a path.
 fn for_segments(
-    mut path: Path<Chain>,
-    mut show: impl FnMut(&mut Path<Chain>, &SkinPoint, &SkinPoint),
+    mut path: Continuation<Chain>,
+    mut show: impl FnMut(&mut Continuation<Chain>, &SkinPoint, &SkinPoint),
 ) {
     loop {
         let from = path.point().clone();
@@ -172,7 +172,7 @@ fn slopes_of_inactive_conditions_match_finite_differences() {
 
 /// Integrates `F du` between two points by Boole's rule on five equilibria, with `u'` from their
 /// polynomial.
-fn work(path: &mut Path<Chain>, from: &SkinPoint, to: &SkinPoint) -> f64 {
+fn work(path: &mut Continuation<Chain>, from: &SkinPoint, to: &SkinPoint) -> f64 {
     let inner = [0.25, 0.5, 0.75].map(|x| path.between(from, to, x).unwrap().state);
     let states = [&from.state, &inner[0], &inner[1], &inner[2], &to.state];
     let chain = path.system();
@@ -189,7 +189,7 @@ struct Balance {
     off: f64,
 }
 
-fn balance(path: Path<Chain>) -> Balance {
+fn balance(path: Continuation<Chain>) -> Balance {
     let mut balance = Balance::default();
     for_segments(path, |path, from, to| {
         balance.work += work(path, from, to);
@@ -268,7 +268,7 @@ fn one_neighbour_without_cross_coupling_matches_the_paper() {
         // table.
         let force = |solved: &super::Puncture| solved.measures.critical_force.unwrap();
         assert_relative_eq!(force(&ours), force(&paper), max_relative = 2e-4);
-        let full = RowStiffness::of(&footprint, Coupling::Full).unwrap();
+        let full = RowStiffness::compute(&footprint, Coupling::Full).unwrap();
         let full = super::solve(&design, &full, &Common::default(), &parameters).unwrap();
         assert_ne!(full.measures.critical_force, paper.measures.critical_force);
     }
@@ -427,7 +427,7 @@ fn negative_eigenvalues(stiffness: &DMatrix<f64>, held: Option<&DVector<f64>>) -
 }
 
 /// Compares half-way between points, because at load extrema an eigenvalue vanishes.
-fn compare_instability(path: Path<Chain>, compared: &mut HashSet<(usize, usize, usize)>) {
+fn compare_instability(path: Continuation<Chain>, compared: &mut HashSet<(usize, usize, usize)>) {
     for_segments(path, |path, from, to| {
         let Some(point) = path.between(from, to, 0.5) else { return };
         let (chain, state) = (path.system(), &point.state);
@@ -465,7 +465,7 @@ fn negative_eigenvalues_match_the_dense_stiffness() {
     {
         let law = law(&design, Law::EXCHANGED, modulus);
         let springs = calibrate(&design.footprint(0.5).unwrap()).unwrap();
-        let full = RowStiffness::of(&design.footprint(0.5).unwrap(), Coupling::Full).unwrap();
+        let full = RowStiffness::compute(&design.footprint(0.5).unwrap(), Coupling::Full).unwrap();
         let parameters =
             &PunctureParameters { critical_tilt_deg: 40.0, ..PunctureParameters::default() };
         let layout = RowLayout { left: 7, right: 9, needle: 0, contacts: 6 };
@@ -481,7 +481,7 @@ fn negative_eigenvalues_match_the_dense_stiffness() {
         };
         for chain in [chain(&nearest), chain(&full), endless(&nearest), endless(&full)] {
             let rest = SkinState::at_rest(&chain);
-            compare_instability(Path::new(chain, rest, Settings::default()), &mut compared);
+            compare_instability(Continuation::new(chain, rest, Settings::default()), &mut compared);
         }
     }
     for seen in [(0, 0, 0), (1, 0, 1), (1, 1, 1)] {

@@ -1,6 +1,6 @@
 //! Points of a curve, such as force over displacement, and their derivatives.
 
-use solver::{AnchoredPoint, Neighbours, PathAnchor, Point, Settings};
+use solver::{AnchoredPoint, Equilibrium, Neighbours, PathAnchor, Settings};
 
 use super::{MeasuredPoint, ValueOf, derivatives, quantity};
 use crate::contacts::SkinPoint;
@@ -31,7 +31,7 @@ pub(crate) fn curve_point<S: Skin>(
     settings: &Settings,
     curve: Curve<S>,
 ) -> CurvePoint {
-    let Point { state, arriving, .. } = point;
+    let Equilibrium { state, arriving, .. } = point;
     let at = |f: ValueOf<S>, by: f64| {
         // At a kink the point belongs to the incoming segment.
         f(system, &state.moved(by, arriving), arriving, 0)

@@ -1,7 +1,8 @@
 //! Points of a path at which measures are taken.
 
 use solver::{
-    AnchoredPoint, Change, Event, Newton, Path, PathAnchor, Point, Settings, State, Summit, System,
+    AnchoredPoint, Change, Continuation, Equilibrium, Event, Newton, PathAnchor, Settings, State,
+    Summit, System,
 };
 
 use crate::contacts::{SkinPoint, SkinState};
@@ -20,8 +21,8 @@ pub(crate) fn rest<S: System>(system: &S) -> AnchoredPoint<S::Mode> {
 }
 
 /// Returns the end of a path that reached its target.
-pub(crate) fn end<S: System>(path: &Path<S>) -> AnchoredPoint<S::Mode> {
-    let Point { state, leaving, .. } = path.point().clone();
+pub(crate) fn end<S: System>(path: &Continuation<S>) -> AnchoredPoint<S::Mode> {
+    let Equilibrium { state, leaving, .. } = path.point().clone();
     AnchoredPoint { state, direction: leaving, anchor: PathAnchor::Target }
 }
 
@@ -55,12 +56,12 @@ pub(crate) fn first_contact<S: Skin>(
 /// Returns the point of the largest value of a function on a path, if its location is known.
 pub(crate) fn summit<S: Skin>(
     summit: Option<&Summit<S::Mode>>,
-    path: &mut Path<S>,
+    path: &mut Continuation<S>,
     f: PathFunction<S>,
     settings: &Settings,
 ) -> Option<AnchoredPoint<S::Mode>> {
     let summit = summit?;
-    let Point { state, arriving, leaving, event } = &*summit.point;
+    let Equilibrium { state, arriving, leaving, event } = &*summit.point;
     let control = path.system().controls()[0];
     // At the end of the path the target anchors the point instead of an extremum.
     let is_target = (state.z[control.index] / control.scale - 1.0).abs() < VANISHED;
@@ -84,7 +85,7 @@ pub(crate) fn summit<S: Skin>(
             }
             // The larger value is before the event. The recorded point has lost that active set, so
             // solve for the equilibrium again.
-            let Point { state, arriving, .. } = path.between(before, &summit.point, 1.0)?;
+            let Equilibrium { state, arriving, .. } = path.between(before, &summit.point, 1.0)?;
             let anchor = PathAnchor::Guard(vanished(path.system(), &state, changes)?);
             Some(AnchoredPoint { state, direction: arriving, anchor })
         }
@@ -101,7 +102,7 @@ pub(crate) fn turn<S: Skin>(
     point: &SkinPoint,
     number: usize,
 ) -> Option<AnchoredPoint<S::Mode>> {
-    let Point { state, leaving, event, .. } = point;
+    let Equilibrium { state, leaving, event, .. } = point;
     let anchor = match event {
         Some(Event::Changed(changes)) => PathAnchor::Guard(vanished(system, state, changes)?),
         _ => PathAnchor::Stationary(number),
@@ -131,7 +132,7 @@ pub(crate) fn vanished<S: Skin>(
 ) -> Option<usize> {
     if let [change] = changes
         && !change.activated
-        && system.growing().contains(&change.constraint)
+        && system.monotone().contains(&change.constraint)
     {
         // Slip stops where its rate vanishes, which is no guard.
         return None;

@@ -4,7 +4,7 @@ use approx::assert_relative_eq;
 use rayon::prelude::*;
 use skin::puncture::{Instability, Puncture, PunctureParameters};
 use skin::{Base, Common, Design, Status};
-use solver::{Settings, Stop};
+use solver::{Settings, Termination};
 use substrate::{Calibrations, SubstrateLaw};
 
 use crate::end;
@@ -22,7 +22,7 @@ fn a_path_stops_at_zero_load() {
     let design = design(0.6, 1.0, 60.0, Base::L);
     let puncture = solve(&design, &to_tilt(35.0));
     let (measures, last) = (puncture.measures, end(&puncture));
-    assert_eq!(puncture.status, Status::Stopped(Stop::Unloaded));
+    assert_eq!(puncture.status, Status::Stopped(Termination::Unloaded));
     assert!(last.force.abs() < 1e-14 && last.tilt_deg < 35.0, "{last:?}");
     assert!(puncture.path.iter().skip(1).rev().skip(1).all(|point| point.force > 0.0));
     assert_eq!(measures.critical_force.or(measures.penetration), None);
@@ -63,7 +63,7 @@ fn check(designs: &[(Design, f64)], known: &Calibrations) {
         assert!(puncture.path.iter().all(|point| point.force > -1e-12), "{design:?} {tilt}");
         assert!(measures.peak_force.is_some_and(|peak| peak > 0.0), "{design:?} {tilt}");
         assert_eq!(measures.peak_force.is_some(), measures.peak_tilt_deg.is_some());
-        let unloaded = puncture.status == Status::Stopped(Stop::Unloaded);
+        let unloaded = puncture.status == Status::Stopped(Termination::Unloaded);
         assert_eq!(unloaded, end(puncture).force.abs() < 1e-12, "{design:?} {tilt}");
         assert_eq!(puncture.status == Status::Complete, measures.critical_force.is_some());
     }
@@ -106,7 +106,7 @@ fn no_path_returns_to_rest() {
     designs.par_iter().for_each(|&(substrate_law, design)| {
         let parameters = PunctureParameters { substrate_law, ..to_tilt(35.0) };
         let puncture = solve_with(&known, &design, &parameters);
-        assert_ne!(puncture.status, Status::Stopped(Stop::TooManyPoints), "{design:?}");
+        assert_ne!(puncture.status, Status::Stopped(Termination::TooManyPoints), "{design:?}");
         let last = end(&puncture);
         assert!(
             last.tilt_deg > 1.0 && last.displacement > 0.01,

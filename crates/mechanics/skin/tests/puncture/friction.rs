@@ -3,7 +3,7 @@
 use approx::assert_relative_eq;
 use skin::puncture::{self, Needle, Puncture, PunctureParameters, RowLength};
 use skin::{Base, Common, Design, Status};
-use solver::{Settings, Stop};
+use solver::{Settings, Termination};
 use substrate::Calibrations;
 
 use super::complete;
@@ -184,8 +184,7 @@ fn the_reference_study_ends_mechanically_under_a_needle_with_friction() {
             let every = if long_campaigns() { 1 } else { 24 };
             let designs = reference_study(base).into_iter().skip(7).step_by(every);
             let failed = incomplete(designs, friction, &guided(0.3));
-            let is_numeric =
-                |status: &Status| matches!(status, Status::Stopped(stop) if *stop != Stop::Jumps);
+            let is_numeric = |status: &Status| matches!(status, Status::Stopped(stop) if *stop != Termination::Jumps);
             assert!(!failed.iter().any(|(_, status)| is_numeric(status)), "{failed:?}");
             assert!(failed.len() <= 4, "{failed:?}");
         }
@@ -218,7 +217,11 @@ fn unloading_closes_the_energy_balance() {
         let common = Common { solver, ..with_friction(friction) };
         let puncture = solve_as(&Calibrations::default(), &design, &common, &parameters);
         let back = puncture.unloading.as_ref().unwrap();
-        assert_eq!((puncture.status, back.stop), (Status::Complete, Stop::Unloaded), "{design:?}");
+        assert_eq!(
+            (puncture.status, back.stop),
+            (Status::Complete, Termination::Unloaded),
+            "{design:?}"
+        );
         let work = |path: &[puncture::PuncturePoint]| -> f64 {
             let steps = path.windows(2).map(|pair| {
                 let mean = 0.5 * (pair[0].force + pair[1].force) * length;
@@ -259,7 +262,11 @@ fn unloading_passes_simultaneous_changes() {
         let puncture =
             solve_as(&Calibrations::default(), &design, &with_friction(friction), &parameters);
         let back = puncture.unloading.as_ref().unwrap();
-        assert_eq!((puncture.status, back.stop), (Status::Complete, Stop::Unloaded), "{design:?}");
+        assert_eq!(
+            (puncture.status, back.stop),
+            (Status::Complete, Termination::Unloaded),
+            "{design:?}"
+        );
     }
 }
 
@@ -275,7 +282,7 @@ fn a_reversing_path_jumps() {
         let design = design(gap, length, slant_deg, base);
         let puncture =
             solve_as(&Calibrations::default(), &design, &with_friction(0.1), &parameters);
-        assert_eq!(puncture.status, Status::Stopped(Stop::Jumps), "{design:?}");
+        assert_eq!(puncture.status, Status::Stopped(Termination::Jumps), "{design:?}");
         assert!(puncture.path.len() < 1000, "{design:?}");
     }
 }

@@ -11,7 +11,7 @@ use crate::{assert_same_measures, complete};
 fn stiffness(design: &Design, thickness: f64, coupling: Coupling) -> RowStiffness {
     let footprint = design.footprint(0.5).unwrap();
     let layer = footprint.on_layer(thickness / design.half_base()).unwrap();
-    RowStiffness::of(&layer, coupling).unwrap()
+    RowStiffness::compute(&layer, coupling).unwrap()
 }
 
 fn solve(design: &Design, stiffness: &RowStiffness, parameters: &PunctureParameters) -> Puncture {

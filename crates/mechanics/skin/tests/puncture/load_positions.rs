@@ -3,7 +3,7 @@
 use approx::assert_relative_eq;
 use skin::puncture::{self, LoadPosition, Needle, Puncture, PunctureParameters, Weakest};
 use skin::{Base, Common, Design, Status};
-use solver::Stop;
+use solver::Termination;
 use substrate::{Calibrations, SubstrateLaw};
 
 use crate::samples::{design, solve_as};
@@ -97,7 +97,7 @@ fn an_inconclusive_position_hides_the_weakest_force() {
         critical_event: None,
         borne,
     };
-    let (held, unloaded) = (place(Some(1.0), Some(2.0), Status::Complete), Stop::Unloaded);
+    let (held, unloaded) = (place(Some(1.0), Some(2.0), Status::Complete), Termination::Unloaded);
     let stopped = |borne| place(None, borne, Status::Stopped(unloaded));
     let found = |other| Weakest::from_positions(&[held, other]).map(|weakest| weakest.force);
     assert_eq!(found(stopped(Some(0.9))), Err(Status::Stopped(unloaded)));

@@ -126,7 +126,8 @@ fn automatic_rows_match_longer_rows() {
 fn a_fully_coupled_row_does_not_fold_over() {
     let (law, long) = (Common::default(), automatic());
     for design in [domino(), settled(), design(0.1, 0.4, 75.0, Base::L)] {
-        let stiffness = RowStiffness::of(&design.footprint(0.5).unwrap(), Coupling::Full).unwrap();
+        let stiffness =
+            RowStiffness::compute(&design.footprint(0.5).unwrap(), Coupling::Full).unwrap();
         let puncture = puncture::solve(&design, &stiffness, &law, &long).unwrap();
         assert!((puncture.path.last().unwrap().tilt_deg - 10.0).abs() < 1e-9, "{design:?}");
         assert!(is_open(&puncture), "{design:?}");

@@ -6,7 +6,7 @@ use approx::assert_relative_eq;
 use skin::puncture::{self, At, Needle, Puncture, PunctureParameters, PuncturePoint};
 use skin::{Base, Common, ContactChange, ContactEvent, Status};
 
-use solver::{Settings, Stop};
+use solver::{Settings, Termination};
 use substrate::{Calibrations, calibrate};
 
 use crate::samples::{design, domino, on_row, solve, solve_as, solve_with, spread};
@@ -114,7 +114,7 @@ fn a_stopped_path_keeps_its_initial_measures() {
     let (known, common) = (Calibrations::default(), Common { solver, ..Common::default() });
     let cut = solve_as(&known, &domino(), &common, &on_row(41));
     let whole = solve(&domino(), &on_row(41));
-    assert_eq!(cut.status, Status::Stopped(Stop::TooManyPoints));
+    assert_eq!(cut.status, Status::Stopped(Termination::TooManyPoints));
     assert_eq!(cut.path.len(), 21);
     assert_eq!(cut.path[..], whole.path[..21]);
     let cut_path = cut.path;

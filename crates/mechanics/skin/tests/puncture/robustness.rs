@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use skin::Design;
 use skin::Status;
 use skin::puncture::{Puncture, PunctureParameters};
-use solver::Stop;
+use solver::Termination;
 use substrate::Calibrations;
 
 use crate::end;
@@ -109,7 +109,10 @@ fn paths_to_large_tilts_stop_for_mechanical_reasons() {
             let is_mechanical = !matches!(
                 puncture.status,
                 Status::Stopped(
-                    Stop::NoConvergence | Stop::Singular | Stop::NotFinite | Stop::Cycling
+                    Termination::NoConvergence
+                        | Termination::Singular
+                        | Termination::NotFinite
+                        | Termination::Cycling
                 )
             );
             assert!(is_mechanical, "{:?} at {tilt}: {design:?}", puncture.status);

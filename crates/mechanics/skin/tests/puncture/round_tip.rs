@@ -5,7 +5,7 @@ use skin::puncture::{
     self, CriticalEvent, Needle, Puncture, PunctureParameters, PuncturePoint, RowLength,
 };
 use skin::{Base, Common, Design, Status};
-use solver::Stop;
+use solver::Termination;
 use substrate::{Calibrations, Coupling, RowStiffness};
 
 use crate::samples::{design, in_small_steps, solve_as, springs};
@@ -214,7 +214,7 @@ fn a_tip_passes_through_between_bases() {
 #[test]
 fn touching_a_tilted_scale_ends_the_path() {
     let blocks = design(0.1, 0.4, 0.0, Base::L);
-    let stiffness = RowStiffness::of(&blocks.footprint(0.5).unwrap(), Coupling::Full).unwrap();
+    let stiffness = RowStiffness::compute(&blocks.footprint(0.5).unwrap(), Coupling::Full).unwrap();
     let parameters = parameters(Some(0.5));
     let puncture = puncture::solve(&blocks, stiffness, &Common::default(), &parameters).unwrap();
     assert_eq!(puncture.status, Status::Complete);
@@ -237,7 +237,7 @@ fn a_tip_may_jump_in_a_notch() {
         let needle = Needle::Guided { friction: 0.3 };
         let parameters = PunctureParameters { needle, ..parameters(Some(radius)) };
         let puncture = solve(&notched, &parameters);
-        assert_eq!(puncture.status, Status::Stopped(Stop::Jumps));
+        assert_eq!(puncture.status, Status::Stopped(Termination::Jumps));
         assert!((end(&puncture).tilt_deg - 8.1).abs() < 0.2);
     }
 }

@@ -118,7 +118,7 @@ fn scales_in_closed_form_are_in_equilibrium() {
 fn endless_rows_with_far_coupling_match_long_rows() {
     for design in [blocks(), settled(), design(0.1, 1.0, 45.0, Base::L)] {
         let footprint = design.footprint(0.5).unwrap();
-        let full = RowStiffness::of(&footprint, Coupling::Full).unwrap();
+        let full = RowStiffness::compute(&footprint, Coupling::Full).unwrap();
         let on = |parameters: &PunctureParameters| {
             skin::puncture::solve(&design, &full, &Common::default(), parameters).unwrap()
         };

@@ -7,7 +7,7 @@ use contact::Law;
 use rayon::prelude::*;
 use skin::puncture::{self, Needle, PunctureParameters};
 use skin::{Common, Design, Status};
-use solver::{Settings, Stop};
+use solver::{Settings, Termination};
 use substrate::{Calibrations, SubstrateLaw};
 
 use crate::samples::{BASES, SplitMix64, long_campaigns, springs};
@@ -100,7 +100,7 @@ fn few_punctures_in_the_widest_ranges_stop_numerically() {
     let numeric = solved
         .iter()
         .filter(|status| {
-            use Stop::{Cycling, NoConvergence, NotFinite, Singular};
+            use Termination::{Cycling, NoConvergence, NotFinite, Singular};
             matches!(status, Status::Stopped(NoConvergence | Singular | NotFinite | Cycling))
         })
         .count();

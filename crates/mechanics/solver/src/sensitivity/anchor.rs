@@ -1,8 +1,8 @@
 //! Conditions that tell which equilibrium of a path a place is.
 
 use super::differences::ALONG;
+use crate::continuation::Equilibrium;
 use crate::newton::{guard, guard_slope};
-use crate::path::Point;
 use crate::system::{State, System};
 
 /// The condition that tells which equilibrium of the path a place is, when a parameter changes the path.
@@ -33,7 +33,7 @@ pub struct AnchoredPoint<M> {
 
 impl<M: Clone> AnchoredPoint<M> {
     /// A point of a path as the path arrives at it.
-    pub fn arriving(point: &Point<M>, anchor: PathAnchor) -> Self {
+    pub fn arriving(point: &Equilibrium<M>, anchor: PathAnchor) -> Self {
         Self { state: point.state.clone(), direction: point.arriving.clone(), anchor }
     }
 }

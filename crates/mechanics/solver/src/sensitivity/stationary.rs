@@ -4,7 +4,7 @@ use super::anchor::{AnchoredPoint, PathAnchor};
 use super::differences::{ALONG, moved, turning};
 use super::section;
 use crate::newton::{Condition, Newton};
-use crate::step::Settings;
+use crate::settings::Settings;
 use crate::system::{State, System};
 
 /// First step of the search for a stationary place, and that at which the search ends, as parts of the way over which the state
@@ -99,7 +99,7 @@ fn fastest<S: System>(
 ) -> Option<(usize, f64)> {
     let constraints = system.constraints().iter().zip(&state.active).enumerate();
     // How far something has slid is counted from a place of this path, which another design has elsewhere.
-    let counts = |number: usize| !system.growing().contains(&number);
+    let counts = |number: usize| !system.monotone().contains(&number);
     let active = constraints.filter(|(number, (_, active))| **active && counts(*number));
     let ways = active
         .map(|(constraint, (&index, _))| (constraint, (state.z[index] / direction[index]).abs()));

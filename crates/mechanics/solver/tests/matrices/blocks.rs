@@ -182,12 +182,12 @@ proptest! {
 
 /// A row of scales: springs under bases of half-width `a` and, between some neighbours, contacts that hardly give way.
 /// Forces stand between the displacements of their scales, the load after those of the root.
-struct Row {
+struct ContactRow {
     chain: Chain,
     dense: Mat<f64>,
 }
 
-impl Row {
+impl ContactRow {
     fn new(
         root: usize,
         contacts: &[usize],
@@ -251,7 +251,7 @@ proptest! {
     ) {
         let mut numbers = numbers.into_iter().cycle();
         let mut number = || numbers.next().unwrap();
-        let row = Row::new(root, &contacts, 10_f64.powf(half_base), 10_f64.powf(compliance), &mut number);
+        let row = ContactRow::new(root, &contacts, 10_f64.powf(half_base), 10_f64.powf(compliance), &mut number);
         let size = row.chain.size();
         let rhs: Vec<_> = (0..size).map(|_| number()).collect();
         let left_out = vec![false; size];

@@ -1,7 +1,7 @@
 //! Constraints that change sides.
 
 use approx::assert_relative_eq;
-use solver::{Path, Settings, State, Stop, System};
+use solver::{Continuation, Settings, State, System, Termination};
 
 use crate::problems::{StringOverFloor, arch, arch_on_spring, bump, corner};
 use crate::scaled::Scaled;
@@ -11,7 +11,7 @@ use crate::{changes, extrema, follow, steps};
 #[test]
 fn a_bump_pushes_and_lets_go() {
     let (points, stop) = follow(bump(), Settings::default());
-    assert_eq!(stop, Stop::Reached);
+    assert_eq!(stop, Termination::Reached);
     let changes = changes(&points);
     let [(on, activated), (off, released)] = &changes[..] else { panic!("{changes:?}") };
     assert_eq!((&activated[..], &released[..]), (&[(0, true)][..], &[(0, false)][..]));
@@ -42,7 +42,7 @@ fn the_path_has_a_kink_where_a_bump_begins_and_ends() {
 #[test]
 fn a_bump_within_one_step_is_not_missed() {
     let (points, stop) = follow(bump(), steps(1.0));
-    assert_eq!(stop, Stop::Reached);
+    assert_eq!(stop, Termination::Reached);
     let places: Vec<f64> = changes(&points).iter().map(|(point, _)| point.state.z[0]).collect();
     assert_eq!(places.len(), 2);
     assert_relative_eq!(places[0], 1.0, max_relative = 1e-10);
@@ -54,9 +54,9 @@ fn a_bump_within_one_step_is_not_missed() {
 fn a_bump_within_a_later_step_is_not_missed() {
     for (start, step) in [(0.4, 1.0), (0.9, 0.7), (0.7, 0.6)] {
         let rest = State { z: vec![start, 0.0, 0.5 * start], active: vec![false], mode: () };
-        let mut path = Path::new(bump(), rest, steps(step));
+        let mut path = Continuation::new(bump(), rest, steps(step));
         let points: Vec<_> = path.by_ref().collect();
-        assert_eq!(path.stop(), Some(Stop::Reached));
+        assert_eq!(path.termination(), Some(Termination::Reached));
         let changes = changes(&points);
         let places: Vec<f64> = changes.iter().map(|(point, _)| point.state.z[0]).collect();
         assert_eq!(places.len(), 2);
@@ -74,7 +74,7 @@ fn a_thin_wall_within_one_step_is_not_missed() {
     for system in [Walls::new(vec![wall]), Walls::measured_by_the_load(vec![wall])] {
         for start in [0.0, 0.1, 0.35] {
             let rest = State { z: vec![start, 0.0, start], active: vec![false], mode: () };
-            let points: Vec<_> = Path::new(system.clone(), rest, steps(2.0)).collect();
+            let points: Vec<_> = Continuation::new(system.clone(), rest, steps(2.0)).collect();
             let places =
                 changes(&points).iter().map(|(point, _)| point.state.z[0]).collect::<Vec<_>>();
             assert_eq!(places.len(), 2, "from {start}: {places:?}");
@@ -92,7 +92,7 @@ fn the_nearer_of_two_walls_is_met_first() {
     let far: fn(f64) -> [f64; 2] = |u| [0.6 - u, -1.0];
     for (walls, first) in [(vec![near, far], 0), (vec![far, near], 1)] {
         let (points, stop) = follow(Walls::new(walls), steps(1.0));
-        assert_eq!(stop, Stop::Reached);
+        assert_eq!(stop, Termination::Reached);
         let changes = changes(&points);
         assert_eq!(changes.len(), 2);
         for ((point, changed), (wall, place)) in
@@ -113,7 +113,7 @@ fn of_two_walls_at_one_place_the_shielded_one_stays_open() {
     for (shielded, by) in [(0, 1), (1, 0)] {
         let walls = Walls::shielded(vec![wall, wall], shielded, by);
         let (points, stop) = follow(walls, steps(0.2));
-        assert_eq!(stop, Stop::Reached);
+        assert_eq!(stop, Termination::Reached);
         let changes = changes(&points);
         assert_eq!(changes.len(), 1);
         let (point, changed) = &changes[0];
@@ -155,7 +155,7 @@ fn a_path_does_not_depend_on_the_units_of_its_unknowns() {
 #[test]
 fn a_path_that_turns_back_at_an_event_goes_on() {
     let (points, stop) = follow(corner(), Settings::default());
-    assert_eq!(stop, Stop::Reached);
+    assert_eq!(stop, Termination::Reached);
     let changes = changes(&points);
     assert_eq!(changes.len(), 1);
     let turn = changes[0].0;

@@ -1,7 +1,7 @@
 //! Loads and control parameters that turn.
 
 use approx::assert_relative_eq;
-use solver::{Path, Settings, State, Stop};
+use solver::{Continuation, Settings, State, Termination};
 use std::f64::consts::TAU;
 
 use crate::problems::{Bratu, SPRING, arch, arch_on_spring, circle};
@@ -10,7 +10,7 @@ use crate::{extrema, follow, steps};
 #[test]
 fn the_extrema_of_an_arch_are_those_of_its_cubic() {
     let (points, stop) = follow(arch(), Settings::default());
-    assert_eq!(stop, Stop::Reached);
+    assert_eq!(stop, Termination::Reached);
     let extrema = extrema(&points);
     let (offset, load) = (3.0_f64.sqrt().recip(), 2.0 / 27.0_f64.sqrt());
     assert_eq!(extrema.len(), 2);
@@ -26,7 +26,7 @@ fn the_extrema_of_an_arch_are_those_of_its_cubic() {
 #[test]
 fn a_control_parameter_that_turns_back_is_followed() {
     let (points, stop) = follow(arch_on_spring(), steps(0.05));
-    assert_eq!(stop, Stop::Reached);
+    assert_eq!(stop, Termination::Reached);
     let arch = |w: f64| w * (1.0 - w) * (2.0 - w);
     let mut before = 0.0;
     for point in &points {
@@ -47,7 +47,7 @@ fn a_control_parameter_that_turns_back_is_followed() {
 fn a_snap_back_does_not_depend_on_the_steps() {
     let ends = [0.05, 0.005].map(|step| {
         let (points, stop) = follow(arch_on_spring(), steps(step));
-        assert_eq!(stop, Stop::Reached);
+        assert_eq!(stop, Termination::Reached);
         let mut ends: Vec<f64> = extrema(&points).concat();
         ends.extend(&points.last().unwrap().state.z);
         ends
@@ -62,7 +62,7 @@ fn a_snap_back_does_not_depend_on_the_steps() {
 #[test]
 fn a_circle_is_followed_all_the_way_round() {
     let start = State { z: vec![0.0, -1.0], active: Vec::new(), mode: () };
-    let mut path = Path::new(circle(), start, Settings::default());
+    let mut path = Continuation::new(circle(), start, Settings::default());
     let (mut turned, mut before) = (0.0, path.point().clone());
     loop {
         let point = path.next().unwrap();
@@ -88,7 +88,7 @@ fn a_circle_is_followed_all_the_way_round() {
 #[test]
 fn steps_that_turn_too_sharply_are_cut() {
     let start = State { z: vec![0.0, -1.0], active: Vec::new(), mode: () };
-    let points: Vec<_> = Path::new(circle(), start, steps(1.0)).take(100).collect();
+    let points: Vec<_> = Continuation::new(circle(), start, steps(1.0)).take(100).collect();
     let turns = points.windows(2).map(|pair| {
         let cross = |a: &[f64], b: &[f64]| a[0] * b[1] - a[1] * b[0];
         let [from, to] = [&pair[0], &pair[1]].map(|point| &point.leaving[..]);
@@ -104,7 +104,7 @@ fn steps_that_turn_too_sharply_are_cut() {
 #[test]
 fn the_load_of_a_circle_turns_at_the_top_and_at_the_bottom() {
     let start = State { z: vec![0.6, -0.8], active: Vec::new(), mode: () };
-    let path = Path::new(circle(), start, Settings::default());
+    let path = Continuation::new(circle(), start, Settings::default());
     let points: Vec<_> = path.take(300).collect();
     let extrema = extrema(&points);
     assert!(extrema.len() > 4);
@@ -120,7 +120,7 @@ fn bratu_folds_at_the_critical_load() {
     let critical = 3.513_830_719_125_16;
     let loads = [10, 20, 40].map(|intervals| {
         let (points, stop) = follow(Bratu::new(intervals), Settings::default());
-        assert_eq!(stop, Stop::Reached);
+        assert_eq!(stop, Termination::Reached);
         let extrema = extrema(&points);
         assert_eq!(extrema.len(), 1);
         *extrema[0].last().unwrap()
@@ -142,7 +142,7 @@ fn a_path_is_the_same_every_time() {
 
 #[test]
 fn between_two_points_lies_the_path() {
-    let mut path = Path::new(arch(), State::at_rest(&arch()), Settings::default());
+    let mut path = Continuation::new(arch(), State::at_rest(&arch()), Settings::default());
     let start = path.point().clone();
     let end = path.nth(1).unwrap();
     for fraction in [0.0, 0.25, 1.0] {

@@ -1,7 +1,9 @@
 //! A block that rubs: history in the state, and a tangent that is not symmetric.
 
 use approx::assert_relative_eq;
-use solver::{Blocks, Change, Control, Residual, State, Stop, System, Tangent, check_tangent};
+use solver::{
+    Blocks, Change, Control, Residual, State, System, Tangent, Termination, check_tangent,
+};
 
 use crate::{follow, steps};
 
@@ -53,7 +55,7 @@ impl System for Block {
         &[2, 3]
     }
 
-    fn growing(&self) -> &[usize] {
+    fn monotone(&self) -> &[usize] {
         &[0, 1]
     }
 
@@ -112,7 +114,7 @@ const LEFT: f64 = FRICTION / (1.0 - FRICTION * WEDGE);
 fn a_block_sticks_slides_sticks_and_slides_back() {
     for (in_blocks, largest) in [(true, 0.2), (false, 0.2), (true, 0.03), (false, 1.0)] {
         let (points, stop) = follow(block(in_blocks), steps(largest));
-        assert_eq!(stop, Stop::Reached);
+        assert_eq!(stop, Termination::Reached);
         let changes: Vec<_> = points.iter().filter(|point| point.event.is_some()).collect();
         let [slides, stops, back, _] = &changes[..] else { panic!("{changes:?}") };
         // It slides from f = μ on, stops where the push is the largest, and slides back from f = u₀ − μ (1 + c u₀) on.

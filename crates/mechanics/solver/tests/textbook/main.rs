@@ -12,7 +12,7 @@ mod tangents;
 mod walls;
 mod work;
 
-use solver::{Event, Path, Point, Settings, State, Stop, System};
+use solver::{Continuation, Equilibrium, Event, Settings, State, System, Termination};
 
 /// Steps of a size.
 fn steps(largest: f64) -> Settings {
@@ -20,21 +20,21 @@ fn steps(largest: f64) -> Settings {
 }
 
 /// All points of a path from rest, and why it ended.
-fn follow<S: System>(system: S, settings: Settings) -> (Vec<Point<S::Mode>>, Stop) {
+fn follow<S: System>(system: S, settings: Settings) -> (Vec<Equilibrium<S::Mode>>, Termination) {
     let rest = State::at_rest(&system);
-    let mut path = Path::new(system, rest, settings);
+    let mut path = Continuation::new(system, rest, settings);
     let points = path.by_ref().collect();
-    (points, path.stop().expect("an iterator that has ended tells why"))
+    (points, path.termination().expect("an iterator that has ended tells why"))
 }
 
 /// The loads at the extrema of a path, with the other unknowns.
-fn extrema(points: &[Point]) -> Vec<&[f64]> {
+fn extrema(points: &[Equilibrium]) -> Vec<&[f64]> {
     let extrema = points.iter().filter(|point| point.event == Some(Event::LoadExtremum));
     extrema.map(|point| point.state.z.as_slice()).collect()
 }
 
 /// The constraints that change sides along a path, with the point where they do.
-fn changes(points: &[Point]) -> Vec<(&Point, Vec<(usize, bool)>)> {
+fn changes(points: &[Equilibrium]) -> Vec<(&Equilibrium, Vec<(usize, bool)>)> {
     let changes = points.iter().filter_map(|point| match &point.event {
         Some(Event::Changed(changes)) => {
             Some((point, changes.iter().map(|c| (c.constraint, c.activated)).collect()))

@@ -1,7 +1,7 @@
 //! A string over a floor.
 
 use approx::assert_relative_eq;
-use solver::{Condition, Newton, Settings, State, Stop, System};
+use solver::{Condition, Newton, Settings, State, System, Termination};
 
 use crate::problems::{DEPTH, StringOverFloor};
 use crate::{changes, follow, steps};
@@ -12,7 +12,7 @@ fn a_string_comes_to_lie_on_the_floor() {
     for load in [0.5, 0.9, 3.0, 40.0] {
         let string = StringOverFloor::whole(40, load);
         let (points, stop) = follow(string.clone(), Settings::default());
-        assert_eq!(stop, Stop::Reached);
+        assert_eq!(stop, Termination::Reached);
         let state = &points.last().unwrap().state;
         for node in 1..40 {
             let deflection = state.z[2 * (node - 1)];
@@ -44,7 +44,7 @@ fn a_string_that_touches_without_a_force_lies_free() {
 fn the_floor_takes_one_node_after_the_other() {
     let string = StringOverFloor::halved(40, 20.0);
     let (points, stop) = follow(string.clone(), Settings::default());
-    assert_eq!(stop, Stop::Reached);
+    assert_eq!(stop, Termination::Reached);
     let changes = changes(&points);
     let expected: Vec<usize> =
         (1..=20).rev().filter(|&node| string.touching_load(node) < 20.0).collect();
@@ -65,7 +65,7 @@ fn the_floor_takes_one_node_after_the_other() {
 fn nodes_to_the_left_and_to_the_right_touch_together() {
     let string = StringOverFloor::whole(20, 10.0);
     let (points, stop) = follow(string.clone(), Settings::default());
-    assert_eq!(stop, Stop::Reached);
+    assert_eq!(stop, Termination::Reached);
     for (point, changed) in changes(&points) {
         let node = changed[0].0 + 1;
         let near = node.min(20 - node);

@@ -1,7 +1,7 @@
 //! Largest slopes of a path.
 
 use approx::assert_relative_eq;
-use solver::{Path, Peak, Point, State, System};
+use solver::{Continuation, Equilibrium, Peak, State, System};
 
 use crate::problems::{arch, kink, step, two_laws};
 use crate::steps;
@@ -20,13 +20,13 @@ fn largest<S: System>(
 ) -> [f64; 2] {
     let of_path = |_: &S, state: &State<S::Mode>, direction: &[f64]| f(state, direction);
     let rest = State::at_rest(&system);
-    let mut path = Path::new(system, rest, steps(largest_step));
+    let mut path = Continuation::new(system, rest, steps(largest_step));
     let (mut peak, mut sampled) = (Peak::default(), f64::NEG_INFINITY);
     let mut from = None;
     loop {
         peak.visit(&path, from.as_ref(), of_path);
         from = Some(path.point_shared());
-        let Point { state, arriving, leaving, .. } = path.point();
+        let Equilibrium { state, arriving, leaving, .. } = path.point();
         sampled = sampled.max(f(state, arriving)).max(f(state, leaving));
         if path.next().is_none() {
             break;

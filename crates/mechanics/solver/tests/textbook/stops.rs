@@ -1,7 +1,7 @@
 //! Every way in which a path can end.
 
 use approx::assert_relative_eq;
-use solver::{Condition, Event, Newton, NewtonFailure, Path, Settings, State, Stop};
+use solver::{Condition, Continuation, Event, Newton, NewtonFailure, Settings, State, Termination};
 
 use crate::problems::{Stiff, Unwilling, arch, circle, jump, kink, parabola, pushed_arch, root};
 use crate::{extrema, follow, steps};
@@ -9,7 +9,7 @@ use crate::{extrema, follow, steps};
 #[test]
 fn a_path_ends_at_its_target() {
     let (points, stop) = follow(arch(), Settings::default());
-    assert_eq!(stop, Stop::Reached);
+    assert_eq!(stop, Termination::Reached);
     assert_relative_eq!(points.last().unwrap().state.z[0], 2.5, max_relative = 1e-12);
 }
 
@@ -18,7 +18,7 @@ fn a_path_whose_load_only_pushes_ends_where_the_load_is_back_at_zero() {
     for step in [0.01, 0.1, 0.5] {
         let (points, stop) = follow(pushed_arch(), steps(step));
         let last = points.last().unwrap();
-        assert_eq!((stop, &last.event), (Stop::Unloaded, &Some(Event::Unloaded)));
+        assert_eq!((stop, &last.event), (Termination::Unloaded, &Some(Event::Unloaded)));
         assert_relative_eq!(last.state.z[0], 1.0, max_relative = 1e-12);
         assert!(last.state.z[1].abs() < 1e-15);
         assert_relative_eq!(extrema(&points)[0][1], 2.0 / 27.0_f64.sqrt(), max_relative = 1e-12);
@@ -28,54 +28,54 @@ fn a_path_whose_load_only_pushes_ends_where_the_load_is_back_at_zero() {
 #[test]
 fn a_path_that_breaks_off_does_not_converge() {
     let (points, stop) = follow(jump(), Settings::default());
-    assert_eq!(stop, Stop::NoConvergence);
+    assert_eq!(stop, Termination::NoConvergence);
     assert_relative_eq!(points.last().unwrap().state.z[0], 0.5, max_relative = 1e-6);
 }
 
 #[test]
 fn a_control_parameter_that_does_not_move_is_singular() {
     let (points, stop) = follow(parabola(), Settings::default());
-    assert_eq!((points.len(), stop), (0, Stop::Singular));
+    assert_eq!((points.len(), stop), (0, Termination::Singular));
 }
 
 #[test]
 fn a_path_without_end_has_too_many_points() {
     let start = State { z: vec![0.0, -1.0], active: Vec::new(), mode: () };
     let settings = Settings { max_points: 50, ..Settings::default() };
-    let mut path = Path::new(circle(), start, settings);
+    let mut path = Continuation::new(circle(), start, settings);
     assert_eq!(path.by_ref().count(), 50);
-    assert_eq!(path.stop(), Some(Stop::TooManyPoints));
+    assert_eq!(path.termination(), Some(Termination::TooManyPoints));
 }
 
 #[test]
 fn a_path_that_leaves_the_domain_of_its_equations_is_not_finite() {
     let start = State { z: vec![0.0, 0.5_f64.sqrt()], active: Vec::new(), mode: () };
-    let mut path = Path::new(root(), start, Settings::default());
+    let mut path = Continuation::new(root(), start, Settings::default());
     let last = path.by_ref().last().unwrap();
-    assert_eq!(path.stop(), Some(Stop::NotFinite));
+    assert_eq!(path.termination(), Some(Termination::NotFinite));
     assert_relative_eq!(last.state.z[0], 0.5, max_relative = 1e-6);
 }
 
 #[test]
 fn a_constraint_that_never_settles_cycles() {
     let (points, stop) = follow(Unwilling::Refusing(kink::<5>()), Settings::default());
-    assert_eq!(stop, Stop::Cycling);
+    assert_eq!(stop, Termination::Cycling);
     assert!(points.last().unwrap().state.z[0] < 0.5);
 }
 
 #[test]
 fn a_constraint_that_cannot_change_sides_leaves_no_direction() {
     let (points, stop) = follow(Unwilling::Stuck(kink::<5>()), Settings::default());
-    assert_eq!(stop, Stop::Singular);
+    assert_eq!(stop, Termination::Singular);
     assert!(points.last().unwrap().state.z[0] < 0.5);
 }
 
 /// Equations of large terms are satisfied to their round-off, which is large.
 #[test]
 fn an_equation_is_satisfied_where_it_is_small_against_its_terms() {
-    let mut path = Path::new(Stiff, State::at_rest(&Stiff), Settings::default());
+    let mut path = Continuation::new(Stiff, State::at_rest(&Stiff), Settings::default());
     let end = path.by_ref().last().unwrap();
-    assert_eq!(path.stop(), Some(Stop::Reached));
+    assert_eq!(path.termination(), Some(Termination::Reached));
     assert_relative_eq!(end.state.z[1], 1.0_f64.sin(), max_relative = 1e-12);
     let residuals = path.take_history();
     assert!(residuals.iter().all(|residual| *residual <= 1.0), "{residuals:?}");
@@ -100,14 +100,14 @@ fn newtons_method_says_why_it_fails() {
 #[test]
 fn stops_have_names() {
     let stops = [
-        Stop::Reached,
-        Stop::Unloaded,
-        Stop::NoConvergence,
-        Stop::Singular,
-        Stop::TooManyPoints,
-        Stop::Cycling,
-        Stop::Jumps,
-        Stop::NotFinite,
+        Termination::Reached,
+        Termination::Unloaded,
+        Termination::NoConvergence,
+        Termination::Singular,
+        Termination::TooManyPoints,
+        Termination::Cycling,
+        Termination::Jumps,
+        Termination::NotFinite,
     ];
     let names = stops.map(|stop| stop.to_string());
     assert_eq!(

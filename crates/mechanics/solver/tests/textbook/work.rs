@@ -5,7 +5,7 @@
 
 use std::sync::atomic::Ordering;
 
-use solver::{Control, Path, Peak, Settings, State, System};
+use solver::{Continuation, Control, Peak, Settings, State, System};
 
 use crate::problems::{
     Bratu, StringOverFloor, arch, arch_on_spring, bump, corner, kink, step, two_laws,
@@ -16,7 +16,7 @@ use crate::walls::Walls;
 /// Points and Newton iterations of a path from rest.
 fn work<S: System>(system: S, settings: Settings) -> [usize; 2] {
     let rest = State::at_rest(&system);
-    let mut path = Path::new(system, rest, settings);
+    let mut path = Continuation::new(system, rest, settings);
     let (mut points, mut iterations) = (0, 0);
     while path.next().is_some() {
         let history = path.take_history();
@@ -58,7 +58,7 @@ fn a_path_that_meets_its_target_slowly() {
     steep.controls = vec![progress, load];
     steep.equations = |z| vec![(4.0 * (z[0] - 0.6)).tanh() + 2.4_f64.tanh() - z[1]];
     let rest = State::at_rest(&steep);
-    let end = Path::new(steep.clone(), rest, steps(0.5)).last().unwrap();
+    let end = Continuation::new(steep.clone(), rest, steps(0.5)).last().unwrap();
     assert!((end.state.z[0] - 0.6).abs() < 1e-12, "{:?}", end.state.z);
     assert_at_most(&work(steep, steps(0.5)), &[57, 163]);
 }
@@ -83,7 +83,7 @@ fn places<S: System>(system: S, largest_step: f64) -> usize {
         direction[load] / direction[0]
     };
     let rest = State::at_rest(&system);
-    let mut path = Path::new(system, rest, steps(largest_step));
+    let mut path = Continuation::new(system, rest, steps(largest_step));
     let mut peak = Peak::default();
     let mut from = None;
     while path.next().is_some() {

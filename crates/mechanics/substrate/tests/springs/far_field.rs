@@ -76,7 +76,7 @@ fn a_row_that_ends_is_as_soft_as_its_scales_together() {
 fn rows_of_bases_on_a_half_space_decay() {
     for [gap, width] in [[0.2, 2.0], [0.0125, 0.25], [40.0, 80.0], [0.2, 20.0]] {
         let footprint = Footprint::new(gap, width, 0.5).unwrap();
-        let stiffness = RowStiffness::of(&footprint, Coupling::Nearest).unwrap();
+        let stiffness = RowStiffness::compute(&footprint, Coupling::Nearest).unwrap();
         let far = stiffness.far_field(None).unwrap();
         let [x, y, rotation] = far.displacement(|_| [1.0; 3], 1);
         // Shear and depth have one sign, rotations alternate.
@@ -126,8 +126,9 @@ fn a_row_with_far_couplings_is_condensed_to_its_last_scales() {
     let solved = |([gap, width], neighbours): ([f64; 2], usize)| {
         RowStiffness::solve(&footprint(gap, width), neighbours).unwrap()
     };
-    let on_layer =
-        |coupling| RowStiffness::of(&footprint(0.2, 2.0).on_layer(1.5).unwrap(), coupling).unwrap();
+    let on_layer = |coupling| {
+        RowStiffness::compute(&footprint(0.2, 2.0).on_layer(1.5).unwrap(), coupling).unwrap()
+    };
     let layers = [Coupling::Nearest, Coupling::Full].map(on_layer);
     for stiffness in rows.map(solved).into_iter().chain(layers) {
         let neighbours = stiffness.neighbours.len();

@@ -15,7 +15,7 @@ fn squares(thickness: f64) -> RowStiffness {
 
 fn on(gap: f64, thickness: f64, coupling: Coupling) -> RowStiffness {
     let footprint = Footprint::new(gap, 2.0, 0.5).unwrap().on_layer(thickness).unwrap();
-    RowStiffness::of(&footprint, coupling).unwrap()
+    RowStiffness::compute(&footprint, coupling).unwrap()
 }
 
 /// Every number of a stiffness.
@@ -100,7 +100,7 @@ fn point_loads_are_hankel_transforms() {
             };
             let cos = if r > 0.0 { x / r } else { 0.0 };
             let unit = 1.0 / (PI * (1.0 - ratio) * thickness);
-            let found = Layer::of(ratio).beside_half_space(thickness, x, z);
+            let found = Layer::with_poisson_ratio(ratio).beside_half_space(thickness, x, z);
             let shear = integral(1, 0.0) - (2.0 * cos * cos - 1.0) * integral(2, 2.0);
             assert_relative_eq!(found.normal, unit * integral(0, 0.0), epsilon = 1e-6);
             assert_relative_eq!(found.shear, unit * shear, epsilon = 1e-6);
@@ -114,7 +114,7 @@ fn point_loads_are_hankel_transforms() {
 fn thick_layers_are_half_spaces() {
     for coupling in [Coupling::Nearest, Coupling::Full] {
         let half_space =
-            RowStiffness::of(&Footprint::new(0.2, 2.0, 0.5).unwrap(), coupling).unwrap();
+            RowStiffness::compute(&Footprint::new(0.2, 2.0, 0.5).unwrap(), coupling).unwrap();
         let added = |thickness: f64| {
             let layer = numbers(&on(0.2, thickness, coupling));
             let added = layer.iter().zip(numbers(&half_space)).map(|(layer, half)| layer - half);
@@ -132,7 +132,7 @@ fn thick_layers_are_half_spaces() {
 /// couplings of three squares.
 #[test]
 fn layers_are_those_of_another_program() {
-    let alone = RowStiffness::of(&Footprint::new(100.0, 2.0, 0.5).unwrap(), Coupling::Nearest);
+    let alone = RowStiffness::compute(&Footprint::new(100.0, 2.0, 0.5).unwrap(), Coupling::Nearest);
     let alone = alone.unwrap().direct;
     for (thickness, expected) in
         [(10.0, [1.05, 1.15, 1.00]), (5.0, [1.11, 1.33, 1.01]), (2.0, [1.29, 2.12, 1.11])]
@@ -205,9 +205,9 @@ fn derivatives_are_those_of_differences() {
             Footprint::new(gap, width, ratio).unwrap().on_layer(thickness).unwrap()
         };
         let at = |[gap, width, ratio, thickness]: [f64; 4]| {
-            numbers(&RowStiffness::of(&of(gap, width, ratio, thickness), coupling).unwrap())
+            numbers(&RowStiffness::compute(&of(gap, width, ratio, thickness), coupling).unwrap())
         };
-        let found = StiffnessSlopes::of(&of(gap, width, ratio, thickness), coupling).unwrap();
+        let found = StiffnessSlopes::compute(&of(gap, width, ratio, thickness), coupling).unwrap();
         let step = 1e-3;
         let center = [gap, width, ratio, thickness];
         // Along a direction, by steps of two lengths.

@@ -127,7 +127,7 @@ fn both_couplings_are_shared() {
     let shared = Calibrations::default();
     let print = footprint([0.2, 2.0]);
     let full = shared.row(&print, Coupling::Full).unwrap();
-    assert_eq!(*full, RowStiffness::of(&print, Coupling::Full).unwrap());
+    assert_eq!(*full, RowStiffness::compute(&print, Coupling::Full).unwrap());
     assert_eq!(full.neighbours.len(), NEIGHBOURS);
     assert!(Arc::ptr_eq(&shared.row(&print, Coupling::Full).unwrap(), &full));
     let nearest = shared.row(&print, Coupling::Nearest).unwrap();

@@ -10,8 +10,8 @@ fn numbers(stiffness: &RowStiffness) -> Vec<f64> {
 
 fn slopes(gap: f64, width: f64, poisson_ratio: f64, coupling: Coupling) -> StiffnessSlopes {
     let footprint = Footprint::new(gap, width, poisson_ratio).unwrap();
-    let slopes = StiffnessSlopes::of(&footprint, coupling).unwrap();
-    assert_eq!(slopes.stiffness, RowStiffness::of(&footprint, coupling).unwrap());
+    let slopes = StiffnessSlopes::compute(&footprint, coupling).unwrap();
+    assert_eq!(slopes.stiffness, RowStiffness::compute(&footprint, coupling).unwrap());
     slopes
 }
 
@@ -33,7 +33,7 @@ fn derivatives_are_those_of_the_polynomials() {
         for coupling in [Coupling::Nearest, Coupling::Full] {
             let at = |gap: f64, width: f64, ratio: f64| {
                 let footprint = Footprint::new(gap, width, ratio).unwrap();
-                numbers(&RowStiffness::of(&footprint, coupling).unwrap())
+                numbers(&RowStiffness::compute(&footprint, coupling).unwrap())
             };
             let slope = |at: &dyn Fn(f64) -> Vec<f64>| -> Vec<f64> {
                 let (high, low) = (at(step), at(-step));

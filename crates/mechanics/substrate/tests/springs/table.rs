@@ -49,7 +49,7 @@ fn springs_are_those_of_fine_meshes() {
 #[test]
 fn long_rows_are_those_of_boundary_elements() {
     for footprint in footprints(3) {
-        let row = RowStiffness::of(&footprint, Coupling::Full).unwrap();
+        let row = RowStiffness::compute(&footprint, Coupling::Full).unwrap();
         let exact = solved(&footprint, NEIGHBOURS, [6, 8, 12]);
         let close = |found: f64, exact: f64, size: f64| {
             let off = ((found - exact) / size).abs();

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use skin::flexure::{self, BentSample, Flexure};
 use skin::puncture::{self, Puncture, TiltMeasures};
 use skin::{Status, Unloading};
-use solver::Stop;
+use solver::Termination;
 
 use super::failure::{Failure, finite};
 use super::outcome::Outcome;
@@ -175,7 +175,7 @@ impl FlexureResult {
 /// The outcome of a way back.
 fn back_to_zero<P>(back: &Unloading<P>) -> Outcome {
     match back.stop {
-        Stop::Unloaded => Outcome::Complete,
+        Termination::Unloaded => Outcome::Complete,
         stop => stop.into(),
     }
 }

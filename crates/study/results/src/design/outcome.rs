@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 use skin::Status;
-use solver::Stop;
+use solver::Termination;
 
 /// The outcome of a measurement of a design: complete, or the reason why it has no values.
 ///
@@ -143,18 +143,18 @@ impl From<Status> for Outcome {
     }
 }
 
-impl From<Stop> for Outcome {
-    fn from(stop: Stop) -> Self {
+impl From<Termination> for Outcome {
+    fn from(stop: Termination) -> Self {
         match stop {
-            Stop::NoConvergence => Self::NoConvergence,
-            Stop::Singular => Self::Singular,
-            Stop::TooManyPoints => Self::TooManyPoints,
-            Stop::Cycling => Self::Cycling,
-            Stop::Jumps => Self::Jumps,
-            Stop::NotFinite => Self::NotFinite,
-            Stop::Unloaded => Self::Unloaded,
+            Termination::NoConvergence => Self::NoConvergence,
+            Termination::Singular => Self::Singular,
+            Termination::TooManyPoints => Self::TooManyPoints,
+            Termination::Cycling => Self::Cycling,
+            Termination::Jumps => Self::Jumps,
+            Termination::NotFinite => Self::NotFinite,
+            Termination::Unloaded => Self::Unloaded,
             // A path that reached its target has not stopped early.
-            Stop::Reached => Self::Internal,
+            Termination::Reached => Self::Internal,
         }
     }
 }

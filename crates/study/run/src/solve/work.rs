@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use skin::flexure::{Method, whole_gaps};
-use solver::{FarAlong, watched};
+use solver::{PathProgress, report_progress};
 use sweep::{Case, Measure};
 
 /// The time that a design may take before it is told how far it is.
@@ -37,15 +37,15 @@ fn report_after<T>(
     work: impl FnOnce() -> T,
 ) -> T {
     let design = design.to_owned();
-    let words = move |far: FarAlong| {
+    let words = move |far: PathProgress| {
         // Rest may be a negative zero.
         let (seconds, share) = (far.elapsed.as_secs_f64(), 100.0 * far.share + 0.0);
-        let FarAlong { points, .. } = far;
+        let PathProgress { points, .. } = far;
         tell(format!(
             "{design}: {seconds:.0} s so far, {points} points, at {share:.1} % of the last angle"
         ));
     };
-    watched(patience, words, work)
+    report_progress(patience, words, work)
 }
 
 impl WorkMeter {

@@ -13,7 +13,7 @@
 
 use std::borrow::Cow;
 
-use solver::{AnchoredPoint, Linearisation, Neighbours, Path, PathAnchor};
+use solver::{AnchoredPoint, Continuation, Linearisation, Neighbours, PathAnchor};
 
 use super::GuidedNeedle;
 use super::mode::{TipState, Touch};
@@ -54,7 +54,7 @@ pub(in crate::puncture) struct Anchor {
 
 /// Computes the history variables of a path with their derivatives, in order.
 pub(in crate::puncture) fn anchors(
-    path: &mut Path<Chain>,
+    path: &mut Continuation<Chain>,
     segments: &[[SkinPoint; 2]],
     variations: &[Neighbours<Chain>],
 ) -> Vec<Anchor> {
@@ -139,7 +139,7 @@ pub(in crate::puncture) fn history(state: &SkinState) -> Vec<HistoryVariable> {
 
 /// Solves for the event at the end of a segment, in the state before the event.
 pub(in crate::puncture) fn event_before(
-    path: &mut Path<Chain>,
+    path: &mut Continuation<Chain>,
     [from, to]: [&SkinPoint; 2],
 ) -> Option<AnchoredPoint<SkinMode>> {
     let SkinPoint { state, arriving: direction, .. } = path.between(from, to, 1.0)?;

@@ -2,7 +2,7 @@
 
 use approx::assert_relative_eq;
 use contact::Law;
-use solver::{BandMatrix, Path, Settings, System};
+use solver::{BandMatrix, Continuation, Settings, System};
 use substrate::{Coupling, RowStiffness, SubstrateLaw};
 
 use super::{BLOCKS, Balance, DOMINO, HARD, LIVELY, balance, law, whole};
@@ -20,16 +20,18 @@ const CASES: [(Design, Coupling, SubstrateLaw); 5] = [
 ];
 
 /// Starts the path on tissue as thick as the scales.
-fn layer_path((design, coupling, substrate_law): &(Design, Coupling, SubstrateLaw)) -> Path<Chain> {
+fn layer_path(
+    (design, coupling, substrate_law): &(Design, Coupling, SubstrateLaw),
+) -> Continuation<Chain> {
     let layer = design.footprint(0.5).unwrap().on_layer(1.0 / design.half_base()).unwrap();
-    let stiffness = RowStiffness::of(&layer, *coupling).unwrap();
+    let stiffness = RowStiffness::compute(&layer, *coupling).unwrap();
     let layout = RowLayout { left: 10, right: 10, needle: 0, contacts: 6 };
     let parameters =
         PunctureParameters { substrate_law: *substrate_law, ..PunctureParameters::default() };
     let law = law(design, Law::PRINTED, HARD);
     let chain = whole(&stiffness, design, law, layout, &parameters);
     let rest = SkinState::at_rest(&chain);
-    Path::new(chain, rest, Settings::default())
+    Continuation::new(chain, rest, Settings::default())
 }
 
 #[test]

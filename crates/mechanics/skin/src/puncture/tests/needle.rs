@@ -30,14 +30,14 @@ fn guided(design: &Design, friction: f64, inside: f64) -> Puncture {
 }
 
 /// Starts the path of a row of 21 scales with steps limited to `step`.
-fn guided_path(design: &Design, friction: f64, inside: f64, step: f64) -> Path<Chain> {
+fn guided_path(design: &Design, friction: f64, inside: f64, step: f64) -> Continuation<Chain> {
     let layout = RowLayout { left: 10, right: 10, needle: NEEDLE_UNKNOWNS, contacts: 6 };
     let stiffness = (&springs(design)).into();
     let law = law(design, Law::PRINTED, HARD);
     let chain = whole(&stiffness, design, law, layout, &parameters(design, friction, inside));
     let settings = Settings { first_step: step, max_step: step, ..Settings::default() };
     let rest = chain.at_rest();
-    Path::new(chain, rest, settings)
+    Continuation::new(chain, rest, settings)
 }
 
 /// Designs, frictions and positions with a tip that sticks, slides in both directions, and passes
@@ -188,7 +188,7 @@ fn negative_eigenvalues_match_the_dense_stiffness() {
         let law = law(&design, Law::EXCHANGED, HARD);
         let chain = whole(&(&springs(&design)).into(), &design, law, layout, &parameters);
         let rest = chain.at_rest();
-        for_segments(Path::new(chain, rest, Settings::default()), |path, from, to| {
+        for_segments(Continuation::new(chain, rest, Settings::default()), |path, from, to| {
             let Some(point) = path.between(from, to, 0.5) else { return };
             let (chain, state) = (path.system(), &point.state);
             if chain.is_nonconservative(state) {
@@ -228,7 +228,7 @@ fn needle_work_is_stored_or_dissipated() {
 }
 
 /// Computes the dissipated fraction of the work of a needle, and checks that the rest is stored.
-fn dissipated_fraction(path: Path<Chain>) -> f64 {
+fn dissipated_fraction(path: Continuation<Chain>) -> f64 {
     let (mut done, mut rubbed, mut off) = (0.0, 0.0, 0.0_f64);
     for_segments(path, |path, from, to| {
         done += work(path, from, to);

@@ -8,13 +8,13 @@ use substrate::{Coupling, SubstrateLaw};
 use super::*;
 
 /// Starts the path of a row of 21 scales.
-fn bar_path(design: &Design, constants: Law, coupling: Coupling) -> Path<Chain> {
-    let stiffness = RowStiffness::of(&design.footprint(0.5).unwrap(), coupling).unwrap();
+fn bar_path(design: &Design, constants: Law, coupling: Coupling) -> Continuation<Chain> {
+    let stiffness = RowStiffness::compute(&design.footprint(0.5).unwrap(), coupling).unwrap();
     let path = path_on(&stiffness, design, law(design, constants, HARD), 1.0);
     let mut chain = path.system().clone();
     chain.bars = chain.neighbours.first().map(|nearest| -nearest.direct[0]);
     let rest = SkinState::at_rest(&chain);
-    Path::new(chain, rest, Settings::default())
+    Continuation::new(chain, rest, Settings::default())
 }
 
 const CASES: [(Design, Coupling); 6] = [
@@ -75,7 +75,8 @@ fn at_rest_bars_match_the_springs() {
 fn mirrored_rows_have_mirrored_forces() {
     let layout = RowLayout { left: 3, right: 3, needle: 0, contacts: 6 };
     let last = layout.scales() - 1;
-    let stiffness = RowStiffness::of(&LIVELY.footprint(0.5).unwrap(), Coupling::Nearest).unwrap();
+    let stiffness =
+        RowStiffness::compute(&LIVELY.footprint(0.5).unwrap(), Coupling::Nearest).unwrap();
     let chain = |slant_deg: f64, of_substrate: SubstrateLaw| {
         let scale = Parallelogram::leaning(LIVELY.half_base(), slant_deg).unwrap();
         let row = Arrangement::Even(Row::new(scale, LIVELY.gap).unwrap());

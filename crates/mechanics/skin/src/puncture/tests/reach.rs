@@ -1,7 +1,7 @@
 //! Contacts between scales that are not direct neighbours.
 
 use contact::Law;
-use solver::{Path, Settings, check_tangent};
+use solver::{Continuation, Settings, check_tangent};
 use substrate::{Coupling, RowStiffness};
 
 use super::{Balance, DOMINO, HARD, balance, for_segments, law, whole};
@@ -15,7 +15,7 @@ const MEETING: [Design; 2] =
     [DOMINO, Design { gap: 0.1, length: 0.4, slant_deg: 75.0, base: Base::L, width: 1.0 }];
 
 fn full(design: &Design) -> RowStiffness {
-    RowStiffness::of(&design.footprint(0.5).unwrap(), Coupling::Full).unwrap()
+    RowStiffness::compute(&design.footprint(0.5).unwrap(), Coupling::Full).unwrap()
 }
 
 fn solved(design: &Design, common: &Common, contact_reach: Option<usize>) -> Puncture {
@@ -63,7 +63,7 @@ fn distant_contacts_conserve_energy_and_match_differences() {
     let law = law(design, Law::PRINTED, HARD);
     let layout = RowLayout { left: 20, right: 20, needle: 0, contacts: 2 * pair_constraints(&law) };
     let chain = whole(&full(design), design, law, layout, &PunctureParameters::default());
-    let path = || Path::new(chain.clone(), SkinState::at_rest(&chain), Settings::default());
+    let path = || Continuation::new(chain.clone(), SkinState::at_rest(&chain), Settings::default());
     let Balance { work, off, .. } = balance(path());
     assert!(off < 1e-6 * work, "{:e}", off / work);
     let mut met = 0;

@@ -85,7 +85,7 @@ fn round_path(
     [gap, length, slant]: [f64; 3],
     [radius, friction, load_position]: [f64; 3],
     step: f64,
-) -> Path<Chain> {
+) -> Continuation<Chain> {
     let design = design(gap, length, slant);
     let reach = reach(radius, 2.0 * design.half_base() + design.gap).unwrap();
     let needle = unknowns(reach, friction > 0.0);
@@ -100,5 +100,5 @@ fn round_path(
     let chain = whole(&(&springs(&design)).into(), &design, law, layout, &parameters);
     let settings = Settings { first_step: step, max_step: step, ..Settings::default() };
     let rest = chain.at_rest();
-    Path::new(chain, rest, settings)
+    Continuation::new(chain, rest, settings)
 }

@@ -4,7 +4,7 @@ use crate::newton::NewtonFailure;
 
 /// The reason why a path ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum Stop {
+pub enum Termination {
     /// The control parameter reached its target.
     #[error("reached")]
     Reached,
@@ -32,14 +32,14 @@ pub enum Stop {
     NotFinite,
 }
 
-impl Stop {
+impl Termination {
     /// Whether Newton's method or the search for a way on has failed, for which the mechanics may have a reason.
     pub fn is_numerical(self) -> bool {
         matches!(self, Self::NoConvergence | Self::Singular | Self::Cycling | Self::NotFinite)
     }
 }
 
-impl From<NewtonFailure> for Stop {
+impl From<NewtonFailure> for Termination {
     fn from(failure: NewtonFailure) -> Self {
         match failure {
             NewtonFailure::Singular(_) => Self::Singular,

@@ -7,10 +7,10 @@ use std::sync::Arc;
 use self::direction::{HIDDEN, SHORT};
 use crate::event::Event;
 use crate::newton::{Condition, FLOOR, Newton, NewtonFailure};
-use crate::step::Settings;
-use crate::stop::Stop;
+use crate::progress;
+use crate::settings::Settings;
 use crate::system::{Control, State, System};
-use crate::watch;
+use crate::termination::Termination;
 
 /// The control parameter prescribes the next point while it makes up at least this part of the
 /// direction of the path; where it makes up less, because it is about to turn, the arc length does: a step of the control
@@ -23,7 +23,7 @@ const UNDONE: usize = 5;
 
 /// An equilibrium of the path.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Point<M = ()> {
+pub struct Equilibrium<M = ()> {
     /// The equilibrium. Where a constraint changes sides, active set and mode are those with which the path goes on.
     pub state: State<M>,
     /// Direction in which the path arrives, of unit length in the controls.
@@ -60,13 +60,13 @@ pub struct Point<M = ()> {
 /// keeps its sign (Allgower & Georg 2003, section 2.1), so a step that ends with another one has gone astray, and no path comes
 /// back to where it began by the way that it went.
 ///
-/// The iterator ends where the path does; [`Path::stop`] then tells why.
+/// The iterator ends where the path does; [`Continuation::stop`] then tells why.
 #[derive(Clone, Debug)]
-pub struct Path<S: System> {
+pub struct Continuation<S: System> {
     pub(crate) system: S,
     pub(crate) settings: Settings,
     pub(crate) newton: Newton,
-    pub(crate) point: Arc<Point<S::Mode>>,
+    pub(crate) point: Arc<Equilibrium<S::Mode>>,
     /// The guards (N5) at `point`, with its active set, and how fast they change as the path leaves.
     pub(crate) guards: Vec<f64>,
     pub(crate) slopes: Vec<f64>,
@@ -88,7 +88,7 @@ pub struct Path<S: System> {
     pub(crate) is_back: bool,
     step: f64,
     points: usize,
-    pub(crate) stop: Option<Stop>,
+    pub(crate) termination: Option<Termination>,
 }
 
 /// A candidate for the next point.
@@ -100,12 +100,12 @@ pub(crate) struct Candidate<M> {
     pub(crate) is_positive: bool,
 }
 
-impl<S: System> Path<S> {
+impl<S: System> Continuation<S> {
     /// A path from the equilibrium `start` in the direction in which the control parameter grows.
     pub fn new(system: S, start: State<S::Mode>, settings: Settings) -> Self {
         let nowhere = vec![0.0; system.size()];
         let point =
-            Point { state: start, arriving: nowhere.clone(), leaving: nowhere, event: None };
+            Equilibrium { state: start, arriving: nowhere.clone(), leaving: nowhere, event: None };
         let mut path = Self {
             newton: Newton::new(&system),
             coordinates: system.coordinates(),
@@ -123,7 +123,7 @@ impl<S: System> Path<S> {
             is_back: false,
             step: settings.first_step.min(settings.max_step),
             points: 0,
-            stop: None,
+            termination: None,
         };
         path.pushes = path.system.load_only_pushes().then_some(1.0);
         path.start(point);
@@ -131,31 +131,31 @@ impl<S: System> Path<S> {
     }
 
     /// The point that the path has reached.
-    pub fn point(&self) -> &Point<S::Mode> {
+    pub fn point(&self) -> &Equilibrium<S::Mode> {
         &self.point
     }
 
     /// The point that the path has reached, shared.
-    pub fn point_shared(&self) -> Arc<Point<S::Mode>> {
+    pub fn point_shared(&self) -> Arc<Equilibrium<S::Mode>> {
         Arc::clone(&self.point)
     }
 
     /// Goes on from `point` with another `system`: one that has more unknowns, say. The path goes on in the direction in which
     /// it left `point`, whose state need be an equilibrium of the system to first order only. Returns the system that was left.
-    pub fn go_on(&mut self, system: S, mut point: Point<S::Mode>) -> S {
+    pub fn go_on(&mut self, system: S, mut point: Equilibrium<S::Mode>) -> S {
         // Kept apart: the iterations by which the path goes over to another system belong to no step.
         let history = std::mem::take(&mut self.newton.history);
         self.newton = Newton::new(&system);
         self.coordinates = system.coordinates();
         let left = std::mem::replace(&mut self.system, system);
-        self.stop = None;
+        self.termination = None;
         let condition = self.condition(&point);
         match self.newton.solve(&self.system, &mut point.state, &condition, &self.settings) {
             Ok(direction) => {
                 self.is_positive = self.newton.is_positive(&condition, &direction);
                 point.leaving = self.normalised(direction);
             }
-            Err(failure) => self.stop = Some(Stop::from(failure)),
+            Err(failure) => self.termination = Some(Termination::from(failure)),
         }
         self.newton.history = history;
         self.stand(point);
@@ -163,8 +163,8 @@ impl<S: System> Path<S> {
     }
 
     /// Why the path ended; `None` while it has not.
-    pub fn stop(&self) -> Option<Stop> {
-        self.stop
+    pub fn termination(&self) -> Option<Termination> {
+        self.termination
     }
 
     /// Whether no event of the path had another way on, among those that were looked at.
@@ -186,40 +186,40 @@ impl<S: System> Path<S> {
     /// and the mode between them. `None` where Newton's method does not get there.
     pub fn between(
         &mut self,
-        from: &Point<S::Mode>,
-        to: &Point<S::Mode>,
+        from: &Equilibrium<S::Mode>,
+        to: &Equilibrium<S::Mode>,
         fraction: f64,
-    ) -> Option<Point<S::Mode>> {
+    ) -> Option<Equilibrium<S::Mode>> {
         self.between_from(from, to, fraction, from)
     }
 
     /// How far the path goes between two neighbouring points, in units of the direction in which it leaves the one and of that
-    /// in which it arrives at the other: a direction times its factor is the rate of change with the fraction of [`Path::between`].
-    pub fn spans(&self, from: &Point<S::Mode>, to: &Point<S::Mode>) -> [f64; 2] {
+    /// in which it arrives at the other: a direction times its factor is the rate of change with the fraction of [`Continuation::between`].
+    pub fn spans(&self, from: &Equilibrium<S::Mode>, to: &Equilibrium<S::Mode>) -> [f64; 2] {
         [&from.leaving, &to.arriving].map(|direction| self.rate_in(from, to, direction))
     }
 
-    /// The rate of change with the fraction of [`Path::between`], in units of a direction of the path.
+    /// The rate of change with the fraction of [`Continuation::between`], in units of a direction of the path.
     pub(crate) fn rate_in(
         &self,
-        from: &Point<S::Mode>,
-        to: &Point<S::Mode>,
+        from: &Equilibrium<S::Mode>,
+        to: &Equilibrium<S::Mode>,
         direction: &[f64],
     ) -> f64 {
         let condition = self.condition(from);
-        (condition.of(&to.state.z) - condition.value) / condition.of(direction)
+        (condition.measure(&to.state.z) - condition.value) / condition.measure(direction)
     }
 
-    /// The equilibrium of [`Path::between`], reached from `near`, a point between the two.
+    /// The equilibrium of [`Continuation::between`], reached from `near`, a point between the two.
     pub fn between_from(
         &mut self,
-        from: &Point<S::Mode>,
-        to: &Point<S::Mode>,
+        from: &Equilibrium<S::Mode>,
+        to: &Equilibrium<S::Mode>,
         fraction: f64,
-        near: &Point<S::Mode>,
-    ) -> Option<Point<S::Mode>> {
+        near: &Equilibrium<S::Mode>,
+    ) -> Option<Equilibrium<S::Mode>> {
         let mut condition = self.condition(from);
-        let distance = fraction * (condition.of(&to.state.z) - condition.value);
+        let distance = fraction * (condition.measure(&to.state.z) - condition.value);
         condition.value += distance;
         self.solved(Self::towards(near, &condition), &condition)
     }
@@ -230,17 +230,17 @@ impl<S: System> Path<S> {
         &mut self,
         state: State<S::Mode>,
         condition: &Condition,
-    ) -> Option<Point<S::Mode>> {
+    ) -> Option<Equilibrium<S::Mode>> {
         let iterations = self.newton.history.len();
         let found = self.correct(state, condition);
         // What is looked at between points belongs to no step, and the record of iterations is one of steps.
         self.newton.history.truncate(iterations);
         let Candidate { state, direction, .. } = found.ok()?;
         let (arriving, leaving) = (direction.clone(), direction);
-        Some(Point { state, arriving, leaving, event: None })
+        Some(Equilibrium { state, arriving, leaving, event: None })
     }
 
-    fn start(&mut self, mut point: Point<S::Mode>) {
+    fn start(&mut self, mut point: Equilibrium<S::Mode>) {
         let control = self.control_parameter();
         let condition = Condition::new(vec![(control.index, 1.0 / control.scale)], 0.0);
         match self.newton.tangent(&self.system, &point.state, &condition) {
@@ -249,21 +249,21 @@ impl<S: System> Path<S> {
                 point.leaving = self.normalised(direction);
                 point.arriving.clone_from(&point.leaving);
             }
-            Err(failure) => self.stop = Some(Stop::from(failure)),
+            Err(failure) => self.termination = Some(Termination::from(failure)),
         }
         self.stand(point);
     }
 
     /// Begins at a point anew.
-    pub(crate) fn begin(&mut self, point: Point<S::Mode>) {
+    pub(crate) fn begin(&mut self, point: Equilibrium<S::Mode>) {
         self.step = self.settings.first_step.min(self.settings.max_step);
         self.points = 0;
         self.stand(point);
     }
 
     /// Makes `point` the one that the path has reached.
-    fn stand(&mut self, point: Point<S::Mode>) {
-        let (Self { system, guards, slopes, .. }, Point { state, leaving, .. }) =
+    fn stand(&mut self, point: Equilibrium<S::Mode>) {
+        let (Self { system, guards, slopes, .. }, Equilibrium { state, leaving, .. }) =
             (&mut *self, &point);
         Newton::guard_slopes(system, state, leaving, guards, slopes);
         self.undone = 0;
@@ -280,7 +280,7 @@ impl<S: System> Path<S> {
     }
 
     /// The measure of distance from `point`, which increases along the path.
-    pub(crate) fn condition(&self, point: &Point<S::Mode>) -> Condition {
+    pub(crate) fn condition(&self, point: &Equilibrium<S::Mode>) -> Condition {
         let control = self.control_parameter();
         let drive = self.progress(&point.leaving);
         let is_hidden = self.is_hidden(&point.leaving);
@@ -307,7 +307,7 @@ impl<S: System> Path<S> {
     /// The equilibrium at a distance from a point, with the active set with which it is left.
     pub(crate) fn trial(
         &mut self,
-        from: &Point<S::Mode>,
+        from: &Equilibrium<S::Mode>,
         distance: f64,
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let mut condition = self.condition(from);
@@ -320,9 +320,9 @@ impl<S: System> Path<S> {
     }
 
     /// The state that satisfies `condition` in the direction in which the path leaves `near`.
-    fn towards(near: &Point<S::Mode>, condition: &Condition) -> State<S::Mode> {
-        let distance = condition.value - condition.of(&near.state.z);
-        let factor = distance / condition.of(&near.leaving);
+    fn towards(near: &Equilibrium<S::Mode>, condition: &Condition) -> State<S::Mode> {
+        let distance = condition.value - condition.measure(&near.state.z);
+        let factor = distance / condition.measure(&near.leaving);
         near.state.moved(factor, &near.leaving)
     }
 
@@ -337,9 +337,9 @@ impl<S: System> Path<S> {
     }
 
     /// The next point of the path, or why there is none.
-    fn advance(&mut self) -> Result<Point<S::Mode>, Stop> {
+    fn advance(&mut self) -> Result<Equilibrium<S::Mode>, Termination> {
         loop {
-            watch::look(self.points, self.progress(&self.point.state.z));
+            progress::report_if_due(self.points, self.progress(&self.point.state.z));
             let distance = self.distance();
             let before = self.newton.history.len();
             let attempt = self.attempt(distance);
@@ -347,7 +347,7 @@ impl<S: System> Path<S> {
             let is_smooth = attempt.as_ref().is_ok_and(|candidate| candidate.event.is_none());
             // An event from which no direction leads on is come to as near as steps may be short: whoever asks why the path ends
             // there sees the state in which it does.
-            match attempt.map_err(Stop::from).and_then(|candidate| self.accept(candidate)) {
+            match attempt.map_err(Termination::from).and_then(|candidate| self.accept(candidate)) {
                 Ok(point) => {
                     self.adapt(iterations, is_smooth);
                     return Ok(point);
@@ -366,7 +366,7 @@ impl<S: System> Path<S> {
         if drive >= DRIVES { self.step.min(left) } else { self.step }
     }
 
-    fn shorten(&mut self, distance: f64, stop: Stop) -> Result<(), Stop> {
+    fn shorten(&mut self, distance: f64, stop: Termination) -> Result<(), Termination> {
         // A third of what was tried, which the target may have made shorter than the step.
         self.step = distance / 3.0;
         if self.step >= self.settings.min_step {
@@ -374,7 +374,7 @@ impl<S: System> Path<S> {
         }
         // Sliding that has come to a stop may neither go on nor stick: to second order, which is what is left where its rate vanishes,
         // both are wrong. Then no equilibrium is near that would lead on.
-        Err(if self.undone >= UNDONE { Stop::Jumps } else { stop })
+        Err(if self.undone >= UNDONE { Termination::Jumps } else { stop })
     }
 
     fn adapt(&mut self, iterations: usize, smooth: bool) {
@@ -410,7 +410,7 @@ impl<S: System> Path<S> {
     /// A step of the given distance, cut short at the first event within it.
     fn plain_step(
         &mut self,
-        from: &Point<S::Mode>,
+        from: &Equilibrium<S::Mode>,
         distance: f64,
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let mut candidate = self.trial(from, distance)?;
@@ -423,7 +423,7 @@ impl<S: System> Path<S> {
     /// The point between two where the control parameter is at its target.
     fn target(
         &mut self,
-        from: &Point<S::Mode>,
+        from: &Equilibrium<S::Mode>,
         beyond: &Candidate<S::Mode>,
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let (start, end) = (self.progress(&from.state.z), self.progress(&beyond.state.z));
@@ -435,7 +435,10 @@ impl<S: System> Path<S> {
         self.correct(state, &condition)
     }
 
-    fn accept(&mut self, candidate: Candidate<S::Mode>) -> Result<Point<S::Mode>, Stop> {
+    fn accept(
+        &mut self,
+        candidate: Candidate<S::Mode>,
+    ) -> Result<Equilibrium<S::Mode>, Termination> {
         let Candidate { mut state, direction: arriving, mut event, .. } = candidate;
         if let Some(Event::Changed(changes)) = &event
             // What ends the path is not let go or closed: there is no direction in which it would go on.
@@ -455,7 +458,7 @@ impl<S: System> Path<S> {
         if event.is_none() && self.at_target(&state) {
             event = Some(Event::Target);
         }
-        Ok(Point { state, arriving, leaving, event })
+        Ok(Equilibrium { state, arriving, leaving, event })
     }
 
     fn at_target(&self, state: &State<S::Mode>) -> bool {
@@ -463,15 +466,15 @@ impl<S: System> Path<S> {
     }
 }
 
-impl<S: System> Iterator for Path<S> {
-    type Item = Point<S::Mode>;
+impl<S: System> Iterator for Continuation<S> {
+    type Item = Equilibrium<S::Mode>;
 
-    fn next(&mut self) -> Option<Point<S::Mode>> {
-        if self.stop.is_some() {
+    fn next(&mut self) -> Option<Equilibrium<S::Mode>> {
+        if self.termination.is_some() {
             return None;
         }
         if self.points >= self.settings.max_points {
-            self.stop = Some(Stop::TooManyPoints);
+            self.termination = Some(Termination::TooManyPoints);
             return None;
         }
         // Counted before the step, so that a path that finds event upon event in one place ends, too.
@@ -484,18 +487,20 @@ impl<S: System> Iterator for Path<S> {
                 }
                 if point.event == Some(Event::Target) || self.at_target(&point.state) {
                     // On its way back a path that rises to its target again has turned round.
-                    self.stop = Some(if self.is_back { Stop::Jumps } else { Stop::Reached });
+                    self.termination =
+                        Some(if self.is_back { Termination::Jumps } else { Termination::Reached });
                 } else if point.event == Some(Event::Unloaded) {
                     // Back at rest, or next to it: nobody took the load away, it fell because the path could not go on where it turned.
                     let is_at_rest = progress < 0.01 * self.system.target();
                     let has_turned = self.reversals > 0 && is_at_rest && !self.is_back;
-                    self.stop = Some(if has_turned { Stop::Jumps } else { Stop::Unloaded });
+                    self.termination =
+                        Some(if has_turned { Termination::Jumps } else { Termination::Unloaded });
                 }
                 self.stand(point.clone());
                 Some(point)
             }
             Err(stop) => {
-                self.stop = Some(stop);
+                self.termination = Some(stop);
                 None
             }
         }

@@ -1,6 +1,6 @@
 //! Directions of the path: their lengths, and the angles between them that tell when a step has left it.
 
-use super::{Candidate, Path, Point};
+use super::{Candidate, Continuation, Equilibrium};
 use crate::newton::FLOOR;
 use crate::system::{Control, System};
 
@@ -24,7 +24,7 @@ pub(super) const HIDDEN: f64 = 100.0;
 /// as soon after, the path turns by a right angle within 1e-8 of where it closes, and goes on from there.
 pub(super) const SHORT: f64 = 1e-7;
 
-impl<S: System> Path<S> {
+impl<S: System> Continuation<S> {
     /// A direction of unit length in the controls; of less where they hide the path.
     pub(crate) fn normalised(&self, mut direction: Vec<f64>) -> Vec<f64> {
         let all = self.coordinates.iter().map(|&index| direction[index].powi(2)).sum::<f64>();
@@ -50,7 +50,7 @@ impl<S: System> Path<S> {
     /// in which the path left.
     pub(crate) fn turns_sharply(
         &self,
-        from: &Point<S::Mode>,
+        from: &Equilibrium<S::Mode>,
         candidate: &Candidate<S::Mode>,
     ) -> bool {
         if self.is_hidden(&from.leaving) || self.is_hidden(&candidate.direction) {
@@ -70,13 +70,17 @@ impl<S: System> Path<S> {
 
     /// Whether the candidate, the end of a step, is on another branch: the path has another orientation there, or gets there
     /// by a bend. Before events are looked for a step may well end on a continuation of the path that turns round.
-    pub(super) fn strays(&self, from: &Point<S::Mode>, candidate: &Candidate<S::Mode>) -> bool {
+    pub(super) fn strays(
+        &self,
+        from: &Equilibrium<S::Mode>,
+        candidate: &Candidate<S::Mode>,
+    ) -> bool {
         candidate.is_positive != self.is_positive || self.bends(from, candidate)
     }
 
     /// Whether the three directions in which the path leaves, goes and arrives make large angles with each other in all
     /// coordinates: then the candidate is on another branch, or beyond a bend that the step cuts off.
-    fn bends(&self, from: &Point<S::Mode>, candidate: &Candidate<S::Mode>) -> bool {
+    fn bends(&self, from: &Equilibrium<S::Mode>, candidate: &Candidate<S::Mode>) -> bool {
         // In one pass: every step of every path asks for this, over all coordinates.
         let mut products = [[0.0; 3]; 3];
         for &index in &self.coordinates {

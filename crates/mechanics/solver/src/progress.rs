@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 /// How far work is that takes long.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FarAlong {
+pub struct PathProgress {
     /// The time since the work began.
     pub elapsed: Duration,
     /// The points of the path in hand.
@@ -17,7 +17,7 @@ pub struct FarAlong {
 struct Watch {
     begun: Instant,
     due: Duration,
-    tell: Box<dyn Fn(FarAlong)>,
+    tell: Box<dyn Fn(PathProgress)>,
 }
 
 thread_local! {
@@ -27,9 +27,9 @@ thread_local! {
 
 /// Does `work`, which follows paths on this thread, and tells how far it is once it has taken longer than `patience`, and
 /// whenever it has taken twice as long as at the last time.
-pub fn watched<T>(
+pub fn report_progress<T>(
     patience: Duration,
-    tell: impl Fn(FarAlong) + 'static,
+    tell: impl Fn(PathProgress) + 'static,
     work: impl FnOnce() -> T,
 ) -> T {
     let watch = Watch { begun: Instant::now(), due: patience, tell: Box::new(tell) };
@@ -40,13 +40,13 @@ pub fn watched<T>(
 }
 
 /// Tells how far a path is, if it is time to.
-pub(crate) fn look(points: usize, share: f64) {
+pub(crate) fn report_if_due(points: usize, share: f64) {
     WATCH.with_borrow_mut(|slot| {
         let Some(watch) = slot else { return };
         let elapsed = watch.begun.elapsed();
         if elapsed >= watch.due {
             watch.due = elapsed * 2;
-            (watch.tell)(FarAlong { elapsed, points, share });
+            (watch.tell)(PathProgress { elapsed, points, share });
         }
     });
 }
