@@ -28,3 +28,16 @@ fn a_page_without_a_name_is_refused() {
     let place = Place::new();
     insta::assert_snapshot!(place.refused("validate --out /"), @"error: --out /: not accepted, expected the name of a file");
 }
+
+#[test]
+fn a_thicker_membrane_reproduces_the_loss_of_compliance() {
+    let settings = "name = 'h'\n[designs]\nwidth_over_t = 3.15\ngaps = 42\nmembrane_thickness_over_t = [0.1, 0.5]\n";
+    let place = Place::with(settings);
+    let table = place.prints("validate --search x.toml");
+    let row = |thickness: &str| {
+        let setting = format!("membrane_thickness_over_t = {thickness}");
+        table.lines().find(|line| line.contains(&setting)).expect("a row").to_owned()
+    };
+    assert!(row("0.1").contains("| 17 | 10 |") && row("0.1").contains("C21"), "{table}");
+    assert!(row("0.5").contains("| 17 | 11 |") && !row("0.5").contains("C21"), "{table}");
+}
