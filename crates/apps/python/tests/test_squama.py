@@ -188,7 +188,7 @@ def test_errors_speak_of_keywords_and_say_what_is_missing(tmp_path):
     squama.run(tmp_path / "x.toml", tmp_path / "x")
     with pytest.raises(squama.Failed, match="use resume=True to continue from them, or fresh=True to discard them"):
         squama.run(tmp_path / "x.toml", tmp_path / "x")
-    with pytest.raises(KeyError, match="no measure critical_force_N of this skin: it needs the material"):
+    with pytest.raises(KeyError, match="this skin has no measure critical_force_N: it needs thickness_mm and substrate_modulus_MPa"):
         SKIN.solve()["critical_force_N"]
     assert set(SKIN.solve().keys()) == set(SKIN.solve().values)
     assert (squama.solve_many(SKIN, "coverage")["coverage"] == [SKIN.solve("coverage")["coverage"]]).all()

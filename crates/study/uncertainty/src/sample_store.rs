@@ -9,7 +9,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use journal::{Journal, Records};
 use rayon::prelude::*;
-use results::{Cell, Column, CsvFormat, ResultsFolder, WrittenTable, write_rows};
+use results::{Cell, Column, ResultsFolder, WrittenTable, write_rows};
 use run::{JournalError, JournalHeader, Start, WorkMeter};
 use serde::{Deserialize, Serialize};
 use sweep::Subset;
@@ -137,7 +137,7 @@ impl SampleStore {
             return Err(AnalysisError::Stopped { done: samples.len(), of: count });
         }
         // Each time, from the journal: a table that somebody has changed does not stay.
-        write_rows(&self.folder, &table, CsvFormat::Plain, &columns, &samples)?;
+        write_rows(&self.folder, &table, self.folder.csv_format(), &columns, &samples)?;
         Ok(samples)
     }
 

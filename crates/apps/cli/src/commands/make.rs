@@ -88,6 +88,10 @@ pub fn make(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> 
     let out = &arguments.out;
     let format = format(arguments)?;
     require_folder_of("--out", out)?;
+    let list_file = out.with_extension("parts.txt");
+    for file in [out, &list_file] {
+        require_own(file)?;
+    }
     let designs = select(&arguments.definition, &arguments.selection)?;
     let [design] = designs.as_slice() else {
         bail!(
@@ -108,10 +112,6 @@ pub fn make(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> 
     }
     // Before writing, because this may fail.
     list.push_str(&tolerances(design, out, interrupt)?);
-    let list_file = out.with_extension("parts.txt");
-    for file in [out, &list_file] {
-        require_own(file)?;
-    }
     // The list first: if it cannot be written, an earlier part stays as it was.
     write_file(&list_file, format!("{list}\nWritten by squama make.\n").as_bytes())?;
     write_file(out, &format.bytes(&patch, &sheet))?;

@@ -13,7 +13,7 @@ fn each_format_has_its_file_and_a_list_of_parts() {
         ("3mf", b"PK"),
         ("stl", b"squama"),
         ("step", b"ISO-10303-21;"),
-        ("dxf", b"  0\nSECTION"),
+        ("dxf", b"999\nsquama\n  0\nSECTION"),
         ("svg", b"<svg"),
     ];
     for (ending, beginning) in beginnings {

@@ -201,11 +201,11 @@ fn partial_files_of_a_killed_process_are_removed() {
 
 /// Commands that write files outside of the records of a results folder, each with these files.
 const FILE_WRITERS: [(&str, &[&str]); 12] = [
-    ("make m.toml --out out/s.3mf", &["s.3mf", "s.parts.txt"]),
-    ("make m.toml --out out/s.stl", &["s.stl", "s.parts.txt"]),
-    ("make m.toml --out out/s.step", &["s.step"]),
-    ("make m.toml --out out/s.dxf", &["s.dxf"]),
-    ("make m.toml --out out/s.svg", &["s.svg"]),
+    ("make m.toml --design 1 --out out/s.3mf", &["s.3mf", "s.parts.txt"]),
+    ("make m.toml --design 1 --out out/s.stl", &["s.stl", "s.parts.txt"]),
+    ("make m.toml --design 1 --out out/s.step", &["s.step"]),
+    ("make m.toml --design 1 --out out/s.dxf", &["s.dxf"]),
+    ("make m.toml --design 1 --out out/s.svg", &["s.svg"]),
     ("explore x.toml --no-open --out out/explore.html", &["explore.html"]),
     ("report r --out out/report.html", &["report.html"]),
     (
@@ -287,7 +287,7 @@ fn a_part_is_not_replaced_if_its_list_cannot_be_written() {
     fs::write(place.path("m.toml"), material).expect("writable");
     fs::create_dir(place.path("a.parts.txt")).expect("a folder");
     fs::write(place.path("a.step"), "an earlier part by squama").expect("writable");
-    place.refused("make m.toml --out a.step");
+    place.refused("make m.toml --design 1 --out a.step");
     assert_eq!(place.read("a.step"), "an earlier part by squama");
 }
 
