@@ -215,7 +215,7 @@ const FILE_WRITERS: [(&str, &[&str]); 12] = [
     ("man out", &["squama.1", "squama-run.1"]),
     ("export r --xlsx out/x.xlsx", &["x.xlsx"]),
     ("draw m.toml --design 1 --out out", &["design-0001-puncture-at-critical-tilt.svg"]),
-    ("draw m.toml --design 1 --animate --out out", &["design-0001-puncture.html"]),
+    ("draw m.toml --design 1 --animate --out out", &["design-0001-puncture-animation.html"]),
 ];
 
 #[test]
