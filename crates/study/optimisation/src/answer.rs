@@ -1,4 +1,4 @@
-//! From the designs that fill the space to the answer to a goal.
+//! Derives the answer to a goal from the space-filling designs.
 
 use crate::best::{BestDesign, best_design};
 use crate::candidate::{Candidate, Merit, Target, best};
@@ -8,18 +8,19 @@ use crate::improvement::{Plan, improved};
 use crate::local::Search;
 use crate::progress::SearchPart;
 
-/// The answer to a goal.
+/// Answer to a goal.
 #[derive(Clone, Debug)]
 pub enum Answer {
-    /// The best design, of one objective.
+    /// Best design, for one objective.
     Optimum(Box<BestDesign>),
-    /// The designs that none beats, of several.
+    /// Non-dominated designs, for several objectives.
     Front(Front),
-    /// No design meets the requirements; the index in the history of the nearest, if any can be judged.
+    /// No feasible design. Holds the index in the history of the nearest design, if any has a valid
+    /// judgement.
     Infeasible(Option<usize>),
 }
 
-/// The answer to a goal, from the designs that are known so far; `points` of a front.
+/// Searches for the answer to a goal from the known designs; a front gets `points` points.
 pub(crate) fn answer(
     search: &Search<'_>,
     history: &mut Vec<Candidate>,
@@ -32,7 +33,7 @@ pub(crate) fn answer(
     for target in &targets {
         search.progress.begin(SearchPart::Climb, plan.tasks());
         history.extend(improved(search, history, target, plan)?);
-        // Without floors all targets ask for the same: what one does not find none of them does.
+        // Without lower bounds all targets have the same feasible set, so one search decides.
         let is_feasible = |c: &Candidate| matches!(search.merit(c, target), Merit::Met(_));
         if !history.iter().any(is_feasible) {
             let merits = history.iter().map(|candidate| search.merit(candidate, target));

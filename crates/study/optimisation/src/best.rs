@@ -1,4 +1,4 @@
-//! The best of the designs that were looked at, and starts that are apart from each other.
+//! Selects the best design, and start points that are apart from each other.
 
 use results::DesignRow;
 use sweep::Measure;
@@ -10,11 +10,13 @@ use crate::local::Search;
 use crate::price::{Binding, bindings};
 use crate::sampled::confirmation::Confirmation;
 
-/// A distance between two starts, a share of the intervals, at least.
+/// Minimum distance between two starts, as a fraction of the intervals.
 const APART: f64 = 0.12;
 
-/// The part of its limit by which a start may miss a requirement or a floor and count as one that meets it: a climb ends some 1e-8 beyond limits
-/// between which there is next to no room, as between `coverage >= 0.6` and `compliance >= 0.4`.
+/// Relative shortfall up to which a start counts as feasible.
+///
+/// A gradient search ends about 1e-8 beyond its limits if two of them leave almost no feasible
+/// interior, as `coverage >= 0.6` and `compliance >= 0.4` do.
 const NEARLY: f64 = 1e-6;
 
 /// A best design.
@@ -24,31 +26,32 @@ pub struct BestDesign {
     pub candidate: Candidate,
     /// The design as a row of tables.
     pub row: DesignRow,
-    /// The target of the search that found it.
+    /// Target of the search that found the design.
     pub target: Target,
-    /// The limits that keep the design from being better, and what each costs.
+    /// Binding limits with their multipliers.
     pub bindings: Vec<Binding>,
-    /// What other samples of it say, if the goal is about them.
+    /// Check with independent samples, if the goal is about samples.
     pub confirmation: Option<Confirmation>,
 }
 
-/// The best of all designs that were looked at, with what keeps it from being better.
+/// Returns the best design in `history`, with its binding limits.
 pub(crate) fn best_design(
     search: &Search<'_>,
     history: &[Candidate],
     target: Target,
 ) -> Result<BestDesign, Halt> {
-    // Whoever asks knows that there is a design that can be judged.
+    // Callers have checked that some design has a valid judgement.
     let best = search.best(history.iter(), &target).unwrap_or(&history[0]).clone();
     let row = search.evaluations.row(0, &best.point, &best.result);
     let bindings = bindings(search, &best, &target)?;
     Ok(BestDesign { candidate: best, row, target, bindings, confirmation: None })
 }
 
-/// A part of the space in which a local search stays: choices, the peak of coverage, whether bending brings scales into contact.
+/// A region of the space that a local search does not leave: choices, coverage peak, contact in
+/// bending.
 pub(crate) type Region = (Vec<usize>, Option<u32>, Option<bool>);
 
-/// The region of a design, as far as the goal tells regions apart.
+/// Returns the region of a design, as far as regions matter for the goal.
 pub(crate) fn region(search: &Search<'_>, candidate: &Candidate) -> Region {
     let teeth =
         search.judge.is_about(Measure::Coverage).then(|| search.space.case(&candidate.point));
@@ -58,7 +61,7 @@ pub(crate) fn region(search: &Search<'_>, candidate: &Candidate) -> Region {
     (candidate.point.chosen.clone(), peak, contact)
 }
 
-/// Starts of local searches for a target: the best design of each region, then others that are apart from those.
+/// Selects starts of local searches: the best design of each region, then others that are apart.
 pub(crate) fn starts<'c>(
     search: &Search<'_>,
     history: impl IntoIterator<Item = &'c Candidate>,
@@ -78,7 +81,7 @@ pub(crate) fn starts<'c>(
         }
         is_new
     };
-    // The order of merits is kept in both: the first of a region is its best.
+    // Both parts stay sorted by merit, so the first design of a region is its best.
     let (firsts, others): (Vec<_>, Vec<_>) = order.into_iter().partition(is_first);
     let mut starts: Vec<Candidate> =
         firsts.into_iter().take(count).map(|(_, candidate)| candidate.clone()).collect();

@@ -1,4 +1,4 @@
-//! The limits that bind at a best design and their costs, in words.
+//! Describes binding limits and their multipliers in text.
 
 use ranking::{Criterion, Goal, Requirement};
 use results::columns::explain_value;
@@ -12,27 +12,27 @@ use crate::price::{Binding, Limit};
 use crate::space::Interval;
 use crate::statistic::Statistic;
 
-/// The part of its width at rest by which a gap stays open in the price of a surface that does not fold.
+/// Fraction of its width at rest by which each gap stays open in the price of an unfolded surface.
 const OPEN: f64 = 0.1;
 
-/// Says what binds and what it costs.
+/// Describes binding limits and their multipliers.
 pub struct BindingText<'a> {
     goal: &'a DesignGoal,
     judge: Judge,
 }
 
 impl<'a> BindingText<'a> {
-    /// The words for a goal.
+    /// Creates the descriptions for a goal.
     pub fn new(goal: &'a DesignGoal) -> Self {
         Self { goal, judge: Judge::new(goal) }
     }
 
-    /// The requirements, then that the surface has not folded if that is one.
+    /// Returns the requirements, then the requirement of an unfolded surface, if any.
     pub fn requirements(&self) -> Vec<&Requirement> {
         self.judge.requirements().collect()
     }
 
-    /// A limit, e.g. `coverage >= 0.5` or `gap_over_t at its lower end 0.1`.
+    /// Describes a limit, e.g. `coverage >= 0.5` or `gap_over_t at its lower end 0.1`.
     pub fn limit(&self, limit: &Limit, target: &Target) -> String {
         match *limit {
             Limit::Requirement(k)
@@ -64,7 +64,8 @@ impl<'a> BindingText<'a> {
         }
     }
 
-    /// The cost of a limit, e.g. `0.01 more coverage costs 0.12 of critical_force`; `None` if nobody knows.
+    /// Describes the multiplier of a limit, e.g. `0.01 more coverage costs 0.12 of critical_force`;
+    /// `None` if unknown.
     pub fn price(&self, binding: &Binding, target: &Target) -> Option<String> {
         if matches!(binding.limit, Limit::Requirement(k) if self.judge.is_yield(StatisticUse::Requirement(k)))
         {
@@ -99,14 +100,15 @@ impl<'a> BindingText<'a> {
             Limit::Lower(j) => wider(j, "less"),
             Limit::Upper(j) => wider(j, "more"),
             Limit::Touch => {
-                // The limit counts as a logarithm: a hundredth of it is 1 % of the end rotation.
+                // The limit is logarithmic: 0.01 is 1 % of the end rotation.
                 let costs = amount_of(0.01 * price, objective);
                 format!("1 % more end rotation without contact {} {costs}", verb(objective))
             }
         })
     }
 
-    /// The cost of gaps that stay open by a part of their width at rest, where requirement `k` is that the surface has not folded.
+    /// Describes the multiplier of requirement `k` for an unfolded surface, as the cost of wider
+    /// open gaps.
     fn openness(&self, k: usize, price: f64, objective: &Criterion) -> String {
         let of = if self.judge.is_statistic(StatisticUse::Requirement(k)) {
             "the gaps of these samples"
@@ -117,13 +119,13 @@ impl<'a> BindingText<'a> {
         format!("keeping {of} open by {open} % of its width at rest {} {costs}", verb(objective))
     }
 
-    /// All that binds a design, in one line.
+    /// Describes all binding limits in one line.
     pub fn bindings(&self, bindings: &[Binding], target: &Target) -> String {
         let limits: Vec<_> = bindings.iter().map(|b| self.limit(&b.limit, target)).collect();
         limits.join("; ")
     }
 
-    /// All prices of a design, in one line.
+    /// Describes all multipliers in one line.
     pub fn prices(&self, bindings: &[Binding], target: &Target) -> String {
         let prices: Vec<_> = bindings.iter().filter_map(|b| self.price(b, target)).collect();
         prices.join("; ")
@@ -134,25 +136,25 @@ impl<'a> BindingText<'a> {
     }
 }
 
-/// The floor of an objective.
+/// Returns the lower bound of an objective.
 fn floor_of(target: &Target, objective: usize) -> f64 {
     let floor = target.floors.iter().find(|(of, _)| *of == objective);
     floor.map_or(f64::NAN, |(_, floor)| *floor)
 }
 
-/// The verb for what a harder limit does to an objective.
+/// Returns the verb for the effect of a tighter limit on an objective.
 fn verb(objective: &Criterion) -> &'static str {
     if objective.goal == Goal::Maximize { "costs" } else { "adds" }
 }
 
-/// A power of ten that is a small change of a value of that size.
+/// Returns a power of ten that is a small change of a value of this size.
 fn step(size: f64) -> f64 {
     let size = if size == 0.0 { 1.0 } else { size.abs() };
-    // So small that a price, which is a derivative, holds for it.
+    // Small, because a multiplier is a derivative.
     10_f64.powi(size.log10().floor() as i32 - 1)
 }
 
-/// An amount with its unit, if that is a physical one.
+/// Formats an amount, with its unit if physical.
 fn amount(amount: f64, column: &str) -> String {
     let unit = explain_value(Statistic::base(column)).map_or("-", |(unit, _)| unit);
     let is_physical = ["N", "mm", "kg"].iter().any(|beginning| unit.starts_with(beginning));
@@ -164,7 +166,7 @@ fn amount_of(value: f64, objective: &Criterion) -> String {
     format!("{} of {}", amount(value, &objective.column), objective.column)
 }
 
-/// A number to three digits.
+/// Formats a number with three digits.
 fn rounded(value: f64) -> String {
     number::rounded(value, 3)
 }

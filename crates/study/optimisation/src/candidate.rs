@@ -1,4 +1,4 @@
-//! A design that was looked at in a search, and which of two is better.
+//! Evaluated designs, and their order by merit.
 
 use std::cmp::Ordering;
 use std::sync::Arc;
@@ -8,23 +8,23 @@ use results::DesignResult;
 use crate::judgement::Judgement;
 use crate::space::SpacePoint;
 
-/// The stage of a search in which a design was looked at.
+/// Stage of a search in which a design was evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SearchStage {
-    /// The points that fill the space.
+    /// Space-filling points.
     Sample,
-    /// A step along derivatives.
+    /// A step of the gradient search.
     Gradient,
-    /// A step along a ridge, by derivatives on both sides of it.
+    /// A step of the ridge search, by derivatives on both sides of a kink.
     Ridge,
-    /// A step of the search without derivatives.
+    /// A step of the derivative-free search.
     Polish,
-    /// The first look at the samples of a nominal design.
+    /// First sampling of a nominal design.
     Tolerance,
 }
 
 impl SearchStage {
-    /// The stage in a word.
+    /// Returns the name of the stage in `history.csv`.
     pub fn word(self) -> &'static str {
         match self {
             Self::Sample => "sample",
@@ -36,46 +36,47 @@ impl SearchStage {
     }
 }
 
-/// A design that was looked at.
+/// An evaluated design.
 #[derive(Clone, Debug)]
 pub struct Candidate {
-    /// The stage.
+    /// Stage of the evaluation.
     pub stage: SearchStage,
     /// The point of the design.
     pub point: SpacePoint,
     /// The result of the design.
     pub result: Arc<DesignResult>,
-    /// The verdict on it.
+    /// Judgement by the goal.
     pub verdict: Judgement,
 }
 
-/// The aim of a search: the objective that is to be as large as can be (turned, if it is to be small), and bounds that others must
-/// keep.
+/// Target of a search: one objective to maximise, with lower bounds on the others (ε-constraint).
+///
+/// Objectives to be minimised change sign.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Target {
-    /// The objective.
+    /// Index of the objective.
     pub objective: usize,
-    /// Objectives with the least turned value that they may have.
+    /// Lower bounds of other objectives, after the change of sign.
     pub floors: Vec<(usize, f64)>,
 }
 
-/// The merit of a design under a target, the larger the better.
+/// Merit of a design for a target; larger is better.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Merit {
-    /// The design cannot be judged.
+    /// The design has no valid judgement.
     None,
-    /// The design falls short, by so much at most.
+    /// The design is infeasible, with this largest shortfall.
     Short(f64),
-    /// The design meets everything, and has that turned objective.
+    /// The design is feasible, with this objective after the change of sign.
     Met(f64),
 }
 
 impl Merit {
-    /// Larger merits are better.
+    /// Compares two merits; the greater is better.
     pub fn compare(self, other: Self) -> Ordering {
         match (self, other) {
             (Self::Met(a), Self::Met(b)) => a.total_cmp(&b),
-            // Turned: the smaller shortfall is the better.
+            // Reversed, because the smaller shortfall is better.
             (Self::Short(a), Self::Short(b)) => b.total_cmp(&a),
             (a, b) => a.class().cmp(&b.class()),
         }
@@ -90,7 +91,7 @@ impl Merit {
     }
 }
 
-/// The index of the best by merit; of equal ones the first.
+/// Returns the index of the best merit; the first of equal ones.
 pub(crate) fn best(merits: impl Iterator<Item = Merit>) -> Option<usize> {
     let better = |(best, merit): (usize, Merit), (index, other): (usize, Merit)| {
         if other.compare(merit) == Ordering::Greater { (index, other) } else { (best, merit) }

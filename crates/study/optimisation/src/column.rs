@@ -1,4 +1,4 @@
-//! The columns that a goal names of a nominal design: those of `designs.csv`, and the fitness.
+//! Columns of nominal designs named by a goal: those of `designs.csv`, and the fitness.
 
 use ranking::{CriterionEnds, FitnessGoal, RescaledCriterion};
 use results::columns::design_columns;
@@ -11,20 +11,20 @@ use crate::slopes::Slopes;
 pub(crate) enum NumberColumn {
     /// A column of `designs.csv`.
     Known(Column<DesignRow>),
-    /// The fitness, by the columns of its criteria (O3).
+    /// Fitness, from the columns of its criteria (O3).
     Fitness(Vec<(Column<DesignRow>, RescaledCriterion)>),
 }
 
 impl NumberColumn {
-    /// The name of the column of the fitness.
+    /// Name of the fitness column.
     pub const FITNESS: &'static str = "fitness";
 
-    /// The column of `designs.csv` that has this name.
+    /// Returns the column of `designs.csv` with this name.
     pub fn named(sweep: &Sweep, name: &str) -> Option<Self> {
         known(sweep, name).map(Self::Known)
     }
 
-    /// The fitness by `goal` with these ends of the criteria. Of a criterion without ends there is no fitness.
+    /// Creates the fitness with these ends; without ends for every weighted criterion it has no value.
     pub fn fitness(goal: &FitnessGoal, sweep: &Sweep, ends: &[CriterionEnds]) -> Self {
         let parts = goal.rescaled(ends);
         let parts = parts.filter_map(|(of, part)| Some((known(sweep, &of.column)?, part)));
@@ -48,13 +48,13 @@ impl NumberColumn {
         }
     }
 
-    /// The derivatives with respect to a parameter.
+    /// Returns the derivatives with respect to a parameter.
     pub fn slopes(&self, row: &DesignRow, parameter: &Parameter) -> Slopes {
         match self {
             Self::Known(column) => slopes(column, row, parameter),
             Self::Fitness(parts) => match self.value(row) {
                 None => Slopes::UNKNOWN,
-                // Where a design is worst or worse in a criterion, the fitness is 0 all round.
+                // At or beyond the worst end of a criterion the fitness is locally 0.
                 Some(fitness) if fitness <= 0.0 => Slopes::FLAT,
                 Some(fitness) => {
                     let part = |(column, of): &(Column<DesignRow>, RescaledCriterion)| {
@@ -74,19 +74,20 @@ fn known(sweep: &Sweep, name: &str) -> Option<Column<DesignRow>> {
     design_columns(sweep).into_iter().find(|column| column.name == name)
 }
 
-/// The derivatives of a column, from rows that are extrapolated by those of the measures.
+/// Differentiates a column numerically, from rows extrapolated by the derivatives of measures.
 fn slopes(column: &Column<DesignRow>, row: &DesignRow, parameter: &Parameter) -> Slopes {
     let at = |by, side| column.cell(&row.extrapolated_by(parameter, by, side)?).number();
     Slopes::between(parameter.size(&row.case), at)
 }
 
-/// The ends of every criterion: those of the goal, and for the others the worst and the best of the `rows` that cover.
+/// Returns the ends of every criterion: given by the goal, or the worst and best of the `rows` with
+/// coverage.
 pub(crate) fn ends_over(
     goal: &FitnessGoal,
     sweep: &Sweep,
     rows: &[DesignRow],
 ) -> Vec<CriterionEnds> {
-    // As in a ranking, which rescales between designs that cover.
+    // As in a ranking, which rescales over designs with coverage.
     let covers = |row: &&DesignRow| row.result.coverage.is_none_or(|coverage| coverage > 0.0);
     let ends = goal.criteria.iter().filter_map(|criterion| {
         let given = goal.ends.iter().find(|ends| ends.column == criterion.column);

@@ -1,18 +1,20 @@
-//! How much farther a strip could bend before its scales touch.
+//! Slack before contact of a strip in bending.
 
 use skin::flexure::{contact_curvature, gaps};
 use sweep::{Case, Parameter};
 
 use crate::slopes::Slopes;
 
-/// Room of a strip whose gap never closes.
+/// Slack of a strip without contact at any curvature.
 const AMPLE: f64 = 1.0;
 
-/// Step of the differences, relative to the size of the parameter.
+/// Step of the finite differences, relative to the size of the parameter.
 const STEP: f64 = 1e-5;
 
-/// The logarithm of the curvature at which scales first touch, in closed form (F5), over that at the end of bending: below 0, bending
-/// brings them into contact.
+/// Returns the slack before contact: the logarithm of the contact curvature over the final
+/// curvature.
+///
+/// The contact curvature is in closed form (F5). A negative slack means contact in bending.
 pub(crate) fn contact_margin(case: &Case) -> f64 {
     finite_contact_margin(case).unwrap_or(AMPLE)
 }
@@ -25,13 +27,13 @@ fn finite_contact_margin(case: &Case) -> Option<f64> {
     Some((touching * length / whole).ln().min(AMPLE))
 }
 
-/// The derivatives of the room.
+/// Returns the one-sided derivatives of the slack.
 pub(crate) fn contact_margin_slopes(case: &Case, parameter: &Parameter) -> Slopes {
     let here = contact_margin(case);
     let on = |sign: f64| {
         let step = sign * STEP * parameter.size(case)?;
         let at = |by| finite_contact_margin(&parameter.moved(case, by)?);
-        // Of the second order, from one side.
+        // One-sided difference of second order.
         Some((4.0 * at(step)? - at(2.0 * step)? - 3.0 * here) / (2.0 * step))
     };
     let known = finite_contact_margin(case).is_some_and(|margin| margin < AMPLE);

@@ -1,14 +1,15 @@
-//! The teeth of coverage: pieces of the space in which it is smooth.
+//! Coverage branches: parts of the space in which the coverage is smooth.
 //!
-//! With the reach `S = tan α`, the pitch `p` and the gap `d`, all over `t`, the coverage rises to the peak `k` of its teeth and falls
-//! behind it,
+//! With the reach `S = tan α`, the pitch `p` and the gap `d`, all over `t`, the coverage rises to
+//! each peak `k` and falls behind it,
 //!
 //! ```text
 //! λ = 1 − k d/S,   (k − 1) p + d ≤ S ≤ k p;        λ = k (p − d)/S,   k p ≤ S ≤ k p + d                 (O8)
 //! ```
 //!
-//! so `λ ≤ 1 − d/p`, with equality at the peaks alone. A requirement on coverage cuts the space into slivers round the peaks, a few per
-//! cent apart, and a search along derivatives stays in the one where it begins.
+//! so `λ ≤ 1 − d/p`, with equality at the peaks alone. A requirement on coverage splits the space
+//! into narrow strips around the peaks, a few per cent apart, and a gradient search stays in the
+//! strip where it starts.
 
 use results::DesignRow;
 use results::columns::name;
@@ -16,18 +17,20 @@ use sweep::{Case, Parameter};
 
 use crate::slopes::Slopes;
 
-/// A place on the border of two pieces, but for round-off of a step that was to end there, counts as part of both.
+/// Tolerance within which a point on a border belongs to both branches: round-off of a step that
+/// ends there.
 const BORDER: f64 = 1e-7;
 
-/// Columns that are at most `d/p`: a strip that bends is never less stiff than at rest, where its gaps alone bend.
+/// Columns with the upper bound `d/p`: a bent strip is never less stiff than at rest, where the
+/// gaps alone bend.
 pub(crate) const COMPLIANCES: [&str; 2] = [name::COMPLIANCE, name::INITIAL_COMPLIANCE];
 
-/// One side of a peak of coverage.
+/// A coverage branch: one side of a coverage peak.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct CoveragePiece {
-    /// The number `k` of the peak.
+    /// Number `k` of the peak.
     pub peak: u32,
-    /// Whether coverage rises with the slant here.
+    /// Whether the coverage increases with the slant.
     rising: bool,
 }
 
@@ -45,25 +48,25 @@ impl Lengths {
         Some(Self { reach: row.scale().shift(), gap: row.gap(), pitch: row.pitch() })
     }
 
-    /// `S/p`, a whole number at the peaks.
+    /// Returns `S/p`, an integer at the peaks.
     fn place(self) -> f64 {
         self.reach / self.pitch
     }
 }
 
 impl CoveragePiece {
-    /// The pieces that a design belongs to: one, or those on both sides of a border.
+    /// Returns the branches that contain a design: one, or two on a border.
     pub fn beside(case: &Case) -> Vec<Self> {
         let Some(lengths) = Lengths::of(case) else { return Vec::new() };
         let whole = lengths.place().floor() as u32;
         let sides = |peak| [true, false].map(|rising| Self { peak, rising });
-        // A place is behind one peak and before the next; beside a border both sides are asked.
+        // Each point lies between two peaks; near a border both branches qualify.
         let near = [whole, whole + 1].into_iter().flat_map(sides);
         let holds = |piece: &Self| piece.borders(lengths).iter().all(|beyond| *beyond <= BORDER);
         near.filter(holds).collect()
     }
 
-    /// How far a design is beyond the two borders; not above 0 within.
+    /// Returns the excess over the two borders; at most 0 inside.
     fn borders(self, lengths: Lengths) -> [f64; 2] {
         let (place, open) = (lengths.place(), lengths.gap / lengths.pitch);
         let peak = f64::from(self.peak);
@@ -71,21 +74,21 @@ impl CoveragePiece {
         [from - place, place - to]
     }
 
-    /// The number of its borders.
+    /// Number of borders of a branch.
     pub const BORDERS: usize = 2;
 
-    /// How far a design is beyond a border.
+    /// Returns the excess over one border.
     pub fn beyond(self, border: usize, case: &Case) -> Option<f64> {
         Lengths::of(case).map(|lengths| self.borders(lengths)[border])
     }
 
-    /// The derivatives of how far a design is within a border.
+    /// Returns the derivatives of the distance inside a border.
     pub fn border_slopes(self, border: usize, case: &Case, parameter: &Parameter) -> Slopes {
         let at = |by, _| Some(-self.beyond(border, &parameter.moved(case, by)?)?);
         Slopes::between(parameter.size(case), at)
     }
 
-    /// The coverage of this piece, continued beyond its borders (O8).
+    /// Returns the coverage of this branch, continued beyond its borders (O8).
     fn coverage(self, case: &Case) -> Option<f64> {
         let Lengths { reach, gap, pitch } = Lengths::of(case)?;
         let peak = f64::from(self.peak);
@@ -99,17 +102,17 @@ impl CoveragePiece {
     }
 }
 
-/// The place `S/p` of a design among the peaks of coverage, a whole number on each.
+/// Returns the position `S/p` of a design among the coverage peaks; an integer on each.
 pub(crate) fn place(case: &Case) -> Option<f64> {
     Lengths::of(case).map(Lengths::place)
 }
 
-/// The part `d/p` of the pitch that the gap takes; `None` of a row that cannot be.
+/// Returns the fraction `d/p` of the pitch taken by the gap; `None` for an impossible row.
 pub(crate) fn open_share(case: &Case) -> Option<f64> {
     Lengths::of(case).map(|lengths| lengths.gap / lengths.pitch)
 }
 
-/// Continues the compliance of strips that do not touch, `d/p`, beyond where they do.
+/// Continues the compliance `d/p` of strips without contact beyond the point of contact.
 pub(crate) fn continue_compliance(row: &mut DesignRow) {
     if let Some(flexure) = &mut row.result.flexure {
         flexure.measures.compliance = open_share(&row.case);
@@ -117,7 +120,7 @@ pub(crate) fn continue_compliance(row: &mut DesignRow) {
     differentiate(row, name::COMPLIANCE, open_share);
 }
 
-/// Puts a smooth function of the case in the place of a measure with derivatives.
+/// Replaces the derivatives of a measure by those of a smooth function of the case.
 fn differentiate(row: &mut DesignRow, measure: &str, value: impl Fn(&Case) -> Option<f64>) {
     let Some(here) = value(&row.case) else { return };
     for of in row.result.sensitivity.iter_mut().filter(|of| of.measure == measure) {

@@ -1,9 +1,9 @@
-//! Errors that keep an optimisation from coming to its end.
+//! Errors of an optimisation.
 
 use results::OutputError;
 use run::JournalError;
 
-/// An error that keeps an optimisation from coming to its end.
+/// Error of an optimisation.
 #[derive(Debug, thiserror::Error)]
 pub enum OptimisationError {
     /// The results cannot be written.

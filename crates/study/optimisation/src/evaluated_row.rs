@@ -1,11 +1,11 @@
-//! The row of a design that was looked at, with the derivatives of statistics over its samples.
+//! Row of an evaluated design, with derivatives of statistics over its samples.
 
 use results::DesignRow;
 use sweep::Parameter;
 
 use crate::slopes::Slopes;
 
-/// What a goal uses a statistic for.
+/// Use of a statistic in a goal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum StatisticUse {
     /// An objective, by its index.
@@ -14,7 +14,7 @@ pub(crate) enum StatisticUse {
     Requirement(usize),
 }
 
-/// The derivatives of a statistic with respect to a parameter of the design.
+/// Derivatives of a statistic with respect to a design parameter.
 #[derive(Clone, Debug)]
 pub(crate) struct StatisticSlopes {
     pub of: StatisticUse,
@@ -22,7 +22,7 @@ pub(crate) struct StatisticSlopes {
     pub slopes: Slopes,
 }
 
-/// The row of a design that was looked at.
+/// Row of an evaluated design.
 #[derive(Clone, Debug)]
 pub(crate) struct EvaluatedRow {
     /// The nominal design.
@@ -32,7 +32,7 @@ pub(crate) struct EvaluatedRow {
 }
 
 impl EvaluatedRow {
-    /// The derivatives of a statistic; none if they are not known.
+    /// Returns the derivatives of a statistic; unknown if not computed.
     pub fn statistic_slopes(&self, of: StatisticUse, parameter: &Parameter) -> Slopes {
         let mut known = self.statistics.iter();
         let known = known.find(|known| known.of == of && known.parameter == parameter.key);

@@ -1,4 +1,4 @@
-//! Evaluations of points and of samples of their designs: each solved once, and kept in a journal.
+//! Evaluates points and samples; each is solved once and kept in a journal.
 
 mod evaluation_journal;
 
@@ -20,21 +20,22 @@ use crate::sample::{SampleJudge, Samples};
 use crate::space::{DesignSpace, Interval, SpacePoint};
 use evaluation_journal::{EvaluationKey, JournalLine, Known, PointKey, SamplesLine, SolvedLine};
 
-/// Samples that no search sees: those of `squama tolerance` have numbers from 1 on, and are a test of what a search has chosen.
+/// Offset of sample numbers in a search. `squama tolerance` uses numbers from 1, which remain
+/// independent of the search.
 const BEFORE: u64 = 1 << 32;
 
-/// Why no more is evaluated.
+/// Reason to stop evaluating.
 #[derive(Debug)]
 pub(crate) enum Halt {
-    /// The process is asked to end.
+    /// A stop was requested.
     Interrupted,
     /// The journal cannot be written.
     Output(OutputError),
-    /// A climb does not move any more.
+    /// A gradient search no longer moves.
     Stalled,
 }
 
-/// Solves points of a space, each once: what an earlier session has solved is read from its journal.
+/// Solves points of a space once each; results of earlier sessions come from the journal.
 pub(crate) struct Evaluations<'a> {
     space: &'a DesignSpace,
     plain: Evaluator,
@@ -46,7 +47,7 @@ pub(crate) struct Evaluations<'a> {
 }
 
 impl<'a> Evaluations<'a> {
-    /// The evaluations of `goal` by `program`, with the journal in `folder`.
+    /// Opens the journal in `folder` for the evaluations of `goal`.
     pub fn begin(
         goal: &'a DesignGoal,
         folder: &Path,
@@ -68,29 +69,31 @@ impl<'a> Evaluations<'a> {
         })
     }
 
-    /// The intervals of parameters that no measure depends on: they only scale columns in physical units.
+    /// Returns the intervals of parameters that only scale columns in physical units, not measures.
     pub fn scaling_intervals(&self) -> Vec<usize> {
         let measures = self.space.sweep().measures();
         let is_measured = |section: &str| measures.iter().any(|m| m.sections().contains(&section));
         let intervals = self.space.intervals().iter().enumerate();
-        // A thickness does more where lengths are given in mm, and a modulus beside that of the scales.
+        // A thickness also matters if lengths are in mm, and a modulus beside the modulus of the
+        // scales.
         let scaling = intervals.filter(|(_, Interval { parameter, .. })| {
             !(is_measured(parameter.section) || self.space.sweep().has_followers(parameter))
         });
         scaling.map(|(j, _)| j).collect()
     }
 
-    /// The point that stands for all whose designs only scale each other, and have one result.
+    /// Returns the common representative of points that differ by scaling alone and share one
+    /// result.
     fn unscaled(&self, point: &SpacePoint) -> SpacePoint {
         let mut unscaled = point.clone();
         for j in self.scaling_intervals() {
-            // Any share would do, as long as it is always the same.
+            // Any fixed share would do.
             unscaled.shares[j] = 0.0;
         }
         unscaled
     }
 
-    /// The row of the design at `point`, as number `index` of a table.
+    /// Returns the row of the design at `point`, as number `index` of a table.
     pub fn row(&self, index: u64, point: &SpacePoint, result: &DesignResult) -> DesignRow {
         let number = self.number(index);
         DesignRow { number, case: self.space.case(point), result: result.clone() }
@@ -100,7 +103,7 @@ impl<'a> Evaluations<'a> {
         self.space.sweep().grid().number(index)
     }
 
-    /// The result of the design at `point`.
+    /// Solves the design at `point`, or returns its known result.
     ///
     /// # Errors
     /// If the process is asked to end, or the journal cannot be written.
@@ -114,8 +117,8 @@ impl<'a> Evaluations<'a> {
         self.known_or(&point, differentiated, None, &self.space.case(&point), evaluator)
     }
 
-    /// As [`Self::solve`] with derivatives, of the sample of that number, but for its scatter from scale to scale; `None` if there is no
-    /// such sample.
+    /// As [`Self::solve`] with derivatives, for a sample without scatter between scales; `None` if
+    /// the sample does not exist.
     pub fn even_sample(
         &self,
         point: &SpacePoint,
@@ -127,12 +130,12 @@ impl<'a> Evaluations<'a> {
         solved.transpose()
     }
 
-    /// The case of the sample of that number of the design of `nominal`, but for its scatter from scale to scale.
+    /// Returns the case of a sample of `nominal`, without scatter between scales.
     pub fn even_case(&self, nominal: &Case, sample: u64) -> Option<Case> {
         self.sampler.even_case(nominal, BEFORE + sample)
     }
 
-    /// The result of a case that belongs to a point, solved if it is not known.
+    /// Returns the result of a case, solving it if unknown.
     fn known_or(
         &self,
         point: &SpacePoint,
@@ -141,16 +144,18 @@ impl<'a> Evaluations<'a> {
         case: &Case,
         evaluator: &Evaluator,
     ) -> Result<Arc<DesignResult>, Halt> {
-        // A result with derivatives and one without are two: derivatives cost more, and many looks do without.
+        // Results with and without derivatives are separate, because derivatives cost more and are
+        // often unnecessary.
         let key = EvaluationKey { differentiated, sample, point: PointKey::of(point) };
         if let Some(known) = self.journal().records().solved.get(&key) {
             return Ok(Arc::clone(known));
         }
         self.go_on()?;
-        // Unlocked meanwhile: two threads may solve one point, and write the same line twice.
+        // Solved without the lock: two threads may solve the same point and append the same line.
         let solve = || evaluator.row(self.number(0), case);
         let mut result = self.progress.slow().track("a design of the search", solve).result;
-        // Lengths in mm move others, over the thickness. Where material varies, a sample with another thickness or modulus moves in other parameters, too.
+        // Keep all derivatives where one variable changes other parameters: lengths in mm,
+        // followers, and samples with varying material.
         let has_material = self.space.parameters().any(|p| p.section == "material");
         let is_variable = |key| self.space.parameters().any(|p| p.key == key);
         let sweep = self.space.sweep();
@@ -158,7 +163,7 @@ impl<'a> Evaluations<'a> {
             sweep.gives_millimetres() || self.space.parameters().any(|p| sweep.has_followers(p));
         let moves_more = moves || (sample.is_some() && has_material);
         result.sensitivity.retain(|d| moves_more || is_variable(d.parameter));
-        // Few of the parameters vary, and every result is kept to the end.
+        // Free the memory of dropped derivatives: every result is kept to the end.
         result.sensitivity.shrink_to_fit();
         let SpacePoint { shares, chosen } = point.clone();
         let line = SolvedLine { differentiated, sample, shares, chosen, result };
@@ -167,7 +172,8 @@ impl<'a> Evaluations<'a> {
         Ok(Arc::clone(&journal.records().solved[&key]))
     }
 
-    /// The values by which `judge` judges `count` samples of the design at `point`, from number `first` on, solved in parallel.
+    /// Returns the values of `count` samples of the design at `point`, from number `first`, solved
+    /// in parallel.
     ///
     /// # Errors
     /// As [`Self::solve`].
@@ -178,7 +184,7 @@ impl<'a> Evaluations<'a> {
         count: usize,
         judge: &SampleJudge,
     ) -> Result<Arc<Samples>, Halt> {
-        // The point as it is, not unscaled: samples of a scaled design are other samples.
+        // Not unscaled: samples of a scaled design differ.
         let key = (PointKey::of(point), first, count);
         if let Some(known) = self.journal().records().sampled.get(&key) {
             return Ok(Arc::clone(known));
@@ -198,7 +204,7 @@ impl<'a> Evaluations<'a> {
         Ok(Arc::clone(&journal.records().sampled[&key]))
     }
 
-    /// Refuses to go on once the process is asked to end.
+    /// Returns an error once a stop was requested.
     fn go_on(&self) -> Result<(), Halt> {
         if self.stop.load(Ordering::Relaxed) { Err(Halt::Interrupted) } else { Ok(()) }
     }
@@ -208,7 +214,7 @@ impl<'a> Evaluations<'a> {
         self.journal().sync()
     }
 
-    /// The number of points that were solved, in this session and before, and of samples.
+    /// Returns the number of solved points and samples, of this and earlier sessions.
     pub fn count(&self) -> usize {
         let journal = self.journal();
         let known = journal.records();
@@ -216,7 +222,8 @@ impl<'a> Evaluations<'a> {
         known.solved.len() + samples
     }
 
-    /// What is known, and where more is noted; nothing that is done under this lock leaves it half-done.
+    /// Locks the journal; a poisoned lock is safe, because no operation under it leaves partial
+    /// state.
     fn journal(&self) -> MutexGuard<'_, Journal<Known>> {
         self.journal.lock().unwrap_or_else(PoisonError::into_inner)
     }

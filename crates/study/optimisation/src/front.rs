@@ -1,4 +1,6 @@
-//! The front of several objectives: one is made as large as can be while the others keep floors, from one end of the front to the other.
+//! Searches the front of several objectives by the ε-constraint method.
+//!
+//! One objective is maximised under lower bounds on the others.
 
 use ranking::dominates;
 use rayon::iter::{IntoParallelRefIterator as _, ParallelIterator as _};
@@ -11,56 +13,59 @@ use crate::judgement::Judgement;
 use crate::local::Search;
 use crate::progress::SearchPart;
 
-/// Rounds in which points are put into the widest gaps, at most.
+/// Maximum rounds that add points in the widest gaps.
 const REFILLS: usize = 3;
 
-/// A floor is inside a gap if it is this share of it beyond its beginning: a design keeps its own floor by a little more than it must.
+/// Margin, as a fraction of a gap, by which a lower bound must lie inside it: a design exceeds its
+/// own bound slightly.
 const INSIDE: f64 = 1e-3;
 
-/// An objective that is worse by less than this part is as good: a floor is kept to within as much.
+/// Relative difference up to which objectives count as equal; lower bounds are met to this
+/// accuracy.
 const EQUAL: f64 = 1e-9;
 
-/// Designs of which all objectives differ by less than this part are one point: tables show six digits.
+/// Relative difference up to which designs are one point of the front; tables show six digits.
 const SAME: f64 = 1e-6;
 
-/// The ends of a front are looked for this share of it inside: designs that are the best in one objective to the last digit may be a line
-/// without width, along which no search can step.
+/// Fraction of the front by which the first end targets lie inside: the exact optimum of one
+/// objective may be a set of zero width, in which no search can step.
 const BESIDE: f64 = 1e-6;
 
-/// A gap below this share of the front needs no point: its ends look the same.
+/// Fraction of the front below which a gap needs no further point.
 const NARROW: f64 = 1e-3;
 
-/// The ratio of the ends of a front from which on its points are spaced by equal ratios.
+/// Ratio of the ends of a front from which points are spaced by equal ratios.
 const DECADE: f64 = 10.0;
 
-/// The front of several objectives.
+/// Front of several objectives.
 #[derive(Clone, Debug)]
 pub struct Front {
-    /// The designs that none beats, in the order of the first objective, the best first.
+    /// Non-dominated designs, in the order of the first objective, best first.
     pub designs: Vec<BestDesign>,
-    /// Points at which the best design is that of another point: the front has a step there.
+    /// Points with the same best design as another point: the front has a step there.
     pub same: usize,
-    /// Points whose best design is beaten by that of another.
+    /// Points with a dominated best design.
     pub beaten: usize,
-    /// Points at which no design was found.
+    /// Points without a feasible design.
     pub empty: usize,
 }
 
 impl Front {
-    /// Points that were asked for, and not searched: no gap was left that was wide and no step, nor a design of a surface far from its points.
+    /// Returns the number of requested points that were not searched: no gap was wide enough, or no
+    /// known design far enough.
     pub fn left_out(&self, points: usize) -> usize {
         points.saturating_sub(self.designs.len() + self.same + self.beaten + self.empty)
     }
 }
 
-/// The front: points between its ends, then others where it is the least known.
+/// Searches points between the ends of the front, then adds points where gaps are widest.
 pub(crate) fn search(
     search: &Search<'_>,
     history: &mut Vec<Candidate>,
     plan: Plan,
     points: usize,
 ) -> Result<Front, Halt> {
-    // Half of the points tell where the front changes.
+    // Half of the points show where the front changes.
     let mut targets = first_targets(search, history, points.div_ceil(2).max(2).min(points));
     improve(search, history, &targets, plan.of_a_point())?;
     let mut front = rescaled_front(search, history, &targets)?;
@@ -83,8 +88,8 @@ pub(crate) fn search(
     Ok(front)
 }
 
-/// The targets of the ends themselves, from what was found beside them: each objective is made as large as can be while the other keeps what it
-/// has there, but for what looks the same.
+/// Returns targets for the exact ends: each objective is maximised while the other keeps its value,
+/// within the smallest visible difference.
 fn ends(search: &Search<'_>, designs: &[BestDesign]) -> Option<[Target; 2]> {
     let values = |design: &BestDesign| turned(search, &design.candidate);
     let (first, last) = (values(designs.first()?)?, values(designs.last()?)?);
@@ -94,8 +99,8 @@ fn ends(search: &Search<'_>, designs: &[BestDesign]) -> Option<[Target; 2]> {
     (first.len() == 2 && designs.len() > 1).then(|| [end(0, floors[0]), end(1, floors[1])])
 }
 
-/// Targets for the points that a front still lacks: in the widest gaps of a curve, or else at those known designs of a surface that are the
-/// farthest from all of its points.
+/// Returns targets for missing points: in the widest gaps of a curve, or at known designs far from
+/// all points of a surface.
 fn more_targets(
     search: &Search<'_>,
     history: &[Candidate],
@@ -111,7 +116,7 @@ fn more_targets(
     }
     let known: Vec<Vec<f64>> = history.iter().filter_map(values).collect();
     let floors = spread(&known, &front, more).into_iter().map(target);
-    // Where a floor has led before it leads again.
+    // A repeated lower bound leads to the same design.
     floors.filter(|target| !targets.contains(target)).collect()
 }
 
@@ -135,7 +140,8 @@ fn between(front: &[Vec<f64>], targets: &[Target], count: usize) -> Vec<Target> 
     gaps.into_iter().map(|(_, floor)| target(vec![floor])).collect()
 }
 
-/// How values are spaced between two ends: by equal ratios where they span a power of ten, or else by equal differences.
+/// Spacing of values between two ends: equal ratios if they span a power of ten, otherwise equal
+/// differences.
 #[derive(Clone, Copy)]
 struct Spacing {
     ends: [f64; 2],
@@ -148,13 +154,13 @@ impl Spacing {
         Self { ends: [from, to], logarithmic: ratio.is_finite() && ratio >= DECADE }
     }
 
-    /// The value at a share of the way.
+    /// Returns the value at a fraction of the spacing.
     fn at(self, share: f64) -> f64 {
         let [from, to] = self.ends;
         if self.logarithmic { from * (to / from).powf(share) } else { from + (to - from) * share }
     }
 
-    /// The share of the way at which a value is.
+    /// Returns the fraction of the spacing at a value.
     fn share(self, value: f64) -> f64 {
         let [from, to] = self.ends;
         match self.logarithmic {
@@ -165,7 +171,7 @@ impl Spacing {
     }
 }
 
-/// A search for each of the points, from what is known.
+/// Runs a search for each target, from the known designs.
 fn improve(
     search: &Search<'_>,
     history: &mut Vec<Candidate>,
@@ -173,15 +179,17 @@ fn improve(
     plan: Plan,
 ) -> Result<(), Halt> {
     search.progress.begin(SearchPart::Front, targets.len() * plan.tasks());
-    // Noted in the order of the targets, whichever ends first: a search looks at the same designs on every machine.
+    // Appended in the order of the targets, so that the history is the same on every machine.
     let walks = targets.par_iter().map(|target| improved(search, history, target, plan));
     let walks: Vec<Vec<Candidate>> = walks.collect::<Result<_, _>>()?;
     history.extend(walks.into_iter().flatten());
     Ok(())
 }
 
-/// The front once the design of every target has been scaled to every other: what a result does not depend on, as a thickness in mm, only
-/// scales forces and lengths, and costs nothing.
+/// Returns the front after scaling each design for each target.
+///
+/// Scaling intervals, such as a thickness in mm, change forces and lengths alone, and cost no
+/// solution.
 fn rescaled_front(
     search: &Search<'_>,
     history: &mut Vec<Candidate>,
@@ -189,7 +197,7 @@ fn rescaled_front(
 ) -> Result<Front, Halt> {
     let front = designs(search, history, targets)?;
     let scaling = search.evaluations.scaling_intervals();
-    // Samples of a scaled design are other samples, and do cost.
+    // Samples of a scaled design differ and must be solved.
     if scaling.is_empty() || search.judge.samples().is_some() {
         return Ok(front);
     }
@@ -201,7 +209,7 @@ fn rescaled_front(
     designs(search, history, targets)
 }
 
-/// The best design of each target that no other design among them beats, and what became of the others.
+/// Returns the non-dominated best designs of the targets, and counts the others.
 fn designs(search: &Search<'_>, history: &[Candidate], targets: &[Target]) -> Result<Front, Halt> {
     let found = targets.par_iter().map(|target| {
         let is_met = |c: &&Candidate| matches!(search.merit(c, target), Merit::Met(_));
@@ -231,26 +239,27 @@ fn designs(search: &Search<'_>, history: &[Candidate], targets: &[Target]) -> Re
     Ok(front)
 }
 
-/// Whether objectives look the same.
+/// Returns true if all objectives agree within the visible digits.
 fn is_same(one: &[f64], other: &[f64]) -> bool {
     one.iter().zip(other).all(|(a, b)| (a - b).abs() <= SAME * b.abs())
 }
 
-/// Whether a point of a front beats another: it is better in an objective, and in none worse, but for round-off.
+/// Returns true if `one` dominates `other` beyond round-off.
 fn beats(one: &[f64], other: &[f64]) -> bool {
-    // Where two limits bind, a floor keeps points of one objective a last digit apart, and the worst of them would stay.
+    // If two limits bind, lower bounds separate points by round-off in one objective; exact
+    // dominance would keep the worst.
     let pairs = || one.iter().zip(other).map(|(a, b)| (a - b, EQUAL * b.abs()));
     pairs().all(|(gain, size)| gain >= -size) && pairs().any(|(gain, size)| gain > size)
 }
 
-/// The turned objectives of a design that meets every requirement.
+/// Returns the objectives of a feasible design, with changed sign if minimised.
 fn turned(search: &Search<'_>, candidate: &Candidate) -> Option<Vec<f64>> {
     let Judgement::Judged(worth) = &candidate.verdict else { return None };
     let turned = worth.objectives.iter().enumerate().map(|(k, x)| search.judge.sign(k) * x);
     worth.met.then(|| turned.collect())
 }
 
-/// The first targets of a front: its ends, and floors between them.
+/// Returns the first targets of a front: its ends, and lower bounds between them.
 fn first_targets(search: &Search<'_>, history: &[Candidate], points: usize) -> Vec<Target> {
     let values: Vec<Vec<f64>> = history.iter().filter_map(|c| turned(search, c)).collect();
     if search.judge.objectives() == 2 {
@@ -259,21 +268,22 @@ fn first_targets(search: &Search<'_>, history: &[Candidate], points: usize) -> V
     spread(&values, &[], points).into_iter().map(target).collect()
 }
 
-/// The target with these floors of all objectives but the first.
+/// Returns the target with these lower bounds on all objectives but the first.
 fn target(floors: Vec<f64>) -> Target {
-    // One objective climbs for all points: floors of the others lead it to any part of a front.
+    // The same objective is maximised at all points: lower bounds on the others reach every part of
+    // a front.
     Target {
         objective: 0,
         floors: floors.into_iter().enumerate().map(|(k, floor)| (k + 1, floor)).collect(),
     }
 }
 
-/// The ends of a front of two objectives, and floors of the second from where the first is the best to where the second is.
+/// Returns targets for the ends of a front of two objectives, and for lower bounds between them.
 fn curve(values: &[Vec<f64>], points: usize) -> Vec<Target> {
     let end = |k: usize| values.iter().max_by(|a, b| a[k].total_cmp(&b[k]));
     let Some((first, last)) = end(0).zip(end(1)) else { return Vec::new() };
     let between = |k: usize| Spacing::between(first[k], last[k]);
-    // At an end the other objective counts: many designs may be the best in one.
+    // At an end the other objective decides, because many designs may share the optimum of one.
     let first_end = Target { objective: 1, floors: vec![(0, between(0).at(BESIDE))] };
     let last_end = target(vec![between(1).at(1.0 - BESIDE)]);
     let share = |k: usize| k as f64 / (points - 1) as f64;
@@ -281,7 +291,8 @@ fn curve(values: &[Vec<f64>], points: usize) -> Vec<Target> {
     [first_end].into_iter().chain(inner).chain([last_end]).collect()
 }
 
-/// Floors of all objectives but the first at designs that none beats, as far from each other and from `taken` as can be.
+/// Returns lower bounds at non-dominated designs that are farthest from each other and from
+/// `taken`.
 fn spread(values: &[Vec<f64>], taken: &[Vec<f64>], count: usize) -> Vec<Vec<f64>> {
     let is_beaten = |value: &Vec<f64>| values.iter().any(|other| dominates(other, value));
     let front: Vec<&Vec<f64>> = values.iter().filter(|value| !is_beaten(value)).collect();
@@ -302,7 +313,7 @@ fn spread(values: &[Vec<f64>], taken: &[Vec<f64>], count: usize) -> Vec<Vec<f64>
     let mut nearest: Vec<f64> = front.iter().map(from_taken).collect();
     let mut chosen: Vec<usize> = Vec::new();
     while chosen.len() < count {
-        // Of equals the first: nothing is taken at the beginning, and all are as far from that.
+        // The first of equal distances; without `taken` all distances are infinite.
         let farther = |a: usize, b: usize| if nearest[b] > nearest[a] { b } else { a };
         let farthest = (0..front.len()).reduce(farther).filter(|&k| nearest[k] > NARROW);
         let Some(farthest) = farthest else { break };
@@ -321,7 +332,7 @@ mod tests {
 
     #[test]
     fn of_points_alike_but_for_round_off_in_one_objective_the_better_stays() {
-        // Where coverage and compliance both bind, floors of coverage leave such points.
+        // Such points occur if coverage and compliance both bind.
         let (poor, good) = ([0.800_000_000_004_8, 0.06], [0.799_999_999_999_9, 0.6]);
         assert!(beats(&good, &poor) && !beats(&poor, &good));
         assert!(!beats(&good, &good) && is_same(&good, &[0.8, 0.6]));

@@ -1,4 +1,4 @@
-//! From designs that are known to better ones: many regions are tried a little, the best of them to the end.
+//! Improves known designs: short searches in many regions, full searches from the best.
 
 use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
 
@@ -7,40 +7,42 @@ use crate::candidate::{Candidate, Target};
 use crate::evaluations::Halt;
 use crate::local::{Effort, Search};
 
-/// How many designs are improved for a target, each for itself.
+/// Numbers of local searches for a target.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Plan {
-    /// Designs that are improved a little.
+    /// Short searches, one per region.
     pub regions: usize,
-    /// Designs that are improved along derivatives after that.
+    /// Gradient searches after the short ones.
     pub starts: usize,
-    /// Designs that are improved to the end after that.
+    /// Full searches after the gradient searches.
     pub finalists: usize,
 }
 
 impl Plan {
-    /// Among nominal designs.
+    /// Plan for nominal designs.
     pub const NOMINAL: Self = Self { regions: 24, starts: 6, finalists: 3 };
-    /// Among designs that are sampled.
+    /// Plan for sampled designs.
     pub const SAMPLED: Self = Self { regions: 6, starts: 6, finalists: 3 };
 
-    /// For a point of a front: the ends of the front are known by then, and few regions come near the best.
+    /// Returns the plan for a point of a front: its ends are known, so few regions are near the
+    /// best.
     pub fn of_a_point(self) -> Self {
         Self { finalists: 2, ..self }
     }
 
-    /// For a point between others, whose searches have left good designs in every region.
+    /// Returns the plan for a point between others; their searches have left good designs in every
+    /// region.
     pub fn between_points(self) -> Self {
         Self { regions: 0, finalists: 1, ..self }
     }
 
-    /// Designs that are improved, at most.
+    /// Returns the maximum number of local searches.
     pub fn tasks(self) -> usize {
         self.regions + self.starts + self.finalists
     }
 }
 
-/// The designs that are looked at when the best of those in `history` are improved for a target.
+/// Improves the best designs in `history` for a target, and returns all evaluated designs.
 pub(crate) fn improved(
     search: &Search<'_>,
     history: &[Candidate],
@@ -48,14 +50,15 @@ pub(crate) fn improved(
     plan: Plan,
 ) -> Result<Vec<Candidate>, Halt> {
     let mut evaluated: Vec<Candidate> = Vec::new();
-    // Many a little, some more, few to the end: a few steps tell which regions are worth the rest.
+    // Successive halving: a few steps show which regions are worth a longer search.
     let stages = [
         (plan.regions, Effort::PROBE),
         (plan.starts, Effort::CLIMB),
         (plan.finalists, Effort::WHOLE),
     ];
     for (count, effort) in stages {
-        // Each knows only its own start, so that what is found does not depend on which ends first.
+        // Each search knows its own start alone, so results are independent of the order of
+        // completion.
         let starts = starts(search, history.iter().chain(&evaluated), target, count);
         let walks = starts.into_par_iter().map(|start| {
             let walk = search.improve(target, &start, effort);

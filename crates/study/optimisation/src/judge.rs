@@ -1,4 +1,4 @@
-//! The judge of a goal: what a design is worth by it, and how that changes with the variables.
+//! Judges designs by a goal, and differentiates the judgement.
 
 mod parts;
 
@@ -14,11 +14,11 @@ use crate::sample::{SampleJudge, Samples};
 use crate::slopes::Slopes;
 use crate::statistic::Statistic;
 
-/// What a design is judged by.
+/// Source of a judged value.
 enum Source {
     /// A column of the nominal design.
     Nominal(NumberColumn),
-    /// The least margin of the nominal design over all bounds.
+    /// Least margin of the nominal design over all bounds.
     Margin,
     /// A statistic over samples, by its index.
     Statistic(usize),
@@ -28,20 +28,20 @@ enum Source {
 pub struct Judge {
     objectives: Vec<(Goal, Source)>,
     requirements: Vec<Bound<Source>>,
-    /// The index of the requirement that the surface has not folded, if that is wanted.
+    /// Index of the requirement of an unfolded surface, if any.
     soundness: Option<usize>,
-    /// The measures that the goal is about.
+    /// Measures that the goal depends on.
     measures: Vec<Measure>,
     samples: SampleJudge,
 }
 
 impl Judge {
-    /// What is judged of samples, if the goal is about them.
+    /// Returns the judge of samples, if the goal is about samples.
     pub(crate) fn samples(&self) -> Option<&SampleJudge> {
         Some(&self.samples).filter(|samples| !samples.statistics.is_empty())
     }
 
-    /// The uses of statistics, each with the index of its statistic.
+    /// Returns the uses of statistics, each with the index of its statistic.
     pub(crate) fn uses(&self) -> impl Iterator<Item = (StatisticUse, usize)> {
         let objectives = self.objectives.iter().map(|(_, source)| source).enumerate();
         let objectives = objectives.map(|(k, source)| (StatisticUse::Objective(k), source));
@@ -53,7 +53,7 @@ impl Judge {
         })
     }
 
-    /// The statistics that are told, each name once.
+    /// Returns the reported statistics, with unique names.
     pub fn statistics(&self) -> Vec<(String, Statistic)> {
         let mut all: Vec<(String, Statistic)> = Vec::new();
         for used in &self.samples.statistics {
@@ -64,42 +64,43 @@ impl Judge {
         all
     }
 
-    /// Whether a use is that of a statistic.
+    /// Returns true if an objective or requirement is a statistic.
     pub(crate) fn is_statistic(&self, of: StatisticUse) -> bool {
         self.uses().any(|(other, _)| other == of)
     }
 
-    /// Whether a use is that of a yield.
+    /// Returns true if an objective or requirement is a yield.
     pub(crate) fn is_yield(&self, of: StatisticUse) -> bool {
         self.uses().any(|(other, q)| other == of && self.samples.statistics[q].is_yield())
     }
 
-    /// The requirements: those of the goal, then that the surface has not folded.
+    /// Returns the requirements of the goal, then the requirement of an unfolded surface.
     pub fn requirements(&self) -> impl Iterator<Item = &Requirement> {
         self.requirements.iter().map(|required| &required.requirement)
     }
 
-    /// Whether requirement `k` is that the surface has not folded.
+    /// Returns true if requirement `k` is the requirement of an unfolded surface.
     pub fn is_soundness(&self, k: usize) -> bool {
         self.soundness == Some(k)
     }
 
-    /// Whether only designs count whose surface has not folded.
+    /// Returns true if designs with a folded surface are excluded.
     pub(crate) fn wants_sound(&self) -> bool {
         self.soundness.is_some()
     }
 
-    /// Whether a measure counts.
+    /// Returns true if the goal depends on a measure.
     pub(crate) fn is_about(&self, measure: Measure) -> bool {
         self.measures.contains(&measure)
     }
 
-    /// Whether the peaks of coverage tell regions of the space apart: contacts go with the same lengths, in bending and puncture.
+    /// Returns true if coverage peaks separate regions: contacts in bending and puncture depend on
+    /// the same lengths.
     pub(crate) fn has_regions(&self) -> bool {
         !self.measures.is_empty()
     }
 
-    /// The requirements of columns, each with the value that a case and what is known of its result have there.
+    /// Returns the requirements on columns with their values in a partly known result.
     pub(crate) fn known(
         &self,
         case: &Case,
@@ -112,22 +113,22 @@ impl Judge {
         bounds.all.iter().map(|bound| &bound.requirement).zip(values).collect()
     }
 
-    /// 1 if objective `k` is to be large, −1 if it is to be small.
+    /// Returns 1 if objective `k` is maximised, −1 if minimised.
     pub fn sign(&self, k: usize) -> f64 {
         if self.objectives[k].0 == Goal::Maximize { 1.0 } else { -1.0 }
     }
 
-    /// The number of objectives.
+    /// Returns the number of objectives.
     pub fn objectives(&self) -> usize {
         self.objectives.len()
     }
 
-    /// The verdict on a design, of a goal that is about samples by the nominal design alone.
+    /// Judges a design; for a goal about samples, the nominal design alone.
     pub fn verdict(&self, row: &DesignRow) -> Judgement {
         self.verdict_with(row, None)
     }
 
-    /// The verdict on a design with these samples.
+    /// Judges a design with its samples.
     pub(crate) fn verdict_with(&self, row: &DesignRow, samples: Option<&Samples>) -> Judgement {
         if let Some(failure) = row.result.failures.first() {
             return Judgement::Failed(failure.outcome);
@@ -138,14 +139,15 @@ impl Judge {
             (_, samples) => self.worth(row, samples.unwrap_or(&no_samples)),
         };
         match worth {
-            // Only of a design that meets all else: one that falls short still tells a search the way, folded or not.
+            // Only for otherwise feasible designs: the shortfall of infeasible ones still guides a
+            // search, folded or not.
             Ok(worth) if worth.met && self.wants_sound() && has_folded(row) => Judgement::Folded,
             Ok(worth) => Judgement::Judged(worth),
             Err(column) => Judgement::Missing(column),
         }
     }
 
-    /// The verdict on a design of which no samples are known.
+    /// Judges a design without samples.
     fn nominal_verdict(&self, row: &DesignRow) -> Judgement {
         let bounds = &self.samples.bounds;
         let values: Vec<Option<f64>> = bounds.values(row).collect();
@@ -153,7 +155,7 @@ impl Judge {
             return Judgement::Missing(bounds.all[missing].column.name().to_owned());
         }
         let margin = bounds.margin(values.iter().copied());
-        // As of a design with samples: whoever falls short otherwise is told by how much.
+        // As for sampled designs: other shortfalls are reported first.
         if margin >= 0.0 && self.wants_sound() && has_folded(row) {
             return Judgement::Folded;
         }
@@ -172,7 +174,7 @@ impl Judge {
         row.result.failures.is_empty() && is_open
     }
 
-    /// The worth of a complete design, or the column in which it has no value.
+    /// Returns the worth of a complete design, or the column without a value.
     fn worth(&self, row: &DesignRow, samples: &Samples) -> Result<Worth, String> {
         let value = |source: &Source| self.value(source, row, samples);
         let objectives = self.objectives.iter().map(|(_, source)| value(source));
@@ -194,7 +196,8 @@ impl Judge {
         let all = || self.requirements.iter().zip(&required);
         Ok(Worth {
             margins: all().map(margin).collect(),
-            // By values: margins of strict limits are below 0 a little before the limit.
+            // Compared by value: margins of strict limits become negative slightly before the
+            // limit.
             met: all().all(|(r, value)| r.requirement.is_met(*value)),
             compared: compared.collect(),
             objectives,
@@ -202,7 +205,7 @@ impl Judge {
         })
     }
 
-    /// The value of a design, or the name of the column in which it has none.
+    /// Returns a value of a design, or the name of the column without one.
     fn value(&self, source: &Source, row: &DesignRow, samples: &Samples) -> Result<f64, String> {
         match source {
             Source::Nominal(column) => column.value(row).ok_or_else(|| column.name().to_owned()),
@@ -218,7 +221,7 @@ impl Judge {
         }
     }
 
-    /// The derivatives of what a design is judged by.
+    /// Returns the derivatives of an objective or requirement.
     fn slopes(&self, of: StatisticUse, row: &EvaluatedRow, parameter: &Parameter) -> Slopes {
         let source = match of {
             StatisticUse::Objective(k) => &self.objectives[k].1,
@@ -231,7 +234,7 @@ impl Judge {
         }
     }
 
-    /// The derivatives of objective `k`, turned so that it is to be large.
+    /// Returns the derivatives of objective `k`, with changed sign if minimised.
     pub(crate) fn objective_slopes(
         &self,
         k: usize,
@@ -241,14 +244,14 @@ impl Judge {
         self.slopes(StatisticUse::Objective(k), row, parameter).scaled(self.sign(k))
     }
 
-    /// The derivative of objective `k` of a nominal design with respect to a parameter; `None` at a kink, of a row without derivatives,
-    /// or of a statistic.
+    /// Returns the derivative of objective `k` for a nominal design; `None` at a kink, without
+    /// derivatives, or for a statistic.
     pub fn objective_slope(&self, k: usize, row: &DesignRow, parameter: &Parameter) -> Option<f64> {
         let row = EvaluatedRow { nominal: row.clone(), statistics: Vec::new() };
         self.slopes(StatisticUse::Objective(k), &row, parameter).smooth()
     }
 
-    /// The derivatives of how far the design is within requirement `k`, relative to the limit.
+    /// Returns the derivatives of the relative margin in requirement `k`.
     pub(crate) fn margin_slopes(
         &self,
         k: usize,
@@ -256,7 +259,7 @@ impl Judge {
         parameter: &Parameter,
     ) -> Slopes {
         let of = StatisticUse::Requirement(k);
-        // The margin of the sample that has to meet is relative already.
+        // The margin of the deciding sample is already relative.
         let rate =
             if self.is_yield(of) { 1.0 } else { self.requirements[k].requirement.margin_rate() };
         self.slopes(of, row, parameter).scaled(rate)

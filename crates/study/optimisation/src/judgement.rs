@@ -1,27 +1,27 @@
-//! What a judge makes of a design.
+//! Judgement of a design by a goal.
 
 use ranking::Worth;
 use results::Outcome;
 
-/// The judgement of a design by a goal.
+/// Judgement of a design by a goal.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Judgement {
-    /// The design has every objective and every column that is required.
+    /// All objectives and required columns have values.
     Judged(Worth),
-    /// The goal is about samples, and of this design only the nominal one is known.
+    /// The goal is about samples, and the design was not sampled.
     Nominal(NominalWorth),
-    /// The surface folded on the way and is open again at the end.
+    /// The surface folded along the path and is open again at the end.
     Folded,
     /// A measure has no value.
     Failed(Outcome),
-    /// The design is complete, and has no value in the column of an objective or a requirement.
+    /// The design is complete, but has no value in this column of an objective or requirement.
     Missing(String),
 }
 
-/// The worth of a nominal design, by the requirements that its samples are to meet, too.
+/// Values of a nominal design under the requirements on its samples.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NominalWorth {
-    /// The values of the columns that are required, without statistics.
+    /// Values in the required columns, without statistics.
     pub required: Vec<f64>,
     /// The largest shortfall, relative to the limit; 0 where every requirement is met.
     pub shortfall: f64,

@@ -1,7 +1,7 @@
-//! The limits that keep a best design from being better, and what each of them costs.
+//! Binding limits of a best design, with their multipliers.
 //!
-//! At the best design of a smooth problem the gradient of the objective `o`, to be large, is balanced by those of the limits that
-//! bind, `g_k ≥ l_k`, each with a multiplier:
+//! At an optimum of a smooth problem the gradient of the objective `o` (to be maximised) is
+//! balanced by the gradients of the binding limits `g_k ≥ l_k`, each with a multiplier:
 //!
 //! ```text
 //! ∇o + Σ μ_k ∇g_k = 0,   μ_k ≥ 0;      do/dl_k = −μ_k                                    (O1)
@@ -18,22 +18,23 @@ use crate::judgement::Judgement;
 use crate::local::{Search, floor_size};
 use crate::slopes::Slopes;
 
-/// A limit binds that is this near, relative to its size.
+/// Distance, relative to its size, within which a limit counts as binding.
 const NEAR: f64 = 1e-5;
 
-/// As [`NEAR`], of a statistic: a search among samples ends sooner.
+/// As [`NEAR`], for a statistic: a search over samples converges less far.
 const NEAR_SAMPLES: f64 = 1e-3;
 
-/// The part of the gradient that multipliers may leave unbalanced.
+/// Fraction of the gradient that the multipliers may leave unbalanced.
 const BALANCED: f64 = 1e-3;
 
-/// A limit that keeps a design from being better.
+/// A binding limit with its multiplier.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Binding {
     /// The limit.
     pub limit: Limit,
-    /// The loss of the objective, in its unit, for each unit by which the limit is made harder. `None` where the design stands on a
-    /// kink, so that no multiplier balances the gradients.
+    /// Loss of the objective per unit by which the limit is tightened, in their units.
+    ///
+    /// `None` on a kink, where no multipliers balance the gradients.
     pub price: Option<f64>,
 }
 
@@ -42,18 +43,18 @@ pub struct Binding {
 pub enum Limit {
     /// A requirement, by its index.
     Requirement(usize),
-    /// The floor of an objective.
+    /// The lower bound of an objective, by its index.
     Floor(usize),
     /// The lower end of an interval.
     Lower(usize),
     /// The upper end of an interval.
     Upper(usize),
-    /// The end of bending: any farther, and scales would touch, which other columns jump at. It counts as the logarithm of the
+    /// Contact at the end of bending, where other columns jump. Measured by the logarithm of the
     /// end rotation.
     Touch,
 }
 
-/// The limits that bind at `best`, with their prices.
+/// Returns the binding limits at `best` with their multipliers.
 pub(crate) fn bindings(
     search: &Search<'_>,
     best: &Candidate,
@@ -66,7 +67,7 @@ pub(crate) fn bindings(
     let prices = if is_whole { prices(search, &row, target, &limits) } else { None };
     let prices =
         prices.map_or_else(|| vec![None; limits.len()], |p| p.into_iter().map(Some).collect());
-    // What a step of a yield costs, no derivative tells.
+    // A yield is a step function, so its multiplier is undefined.
     let is_yield = |limit: &Limit| matches!(*limit, Limit::Requirement(k) if search.judge.is_yield(StatisticUse::Requirement(k)));
     let bindings = limits.into_iter().zip(prices);
     let binding = |(limit, price): (Limit, Option<f64>)| Binding {
@@ -102,7 +103,8 @@ fn binding_limits(search: &Search<'_>, best: &Candidate, target: &Target) -> Vec
     limits
 }
 
-/// The multipliers of the limits, in units of the objective over that of the limit; `None` if they do not balance the gradient.
+/// Computes the multipliers, in units of the objective per unit of the limit; `None` if they do not
+/// balance the gradient.
 fn prices(
     search: &Search<'_>,
     row: &EvaluatedRow,
@@ -111,7 +113,7 @@ fn prices(
 ) -> Option<Vec<f64>> {
     let judge = search.judge;
     let intervals = search.space.intervals();
-    // A kink along any variable leaves all prices unknown: they balance one gradient together.
+    // All multipliers balance one gradient: a kink along any variable leaves all unknown.
     let gradient = |slopes: &dyn Fn(&Parameter) -> Slopes| -> Option<DVector<f64>> {
         let slope = intervals
             .iter()
@@ -145,10 +147,11 @@ fn unit(count: usize, j: usize, sign: f64) -> DVector<f64> {
     unit
 }
 
-/// The multipliers, none below 0, with which `columns` balance `objective`, by least squares without the limits that would have one
-/// below 0; `None` if something is left.
+/// Computes non-negative multipliers with which `columns` balance `objective`, by least squares.
+///
+/// Limits with a negative multiplier are dropped. Returns `None` if the residual is too large.
 fn multipliers(columns: &[DVector<f64>], objective: &DVector<f64>) -> Option<Vec<f64>> {
-    // Each limit counts the same, whatever its unit.
+    // Normalised, so that each limit counts the same in any unit.
     let norms: Vec<f64> = columns.iter().map(DVector::norm).collect();
     let mut open: Vec<usize> = (0..columns.len()).filter(|&k| norms[k] > 0.0).collect();
     loop {
@@ -158,10 +161,10 @@ fn multipliers(columns: &[DVector<f64>], objective: &DVector<f64>) -> Option<Vec
         } else {
             let scaled: Vec<_> = open.iter().map(|&k| &columns[k] / norms[k]).collect();
             let matrix = DMatrix::from_columns(&scaled);
-            // By singular values: gradients of limits that bind together may depend on each other.
+            // SVD, because gradients of binding limits may be linearly dependent.
             let solved = matrix.clone().svd(true, true).solve(&-objective, 1e-12).ok()?;
             let least = (0..open.len()).min_by(|&a, &b| solved[a].total_cmp(&solved[b]))?;
-            // One at a time: without the limit that pulls most, others may push that pulled with it.
+            // Drop one limit at a time: the others may become positive without it.
             if solved[least] < 0.0 {
                 open.remove(least);
                 continue;

@@ -1,51 +1,51 @@
-//! How far a search is, for whoever watches it.
+//! Progress of a search, for display.
 
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use run::WorkMeter;
 
-/// A part of a search.
+/// Part of a search.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum SearchPart {
-    /// Points that fill the space.
+    /// Evaluating space-filling points.
     #[default]
     Sample,
-    /// The best of them, along derivatives.
+    /// Local searches from the best of them.
     Climb,
-    /// The points of a front.
+    /// Searching the points of a front.
     Front,
-    /// The first samples of the best nominal designs.
+    /// Sampling the best nominal designs.
     Samples,
-    /// More samples of designs near the best.
+    /// Local searches near the best, with more samples.
     Refine,
-    /// Other samples of the best designs.
+    /// Checking the best designs with independent samples.
     Check,
 }
 
-/// How far a search is: written by the search, read by whoever watches.
+/// Progress of a search: written by the search, read by the display.
 #[derive(Debug, Default)]
 pub struct SearchProgress {
     parts: Mutex<Parts>,
     done: AtomicUsize,
-    /// The largest share that was told, as bits: a bar does not go back.
+    /// Largest fraction reported so far, as bits: a progress bar must not go back.
     farthest: AtomicU64,
     designs: AtomicUsize,
     starts: AtomicUsize,
     slow: WorkMeter,
 }
 
-/// The parts of a search with the work that each is expected to be, and which of them is in hand.
+/// Parts of a search with their expected work, and the current part.
 #[derive(Debug, Default)]
 struct Parts {
     expected: Vec<(SearchPart, f64)>,
     at: usize,
-    /// Tasks of the part in hand.
+    /// Number of tasks in the current part.
     tasks: usize,
 }
 
 impl SearchPart {
-    /// The part in words.
+    /// Returns the description of the part.
     pub fn words(self) -> &'static str {
         match self {
             Self::Sample => "filling the space",
@@ -59,14 +59,14 @@ impl SearchPart {
 }
 
 impl SearchProgress {
-    /// The part that is in hand, how many of its tasks are done, and of how many.
+    /// Returns the current part, its finished tasks and its number of tasks.
     pub fn progress(&self) -> (SearchPart, usize, usize) {
         let parts = self.parts();
         let part = parts.expected.get(parts.at).map_or_else(SearchPart::default, |part| part.0);
         (part, self.done.load(Ordering::Relaxed).min(parts.tasks), parts.tasks)
     }
 
-    /// The share of the whole search that is done, from 0 to 1, as far as its work was foreseen.
+    /// Returns the completed fraction of the whole search, from 0 to 1, by expected work.
     pub fn share(&self) -> f64 {
         let (_, done, tasks) = self.progress();
         let parts = self.parts();
@@ -74,7 +74,8 @@ impl SearchProgress {
         let own = parts.expected.get(parts.at).map_or(0.0, |part| part.1);
         let before = work(&parts.expected[..parts.at.min(parts.expected.len())]);
         let share = (before + own * done as f64 / tasks.max(1) as f64) / work(&parts.expected);
-        // Bits of positive numbers are in the order of the numbers; no work at all is no number.
+        // Bits of positive numbers have the order of the numbers; `max` turns the NaN of zero work
+        // into 0.
         let bits = share.max(0.0).to_bits();
         f64::from_bits(self.farthest.fetch_max(bits, Ordering::Relaxed).max(bits))
     }
@@ -83,48 +84,49 @@ impl SearchProgress {
         self.parts.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Designs that were looked at.
+    /// Returns the number of evaluated designs.
     pub fn designs(&self) -> usize {
         self.designs.load(Ordering::Relaxed)
     }
 
-    /// Where designs that take long tell how far they are.
+    /// Returns the meter on which slow designs report their progress.
     pub fn slow(&self) -> &WorkMeter {
         &self.slow
     }
 
-    /// Designs from which a local search began.
+    /// Returns the number of local searches.
     pub fn starts(&self) -> usize {
         self.starts.load(Ordering::Relaxed)
     }
 
-    /// A local search begins.
+    /// Counts a local search.
     pub(crate) fn start(&self) {
         self.starts.fetch_add(1, Ordering::Relaxed);
     }
 
-    /// A search of such parts begins.
+    /// Starts a search with these parts and their expected work.
     pub(crate) fn expect(&self, expected: Vec<(SearchPart, f64)>) {
         *self.parts() = Parts { expected, ..Parts::default() };
     }
 
-    /// A part of so many tasks begins, the next of that kind. Parts in between are left out.
+    /// Starts the next part of this kind with `tasks` tasks, skipping parts in between.
     pub(crate) fn begin(&self, part: SearchPart, tasks: usize) {
         let mut parts = self.parts();
         let is_next = |(k, of): (usize, &(SearchPart, f64))| k > parts.at && of.0 == part;
-        // A part that comes more often than foreseen, as refills of fronts may, counts as the last.
+        // A part that repeats more often than expected, such as refills of a front, counts as the
+        // last.
         let last = || parts.expected.iter().rposition(|of| of.0 == part);
         let next = parts.expected.iter().enumerate().position(is_next).or_else(last);
         (parts.at, parts.tasks) = (next.unwrap_or(parts.at), tasks);
         self.done.store(0, Ordering::Relaxed);
     }
 
-    /// A task is done.
+    /// Counts a finished task.
     pub(crate) fn step(&self) {
         self.done.fetch_add(1, Ordering::Relaxed);
     }
 
-    /// A design was looked at.
+    /// Counts an evaluated design.
     pub(crate) fn evaluate(&self) {
         self.designs.fetch_add(1, Ordering::Relaxed);
     }
@@ -157,7 +159,7 @@ mod tests {
         assert_eq!(progress.share(), 0.3);
         progress.begin(Climb, 4);
         assert_eq!(progress.share(), 0.6);
-        // A part that was not foreseen again does not lead back.
+        // An unexpected repetition does not reduce the fraction.
         progress.begin(Front, 2);
         assert_eq!((progress.progress(), progress.share()), ((Front, 0, 2), 0.6));
     }

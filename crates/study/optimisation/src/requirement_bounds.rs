@@ -1,4 +1,4 @@
-//! How far a design is within the bounds of a goal.
+//! Margins of a design within the bounds of a goal.
 
 use ranking::{Relation, Requirement, tightest};
 use results::DesignRow;
@@ -14,35 +14,36 @@ pub(crate) struct Bound<C> {
     pub column: C,
 }
 
-/// The bounds of a nominal design and of every sample of it.
+/// Bounds on a nominal design and on each of its samples.
 pub(crate) struct Bounds {
     pub all: Vec<Bound<NumberColumn>>,
-    /// The index of the one that the surface has not folded, if that is wanted.
+    /// Index of the bound against a folded surface, if required.
     pub soundness: Option<usize>,
 }
 
-/// The requirement that the surface of the substrate has not folded, if `sweep` tells: no gap has closed at the critical tilt.
+/// Returns the requirement of an unfolded surface, if `sweep` measures puncture: no gap has closed
+/// at the critical tilt.
 pub(crate) fn soundness(sweep: &Sweep) -> Option<Requirement> {
     sweep.measures().contains(&Measure::Puncture).then(|| Requirement {
         column: name::GAP_STRETCH_MIN.to_owned(),
-        // Strict: where a gap has just closed, the surface has folded.
+        // Strict: the surface folds as a gap closes.
         relation: Relation::Above,
         limit: 0.0,
     })
 }
 
-/// Whether the surface of a design folds on the way.
+/// Returns true if the surface folds along the path.
 pub(crate) fn has_folded(row: &DesignRow) -> bool {
     row.result.puncture.is_some_and(|puncture| puncture.measures.fold_force.is_some())
 }
 
 impl Bounds {
-    /// The values of a design in the columns of the bounds.
+    /// Returns the values of a design in the columns of the bounds.
     pub fn values<'a>(&'a self, row: &'a DesignRow) -> impl Iterator<Item = Option<f64>> + 'a {
         self.all.iter().map(|bound| bound.column.value(row))
     }
 
-    /// The bound that a design with these values is least within, and its margin; `None` if there are no bounds.
+    /// Returns the bound with the least margin, and the margin; `None` without bounds.
     pub fn tightest(
         &self,
         values: impl Iterator<Item = Option<f64>>,
@@ -51,13 +52,15 @@ impl Bounds {
         tightest(bounds).map(|(k, margin)| (&self.all[k], margin))
     }
 
-    /// The least margin over all bounds; infinite if there are none.
+    /// Returns the least margin over all bounds; infinite without bounds.
     pub fn margin(&self, values: impl Iterator<Item = Option<f64>>) -> f64 {
         self.tightest(values).map_or(f64::INFINITY, |(_, margin)| margin)
     }
 
-    /// Whether the surface of a design, open at the end, folded on the way, and that counts. Where it is folded at the end, a bound
-    /// tells how far.
+    /// Returns true if the surface folded along the path and is open again at the end, and this
+    /// matters.
+    ///
+    /// If the surface is folded at the end, the margin of the bound measures it.
     pub fn has_reopened(&self, row: &DesignRow) -> bool {
         let is_open = |k: usize| {
             let Bound { requirement, column } = &self.all[k];
@@ -66,7 +69,7 @@ impl Bounds {
         self.soundness.is_some_and(is_open) && has_folded(row)
     }
 
-    /// The derivatives of the least margin: those of the tightest bound.
+    /// Returns the derivatives of the least margin, from the tightest bound.
     pub fn margin_slopes(&self, row: &DesignRow, parameter: &Parameter) -> Slopes {
         let tightest = self.tightest(self.values(row));
         tightest.map_or(Slopes::UNKNOWN, |(bound, _)| {

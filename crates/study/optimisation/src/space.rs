@@ -1,4 +1,4 @@
-//! The space of the variables: its points, and the cases that they stand for.
+//! Design space: variables, points, and their cases.
 
 use sweep::{Case, Parameter, Scalar, Sweep, VariableValues};
 
@@ -22,7 +22,8 @@ pub struct Choice {
     pub values: Vec<Scalar>,
 }
 
-/// A point of the space: a share of each interval, from 0 at its lower end to 1 at its upper, and the index of each choice.
+/// Point of the space: a share of each interval, from 0 (lower end) to 1, and an index for each
+/// choice.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpacePoint {
     /// Shares of the intervals.
@@ -31,7 +32,7 @@ pub struct SpacePoint {
     pub chosen: Vec<usize>,
 }
 
-/// The space of the variables, and what all its designs share.
+/// Space of the variables, with the values shared by all designs.
 #[derive(Clone, Debug)]
 pub struct DesignSpace {
     sweep: Sweep,
@@ -40,23 +41,23 @@ pub struct DesignSpace {
 }
 
 impl Interval {
-    /// The value at a share of the interval; exactly its ends at 0 and 1.
+    /// Returns the value at a share of the interval; exactly its ends at 0 and 1.
     pub fn value(&self, share: f64) -> f64 {
         let value = self.from + share * (self.to - self.from);
-        // The sum may miss the end by its last digit, and tables would show it: 60 is meant, not 59.99999999999999.
+        // Round-off could show as 59.99999999999999 instead of 60 in tables.
         if share >= 1.0 { self.to } else { value.clamp(self.from, self.to) }
     }
 
-    /// The length of the interval.
+    /// Returns the length of the interval.
     pub fn length(&self) -> f64 {
         self.to - self.from
     }
 }
 
 impl SpacePoint {
-    /// The largest difference to another point in any interval; infinite if their choices differ.
+    /// Returns the largest difference in any interval; infinite if choices differ.
     pub(crate) fn distance(&self, other: &Self) -> f64 {
-        // Choices have no order, and so no distance: a search does not step from one to another.
+        // Choices are unordered, so a search does not step between them.
         if self.chosen != other.chosen {
             return f64::INFINITY;
         }
@@ -66,7 +67,7 @@ impl SpacePoint {
 }
 
 impl DesignSpace {
-    /// The space of the variables of `sweep`, all whose other axes have one value.
+    /// Creates the space of the variables of `sweep`; its other axes have one value each.
     pub(crate) fn new(sweep: Sweep) -> Self {
         let (mut intervals, mut choices) = (Vec::new(), Vec::new());
         for variable in sweep.variables() {
@@ -119,9 +120,9 @@ impl DesignSpace {
         self.choices.iter().map(digit).collect()
     }
 
-    /// The case that a point stands for.
+    /// Returns the case of a point.
     pub fn case(&self, point: &SpacePoint) -> Case {
-        // The first design of the grid has everything that is shared: the axes with one value too.
+        // The first design of the grid holds all shared values.
         let mut case = self.sweep.grid().case(0);
         for (interval, share) in self.intervals.iter().zip(&point.shares) {
             case = interval.parameter.put(&case, Scalar::Number(interval.value(*share)));

@@ -1,12 +1,14 @@
-//! Points that fill a space: its corners, and a low-discrepancy sequence.
+//! Space-filling points: the corners, and a low-discrepancy sequence.
 
 use crate::space::{DesignSpace, SpacePoint};
 
-/// Intervals whose corners are all among the points, at most.
+/// Maximum number of intervals for which all corners are included.
 const CORNERED: usize = 6;
 
-/// `count` points that fill `space`, or every one of them if there are no intervals and they are fewer: the corners of the box, as
-/// far as they take no more than half, and a sequence that `seed` shifts.
+/// Returns `count` space-filling points, or all points of a small discrete space.
+///
+/// The corners of the box are included if they take at most half of the points; a sequence shifted
+/// by `seed` supplies the others.
 ///
 /// The sequence is Roberts's: the coordinate `j` of the point `k` is the fractional part of `s_j + k φ^−(j+1)`, where `φ` is the root
 /// of `φ^(n+1) = φ + 1`, the golden ratio for `n = 1` (M. Roberts, *The unreasonable effectiveness of quasirandom sequences*, 2018).
@@ -17,14 +19,14 @@ pub(crate) fn points(space: &DesignSpace, count: usize, seed: u64) -> Vec<SpaceP
         return (0..combinations).map(point).collect();
     }
     let mut points = corners(space, count / 2);
-    // Choices take coordinates, too, or some of their values would get hardly a point.
+    // Choices are coordinates too; otherwise some of their values would get hardly any points.
     let sequence = Sequence::new(space.intervals().len() + space.choices().len(), seed);
     let missing = count.saturating_sub(points.len());
     points.extend((1..=missing).map(|index| split(space, &sequence.point(index))));
     points
 }
 
-/// The corners of the box for every combination of choices, unless they are more than `most`.
+/// Returns the corners of the box for every combination of choices, or none if they exceed `most`.
 fn corners(space: &DesignSpace, most: usize) -> Vec<SpacePoint> {
     let (intervals, combinations) = (space.intervals().len(), space.combinations());
     if intervals > CORNERED || combinations.saturating_mul(1 << intervals) > most {
@@ -41,16 +43,16 @@ fn corners(space: &DesignSpace, most: usize) -> Vec<SpacePoint> {
     (0..combinations).flat_map(of).collect()
 }
 
-/// The point of the space that coordinates from 0 to 1 stand for.
+/// Maps coordinates from 0 to 1 to a point of the space.
 fn split(space: &DesignSpace, unit: &[f64]) -> SpacePoint {
     let (shares, rest) = unit.split_at(space.intervals().len());
-    // A share just below 1 may come to the whole count by rounding.
+    // A share just below 1 may round up to the count.
     let index = |(share, count): (&f64, usize)| ((share * count as f64) as usize).min(count - 1);
     let counts = space.choices().iter().map(|choice| choice.values.len());
     SpacePoint { shares: shares.to_vec(), chosen: rest.iter().zip(counts).map(index).collect() }
 }
 
-/// A low-discrepancy sequence in a unit cube.
+/// Low-discrepancy sequence in the unit cube.
 pub(crate) struct Sequence {
     start: Vec<f64>,
     step: Vec<f64>,
@@ -60,21 +62,22 @@ impl Sequence {
     pub fn new(dimensions: usize, seed: u64) -> Self {
         let ratio = ratio(dimensions);
         let step: Vec<f64> = (1..=dimensions).map(|j| ratio.powi(-(j as i32))).collect();
-        // Seeds shift the start by another irrational number, so that none is another's beginning.
+        // Each seed shifts the start by an irrational amount, so that no sequence continues
+        // another.
         let shift = |j: usize| (0.5 + seed as f64 * (j as f64 + 2.0).sqrt() * 0.731).fract();
         Self { start: (0..dimensions).map(shift).collect(), step }
     }
 
-    /// The point `index`, from 1.
+    /// Returns point `index`, from 1.
     pub fn point(&self, index: usize) -> Vec<f64> {
         let coordinate = |(start, step): (&f64, &f64)| (start + index as f64 * step).fract();
         self.start.iter().zip(&self.step).map(coordinate).collect()
     }
 }
 
-/// The root above 1 of `φ^(n+1) = φ + 1`.
+/// Computes the root above 1 of `φ^(n+1) = φ + 1`.
 fn ratio(dimensions: usize) -> f64 {
-    // Each round leaves less than half of the error: the derivative of the root is below 1/2. 64 come to round-off.
+    // Fixed-point iteration: the derivative is below 1/2, so 64 rounds reach round-off.
     let root = 1.0 / (dimensions as f64 + 1.0);
     (0..64).fold(2.0, |ratio: f64, _| (1.0 + ratio).powf(root))
 }

@@ -1,19 +1,19 @@
-//! Statistics over the samples of a design, by their names.
+//! Statistics over the samples of a design, and their names.
 
 use results::QUANTILES;
 
-/// A statistic over the samples of a design.
+/// Statistic over the samples of a design.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Statistic {
-    /// The value of a column below which this share of the samples lies.
+    /// Quantile: the value of a column below which this fraction of samples lies.
     Quantile {
         /// The column.
         column: String,
         /// The share.
         share: f64,
     },
-    /// The share of the samples that meets every requirement of a column of `designs.csv`, and whose surface has not folded if that
-    /// is wanted.
+    /// Yield: the fraction of samples that meet every requirement on columns of `designs.csv`, and
+    /// have an unfolded surface if required.
     Yield,
 }
 
@@ -21,22 +21,22 @@ impl Statistic {
     /// The name of the yield.
     pub const YIELD: &'static str = "yield";
 
-    /// The name of what takes the place of a yield of a nominal design: how far the design is within its requirements.
+    /// Name of the nominal substitute for a yield: the least margin within the requirements.
     pub const MARGIN: &'static str = "yield_margin";
 
-    /// The statistic that has this name, e.g. `yield` or `critical_force_p05`; `None` of other names.
+    /// Parses a name, e.g. `yield` or `critical_force_p05`; `None` for other names.
     pub fn named(name: &str) -> Option<Self> {
         let quantile =
             |(column, share): (&str, f64)| Self::Quantile { column: column.to_owned(), share };
         if name == Self::YIELD { Some(Self::Yield) } else { split(name).map(quantile) }
     }
 
-    /// The column that a name is about: of a quantile that which it is of, of others the name.
+    /// Returns the column of a quantile; other names unchanged.
     pub fn base(name: &str) -> &str {
         split(name).map_or(name, |(column, _)| column)
     }
 
-    /// The meaning of its column.
+    /// Returns the description of its column.
     pub fn meaning(&self) -> &'static str {
         match self {
             Self::Quantile { .. } => {
@@ -47,7 +47,7 @@ impl Statistic {
     }
 }
 
-/// The column and the share in the name of a quantile.
+/// Splits the name of a quantile into column and share.
 fn split(name: &str) -> Option<(&str, f64)> {
     let cut = |(ending, share)| Some((name.strip_suffix(ending)?.strip_suffix('_')?, share));
     QUANTILES.into_iter().find_map(cut)

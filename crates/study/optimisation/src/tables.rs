@@ -1,4 +1,4 @@
-//! The tables of what was found: the best designs, and every design that was looked at.
+//! Writes the tables of a search: best designs and all evaluated designs.
 
 use journal::JournalError;
 use results::columns::{Cell, design_columns};
@@ -18,17 +18,17 @@ use crate::requirement_bounds::has_folded;
 use crate::search::Found;
 use crate::statistic::Statistic;
 
-/// The table of the best design.
+/// Table of the best design.
 pub const OPTIMUM: &str = "optimum.csv";
-/// The definition of the best design, which every command reads.
+/// Definition of the best design, readable by every command.
 pub const OPTIMUM_DEFINITION: &str = "optimum.toml";
-/// The definition of the design that comes nearest where none meets all requirements.
+/// Definition of the nearest design, if none is feasible.
 pub const NEAREST_DEFINITION: &str = "nearest.toml";
-/// The table of the designs that none beats.
+/// Table of the non-dominated designs.
 pub const FRONT: &str = "front.csv";
-/// The table of every design that was looked at.
+/// Table of every evaluated design.
 pub const HISTORY: &str = "history.csv";
-/// The goal, with what took the place of what was written.
+/// The goal, including overrides.
 pub const GOAL: &str = "goal.toml";
 
 const FITNESS_MEANING: &str = "weighted geometric mean of the rescaled criteria (Eq. 7), by the weights and scales of the goal, which names it";
@@ -36,8 +36,8 @@ const FITNESS_MEANING: &str = "weighted geometric mean of the rescaled criteria 
 /// A row of cells.
 type Cells = Vec<Cell>;
 
-/// The columns of `optimum.csv` and `front.csv` of a goal: those of `designs.csv`, the fitness if the goal names it, then what binds
-/// and what it costs.
+/// Returns the columns of `optimum.csv` and `front.csv`: those of `designs.csv`, the fitness if
+/// used, then limits and prices.
 pub fn optimum_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
     let known = design_columns(goal.space.sweep()).into_iter();
     let known = known.map(|column| (column.name.to_string(), column.unit, column.meaning));
@@ -58,7 +58,7 @@ pub fn optimum_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
     cells(known.chain(own).chain(statistic_columns(goal)))
 }
 
-/// The columns of what other samples say of a design, if the goal is about them.
+/// Returns the columns of the check with independent samples, if the goal is about samples.
 fn statistic_columns(goal: &DesignGoal) -> Vec<(String, &'static str, &'static str)> {
     let known = design_columns(goal.space.sweep());
     let mut columns = Vec::new();
@@ -78,7 +78,7 @@ fn statistic_columns(goal: &DesignGoal) -> Vec<(String, &'static str, &'static s
     columns
 }
 
-/// The cells of those columns.
+/// Returns the cells of these columns.
 fn statistic_cells(goal: &DesignGoal, best: &BestDesign) -> Cells {
     let Some(confirmation) = &best.confirmation else { return Vec::new() };
     let mut cells: Cells = Vec::new();
@@ -92,22 +92,22 @@ fn statistic_cells(goal: &DesignGoal, best: &BestDesign) -> Cells {
     cells
 }
 
-/// The unit of a statistic: that of the column that it is of.
+/// Returns the unit of a statistic, from its base column.
 fn unit_of(known: &[Column<DesignRow>], name: &str) -> &'static str {
     let base = Statistic::base(name);
     known.iter().find(|column| column.name == base).map_or("-", |column| column.unit)
 }
 
-/// The column of the fitness, if the goal names it.
+/// Returns the fitness column, if the goal uses it.
 fn fitness_column(goal: &DesignGoal) -> Option<(String, &'static str, &'static str)> {
     goal.fitness.is_some().then(|| (NumberColumn::FITNESS.to_owned(), "-", FITNESS_MEANING))
 }
 
-/// The columns of `history.csv` of a goal.
+/// Returns the columns of `history.csv`.
 pub fn history_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
     let plain = |name: &str, meaning| (name.to_owned(), "-", meaning);
     let first = [
-        plain("evaluation", "place among the designs that were evaluated at"),
+        plain("evaluation", "number of the evaluation, in the order of the search"),
         plain(
             "stage",
             "sample: points that fill the space; gradient: a step along derivatives; ridge: a step along those on both sides of a kink; polish: a step without; tolerance: the first look at the samples of a design",
@@ -151,11 +151,12 @@ fn cells(
     columns.enumerate().map(column).collect()
 }
 
-/// Writes what was found into `folder`: the goal, the history, the optimum or the front, and `figures`, each with its name; returns
-/// the names of the files.
+/// Writes the results into `folder`: goal, history, optimum or front, and `figures` by name.
+///
+/// Returns the names of the files.
 ///
 /// # Errors
-/// If the search found something else before in the same journal, or the folder or the disk does not take them.
+/// If tables of the same journal were edited, or the folder cannot be written.
 pub fn write_found(
     folder: &ResultsFolder,
     goal: &DesignGoal,
@@ -166,7 +167,7 @@ pub fn write_found(
     let tables = found_tables(goal, found);
     refuse_edited(folder, &tables)?;
     let mut files = vec![GOAL];
-    // Before any table is written: the claim removes those of an earlier search.
+    // First, because the claim removes tables of an earlier search.
     let mut claim = Claim::take(folder, Maker::Search)?;
     folder.write_text(GOAL, goal.to_toml())?;
     for FoundTable { name, columns, rows } in &tables {
@@ -194,14 +195,14 @@ pub fn write_found(
     Ok(files)
 }
 
-/// A table of what was found.
+/// A table of results.
 struct FoundTable {
     name: &'static str,
     columns: Vec<Column<Cells>>,
     rows: Vec<Cells>,
 }
 
-/// The history, and the best designs if there are any.
+/// Returns the history, and the best designs if there are any.
 fn found_tables(goal: &DesignGoal, found: &Found) -> Vec<FoundTable> {
     let rows = history(goal, found).collect();
     let history = FoundTable { name: HISTORY, columns: history_columns(goal), rows };
@@ -214,14 +215,16 @@ fn found_tables(goal: &DesignGoal, found: &Found) -> Vec<FoundTable> {
     vec![history, FoundTable { name, columns, rows }]
 }
 
-/// Refuses tables that say something else than those of the same search in `folder` that are as they were written: it finds the same
-/// again in a journal that is as it was.
+/// Returns an error if intact earlier tables of this journal differ from the new ones.
+///
+/// A repeated search with an intact journal gives the same tables, so a difference means an edited
+/// journal.
 fn refuse_edited(folder: &ResultsFolder, tables: &[FoundTable]) -> Result<(), JournalError> {
     let Some(stated) = Claim::stated(folder, Maker::Search) else { return Ok(()) };
     for FoundTable { name, columns, rows } in tables {
         let Some(table) = WrittenTable::as_stated(folder, name, &stated) else { continue };
         let mut rows = rows.iter();
-        // A row that is not there any more is empty now.
+        // A missing row counts as empty.
         let row = |_: &_| {
             let row = rows.next().cloned();
             Ok(Some(row.unwrap_or_else(|| vec![Cell::Empty; columns.len()])))
@@ -240,7 +243,7 @@ fn refuse_edited(folder: &ResultsFolder, tables: &[FoundTable]) -> Result<(), Jo
     Ok(())
 }
 
-/// The rows of `optimum.csv` or `front.csv`.
+/// Returns the rows of `optimum.csv` or `front.csv`.
 fn best_rows(goal: &DesignGoal, designs: &[BestDesign]) -> Vec<Cells> {
     let sweep = goal.space.sweep();
     let (words, known) = (BindingText::new(goal), design_columns(sweep));

@@ -1,4 +1,4 @@
-//! What a search has found, put to the test with other samples than those that it saw.
+//! Checks the results of a search with independent samples.
 
 use ranking::Requirement;
 use serde::Serialize;
@@ -11,43 +11,43 @@ use crate::sample::{SampleJudge, Samples};
 use crate::space::SpacePoint;
 use crate::statistic::Statistic;
 
-/// Samples with which a search is checked at its end.
+/// Number of independent samples for each check.
 const FRESH: usize = 1000;
 
-/// The statistics over the samples of a best design: what the search saw, and what other samples say.
+/// Statistics of a best design, by the samples of the search and by independent samples.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Confirmation {
-    /// Samples that the search saw of each design.
+    /// Number of samples per design in the search.
     pub seen: usize,
-    /// Samples of this one with other random numbers.
+    /// Number of independent samples of this design.
     pub fresh: usize,
-    /// The statistics, each name once.
+    /// Statistics, with unique names.
     pub estimates: Vec<Estimate>,
-    /// The requirements of statistics that the other samples do not keep.
+    /// Requirements on statistics that the independent samples violate.
     pub broken: Vec<Requirement>,
 }
 
-/// A statistic over the samples of a best design.
+/// Statistic over the samples of a best design.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Estimate {
     /// The name of the statistic.
     #[serde(rename = "quantity")]
     pub name: String,
-    /// The value that the search saw.
+    /// Value by the samples of the search.
     pub seen: Option<f64>,
-    /// The value of other samples.
+    /// Value by the independent samples.
     pub value: Option<f64>,
-    /// The 95 % interval that those leave.
+    /// Its 95 % interval.
     pub interval: [Option<f64>; 2],
 }
 
 impl Confirmation {
-    /// The estimate of that name.
+    /// Returns the estimate with this name.
     pub fn estimate(&self, name: &str) -> Option<&Estimate> {
         self.estimates.iter().find(|estimate| estimate.name == name)
     }
 
-    /// Whether a requirement that the other samples do not keep may be kept all the same: an end of the 95 % interval meets it.
+    /// Returns true if the 95 % interval does not exclude that a violated requirement is met.
     pub fn is_open(&self, requirement: &Requirement) -> bool {
         let estimate = self.estimate(&requirement.column);
         let mut ends = estimate.into_iter().flat_map(|of| of.interval).flatten();
@@ -55,14 +55,14 @@ impl Confirmation {
     }
 }
 
-/// What other samples say of the design at `point`; `None` if the goal is not about them.
+/// Checks the design at `point` with independent samples; `None` if the goal is not about samples.
 pub(super) fn confirm(
     search: &Search<'_>,
     point: &SpacePoint,
 ) -> Result<Option<Confirmation>, Halt> {
     let Some(judge) = search.judge.samples() else { return Ok(None) };
     let seen = search.evaluations.samples(point, 1, judge.count, judge)?;
-    // From the first number that the search has not seen: its own samples flatter what it chose by them.
+    // Start after the samples of the search: selection by those samples biases them.
     let first = judge.count as u64 + 1;
     let fresh = search.evaluations.samples(point, first, FRESH, judge)?;
     let all: Vec<Estimate> =

@@ -1,4 +1,4 @@
-//! The search among designs that are sampled: it begins at the best nominal designs, which are sampled then.
+//! Searches sampled designs, starting from the best nominal designs.
 
 use rayon::iter::{
     IntoParallelIterator as _, IntoParallelRefMutIterator as _, ParallelIterator as _,
@@ -15,16 +15,16 @@ use crate::local::{Effort, Search};
 use crate::progress::SearchPart;
 use crate::space::SpacePoint;
 
-/// Points of a front of nominal designs, at most: a front of sampled ones begins there.
+/// Maximum points of the nominal front from which the sampled front starts.
 const NOMINAL_POINTS: usize = 10;
 
-/// Nominal designs, for each objective, that are sampled at first.
+/// Number of nominal designs per objective that are sampled first.
 pub(crate) const SEEDS: usize = 16;
 
-/// Designs, of different regions where there are some, that are looked at with more samples.
+/// Number of designs refined with more samples, in different regions if possible.
 const REFINED: usize = 2;
 
-/// The searches among nominal designs, among sampled ones, and near the best of these with more samples.
+/// Searches of nominal designs, of sampled designs, and near their best with more samples.
 #[derive(Clone, Copy)]
 pub(crate) struct Searches<'s> {
     pub nominal: &'s Search<'s>,
@@ -33,11 +33,11 @@ pub(crate) struct Searches<'s> {
 }
 
 impl Searches<'_> {
-    /// The answer to a goal about samples. The history of the nominal designs is part of it.
+    /// Searches for the answer to a goal about samples; the history includes nominal designs.
     pub fn answer(&self, goal: &DesignGoal, history: &mut Vec<Candidate>) -> Result<Answer, Halt> {
         let Self { nominal, sampled, finer } = self;
-        // A nominal design costs one solution, a sampled one as many as it has samples: nominal ones tell where to
-        // begin.
+        // A nominal design costs one solution, a sampled one as many as it has samples, so nominal
+        // designs provide the starts.
         let first = answer(nominal, history, Plan::NOMINAL, goal.points.min(NOMINAL_POINTS))?;
         let seeds = seeds(nominal, history, &first);
         let mut is_admitted = false;
@@ -46,7 +46,7 @@ impl Searches<'_> {
             candidate.verdict = sampled.judge.verdict(&row);
             is_admitted |= sampled.judge.samples().is_some_and(|judge| judge.admits(&row));
         }
-        // Where no nominal design is worth sampling, the answer among these is all that there is.
+        // If no nominal design is worth sampling, the nominal answer is final.
         if !is_admitted {
             return Ok(first);
         }
@@ -64,7 +64,8 @@ impl Searches<'_> {
             Answer::Optimum(best) => {
                 let is_refined = refine(self, best, history)?;
                 check(
-                    // Fresh samples are those behind all that the search saw: the finer saw more.
+                    // Fresh samples have numbers after all seen ones, and the finer search saw
+                    // more.
                     if is_refined { finer } else { sampled },
                     std::slice::from_mut(best.as_mut()),
                 )?;
@@ -76,8 +77,9 @@ impl Searches<'_> {
     }
 }
 
-/// Takes the best designs of the coarse search to where more samples want them: what was chosen by few looks better on them than it is. Returns
-/// whether there is one that meets everything.
+/// Refines the best designs with more samples: selection by few samples overestimates them.
+///
+/// Returns whether a refined design is feasible.
 fn refine(
     searches: &Searches<'_>,
     best: &mut BestDesign,
@@ -89,23 +91,23 @@ fn refine(
     let mut evaluated = Vec::new();
     for start in starts {
         let start = finer.evaluate(SearchStage::Tolerance, &start.point, false)?.0;
-        // The whole way: a yield that falls by a tenth under more samples is seldom mended near by.
+        // Full search: if more samples reduce the yield by a tenth, small steps seldom repair it.
         evaluated.extend(finer.improve(&best.target, &start, Effort::WHOLE)?);
-        // Its walk leaves the start out, which may be the best that more samples know.
+        // The search does not return its start, which may be the best design.
         evaluated.push(start);
         finer.progress.step();
     }
     let is_met = |candidate| matches!(finer.merit(candidate, &best.target), Merit::Met(_));
     let is_refined = evaluated.iter().any(is_met);
     if is_refined {
-        // Of these alone: the verdicts on all others rest on fewer samples.
+        // Only these designs are judged by more samples.
         *best = best_design(finer, &evaluated, best.target.clone())?;
     }
     history.append(&mut evaluated);
     Ok(is_refined)
 }
 
-/// Adds to the best designs what other samples say of them.
+/// Checks the best designs with independent samples.
 fn check(search: &Search<'_>, best: &mut [BestDesign]) -> Result<(), Halt> {
     search.progress.begin(SearchPart::Check, best.len());
     best.par_iter_mut().try_for_each(|best| {
@@ -115,7 +117,7 @@ fn check(search: &Search<'_>, best: &mut [BestDesign]) -> Result<(), Halt> {
     })
 }
 
-/// The designs that are sampled first: the best nominal ones, and the best of all others that are apart from each other.
+/// Selects the designs to be sampled first: the best nominal ones, then others that are apart.
 fn seeds(nominal: &Search<'_>, history: &[Candidate], answer: &Answer) -> Vec<SpacePoint> {
     let best = match answer {
         Answer::Optimum(best) => std::slice::from_ref(best.as_ref()),
