@@ -1,44 +1,47 @@
-//! A bracket of a root that is narrowed by the false position.
+//! Bracketing root search by false position.
 
-/// Two places between which a quantity changes its sign, each with the value there.
+/// Two arguments at which a function has opposite signs, with its values.
 ///
-/// The next place to look at is where the secant through both ends vanishes. The end that stays has its value halved, so that
-/// the other end moves too: the Illinois rule (Dowell & Jarratt 1971, doi 10.1007/BF01934364).
+/// The next estimate is the zero of the secant.
+///
+/// The value at the end that stays is halved, so that this end moves too: the Illinois rule (Dowell
+/// & Jarratt 1971, doi 10.1007/BF01934364).
 #[derive(Clone, Copy, Debug)]
 pub struct Bracket {
     ends: [(f64, f64); 2],
-    /// The end that was replaced last, if the other is halved only where the same end is replaced twice in a row.
+    /// End replaced last; `None` if the value at the other end is halved every time.
     last: Option<usize>,
 }
 
 impl Bracket {
-    /// A bracket whose ends have values of different signs. The end that stays is halved every time.
+    /// Creates a bracket with values of opposite signs that halves the other value every time.
     pub fn new(low: (f64, f64), high: (f64, f64)) -> Self {
         Self { ends: [low, high], last: None }
     }
 
-    /// The same, but the end that stays is halved only where it stays twice: as Dowell and Jarratt have it.
+    /// Creates a bracket that halves the other value only after two replacements of the same end.
+    ///
+    /// This is the rule of Dowell and Jarratt.
     pub fn patient(low: (f64, f64), high: (f64, f64)) -> Self {
         Self { last: Some(1), ..Self::new(low, high) }
     }
 
-    /// Where the secant through both ends vanishes.
+    /// Returns the zero of the secant.
     pub fn secant(&self) -> f64 {
         let [(low, at_low), (high, at_high)] = self.ends;
         (low * at_high - high * at_low) / (at_high - at_low)
     }
 
-    /// Distance of both ends.
+    /// Returns the distance between the ends.
     pub fn width(&self) -> f64 {
         (self.ends[1].0 - self.ends[0].0).abs()
     }
 
-    /// Replaces the end whose value has the sign of `value`.
+    /// Replaces the end at which the sign equals the sign of `value`.
     pub fn narrow(&mut self, place: f64, value: f64) {
         let end = usize::from(value * self.ends[1].1 >= 0.0);
         self.ends[end] = (place, value);
-        // An end that stays is worth half as much to the next secant, or that would come nearer to it from one side
-        // only.
+        // Without halving, the secant would approach the root from one side only.
         if self.last.is_none_or(|last| last == end) {
             self.ends[1 - end].1 *= 0.5;
         }

@@ -1,16 +1,18 @@
-//! A check for whoever writes a [`System`]: are its derivatives those of its equations?
+//! Verification of the derivatives of a [`System`] by finite differences.
 
 use crate::linear::BandMatrix;
 use crate::system::{Residual, State, System};
 
-/// Part of an unknown by which it is moved for a difference.
+/// Relative step of an unknown in a difference quotient.
 const STEP: f64 = 1e-5;
 
-/// Unknowns that are smaller than this are moved as if they were of this size. Those of constraints are not: what a
-/// force does may change over any small part of it, as in a power law.
+/// Smallest magnitude from which the step of an unknown is computed.
+///
+/// Does not apply to the unknowns of constraints: the effect of a force may vary over any small
+/// part of it, as in a power law.
 const SMALL: f64 = 0.01;
 
-/// A derivative that differs from the differences of the residual.
+/// Derivative that differs from the differences of the residual.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error(
     "the derivative of equation {row} with respect to unknown {column} is {derivative}, \
@@ -27,14 +29,14 @@ pub struct WrongDerivative {
     pub difference: f64,
 }
 
-/// Compares tangent and slopes of a system at a state with central differences of its residual.
+/// Compares tangent and slopes of a system at a state with central differences.
 ///
-/// Compared is what the solver uses: the tangent in rows and columns of unknowns that are not known to vanish, and the
-/// slopes of all constraints. `tolerance` is relative to the largest derivative of an equation. Where a constraint is
-/// active, its unknown must not be zero.
+/// Checks the parts that the solver uses: the tangent in rows and columns of unknowns that do not
+/// vanish, and the slopes of all constraints. `tolerance` is relative to the largest derivative of
+/// an equation. The unknowns of active constraints must not be zero.
 ///
 /// # Errors
-/// The first derivative that differs by more than the tolerance.
+/// Returns the first derivative that differs by more than the tolerance.
 pub fn check_tangent<S: System>(
     system: &S,
     state: &State<S::Mode>,
@@ -72,14 +74,14 @@ pub fn check_tangent<S: System>(
     Ok(())
 }
 
-/// The unknowns that are not known to vanish.
+/// Returns the unknowns that are not known to vanish.
 fn used<S: System>(system: &S, state: &State<S::Mode>) -> Vec<usize> {
     let constraints = system.constraints().iter().zip(&state.active);
     let vanish: Vec<usize> = constraints.filter(|(_, active)| !**active).map(|(&c, _)| c).collect();
     (0..system.size()).filter(|index| !vanish.contains(index)).collect()
 }
 
-/// Derivatives of all equations with respect to an unknown, by central differences.
+/// Differentiates all equations with respect to an unknown, by central differences.
 fn difference<S: System>(system: &S, state: &State<S::Mode>, column: usize) -> Vec<f64> {
     let is_constraint = system.constraints().contains(&column);
     let size = state.z[column].abs();

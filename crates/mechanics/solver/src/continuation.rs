@@ -1,4 +1,4 @@
-//! The equilibrium path: an iterator over its points.
+//! Path continuation: an iterator over the equilibria of a path.
 
 mod direction;
 
@@ -12,96 +12,103 @@ use crate::settings::Settings;
 use crate::system::{Control, State, System};
 use crate::termination::Termination;
 
-/// The control parameter prescribes the next point while it makes up at least this part of the
-/// direction of the path; where it makes up less, because it is about to turn, the arc length does: a step of the control
-/// parameter would there be more than twenty times as long along the path.
+/// Least rate of the control parameter, per unit of arc length, at which it prescribes the step.
+///
+/// Below this rate the control parameter is about to turn and the arc length prescribes the step: a
+/// step of the control parameter would be more than twenty times as long along the path.
 const DRIVES: f64 = 0.05;
 
-/// So many steps, each a third of the one before, tell that a change is undone at any distance: a step that was too long is short enough
-/// before.
+/// Number of undone steps, each a third as long as the last, after which the path jumps.
+///
+/// If the change at the current point is undone at every length, shortening the step does not help.
+/// If the step was merely too long, fewer reductions suffice.
 const UNDONE: usize = 5;
 
-/// An equilibrium of the path.
+/// Equilibrium of a path, with its directions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Equilibrium<M = ()> {
-    /// The equilibrium. Where a constraint changes sides, active set and mode are those with which the path goes on.
+    /// State at the equilibrium. At an event it has the outgoing active set and mode.
     pub state: State<M>,
-    /// Direction in which the path arrives, of unit length in the controls.
+    /// Incoming direction of the path, of unit length in the controls.
     pub arriving: Vec<f64>,
-    /// Direction in which the path goes on; another one than that of arrival where a constraint changes sides.
+    /// Outgoing direction of the path. Differs from `arriving` where a constraint changes sides.
     pub leaving: Vec<f64>,
-    /// The event at this point, if there is one.
+    /// Event at this point, if any.
     pub event: Option<Event>,
 }
 
-/// The path of equilibria of a system, from a first one until the control parameter reaches its
-/// target, one scale, or a load that only pushes comes back to zero.
+/// Path of equilibria of a system.
 ///
-/// Between events the active set is held and the equations are smooth: a predictor along the
-/// tangent, then Newton's method for the point at a given distance,
+/// The path starts at a given equilibrium. It ends where the control parameter over its scale
+/// reaches the target, or where the load of a system that only pushes returns to zero.
+///
+/// Between events the active set is fixed and the equations are smooth. A predictor along the
+/// tangent is followed by Newton's method for the point at a given distance,
 ///
 /// ```text
 /// r(z) = 0,    c·(z − z₀) = s,    z ≈ z₀ + s ż₀/(c·ż₀)                                (N4)
 /// ```
 ///
-/// where `c` measures the control parameter alone, or the arc length in the controls where the control parameter is
-/// about to turn (Keller 1977; Rheinboldt 1986, isbn 978-0-471-86282-6; Allgower & Georg 2003, doi
-/// 10.1137/1.9780898719154). Where a constraint would change sides within the step, the event itself is
-/// solved for, the constraint changes sides there, and the path goes on in the direction in which the
-/// constraint stays valid. So no step straddles a kink, and a turning path (in the control parameter, in the load, or
-/// at an event) is followed round.
+/// where `c` measures the control parameter alone, or the arc length in the controls where the
+/// control parameter is about to turn (Keller 1977; Rheinboldt 1986, isbn 978-0-471-86282-6;
+/// Allgower & Georg 2003, doi 10.1137/1.9780898719154). If a constraint would change sides within
+/// the step, the solver locates the event, changes the constraint there, and continues in the
+/// direction that satisfies the changed constraint. Hence no step crosses a kink, and the path is
+/// followed around turning points of the control parameter, of the load and at events.
 ///
-/// A step must not lead to another branch of equilibria. Along a path, and across events, the determinant
+/// A step must not lead to another branch of equilibria. Along a path, and across events, the
+/// determinant
 ///
 /// ```text
 /// det [∂r/∂z; c]    over equations and unknowns that are active,    c·ż > 0                     (N7)
 /// ```
 ///
-/// keeps its sign (Allgower & Georg 2003, section 2.1), so a step that ends with another one has gone astray, and no path comes
-/// back to where it began by the way that it went.
+/// keeps its sign (Allgower & Georg 2003, section 2.1). A step that ends with the other sign has
+/// reached another branch, or returns along the incoming path, and is rejected.
 ///
-/// The iterator ends where the path does; [`Continuation::stop`] then tells why.
+/// The iterator ends with the path; [`Continuation::termination`] gives the reason.
 #[derive(Clone, Debug)]
 pub struct Continuation<S: System> {
     pub(crate) system: S,
     pub(crate) settings: Settings,
     pub(crate) newton: Newton,
     pub(crate) point: Arc<Equilibrium<S::Mode>>,
-    /// The guards (N5) at `point`, with its active set, and how fast they change as the path leaves.
+    /// Guards (N5) at `point` with its active set, and their slopes along the outgoing direction.
     pub(crate) guards: Vec<f64>,
     pub(crate) slopes: Vec<f64>,
-    /// [`System::coordinates`].
+    /// Cached [`System::coordinates`].
     coordinates: Vec<usize>,
-    /// The orientation ([`Newton::is_positive`]) with which the path leaves `point`.
+    /// Orientation ([`Newton::is_positive`]) of the path behind `point`.
     pub(crate) is_positive: bool,
-    /// Whether no event had another way on among those that were looked at.
+    /// False if some event had a second outgoing branch among those evaluated.
     pub(crate) is_unique: bool,
-    /// How often an event of constraints that rub has turned the path round since it was farthest.
+    /// Reversals at friction events since the control parameter was last at its maximum.
     pub(crate) reversals: usize,
-    /// How often a step from `point` has undone what had just changed there at no rate: sliding that stopped as its rate vanished.
+    /// Steps from `point` that undid a change at zero rate, such as slip that ended as its rate
+    /// vanished.
     pub(crate) undone: usize,
-    /// The largest value of the control parameter so far.
+    /// Largest value of the control parameter so far.
     farthest: f64,
-    /// The sign of a load that only pushes: the path ends where it comes back to zero.
+    /// Sign of a load that only pushes; the path ends where such a load returns to zero.
     pub(crate) pushes: Option<f64>,
-    /// Whether the path has been turned back, away from its target.
+    /// True after [`Continuation::turn_back`]: the path leads away from its target.
     pub(crate) is_back: bool,
     step: f64,
     points: usize,
     pub(crate) termination: Option<Termination>,
 }
 
-/// A candidate for the next point.
+/// Candidate for the next point.
 pub(crate) struct Candidate<M> {
     pub(crate) state: State<M>,
     pub(crate) direction: Vec<f64>,
     pub(crate) event: Option<Event>,
-    /// The orientation with which the path arrives.
+    /// Orientation of the incoming path.
     pub(crate) is_positive: bool,
 }
 
 impl<S: System> Continuation<S> {
-    /// A path from the equilibrium `start` in the direction in which the control parameter grows.
+    /// Creates a path from the equilibrium `start` along increasing control parameter.
     pub fn new(system: S, start: State<S::Mode>, settings: Settings) -> Self {
         let nowhere = vec![0.0; system.size()];
         let point =
@@ -130,20 +137,22 @@ impl<S: System> Continuation<S> {
         path
     }
 
-    /// The point that the path has reached.
+    /// Returns the current point of the path.
     pub fn point(&self) -> &Equilibrium<S::Mode> {
         &self.point
     }
 
-    /// The point that the path has reached, shared.
+    /// Returns the current point of the path as a shared pointer.
     pub fn point_shared(&self) -> Arc<Equilibrium<S::Mode>> {
         Arc::clone(&self.point)
     }
 
-    /// Goes on from `point` with another `system`: one that has more unknowns, say. The path goes on in the direction in which
-    /// it left `point`, whose state need be an equilibrium of the system to first order only. Returns the system that was left.
+    /// Continues from `point` with another `system`, such as one with more unknowns.
+    ///
+    /// The path keeps the outgoing direction of `point`. The state of `point` need only be an
+    /// equilibrium of the new system to first order. Returns the previous system.
     pub fn go_on(&mut self, system: S, mut point: Equilibrium<S::Mode>) -> S {
-        // Kept apart: the iterations by which the path goes over to another system belong to no step.
+        // The record of iterations covers steps only, so leave out the iterations of the transfer.
         let history = std::mem::take(&mut self.newton.history);
         self.newton = Newton::new(&system);
         self.coordinates = system.coordinates();
@@ -162,17 +171,17 @@ impl<S: System> Continuation<S> {
         left
     }
 
-    /// Why the path ended; `None` while it has not.
+    /// Returns the reason why the path ended, or `None` while it continues.
     pub fn termination(&self) -> Option<Termination> {
         self.termination
     }
 
-    /// Whether no event of the path had another way on, among those that were looked at.
+    /// Returns false if some event had a second outgoing branch among those evaluated.
     pub fn is_unique(&self) -> bool {
         self.is_unique
     }
 
-    /// The system.
+    /// Returns the system.
     pub fn system(&self) -> &S {
         &self.system
     }
@@ -182,8 +191,9 @@ impl<S: System> Continuation<S> {
         std::mem::take(&mut self.newton.history)
     }
 
-    /// The equilibrium at a fraction of the way between two neighbouring points, with the active set
-    /// and the mode between them. `None` where Newton's method does not get there.
+    /// Solves for the equilibrium at a fraction of the distance between two neighbouring points.
+    ///
+    /// Active set and mode are those of the segment. `None` if Newton's method fails.
     pub fn between(
         &mut self,
         from: &Equilibrium<S::Mode>,
@@ -193,13 +203,19 @@ impl<S: System> Continuation<S> {
         self.between_from(from, to, fraction, from)
     }
 
-    /// How far the path goes between two neighbouring points, in units of the direction in which it leaves the one and of that
-    /// in which it arrives at the other: a direction times its factor is the rate of change with the fraction of [`Continuation::between`].
+    /// Computes the length of a segment in units of the directions at its two ends.
+    ///
+    /// The ends are two neighbouring points; their directions are the outgoing one of `from` and
+    /// the incoming one of `to`. A direction times its length is the derivative with respect to the
+    /// fraction of [`Continuation::between`].
     pub fn spans(&self, from: &Equilibrium<S::Mode>, to: &Equilibrium<S::Mode>) -> [f64; 2] {
         [&from.leaving, &to.arriving].map(|direction| self.rate_in(from, to, direction))
     }
 
-    /// The rate of change with the fraction of [`Continuation::between`], in units of a direction of the path.
+    /// Computes the length of a segment in units of `direction`.
+    ///
+    /// The direction times this length is the derivative with respect to the fraction of
+    /// [`Continuation::between`].
     pub(crate) fn rate_in(
         &self,
         from: &Equilibrium<S::Mode>,
@@ -210,7 +226,7 @@ impl<S: System> Continuation<S> {
         (condition.measure(&to.state.z) - condition.value) / condition.measure(direction)
     }
 
-    /// The equilibrium of [`Continuation::between`], reached from `near`, a point between the two.
+    /// Solves as [`Continuation::between`], starting from `near`, a point of the segment.
     pub fn between_from(
         &mut self,
         from: &Equilibrium<S::Mode>,
@@ -224,8 +240,9 @@ impl<S: System> Continuation<S> {
         self.solved(Self::towards(near, &condition), &condition)
     }
 
-    /// The equilibrium near `state`, with its active set and mode, at which a condition holds. `None` where Newton's method does not
-    /// get there.
+    /// Solves for the equilibrium near `state` that satisfies a condition.
+    ///
+    /// Active set and mode are those of `state`. `None` if Newton's method fails.
     pub fn solved(
         &mut self,
         state: State<S::Mode>,
@@ -233,7 +250,7 @@ impl<S: System> Continuation<S> {
     ) -> Option<Equilibrium<S::Mode>> {
         let iterations = self.newton.history.len();
         let found = self.correct(state, condition);
-        // What is looked at between points belongs to no step, and the record of iterations is one of steps.
+        // The record of iterations covers steps only, so leave out evaluations between points.
         self.newton.history.truncate(iterations);
         let Candidate { state, direction, .. } = found.ok()?;
         let (arriving, leaving) = (direction.clone(), direction);
@@ -254,14 +271,14 @@ impl<S: System> Continuation<S> {
         self.stand(point);
     }
 
-    /// Begins at a point anew.
+    /// Restarts the path at a point, with the first step size and the point count at zero.
     pub(crate) fn begin(&mut self, point: Equilibrium<S::Mode>) {
         self.step = self.settings.first_step.min(self.settings.max_step);
         self.points = 0;
         self.stand(point);
     }
 
-    /// Makes `point` the one that the path has reached.
+    /// Makes `point` the current point and evaluates its guards.
     fn stand(&mut self, point: Equilibrium<S::Mode>) {
         let (Self { system, guards, slopes, .. }, Equilibrium { state, leaving, .. }) =
             (&mut *self, &point);
@@ -274,18 +291,18 @@ impl<S: System> Continuation<S> {
         self.system.controls()[0]
     }
 
-    /// The control parameter over its scale: 1 at the target.
+    /// Computes the control parameter over its scale, which is 1 at the target by default.
     pub(crate) fn progress(&self, z: &[f64]) -> f64 {
         z[self.control_parameter().index] / self.control_parameter().scale
     }
 
-    /// The measure of distance from `point`, which increases along the path.
+    /// Returns the measure of distance from `point`, which increases along the path.
     pub(crate) fn condition(&self, point: &Equilibrium<S::Mode>) -> Condition {
         let control = self.control_parameter();
         let drive = self.progress(&point.leaving);
         let is_hidden = self.is_hidden(&point.leaving);
-        // Next to where a contact gives way all controls may turn back together, within the shortest steps: in all coordinates the path goes
-        // straight on there.
+        // Close to a contact that opens, all controls may reverse together within the shortest
+        // steps, whereas the path of all coordinates stays straight.
         let is_arc = is_hidden || self.step < SHORT;
         let row = if drive.abs() >= DRIVES && !is_hidden {
             vec![(control.index, drive.signum() / control.scale)]
@@ -298,13 +315,13 @@ impl<S: System> Continuation<S> {
         }
         let all = self.coordinates.iter();
         let length = all.clone().map(|&index| point.leaving[index].powi(2)).sum::<f64>();
-        // A path that is hidden has this length.
+        // Hidden directions are normalised to this length in all coordinates.
         let unit = if is_hidden { HIDDEN.powi(2) } else { length };
         let arc = all.map(|&index| (index, point.leaving[index] / unit)).collect();
         Condition { stand_in: Some(row), ..Condition::through(arc, &point.state.z) }
     }
 
-    /// The equilibrium at a distance from a point, with the active set with which it is left.
+    /// Solves for the equilibrium at a distance from a point, with its outgoing active set.
     pub(crate) fn trial(
         &mut self,
         from: &Equilibrium<S::Mode>,
@@ -319,7 +336,7 @@ impl<S: System> Continuation<S> {
         Ok(candidate)
     }
 
-    /// The state that satisfies `condition` in the direction in which the path leaves `near`.
+    /// Extrapolates along the outgoing direction of `near` to the state that meets `condition`.
     fn towards(near: &Equilibrium<S::Mode>, condition: &Condition) -> State<S::Mode> {
         let distance = condition.value - condition.measure(&near.state.z);
         let factor = distance / condition.measure(&near.leaving);
@@ -336,7 +353,7 @@ impl<S: System> Continuation<S> {
         Ok(Candidate { state, direction: self.normalised(direction), event: None, is_positive })
     }
 
-    /// The next point of the path, or why there is none.
+    /// Takes one step and returns the next point, or the reason why the path ends.
     fn advance(&mut self) -> Result<Equilibrium<S::Mode>, Termination> {
         loop {
             progress::report_if_due(self.points, self.progress(&self.point.state.z));
@@ -345,51 +362,56 @@ impl<S: System> Continuation<S> {
             let attempt = self.attempt(distance);
             let iterations = self.newton.history.len() - before;
             let is_smooth = attempt.as_ref().is_ok_and(|candidate| candidate.event.is_none());
-            // An event from which no direction leads on is come to as near as steps may be short: whoever asks why the path ends
-            // there sees the state in which it does.
+            // An event without an outgoing branch is approached until the step size reaches its
+            // minimum, so that the last point shows the state in which the path ends.
             match attempt.map_err(Termination::from).and_then(|candidate| self.accept(candidate)) {
                 Ok(point) => {
                     self.adapt(iterations, is_smooth);
                     return Ok(point);
                 }
-                // Nothing has moved: the path still stands at its point, and tries again from there.
+                // A failed attempt leaves the current point unchanged, so try again with a shorter
+                // step.
                 Err(stop) => self.shorten(distance, stop)?,
             }
         }
     }
 
-    /// The next distance: the step, but not past the target.
+    /// Returns the length of the next step, at most the distance to the target.
     fn distance(&self) -> f64 {
         let drive = self.progress(&self.point.leaving);
         let left = self.system.target() - self.progress(&self.point.state.z);
-        // Where the path runs away from its target, or the arc length measures the step, there is nothing to stop at.
+        // The target limits the step only if the control parameter measures it and increases.
         if drive >= DRIVES { self.step.min(left) } else { self.step }
     }
 
     fn shorten(&mut self, distance: f64, stop: Termination) -> Result<(), Termination> {
-        // A third of what was tried, which the target may have made shorter than the step.
+        // Shorten the attempted distance, because the target may have made it shorter than the step
+        // size.
         self.step = distance / 3.0;
         if self.step >= self.settings.min_step {
             return Ok(());
         }
-        // Sliding that has come to a stop may neither go on nor stick: to second order, which is what is left where its rate vanishes,
-        // both are wrong. Then no equilibrium is near that would lead on.
+        // Slip that ends at zero rate has no equilibrium nearby if, to second order, neither slip
+        // nor stick is valid.
         Err(if self.undone >= UNDONE { Termination::Jumps } else { stop })
     }
 
     fn adapt(&mut self, iterations: usize, smooth: bool) {
         if smooth && iterations <= 5 {
-            // Newton's method doubles its digits with each iteration: five are what a start needs that was two digits
-            // good. Of a step that an event cut short, neither length nor iterations tell how far the next one may go.
+            // Newton's method doubles the correct digits in each iteration, so five iterations
+            // suffice from a predictor with two digits. The length and iterations of a step cut
+            // short by an event do not indicate the next step size.
             self.step = (self.step * 1.7).min(self.settings.max_step);
         }
     }
 
-    /// A step that ends at the event that is predicted within the given distance. Where none is, or the prediction fails, a
-    /// step of this distance, cut short at the first event within it.
+    /// Attempts a step that ends at the event predicted within the given distance.
+    ///
+    /// Without a predicted event, or if the prediction fails, attempts a step of the full distance
+    /// and cuts it short at the first event within it.
     fn attempt(&mut self, distance: f64) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let from = Arc::clone(&self.point);
-        // Aiming at the event saves the equilibrium beyond it and the search between.
+        // Aiming at the event saves the equilibrium beyond it and the bracketing search.
         let mut candidate = match self.predicted_event(&from, distance) {
             Some(candidate) if !self.strays(&from, &candidate) => candidate,
             _ => self.plain_step(&from, distance)?,
@@ -400,14 +422,14 @@ impl<S: System> Continuation<S> {
         } else if self.pulls(&candidate) {
             candidate = self.unloaded(&from, &candidate)?;
         }
-        // Asked once more, since turns and unloading have moved the end of the step.
+        // Check again, because the turning point and unloading have moved the end of the step.
         if self.strays(&from, &candidate) {
             return Err(NewtonFailure::TooManyIterations);
         }
         Ok(candidate)
     }
 
-    /// A step of the given distance, cut short at the first event within it.
+    /// Steps by the given distance, cut short at the first event within it.
     fn plain_step(
         &mut self,
         from: &Equilibrium<S::Mode>,
@@ -420,15 +442,15 @@ impl<S: System> Continuation<S> {
         self.first_event(from, candidate)
     }
 
-    /// The point between two where the control parameter is at its target.
+    /// Solves for the point between two points where the control parameter reaches its target.
     fn target(
         &mut self,
         from: &Equilibrium<S::Mode>,
         beyond: &Candidate<S::Mode>,
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let (start, end) = (self.progress(&from.state.z), self.progress(&beyond.state.z));
-        // The control parameter itself, even if the step was measured by the arc length: the target is met to the last
-        // bit.
+        // Prescribe the control parameter even if the arc length measured the step, so that the
+        // target is met to the last bit.
         let (target, control) = (self.system.target(), self.control_parameter());
         let state = from.state.interpolated(&beyond.state, (target - start) / (end - start));
         let condition = Condition::new(vec![(control.index, 1.0 / control.scale)], target);
@@ -441,7 +463,8 @@ impl<S: System> Continuation<S> {
     ) -> Result<Equilibrium<S::Mode>, Termination> {
         let Candidate { mut state, direction: arriving, mut event, .. } = candidate;
         if let Some(Event::Changed(changes)) = &event
-            // What ends the path is not let go or closed: there is no direction in which it would go on.
+            // A constraint that ends the path does not change sides, because there is no outgoing
+            // branch.
             && changes.iter().any(|change| self.system.ends(&state, change.constraint))
         {
             event = Some(Event::Target);
@@ -450,7 +473,7 @@ impl<S: System> Continuation<S> {
             Some(Event::Changed(changes)) => {
                 let is_positive = self.is_positive;
                 let resolved = self.resolve_event(&mut state, &arriving, changes);
-                // The step is tried again from where the path stands, with the orientation that it has there.
+                // The step is repeated from the current point, so restore its orientation.
                 resolved.inspect_err(|_| self.is_positive = is_positive)?
             }
             _ => arriving.clone(),
@@ -477,7 +500,7 @@ impl<S: System> Iterator for Continuation<S> {
             self.termination = Some(Termination::TooManyPoints);
             return None;
         }
-        // Counted before the step, so that a path that finds event upon event in one place ends, too.
+        // Count before the step, so that a path with endless events at one point terminates too.
         self.points += 1;
         match self.advance() {
             Ok(point) => {
@@ -486,11 +509,12 @@ impl<S: System> Iterator for Continuation<S> {
                     (self.farthest, self.reversals) = (progress, 0);
                 }
                 if point.event == Some(Event::Target) || self.at_target(&point.state) {
-                    // On its way back a path that rises to its target again has turned round.
+                    // A path that was turned back and reaches its target again has reversed.
                     self.termination =
                         Some(if self.is_back { Termination::Jumps } else { Termination::Reached });
                 } else if point.event == Some(Event::Unloaded) {
-                    // Back at rest, or next to it: nobody took the load away, it fell because the path could not go on where it turned.
+                    // The load vanished at or next to rest after a reversal. It was not removed:
+                    // the path could not continue past the reversal.
                     let is_at_rest = progress < 0.01 * self.system.target();
                     let has_turned = self.reversals > 0 && is_at_rest && !self.is_back;
                     self.termination =

@@ -1,60 +1,64 @@
-//! Events on the path: where they are.
+//! Location of events on the path.
 
 use crate::bracket::Bracket;
 use crate::continuation::{Candidate, Continuation, Equilibrium};
 use crate::newton::{Condition, FLOOR, Newton, NewtonFailure, guard_slope};
 use crate::system::{State, System};
 
-/// An event may lie this far before the point reached: constraints that change sides together are
-/// found one after the other, and each only to round-off.
+/// Largest distance by which an event may lie before the current point.
+///
+/// Constraints that change sides together are located one after the other, each up to round-off.
 const BACKWARD: f64 = 1e-9;
 
-/// A predicted event may lie at this part of the step that was to be taken.
+/// Largest distance of a predicted event from the current point, in steps.
 const FARTHER: f64 = 1.5;
 
-/// Guards as close to zero as this at an event may change sides with the one that was located.
+/// Guards within this distance of zero at an event change sides together with the located one.
 const TOGETHER: f64 = 1e-10;
 
-/// A guard that changes more slowly than this does not change to first order: rates are near 1, and round-off of them near 1e-11.
+/// Slopes below this are zero to first order: rates are near 1 and their round-off near 1e-11.
 pub(crate) const NO_RATE: f64 = 1e-6;
 
-/// The place of a load extremum is known to this part of its bracket, after at most so many rounds.
+/// Relative accuracy of the location of an extremum in its bracket, and the limit on its
+/// iterations.
 const CLOSE: f64 = 1e-9;
 const MAX_ROUNDS: usize = 100;
 
-/// An event at a point of the path.
+/// Event at a point of the path.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Event {
-    /// Constraints change sides: several where symmetry makes them do so together.
+    /// Constraints change sides; several if symmetry makes the events coincide.
     Changed(Vec<Change>),
     /// The load has a maximum or a minimum.
     LoadExtremum,
-    /// The load, which only pushes, has come back to zero.
+    /// The load of a system that only pushes has returned to zero.
     Unloaded,
     /// The control parameter has reached its target.
     Target,
 }
 
-/// A constraint that changes sides.
+/// Constraint that changes sides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Change {
     /// Number of the constraint.
     pub constraint: usize,
-    /// Whether the constraint becomes active; else it becomes inactive.
+    /// True if the constraint becomes active, false if it becomes inactive.
     pub activated: bool,
 }
 
 impl<S: System> Continuation<S> {
-    /// The event that guards and their slopes predict within a distance, if it is the first one and not far from there.
+    /// Locates the event predicted by guards and slopes within a distance.
+    ///
+    /// `None` if the prediction does not lead to the first event.
     pub(crate) fn predicted_event(
         &mut self,
         from: &Equilibrium<S::Mode>,
         distance: f64,
     ) -> Option<Candidate<S::Mode>> {
         let rate = self.condition(from).measure(&from.leaving);
-        // Only the first one is aimed at: what happens behind it happens with another active set.
+        // Aim at the first event only: later ones occur with a different active set.
         let (constraint, along) = self.first_predicted()?;
-        // What lies beyond the step is for a later one, which predicts it from nearer.
+        // Leave events beyond the step to a later step, with a better prediction.
         if along * rate > distance {
             return None;
         }
@@ -64,21 +68,22 @@ impl<S: System> Continuation<S> {
         let reached = condition.measure(&located.state.z) - condition.value;
         let within = (0.0..=FARTHER * distance).contains(&reached)
             && self.progress(&located.state.z) <= self.system.target();
-        // The prediction is of first order. Where the guard bends, its zero may lie far beyond, or Newton's method may
-        // have come to another one.
+        // The prediction is of first order. With a curved guard the zero may lie far beyond, or
+        // Newton's method may have converged to another zero.
         if !within || self.turns_sharply(from, &located) {
             return None;
         }
         let guards = Newton::guards(&self.system, &located.state);
         match self.first_violated(&guards) {
-            // A guard that falls ever faster may get to zero before the one that was predicted.
+            // A guard with increasingly negative slope may vanish before the predicted one.
             Some(earlier) if earlier != constraint => self.event(from, located, earlier).ok(),
             _ => Some(self.changed(located, constraint, &guards)),
         }
     }
 
-    /// The constraint whose guard vanishes first if all go on as they change now, and where, in units of the direction in which
-    /// the path leaves.
+    /// Returns the constraint whose guard vanishes first by linear extrapolation.
+    ///
+    /// The second number is its distance in units of the outgoing direction.
     fn first_predicted(&self) -> Option<(usize, f64)> {
         let guards = self.guards.iter().zip(&self.slopes).enumerate();
         let falling = guards.filter(|(_, (guard, slope))| **guard > FLOOR && **slope < 0.0);
@@ -86,7 +91,7 @@ impl<S: System> Continuation<S> {
         places.min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// The first event between the point reached and `candidate`, or `candidate` where there is none.
+    /// Returns the first event between the current point and `candidate`, or `candidate` itself.
     pub(crate) fn first_event(
         &mut self,
         from: &Equilibrium<S::Mode>,
@@ -96,8 +101,8 @@ impl<S: System> Continuation<S> {
         if let Some(constraint) = self.first_violated(&guards) {
             return self.event(from, candidate, constraint);
         }
-        // A contact may close and open again within a step, or a force come to zero and grow anew: then all guards at
-        // its end are sound.
+        // A contact may close and open again within a step, or a force vanish and grow again. All
+        // guards at the end of the step are then positive.
         for fraction in self.dips(from, &candidate, &guards) {
             let condition = self.condition(from);
             let distance = condition.measure(&candidate.state.z) - condition.value;
@@ -110,12 +115,12 @@ impl<S: System> Continuation<S> {
         Ok(candidate)
     }
 
-    /// The constraint that is violated first on the way from the point reached to where the guards are `after`.
+    /// Returns the constraint that is violated first between the current guards and `after`.
     fn first_violated(&self, after: &[f64]) -> Option<usize> {
         let mut first = (f64::INFINITY, None);
         for (c, (&before, &after)) in self.guards.iter().zip(after).enumerate() {
             if after < -FLOOR {
-                // By the secant. It only sets an order: whether one lies before the other is asked again at the event.
+                // The secant estimates the order only; the order is checked again at the event.
                 let fraction = before.max(0.0) / (before.max(0.0) - after);
                 if fraction < first.0 {
                     first = (fraction, Some(c));
@@ -125,8 +130,10 @@ impl<S: System> Continuation<S> {
         first.1
     }
 
-    /// Where, on the way from the point reached to `candidate`, a guard seems to fall below zero and to rise
-    /// again: two events within a step, of which its ends show nothing.
+    /// Estimates where a guard falls below zero and rises again before `candidate`.
+    ///
+    /// These are two events within one step that leave no trace at its ends. Returns fractions of
+    /// the step.
     fn dips(
         &mut self,
         from: &Equilibrium<S::Mode>,
@@ -136,8 +143,7 @@ impl<S: System> Continuation<S> {
         let condition = self.condition(from);
         let distance = condition.measure(&candidate.state.z) - condition.value;
         let span = distance / condition.measure(&from.leaving);
-        // Of these alone the slope at the end is worked out: a guard that would still be positive there is not
-        // expected to dip.
+        // Evaluate the slope at the end only for guards that are predicted to be negative there.
         let falls =
             |c: &usize| self.guards[*c] > FLOOR && self.guards[*c] + self.slopes[*c] * span < 0.0;
         let falling: Vec<usize> = (0..after.len()).filter(falls).collect();
@@ -150,7 +156,7 @@ impl<S: System> Continuation<S> {
         dips.collect()
     }
 
-    /// The first event between the point reached and `beyond`, where `constraint` is violated.
+    /// Locates the first event before `beyond`, where `constraint` is violated.
     fn event(
         &mut self,
         from: &Equilibrium<S::Mode>,
@@ -161,15 +167,16 @@ impl<S: System> Continuation<S> {
         let changed = matches!(&from.event, Some(Event::Changed(all)) if all.iter().any(is_it));
         let rises = self.guards[constraint] <= TOGETHER && self.slopes[constraint] > 0.0;
         if changed || rises {
-            // It has just changed sides, or is the one whose condition a contact has passed to, and the path leaves in the
-            // direction in which it stays valid: a step that ends otherwise was too long. To look for its zero would lead back
-            // to where the path is, and from there the way that it came.
+            // The constraint has just changed sides, or a transition passed the condition to it,
+            // and the outgoing direction satisfies it. A step that violates it was too long.
+            // Locating its zero would return to the current point and then back along the incoming
+            // path.
             let is_sliding = self.system.coupled(constraint).len() > 1;
             let is_at_no_rate = self.slopes[constraint].abs() < NO_RATE;
             self.undone += usize::from(changed && is_sliding && is_at_no_rate);
             return Err(NewtonFailure::TooManyIterations);
         }
-        // Each round finds an event before the last one, so as many rounds as constraints do.
+        // Each iteration finds an earlier event, so there are at most as many as constraints.
         for _ in 0..=self.guards.len() {
             let located = self.locate(from, &beyond, constraint)?;
             let guards = Newton::guards(&self.system, &located.state);
@@ -182,7 +189,7 @@ impl<S: System> Continuation<S> {
         Err(NewtonFailure::TooManyIterations)
     }
 
-    /// The place between the point reached and `beyond` where the guard of a constraint vanishes.
+    /// Locates the zero of a guard between the current point and `beyond`.
     fn locate(
         &mut self,
         from: &Equilibrium<S::Mode>,
@@ -196,19 +203,21 @@ impl<S: System> Continuation<S> {
         let located = self.locate_from(from, state, constraint)?;
         let span = condition.measure(&beyond.state.z) - condition.value;
         let reached = condition.measure(&located.state.z) - condition.value;
-        // A guard that is below zero by round-off already, and falls, has had its zero here, however slowly it changes.
+        // The guard is already negative by round-off and falls, so its zero is here, however small
+        // its slope.
         if reached < -BACKWARD && self.guards[constraint] <= 0.0 && self.slopes[constraint] < 0.0 {
             let (state, direction) = (from.state.clone(), from.leaving.clone());
             return Ok(Candidate { state, direction, event: None, is_positive: self.is_positive });
         }
-        // A zero outside of the step belongs to another part of the path: the step was too long for its guard.
+        // A zero outside the step belongs to another part of the path: the step was too long for
+        // this guard.
         if !(-BACKWARD..=span + BACKWARD).contains(&reached) {
             return Err(NewtonFailure::TooManyIterations);
         }
         Ok(located)
     }
 
-    /// The place near `state` where the guard of a constraint vanishes.
+    /// Locates the zero of a guard near `state`.
     fn locate_from(
         &mut self,
         from: &Equilibrium<S::Mode>,
@@ -222,7 +231,7 @@ impl<S: System> Continuation<S> {
         Ok(Candidate { state, direction: self.normalised(direction), event: None, is_positive })
     }
 
-    /// The candidate as an event: one constraint changes sides, others may do so with it.
+    /// Makes the candidate an event at which `constraint` and simultaneous others change sides.
     fn changed(
         &self,
         located: Candidate<S::Mode>,
@@ -231,13 +240,13 @@ impl<S: System> Continuation<S> {
     ) -> Candidate<S::Mode> {
         let Candidate { state, direction, is_positive, .. } = located;
         let closing = |c: usize| {
-            // Near zero is not enough: a guard that falls slowly there may have its event far ahead.
+            // A small value is not enough: a guard with a small slope may vanish far ahead.
             let falls_to = |rate: f64| rate < 0.0 && guards[c] <= -rate * BACKWARD;
             guards[c].abs() <= TOGETHER
                 && falls_to(guard_slope(&self.system, &state, c, &direction))
         };
-        // A guard that is zero and rises has just changed sides, and stays.
-        // Together, or a long chain would take a step of no length for each of its gaps.
+        // Guards at zero that rise have just changed sides. Change the falling ones together;
+        // otherwise a long chain takes a step of zero length for each of its gaps.
         let others = (0..guards.len()).filter(|&c| c != constraint && closing(c));
         let changes = std::iter::once(constraint)
             .chain(others)
@@ -246,15 +255,14 @@ impl<S: System> Continuation<S> {
         Candidate { state, direction, event: Some(Event::Changed(changes)), is_positive }
     }
 
-    /// Cuts a step short where a rate vanishes within it: that of the load, or that of a constraint whose unknown only grows.
+    /// Cuts a step short where the rate of the load or of a monotone unknown vanishes.
     pub(crate) fn up_to_turn(
         &mut self,
         from: &Equilibrium<S::Mode>,
         mut candidate: Candidate<S::Mode>,
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let load = self.system.load();
-        // An extremum that has been found is a point of the path; from there the load must turn, and is not looked for
-        // again.
+        // A load extremum is a point of the path. Behind it the load must turn, so skip the search.
         let turns = from.leaving[load] * candidate.direction[load] < 0.0;
         if turns && from.event != Some(Event::LoadExtremum) {
             candidate = self.extremum(from, &candidate, load)?;
@@ -273,7 +281,7 @@ impl<S: System> Continuation<S> {
         Ok(candidate)
     }
 
-    /// The point where an unknown turns.
+    /// Locates the point where an unknown turns.
     fn extremum(
         &mut self,
         from: &Equilibrium<S::Mode>,
@@ -283,13 +291,14 @@ impl<S: System> Continuation<S> {
         let condition = self.condition(from);
         let span = condition.measure(&beyond.state.z) - condition.value;
         let start = from.leaving[unknown];
-        // Not halved every time: extrema of the load are kept to the last digit of what they were with this rule.
+        // The patient rule reproduces the load extrema of earlier versions to the last digit.
         let mut bracket = Bracket::patient((0.0, start), (span, beyond.direction[unknown]));
         for _ in 0..MAX_ROUNDS {
             let distance = bracket.secant();
             let candidate = self.trial(from, distance)?;
             let rate = candidate.direction[unknown];
-            // Either will do: near a flat top the place is hard to tell, at a sharp one the rate is.
+            // Either criterion suffices: a flat extremum is ill-defined in place, a sharp one in
+            // rate.
             if bracket.width() <= CLOSE * span || rate.abs() <= CLOSE * start.abs() {
                 return Ok(candidate);
             }
@@ -298,12 +307,14 @@ impl<S: System> Continuation<S> {
         Err(NewtonFailure::TooManyIterations)
     }
 
-    /// Whether a load that only pushes would have to pull at the candidate.
+    /// Returns true if a load that only pushes would have to pull at the candidate.
     pub(crate) fn pulls(&self, candidate: &Candidate<S::Mode>) -> bool {
         self.pushes.is_some_and(|sign| sign * candidate.state.z[self.system.load()] < 0.0)
     }
 
-    /// Whether what carries the load lets go of it at the candidate, to round-off: the path ends there as where it pulls.
+    /// Returns true if the load vanishes at an event, up to round-off, and would reverse.
+    ///
+    /// The contact that carries the load opens, so the path ends.
     pub(crate) fn lets_go(&self, candidate: &Candidate<S::Mode>) -> bool {
         let load = self.system.load();
         matches!(candidate.event, Some(Event::Changed(_)))
@@ -311,7 +322,7 @@ impl<S: System> Continuation<S> {
             && self.pushes.is_some_and(|sign| sign * candidate.direction[load] < 0.0)
     }
 
-    /// The point before `beyond` where the load comes back to zero.
+    /// Locates the point before `beyond` where the load returns to zero.
     pub(crate) fn unloaded(
         &mut self,
         from: &Equilibrium<S::Mode>,
@@ -321,7 +332,7 @@ impl<S: System> Continuation<S> {
         let sign = self.pushes.unwrap_or(1.0);
         let (start, end) = ((sign * from.state.z[load]).max(0.0), sign * beyond.state.z[load]);
         let state = from.state.interpolated(&beyond.state, start / (start - end));
-        // The load falls as the path goes on.
+        // The load decreases along the path.
         let mut candidate = self.correct(state, &Condition::new(vec![(load, -sign)], 0.0))?;
         if self.turns_sharply(from, &candidate) {
             return Err(NewtonFailure::TooManyIterations);
@@ -331,7 +342,7 @@ impl<S: System> Continuation<S> {
     }
 }
 
-/// Where, as a part of the way, the cubic through two values with two slopes dips below zero.
+/// Returns the fraction at which the cubic through two values and slopes dips below zero.
 pub fn dip([start, end]: [f64; 2], [falling, rising]: [f64; 2]) -> Option<f64> {
     if !(falling < 0.0 && rising > 0.0) {
         return None;
@@ -349,10 +360,10 @@ mod tests {
     use super::dip;
     use proptest::prelude::*;
 
-    /// The part of the way at which the cubic `value + slope x + …` through both ends is lowest, by looking.
+    /// Finds the minimum of the Hermite cubic by sampling: fraction and value.
     fn lowest(ends: [f64; 2], slopes: [f64; 2]) -> (f64, f64) {
         let cubic = |x: f64| {
-            // Hermite's basis.
+            // Hermite basis.
             let [a, b] = [(1.0 + 2.0 * x) * (1.0 - x).powi(2), x * x * (3.0 - 2.0 * x)];
             let [c, d] = [x * (1.0 - x).powi(2), x * x * (x - 1.0)];
             ends[0] * a + ends[1] * b + slopes[0] * c + slopes[1] * d

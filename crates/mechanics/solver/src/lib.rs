@@ -1,13 +1,15 @@
 //! Equilibrium paths of mixed complementarity systems.
 //!
-//! `n − 1` equations in `n` unknowns, one of them the load, have a curve of solutions. Some equations are
-//! switched on and off by conditions `0 ≤ z_c ⟂ r_c(z) ≥ 0`, so that the curve has kinks. This crate
-//! follows it from a first equilibrium to the place where a chosen coordinate, the control parameter, reaches a target: past
-//! load maxima, past points where the control parameter itself turns, from kink to kink. It knows no mechanics.
+//! `n − 1` equations in `n` unknowns, one of them the load, define a curve of equilibria.
+//! Conditions `0 ≤ z_c ⟂ r_c(z) ≥ 0` switch some of the equations on and off, so the curve has
+//! kinks. This crate follows the curve from a first equilibrium to the point where the control
+//! parameter, a chosen coordinate, reaches its target. It passes load maxima, turning points of the
+//! control parameter, and kinks. It contains no mechanics.
 //!
-//! A step of the path aims at the first constraint that would change sides, by the values and slopes of its guards (N5). Newton's
-//! method evaluates equations and tangent in one pass and solves for the point and the direction of the path with the same factors. At an
-//! event the directions obey a complementarity problem of rates (N6), which tells how the path goes on.
+//! Each step aims at the first constraint predicted to change sides from the values and slopes of
+//! the guards (N5). Newton's method evaluates equations and tangent in one pass and uses the same
+//! factors for the point and for the direction of the path. At an event, the outgoing direction
+//! solves a complementarity problem of rates (N6).
 //!
 //! | Type | Role |
 //! |---|---|

@@ -1,33 +1,35 @@
-//! Newton's method for one equilibrium.
+//! Newton's method for a single equilibrium.
 
 use crate::linear::SingularMatrix;
 use crate::settings::Settings;
 use crate::system::{Residual, State, System, inactive};
 use crate::tangent_solver::TangentSolver;
 
-/// A guard (N5) below minus this is violated; what is smaller is round-off.
+/// A guard (N5) below minus this is violated; smaller violations are round-off.
 pub(crate) const FLOOR: f64 = 1e-12;
 
-/// The condition `Σ c_k z_k = value` that picks a point of the path. Its unknowns lie within a
-/// half-bandwidth of the load, whose row it takes, unless another row stands there for it.
+/// Condition `Σ c_k z_k = value` that selects a point of the path.
+///
+/// The condition takes the row of the load in the tangent. Its unknowns must lie within a
+/// half-bandwidth of the load, unless a stand-in row is given.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Condition {
-    /// Indices and coefficients.
+    /// Indices and coefficients of the left-hand side.
     pub row: Vec<(usize, f64)>,
     /// Right-hand side.
     pub value: f64,
-    /// The row that the tangent has where the condition is on unknowns that are farther from the load.
+    /// Row for the tangent if the condition involves unknowns far from the load.
     pub stand_in: Option<Vec<(usize, f64)>>,
 }
 
 impl Condition {
-    /// The condition with this left-hand side that `z` satisfies.
+    /// Creates the condition with this left-hand side that `z` satisfies.
     pub fn through(row: Vec<(usize, f64)>, z: &[f64]) -> Self {
         let condition = Self::new(row, 0.0);
         Self { value: condition.measure(z), ..condition }
     }
 
-    /// The condition with this left-hand side and this value.
+    /// Creates the condition with this left-hand side and right-hand side.
     pub fn new(row: Vec<(usize, f64)>, value: f64) -> Self {
         Self { row, value, stand_in: None }
     }
@@ -36,39 +38,39 @@ impl Condition {
         self.stand_in.as_ref().unwrap_or(&self.row)
     }
 
-    /// The left-hand side at `z`.
+    /// Evaluates the left-hand side at `z`.
     pub fn measure(&self, z: &[f64]) -> f64 {
         self.row.iter().map(|&(index, coefficient)| coefficient * z[index]).sum()
     }
 }
 
-/// Why Newton's method did not reach an equilibrium.
+/// Reason why Newton's method did not reach an equilibrium.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NewtonFailure {
-    /// The tangent has no inverse.
+    /// The tangent is singular.
     #[error(transparent)]
     Singular(#[from] SingularMatrix),
     /// An equation has no finite value.
     #[error("the residual is not a finite number")]
     NotFinite,
-    /// The limit on the iterations was hit.
+    /// The iteration reached its limit.
     #[error("the residual did not fall below the tolerance")]
     TooManyIterations,
 }
 
-/// Storage for the solves of one system, kept from one to the next.
+/// Newton solver for one system, with storage that is reused between solves.
 #[derive(Clone, Debug)]
 pub struct Newton {
-    /// With the factors of the last tangent.
+    /// Holds the factors of the last tangent.
     pub(crate) solver: TangentSolver,
     residual: Residual,
     step: Vec<f64>,
-    /// Residual norm of every iteration since this was last taken.
+    /// Residual norm of every iteration since the history was last taken.
     pub(crate) history: Vec<f64>,
 }
 
 impl Newton {
-    /// Storage for systems like this one.
+    /// Creates storage for systems of this shape.
     pub fn new(system: &impl System) -> Self {
         let size = system.size();
         Self {
@@ -79,12 +81,13 @@ impl Newton {
         }
     }
 
-    /// Moves `state` to the equilibrium that satisfies `condition`, and returns the direction of
-    /// the path there: `∂z/∂value`. The active set and the mode stay as they are, so that the equations are smooth; the
-    /// signs of (N1) are for the caller to check.
+    /// Moves `state` to the equilibrium that satisfies `condition`.
+    ///
+    /// Returns the direction of the path there, `∂z/∂value`. Active set and mode are fixed, so that
+    /// the equations are smooth; the caller checks the signs of (N1).
     ///
     /// # Errors
-    /// If the iteration does not converge; `state` is then some iterate.
+    /// If the iteration does not converge; `state` then holds some iterate.
     pub fn solve<S: System>(
         &mut self,
         system: &S,
@@ -95,12 +98,13 @@ impl Newton {
         rest(system, state);
         for _ in 0..=settings.max_iterations {
             let norm = self.evaluate(system, state, condition)?;
-            // The norm is that before this step: a state that is good enough already is made better by one more.
+            // The norm is the one before this step. A state within tolerance still gains from the
+            // step.
             self.solver.solve(&mut self.step);
             add(&mut state.z, 1.0, &self.step);
             if condition.stand_in.is_some() {
-                // The step has kept the left-hand side of the stand-in; what the condition itself lacks is made up
-                // along the path.
+                // The step preserved the left-hand side of the stand-in. Meet the condition itself
+                // by moving along the path.
                 let direction = self.direction(system, condition);
                 let left = condition.value - condition.measure(&state.z);
                 add(&mut state.z, left, &direction);
@@ -112,12 +116,14 @@ impl Newton {
         Err(NewtonFailure::TooManyIterations)
     }
 
-    /// Moves `state` along the path to the point where a constraint is about to change sides: its
-    /// unknown vanishes if it is active, its equation if it is not. `condition` only fixes how the
-    /// path is measured. Returns the direction of the path there, as [`Newton::solve`] does.
+    /// Moves `state` along the path to the point where a constraint is about to change sides.
+    ///
+    /// There the unknown of an active constraint, or the equation of an inactive one, vanishes.
+    /// `condition` only defines how the path is measured. Returns the direction of the path as
+    /// [`Newton::solve`].
     ///
     /// # Errors
-    /// If the iteration does not converge; `state` is then some iterate.
+    /// If the iteration does not converge; `state` then holds some iterate.
     pub fn locate<S: System>(
         &mut self,
         system: &S,
@@ -129,14 +135,16 @@ impl Newton {
         let mut condition = condition.clone();
         rest(system, state);
         for _ in 0..=settings.max_iterations {
-            // The condition holds the state where it is, so that the guard alone says how far it has to go.
+            // Satisfy the condition at the current state, so that only the guard determines the
+            // distance.
             condition.value = condition.measure(&state.z);
             let norm = self.evaluate(system, state, &condition)?;
             let guard = guard(system, state, constraint);
             self.solver.solve(&mut self.step);
             let direction = self.direction(system, &condition);
             let along = |step: &[f64]| guard_slope(system, state, constraint, step);
-            // The first-order zero of the guard, seen from the path and not from this iterate, which lies beside it.
+            // First-order zero of the guard along the path, corrected for the residual of this
+            // iterate.
             let distance = -(guard + along(&self.step)) / along(&direction);
             if !distance.is_finite() {
                 return Err(NewtonFailure::NotFinite);
@@ -150,7 +158,7 @@ impl Newton {
         Err(NewtonFailure::TooManyIterations)
     }
 
-    /// Direction of the path at a state that is an equilibrium, measured by `condition`.
+    /// Computes the direction of the path at an equilibrium, measured by `condition`.
     ///
     /// # Errors
     /// If the tangent is singular or the residual is not finite.
@@ -163,7 +171,7 @@ impl Newton {
         let residual = &mut self.residual;
         self.solver.factorise(system, state, condition.row_in_tangent(), residual)?;
         let direction = self.direction(system, condition);
-        // A tangent that is nearly singular may have factors all the same: what they give tells.
+        // A nearly singular tangent may have factors, but its solution is then not finite.
         if direction.iter().all(|x| x.is_finite()) {
             Ok(direction)
         } else {
@@ -171,16 +179,20 @@ impl Newton {
         }
     }
 
-    /// Whether the determinant of the last tangent is positive once the row of its condition is such that it grows along a
-    /// direction of the path: the orientation of the path, which is the same all along it.
+    /// Returns the orientation of the path, which is constant between events.
+    ///
+    /// This is the sign of the determinant of the last tangent if its condition increases along
+    /// `direction`. True if positive.
     pub(crate) fn is_positive(&self, condition: &Condition, direction: &[f64]) -> bool {
-        // A row and its negative are the same condition but for the sign of the determinant.
+        // Negating the row leaves the condition unchanged but flips the determinant.
         let row = condition.row_in_tangent().iter();
         let growth: f64 = row.map(|&(index, coefficient)| coefficient * direction[index]).sum();
         (growth > 0.0) != self.solver.is_negative()
     }
 
-    /// The guards (N5), one for each constraint, which are zero where it changes sides: `z_c` if active, `r_c` if not.
+    /// Evaluates the guards (N5) of all constraints: `z_c` if active, `r_c` if not.
+    ///
+    /// A guard vanishes where its constraint changes sides.
     pub fn guards<S: System>(system: &S, state: &State<S::Mode>) -> Vec<f64> {
         let mut guards = Vec::with_capacity(state.active.len());
         system.conditions(state, &mut guards);
@@ -188,7 +200,7 @@ impl Newton {
         guards
     }
 
-    /// Replaces `guards` by those of a state, and `slopes` by how fast they change along a direction.
+    /// Replaces `guards` by those of a state, and `slopes` by their derivatives along a direction.
     pub(crate) fn guard_slopes<S: System>(
         system: &S,
         state: &State<S::Mode>,
@@ -201,7 +213,9 @@ impl Newton {
         replace_active(system, state, direction, slopes);
     }
 
-    /// Evaluates the equations and factorises their tangent; leaves minus the values in `step` and returns their norm.
+    /// Evaluates the equations and factorises their tangent.
+    ///
+    /// Leaves the negative values in `step` and returns their norm.
     fn evaluate<S: System>(
         &mut self,
         system: &S,
@@ -210,7 +224,7 @@ impl Newton {
     ) -> Result<f64, NewtonFailure> {
         let residual = &mut self.residual;
         let row = condition.row_in_tangent();
-        // That there are no factors is told last: an equation without a finite value is the cause where both happen.
+        // Report a singular tangent last: a non-finite equation is the cause if both occur.
         let factorised = self.solver.factorise(system, state, row, residual);
         let load = system.load();
         residual.value[load] = condition.measure(&state.z) - condition.value;
@@ -228,7 +242,7 @@ impl Newton {
             norm = norm.max(ratio);
         }
         if condition.stand_in.is_some() {
-            // The row in the tangent is the stand-in's, whose left-hand side is not to change.
+            // The tangent contains the stand-in row, and the step must preserve its left-hand side.
             self.step[load] = 0.0;
         }
         self.history.push(norm);
@@ -236,13 +250,13 @@ impl Newton {
         Ok(norm)
     }
 
-    /// The direction along which the left-hand side of the condition grows by 1.
+    /// Computes the direction along which the left-hand side of the condition grows by 1.
     fn direction<S: System>(&mut self, system: &S, condition: &Condition) -> Vec<f64> {
         let mut direction = self.solver.solve_unit(system.load(), system.size());
         if condition.stand_in.is_some() {
             let growth = condition.measure(&direction);
             for x in &mut direction {
-                // The entry of the right-hand side was 1 for the stand-in.
+                // The unit right-hand side applied to the stand-in.
                 *x /= growth;
             }
         }
@@ -250,7 +264,7 @@ impl Newton {
     }
 }
 
-/// Replaces the entries of active constraints by those of their unknowns.
+/// Replaces the entries of active constraints by the entries of their unknowns.
 fn replace_active<S: System>(
     system: &S,
     state: &State<S::Mode>,
@@ -265,7 +279,7 @@ fn replace_active<S: System>(
     }
 }
 
-/// How far a constraint is from changing sides.
+/// Evaluates a guard (N5), which vanishes where the constraint changes sides.
 pub(crate) fn guard<S: System>(system: &S, state: &State<S::Mode>, constraint: usize) -> f64 {
     if state.active[constraint] {
         state.z[system.constraints()[constraint]]
@@ -274,7 +288,7 @@ pub(crate) fn guard<S: System>(system: &S, state: &State<S::Mode>, constraint: u
     }
 }
 
-/// Derivative of a guard along a direction.
+/// Evaluates the derivative of a guard along a direction.
 pub(crate) fn guard_slope<S: System>(
     system: &S,
     state: &State<S::Mode>,
@@ -288,7 +302,9 @@ pub(crate) fn guard_slope<S: System>(
     }
 }
 
-/// Sets the unknowns of inactive constraints, and others that vanish, to zero, where the iteration keeps them.
+/// Sets the unknowns of inactive constraints, and others that vanish, to zero.
+///
+/// The iteration does not change them.
 fn rest<S: System>(system: &S, state: &mut State<S::Mode>) {
     for (&index, active) in system.constraints().iter().zip(&state.active) {
         if !active {

@@ -1,4 +1,4 @@
-//! The maximum of a quantity along the path, between its points too.
+//! Maximum of a quantity along the path, including between its points.
 
 use std::sync::Arc;
 
@@ -6,45 +6,47 @@ use crate::continuation::{Continuation, Equilibrium};
 use crate::sensitivity::slope_along;
 use crate::system::{State, System};
 
-/// A search ends where it promises to gain less than this part of the value.
+/// Relative gain below which a search ends.
 const FLAT: f64 = 1e-11;
 
-/// How far from a kink a slope is taken, as a part of the segment: at the kink itself a force that begins or ceases to act may
-/// change infinitely fast.
+/// Distance from a kink, as a fraction of the segment, at which a slope is evaluated.
+///
+/// At the kink itself, a force that begins or ceases to act may have an infinite rate.
 const NEAR: f64 = 1e-4;
 
-/// How many times the search comes closer to a kink, each time a tenth as far from it as before.
+/// Number of approaches to a kink, each to a tenth of the last distance.
 const CLOSER: usize = 4;
 
-/// A search ends after this many rounds. It rarely needs a quarter of them.
+/// Limit on the iterations of a search; few searches need a quarter of them.
 const ROUNDS: usize = 40;
 
-/// A segment that begins or ends at a kink is searched if an end of it has at least this part of the largest value: a force
-/// that has just begun to act may hide a maximum between two points that are both lower than the highest one. Those that were
-/// seen rise by less than a hundredth above their ends.
+/// Fraction of the largest value at which a segment next to a kink is searched.
+///
+/// A force that has just begun to act may hide a maximum between two points that are both lower
+/// than the highest one. Observed hidden maxima exceed their ends by less than 1 %.
 const PROMISING: f64 = 0.95;
 
-/// Follows the largest value that a function of a system, an equilibrium and its path direction takes.
+/// Tracks the maximum of a function of system, equilibrium and path direction.
 ///
-/// The function is smooth along the path between kinks, and the length of the direction makes no difference to it. At a kink the
-/// direction has two values, and the function is evaluated with both.
+/// The function must be smooth along the path between kinks and independent of the length of the
+/// direction. At a kink it is evaluated with both directions.
 #[derive(Clone, Debug)]
 pub struct Peak<M = ()> {
     best: Option<Best<M>>,
-    /// Promising segments between kinks.
+    /// Segments next to kinks that may contain the maximum.
     kinks: Vec<KinkSegment<M>>,
 }
 
-/// A segment of the path that begins or ends at a kink.
+/// Segment of the path that begins or ends at a kink.
 #[derive(Clone, Debug)]
 struct KinkSegment<M> {
     from: Arc<Equilibrium<M>>,
     to: Arc<Equilibrium<M>>,
-    /// The larger value of its ends.
+    /// Larger of the values at its ends.
     value: f64,
 }
 
-/// The point with the largest value so far, and its neighbours.
+/// Point with the largest value so far, and its neighbours.
 #[derive(Clone, Debug)]
 struct Best<M> {
     value: f64,
@@ -60,7 +62,9 @@ impl<M> Default for Peak<M> {
 }
 
 impl<M> Peak<M> {
-    /// Takes the point that `path` has come to into account, which came `from` the point before, if there is one.
+    /// Takes the current point of `path` into account.
+    ///
+    /// `from` is the previous point, if any.
     pub fn visit<S>(
         &mut self,
         path: &Continuation<S>,
@@ -71,8 +75,8 @@ impl<M> Peak<M> {
     {
         let here = Arc::clone(&path.point);
         let at = |direction: &[f64]| f(&path.system, &here.state, direction);
-        // At a kink the larger of both counts: a stiffness is largest just before a contact opens, or just after one
-        // closes.
+        // At a kink, use the larger value: a stiffness is largest just before a contact opens or
+        // just after one closes.
         let value = at(&here.arriving).max(at(&here.leaving));
         let kink = from.filter(|from| from.event.is_some() || here.event.is_some());
         if let Some(from) = kink.map(Arc::clone) {
@@ -86,23 +90,26 @@ impl<M> Peak<M> {
             best.after.get_or_insert_with(|| Arc::clone(&here));
         }
         let least = self.best.as_ref().map_or(0.0, |best| PROMISING * best.value);
-        // What was promising need not be any more once a larger value was seen; kept, segments would grow with the
+        // Drop segments that a larger value has ruled out, or their number would grow with the
         // path.
         self.kinks.retain(|segment| segment.value >= least);
     }
 
-    /// The point with the largest value of those visited. `None` if none was.
+    /// Returns the visited point with the largest value, or `None` before the first visit.
     pub fn point(&self) -> Option<&Equilibrium<M>> {
         self.best.as_ref().map(|best| &*best.point)
     }
 
-    /// Replaces the points that are kept, where the path has gone on with another system, before maxima are looked for on it.
+    /// Replaces the stored points by points of another system with which the path continues.
+    ///
+    /// Call this before searching for maxima on that path.
     pub fn replace_points(&mut self, new: impl Fn(&Equilibrium<M>) -> Equilibrium<M>) {
         let best = self.best.iter_mut().flat_map(|best| {
             [Some(&mut best.point), best.before.as_mut(), best.after.as_mut()].into_iter().flatten()
         });
         let kinks = self.kinks.iter_mut().flat_map(|segment| [&mut segment.from, &mut segment.to]);
-        // A point where segments meet stays one point: by that those are known that need not be searched twice.
+        // Keep a point shared by two segments one object: pointer equality identifies segments that
+        // need no second search.
         let mut replaced: Vec<[Arc<Equilibrium<M>>; 2]> = Vec::new();
         for point in best.chain(kinks) {
             let known = replaced.iter().find(|[old, _]| Arc::ptr_eq(old, point));
@@ -111,16 +118,18 @@ impl<M> Peak<M> {
         }
     }
 
-    /// The largest value at the points visited, with its place. `None` if none was.
+    /// Returns the largest value at the visited points, or `None` before the first visit.
     pub fn at_points(&self) -> Option<Summit<M>> {
         let Best { value, before, point, .. } = self.best.as_ref()?;
         let (point, before) = (Arc::clone(point), before.clone());
         Some(Summit { value: *value, point, before, is_inside: false })
     }
 
-    /// The largest value on the path, the segments next to the best of the points visited, and promising ones next to
-    /// kinks, included, with its place. `None` if none was visited. Away from kinks, steps must be small enough for the highest
-    /// maximum to show at a point beside it.
+    /// Returns the largest value on the path, or `None` before the first visit.
+    ///
+    /// Searches the segments next to the best visited point, and candidate segments next to kinks.
+    /// Away from kinks, the steps must be small enough for the largest maximum to raise the value
+    /// at a neighbouring point.
     pub fn summit<S>(
         &self,
         path: &mut Continuation<S>,
@@ -133,7 +142,7 @@ impl<M> Peak<M> {
         let visited = self.at_points()?;
         let segments = [before.as_ref().zip(Some(point)), Some(point).zip(after.as_ref())];
         let kinks = self.kinks.iter().filter(|segment| {
-            // Those next to the best point are searched anyway.
+            // The segments next to the best point are searched already.
             !Arc::ptr_eq(&segment.from, point) && !Arc::ptr_eq(&segment.to, point)
         });
         let kinks = kinks.map(|segment| (&segment.from, &segment.to));
@@ -145,20 +154,20 @@ impl<M> Peak<M> {
     }
 }
 
-/// The largest value of a quantity along a path, and the point at which it is taken.
+/// Largest value of a quantity along a path, with its point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Summit<M = ()> {
-    /// The largest value.
+    /// Largest value.
     pub value: f64,
-    /// The point.
+    /// Point with this value.
     pub point: Arc<Equilibrium<M>>,
-    /// The point of the path before it, where it is itself one of its points. `None` at the beginning.
+    /// Previous point of the path if `point` is itself a point of the path. `None` at the start.
     pub before: Option<Arc<Equilibrium<M>>>,
-    /// Whether the point lies between points of the path.
+    /// True if the point lies between points of the path.
     pub is_inside: bool,
 }
 
-/// A place on a segment of the path, as a part of the segment, with the value there and its derivative by the place.
+/// Value and slope at a fraction of a segment.
 #[derive(Clone, Copy, Debug)]
 struct SegmentSample {
     place: f64,
@@ -166,15 +175,15 @@ struct SegmentSample {
     slope: f64,
 }
 
-/// A segment of a path that is searched for a maximum of `f`.
+/// Segment of a path that is searched for a maximum of `f`.
 struct Segment<'a, S: System, F> {
     path: &'a mut Continuation<S>,
     from: &'a Equilibrium<S::Mode>,
     to: &'a Equilibrium<S::Mode>,
     f: &'a F,
-    /// Points by their places: both ends, and those inside that were solved for.
+    /// Solved points by their fraction of the segment, including both ends.
     known: Vec<(f64, Equilibrium<S::Mode>)>,
-    /// The largest value inside, and the number of its point.
+    /// Largest value inside and the index of its point in `known`.
     highest: Option<(f64, usize)>,
 }
 
@@ -189,8 +198,8 @@ where
         to: &'a Equilibrium<S::Mode>,
         f: &'a F,
     ) -> Self {
-        // The end with the active set and the mode of the segment.
-        // At an event the point holds what the path goes on with, which is not what it came with.
+        // Give the end the active set and mode of the segment: at an event, the point has the
+        // outgoing ones.
         let State { active, mode, .. } = from.state.clone();
         let state = State { z: to.state.z.clone(), active, mode };
         let (arriving, leaving) = (to.arriving.clone(), to.arriving.clone());
@@ -198,11 +207,11 @@ where
         Self { path, from, to, f, known: vec![(0.0, from.clone()), (1.0, end)], highest: None }
     }
 
-    /// The maximum inside, if there is one that may be as high as `least`.
+    /// Searches for a maximum inside that may exceed `least`.
     ///
-    /// The cubic through the values and slopes at both ends of a bracket tells whether it has a maximum inside, and where to
-    /// look next. A force that has just begun to act may raise the function within a small part of a segment: the slope near
-    /// its end shows that.
+    /// The cubic through values and slopes at both ends of a bracket shows whether a maximum lies
+    /// inside and gives the next sample. The slope near an end reveals a force that has just begun
+    /// to act and raises the function within a small part of a segment.
     ///
     /// ```text
     ///            top of the cubic
@@ -219,18 +228,19 @@ where
         Some(Summit { value, point: Arc::new(point), before: None, is_inside: true })
     }
 
-    /// Looks for the maximum within a bracket. `None` where Newton's method does not get to a place.
+    /// Searches a bracket for the maximum. `None` if Newton's method fails.
     fn search(&mut self, [mut low, mut high]: [SegmentSample; 2], least: f64) -> Option<()> {
         for _ in 0..ROUNDS {
-            // No top inside: the larger end is the maximum, and it has been visited.
+            // Without a maximum of the cubic inside, the larger end is the maximum, and it was
+            // visited.
             let Some(top) = low.top(&high) else { break };
             let reached = self.highest.map_or(f64::NEG_INFINITY, |(value, _)| value);
-            // The cubic promises little: either another segment is higher, or this one has given what it has.
+            // Stop if another segment is higher, or if this one is converged.
             if top.value < PROMISING * least || top.value - reached <= FLAT * top.value.abs() {
                 break;
             }
             let inside = self.inside(top.place)?;
-            // The larger end of the bracket stays until a place inside is higher.
+            // Keep the larger end of the bracket until an inner sample exceeds it.
             let is_lower = inside.value < low.value.max(high.value);
             let rises = if is_lower { low.value < high.value } else { inside.slope > 0.0 };
             *(if rises { &mut low } else { &mut high }) = inside;
@@ -238,7 +248,7 @@ where
         Some(())
     }
 
-    /// An end of the bracket, the lower or the upper one.
+    /// Evaluates the lower or upper end of the bracket.
     fn end(&mut self, place: f64, least: f64) -> Option<SegmentSample> {
         let is_lower = place == 0.0;
         let Equilibrium { state, arriving, leaving, event } =
@@ -250,8 +260,9 @@ where
         }
     }
 
-    /// The sample beside a kink. Where the function seems to have a maximum between the two it is looked for, closer and closer
-    /// to the kink.
+    /// Evaluates a sample next to a kink.
+    ///
+    /// If a maximum may lie between kink and sample, searches closer and closer to the kink.
     fn beside(
         &mut self,
         kink: f64,
@@ -264,7 +275,7 @@ where
         let beside = self.inside(kink + inwards * NEAR)?;
         let (mut outer, mut way) = (beside, NEAR);
         for _ in 0..CLOSER {
-            // Whether the parabola through both falls from the kink on.
+            // True if the parabola through both decreases away from the kink.
             let falls = 2.0 * (outer.value - value) <= inwards * outer.slope * way;
             if falls || inwards * outer.slope >= 0.0 {
                 break;
@@ -279,7 +290,7 @@ where
         Some(beside)
     }
 
-    /// The sample at an end that is no kink.
+    /// Evaluates the sample at an end without a kink.
     fn at_end(
         &mut self,
         place: f64,
@@ -293,14 +304,14 @@ where
         Some(self.sample(place, state, direction))
     }
 
-    /// The sample at a place inside, reached from the nearest point that is known.
+    /// Solves for the sample at an inner fraction, starting from the nearest solved point.
     fn inside(&mut self, place: f64) -> Option<SegmentSample> {
         let away = |known: &&(f64, Equilibrium<S::Mode>)| (known.0 - place).abs();
         let nearest = self.known.iter().min_by(|a, b| away(a).total_cmp(&away(b)));
         let near = nearest.map_or(self.from, |(_, point)| point);
         let point = self.path.between_from(self.from, self.to, place, near);
-        // From a near point Newton's method is quick, but a point beside a kink may lead it to the other side; the
-        // beginning of the segment does not.
+        // A near point makes Newton's method quick, but a point next to a kink may lead it to the
+        // other side. The start of the segment does not.
         let point = point.or_else(|| self.path.between(self.from, self.to, place))?;
         let sample = self.sample(place, &point.state, &point.arriving);
         if self.highest.is_none_or(|(value, _)| sample.value > value) {
@@ -310,7 +321,7 @@ where
         Some(sample)
     }
 
-    /// The sample at a point at which the tangent was factorised last.
+    /// Evaluates the sample at the point with the last factorised tangent.
     fn sample(&mut self, place: f64, state: &State<S::Mode>, direction: &[f64]) -> SegmentSample {
         let Self { path, from, to, f, .. } = self;
         let value = f(&path.system, state, direction);
@@ -320,7 +331,7 @@ where
 }
 
 impl SegmentSample {
-    /// The maximum of the cubic between two samples; `None` if it has none between them.
+    /// Returns the maximum of the cubic between two samples, if any.
     fn top(&self, high: &Self) -> Option<Self> {
         let width = high.place - self.place;
         let (rise, start, end) = (high.value - self.value, width * self.slope, width * high.slope);
@@ -328,7 +339,7 @@ impl SegmentSample {
         let (square, cube) = (3.0 * rise - 2.0 * start - end, start + end - 2.0 * rise);
         let root = (square * square - 3.0 * cube * start).sqrt();
         let x =
-            // Of two forms of the root the one without a difference of near numbers.
+            // Choose the form of the root that does not subtract nearly equal numbers.
             if square > 0.0 { -(square + root) / (3.0 * cube) } else { start / (root - square) };
         let value = self.value + x * (start + x * (square + x * cube));
         let place = self.place + x * width;

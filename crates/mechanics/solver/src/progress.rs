@@ -1,16 +1,16 @@
-//! How far a path is, told while it is followed.
+//! Progress reports of long paths.
 
 use std::cell::RefCell;
 use std::time::{Duration, Instant};
 
-/// How far work is that takes long.
+/// Progress of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathProgress {
-    /// The time since the work began.
+    /// Time since the work began.
     pub elapsed: Duration,
-    /// The points of the path in hand.
+    /// Number of points of the current path.
     pub points: usize,
-    /// The control parameter over its target.
+    /// Control parameter over its target.
     pub share: f64,
 }
 
@@ -21,12 +21,14 @@ struct Watch {
 }
 
 thread_local! {
-    // Not an argument of each model: whoever waits is above all that solves, and a path stays on its thread.
+    // Thread-local rather than an argument of each model: a path stays on its thread, and only the
+    // outermost caller wants the reports.
     static WATCH: RefCell<Option<Watch>> = const { RefCell::new(None) };
 }
 
-/// Does `work`, which follows paths on this thread, and tells how far it is once it has taken longer than `patience`, and
-/// whenever it has taken twice as long as at the last time.
+/// Runs `work`, which follows paths on this thread, and reports its progress.
+///
+/// The first report comes after `patience`, each further one after twice the elapsed time.
 pub fn report_progress<T>(
     patience: Duration,
     tell: impl Fn(PathProgress) + 'static,
@@ -39,7 +41,7 @@ pub fn report_progress<T>(
     done
 }
 
-/// Tells how far a path is, if it is time to.
+/// Reports the progress of a path if a report is due.
 pub(crate) fn report_if_due(points: usize, share: f64) {
     WATCH.with_borrow_mut(|slot| {
         let Some(watch) = slot else { return };

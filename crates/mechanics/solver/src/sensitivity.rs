@@ -13,30 +13,30 @@ use differences::{difference, moved, rates, turning};
 pub use anchor::{AnchoredPoint, PathAnchor};
 pub(crate) use stationary::slope_along;
 
-/// A system for two values of a parameter that differ by `2 step`, on both sides of the value that it has.
+/// System at two values of a parameter, `step` below and `step` above its current value.
 #[derive(Clone, Debug)]
 pub struct Neighbours<S> {
-    /// The system for the smaller value.
+    /// System at the smaller value.
     pub below: S,
-    /// The system for the larger value.
+    /// System at the larger value.
     pub above: S,
-    /// Half the difference of the two values.
+    /// Half the difference between the values.
     pub step: f64,
 }
 
 impl<S> Neighbours<S> {
-    /// What a function makes of both.
+    /// Applies a function to both.
     ///
     /// # Errors
-    /// Those of the function.
+    /// Returns the error of the function.
     pub fn map<T, E>(&self, f: impl Fn(&S) -> Result<T, E>) -> Result<Neighbours<T>, E> {
         Ok(Neighbours { below: f(&self.below)?, above: f(&self.above)?, step: self.step })
     }
 
-    /// What a function makes of both, of several.
+    /// Applies a function to both of each.
     ///
     /// # Errors
-    /// Those of the function.
+    /// Returns the error of the function.
     pub fn map_all<T, E>(
         several: &[Self],
         f: impl Fn(&S) -> Result<T, E>,
@@ -45,49 +45,49 @@ impl<S> Neighbours<S> {
     }
 }
 
-/// A place for a neighbouring value of a parameter, to first order.
+/// First-order prediction of a point for a neighbouring value of a parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MovedPoint<M> {
-    /// The equilibrium.
+    /// Predicted state.
     pub state: State<M>,
-    /// The direction of the path there.
+    /// Direction of the path there.
     pub direction: Vec<f64>,
 }
 
-/// A place with the factors of its tangent, which serve any number of parameters.
+/// Point with the factors of its tangent, which serve any number of parameters.
 ///
-/// With the unknowns `z`, the equations `r(z, q) = 0`, the active set held, and the tangent `J` with the row of a
-/// fixed section of the path in the place of the missing one,
+/// The unknowns `z` satisfy the equations `r(z, q) = 0` with the active set fixed. The tangent `J`
+/// contains the row of a fixed section of the path in place of the missing row:
 ///
 /// ```text
 /// dz/dq = −J⁻¹ ∂r/∂q + s v,     J v = e,                                                (D2)
 /// dv/dq = −J⁻¹ d(J v)/dq at fixed v                                                     (D3)
 /// ```
 ///
-/// where `v` is the direction of the path and `s` the number with which the anchor holds: that of a place where the rate
-/// `f(z, v)` of a quantity vanishes is
+/// where `v` is the direction of the path and `s` is chosen so that the anchor still holds. For a
+/// point at which the rate `f(z, v)` of a quantity vanishes,
 ///
 /// ```text
 /// s = −(df/dq in the section)/(df/ds along the path)                                    (D5)
 /// ```
 ///
-/// with `v` that turns by (D3), on the way as in the section. `∂r/∂q` and `d(J v)/dq` are central
-/// differences of explicit functions. No solution is ever differenced.
+/// with `v` turning by (D3), both along the path and in the section. `∂r/∂q` and `d(J v)/dq` are
+/// central differences of explicit functions. Solutions are never differenced.
 #[derive(Clone, Debug)]
 pub struct Linearisation<M> {
     place: AnchoredPoint<M>,
     newton: Newton,
-    /// The section of the path that the place stays in.
+    /// Section of the path in which the point stays.
     section: Vec<(usize, f64)>,
-    /// The inactive constraints that a small motion may violate.
+    /// Inactive constraints that a small motion may violate.
     near: Vec<usize>,
 }
 
 impl<M: Clone> Linearisation<M> {
-    /// Factorises the tangent at a place.
+    /// Factorises the tangent at a point.
     ///
     /// # Errors
-    /// If the tangent is singular there.
+    /// If the tangent is singular.
     pub fn new<S: System<Mode = M>>(
         system: &S,
         place: AnchoredPoint<M>,
@@ -100,20 +100,22 @@ impl<M: Clone> Linearisation<M> {
         Ok(Self { place: AnchoredPoint { direction, ..place }, newton, section, near })
     }
 
-    /// The place.
+    /// Returns the point.
     pub fn place(&self) -> &AnchoredPoint<M> {
         &self.place
     }
 
-    /// The place for the neighbouring values of a parameter, to first order: below and above. The directions of the path turn
-    /// with it only if they `turn`. The numbers are not finite where the path has a fold at the anchor.
+    /// Predicts the point for the smaller and the larger value of a parameter, to first order.
+    ///
+    /// The directions of the path turn only if `turns`. Results are not finite if the path has a
+    /// fold at the anchor.
     pub fn moved<S: System<Mode = M>>(
         &mut self,
         system: &S,
         neighbours: &Neighbours<S>,
         turns: bool,
     ) -> [MovedPoint<M>; 2] {
-        // First in the section, where the place is held along the path, then along it to where its anchor is met again.
+        // First move in the section, then along the path to where the anchor holds again.
         let mut unknowns = self.unknowns_in_section(system, neighbours);
         let along = self.distance(system, neighbours, &unknowns);
         for (unknown, direction) in unknowns.iter_mut().zip(&self.place.direction) {
@@ -123,7 +125,7 @@ impl<M: Clone> Linearisation<M> {
         self.turned([below, above], *step, &unknowns, turns)
     }
 
-    /// The place with unknowns that change at these rates.
+    /// Predicts the point on both sides from the rates of its unknowns.
     fn turned<S: System<Mode = M>>(
         &mut self,
         sides: [&S; 2],
@@ -131,7 +133,7 @@ impl<M: Clone> Linearisation<M> {
         unknowns: &[f64],
         turns: bool,
     ) -> [MovedPoint<M>; 2] {
-        // Both sides are first-order predictions from one factorisation; nothing is solved for again.
+        // Both predictions share one factorisation and need no further solve.
         let states = [-step, step].map(|step| self.place.state.moved(step, unknowns));
         let direction = &self.place.direction;
         let turning = turns.then(|| turning(&mut self.newton, sides, &states, direction, step));
@@ -146,7 +148,7 @@ impl<M: Clone> Linearisation<M> {
         ]
     }
 
-    /// `−J⁻¹ ∂r/∂q`.
+    /// Computes the rates of the unknowns in the section, `−J⁻¹ ∂r/∂q`.
     fn unknowns_in_section<S: System<Mode = M>>(
         &mut self,
         system: &S,
@@ -163,7 +165,7 @@ impl<M: Clone> Linearisation<M> {
         rates(&mut self.newton, system, state, change)
     }
 
-    /// `s`: how far the place moves along the path besides.
+    /// Computes `s`, the motion of the point along the path.
     fn distance<S: System<Mode = M>>(
         &mut self,
         system: &S,
@@ -178,7 +180,7 @@ impl<M: Clone> Linearisation<M> {
         let step = neighbours.step;
         match *anchor {
             PathAnchor::Still => 0.0,
-            // The guard of an active constraint is its unknown, of which no difference is needed.
+            // The guard of an active constraint is its unknown, so no difference is needed.
             PathAnchor::Guard(constraint) if state.active[constraint] => {
                 let index = system.constraints()[constraint];
                 -unknowns[index] / direction[index]
@@ -190,7 +192,7 @@ impl<M: Clone> Linearisation<M> {
         }
     }
 
-    /// `s` of a place at which a rate vanishes (D5).
+    /// Computes `s` for a point at which a rate vanishes (D5).
     fn distance_to_extremum<S: System<Mode = M>>(
         &mut self,
         system: &S,
@@ -207,17 +209,19 @@ impl<M: Clone> Linearisation<M> {
         -change / slope_along(system, &mut self.newton, state, direction, &rate)
     }
 
-    /// The change of sides that the motion of the place calls for on one side of the parameter: that of the constraint whose
-    /// sign is violated most in the state that has `moved` there. `None` if the active set holds.
+    /// Returns the most violated constraint in the `moved` state, with its change of sides.
+    ///
+    /// `None` if the active set remains valid on this side of the parameter.
     pub fn violated<S: System<Mode = M>>(
         &self,
         system: &S,
         moved: &MovedPoint<M>,
     ) -> Option<Change> {
         let active = &self.place.state.active;
-        // The guard that anchors the place is zero there by definition, and would be violated by round-off.
+        // The anchor's own guard is zero by definition, and round-off would violate it.
         let held = |constraint: usize| self.place.anchor == PathAnchor::Guard(constraint);
-        // How far something has slid since an event is counted from a place of the path, not of the parameter.
+        // A slip distance is counted from a point of the path and does not respond to the
+        // parameter.
         let loaded = (0..active.len()).filter(|c| active[*c] && !system.monotone().contains(c));
         let candidates = loaded.chain(self.near.iter().copied()).filter(|&c| !held(c));
         let guards = candidates.map(|c| (c, guard(system, &moved.state, c)));
@@ -226,14 +230,14 @@ impl<M: Clone> Linearisation<M> {
         Some(Change { constraint, activated: !self.place.state.active[constraint] })
     }
 
-    /// The place with a constraint on the other side, solved for again. `None` if there is no such equilibrium.
+    /// Solves again with a constraint on its other side. `None` if no such equilibrium exists.
     pub fn beyond<S: System<Mode = M>>(
         &self,
         system: &S,
         change: Change,
         settings: &Settings,
     ) -> Option<Self> {
-        // A contact that is about to open or close at the place does so on one side of the parameter alone: there the
+        // A contact about to open or close does so on one side of the parameter only, where the
         // measure has another derivative.
         let mut state = self.place.state.clone();
         state.active[change.constraint] = change.activated;
@@ -245,17 +249,19 @@ impl<M: Clone> Linearisation<M> {
     }
 }
 
-/// An inactive constraint whose guard is larger is not violated within the step of a difference, some millionths of a parameter.
+/// Largest guard of an inactive constraint that the step of a difference may violate.
+///
+/// These steps are some millionths of a parameter.
 const NEAR: f64 = 1e-3;
 
-/// The inactive constraints that a small motion from a place may violate.
+/// Returns the inactive constraints that a small motion from a point may violate.
 fn near<S: System>(system: &S, place: &AnchoredPoint<S::Mode>) -> Vec<usize> {
     let guards = Newton::guards(system, &place.state).into_iter().enumerate();
     let inactive = guards.filter(|&(c, guard)| !place.state.active[c] && guard <= NEAR);
     inactive.map(|(constraint, _)| constraint).collect()
 }
 
-/// The condition of the arc length in the controls.
+/// Returns the row of the arc-length condition in the controls.
 fn section<S: System>(system: &S, direction: &[f64]) -> Vec<(usize, f64)> {
     let controls = system.controls().iter();
     let square: f64 = controls.clone().map(|c| (direction[c.index] / c.scale).powi(2)).sum();

@@ -1,19 +1,19 @@
 //! Step sizes and tolerances.
 
-/// Step sizes of a path, and the tolerance with which a point of it counts as an equilibrium.
+/// Step sizes of a path and tolerance of its equilibria.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// First step, as a fraction of the whole path (of the target of the control parameter).
+    /// First step, as a fraction of the whole path (the target of the control parameter).
     pub first_step: f64,
     /// Largest step, as a fraction of the whole path.
     pub max_step: f64,
     /// Smallest step, as a fraction of the whole path; below it the path stops.
     pub min_step: f64,
-    /// Newton's iteration ends when no equation, scaled, is off by more than this.
+    /// Largest scaled residual at which Newton's iteration has converged.
     pub tolerance: f64,
-    /// Iterations after which a Newton solve has failed, and the step is cut to a third.
+    /// Iterations after which a Newton solve fails and the step is divided by three.
     pub max_iterations: usize,
-    /// Equilibria after which the path stops.
+    /// Number of equilibria after which the path stops.
     pub max_points: usize,
 }
 

@@ -1,4 +1,4 @@
-//! The problem interface: equations, tangent, constraints, and the states of a system.
+//! Problem interface: equations, tangent, constraints and states of a system.
 
 use std::fmt::Debug;
 
@@ -6,120 +6,144 @@ use crate::block_matrix::Blocks;
 use crate::event::Change;
 use crate::tangent::Tangent;
 
-/// Largest change of an unknown over which a slope is a difference.
+/// Largest change of an unknown in the difference quotient of a slope.
 const DIFFERENCE: f64 = 1e-6;
 
-/// Part of the path over which the slopes of all conditions are differences.
+/// Step of the difference quotients of all conditions, as a fraction of the path.
 const ALONG: f64 = 1e-7;
 
-/// A mixed complementarity system with a load parameter.
+/// Mixed complementarity system with a load parameter.
 ///
-/// `n` unknowns `z`, of which one is the load, in `n − 1` equations `r(z) = 0`; the row that is
-/// missing, at the index of the load, is taken by the condition that picks a point of the path. A
-/// *constraint* is an unknown `z_c ≥ 0` that is complementary to its equation,
+/// `n` unknowns `z`, one of them the load, satisfy `n − 1` equations `r(z) = 0`. The row at the
+/// index of the load has no equation; there the solver inserts the condition that selects a point
+/// of the path. A *constraint* is an unknown `z_c ≥ 0` that is complementary to its equation,
 ///
 /// ```text
 /// 0 ≤ z_c  ⟂  r_c(z) ≥ 0 :    r_c = 0 where it is active,  z_c = 0 where it is not.          (N1)
 /// ```
 ///
-/// Unknowns are numbered so that the tangent `∂r/∂z` is a band matrix, the column of the load included.
+/// The unknowns are numbered so that the tangent `∂r/∂z`, including the column of the load, is a
+/// band matrix.
 ///
-/// Where a constraint changes sides the equations may take another form, such as those of a contact that passes a
-/// corner. Which form holds is the *mode*. It is a part of the [`State`]; the system itself never changes. What the equations keep of
-/// the way to a state is in the mode too: the place at which something sticks, say. It changes at events only.
+/// Where a constraint changes sides, the equations may take another form, for example as a contact
+/// passes a corner. The current form is the *mode*, a part of the [`State`]; the system itself
+/// never changes. The mode also stores the history that enters the equations, such as the position
+/// at which a contact sticks. The mode changes only at events.
 pub trait System {
-    /// Which of several forms the equations have, with the history that they keep; `()` for a system whose equations have one form
-    /// and no history.
+    /// Form of the equations, with their history.
+    ///
+    /// Use `()` for a system with one form of its equations and no history.
     type Mode: Clone + Debug + PartialEq;
 
-    /// Number of unknowns, the load included.
+    /// Returns the number of unknowns, including the load.
     fn size(&self) -> usize;
 
-    /// Half-bandwidth of the tangent.
+    /// Returns the half-bandwidth of the tangent.
     fn half_bandwidth(&self) -> usize;
 
-    /// The blocks of the tangent, if it has some and the controls and the load are in one of them, the root or one before it. The tangent is
-    /// then eliminated block by block, and as a band matrix only where that is not safe.
+    /// Returns the block structure of the tangent, if any.
+    ///
+    /// Controls and load must lie in one block, which is the root or a block before it. The solver
+    /// then eliminates the tangent block by block, and as a band matrix only where block
+    /// elimination is unsafe.
     fn blocks(&self) -> Option<&Blocks> {
         None
     }
 
-    /// Whether the equations in this state couple unknowns within the blocks only.
+    /// Returns true if the equations in this state couple unknowns only within the block structure.
     fn is_in_blocks(&self, _state: &State<Self::Mode>) -> bool {
         true
     }
 
-    /// Index of the load among the unknowns, and of the row without an equation.
+    /// Returns the index of the load, which is also the row without an equation.
     fn load(&self) -> usize;
 
-    /// Whether the load only pushes: the path then ends where the load comes back to zero.
+    /// Returns true if the load only pushes: the path then ends where the load returns to zero.
     fn load_only_pushes(&self) -> bool {
         false
     }
 
-    /// The control parameter, over its scale, at which the path ends; infinite if a constraint alone ends it.
+    /// Returns the control parameter, over its scale, at which the path ends.
+    ///
+    /// Infinite if only a constraint ends the path.
     fn target(&self) -> f64 {
         1.0
     }
 
-    /// Whether the path ends at a state in which this constraint would change sides.
+    /// Returns true if the path ends where this constraint would change sides.
     fn ends(&self, _state: &State<Self::Mode>, _constraint: usize) -> bool {
         false
     }
 
-    /// The coordinates that measure progress along the path; the first is the control parameter. All lie within a
-    /// half-bandwidth of the load.
+    /// Returns the coordinates that measure progress along the path.
+    ///
+    /// The first is the control parameter. All lie within a half-bandwidth of the load.
     fn controls(&self) -> &[Control];
 
-    /// The unknowns of one unit in all of which the path is measured besides: how far it turns, and its arc length where
-    /// something gives way of which the controls show next to nothing. None unless the system knows better.
+    /// Returns unknowns of equal unit that measure the whole deformation.
+    ///
+    /// They measure the turning of the path, and its arc length where deformation far from the load
+    /// hardly moves the controls. Empty by default.
     fn coordinates(&self) -> Vec<usize> {
         Vec::new()
     }
 
-    /// Indices of the constraints among the unknowns, in ascending order. An active set is a flag for each.
+    /// Returns the indices of the constraints among the unknowns, in ascending order.
+    ///
+    /// An active set has one flag per constraint.
     fn constraints(&self) -> &[usize] {
         &[]
     }
 
-    /// Unknowns that vanish in a state besides those of its inactive constraints, and are not solved for.
+    /// Returns further unknowns that vanish in a state, besides those of its inactive constraints.
+    ///
+    /// The solver leaves them out.
     fn vanishing(&self, _state: &State<Self::Mode>) -> impl Iterator<Item = usize> {
         std::iter::empty()
     }
 
-    /// Numbers of the constraints whose unknown, once active, only grows, such as the way that something has slid with friction. Where
-    /// it turns back the constraint becomes inactive, and its transition keeps in the mode how far it has come.
+    /// Returns the numbers of the constraints with an unknown that only grows while active.
+    ///
+    /// An example is the slip distance of a friction contact. Where such an unknown would decrease,
+    /// the constraint becomes inactive, and its transition stores the accumulated value in the
+    /// mode.
     fn monotone(&self) -> &[usize] {
         &[]
     }
 
-    /// Lets everything stick that slides, where a path turns back. Nothing does unless the system knows better.
+    /// Makes all slipping contacts stick, where a path is turned back. Does nothing by default.
     fn stop_sliding(&self, _state: &mut State<Self::Mode>) {}
 
-    /// Constraints that may change sides where this one does, because of it: what was at rest may begin to slip, say. Itself alone unless
-    /// the system knows of others.
+    /// Returns the constraints that may change sides as a consequence of this one.
+    ///
+    /// For example, a sticking contact may begin to slip. By default the range holds only the
+    /// constraint itself.
     fn coupled(&self, constraint: usize) -> std::ops::Range<usize> {
         constraint..constraint + 1
     }
 
-    /// The mode of the state of rest.
+    /// Returns the mode of the state of rest.
     fn mode_at_rest(&self) -> Self::Mode;
 
-    /// Whether the equations have the same form in two modes, whatever each has kept of its way.
+    /// Returns true if the equations have the same form in two modes, whatever their history.
     fn is_same_form(&self, one: &Self::Mode, other: &Self::Mode) -> bool {
         one == other
     }
 
-    /// Evaluates the equations. Those of inactive constraints may be left out by a system that has
-    /// [`System::conditions`] of its own.
+    /// Evaluates the equations.
     ///
-    /// Across a change of mode the equations keep the sign of their determinant: a path that has come to another branch is known by it.
+    /// A system with its own [`System::conditions`] may omit the equations of inactive constraints.
+    ///
+    /// A change of mode must preserve the sign of the determinant of the equations, by which the
+    /// solver detects a step to another branch.
     fn residual(&self, state: &State<Self::Mode>, residual: &mut Residual) {
         self.linearise(state, residual, &mut |_: usize, _: usize, _: f64| {});
     }
 
-    /// Adds `∂r/∂z` to a zero matrix, its constant part included; nothing to the row of the load. Rows and columns of inactive constraints
-    /// may be left out.
+    /// Adds `∂r/∂z`, including its constant part, to a zero matrix.
+    ///
+    /// Adds nothing to the row of the load. Rows and columns of inactive constraints may be
+    /// omitted.
     fn tangent(&self, state: &State<Self::Mode>, matrix: &mut impl Tangent) {
         self.constant_tangent(matrix);
         self.linearise(state, &mut Residual::new(self.size()), matrix);
@@ -128,8 +152,10 @@ pub trait System {
     /// Adds the part of `∂r/∂z` that is the same in every state.
     fn constant_tangent(&self, _matrix: &mut impl Tangent) {}
 
-    /// Evaluates the equations and adds `∂r/∂z` to a matrix that holds its constant part: both at once by a system that has this function in
-    /// the place of the other two.
+    /// Evaluates the equations and adds `∂r/∂z` to a matrix that holds its constant part.
+    ///
+    /// A system may implement this function, which does both in one pass, instead of
+    /// [`System::residual`] and [`System::tangent`].
     fn linearise(
         &self,
         state: &State<Self::Mode>,
@@ -140,7 +166,9 @@ pub trait System {
         self.tangent(state, matrix);
     }
 
-    /// Replaces `values` by the values of the equations of all constraints. Those of active ones may have any value.
+    /// Replaces `values` by the values of the equations of all constraints.
+    ///
+    /// Entries of active constraints are ignored.
     fn conditions(&self, state: &State<Self::Mode>, values: &mut Vec<f64>) {
         let mut residual = Residual::new(self.size());
         self.residual(state, &mut residual);
@@ -148,7 +176,7 @@ pub trait System {
         values.extend(self.constraints().iter().map(|&index| residual.value[index]));
     }
 
-    /// Replaces `values` as [`System::conditions`] does, and `slopes` by their derivatives along `direction`.
+    /// Replaces `values` as [`System::conditions`], and `slopes` by derivatives along `direction`.
     fn condition_slopes(
         &self,
         state: &State<Self::Mode>,
@@ -163,15 +191,16 @@ pub trait System {
         }
     }
 
-    /// Value of the equation of a constraint (its number).
+    /// Evaluates the equation of a constraint, given by its number.
     fn condition(&self, state: &State<Self::Mode>, constraint: usize) -> f64 {
         let mut values = Vec::new();
         self.conditions(state, &mut values);
         values[constraint]
     }
 
-    /// Derivative of the equation of a constraint (its number) along `direction`; by differences
-    /// unless the system knows better.
+    /// Evaluates the derivative of the equation of a constraint along `direction`.
+    ///
+    /// By central differences unless overridden.
     fn slope(&self, state: &State<Self::Mode>, constraint: usize, direction: &[f64]) -> f64 {
         let largest = direction.iter().fold(0.0_f64, |max, x| max.max(x.abs()));
         if largest == 0.0 {
@@ -182,46 +211,48 @@ pub trait System {
         (at(step) - at(-step)) / (2.0 * step)
     }
 
-    /// A number, one of several, by which a place of the path may be known that is no event: it vanishes there.
+    /// Evaluates a marker: a function that vanishes at a special point that is no event.
     fn marker(&self, _state: &State<Self::Mode>, _number: usize) -> f64 {
         f64::NAN
     }
 
-    /// The rate of a quantity, one of several, along `direction`: a place of the path may be one where it vanishes.
+    /// Evaluates the rate of a quantity along `direction`; it vanishes at an extremum.
     fn rate(&self, _state: &State<Self::Mode>, _direction: &[f64], _number: usize) -> f64 {
         f64::NAN
     }
 
-    /// Completes the change of a constraint that has just changed sides in `state`: its flag is the new one and its
-    /// unknown is zero. A system with modes gives the state the mode that follows, and unknowns and flags the parts that
-    /// they have in it. Returns the constraint whose condition has to hold as the path goes on, or `None` if the
-    /// constraint cannot change sides in this mode.
+    /// Completes a change of sides in `state`, with the flag set and the unknown zero.
+    ///
+    /// A system with modes sets the next mode and the unknowns and flags that change with it.
+    /// Returns the constraint with the condition that the outgoing path must satisfy, or `None` if
+    /// the constraint cannot change sides in this mode.
     fn transition(&self, _state: &mut State<Self::Mode>, change: Change) -> Option<usize> {
         Some(change.constraint)
     }
 }
 
-/// A coordinate that measures progress along the path.
+/// Coordinate that measures progress along the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Control {
     /// Index among the unknowns.
     pub index: usize,
-    /// Scale of the coordinate: the path is measured in `z / scale`. A negative scale turns the direction round.
+    /// Scale of the coordinate: the path is measured in `z / scale`. A negative scale reverses it.
     pub scale: f64,
 }
 
-/// The values of the equations at a state, and the sizes that they are compared with.
+/// Values of the equations at a state, with the sizes of their terms.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Residual {
     /// Value of each equation.
     pub value: Vec<f64>,
-    /// Size of each equation: a unit plus the magnitudes of its terms. An equation is satisfied
-    /// where its value is small against its size.
+    /// Size of each equation: one unit plus the magnitudes of its terms.
+    ///
+    /// An equation is satisfied if its value is small compared with its size.
     pub size: Vec<f64>,
 }
 
 impl Residual {
-    /// Values of zero and sizes of 1, of `size` equations.
+    /// Creates a residual of `size` equations with values of zero and sizes of 1.
     pub fn new(size: usize) -> Self {
         Self { value: vec![0.0; size], size: vec![1.0; size] }
     }
@@ -239,7 +270,7 @@ impl Residual {
         self.size[row] += term.abs();
     }
 
-    /// Adds `factors` times the first of `others` to the equations from `row` on.
+    /// Adds the products of `factors` and the first of `others`, from equation `row` on.
     #[inline]
     pub fn add_products(&mut self, row: usize, factors: &[f64], others: &[f64]) {
         let rows = row..row + factors.len();
@@ -252,7 +283,7 @@ impl Residual {
         }
     }
 
-    /// Adds the product of a block with the first of `others` to the equations from `row` on.
+    /// Adds the product of a block and the first of `others`, from equation `row` on.
     #[inline]
     pub fn add_block_products<const R: usize, const C: usize>(
         &mut self,
@@ -269,19 +300,19 @@ impl Residual {
     }
 }
 
-/// A state of a system: the unknowns, which constraints are active, and the form of the equations.
+/// State of a system: unknowns, active set and mode.
 #[derive(Clone, Debug, PartialEq)]
 pub struct State<M = ()> {
-    /// The unknowns.
+    /// Unknowns.
     pub z: Vec<f64>,
-    /// A flag for each constraint.
+    /// Active set: one flag per constraint.
     pub active: Vec<bool>,
-    /// Which form the equations have, and their history.
+    /// Form of the equations, with their history.
     pub mode: M,
 }
 
 impl<M> State<M> {
-    /// The state of rest: every unknown zero, no constraint active.
+    /// Returns the state of rest: every unknown zero, no constraint active.
     pub fn at_rest(system: &impl System<Mode = M>) -> Self {
         Self {
             z: vec![0.0; system.size()],
@@ -292,21 +323,21 @@ impl<M> State<M> {
 }
 
 impl<M: Clone> State<M> {
-    /// The state whose unknowns differ by `factor` times `direction`.
+    /// Returns the state shifted by `factor` times `direction`.
     #[must_use]
     pub fn moved(&self, factor: f64, direction: &[f64]) -> Self {
         let z = self.z.iter().zip(direction).map(|(z, d)| z + factor * d).collect();
         Self { z, active: self.active.clone(), mode: self.mode.clone() }
     }
 
-    /// The state whose unknowns lie between those of this one and `to`.
+    /// Returns the state with unknowns interpolated between this one and `to`.
     pub(crate) fn interpolated(&self, to: &Self, fraction: f64) -> Self {
         let z = self.z.iter().zip(&to.z).map(|(a, b)| a + fraction * (b - a)).collect();
         Self { z, active: self.active.clone(), mode: self.mode.clone() }
     }
 }
 
-/// Unknowns of the inactive constraints, and others that vanish.
+/// Returns the unknowns of inactive constraints, and others that vanish.
 pub(crate) fn inactive<'a, S: System>(
     system: &'a S,
     state: &'a State<S::Mode>,
@@ -321,7 +352,7 @@ mod tests {
     use super::{Control, Residual, State, System, Tangent};
     use approx::assert_relative_eq;
 
-    /// A constraint whose equation is `u³`.
+    /// System with one constraint, of equation `u³`.
     struct Cube;
 
     impl System for Cube {

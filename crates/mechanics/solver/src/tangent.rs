@@ -1,6 +1,6 @@
-//! The matrix of the derivatives, as a system sees it.
+//! Interface through which a system assembles its derivatives.
 
-/// A matrix that derivatives are added to.
+/// Matrix to which derivatives are added.
 pub trait Tangent {
     /// Adds `value` to the entry at (`row`, `column`).
     fn add(&mut self, row: usize, column: usize, value: f64);
@@ -12,16 +12,18 @@ pub trait Tangent {
         }
     }
 
-    /// Adds `values` to the entries from the one at (`row`, `column`) down the diagonal, of which no unknown is that of an inactive
-    /// constraint.
+    /// Adds `values` down the diagonal that starts at (`row`, `column`).
+    ///
+    /// None of the unknowns belongs to an inactive constraint.
     fn add_diagonal(&mut self, row: usize, column: usize, values: &[f64]) {
         for (k, value) in values.iter().enumerate() {
             self.add(row + k, column + k, *value);
         }
     }
 
-    /// Adds `values` to the entries from the one at (`row`, `column`) on. No unknown of these rows and columns is that of an inactive
-    /// constraint.
+    /// Adds a block of `values` with its first entry at (`row`, `column`).
+    ///
+    /// None of the unknowns of these rows and columns belongs to an inactive constraint.
     fn add_block<const R: usize, const C: usize>(
         &mut self,
         row: usize,
@@ -36,7 +38,7 @@ pub trait Tangent {
     }
 }
 
-/// A function that is shown every entry, in the order in which they are added.
+/// Function that receives every entry in the order of addition.
 impl<F: FnMut(usize, usize, f64)> Tangent for F {
     fn add(&mut self, row: usize, column: usize, value: f64) {
         self(row, column, value);

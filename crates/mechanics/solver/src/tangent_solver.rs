@@ -1,4 +1,4 @@
-//! Factors of the tangent of a system: block by block where that is possible, of a band matrix elsewhere.
+//! Factors of a tangent, by block elimination if possible, else as a band matrix.
 
 use crate::block_elimination::BlockElimination;
 use crate::block_matrix::Blocks;
@@ -6,30 +6,30 @@ use crate::linear::{BandLu, BandMatrix, SingularMatrix};
 use crate::system::{Residual, State, System, inactive};
 use crate::tangent::Tangent;
 
-/// Factors of the tangent, with the row of a condition in the place of the missing one.
+/// Factors of the tangent, with a condition in its missing row.
 #[derive(Clone, Debug)]
 pub(crate) struct TangentSolver {
     blocks: Option<InBlocks>,
     band: Option<InBand>,
-    /// Whether the factors are those of the blocks.
+    /// True if the block elimination holds the current factors.
     is_in_blocks: bool,
-    /// Whether each unknown is that of an inactive constraint.
+    /// True for each unknown of an inactive constraint.
     inactive: Vec<bool>,
 }
 
 #[derive(Clone, Debug, Default)]
 struct InBlocks {
     elimination: BlockElimination,
-    /// Whether the matrix leaves out each unknown; empty before the first.
+    /// Flag of each unknown that the matrix leaves out; empty before the first assembly.
     left_out: Vec<bool>,
-    /// The values of the constant part of the matrix.
+    /// Values of the constant part of the matrix.
     constant: Vec<f64>,
 }
 
 #[derive(Clone, Debug)]
 struct InBand {
     matrix: BandMatrix,
-    /// The constant part of the matrix.
+    /// Constant part of the matrix.
     constant: BandMatrix,
     lu: BandLu,
 }
@@ -44,11 +44,12 @@ impl TangentSolver {
         }
     }
 
-    /// Evaluates the equations, and factorises the tangent without the unknowns of inactive constraints, its missing row
-    /// replaced by `condition`.
+    /// Evaluates the equations and factorises the tangent.
+    ///
+    /// Leaves out the unknowns of inactive constraints and puts `condition` into the missing row.
     ///
     /// # Errors
-    /// If the matrix has no factors.
+    /// If the matrix is singular.
     pub(crate) fn factorise<S: System>(
         &mut self,
         system: &S,
@@ -64,13 +65,13 @@ impl TangentSolver {
         if let (Some(in_blocks), Some(blocks)) = (&mut self.blocks, blocks) {
             in_blocks.begin(system, blocks, &self.inactive);
             assemble(system, state, condition, residual, &mut in_blocks.elimination.matrix);
-            // A pivot that is too small is no failure yet: the band may exchange rows across blocks.
+            // A small pivot is not a failure yet: the band LU can exchange rows across blocks.
             self.is_in_blocks = in_blocks.elimination.factorise().is_ok();
         }
         if self.is_in_blocks {
             return Ok(());
         }
-        // Made when first needed: most paths never leave the blocks.
+        // Allocate the band matrix on first use: most paths never need it.
         let InBand { matrix, constant, lu } = self.band.get_or_insert_with(|| InBand::new(system));
         matrix.set(constant);
         assemble(system, state, condition, residual, matrix);
@@ -82,12 +83,12 @@ impl TangentSolver {
         match (&mut self.blocks, &mut self.band) {
             (Some(blocks), _) if self.is_in_blocks => blocks.elimination.solve(x),
             (_, Some(band)) => band.lu.solve(x),
-            // Nothing has been factorised.
+            // Nothing has been factorised yet.
             _ => x.fill(f64::NAN),
         }
     }
 
-    /// Whether the determinant of the last tangent is negative.
+    /// Returns true if the determinant of the last tangent is negative.
     pub(crate) fn is_negative(&self) -> bool {
         match (&self.blocks, &self.band) {
             (Some(blocks), _) if self.is_in_blocks => blocks.elimination.negative_blocks() % 2 == 1,
@@ -96,7 +97,7 @@ impl TangentSolver {
         }
     }
 
-    /// The solution for a right-hand side of `size` entries of which that of the load alone is not zero: it is 1.
+    /// Solves for a right-hand side of `size` entries that is 1 at the load and else zero.
     pub(crate) fn solve_unit(&mut self, load: usize, size: usize) -> Vec<f64> {
         match &mut self.blocks {
             Some(blocks) if self.is_in_blocks => blocks.elimination.solve_unit(load),
@@ -110,8 +111,9 @@ impl TangentSolver {
     }
 }
 
-/// Evaluates the equations, and adds the tangent to a `matrix` that holds its constant part, with `condition` in its missing row, in which
-/// the system has nothing.
+/// Evaluates the equations and adds the tangent to a `matrix` with its constant part.
+///
+/// Puts `condition` into the row of the load, in which the system has no entries.
 fn assemble<S: System>(
     system: &S,
     state: &State<S::Mode>,
@@ -126,9 +128,10 @@ fn assemble<S: System>(
 }
 
 impl InBlocks {
-    /// Gives the matrix its constant part alone, without the unknowns that are `inactive`.
+    /// Resets the matrix to its constant part, without the `inactive` unknowns.
     fn begin(&mut self, system: &impl System, blocks: &Blocks, inactive: &[bool]) {
-        // Between events the shape stays, and the constant part is one copy instead of an assembly.
+        // Between events the shape is unchanged, so copy the constant part instead of assembling
+        // it.
         let matrix = &mut self.elimination.matrix;
         if self.left_out == inactive {
             matrix.values.copy_from_slice(&self.constant);

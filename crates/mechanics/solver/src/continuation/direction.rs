@@ -1,31 +1,41 @@
-//! Directions of the path: their lengths, and the angles between them that tell when a step has left it.
+//! Lengths of path directions, and angles that reveal a step to another branch.
 
 use super::{Candidate, Continuation, Equilibrium};
 use crate::newton::FLOOR;
 use crate::system::{Control, System};
 
-/// Cosine of the largest angle (45°) by which the path may turn within a step. Where it seems to turn by more,
-/// Newton's method has come to a part of the path further on, beyond a fold, or the step is too long.
+/// Cosine of the largest angle (45°) by which the path may turn within a step.
+///
+/// If the angle is larger, Newton's method converged to a part of the path beyond a fold, or the
+/// step is too long.
 const STRAIGHT: f64 = 0.7;
 
-/// Cosine of the largest angle (37°) by which the path of all coordinates may turn within a step. Far from the load a row may
-/// buckle either way within a small part of a step, of which the controls show next to nothing.
+/// Cosine of the largest angle (37°) by which the path may turn in all coordinates.
+///
+/// Far from the load a row may buckle either way within a small part of a step, and the controls
+/// hardly change.
 const STRAIGHT_IN_ALL: f64 = 0.8;
 
-/// Cosine of the largest angle (3°) between a chord and the mean of the directions at its ends. They agree on an arc up to the
-/// third order of its length; a chord that leads aside, to a path beside this one, has angles of one sign at both ends.
+/// Cosine of the largest angle (3°) between a chord and the mean direction of its ends.
+///
+/// On an arc, chord and mean direction agree up to the third order of the length. A chord to a
+/// neighbouring path makes angles of the same sign with both directions.
 const SYMMETRIC: f64 = 0.9986;
 
-/// The path is hidden from the controls where all coordinates together move this many times as fast: something gives way far from
-/// the load. The arc length in all of them measures it there.
+/// Rate of all coordinates, per rate of the controls, above which the path is hidden.
+///
+/// A hidden path has motion far from the load, such as a local instability. The arc length in all
+/// coordinates measures it.
 pub(super) const HIDDEN: f64 = 100.0;
 
-/// Below this distance, in scales of the controls, the angle of a step is round-off. Where a contact is a thousand times as stiff at first
-/// as soon after, the path turns by a right angle within 1e-8 of where it closes, and goes on from there.
+/// Step length, in scales of the controls, below which the angle of a step is round-off.
+///
+/// If the initial stiffness of a contact is a thousand times its later stiffness, the path turns by
+/// a right angle within 1e-8 of contact closure and continues from there.
 pub(super) const SHORT: f64 = 1e-7;
 
 impl<S: System> Continuation<S> {
-    /// A direction of unit length in the controls; of less where they hide the path.
+    /// Scales a direction to unit length in the controls, or to less if it is hidden.
     pub(crate) fn normalised(&self, mut direction: Vec<f64>) -> Vec<f64> {
         let all = self.coordinates.iter().map(|&index| direction[index].powi(2)).sum::<f64>();
         let factor = 1.0 / self.in_controls(&direction).max(all.sqrt() / HIDDEN);
@@ -35,19 +45,20 @@ impl<S: System> Continuation<S> {
         direction
     }
 
-    /// The length of a direction in the controls.
+    /// Computes the length of a direction in the controls.
     fn in_controls(&self, direction: &[f64]) -> f64 {
         let controls = self.system.controls().iter();
         controls.map(|c| (direction[c.index] / c.scale).powi(2)).sum::<f64>().sqrt()
     }
 
-    /// Whether the controls hide a direction of the path.
+    /// Returns true if a direction of the path is hidden from the controls.
     pub(super) fn is_hidden(&self, direction: &[f64]) -> bool {
         self.in_controls(direction) < 1.0 - FLOOR.sqrt()
     }
 
-    /// Whether the way to the candidate, or the path there, makes a large angle with the direction
-    /// in which the path left.
+    /// Returns true if the chord to the candidate, or its direction, deviates sharply.
+    ///
+    /// Both are compared with the outgoing direction of `from`.
     pub(crate) fn turns_sharply(
         &self,
         from: &Equilibrium<S::Mode>,
@@ -68,8 +79,10 @@ impl<S: System> Continuation<S> {
         chord > SHORT && (turn < STRAIGHT || along < STRAIGHT * chord)
     }
 
-    /// Whether the candidate, the end of a step, is on another branch: the path has another orientation there, or gets there
-    /// by a bend. Before events are looked for a step may well end on a continuation of the path that turns round.
+    /// Returns true if the candidate, the end of a step, lies on another branch.
+    ///
+    /// On another branch the orientation differs, or the step bends. Do not call this before events
+    /// are located: beyond an event a valid step may end on a reversed part of the path.
     pub(super) fn strays(
         &self,
         from: &Equilibrium<S::Mode>,
@@ -78,10 +91,12 @@ impl<S: System> Continuation<S> {
         candidate.is_positive != self.is_positive || self.bends(from, candidate)
     }
 
-    /// Whether the three directions in which the path leaves, goes and arrives make large angles with each other in all
-    /// coordinates: then the candidate is on another branch, or beyond a bend that the step cuts off.
+    /// Returns true if outgoing direction, chord and incoming direction differ strongly.
+    ///
+    /// The angles are those in all coordinates. If one is large, the candidate lies on another
+    /// branch or beyond a bend that the step cuts off.
     fn bends(&self, from: &Equilibrium<S::Mode>, candidate: &Candidate<S::Mode>) -> bool {
-        // In one pass: every step of every path asks for this, over all coordinates.
+        // One pass over all coordinates, because every step evaluates this.
         let mut products = [[0.0; 3]; 3];
         for &index in &self.coordinates {
             let chord = candidate.state.z[index] - from.state.z[index];
@@ -96,11 +111,13 @@ impl<S: System> Continuation<S> {
         let cosine = |a: usize, b: usize| products[a][b] / (lengths[a] * lengths[b]);
         let (turn, along) = (cosine(0, 1), cosine(0, 2) + cosine(1, 2));
         let off_mean = along < SYMMETRIC * (2.0 + 2.0 * turn).sqrt();
-        // Where the controls hide the path it is longer than they show.
+        // A hidden path is longer than its length in the controls.
         lengths[2] > SHORT * lengths[0].max(1.0) && (turn < STRAIGHT_IN_ALL || off_mean)
     }
 
-    /// Cosine of the angle between two directions in all coordinates, or in the controls of a system that tells of none.
+    /// Computes the cosine of the angle between two directions in all coordinates.
+    ///
+    /// For a system without [`System::coordinates`], the controls take their place.
     pub(crate) fn cosine(&self, one: &[f64], other: &[f64]) -> f64 {
         let all = self.coordinates.iter().map(|&index| (index, 1.0));
         let controls = self.system.controls().iter().map(|c| (c.index, c.scale.powi(-2)));

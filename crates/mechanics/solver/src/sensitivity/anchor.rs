@@ -1,14 +1,15 @@
-//! Conditions that tell which equilibrium of a path a place is.
+//! Conditions that fix a point on a path while a parameter changes the path.
 
 use super::differences::ALONG;
 use crate::continuation::Equilibrium;
 use crate::newton::{guard, guard_slope};
 use crate::system::{State, System};
 
-/// The condition that tells which equilibrium of the path a place is, when a parameter changes the path.
+/// Condition that fixes a point on a path while a parameter changes the path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PathAnchor {
-    /// The place stays where it is along the path: at rest, or at a smooth maximum, where moving along the path changes nothing.
+    /// The point keeps its position along the path: at rest, or at a smooth maximum, where motion
+    /// along the path has no first-order effect.
     Still,
     /// The control parameter is at its target.
     Target,
@@ -20,26 +21,26 @@ pub enum PathAnchor {
     Stationary(usize),
 }
 
-/// An equilibrium of a path that a parameter moves.
+/// Point of a path with the condition that fixes it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AnchoredPoint<M> {
-    /// The equilibrium, with the active set and the mode that are held.
+    /// Equilibrium, with fixed active set and mode.
     pub state: State<M>,
-    /// The direction of the path there.
+    /// Direction of the path at the point.
     pub direction: Vec<f64>,
-    /// The condition that holds the place on the path.
+    /// Condition that fixes the point on the path.
     pub anchor: PathAnchor,
 }
 
 impl<M: Clone> AnchoredPoint<M> {
-    /// A point of a path as the path arrives at it.
+    /// Anchors a point of a path, with its incoming direction.
     pub fn arriving(point: &Equilibrium<M>, anchor: PathAnchor) -> Self {
         Self { state: point.state.clone(), direction: point.arriving.clone(), anchor }
     }
 }
 
 impl PathAnchor {
-    /// The number that vanishes where the anchor holds, of one that a state tells.
+    /// Evaluates the function of the state that vanishes where the anchor holds.
     pub(super) fn off<S: System>(self, system: &S, state: &State<S::Mode>) -> f64 {
         let control = system.controls()[0];
         match self {
@@ -50,7 +51,7 @@ impl PathAnchor {
         }
     }
 
-    /// The derivative of that number along a direction.
+    /// Evaluates the derivative of the anchor function along a direction.
     pub(super) fn slope<S: System>(
         self,
         system: &S,
@@ -63,7 +64,7 @@ impl PathAnchor {
             Self::Target => direction[control.index] / control.scale,
             Self::Guard(constraint) => guard_slope(system, state, constraint, direction),
             Self::Marker(number) => {
-                // Of a marker a system tells the value alone.
+                // A system provides only the value of a marker, so use a difference.
                 let at = |step: f64| system.marker(&state.moved(step, direction), number);
                 (at(ALONG) - at(-ALONG)) / (2.0 * ALONG)
             }

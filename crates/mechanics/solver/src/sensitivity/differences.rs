@@ -1,12 +1,12 @@
-//! Rates of unknowns and of directions, from differences of the equations of two neighbouring systems.
+//! Rates of unknowns and directions by differences between two neighbouring systems.
 
 use crate::newton::Newton;
 use crate::system::{State, System, inactive};
 
-/// Part of the way over which the state changes, for derivatives along the path by differences.
+/// Relative step of differences along the path.
 pub(super) const ALONG: f64 = 1e-5;
 
-/// `−J⁻¹ d(J v)/dq` between two states of neighbouring systems.
+/// Computes `−J⁻¹ d(J v)/dq` between two states of neighbouring systems.
 pub(super) fn turning<S: System>(
     newton: &mut Newton,
     sides: [&S; 2],
@@ -26,7 +26,7 @@ pub(super) fn turning<S: System>(
     rates(newton, sides[0], &states[0], change)
 }
 
-/// Solves for minus a change of the equations, which the section and the constraints at rest do not take part in.
+/// Solves `J x = −change`, with zero change in the section and at inactive constraints.
 pub(super) fn rates<S: System>(
     newton: &mut Newton,
     system: &S,
@@ -34,7 +34,7 @@ pub(super) fn rates<S: System>(
     change: Vec<f64>,
 ) -> Vec<f64> {
     if change.iter().all(|change| *change == 0.0) {
-        // A parameter of an anchor alone leaves the equations as they are.
+        // A parameter that enters only an anchor leaves the equations unchanged.
         return change;
     }
     let mut x: Vec<f64> = change.into_iter().map(|change| -change).collect();
@@ -46,7 +46,7 @@ pub(super) fn rates<S: System>(
     x
 }
 
-/// The derivative of what has these values below and above.
+/// Computes the central difference quotient.
 pub(super) fn difference(below: Vec<f64>, mut above: Vec<f64>, step: f64) -> Vec<f64> {
     for (above, below) in above.iter_mut().zip(below) {
         *above = (*above - below) / (2.0 * step);

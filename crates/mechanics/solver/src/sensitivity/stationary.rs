@@ -1,4 +1,4 @@
-//! Places of a path at which a function is stationary.
+//! Points of a path at which a function is stationary.
 
 use super::anchor::{AnchoredPoint, PathAnchor};
 use super::differences::{ALONG, moved, turning};
@@ -7,24 +7,29 @@ use crate::newton::{Condition, Newton};
 use crate::settings::Settings;
 use crate::system::{State, System};
 
-/// First step of the search for a stationary place, and that at which the search ends, as parts of the way over which the state
-/// changes; the largest step, as a part of the path.
+/// First step of the secant search, as a fraction of the reach.
 const SECANT: f64 = 1e-3;
+
+/// Last step of a converged secant search, as a fraction of the reach.
 const SETTLED: f64 = 1e-8;
+
+/// Largest step of the secant search, as a fraction of the path.
 const FARTHEST: f64 = 0.1;
 
-/// The shortest way over which the state is taken to change, as a part of the path.
+/// Lower bound of the reach, as a fraction of the path.
 const SHORTEST: f64 = 1e-6;
 
-/// A function whose slope over the path is this part of its value is constant.
+/// Slope over the path, relative to the value, below which a function counts as constant.
 const FLAT: f64 = 1e-9;
 
-/// Steps after which the search for a stationary place has failed.
+/// Limit on the steps of the secant search.
 const MOST_SECANTS: usize = 20;
 
 impl<M: Clone> AnchoredPoint<M> {
-    /// The place near this one at which a function of system, state and direction is stationary along the path, by the
-    /// secant method. The function must have an extremum there. `None` where the iteration does not settle.
+    /// Finds the nearby point at which a function is stationary along the path.
+    ///
+    /// Uses the secant method. The function of system, state and direction must have an extremum
+    /// there. `None` if the iteration does not converge.
     pub fn stationary<S: System<Mode = M>>(
         &self,
         system: &S,
@@ -45,12 +50,12 @@ impl<M: Clone> AnchoredPoint<M> {
         let (mut last, mut here) = (at(0.0)?, at(SECANT * reach)?);
         let value = f(system, &self.state, &self.direction);
         if last.1.abs().max(here.1.abs()) <= FLAT * value.abs() {
-            // The function does not change along the path, or hardly.
+            // The function is constant along the path.
             return Some(last.2.anchored(system));
         }
         for _ in 0..MOST_SECANTS {
             let step = -here.1 * (here.0 - last.0) / (here.1 - last.1);
-            // So far away it would be another extremum than the one that was asked for.
+            // At this distance the search would find a different extremum.
             if !step.is_finite() || step.abs() > FARTHEST {
                 return None;
             }
@@ -63,8 +68,10 @@ impl<M: Clone> AnchoredPoint<M> {
         None
     }
 
-    /// The place held where the unknown of the fastest constraint keeps its value. Where a function is stationary along the path
-    /// any section serves; in this one the layers stay at rest that a force makes which has just begun to act.
+    /// Anchors the point to the unknown of the fastest constraint.
+    ///
+    /// At a stationary point any section serves. This one keeps the boundary layers fixed that form
+    /// where a force has just begun to act.
     fn anchored<S: System<Mode = M>>(self, system: &S) -> Self {
         let fast = fastest(system, &self.state, &self.direction).filter(|(_, way)| *way < 1.0);
         let anchor =
@@ -73,8 +80,10 @@ impl<M: Clone> AnchoredPoint<M> {
     }
 }
 
-/// The derivative of a function of system, state and direction along the path, at a state at which the tangent was factorised last.
-/// The length of the direction makes no difference to the function.
+/// Differentiates a function of system, state and direction along the path.
+///
+/// The last factorised tangent must belong to the state. The function must not depend on the length
+/// of the direction.
 pub(crate) fn slope_along<S: System>(
     system: &S,
     newton: &mut Newton,
@@ -90,15 +99,16 @@ pub(crate) fn slope_along<S: System>(
     (value(1, step) - value(0, -step)) / (2.0 * step)
 }
 
-/// The active constraint whose unknown changes fastest along the path, as a part of itself, and the way over which it changes by as
-/// much as it is.
+/// Returns the active constraint with the largest relative rate along the path.
+///
+/// The second number is the distance over which its unknown changes by its own value.
 fn fastest<S: System>(
     system: &S,
     state: &State<S::Mode>,
     direction: &[f64],
 ) -> Option<(usize, f64)> {
     let constraints = system.constraints().iter().zip(&state.active).enumerate();
-    // How far something has slid is counted from a place of this path, which another design has elsewhere.
+    // A slip distance is counted from a point of this path that differs for another design.
     let counts = |number: usize| !system.monotone().contains(&number);
     let active = constraints.filter(|(number, (_, active))| **active && counts(*number));
     let ways = active
@@ -106,7 +116,7 @@ fn fastest<S: System>(
     ways.filter(|(_, way)| way.is_finite()).min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// The way over which nothing changes by more than itself, at most the whole path.
+/// Returns the distance over which no unknown changes by more than its own value, at most 1.
 fn reach<S: System>(system: &S, state: &State<S::Mode>, direction: &[f64]) -> f64 {
     fastest(system, state, direction).map_or(1.0, |(_, way)| way.clamp(SHORTEST, 1.0))
 }
