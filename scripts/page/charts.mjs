@@ -14,7 +14,7 @@ export default ({ page, text, texts, detail, forget, detailIsWhole, run, place, 
     }
   },
 
-  async "axes carry symbols and say what unit they have"() {
+  async "axes show symbols and units"() {
     const long = { "critical-force": [/aspect ratio L\/t, dimensionless/, /critical force Fc\*.*, dimensionless/], stiffness: [/largest stiffness Kmax\*/, /critical force Fc\*/], coverage: [/aspect ratio L\/t/, /gap d\/t/, /coverage λ/], pareto: [/coverage λ/, /resistance t\/umax/] };
     for (const [id, names] of Object.entries(long)) {
       const texts = await drawn(page, id);
@@ -22,8 +22,8 @@ export default ({ page, text, texts, detail, forget, detailIsWhole, run, place, 
     }
   },
 
-  async "the figures of the page are those that the program draws"() {
-    // One renderer: every mark of the figure in a file stands in the page at the same place.
+  async "the page shows the figures drawn by the program"() {
+    // One renderer: every mark of the figure in a file has the same position on the page.
     run(`squama plot ${results}`, "--out", `${place}/figures`);
     for (const [id, file] of [["critical-force", "critical-force-by-gap-aspect-slant"], ["coverage", "coverage-maps-by-slant"], ["pareto", "pareto-fronts-pairwise"]]) {
       const svg = readFileSync(`${place}/figures/${file}.svg`, "utf8");
@@ -47,7 +47,7 @@ export default ({ page, text, texts, detail, forget, detailIsWhole, run, place, 
     for (const [slant, own] of looks) assert.equal(own.size, 1, `${slant}: ${[...own]}`);
   },
 
-  async "no line of compliance crosses the place where contact begins"() {
+  async "no line of compliance crosses the onset of contact"() {
     const lines = await drawn(page, "compliance", ".series path[fill=none]");
     assert.ok(lines.length > 10);
     // A contact costs compliance decades: a panel of 190 px has five of them.
@@ -55,7 +55,7 @@ export default ({ page, text, texts, detail, forget, detailIsWhole, run, place, 
     for (const line of lines) heights(line).slice(1).forEach((y, k) => assert.ok(y - heights(line)[k] < 60, line));
   },
 
-  async "a click on a mark of any figure shows its design, and a ring stands around it"() {
+  async "a click on a mark of any figure shows and rings its design"() {
     for (const id of CHARTS) {
       const marks = (await spots(page, id)).filter(({ silent }) => !silent);
       const { x, y } = marks[7];
@@ -71,7 +71,7 @@ export default ({ page, text, texts, detail, forget, detailIsWhole, run, place, 
     }
   },
 
-  async "clicks on marks in one place go from design to design"() {
+  async "clicks on overlapping marks cycle through the designs"() {
     const marks = (await spots(page, "compliance")).filter(({ silent }) => !silent);
     const here = (one) => marks.filter(({ x, y }) => Math.hypot(x - one.x, y - one.y) < 1);
     const one = marks.find((mark) => here(mark).length > 2);
@@ -96,7 +96,7 @@ export default ({ page, text, texts, detail, forget, detailIsWhole, run, place, 
     }
   },
 
-  async "maps have contours, and show the column of one's choice"() {
+  async "maps have contours and show the selected column"() {
     for (const column of ["critical_force", "penetration", "compliance"]) {
       await page.locator("#map").selectOption(column);
       assert.ok((await spots(page, "map")).length >= 54, column);
@@ -106,13 +106,13 @@ export default ({ page, text, texts, detail, forget, detailIsWhole, run, place, 
     await page.locator("#map").selectOption("critical_force");
   },
 
-  async "a column of one's choice is drawn"() {
+  async "a selected column is drawn"() {
     await page.locator("#measure").selectOption("max_moment");
     await shown(page, "measure");
     assert.ok((await drawn(page, "measure")).includes("max moment, dimensionless"));
   },
 
-  async "a click on a weighting shows the design that is best for it, and the weights of the sliders are ringed"() {
+  async "a click on a weighting shows its best design, and the weights of the sliders are ringed"() {
     await page.locator("#equal-weights").click();
     await page.waitForFunction(() => document.querySelector("#tetrahedron .now"));
     assert.equal(await page.locator("#tetrahedron .now").getAttribute("data-steps"), "4,5,5,6");
@@ -128,7 +128,7 @@ export default ({ page, text, texts, detail, forget, detailIsWhole, run, place, 
     assert.ok(colors >= await page.locator("#tetrahedron-legend button").count() - 1, `${colors}`);
   },
 
-  async "light and dark, by the button and by what the system prefers; paper is light"() {
+  async "the theme follows the button or the system; paper is light"() {
     const colors = () => page.evaluate(() => {
       const style = getComputedStyle(document.body);
       const paper = document.querySelector("#tetrahedron svg > rect");

@@ -1,4 +1,4 @@
-// Requirements, criteria, weights, the ranking that they make, and the address that holds them.
+// Requirements, criteria, weights, the ranking, and the address.
 import assert from "node:assert/strict";
 import { shown, spots, table } from "./browser.mjs";
 
@@ -9,7 +9,7 @@ export default ({ page, text, texts, run, results, open }) => {
   const expected = () => table(results, "ranking.csv").slice(0, 15);
 
   return {
-    async "the ranking equals that of the command for any weights"() {
+    async "the page and the command rank equally for any weights"() {
       for (const moves of [[], [["m", 60]], [["l", 10], ["n", 35]], [["n", 1]], [["k", 100]], [["m", 0]], [["l", 47]]]) {
         for (const [key, value] of moves) await slide(key, value);
         const weights = (await texts("#weights output")).map(Number);
@@ -22,7 +22,7 @@ export default ({ page, text, texts, run, results, open }) => {
       await page.locator("#equal-weights").click();
     },
 
-    async "the designs that win are those of the command, and so is the Pareto front"() {
+    async "the page and the command have the same winners and Pareto front"() {
       run(`squama rank ${results}`);
       await page.waitForFunction(() => document.querySelectorAll("#tetrahedron-legend button").length > 0);
       const winners = table(results, "winners.csv").slice(0, 10).map((row) => row.design);
@@ -31,7 +31,7 @@ export default ({ page, text, texts, run, results, open }) => {
       assert.deepEqual(front, table(results, "pareto.csv").map((row) => row.design).sort());
     },
 
-    async "sliders move with keys, and the ranking with them"() {
+    async "keys move the sliders and update the ranking"() {
       await page.locator("#weight-n").focus();
       for (let k = 0; k < 3; k++) await page.keyboard.press("ArrowRight");
       assert.equal((await texts("#weights output"))[1], "0.28");
@@ -41,7 +41,7 @@ export default ({ page, text, texts, run, results, open }) => {
       assert.deepEqual(await texts("#weights output"), ["0.25", "0.25", "0.25", "0.25"]);
     },
 
-    async "a requirement acts on ranking, tetrahedron, figures and table"() {
+    async "a requirement applies to ranking, tetrahedron, figures and table"() {
       await page.locator("#add-requirement").click();
       assert.equal(await page.locator("#requirement-list select").first().inputValue(), "coverage");
       await page.locator("#requirement-list input").fill("0.6");
@@ -57,14 +57,14 @@ export default ({ page, text, texts, run, results, open }) => {
       const marks = (await spots(page, "critical-force")).filter(({ silent }) => !silent);
       const colored = await page.evaluate((rows) => rows.map(squama.number), marks.map(({ row }) => row));
       assert.deepEqual(new Set(colored), own);
-      // The fronts are those of the designs that are left.
+      // The fronts contain the remaining designs.
       await shown(page, "pareto");
       const front = await page.locator('#chart-pareto [data-criteria="coverage critical_force"] use:not([href="#dot"])').evaluateAll((all) => all.map((one) => one.dataset.design));
       const beaten = (one) => rows.some((other) => ["coverage", "critical_force"].every((name) => Number(other[name]) >= Number(one[name])) && ["coverage", "critical_force"].some((name) => Number(other[name]) > Number(one[name])));
       assert.deepEqual(front.sort(), rows.filter((row) => row.compliance !== "" && row.penetration !== "" && !beaten(row)).map((row) => row.design).sort());
     },
 
-    async "limits have a decimal point or comma; what cannot be read is marked and requires nothing"() {
+    async "limits accept a decimal point or comma; invalid limits are marked and ignored"() {
       const input = page.locator("#requirement-list input"), rows = table(results, "designs.csv");
       const meeting = (limit) => rows.filter((row) => Number(row.coverage) >= limit - 1e-9).length;
       const count = async () => Number((await text("#table-count")).match(/^\d+/)[0]);
@@ -94,7 +94,7 @@ export default ({ page, text, texts, run, results, open }) => {
       await filter.fill("");
     },
 
-    async "requirements that none meets: the nearest design, and what stands in the way"() {
+    async "if no design meets the requirements, the nearest design and the obstacle are shown"() {
       await page.evaluate(() => squama.require([{ column: "coverage", sign: ">=", limit: 0.6 }, { column: "compliance", sign: ">=", limit: 7 }]));
       assert.match(await text("#requirement-count"), /No design meets all of them\. The one that comes nearest is \d{4}: .*Without compliance >= 7 there would be designs/);
       assert.equal(await page.locator("#best tbody tr").count(), 0);
@@ -102,7 +102,7 @@ export default ({ page, text, texts, run, results, open }) => {
       assert.match(await text("#requirement-count"), /all 54 designs/);
     },
 
-    async "criteria of one's own: chosen, turned round, left out, and the paper's again"() {
+    async "criteria are selected, reversed, removed and reset to the paper's"() {
       await page.locator("#add-criterion").selectOption("sink");
       assert.deepEqual((await texts("#weights output")).map(Number).reduce((a, b) => a + b, 0).toFixed(9), "1.000000000");
       assert.match(await command(), /--criteria max:coverage,max:critical_force,min:penetration,max:compliance,min:sink --weights/);
@@ -123,7 +123,7 @@ export default ({ page, text, texts, run, results, open }) => {
       assert.match(await command(), /results --weights 0\.25,0\.25,0\.25,0\.25$/);
     },
 
-    async "the state is in the address, and opens as it was sent"() {
+    async "a link restores the state from the address"() {
       await page.evaluate(() => {
         squama.require([{ column: "coverage", sign: ">=", limit: 0.3 }, { column: "puncture_status", sign: "~", limit: "complete" }]);
         squama.setWeight(0, 40);
@@ -138,14 +138,14 @@ export default ({ page, text, texts, run, results, open }) => {
       assert.equal(await state(sent), await state(page));
       assert.equal(await sent.locator("#detail-title").textContent(), "Design 0030");
       assert.ok(await sent.locator("#compare").isVisible());
-      // An address from outside counts at once, even while the page still means to write one; zeros before a number do not matter.
+      // An address from outside takes effect immediately, even before a pending update; leading zeros are ignored.
       await sent.evaluate(() => { squama.setWeight(0, 70); location.hash = "design=33"; });
-      // However slow the machine is: the page writes the address once it has taken it, with the number as the table has it.
+      // Independent of speed: the page rewrites the address with the number of the table.
       await sent.waitForFunction(() => location.hash === "#design=0033");
       assert.equal(await sent.locator("#detail-title").textContent(), "Design 0033");
       assert.ok(!await sent.locator("#unread").isVisible());
       await sent.close();
-      // What makes no sense is passed over.
+      // Invalid parts are ignored.
       const odd = await open(results, "#require=nonsense&require=coverage+>=+x&weights=1,2&criteria=up:none&design=9999&show.width=3&scale=odd");
       assert.deepEqual(await odd.evaluate(() => [squama.state.requirements, squama.state.weights, squama.state.scale]), [[], [25, 25, 25, 25], "paper"]);
       assert.match(await odd.locator("#unread").textContent(), /nonsense; coverage >= x/);
@@ -155,7 +155,7 @@ export default ({ page, text, texts, run, results, open }) => {
       await page.locator("#table thead button").first().click();
     },
 
-    async "links within the page leave the state in the address alone"() {
+    async "links within the page keep the state in the address"() {
       await page.waitForTimeout(400);
       const before = page.url();
       await page.locator('nav a[href="#designs"]').click();

@@ -1,4 +1,4 @@
-// The table, the chosen design, and two designs beside each other.
+// The table, the selected design, and the comparison of two designs.
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { table } from "./browser.mjs";
@@ -47,10 +47,10 @@ export default ({ page, text, texts, column, detail, detailIsWhole, run, place, 
       await page.locator("#designs summary").click();
     },
 
-    async "a row of the table is reached and chosen with keys alone"() {
+    async "a row of the table is selected with the keyboard"() {
       await page.locator("#table thead input").last().focus();
       await page.keyboard.press("Tab");
-      // The design that is chosen is the one that Tab reaches.
+      // Tab reaches the selected design.
       const from = number(await detail());
       await page.keyboard.press("ArrowDown");
       await page.keyboard.press("Enter");
@@ -59,7 +59,7 @@ export default ({ page, text, texts, column, detail, detailIsWhole, run, place, 
       await detailIsWhole();
     },
 
-    async "the commands of a design run"() {
+    async "the commands shown for a design can be run"() {
       const commands = await texts("#detail-commands code");
       assert.equal(commands.length, 4);
       const design = (await detail()).replace("Design ", "");
@@ -77,7 +77,7 @@ export default ({ page, text, texts, column, detail, detailIsWhole, run, place, 
       assert.equal(await page.locator("dialog[open]").count(), 0);
     },
 
-    async "a pinned design stands beside the next that is chosen: drawings, curves, numbers"() {
+    async "a pinned design is compared with the next one: drawings, curves, numbers"() {
       assert.ok(!await page.locator("#compare").isVisible());
       const [first, second] = (await texts("#best tbody td:nth-child(2)"));
       await page.locator("#best tbody tr").first().click();
@@ -92,7 +92,7 @@ export default ({ page, text, texts, column, detail, detailIsWhole, run, place, 
       values.forEach((value, k) => assert.ok(Math.abs(value / Number(row([first, second][k]).critical_force) - 1) < 1e-3));
       assert.equal(await page.locator("#compare-drawings > div").count(), 2);
       assert.ok(await page.locator("#compare-drawings svg polygon").count() > 6);
-      // Both curves of each measure are seen, on either kind of axis: the pinned one dashed.
+      // Both curves of each measure are visible on linear and logarithmic axes; the pinned one is dashed.
       const curves = () => page.locator("#compare-curves .curve.on").evaluateAll((all) => all.map((one) => ({ design: one.dataset.design, dash: one.style.strokeDasharray, wide: one.getBoundingClientRect().width })));
       for (const kind of ["linear", "logarithmic"]) {
         await page.waitForFunction((log) => document.querySelectorAll("#compare-curves .curve.on").length === 4 && document.querySelector("#compare-curves .drawn").dataset.log === String(log), kind === "logarithmic");

@@ -1,4 +1,4 @@
-// Tests of the page that solves: alone, and on top of the page of a run.
+// Tests of the explorer: alone, and on the page of a run.
 import assert from "node:assert/strict";
 import { mkdtempSync, statSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -7,7 +7,7 @@ import { join } from "node:path";
 const SIZES = [{ width: 1400, height: 900 }, { width: 390, height: 844 }];
 const STATES = 25;
 
-/** Waits for what the solver says of a hand that rests. */
+/** Waits for a complete answer of the solver. */
 const settled = (page) => page.waitForFunction(() => squama.live.answer?.fine && squama.solver.idle(), null, { timeout: 60_000 });
 /** Does something, and waits for the answer to it. */
 const after = async (page, act) => {
@@ -35,7 +35,7 @@ export default ({ openFile, open, place, results, run, problems }) => {
     return page;
   };
   const values = (page) => page.evaluate(() => Object.fromEntries(squama.live.answer.values.map(({ name, value }) => [name, value])));
-  /** What the command says of the skin under the hand, also of one whose path ends early. */
+  /** Returns the output of the command for the current design, even if its path ends early. */
   const solved = (command) => {
     try { return JSON.parse(run(command, "--json", "--out", out)).measures; } catch (error) {
       if (error.status !== 1) throw error;
@@ -95,7 +95,7 @@ export default ({ openFile, open, place, results, run, problems }) => {
       assert.match(await page.locator("#live-command").textContent(), /--set puncture\.needle=free/);
       await page.close();
     },
-    async "until there is an answer the page says that it solves"() {
+    async "the page shows that it is solving until there is an answer"() {
       const page = await openFile(join(place, "explore.html"));
       await page.addInitScript(() => { globalThis.Worker = class { postMessage() {} terminate() {} }; });
       await page.reload();
@@ -103,7 +103,7 @@ export default ({ openFile, open, place, results, run, problems }) => {
       assert.equal(await page.locator("#live-force text").count(), 0);
       await page.close();
     },
-    async "a skin without room is drawn when there is some"() {
+    async "a hidden drawing appears when it becomes visible"() {
       const page = await explore(SIZES[0]), spot = () => page.locator("#live-handle-slant .grip").getAttribute("cx"), before = await spot();
       await page.evaluate(() => { squama.at("live-rest").style.display = "none"; squama.live.set({ slant_deg: 20 }); });
       await page.evaluate(() => { squama.at("live-rest").style.display = ""; });
@@ -119,7 +119,7 @@ export default ({ openFile, open, place, results, run, problems }) => {
       assert.ok(slip > 0 && await told() === `Where scales touch: ● ${all - slip} stick, ○ ${slip} slip`, await told());
       await page.close();
     },
-    async "what is typed, pressed and dragged is solved, and what cannot be read is not"() {
+    async "typed, key and drag input is solved, and invalid input is ignored"() {
       const page = await explore(SIZES[0]), gap = () => page.evaluate(() => squama.live.value("gap_over_t") * squama.live.value("thickness_mm"));
       const field = page.locator(".control", { hasText: "Gap" }).locator("input[type=text]");
       await after(page, async () => { await field.fill("0,3"); await field.press("Enter"); });
@@ -132,7 +132,7 @@ export default ({ openFile, open, place, results, run, problems }) => {
       assert.ok(await gap() > 0.3);
       await page.close();
     },
-    async "a corner that is dragged stays under the hand, and changes slant and length"() {
+    async "a dragged corner follows the pointer, and changes slant and length"() {
       const page = await explore(SIZES[0]), grip = async () => { const { x, y, width, height } = await page.locator("#live-handle-slant .grip").boundingBox(); return [x + width / 2, y + height / 2]; };
       const parameters = () => page.evaluate(() => ["slant_deg", "length_over_t", "gap_over_t"].map(squama.live.value));
       const [x, y] = await grip(), [slant, length, gap] = await parameters();
@@ -146,7 +146,7 @@ export default ({ openFile, open, place, results, run, problems }) => {
       await settled(page);
       await page.close();
     },
-    async "an arrow is followed in sight to a limit, which is named"() {
+    async "an arrow moves the design to a limit, which is named"() {
       const page = await explore(SIZES[0]);
       const before = (await values(page)).critical_force;
       const arrow = page.locator(".control", { hasText: "Length" }).locator(".arrow");
@@ -158,7 +158,7 @@ export default ({ openFile, open, place, results, run, problems }) => {
       assert.match(await page.locator("#live-said").textContent(), /^Length: /);
       await page.close();
     },
-    async "on a phone the sheet leaves the skin and its needle in sight"() {
+    async "on a phone the sheet leaves the skin and the needle visible"() {
       const page = await explore(SIZES[1]);
       await page.locator("#live-sheet").click();
       const sheet = (await page.locator("#live .sheet").boundingBox()).y;
@@ -169,7 +169,7 @@ export default ({ openFile, open, place, results, run, problems }) => {
       assert.ok(await page.locator("#live-set-gap_over_t").isVisible());
       await page.close();
     },
-    async "a design is pinned, compared, and stands in the address"() {
+    async "a pinned design is compared, and the address contains the design"() {
       const page = await explore(SIZES[0]);
       await page.locator("#live-pin").click();
       await after(page, () => page.evaluate(() => squama.live.set({ slant_deg: 20 })));
@@ -183,7 +183,7 @@ export default ({ openFile, open, place, results, run, problems }) => {
       assert.ok([0.1, 0.2, 0.3, 0.4].includes(closest.gap_over_t) && [15, 30].includes(closest.slant_deg));
       for (const one of [page, other]) await one.close();
     },
-    async "requirements are watched, and the handle runs along both paths"() {
+    async "requirements are updated, and the handles move along both paths"() {
       const page = await explore(SIZES[0]);
       assert.equal(await page.locator("#live-required li").count(), 2);
       const words = () => page.locator("#live-needle-words").textContent();
@@ -194,7 +194,7 @@ export default ({ openFile, open, place, results, run, problems }) => {
       assert.match(await page.locator("#live-bent-words").textContent(), /radius of [\d.]+ mm/);
       await page.close();
     },
-    async "on the page of a run a design that is chosen comes under the hand"() {
+    async "on the page of a run a selected design opens in the explorer"() {
       const page = await open(results);
       await settled(page);
       for (const row of [3, 40]) {

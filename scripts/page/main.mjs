@@ -42,13 +42,13 @@ const detailIsWhole = async () => {
 
 const shared = { page, open, openFile, run, problems, place, squama, results, folders, text, texts, column, detail, forget, detailIsWhole };
 const tests = {
-  async "loads from a file and asks for nothing else"() {
+  async "loads from a file without other requests"() {
     assert.match(await text("#title"), /54 designs/);
     assert.deepEqual(problems, []);
     assert.deepEqual(requests, [pathToFileURL(join(results, "report.html")).href]);
   },
   ...explorer(shared), ...charts(shared), ...designs(shared), ...choosing(shared), ...sweeps(shared), ...fronts(shared), ...window(shared), ...randomTables(shared),
-  async "nothing went wrong meanwhile, and nothing was asked for but the pages"() {
+  async "no errors and no requests except the pages"() {
     assert.deepEqual(problems, []);
     assert.ok(requests.every((url) => /^file:.*\/(report|explore)\.html(#.*)?$/.test(url)), String(requests));
   },

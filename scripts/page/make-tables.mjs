@@ -27,7 +27,7 @@ write("folded", headers, rows.map((row, k) => {
   return headers.map((name) => own[name]);
 }));
 
-// The designs again and again, at other widths, with other values.
+// Repeats the designs with other widths and values.
 const COPIES = Math.ceil(20000 / rows.length), at = column("slant_deg");
 const widths = Array.from({ length: COPIES }, (_, k) => Number((0.2 + 0.01 * k).toFixed(2)));
 const copies = rows.flatMap((row) => widths.map((width) => ({ row, width })));

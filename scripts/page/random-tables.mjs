@@ -1,4 +1,4 @@
-// The ranking of the page against that of the command, on random tables.
+// Compares the rankings of the page and the command on random tables.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
@@ -83,7 +83,7 @@ const compare = ({ ranking, weightings }, squama, folder, rows, choice, what) =>
 };
 
 export default ({ place, squama }) => ({
-  async "on random tables the page chooses as the command: requirements, order, ranks, fitness, winners, front, nearest"() {
+  async "page and command agree on random tables: requirements, order, ranks, fitness, winners, front, nearest"() {
     const own = scripts(), random = generator(20211121), folder = join(place, "random");
     mkdirSync(folder, { recursive: true });
     let ranked = 0;

@@ -23,9 +23,9 @@ const answer = (request) => {
 /** Number `k` of a sequence that fills the interval from 0 to 1, the same at every call. */
 const share = (k, base) => (k === 0 ? 0 : ((k % base) + share(Math.floor(k / base), base)) / base);
 const definition = "name = 'x'\nmeasures = ['coverage', 'puncture', 'flexure']\ndesigns.gap_over_t = 0.5\ndesigns.length_over_t = 0.5\ndesigns.slant_deg = 30";
-// Every second needle is guided, as a hand holds it: it rubs, sticks and slides.
+// Every second needle is guided, with friction.
 const guided = (k) => (k % 2 ? { needle: "guided", needle_friction: 0.6 * share(k + 1, 7) } : {});
-// Scales rub in every second row, too, under needles of both kinds.
+// Every second row has friction between scales, under needles of both kinds.
 const rubbing = (k) => (k % 4 < 2 ? { friction: 0.4 * share(k + 1, 11) } : {});
 const requests = Array.from({ length: DESIGNS }, (_, k) => JSON.stringify({
   id: k, definition, drawn: [1, 0.5],

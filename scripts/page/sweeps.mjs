@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { drawn, shown, spots, table } from "./browser.mjs";
 
 export default ({ open, run, folders }) => ({
-  async "marks of a sweep with more axes do not stand on each other, and every design has a name of its own"() {
+  async "marks of a sweep with more axes do not overlap, and design names are unique"() {
     const page = await open(folders.axes);
     assert.deepEqual(await page.locator("#view label").evaluateAll((all) => all.map((label) => label.firstChild.textContent.trim())), ["width b/t", "membrane thickness/t"]);
     const marks = await spots(page, "critical-force");
@@ -13,12 +13,12 @@ export default ({ open, run, folders }) => ({
     assert.equal(new Set(titles).size, titles.length);
     const legend = await page.locator("#tetrahedron-legend button").allTextContents();
     assert.ok(legend.length > 1 && legend.every((label) => /b\/t \d/.test(label) && /h\/t \d/.test(label)), legend[0]);
-    // Figures follow the design that is chosen.
+    // Figures follow the selected design.
     const other = await page.evaluate(() => squama.rows.findLast((row) => squama.cell(row, "width_over_t") !== squama.view.shown("width_over_t")));
     await page.evaluate((row) => squama.choose(row), other);
     await page.waitForTimeout(300);
     assert.ok((await spots(page, "critical-force")).some(({ row }) => row === other));
-    // And are of one's choice: the designs of every value have theirs.
+    // Figures exist for every value.
     const widths = await page.evaluate(() => squama.different("width_over_t").map(String));
     assert.equal(widths.length, 3);
     for (const width of widths) {
@@ -52,7 +52,7 @@ export default ({ open, run, folders }) => ({
     await page.close();
   },
 
-  async "physical columns stand in table, detail, summary and figures, with their units"() {
+  async "physical columns appear in table, detail, summary and figures, with their units"() {
     const page = await open(folders.folded);
     const headers = await page.locator("#table thead tr:first-child th").allTextContents();
     assert.ok(headers.includes("critical force (N)") && headers.includes("bend radius (mm)"), headers.join());
@@ -63,7 +63,7 @@ export default ({ open, run, folders }) => ({
     await page.close();
   },
 
-  async "failures are listed with their reasons, and lead to their designs"() {
+  async "failures are listed with their reasons and links to their designs"() {
     const stopped = await open(folders.someFailed), expected = table(folders.someFailed, "failures.csv");
     assert.ok(expected.length > 0 && expected.length < 12);
     const cells = (k) => stopped.locator(`#failure-list tbody td:nth-child(${k})`).allTextContents();
@@ -77,7 +77,7 @@ export default ({ open, run, folders }) => ({
     await stopped.close();
   },
 
-  async "a run in which no puncture ended is ranked by what there is"() {
+  async "a run without complete punctures is ranked by the other criteria"() {
     const nothing = await open(folders.allFailed);
     await nothing.waitForTimeout(300);
     assert.match(await nothing.locator("#tetrahedron").textContent(), /shows four criteria/);
@@ -85,7 +85,7 @@ export default ({ open, run, folders }) => ({
     assert.ok(await nothing.locator("#best tbody tr").count() > 5);
     assert.ok(await nothing.locator("#failure-list tbody tr").count() >= 12);
     assert.ok((await spots(nothing, "coverage")).length >= 12);
-    // Bases are twice as long as scales here: the thick parts of the line across the drawing are the coverage.
+    // With bases twice as long as scales, the thick parts of the line are the coverage.
     const covered = await nothing.evaluate(() => {
       const length = (line) => Math.abs(line.getAttribute("y1") - line.getAttribute("y2"));
       return squama.rows.filter((row) => squama.cell(row, "coverage") > 0).map((row) => {
@@ -102,7 +102,7 @@ export default ({ open, run, folders }) => ({
     await nothing.close();
   },
 
-  async "what is not measured alike is ranked apart, as the command ranks it"() {
+  async "incomparable designs are ranked separately, as in the command"() {
     const page = await open(folders.axes), out = `${folders.axes}-ranked`;
     const best = () => page.locator("#best tbody td:nth-child(2)").allTextContents();
     const command = () => page.locator("#rank-command code").textContent();
@@ -122,10 +122,10 @@ export default ({ open, run, folders }) => ({
       assert.deepEqual(front, table(out, "pareto.csv").map(({ design }) => design).sort());
     }
     assert.notDeepEqual(orders[0], orders[1]);
-    // The ranking follows the figures, and the figures the design that is chosen.
+    // The ranking follows the figures, and the figures follow the selected design.
     await page.evaluate(() => squama.choose(squama.rows.find((row) => squama.cell(row, "membrane_thickness_over_t") === 0.1)));
     assert.deepEqual(plain(await best()), orders[0]);
-    // Two fronts where designs are of two kinds, one where they are of one.
+    // One front for each kind of design.
     await shown(page, "pareto");
     const fronts = await page.locator("#chart-pareto [data-criteria]").evaluateAll((all) => all.map((one) => [one.dataset.criteria.includes("compliance"), one.querySelector(".line").getAttribute("d").match(/M/g).length]));
     for (const [measured, lines] of fronts) assert.equal(lines, measured ? 2 : 1);
@@ -158,7 +158,7 @@ export default ({ open, run, folders }) => ({
         await rest();
         await rest();
       }
-      // What else the machine does only adds.
+      // Other load on the machine only adds time.
       median.requirement = Math.min(...waits);
       squama.require([]);
       document.getElementById("designs").scrollIntoView();

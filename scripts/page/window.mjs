@@ -17,11 +17,11 @@ export default ({ page, open, folders }) => ({
     }
   },
 
-  async "on a phone the best designs come first, and what is touched is 44 px high"() {
+  async "on a phone the best designs come first, and touch targets are 44 px high"() {
     await page.setViewportSize({ width: 390, height: 844 });
     await page.reload();
     await ready(page);
-    // A page that is read again stands where it stood.
+    // A reloaded page keeps its scroll position.
     await page.evaluate(() => scrollTo({ top: 0, behavior: "instant" }));
     const best = await page.locator("#live-best button").first().boundingBox();
     assert.ok(best.y > 0 && best.y < 844, `${best.y}`);
@@ -33,7 +33,7 @@ export default ({ page, open, folders }) => ({
     await page.setViewportSize(WIDE);
   },
 
-  async "in a narrow window a click shows the design where it is seen"() {
+  async "in a narrow window a click shows the design in view"() {
     await page.setViewportSize({ width: 800, height: 900 });
     await page.reload();
     await ready(page);

@@ -99,7 +99,7 @@ fn a_needle_that_passes_is_told_of_if_it_is_sharp() {
         let definition = DEFINITION.replace("[puncture]", &format!("{guided}{more}"));
         let answer = ask(&json!({ "definition": definition, "set": set }));
         assert!(number(&answer, "passing_force") > 0.0);
-        answer["warnings"].to_string().contains("end of the face that it was set down on")
+        answer["warnings"].to_string().contains("end of the face on which it was set down")
     };
     assert!(warned("") && !warned("needle_radius_over_t = 0.5"));
 }
@@ -147,7 +147,7 @@ fn a_parameter_is_followed_to_what_limits_it() {
     };
     // Wider gaps bend more easily, and cover less: a gap of 0.32 leaves 1 − 0.32/0.82 of coverage at most.
     let covered = follow(0.4, &["coverage >= 0.61"]);
-    assert_eq!(covered["reason"], "coverage >= 0.61 limits");
+    assert_eq!(covered["reason"], "limited by coverage >= 0.61");
     let request = json!({ "definition": DEFINITION, "set": { "gap_over_t": covered["value"] } });
     let coverage = number(&ask(&request), "coverage");
     assert!((0.61..0.6105).contains(&coverage), "{coverage}");
