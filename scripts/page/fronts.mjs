@@ -35,7 +35,7 @@ export default ({ open, page, place, folders }) => ({
     const chosen = await own.locator("#detail-title").textContent();
     const diamond = marks.find(({ row }) => row === null);
     await own.mouse.move(diamond.x, diamond.y);
-    assert.match(await own.locator("#tip").textContent(), /^Front \d+: .*Held by /);
+    assert.match(await own.locator("#tip").textContent(), /^Front \d+: .*Active constraints: /);
     const isUnderHand = async (k) => {
       const values = await own.evaluate(() => Object.fromEntries(squama.live.controls().map(({ key, value }) => [key, value])));
       for (const name of ["gap_over_t", "length_over_t", "slant_deg"]) assert.ok(Math.abs(values[name] - Number(front[k][name])) <= 1e-5 * values[name], `${name} of front ${k + 1}`);

@@ -38,7 +38,7 @@ export default ({ open, run, folders }) => ({
     assert.equal(await page.locator("#table tr.folded").count(), folded.length);
     assert.match(await page.locator("#summary-list").textContent(), new RegExp(`${rows.length - folded.length} designs; of ${folded.length}, marked`));
     await page.evaluate((design) => squama.choose(squama.rowOf(design)), folded[0]);
-    assert.match(await page.locator("#detail-doubts").textContent(), /Do not trust the critical force of this design/);
+    assert.match(await page.locator("#detail-doubts").textContent(), /The critical force of this design is not valid/);
     const crossed = (await spots(page, "critical-force")).filter(({ look }) => look.endsWith("folded"));
     assert.equal(new Set(crossed.map(({ row }) => row)).size, folded.length);
     await page.locator("#sound").check();
@@ -107,7 +107,7 @@ export default ({ open, run, folders }) => ({
     const best = () => page.locator("#best tbody td:nth-child(2)").allTextContents();
     const command = () => page.locator("#rank-command code").textContent();
     const plain = (all) => all.map((design) => design.replace("⚠", ""));
-    assert.match(await page.locator("#incomparable").textContent(), /Ranked are designs of membrane thickness\/t .*because compliance is measured differently/);
+    assert.match(await page.locator("#incomparable").textContent(), /Ranked: designs of membrane thickness\/t .*because compliance is measured differently/);
     const orders = [];
     for (const thickness of ["0.1", "0.2"]) {
       await page.locator("#incomparable select").selectOption(thickness);

@@ -107,7 +107,7 @@
     if (note.hidden) return;
     const other = ranking.order(squama.contest, squama.weights()).find(({ row }) => !squama.folded(row));
     note.replaceChildren("⚠ The surface folds under the best design before its critical tilt, so its critical force is not valid. ",
-      ...(other ? ["The best without is ", squama.element("button", { type: "button", onclick: () => squama.choose(other.row) }, squama.title(other.row)), `, fitness ${other.fitness.toFixed(4)}.`] : []));
+      ...(other ? ["Best design without a fold: ", squama.element("button", { type: "button", onclick: () => squama.choose(other.row) }, squama.title(other.row)), `, fitness ${other.fitness.toFixed(4)}.`] : []));
   };
 
   /** States which designs are ranked, if not all are comparable. */
@@ -122,7 +122,7 @@
     const chooser = ({ parameter, values, value }) => squama.element("label", {}, ` ${squama.label(parameter)} `, squama.dropdown({ onchange: (event) => show(parameter, values, event.target.value) },
       values.map((one) => [String(one), squama.short(one)]), String(value)));
     const why = ({ column, parameter }) => `${squama.label(column)} is measured differently for designs of different ${squama.label(parameter)}`;
-    note.replaceChildren("Ranked are designs of", ...found.map(chooser), `, because ${found.map(why).join(", and ")}.`);
+    note.replaceChildren("Ranked: designs of", ...found.map(chooser), `, because ${found.map(why).join(", and ")}.`);
   };
 
   /** Shows the sensitivity of the best design to its gap, if known. */
@@ -132,7 +132,7 @@
     if (!isKnown) return;
     const isCliff = squama.gap.cliffs(best.row).length > 0;
     note.className = isCliff ? "doubt" : "note";
-    note.textContent = `${isCliff ? "⚠ The best design stands at a cliff. " : ""}${squama.gap.sentence(best.row)}`;
+    note.textContent = `${isCliff ? "⚠ The best design is sensitive to its gap. " : ""}${squama.gap.sentence(best.row)}`;
   };
 
   const show = () => {

@@ -33,9 +33,9 @@
     if (squama.folded(row)) {
       const [at, whole] = [squama.fold, squama.criticalForce].map((name) => squama.cell(row, name));
       const part = typeof at === "number" && typeof whole === "number" && whole > 0 ? ` (${Math.round((100 * at) / whole)} % of the critical force)` : "";
-      doubts.push(`Do not trust the critical force of this design: at a force of ${squama.short(at)}${part} the model lets the soft surface under the scales fold over itself, which no real material can do. Up to there its numbers hold.`);
+      doubts.push(`The critical force of this design is not valid: at a force of ${squama.short(at)}${part} the modelled surface folds, which is physically impossible. Results below this force are valid.`);
     }
-    if (squama.cell(row, squama.strain) > 0.2) doubts.push("The membrane is strained by more than 20 %: its law of small strains is outside its range.");
+    if (squama.cell(row, squama.strain) > 0.2) doubts.push("The membrane strain exceeds 20 %, beyond the range of its small-strain law.");
     for (const name of squama.names.filter((one) => one.endsWith("_status"))) {
       const status = squama.cell(row, name);
       if (status !== null && status !== "complete") doubts.push(`The ${name.replace("_status", "")} was not solved to its end: ${status}.`);

@@ -35,7 +35,7 @@
 
   const value = (k, name) => squama.short(cell(k, name));
   const title = (k) => `${isFront ? `Front ${k + 1}` : "Optimum"}: ${columns.map((name) => `${squama.label(name)} ${value(k, name)}`).join(", ")}`;
-  const tip = (k) => squama.element("div", {}, title(k), " ", squama.element("small", {}, `Held by ${cell(k, "binding") || "nothing"}.`, ...(cell(k, "prices") ? [` ${cell(k, "prices")}`] : [])));
+  const tip = (k) => squama.element("div", {}, title(k), " ", squama.element("small", {}, `Active constraints: ${cell(k, "binding") || "none"}.`, ...(cell(k, "prices") ? [` ${cell(k, "prices")}`] : [])));
 
   const take = (k) => squama.take(found.variables.map((name) => [name, cell(k, name)]));
 
@@ -43,11 +43,11 @@
   squama.at("front-link").hidden = false;
   squama.addChart({
     id: "front", into: squama.at("front-figure"), title: isFront ? "The front over the designs of the grid" : "The best design over those of the grid",
-    description: "Diamonds: found by the search. Grey: designs of the grid; pale: outside the bounds of the search. Press a diamond to have it under your hand.", tip, take, passes: (row) => could.has(row), columns: () => found.axes,
+    description: "Diamonds: found by the search. Grey: designs of the grid; pale: outside the bounds of the search. Click a diamond to open it in the explorer.", tip, take, passes: (row) => could.has(row), columns: () => found.axes,
   });
 
   const within = (k, name) => `${value(k, name)} (${value(k, `${name}_low`)} to ${value(k, `${name}_high`)})`;
-  const head = [isFront ? "front" : "", ...columns.map(squama.label), ...found.made, "held by, and what that costs"];
+  const head = [isFront ? "front" : "", ...columns.map(squama.label), ...found.made, "active constraints (price)"];
   squama.at("front-table").append(
     squama.element("thead", {}, squama.element("tr", {}, ...head.map((text) => squama.element("th", { scope: "col" }, text)))),
     squama.element("tbody", {}, ...rows.map((k) => squama.element("tr", { "data-found": k, ...squama.pressed(() => take(k)) }, squama.element("td", {}, String(k + 1)), ...columns.map((name) => squama.element("td", {}, value(k, name))), ...found.made.map((name) => squama.element("td", {}, within(k, name))),

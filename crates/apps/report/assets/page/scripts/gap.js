@@ -11,7 +11,7 @@ squama.gap = (() => {
   /** A factor in words. */
   const words = (factor) => {
     if (factor === null) return "no value";
-    if (Math.abs(factor - 1) < 5e-4) return "as is";
+    if (Math.abs(factor - 1) < 5e-4) return "unchanged";
     if (factor >= LARGE) return `× ${squama.short(Number(factor.toPrecision(2)))}`;
     if (factor > 0 && factor <= 1 / LARGE) return `÷ ${squama.short(Number((1 / factor).toPrecision(2)))}`;
     return `${factor < 1 ? "−" : "+"}${Math.abs(100 * (factor - 1)).toFixed(1)} %`;
@@ -19,19 +19,19 @@ squama.gap = (() => {
 
   const isSteep = (factor) => factor !== null && factor > 0 && Math.max(factor, 1 / factor) >= CLIFF;
 
-  /** Columns of a row in which it stands at a cliff. */
+  /** Columns of a row that are sensitive to the gap. */
   const cliffs = (row) => known(row).filter(({ factors }) => factors.some(isSteep)).map(({ column }) => column);
 
   const both = (factors) => factors.map(words).join(" / ");
 
-  /** A sentence on the cliff at which a row stands; nothing if it stands at none. */
+  /** Warns if a row is sensitive to its gap; empty otherwise. */
   const warning = (row) => {
     const steep = known(row).filter(({ factors }) => factors.some(isSteep));
-    return steep.length === 0 ? [] : [`This design stands at a cliff: where its gap comes out 10 % smaller / larger, ${steep.map(({ column, factors }) => `${squama.label(column)} changes by ${both(factors)}`).join(", ")}.`];
+    return steep.length === 0 ? [] : [`This design is sensitive to its gap: for a gap 10 % smaller / larger, ${steep.map(({ column, factors }) => `${squama.label(column)} changes by ${both(factors)}`).join(", ")}.`];
   };
 
   /** Describes all changes of a row in one sentence. */
-  const sentence = (row) => `Where the gap of ${squama.number(row)} comes out 10 % smaller / larger: ${known(row).map(({ column, factors }) => `${squama.label(column)} ${both(factors)}`).join(", ")}.`;
+  const sentence = (row) => `Sensitivity of ${squama.number(row)} to a gap 10 % smaller / larger: ${known(row).map(({ column, factors }) => `${squama.label(column)} ${both(factors)}`).join(", ")}.`;
 
   return { known, both, cliffs, warning, sentence };
 })();

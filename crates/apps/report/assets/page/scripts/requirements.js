@@ -51,19 +51,19 @@
     const names = binding.map((one) => ranking.written(one)).join(" or ");
     return [
       "No design meets all of them. ",
-      ...(own === null ? [] : ["The one that comes nearest is ", squama.element("button", { type: "button", onclick: () => squama.choose(own) }, squama.title(own)), ` with ${squama.required().filter(({ sign }) => sign !== "~").map(({ column }) => `${squama.label(column)} ${squama.short(squama.cell(own, column))}`).join(", ")}. `]),
-      binding.length > 0 ? `Without ${names} there would be designs.` : "No single requirement is the obstacle: relax two or more.",
+      ...(own === null ? [] : ["The nearest is ", squama.element("button", { type: "button", onclick: () => squama.choose(own) }, squama.title(own)), ` with ${squama.required().filter(({ sign }) => sign !== "~").map(({ column }) => `${squama.label(column)} ${squama.short(squama.cell(own, column))}`).join(", ")}. `]),
+      binding.length > 0 ? `The obstacle is ${names}: some designs meet all other requirements.` : "No single requirement is the obstacle: relax two or more.",
     ];
   };
 
   const show = () => {
     showList();
     const left = squama.meeting.length, unread = state.requirements.length - squama.required().length;
-    const of = squama.required().length === 0 && !state.sound ? [`No requirements: all ${squama.count} designs take part.`]
+    const of = squama.required().length === 0 && !state.sound ? [`No requirements: all ${squama.count} designs are ranked.`]
       : left > 0 || squama.required().length === 0 ? [`${left} of ${squama.count} designs meet ${squama.required().length === 1 ? "it" : "them"}.`] : nearest();
-    text.replaceChildren(...(unread > 0 ? [squama.element("strong", { class: "warning" }, "⚠ A limit that is no number requires nothing. ")] : []), ...of);
+    text.replaceChildren(...(unread > 0 ? [squama.element("strong", { class: "warning" }, "⚠ A limit that is not a number is ignored. ")] : []), ...of);
     squama.at("unread").hidden = squama.unread.length === 0;
-    squama.at("unread").textContent = `⚠ The link asks for what this page cannot read, and what therefore requires nothing: ${squama.unread.join("; ")}.`;
+    squama.at("unread").textContent = `⚠ Invalid requirements in the link are ignored: ${squama.unread.join("; ")}.`;
     squama.at("sound").checked = state.sound;
   };
 

@@ -24,12 +24,12 @@
     if (!squama.has(column)) return [];
     const differing = squama.comparable.differing(squama.rows, [{ column }]).map(({ parameter }) => parameter);
     const groups = squama.comparable.groups(squama.rows, [{ column }]);
-    if (groups.length > GROUPS) return [[name, `not to be compared between designs of different ${differing.map(squama.label).join(" and ")}`]];
+    if (groups.length > GROUPS) return [[name, `not comparable between designs of different ${differing.map(squama.label).join(" and ")}`]];
     const words = (row) => differing.map((parameter) => `, ${squama.label(parameter)} ${squama.short(squama.cell(row, parameter))}`).join("");
     return groups.flatMap((rows) => bestOf(rows, `${name}${words(rows[0])}`, column, goal));
   };
 
-  const folds = () => (squama.foldedRows.length > 0 ? [["can be trusted", `${squama.count - squama.foldedRows.length} designs; of ${squama.foldedRows.length}, marked ⚠, the surface folds over before the critical tilt, so that their critical force is not to be trusted`]] : []);
+  const folds = () => (squama.foldedRows.length > 0 ? [["valid critical force", `${squama.count - squama.foldedRows.length} designs; of ${squama.foldedRows.length}, marked ⚠, the surface folds before the critical tilt, so their critical force is not valid`]] : []);
   const physical = () => [[`${squama.criticalForce}_N`, "largest critical force, N", "max"], ["bend_radius_mm", "smallest bend radius, mm", "min"], [squama.mass, "least areal mass, kg/m²", "min"]]
     .filter(([column]) => squama.numeric.includes(column)).flatMap(([column, name, goal]) => best(name, column, goal));
 
