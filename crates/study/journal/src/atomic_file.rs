@@ -1,4 +1,4 @@
-//! Atomic files: they appear whole or not at all.
+//! Files that are written atomically.
 
 use std::fs::{self, File};
 use std::io::{self, Write};
@@ -10,7 +10,7 @@ use text::reason;
 use crate::digest::digits;
 use crate::partial_file::{PartialFile, remove_abandoned_files};
 
-/// A file or a folder that cannot be written.
+/// A file or folder that cannot be written.
 #[derive(Debug, thiserror::Error)]
 #[error("{}: cannot be written ({reason}), {advice}", path.display())]
 pub struct OutputError {
@@ -20,39 +20,38 @@ pub struct OutputError {
 }
 
 impl OutputError {
-    /// A folder that cannot be made or written.
+    /// Creates the error for a folder that cannot be created or written.
     pub fn folder(path: &Path, error: &io::Error) -> Self {
         let advice = "expected a folder that can be written, e.g. with --out DIR";
         Self { path: path.to_owned(), reason: reason(error), advice }
     }
 
-    /// A file that cannot be written.
+    /// Creates the error for a file that cannot be written.
     pub fn file(path: &Path, error: &io::Error) -> Self {
         Self { path: path.to_owned(), reason: reason(error), advice: "check free space" }
     }
 
-    /// A file that squama has not written, and does not write over.
+    /// Creates the error for a file that squama did not write and does not replace.
     pub fn strange(path: &Path) -> Self {
         let advice = "move the file, or choose another folder with --out DIR";
         let reason = "there is a file of that name that squama has not written".to_owned();
         Self { path: path.to_owned(), reason, advice }
     }
 
-    /// A folder that another process is writing to.
+    /// Creates the error for a folder that another process is writing to.
     pub fn in_use(path: &Path) -> Self {
         let (reason, advice) = ("another squama is writing there", "wait for it to end");
         Self { path: path.to_owned(), reason: reason.to_owned(), advice }
     }
 
-    /// A journal that cannot be written.
+    /// Creates the error for a journal that cannot be written.
     pub fn journal(path: &Path, error: &io::Error) -> Self {
         let advice = "check free space; --resume then goes on with the run";
         Self { path: path.to_owned(), reason: reason(error), advice }
     }
 }
 
-/// A file that is written beside its place and moved there when it is complete, so that its name
-/// never stands for half of it.
+/// A file that is written under a temporary name and renamed when it is complete.
 #[derive(Debug)]
 pub struct AtomicFile {
     path: PathBuf,
@@ -61,7 +60,7 @@ pub struct AtomicFile {
 }
 
 impl AtomicFile {
-    /// Begins the file `name` in `folder`.
+    /// Starts the file `name` in `folder`.
     ///
     /// # Errors
     /// If the folder cannot be written.
@@ -71,15 +70,15 @@ impl AtomicFile {
         Ok(Self { path: folder.join(name), partial, hasher: Sha256::new() })
     }
 
-    /// The path of the file once it is complete.
+    /// Returns the final path of the file.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Puts the file in its place and returns its SHA-256.
+    /// Renames the file to its final path and returns its SHA-256.
     ///
     /// # Errors
-    /// If it does not reach the disk.
+    /// If it cannot be written to the disk.
     pub fn finish(self) -> Result<String, OutputError> {
         let moved = self.partial.move_to(&self.path);
         moved.map_err(|error| OutputError::file(&self.path, &error))?;
@@ -99,20 +98,20 @@ impl Write for AtomicFile {
     }
 }
 
-/// Makes `folder` and the folders above it, and removes what killed processes have left half-written there.
+/// Creates `folder` and its parents, and removes partial files of killed processes.
 ///
 /// # Errors
-/// If it cannot be made.
+/// If it cannot be created.
 pub fn make_folder(folder: &Path) -> Result<(), OutputError> {
     fs::create_dir_all(folder).map_err(|error| OutputError::folder(folder, &error))?;
     remove_abandoned_files(folder);
     Ok(())
 }
 
-/// The text of the file at `path`. A pipe or a device in its place is refused: it may never end.
+/// Reads the text file at `path`; refuses pipes and devices, which may never end.
 ///
 /// # Errors
-/// If it cannot be read or is no regular file.
+/// If it cannot be read or is not a regular file.
 pub fn read_text(path: &Path) -> io::Result<String> {
     if fs::metadata(path)?.is_file() {
         fs::read_to_string(path)
@@ -132,9 +131,9 @@ pub fn write_text(folder: &Path, name: &str, text: &str) -> Result<String, Outpu
     file.finish()
 }
 
-/// Asks the system to keep the moves in `folder`.
+/// Synchronises the renames in `folder` to the disk.
 pub fn sync_folder(folder: &Path) {
-    // Not every system can; the files themselves are on the disk already.
+    // Some systems cannot; the files themselves are on the disk already.
     let _ = File::open(folder).and_then(|folder| folder.sync_all());
 }
 

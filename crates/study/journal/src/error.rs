@@ -1,51 +1,51 @@
-//! Errors of journals that cannot be used.
+//! Errors about unusable journals.
 
 use std::path::PathBuf;
 
 use crate::atomic_file::OutputError;
 use crate::header::FORMAT;
 
-/// A journal that cannot be used. Each message is one line that says what would be right.
+/// A journal that cannot be used. Each message is one line that states the expected input.
 #[derive(Debug, thiserror::Error)]
 pub enum JournalError {
-    /// There are results already.
+    /// The folder already holds results.
     #[error("{}: already holds results; use --resume to continue from them, or --fresh to discard them", .0.display())]
     Exists(PathBuf),
-    /// There are the results of another command.
+    /// The folder holds results of another command.
     #[error("{}: holds the results of {what}; choose another folder with --out DIR", folder.display())]
     Holds {
         /// The folder.
         folder: PathBuf,
-        /// A word for those results.
+        /// Name of these results.
         what: &'static str,
     },
-    /// There are tables that no journal stands behind.
+    /// The folder holds tables without a journal.
     #[error("{}: holds {file} without a journal; choose another folder with --out DIR, or use --fresh to delete the files that have the names of results", folder.display())]
     NoJournal {
         /// The folder.
         folder: PathBuf,
-        /// The first such file.
+        /// The first of these files.
         file: String,
     },
-    /// There is none.
+    /// There is no journal.
     #[error("{}: holds no journal, expected the folder of a run", .0.display())]
     Missing(PathBuf),
-    /// Another process writes it.
+    /// Another process is writing to the journal.
     #[error("{}: another squama is writing there; wait until it ends", .0.display())]
     InUse(PathBuf),
-    /// Something else stands in the place of the journal.
+    /// The path is not a regular file.
     #[error("{}: is not a regular file, expected a journal that squama writes", .0.display())]
     NoFile(PathBuf),
     /// A line was changed and sealed again.
-    #[error("{}: {line} is not what {table} says, which was written from it: somebody has changed one of its lines; put back the journal as it was, or solve everything again {again}", path.display())]
+    #[error("{}: {line} differs from {table}, which was written from it, so one of its lines was changed; restore the journal, or solve everything again {again}", path.display())]
     Edited {
         /// The path of the journal.
         path: PathBuf,
-        /// What the first such line is of.
+        /// The design or point of the first changed line.
         line: String,
         /// The table.
         table: String,
-        /// How to solve everything again.
+        /// The command that solves everything again.
         again: &'static str,
     },
     /// Lines at the end of the journal are missing.
@@ -53,7 +53,7 @@ pub enum JournalError {
     LinesLost {
         /// The path of the journal.
         path: PathBuf,
-        /// How many there were and are.
+        /// The expected and the present number of lines.
         lost: String,
     },
     /// The journal cannot be read.
@@ -64,8 +64,8 @@ pub enum JournalError {
         /// The message of the system.
         reason: String,
     },
-    /// A line before the last is not as it was written.
-    #[error("{}:{line}: damaged line ({problem}); restore the line, or remove line {line} to have what it holds solved again", path.display())]
+    /// A line before the last intact one is damaged.
+    #[error("{}:{line}: damaged line ({problem}); restore the line, or remove line {line} to solve its design again", path.display())]
     Damaged {
         /// Path of the journal.
         path: PathBuf,
@@ -74,7 +74,7 @@ pub enum JournalError {
         /// The damage.
         problem: String,
     },
-    /// The first line is not as it was written.
+    /// The first line is damaged.
     #[error("{}:1: not the first line of a journal ({problem}); restore it, or use --fresh to discard everything", path.display())]
     NoHeader {
         /// Path of the journal.
@@ -82,7 +82,7 @@ pub enum JournalError {
         /// The damage.
         problem: String,
     },
-    /// The journal is of a format that another version of the program writes.
+    /// The journal has the format of another version of the program.
     #[error("{}:1: a journal of format {found}, this squama reads format {}; squama {by} wrote it and still reads it; --fresh or another folder with --out DIR solves everything again", path.display(), FORMAT)]
     OtherFormat {
         /// Path of the journal.
@@ -99,10 +99,10 @@ pub enum JournalError {
         path: PathBuf,
         /// The difference.
         difference: String,
-        /// The values that would be right.
+        /// The expected values.
         expected: &'static str,
     },
-    /// The disk does not take it.
+    /// The journal cannot be written.
     #[error(transparent)]
     Output(#[from] OutputError),
 }

@@ -1,4 +1,4 @@
-//! The header of a journal: what was solved, by which program.
+//! The header of a journal: definition, designs and program.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Display;
@@ -14,10 +14,10 @@ use crate::error::JournalError;
 use crate::reader::Records;
 use crate::seal::Seal;
 
-/// The format of the journals that this program writes: typed results since 2, rows of text in 1.
+/// Format of the journals that this program writes: 2 has typed results, 1 had rows of text.
 pub(crate) const FORMAT: u64 = 2;
 
-/// The program that solves what a journal holds.
+/// The program that wrote a journal.
 #[derive(Clone, Copy, Debug)]
 pub struct Program {
     /// The version of the program.
@@ -51,7 +51,7 @@ pub struct JournalHeader<D> {
 }
 
 impl<D: Designs> JournalHeader<D> {
-    /// The header of a journal of `subset` of the designs that `definition` describes.
+    /// Creates the header for `subset` of the designs of `definition`.
     pub fn new(definition: String, subset: D, program: &Program) -> Self {
         Self {
             format: FORMAT,
@@ -63,12 +63,12 @@ impl<D: Designs> JournalHeader<D> {
         }
     }
 
-    /// The first line of a journal, with its end.
+    /// Returns the first line of a journal, including its line end.
     pub(crate) fn line<R: Records<Designs = D>>(&self) -> Vec<u8> {
         Seal::default().seal(&BTreeMap::from([(R::KEY, self)]))
     }
 
-    /// The header that the first line of the journal at `path` holds.
+    /// Parses the first line of the journal at `path`.
     pub(crate) fn read<R: Records<Designs = D>>(
         bytes: &mut [u8],
         path: &Path,
@@ -84,12 +84,12 @@ impl<D: Designs> JournalHeader<D> {
         header.ok_or_else(|| refuse("squama writes no such line there".to_owned()))
     }
 
-    /// The seal of the lines behind the first.
+    /// Returns the seal of the lines after the first.
     pub fn seal(&self) -> Seal {
         Seal::over(&[&self.definition_sha256, &self.version, &self.revision])
     }
 
-    /// One SHA-256 of definition, designs and program.
+    /// Returns the SHA-256 of definition, designs and program together.
     pub fn digest(&self) -> String {
         sha256(format!("{} {}\n{}\n{}", self.version, self.revision, self.subset, self.definition))
     }
@@ -99,7 +99,7 @@ impl<D: Designs> JournalHeader<D> {
         &self.definition
     }
 
-    /// Whether its checksum is that of its definition.
+    /// Returns true if the checksum matches the definition.
     fn is_sound(&self) -> bool {
         self.definition_sha256 == sha256(&self.definition)
     }
@@ -125,11 +125,11 @@ impl<D: Designs> JournalHeader<D> {
         Self { subset, ..self }
     }
 
-    /// Refuses a journal at `path` that has this header where `wanted` is wanted, and says what is
-    /// `expected` instead.
+    /// Requires that the journal at `path` has the header `wanted`; the error states what is
+    /// `expected`.
     ///
     /// # Errors
-    /// If program, definition or subset is another one.
+    /// If program, definition or subset differ.
     pub fn require(
         &self,
         wanted: &Self,
@@ -142,7 +142,7 @@ impl<D: Designs> JournalHeader<D> {
         })
     }
 
-    /// The difference between `wanted` and this header, in words.
+    /// Describes the difference between `wanted` and this header.
     fn difference(&self, wanted: &Self) -> Option<String> {
         if self.program() != wanted.program() {
             let (here, there) = (self.program(), wanted.program());
@@ -152,14 +152,15 @@ impl<D: Designs> JournalHeader<D> {
             let changes = changes(&self.definition, &wanted.definition);
             return Some(format!("is of another definition: {changes}"));
         }
-        // Of the rest, the format is this program's and the digest is the definition's.
+        // The format and the digest were checked when the header was read.
         (self.subset != wanted.subset)
             .then(|| format!("is of {}, not of {}", self.subset, wanted.subset))
     }
 }
 
-/// The format that the JSON object of a first line names if it is not this program's, and the program that wrote it. Searches
-/// stated their format and program beside each other in format 1.
+/// Returns format and program of a first line if its format is not the one of this program.
+///
+/// In format 1, searches stated format and program side by side.
 fn other_format<R: Records>(object: &[u8]) -> Option<(u64, String)> {
     let line: serde_json::Value = serde_json::from_slice(object).ok()?;
     let header = line.get(R::KEY)?;
@@ -170,7 +171,7 @@ fn other_format<R: Records>(object: &[u8]) -> Option<(u64, String)> {
     (found != FORMAT).then_some((found, by))
 }
 
-/// The keys in which two definitions differ.
+/// Lists the keys in which two definitions differ.
 fn changes(here: &str, there: &str) -> String {
     let (here, there) = (keys(here), keys(there));
     let names: BTreeSet<_> = here.keys().chain(there.keys()).collect();
@@ -185,7 +186,7 @@ fn changes(here: &str, there: &str) -> String {
     changes.join("; ")
 }
 
-/// The dotted keys of a definition with their values.
+/// Returns the dotted keys of a definition with their values.
 fn keys(definition: &str) -> BTreeMap<String, String> {
     let mut keys = BTreeMap::new();
     for entry in toml_source::parse(definition, "").unwrap_or_default() {

@@ -1,11 +1,11 @@
-//! A journal that is being written.
+//! Journals that are open for writing.
 //!
-//! A line is handed to the system in one piece before what it holds counts as done, so a process that is killed loses what is in
-//! hand and nothing else. The file is forced to the disk once a second and at the end, so a machine that loses its power loses
-//! about a second of work. What is then missing or torn at the end is cut off once a copy of it is kept, and solved again. A
-//! damaged line before intact ones is refused by name: nothing after it can be trusted to be complete.
+//! Each line is written with one system call before its result counts as done, so a killed process
+//! loses only the designs in progress. The file is synchronised to the disk once a second and at the
+//! end, so a power failure costs about a second of work. A torn end is copied to a file, cut off and
+//! solved again. A damaged line before intact ones is an error, because lines after it may be missing.
 //!
-//! The file is locked before it is read and for as long as it is written. The lock dies with its process.
+//! The file is locked before it is read and while it is written. The lock ends with its process.
 
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{self, ErrorKind, Write as _};
@@ -19,46 +19,50 @@ use crate::header::JournalHeader;
 use crate::reader::{Records, intact, require_file};
 use crate::tail;
 
-/// The interval at which the file is forced to the disk: what a loss of power may cost, against a write of some ten milliseconds.
+/// Interval between synchronisations to the disk.
+///
+/// A power failure costs this much work; each synchronisation takes about ten milliseconds.
 const SYNC: Duration = Duration::from_secs(1);
 
-/// The time for which a lock is waited for: a reader of the journal holds it for a moment.
+/// Time to wait for a lock, because readers hold it briefly.
 const PATIENCE: Duration = Duration::from_millis(500);
 
-/// The advice to a command that is to go on with another journal.
+/// Advice if an existing journal belongs to another definition.
 const GO_ON: &str = "no difference, or --fresh to throw the results away";
 
-/// What becomes of the results that are there.
+/// Treatment of existing results.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Start {
-    /// They are refused.
+    /// Refuses to start.
     #[default]
     New,
-    /// They are gone on with, if the first line of the journal names the same definition, designs and program. Every line whose
-    /// checksum holds is trusted; a torn end is cut off and solved again, a damaged line before intact ones is refused.
+    /// Continues from them if definition, designs and program are the same.
+    ///
+    /// Lines with a valid checksum are trusted. A torn end is cut off and solved again; a damaged
+    /// line before intact ones is an error.
     Resume,
-    /// They are thrown away.
+    /// Discards them.
     Fresh,
 }
 
-/// A journal that is being written.
+/// A journal that is open for writing.
 #[derive(Debug)]
 pub struct Journal<R> {
     records: R,
     path: PathBuf,
     file: File,
-    /// Bytes that are intact.
+    /// Number of intact bytes.
     length: u64,
     synced: Instant,
-    /// Lines that were cut off or lost.
+    /// Messages about lines that were cut off or lost.
     notes: Vec<String>,
 }
 
 impl<R: Records> Journal<R> {
-    /// The journal at `path` of what `header` describes: a new one, or the one that is there.
+    /// Creates or continues the journal at `path` for the work that `header` describes.
     ///
     /// # Errors
-    /// If it is in use, damaged, of something else, or there and `start` says nothing of it.
+    /// If the journal is in use, damaged or of other work, or exists and `start` is `New`.
     pub fn begin(
         path: &Path,
         header: JournalHeader<R::Designs>,
@@ -66,7 +70,6 @@ impl<R: Records> Journal<R> {
     ) -> Result<Self, JournalError> {
         let file = lock_journal(path)?;
         if start == Start::Fresh {
-            // What was there is thrown away, as it was asked for.
             return Self::create(path, file, header);
         }
         match intact::<R>(path)? {
@@ -85,10 +88,10 @@ impl<R: Records> Journal<R> {
         }
     }
 
-    /// The journal that is there at `path`, to go on with whatever it is of.
+    /// Continues the existing journal at `path`, whatever its definition.
     ///
     /// # Errors
-    /// If there is none, or it is in use or damaged.
+    /// If there is no journal, or it is in use or damaged.
     pub fn resume(path: &Path) -> Result<Self, JournalError> {
         let missing = || JournalError::Missing(folder(path));
         if !path.exists() {
@@ -99,14 +102,14 @@ impl<R: Records> Journal<R> {
         Self::at_end(records, length, path, file)
     }
 
-    /// The journal with what is torn at its end cut off, once a copy of that is kept.
+    /// Copies the bytes after `length` to a file, cuts them off and opens the journal.
     fn at_end(records: R, length: u64, path: &Path, file: File) -> Result<Self, JournalError> {
         let notes = tail::keep(path, length)?.into_iter().collect();
         file.set_len(length).map_err(|error| OutputError::file(path, &error))?;
         Ok(Self { records, path: path.to_owned(), file, length, synced: Instant::now(), notes })
     }
 
-    /// An empty file with its first line.
+    /// Creates an empty journal with its first line.
     fn create(
         path: &Path,
         mut file: File,
@@ -126,61 +129,61 @@ impl<R: Records> Journal<R> {
         Self::at_end(records, length, path, file)
     }
 
-    /// Lines that were cut off or lost, for people.
+    /// Returns messages about lines that were cut off or lost.
     pub fn notes(&self) -> &[String] {
         &self.notes
     }
 
-    /// Adds something that people are to be told of the journal.
+    /// Adds a message about the journal.
     pub fn note(&mut self, note: String) {
         self.notes.push(note);
     }
 
-    /// The content so far.
+    /// Returns the content so far.
     pub fn records(&self) -> &R {
         &self.records
     }
 
-    /// Adds a line, which then counts as done.
+    /// Appends a line; its result then counts as done.
     ///
     /// # Errors
-    /// If the disk does not take it.
+    /// If the line cannot be written.
     pub fn append(&mut self, line: R::Line) -> Result<(), OutputError> {
         let bytes = self.records.header().seal().seal(&line);
         if let Err(error) = self.file.write_all(&bytes) {
-            // Half a line would be cut off by whoever goes on; it is cleaner not to leave it.
+            // Removes a partial line at once; otherwise the next reader would cut it off.
             let _ = self.file.set_len(self.length);
             return Err(OutputError::journal(&self.path, &error));
         }
         let begin = self.length;
         self.length += bytes.len() as u64;
-        // Whoever writes a line that no reader would take has it in the file all the same: the next reader says so.
+        // The line is in the file even if it is not accepted here; the next reader reports it.
         let _ = self.records.take(line, begin..self.length);
         if self.synced.elapsed() > SYNC { self.sync() } else { Ok(()) }
     }
 
-    /// Forces it to the disk.
+    /// Synchronises the file to the disk.
     ///
     /// # Errors
-    /// If the disk does not take it.
+    /// If the data cannot be written.
     pub fn sync(&mut self) -> Result<(), OutputError> {
         self.synced = Instant::now();
         self.file.sync_data().map_err(|error| OutputError::journal(&self.path, &error))
     }
 }
 
-/// The folder of the journal at `path`.
+/// Returns the folder of the journal at `path`.
 fn folder(path: &Path) -> PathBuf {
     path.parent().unwrap_or(path).to_owned()
 }
 
-/// Locks a file or a folder, for this process and as long as it is open; whether that came to pass.
+/// Locks a file or folder until it is closed; returns false if another process holds the lock.
 fn locked(file: &File) -> io::Result<bool> {
     let begun = Instant::now();
     loop {
         match file.try_lock() {
             Ok(()) => return Ok(true),
-            // A file system without locks cannot tell whether another process is there.
+            // The file system has no locks, so other processes cannot be detected.
             Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => {
                 return Ok(true);
             }
@@ -193,22 +196,22 @@ fn locked(file: &File) -> io::Result<bool> {
     }
 }
 
-/// Locks a folder for who writes several files there that belong together; the lock ends with what is returned.
+/// Locks a folder while several related files are written; dropping the file releases the lock.
 ///
 /// # Errors
 /// If another process writes there, or the folder cannot be opened.
 pub fn lock_folder(folder: &Path) -> Result<File, OutputError> {
     let file = File::open(folder).map_err(|error| OutputError::folder(folder, &error))?;
-    // Not every system locks folders; then two writers make the files of one of them, each file whole.
+    // Some systems cannot lock folders. Each file is then complete, but files of two writers may mix.
     if locked(&file).unwrap_or(true) { Ok(file) } else { Err(OutputError::in_use(folder)) }
 }
 
-/// The journal at `path`, made if there is none, and locked for this process until it is closed.
+/// Opens or creates the journal at `path`, and locks it until it is closed.
 ///
 /// # Errors
-/// If it is no regular file, cannot be opened, or another process writes it.
+/// If it is not a regular file, cannot be opened, or another process writes to it.
 pub fn lock_journal(path: &Path) -> Result<File, JournalError> {
-    // What a link points to is not ours to write.
+    // A link may point to a file that squama did not write.
     if path.is_symlink() {
         return Err(JournalError::NoFile(path.to_owned()));
     }
@@ -222,7 +225,7 @@ pub fn lock_journal(path: &Path) -> Result<File, JournalError> {
     }
 }
 
-/// Whether another process is writing the journal at `path`.
+/// Returns true if another process is writing to the journal at `path`.
 pub fn in_use(path: &Path) -> bool {
     let file = require_file(path).ok().and_then(|()| File::open(path).ok());
     file.is_some_and(|file| matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock)))

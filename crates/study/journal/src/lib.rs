@@ -1,19 +1,21 @@
-//! Files that outlive whatever ends their writer: journals, to which one process at a time adds lines, and files that appear whole or
-//! not at all. Runs, searches and samples are kept in journals of this one form.
+//! Crash-safe files: append-only journals, and files that are written atomically.
+//!
+//! Runs, searches and samples keep their results in journals of this one format. One process at a
+//! time appends lines.
 //!
 //! ```text
 //! header ─► {"crc":"…","journal":{format, version, revision, definition}}     the first line
-//! line   ─► {"crc":"…", …}                                                    sealed with the header: a line of another journal is damaged
+//! line   ─► {"crc":"…", …}                                                    sealed with the header, so that lines of another journal count as damaged
 //! ```
 //!
 //! | Type | Role |
 //! |---|---|
-//! | [`Journal`] | a journal that is being written: locked, appended to, forced to the disk once a second |
-//! | [`Records`], [`read`] | what the lines of a journal come to, and how they are read without a claim to the file |
-//! | [`JournalHeader`], [`Designs`], [`Program`], [`Start`] | what a journal is of, by which program, and what becomes of one that is there |
-//! | [`Seal`], [`Windows`] | the checksum of a line, and lines read by their places |
-//! | [`JournalError`], [`OutputError`] | why a journal cannot be used, why a file cannot be written; each in one line |
-//! | [`AtomicFile`], [`write_text`] | files that appear when they are complete, with their SHA-256 |
+//! | [`Journal`] | a journal open for writing: locked, appended to, synchronised once a second |
+//! | [`Records`], [`read`] | the content of the lines, and reading without a lock |
+//! | [`JournalHeader`], [`Designs`], [`Program`], [`Start`] | the definition, designs and program of a journal, and the treatment of an existing one |
+//! | [`Seal`], [`Windows`] | the checksum of a line, and random access to lines |
+//! | [`JournalError`], [`OutputError`] | unusable journals and unwritable files; each message is one line |
+//! | [`AtomicFile`], [`write_text`] | files that appear only when complete, with their SHA-256 |
 
 mod atomic_file;
 mod digest;

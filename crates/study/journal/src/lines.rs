@@ -1,36 +1,36 @@
-//! The lines of a journal as bytes, of which no one takes more memory than a line can have.
+//! Splits a journal into lines, with a limit on the memory of each.
 
 use std::io::{self, BufRead, Read as _};
 
-/// The longest line of a journal: a definition with a million values takes a third of it.
+/// Maximum length of a line; a definition with a million values takes a third of it.
 const LONGEST: u64 = 1 << 26;
 
-/// The lines of a source, with their ends.
+/// The lines of a source, including their line ends.
 pub(crate) struct Lines<R> {
     source: R,
     bytes: Vec<u8>,
-    /// Number of the line that was read last, from 1.
+    /// Number of the last line read, from 1.
     number: u64,
 }
 
 impl<R: BufRead> Lines<R> {
-    /// The lines of `source`.
+    /// Splits `source` into lines.
     pub fn new(source: R) -> Self {
         Self { source, bytes: Vec::new(), number: 0 }
     }
 
-    /// Number of the line that was read last, from 1.
+    /// Returns the number of the last line read, from 1.
     pub fn number(&self) -> u64 {
         self.number
     }
 
-    /// Whether the source begins with `bytes`, or ends within them.
+    /// Returns true if the source begins with `bytes`, or ends within them.
     pub fn begin_with(&mut self, bytes: &[u8]) -> io::Result<bool> {
         let head = self.source.fill_buf()?;
         Ok(head.starts_with(bytes) || bytes.starts_with(head))
     }
 
-    /// The next line. One that is too long has no end.
+    /// Reads the next line. A line that is too long is returned without its end.
     pub fn next(&mut self) -> io::Result<Option<&mut [u8]>> {
         self.bytes.clear();
         let read = self.piece()?;
@@ -41,7 +41,7 @@ impl<R: BufRead> Lines<R> {
         Ok((read > 0).then_some(self.bytes.as_mut_slice()))
     }
 
-    /// Reads on to the end of a line that is too long.
+    /// Skips the rest of a line that is too long.
     fn pass_over(&mut self) -> io::Result<()> {
         loop {
             self.bytes.clear();

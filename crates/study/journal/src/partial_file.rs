@@ -1,8 +1,9 @@
-//! Partial files: what an atomic file is until it is complete.
+//! Partial files: the temporary form of an atomic file.
 //!
-//! The name of a partial file is its own, `.NAME.squama-PROCESS-COUNT.partial`, and the file is made anew: neither another
-//! process nor a link that stands there can be written to. It is locked as long as its process lives, so that what a killed
-//! process has left can be told from what is being written. What a signal ends removes its own.
+//! A partial file has a unique name, `.NAME.squama-PROCESS-COUNT.partial`, and must not exist before,
+//! so neither a file of another process nor the target of a link is overwritten. It is locked while
+//! its process lives, which distinguishes it from files that killed processes left. A process that is
+//! ended by a signal removes its own partial files.
 
 use std::fs::{self, File, OpenOptions};
 use std::io;
@@ -11,21 +12,21 @@ use std::process;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// The names that are tried before a folder is said not to take a new file.
+/// Number of names that are tried before an error is reported.
 const ATTEMPTS: usize = 100;
 
-/// The count of partial files of this process.
+/// Number of partial files that this process has created.
 static COUNT: AtomicU64 = AtomicU64::new(0);
 
-/// The partial files of this process that are there now.
+/// The existing partial files of this process.
 static PRESENT: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 fn present() -> MutexGuard<'static, Vec<PathBuf>> {
-    // A list of paths is whole whoever panicked over it.
+    // A panic cannot leave a list of paths inconsistent.
     PRESENT.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// A file that is removed unless it is moved to its place.
+/// A file that is removed unless it is renamed to its final path.
 #[derive(Debug)]
 pub(crate) struct PartialFile {
     path: PathBuf,
@@ -33,7 +34,7 @@ pub(crate) struct PartialFile {
 }
 
 impl PartialFile {
-    /// A new partial file of the file `name` in `folder`.
+    /// Creates a partial file for the file `name` in `folder`.
     pub fn create(folder: &Path, name: &str) -> io::Result<Self> {
         let mut present = present();
         for _ in 0..ATTEMPTS {
@@ -41,9 +42,9 @@ impl PartialFile {
             let path = folder.join(format!(".{name}.squama-{}-{count}.partial", process::id()));
             match OpenOptions::new().write(true).create_new(true).open(&path) {
                 Ok(file) => {
-                    // A file system without locks has files all the same.
+                    // Some file systems have no locks.
                     let _ = file.lock();
-                    // Whoever cleans up may have taken it for abandoned before it was locked.
+                    // Another process may have removed it as abandoned before it was locked.
                     if path.exists() {
                         present.push(path.clone());
                         return Ok(Self { path, file });
@@ -56,12 +57,12 @@ impl PartialFile {
         Err(io::ErrorKind::AlreadyExists.into())
     }
 
-    /// The open file.
+    /// Returns the open file.
     pub fn file(&mut self) -> &mut File {
         &mut self.file
     }
 
-    /// Forces it to the disk and moves it to `path`.
+    /// Synchronises the file to the disk and renames it to `path`.
     pub fn move_to(self, path: &Path) -> io::Result<()> {
         self.file.sync_all()?;
         fs::rename(&self.path, path)
@@ -71,25 +72,25 @@ impl PartialFile {
 impl Drop for PartialFile {
     fn drop(&mut self) {
         let mut present = present();
-        // There is none if it was moved to its place.
+        // Fails if the file was renamed.
         let _ = fs::remove_file(&self.path);
         present.retain(|path| *path != self.path);
     }
 }
 
-/// Removes the partial files of this process and then ends it with the exit code `code`.
+/// Removes the partial files of this process and exits with `code`.
 pub fn exit_without_partial_files(code: i32) -> ! {
     let present = present();
     for path in present.iter() {
         let _ = fs::remove_file(path);
     }
-    // Nobody makes another one, because the list stays locked.
+    // The list stays locked, so no other thread can create one.
     process::exit(code)
 }
 
-/// Removes the partial files in `folder` that killed processes have left.
+/// Removes the partial files that killed processes left in `folder`.
 pub fn remove_abandoned_files(folder: &Path) {
-    // A file without a folder in its path is in the one that we are in.
+    // An empty path is the current folder.
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let Ok(entries) = fs::read_dir(folder) else { return };
     let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
@@ -104,7 +105,7 @@ fn remove_abandoned(path: &Path) {
     }
 }
 
-/// Whether the name of a file is one that [`PartialFile::create`] gives.
+/// Returns true if `name` has the form of [`PartialFile::create`].
 fn is_partial(path: &Path) -> bool {
     let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
     let parts = name.strip_prefix('.').and_then(|name| name.strip_suffix(".partial"));

@@ -1,4 +1,4 @@
-//! Journals that are read.
+//! Reads journals.
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader};
@@ -14,9 +14,9 @@ use crate::header::{Designs, JournalHeader};
 use crate::lines::Lines;
 use crate::seal::BEFORE;
 
-/// What the lines of a journal come to.
+/// The content of a journal, built line by line.
 pub trait Records: Sized {
-    /// The content of a line behind the first.
+    /// The content of a line after the first.
     type Line: Serialize + DeserializeOwned;
 
     /// The part of the designs that the header states.
@@ -25,46 +25,50 @@ pub trait Records: Sized {
     /// The key under which the first line names the header.
     const KEY: &'static str;
 
-    /// The records of a journal with that header at `path`, of whose lines none was read; the first takes `length` bytes.
+    /// Creates empty records for a header that takes the first `length` bytes of the file at `path`.
     ///
     /// # Errors
-    /// If the header makes no sense, with the problem.
+    /// If the header is not valid, with the problem.
     fn begin(
         header: JournalHeader<Self::Designs>,
         length: u64,
         path: &Path,
     ) -> Result<Self, String>;
 
-    /// Takes the line that stands at these bytes of the file.
+    /// Adds the line at these bytes of the file.
     ///
     /// # Errors
-    /// If no such line belongs there, with the problem: it is then as good as damaged.
+    /// If the line does not belong there, with the problem; it then counts as damaged.
     fn take(&mut self, line: Self::Line, bytes: Range<u64>) -> Result<(), String>;
 
     /// The header.
     fn header(&self) -> &JournalHeader<Self::Designs>;
 
-    /// Whether there is nothing yet that would be lost with the journal.
+    /// Returns true if deleting the journal would lose no results.
     fn is_empty(&self) -> bool;
 }
 
-/// Reads the journal at `path` without a claim to it: its writer may be at work. `None` if not even its first line is complete.
+/// Reads the journal at `path` without locking it, so its writer may continue.
+///
+/// Returns `None` if the first line is incomplete.
 ///
 /// # Errors
-/// If there is none, it cannot be read, or it is damaged.
+/// If the journal is missing, unreadable or damaged.
 pub fn read<R: Records>(path: &Path) -> Result<Option<R>, JournalError> {
     Ok(intact(path)?.map(|(records, _)| records))
 }
 
-/// Reads a journal from any source of bytes, said to be the file `path`; `None` if not even its first line is complete.
+/// Reads a journal from a source of bytes; `path` is used in messages.
+///
+/// Returns `None` if the first line is incomplete.
 ///
 /// # Errors
-/// If it cannot be read or is damaged.
+/// If the journal is unreadable or damaged.
 pub fn read_from<R: Records>(source: impl BufRead, path: &Path) -> Result<Option<R>, JournalError> {
     Ok(intact_from(source, path)?.map(|(records, _)| records))
 }
 
-/// The records of the journal at `path`, and how many of its bytes are intact.
+/// Reads the journal at `path`; returns its records and the number of intact bytes.
 pub(crate) fn intact<R: Records>(path: &Path) -> Result<Option<(R, u64)>, JournalError> {
     require_file(path)?;
     let file = File::open(path).map_err(|error| unreadable(path, &error))?;
@@ -82,7 +86,7 @@ fn intact_from<R: Records>(
         return Err(JournalError::NoHeader { path: path.to_owned(), problem });
     }
     let first = lines.next().map_err(io)?;
-    // A writer that was killed over the first line has left nothing that could be used.
+    // A writer that was killed during the first line left nothing to use.
     let Some(first) = first.filter(|bytes| bytes.ends_with(b"\n")) else { return Ok(None) };
     let mut length = first.len() as u64;
     let header = JournalHeader::read::<R>(first, path)?;
@@ -95,9 +99,9 @@ fn intact_from<R: Records>(
         let taken = seal.read(bytes).and_then(|line| records.take(line, length..end));
         match (taken, damage.take()) {
             (Ok(()), None) => length = end,
-            // Nothing after a damaged line can be trusted to be complete.
+            // Lines may be missing after a damaged one.
             (Ok(()), Some(damage)) => return Err(damage),
-            // Damaged lines with nothing intact after them were torn by a crash, and are cut off by whoever goes on.
+            // Damaged lines at the end were torn by a crash; the next writer cuts them off.
             (Err(_), Some(first)) => damage = Some(first),
             (Err(problem), None) => {
                 let (path, line) = (path.to_owned(), lines.number());
@@ -108,12 +112,12 @@ fn intact_from<R: Records>(
     Ok(Some((records, length)))
 }
 
-/// The error of a journal at `path` that cannot be read.
+/// Creates the error for an unreadable journal at `path`.
 fn unreadable(path: &Path, error: &io::Error) -> JournalError {
     JournalError::Unreadable { path: path.to_owned(), reason: reason(error) }
 }
 
-/// Refuses a pipe, a device or a folder in place of a journal: opening one may never return.
+/// Refuses pipes, devices and folders, because opening one may never return.
 pub(crate) fn require_file(path: &Path) -> Result<(), JournalError> {
     match path.metadata() {
         Ok(metadata) if !metadata.is_file() => Err(JournalError::NoFile(path.to_owned())),

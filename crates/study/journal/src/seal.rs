@@ -4,22 +4,24 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use text::one_line;
 
-/// The bytes before the checksum of a line.
+/// Bytes before the checksum of a line.
 pub(crate) const BEFORE: &[u8] = b"{\"crc\":\"";
-/// The bytes between the checksum and the content.
+/// Bytes between the checksum and the content.
 const AFTER: &[u8] = b"\",";
-/// Digits of the checksum.
+/// Number of digits of the checksum.
 const DIGITS: usize = 8;
 
-/// The seal that makes the lines of one journal differ from those of others: the checksums of all lines but
-/// the first cover the first line too, so a line of another journal is as good as damaged.
+/// Computes the checksums of the lines of one journal.
+///
+/// The checksum of every line but the first also covers the first line, so a line of another journal
+/// counts as damaged.
 #[derive(Clone, Debug, Default)]
 pub struct Seal {
     hasher: crc32fast::Hasher,
 }
 
 impl Seal {
-    /// The seal of the journals whose first line says `texts`.
+    /// Creates the seal of a journal with these texts in its first line.
     pub fn over(texts: &[&str]) -> Self {
         let mut hasher = crc32fast::Hasher::new();
         for text in texts {
@@ -34,16 +36,17 @@ impl Seal {
         format!("{:0DIGITS$x}", hasher.finalize())
     }
 
-    /// The bytes of a line that holds `content`, a struct or a map, its end included.
+    /// Serialises `content`, a struct or a map, as a line including its line end.
     pub fn seal(&self, content: &impl Serialize) -> Vec<u8> {
-        // Text, numbers and lists of them always have a form in JSON.
+        // Texts, numbers and lists of them can always be serialised.
         let object = serde_json::to_vec(content).unwrap_or_default();
         let content = object.get(1..).unwrap_or_default();
         [BEFORE, self.checksum(content).as_bytes(), AFTER, content, b"\n"].concat()
     }
 
-    /// The JSON object that `bytes`, with the end of the line, hold, once their checksum is
-    /// verified. An end of CR LF is an end too: tools that synchronise files write it.
+    /// Verifies the checksum of a line and returns its JSON object.
+    ///
+    /// CR LF is accepted as line end, because tools that synchronise files write it.
     ///
     /// # Errors
     /// If the line has no end, or its checksum does not match.
@@ -62,15 +65,15 @@ impl Seal {
         if !framed {
             return Err("its checksum does not match".to_owned());
         }
-        // The object without its checksum.
+        // Drops the checksum from the object.
         content[start - 1] = b'{';
         Ok(&content[start - 1..])
     }
 
-    /// The content of the line that `bytes`, with the end of the line, hold.
+    /// Verifies a line and deserialises its content.
     ///
     /// # Errors
-    /// As [`Self::open`], or if the content is no `T`.
+    /// As [`Self::open`], or if the content is not a `T`.
     pub fn read<T: DeserializeOwned>(&self, bytes: &mut [u8]) -> Result<T, String> {
         let content = serde_json::from_slice(self.open(bytes)?);
         content.map_err(|error| one_line(&error.to_string()))

@@ -1,4 +1,4 @@
-//! The damaged tail of a journal: nothing of it is thrown away before a copy is kept.
+//! Keeps a copy of the damaged end of a journal before it is cut off.
 
 use std::fs::{File, OpenOptions};
 use std::io::{self, ErrorKind, Seek as _, SeekFrom};
@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 
 use crate::atomic_file::OutputError;
 
-/// Copies what the journal at `path` holds after its first `length` bytes to a file beside it; returns what is to be said
-/// of it, if there is anything.
+/// Copies the bytes of the journal at `path` after `length` to a file beside it.
+///
+/// Returns a message about the copy, or `None` if there are no such bytes.
 pub(super) fn keep(path: &Path, length: u64) -> Result<Option<String>, OutputError> {
     let unkept = |error: io::Error| OutputError::file(path, &error);
     let mut journal = File::open(path).map_err(unkept)?;
@@ -26,7 +27,7 @@ pub(super) fn keep(path: &Path, length: u64) -> Result<Option<String>, OutputErr
     )))
 }
 
-/// A new file beside the journal at `path`.
+/// Creates a new file beside the journal at `path`.
 fn create(path: &Path) -> io::Result<(File, PathBuf)> {
     let mut number = 1;
     loop {

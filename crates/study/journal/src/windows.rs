@@ -1,26 +1,26 @@
-//! Windows onto a journal: a few parts of the file in memory, so that lines are read from a few places in turn.
+//! A small cache of parts of a journal, for reading lines from several positions in turn.
 //!
-//! Designs are read in their order, and their lines stand in the order in which they were done: several threads take turns,
-//! and reruns stand far behind.
+//! Designs are read in the order of their numbers, but their lines are in the order of completion:
+//! those of several threads alternate, and reruns are far behind.
 
 use std::fs::File;
 use std::io::{self, Read as _, Seek as _, SeekFrom};
 
-/// Windows that are kept.
+/// Number of windows in the cache.
 const COUNT: usize = 4;
 
-/// Bytes of a window, unless a line is longer.
+/// Size of a window in bytes, unless a line is longer.
 const LENGTH: u64 = 1 << 16;
 
-/// Windows onto one file.
+/// The cached windows of one file.
 #[derive(Debug)]
 pub struct Windows {
     file: File,
-    /// The one that was used last stands at the end.
+    /// The most recently used window is last.
     windows: Vec<Window>,
 }
 
-/// A part of the file.
+/// A part of the file in memory.
 #[derive(Debug)]
 struct Window {
     start: u64,
@@ -28,7 +28,7 @@ struct Window {
 }
 
 impl Window {
-    /// The line at `offset` with its end, if all of it is here.
+    /// Returns the line at `offset` if this window holds all of it.
     fn line(&self, offset: u64) -> Option<&[u8]> {
         let start = usize::try_from(offset.checked_sub(self.start)?).ok()?;
         let rest = self.bytes.get(start..)?;
@@ -38,12 +38,12 @@ impl Window {
 }
 
 impl Windows {
-    /// Windows onto `file`.
+    /// Creates an empty cache for `file`.
     pub fn new(file: File) -> Self {
         Self { file, windows: Vec::new() }
     }
 
-    /// The line at `offset`, with its end if it has one.
+    /// Reads the line at `offset`, including its line end if there is one.
     ///
     /// # Errors
     /// If the file cannot be read.
@@ -58,7 +58,7 @@ impl Windows {
         Ok(line)
     }
 
-    /// A window that begins at `offset` and holds a whole line, in place of the one that was used longest ago.
+    /// Replaces the least recently used window by one that starts at `offset` and holds a whole line.
     fn open(&mut self, offset: u64) -> io::Result<Window> {
         let mut bytes =
             if self.windows.len() < COUNT { Vec::new() } else { self.windows.remove(0).bytes };
@@ -93,7 +93,7 @@ mod tests {
         }
         let mut windows = Windows::new(file);
         for k in 0..3000 {
-            // Five places in turn.
+            // Read from five positions in turn.
             let (offset, text) = &lines[(k * 611) % 3000];
             assert_eq!(windows.line(*offset).expect("a line"), text.as_bytes());
         }

@@ -173,7 +173,7 @@ fn a_forged_journal_is_rejected() {
     assert!(place.refused("rank r").contains("is not the journal from which the tables beside it"));
     for command in ["merge r --out r", "run x.toml --resume --out r", "rerun r --design 1"] {
         let message = place.refused(command);
-        assert!(message.contains("design 0003 is not what designs.csv says"), "{message}");
+        assert!(message.contains("design 0003 differs from designs.csv"), "{message}");
     }
     fs::write(place.path("r/journal.jsonl"), &sound).expect("writable");
     place.prints("rank r");
@@ -209,7 +209,7 @@ fn forged_evaluations_are_rejected() {
         reseal(&place, journal, "optimisation", change);
         let message = place.refused("optimise x.toml --out found --resume");
         assert!(message.starts_with(&format!("error: {journal}: ")), "{message}");
-        assert!(message.contains(&format!("is not what {file} says")), "{message}");
+        assert!(message.contains(&format!("differs from {file}")), "{message}");
         assert_eq!(place.read(&format!("found/{file}")), *table);
         fs::write(place.path(journal), &sound).expect("writable");
     }
@@ -241,7 +241,7 @@ fn forged_samples_are_rejected() {
         }
     });
     let message = place.refused(command);
-    assert!(message.contains(&format!("sample 3 is not what {table} says")), "{message}");
+    assert!(message.contains(&format!("sample 3 differs from {table}")), "{message}");
     assert_eq!(place.read(&format!("made/samples/{table}")), sound[1]);
     fs::write(place.path(&journal), &sound[0]).expect("writable");
     // Where it is the table that was changed, the sample itself tells.
