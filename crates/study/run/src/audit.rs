@@ -1,7 +1,8 @@
-//! The audit of a run: a share of its designs is solved again by another way, and the largest differences are told.
+//! The audit of a run: solves a fraction of its designs again by a second method.
 //!
-//! Two ways: with steps a tenth as large, which nothing that a path finds may depend on; and bending as a chain of all gaps
-//! against one gap for all, for strips of a whole number of gaps, which are then one problem solved in two ways.
+//! There are two second methods. Steps a tenth as large must not change any result. Bending as a
+//! chain of all gaps must agree with one gap that represents all; the number of gaps is then rounded,
+//! so that both methods solve the same problem.
 
 use std::path::Path;
 
@@ -17,22 +18,22 @@ use crate::solve::evaluator::Evaluator;
 use crate::solve::groups::Groups;
 use crate::solve::workers;
 
-/// How many times smaller the steps of the second computation are.
-// Ten and not two: an error of first order shows at once, one of second order by a factor of a hundred.
+/// Factor by which the steps of the second computation are smaller.
+// Ten instead of two makes errors of first and second order obvious.
 const SMALLER: f64 = 10.0;
 
-/// Values that vanish but for round-off have no digits to compare.
-// Measures are of the order of one; what is left where symmetry makes them vanish is rounding.
+/// Magnitude below which values count as zero.
+// Measures are of order one; where symmetry makes them vanish, round-off remains.
 const NOTHING: f64 = 1e-9;
 
-/// The larger part of the golden section.
+/// The golden ratio minus one.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
-/// Gaps of the longest chain that an audit solves.
-// A longer chain is no other problem, and takes as much longer.
+/// Maximum number of gaps of a chain in an audit.
+// A longer chain is the same problem and only takes longer.
 const LONGEST_CHAIN: usize = 1000;
 
-/// The second way in which a design was solved.
+/// The second method for solving a design.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SecondWay {
     /// With steps a tenth as large.
@@ -41,7 +42,7 @@ pub enum SecondWay {
     Chain,
 }
 
-/// The largest difference that an audit found in one column.
+/// The largest difference in one column.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LargestDifference {
     /// The column of `designs.csv`.
@@ -52,7 +53,7 @@ pub struct LargestDifference {
     pub relative: f64,
     /// The design that has it.
     pub design: DesignNumber,
-    /// The value of the run, or of the unit cell, and that of the second way.
+    /// The value of the run (or of the unit cell) and the value of the second method.
     pub values: [f64; 2],
 }
 
@@ -63,7 +64,7 @@ pub struct Audit {
     pub designs: u64,
     /// The largest difference of each column and way, the largest first.
     pub differences: Vec<LargestDifference>,
-    /// Cells that two ways fill differently in words, or what only one of them has: column, design and both texts.
+    /// Cells with different texts, or present in one method only: column, design and both texts.
     pub contradictions: Vec<(String, DesignNumber, [String; 2])>,
 }
 
@@ -94,7 +95,7 @@ impl Audit {
         workers::solve(options.threads, options.stop, groups, solve, |audited: Audited| {
             let position = archive.designs().position(audited.index);
             let entry = position.map(|position| entries.last(position)).transpose()?.flatten();
-            // A design with settings of its own is not what the sweep says.
+            // A design that was solved again with other settings differs from the sweep.
             let is_own = |entry: &JournalEntry| entry.result.settings.is_empty();
             if let Some(entry) = entry.filter(is_own) {
                 audit.compare(
@@ -146,7 +147,7 @@ impl Audit {
     }
 }
 
-/// Solves designs by the second ways.
+/// Solves designs by the second methods.
 struct Auditor<'s> {
     sweep: &'s Sweep,
     evaluator: Evaluator,
@@ -169,7 +170,7 @@ impl<'s> Auditor<'s> {
     }
 }
 
-/// The case with smaller steps. What a path may cost grows with its steps.
+/// Returns the case with smaller steps and a larger limit on their number.
 fn finer(mut case: Case) -> Case {
     let solver = &mut case.common.solver;
     solver.first_step /= SMALLER;
@@ -180,7 +181,7 @@ fn finer(mut case: Case) -> Case {
     case
 }
 
-/// The case with a whole number of gaps, as a unit cell and as a chain.
+/// Returns the case with a whole number of gaps, as a unit cell and as a chain.
 fn whole(mut case: Case) -> Option<[Case; 2]> {
     let gaps = flexure::whole_gaps(&case.design.row().ok()?, &case.flexure);
     // The unit cell knows no unequal gaps, so only the perfect strip is one problem in two ways.
@@ -194,20 +195,22 @@ fn whole(mut case: Case) -> Option<[Case; 2]> {
     (gaps <= LONGEST_CHAIN).then(|| [by(Method::UnitCell), by(Method::Chain)])
 }
 
-/// A `share` of `designs`, spread evenly over them and over any period in them, as the multiples of the golden section are.
+/// Selects a `share` of `designs`, spread evenly at every period of the grid.
+///
+/// The multiples of the golden ratio modulo one have this property.
 fn every(share: f64, designs: impl Iterator<Item = u64>) -> impl Iterator<Item = u64> {
     let chosen = move |(place, _): &(usize, u64)| (*place as f64 * GOLDEN).fract() < share;
     designs.enumerate().filter(chosen).map(|(_, design)| design)
 }
 
-/// Whether a column holds a property of the design, and not of the way in which it was solved.
+/// Returns true if a column holds a property of the design instead of the solution method.
 fn is_physical(column: &str) -> bool {
-    // Steps and iterations are what the second way changes, not what it must keep.
+    // The second method changes the numbers of steps and iterations.
     let of_the_way = ["_points", "_iterations", "_error"];
     !of_the_way.iter().any(|end| column.ends_with(end)) && column != "scales"
 }
 
-/// The difference of two numbers relative to the larger; none if both vanish.
+/// Returns the difference of two numbers relative to the larger, or `None` if both vanish.
 fn relative(first: f64, second: f64) -> f64 {
     let larger = first.abs().max(second.abs());
     if larger < NOTHING { 0.0 } else { (first - second).abs() / larger }

@@ -1,4 +1,4 @@
-//! What the simplified coupling of the substrate leaves out of a design, found by solving it again.
+//! Solves a design again with full coupling of the substrate.
 
 use results::columns::{design_columns, name};
 use serde::Serialize;
@@ -7,8 +7,8 @@ use sweep::Sweep;
 
 use crate::gap_change::again;
 
-/// The measures of one design with the nearest neighbours coupled through the substrate, as Eq. (1) of the paper has it, and with
-/// the whole substrate.
+/// The measures of a design with coupling to nearest neighbours (Eq. 1 of the paper), and with full
+/// coupling of the substrate.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CouplingChange {
     /// The number of the design.
@@ -19,7 +19,7 @@ pub struct CouplingChange {
     pub folds: bool,
 }
 
-/// One measure of a design with either coupling.
+/// One measure of a design with each coupling.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CoupledMeasure {
     /// The column of the measure.
@@ -49,7 +49,7 @@ impl CouplingChange {
         };
         let folds = matches!(values(name::FOLD_FORCE), Some([None, Some(_)]));
         let measures: Vec<_> = columns.iter().filter_map(measure).collect();
-        // Neither what only coverage says of a design nor how it bends before its scales touch depends on the tissue.
+        // Coverage, and bending before scales touch, do not depend on the tissue.
         let moves = folds || measures.iter().any(|measure| measure.full != Some(measure.nearest));
         moves.then(|| Self { design: number.to_owned(), measures, folds })
     }

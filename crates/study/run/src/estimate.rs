@@ -1,4 +1,4 @@
-//! The time and the room that a sweep takes, judged by a few of its designs.
+//! Estimates the time and disk space of a sweep from a few of its designs.
 
 use std::time::{Duration, Instant};
 
@@ -10,19 +10,18 @@ use sweep::Sweep;
 use crate::run_journal::{JournalEntry, Line};
 use crate::solve::evaluator::Evaluator;
 
-/// Places of the grid at which designs are solved, and how many neighbours at each: neighbours share their springs.
-// Several places, as designs are quick in one part of a grid and slow in another; neighbours, as those share their springs.
+/// Number of positions in the grid, and number of neighbouring designs solved at each.
+// Several positions, because the cost varies over the grid; neighbours, because they share springs.
 const PLACES: u64 = 8;
 const NEIGHBOURS: u64 = 6;
 
-/// The order of the places, of which any beginning is spread too.
+/// The order of the positions; every prefix of it is spread over the grid.
 const ORDER: [u64; PLACES as usize] = [0, 4, 2, 6, 1, 5, 3, 7];
 
-/// An estimate takes no longer than this, and the design in hand.
-// Longer than this nobody waits for a guess.
+/// Maximum time of an estimate, plus the design in progress.
 const PATIENCE: Duration = Duration::from_secs(2);
 
-/// The time and the room that a sweep takes, about.
+/// Estimated time and disk space of a sweep.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
     /// The number of designs that were solved for it.
@@ -38,7 +37,7 @@ impl Estimate {
     pub fn solve(sweep: &Sweep) -> Self {
         let (evaluator, grid) = (Evaluator::new(sweep.measures()), sweep.grid());
         let (begun, mut solved, mut bytes) = (Instant::now(), 0, 0);
-        // On one thread: how threads share springs and memory is not guessed, `--threads` divides what is told.
+        // Time on one thread; callers divide it by the number of threads.
         for index in spread(grid.len()) {
             let row = evaluator.row(grid.number(index), &grid.case(index));
             bytes += room(sweep, &row);
@@ -53,14 +52,14 @@ impl Estimate {
     }
 }
 
-/// Designs of a grid: neighbours at a few places.
+/// Selects neighbouring designs at a few positions of a grid.
 fn spread(designs: u64) -> impl Iterator<Item = u64> {
     let first = move |place: u64| (2 * place + 1) * (designs / (2 * PLACES));
     let neighbours = move |place| (0..NEIGHBOURS).map(move |neighbour| first(place) + neighbour);
     ORDER.into_iter().flat_map(neighbours).filter(move |index| *index < designs)
 }
 
-/// Bytes of a design in journal and tables.
+/// Returns the bytes of a design in journal and tables.
 fn room(sweep: &Sweep, row: &DesignRow) -> usize {
     let (design, result) = (row.number.index() + 1, row.result.clone());
     // Times of six digits, as most have.

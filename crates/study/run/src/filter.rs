@@ -1,4 +1,4 @@
-//! Filters of the designs of a run: failed ones, some by number, those with certain values.
+//! Filters for the designs of a run: by failure, number or value.
 
 use std::str::FromStr;
 
@@ -10,7 +10,7 @@ use text::nearest;
 
 use crate::run_journal::{Archive, JournalEntry};
 
-/// A filter of the designs of a run: those pass for which everything holds that is set.
+/// A filter for the designs of a run. A design passes if it meets all conditions that are set.
 #[derive(Clone, Debug, Default)]
 pub struct Filter {
     /// Only designs that lack a value.
@@ -21,19 +21,19 @@ pub struct Filter {
     pub columns: Vec<ColumnFilter>,
 }
 
-/// A column of `designs.csv` and the value that a row must have there.
+/// A column of `designs.csv` and the required value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ColumnFilter {
     column: String,
     value: String,
 }
 
-/// A text that is no condition on a column.
+/// A text that is not a condition on a column.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0:?} is not a condition, expected COLUMN=VALUE, e.g. slant_deg=75")]
 pub struct InvalidColumnFilter(String);
 
-/// A filter that makes no sense for a run.
+/// A filter that does not fit the run.
 #[derive(Debug, thiserror::Error)]
 pub enum InvalidFilter {
     /// A number that is no design of the sweep.
@@ -120,7 +120,7 @@ impl Filter {
     }
 }
 
-/// The entries of the designs with these numbers, in order, each once.
+/// Returns the entries of the designs with these numbers, sorted and without duplicates.
 fn numbered(archive: &Archive, numbers: &[String]) -> Result<Vec<JournalEntry>, InvalidFilter> {
     let grid = archive.sweep().grid();
     let range = |text: &String| grid.parse_numbers(text.trim()).map_err(InvalidFilter::Number);

@@ -1,4 +1,4 @@
-//! How far the measures of a design move with its gap, found by solving it again.
+//! Solves a design again with smaller and larger gaps.
 
 use results::columns::design_columns;
 use results::{Column, DesignRow};
@@ -9,17 +9,17 @@ use sweep::{Case, Sweep};
 use crate::solve::evaluator::Evaluator;
 use crate::solve::work::work_of;
 
-/// The gap of a design that comes out smaller and larger, over the gap that was meant.
-// Both ways: a cliff stands on one side of a design, and which is not known before.
+/// Factors on the gap of a design.
+// Both directions, because a cliff may be on either side.
 const PARTS: [f64; 2] = [0.9, 1.1];
 
-/// A measure that moves by this factor, or its inverse, where the gap moves by a tenth, stands at a cliff.
+/// Change of a measure, as a factor or its inverse, that counts as a cliff if the gap changes by 10 %.
 const CLIFF: f64 = 1.5;
 
-/// The paths that a design may take, in puncture and bending: more would have people wait.
+/// Maximum number of paths per design, so that users do not have to wait.
 const MOST_WORK: u64 = 500;
 
-/// The measures of one design where its gap is 10 % smaller and 10 % larger.
+/// The measures of a design with a gap 10 % smaller and 10 % larger.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GapChange {
     /// The number of the design.
@@ -31,7 +31,7 @@ pub struct GapChange {
     pub measures: Vec<MeasureChange>,
 }
 
-/// One measure of a design where its gap is 10 % smaller and 10 % larger.
+/// One measure of a design with a gap 10 % smaller and 10 % larger.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MeasureChange {
     /// The column of the measure.
@@ -43,7 +43,7 @@ pub struct MeasureChange {
     pub changed: [Option<f64>; 2],
 }
 
-/// Both sides, each by its name.
+/// The names of both sides.
 fn by_side<S: Serializer>(changed: &[Option<f64>; 2], serializer: S) -> Result<S::Ok, S::Error> {
     let names = ["gap_10_percent_smaller", "gap_10_percent_larger"];
     serializer.collect_map(names.into_iter().zip(changed))
@@ -83,8 +83,10 @@ fn measure(column: &Column<DesignRow>, solved: &[DesignRow; 3]) -> Option<Measur
     })
 }
 
-/// Design `number` of `sweep`, and what it becomes with each of the `changes`. `None` if there is no such design, or solving it again
-/// would take long. Samples of imperfect rows are not solved.
+/// Returns design `number` of `sweep` and its variants with each of the `changes`.
+///
+/// Returns `None` if the design does not exist or is slow to solve. Samples of imperfect rows are not
+/// solved.
 pub(crate) fn again<T: Copy, const N: usize>(
     sweep: &Sweep,
     number: &str,
@@ -107,7 +109,7 @@ pub(crate) fn again<T: Copy, const N: usize>(
     Some((case, solved))
 }
 
-/// Whether a design is solved in milliseconds: boundary elements of a layer take longer.
+/// Returns true if a design takes milliseconds; boundary elements of a layer take longer.
 fn is_quick(sweep: &Sweep, case: &Case) -> bool {
     case.tissue_thickness.is_none() && work_of(case, sweep.measures()) <= MOST_WORK
 }

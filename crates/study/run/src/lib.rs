@@ -1,9 +1,9 @@
-//! Runs: how the designs of a sweep are solved, and how their results come into a folder.
+//! Runs: solves the designs of a sweep and writes their results into a folder.
 //!
-//! Designs are solved in parallel, each by one thread, and noted in a journal as they are done. The
-//! tables are written from the journal, in the order of the designs, one row at a time: so they are
-//! the same for any number of threads, shards and interruptions, and memory hardly grows with the
-//! grid.
+//! Designs are solved in parallel, each by one thread, and appended to a journal as they finish. The
+//! tables are written from the journal, in the order of the designs, one row at a time. They are
+//! therefore identical for any number of threads, shards and interruptions, and memory hardly grows
+//! with the grid.
 //!
 //! ```text
 //! Sweep ─► Groups ─► workers ─► Evaluator ─► JournalEntry ─► Journal ─► TableWriter ─► tables
@@ -12,20 +12,20 @@
 //! | Type | Role |
 //! |---|---|
 //! | [`run()`] | solves the designs of a sweep and writes the tables |
-//! | [`Options`], [`Program`], [`Progress`], [`Finished`] | how, by which program, how far, with what result |
-//! | [`Evaluator`] | solves one design, or its curve at chosen places |
-//! | [`CurvePoints`] | such a curve, with its derivatives |
-//! | [`WorkMeter`] | how much of the work is done, within designs too |
-//! | [`Start`] | what a run does with results that are there, and what it trusts of them |
-//! | [`Archive`], [`JournalEntry`], [`Line`] | every finished design, a line each in a journal |
-//! | [`Rerun`], [`Filter`], [`ColumnFilter`] | some designs solved again, with other settings |
-//! | [`RunStatus`] | how far a run is |
-//! | [`merge()`] | puts shards together |
-//! | [`Estimate`] | time and room that a sweep takes, about |
-//! | [`Audit`], [`LargestDifference`], [`SecondWay`] | a share of the designs solved again by another way |
+//! | [`Options`], [`Program`], [`Progress`], [`Finished`] | options, program, progress and result of a run |
+//! | [`Evaluator`] | solves one design, or its curve at given points |
+//! | [`CurvePoints`] | a curve at given points, with its derivatives |
+//! | [`WorkMeter`] | the completed fraction of the work, also within designs |
+//! | [`Start`] | treatment of existing results |
+//! | [`Archive`], [`JournalEntry`], [`Line`] | a journal that was read, and its lines |
+//! | [`Rerun`], [`Filter`], [`ColumnFilter`] | selected designs solved again with other settings |
+//! | [`RunStatus`] | numbers of finished, failed and missing designs |
+//! | [`merge()`] | merges shards |
+//! | [`Estimate`] | estimated time and disk space of a sweep |
+//! | [`Audit`], [`LargestDifference`], [`SecondWay`] | a fraction of the designs solved again by a second method |
 //! | [`Summary`], [`Best`] | counts and best values |
-//! | [`GapChange`], [`MeasureChange`] | the measures of a design where its gap comes out 10 % smaller and larger |
-//! | [`CouplingChange`], [`CoupledMeasure`] | the measures of a design with the whole substrate coupled |
+//! | [`GapChange`], [`MeasureChange`] | the measures of a design with a gap 10 % smaller and larger |
+//! | [`CouplingChange`], [`CoupledMeasure`] | the measures of a design with full coupling |
 //!
 //! ```
 //! use std::sync::atomic::AtomicBool;

@@ -1,4 +1,4 @@
-//! Putting the shards of a sweep together.
+//! Merges the shards of a sweep.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -17,10 +17,10 @@ use crate::run_journal::{self, Archive, Entries, Journal, JournalEntry, Line, Se
 use crate::solve::work::WorkMeter;
 use crate::tables::run_info::RunInfo;
 
-/// The advice to shards that do not belong together.
+/// Advice if shards do not belong to the same sweep.
 const ALIKE: &str = "shards of one sweep by one program";
 
-/// Shards that cannot be put together.
+/// Shards that cannot be merged.
 #[derive(Debug, thiserror::Error)]
 pub enum MergeError {
     /// No folder of a shard was given.
@@ -44,7 +44,7 @@ pub enum MergeError {
     },
 }
 
-/// A merger that was done.
+/// The result of a merge.
 #[derive(Clone, Debug)]
 pub struct Merged {
     /// The results after the merger.
@@ -57,13 +57,14 @@ pub struct Merged {
     pub sweep: Sweep,
 }
 
-/// Puts the results in `folders`, shards of one sweep, into the folder `out`, and writes the tables of
-/// the whole. What is there already stays, so that merging twice is merging once. If `out` is the only one of the folders,
-/// its tables are written again from its journal.
+/// Merges the shards in `folders` into `out` and writes the tables of the whole sweep.
+///
+/// Existing results stay, so merging twice has the same effect as merging once. If `out` is the only
+/// folder, its tables are written again from its journal.
 ///
 /// # Errors
-/// If the folders hold results of different definitions or programs, one is in use, or the disk
-/// does not take the results.
+/// If the folders hold results of different definitions or programs, one is in use, or the results
+/// cannot be written.
 pub fn merge(
     folders: &[PathBuf],
     out: &Path,
@@ -85,14 +86,14 @@ pub fn merge(
     out.make().map_err(RunError::from)?;
     // Resumed, not new: merging twice is merging once, and a merger that was killed goes on.
     let mut journal = run_journal::begin(&out, header, Start::Resume)?;
-    // What is asked for, else what the folder has, else what the shards have.
+    // The requested format, else the format of the folder, else the format of the shards.
     let formats = [journal.records(), &sources[0].archive].map(Archive::format);
     let format = formats.into_iter().fold(format, Option::or);
     let added = gather(&mut journal, &sources, &out, format.unwrap_or_default())?;
     finish(journal, out, format, added, program, clock)
 }
 
-/// The tables in `out`, written again from the journal there.
+/// Writes the tables in `out` again from its journal.
 fn written_again(
     out: ResultsFolder,
     format: Option<CsvFormat>,
@@ -134,7 +135,7 @@ struct ShardResults {
     archive: Archive,
 }
 
-/// Opens the folders other than `out`, all of one sweep.
+/// Opens the folders other than `out`, and requires that they belong to one sweep.
 fn open(folders: &[PathBuf], out: &ResultsFolder) -> Result<Vec<ShardResults>, MergeError> {
     let same = |folder: &&PathBuf| match (folder.canonicalize(), out.path().canonicalize()) {
         // By their real paths, as `results/x` and `./results/x/` are one folder.
@@ -160,7 +161,7 @@ fn open(folders: &[PathBuf], out: &ResultsFolder) -> Result<Vec<ShardResults>, M
     Ok(sources)
 }
 
-/// Appends to `journal` what it lacks; returns how many designs that were.
+/// Appends the missing designs to `journal`; returns their number.
 fn gather(
     journal: &mut Journal,
     sources: &[ShardResults],
@@ -172,9 +173,9 @@ fn gather(
     for source in sources {
         readers.push((source, source.archive.entries()?));
     }
-    // As it was: what is appended now belongs to other designs.
+    // The archive before appending; new lines belong to other designs.
     let before = Archive::open(out)?;
-    // Read beside the journal that grows: entries are found by where they stand, and what is appended stands behind.
+    // A second handle reads entries at their offsets, which stay valid while the journal grows.
     let mut there = before.entries()?;
     let mut added = 0;
     for (design, holders) in Held::by(sources.iter().map(|source| source.archive.held())) {
@@ -195,7 +196,7 @@ fn gather(
     Ok(added)
 }
 
-/// The designs that any of several sources holds, in order, each with the places of those that hold it.
+/// Lists the designs of several sources in order, each with the indices of the sources that hold it.
 struct Held<I> {
     sources: Vec<I>,
     /// The next design of each source, and the place of the source; the smallest first.
@@ -235,8 +236,7 @@ impl<I: Iterator<Item = u64>> Iterator for Held<I> {
     }
 }
 
-/// The entries of the design `index`, which the readers at the places `holders` have, that are to be added to the one that
-/// is there.
+/// Returns the entries of design `index` in the readers `holders` that the journal lacks.
 fn choose(
     index: u64,
     there: Option<JournalEntry>,
@@ -265,12 +265,12 @@ fn choose(
             }
         }
     }
-    // What the folder has is not written a second time.
+    // Designs of the folder are not written again.
     added.retain(|entry| known.is_none_or(|known| entry.rerun > known));
     Ok(added)
 }
 
-/// The numbers of the designs at some positions.
+/// Returns the numbers of the designs at some positions.
 fn numbers(
     designs: &SubsetDesigns,
     positions: &[std::ops::Range<u64>],
@@ -285,7 +285,7 @@ fn numbers(
     numbers
 }
 
-/// The numbers of the designs at consecutive positions: one range where they are consecutive too, as in a whole grid.
+/// Returns the numbers of the designs at consecutive positions, as a range if they are consecutive.
 fn consecutive(
     designs: &SubsetDesigns,
     positions: &std::ops::Range<u64>,

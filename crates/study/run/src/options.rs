@@ -1,4 +1,4 @@
-//! The options of a run, and the program that runs it.
+//! The options of a run.
 
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;

@@ -1,4 +1,4 @@
-//! The progress of a run, and its end.
+//! The progress and the result of a run.
 
 use std::time::Duration;
 
@@ -7,7 +7,7 @@ use sweep::{InvalidDefinition, SampleTooLarge};
 
 use crate::tables::summary::Summary;
 
-/// An error that keeps a sweep from running to its end.
+/// An error that ends a run.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
     /// The results cannot be written.
@@ -32,7 +32,7 @@ pub enum RunError {
     },
 }
 
-/// A run that came to its end.
+/// The result of a run.
 #[derive(Clone, Debug)]
 pub struct Finished {
     /// Counts and best values.
@@ -43,7 +43,7 @@ pub struct Finished {
     pub duration: Duration,
     /// Names of the tables.
     pub tables: Vec<String>,
-    /// News for the person besides: what was cut off, lost or removed.
+    /// Messages about lines or files that were cut off, lost or removed.
     pub notes: Vec<String>,
 }
 

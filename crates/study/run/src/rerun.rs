@@ -1,4 +1,4 @@
-//! Solving designs of a run again, with other settings.
+//! Solves designs of a run again with other settings.
 
 use std::path::Path;
 use std::time::Instant;
@@ -15,7 +15,7 @@ use crate::run_journal::{self, Archive};
 use crate::solve::task::Task;
 use crate::tables::run_info::RunInfo;
 
-/// Designs of a run, and what they are to be solved with.
+/// Designs of a run and the settings for solving them again.
 #[derive(Debug)]
 pub struct Rerun {
     folder: ResultsFolder,
@@ -24,7 +24,7 @@ pub struct Rerun {
     designs: Vec<u64>,
 }
 
-/// A re-run that cannot begin.
+/// A rerun that cannot start.
 #[derive(Debug, thiserror::Error)]
 pub enum InvalidRerun {
     /// The journal cannot be used.
@@ -54,8 +54,8 @@ pub enum InvalidRerun {
 }
 
 impl Rerun {
-    /// Plans to solve the designs of the run in `folder` that pass `filter`, with `settings` in place
-    /// of what the sweep says.
+    /// Plans to solve the designs of the run in `folder` that pass `filter` again, with `settings`
+    /// applied to the sweep.
     ///
     /// # Errors
     /// If there is no such run, another program has solved it, or filter or settings make no sense.
@@ -74,7 +74,7 @@ impl Rerun {
         Ok(Self { folder, sweep, settings, designs })
     }
 
-    /// The settings that are not those of the sweep, as `key=value` with spaces between.
+    /// The settings that differ from the sweep, as `key=value` separated by spaces.
     pub fn settings(&self) -> &str {
         &self.settings
     }
@@ -84,7 +84,7 @@ impl Rerun {
         self.designs.iter().map(|index| self.sweep.grid().number(*index))
     }
 
-    /// Solves them, replaces their rows in every table, and tells what has changed in `reruns.csv`.
+    /// Solves the designs, replaces their rows in every table and lists the changes in `reruns.csv`.
     /// Reports `progress` as soon as a design is done, in any order.
     ///
     /// # Errors
@@ -97,7 +97,7 @@ impl Rerun {
     ) -> Result<Finished, RunError> {
         let clock = Instant::now();
         let folder = self.folder.clone();
-        // Locked from here on; what was planned may have changed since, which only adds designs and reruns.
+        // The journal is locked from here on. Other processes may have added designs and reruns since.
         let journal = run_journal::resume(&folder)?;
         require_program(journal.records(), &folder, program)?;
         folder.make()?;
@@ -122,7 +122,7 @@ fn require_program(
     header.require(&wanted, &folder.journal(), "the program that solved the others")
 }
 
-/// `sweep` with `settings` in place of what it says, and what is then different.
+/// Applies `settings` to `sweep`; returns the new sweep and the changed keys.
 fn changed(sweep: &Sweep, settings: &[Setting]) -> Result<(Sweep, String), InvalidRerun> {
     let changed = Sweep::parse(&sweep.to_toml(), "definition", settings)?;
     for setting in settings {
@@ -142,7 +142,7 @@ fn changed(sweep: &Sweep, settings: &[Setting]) -> Result<(Sweep, String), Inval
         return Err(InvalidRerun::Imperfection { before, after });
     }
     let (old, new) = (sweep.grid().base(), changed.grid().base());
-    // Only what differs is noted: a setting to the value that the sweep has anyway is none.
+    // A setting equal to the value of the sweep is not recorded.
     let different = PARAMETERS.iter().filter(|p| p.get(old) != p.get(new));
     // A list is written without its spaces, which separate settings.
     let text = |p: &sweep::Parameter| format!("{}={}", p.path(), p.get(new)).replace(SEPARATOR, "");

@@ -1,4 +1,4 @@
-//! Running a sweep: every design solved, noted in the journal, written to the tables.
+//! Runs a sweep: solves its designs, keeps them in the journal and writes the tables.
 
 use std::path::Path;
 use std::sync::atomic::Ordering;
@@ -17,15 +17,14 @@ use crate::solve::workers;
 use crate::tables::run_info::RunInfo;
 use crate::tables::table_writer::TableWriter;
 
-/// Solves the designs of `subset` of `sweep` that are not done yet and writes the tables to `folder`.
-/// Reports `progress` as soon as a design is done, in any order.
+/// Solves the missing designs of `subset` of `sweep` and writes the tables to `folder`.
 ///
-/// The tables are the same, byte by byte, for any number of threads, however often the run was
-/// ended and resumed.
+/// Calls `progress` when a design is done, in any order. The tables are identical, byte by byte, for
+/// any number of threads and interruptions.
 ///
 /// # Errors
-/// If the folder or the disk does not take the results, there are results that `start` says nothing
-/// of, or the threads cannot be started. A design that fails is a row, not an error.
+/// If the results cannot be written, results exist and `start` is `New`, or the threads cannot be
+/// started. A design that fails is a row, not an error.
 pub fn run(
     sweep: &Sweep,
     subset: Subset,
@@ -61,7 +60,7 @@ pub fn run(
     Ok(finished)
 }
 
-/// The message about files that were made from earlier results.
+/// Returns the message about files that were made from earlier results.
 fn removal(files: &[String]) -> Option<String> {
     let files = files.join(" ");
     (!files.is_empty()).then(|| format!("removed, because made from the earlier results: {files}"))
@@ -123,7 +122,7 @@ impl<'a> Run<'a> {
         progress: &mut impl FnMut(Progress),
     ) -> Result<(), RunError> {
         let failed = entry.result.failed();
-        // In the journal first: what is told as done survives a kill.
+        // The journal is written first, so a reported design survives a kill.
         self.journal.append(Line::Design(Box::new(entry)))?;
         progress(Progress::Done { failed });
         if self.tables.are_due() {

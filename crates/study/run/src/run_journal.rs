@@ -1,8 +1,8 @@
-//! The journal of a run: every finished design, one line each, from which the tables are written.
+//! The journal of a run: one line per finished design, from which the tables are written.
 //!
-//! The first line names what is solved, by which program; a line of its own begins every session; the rest are designs, in the
-//! order in which they were done. A design that stands there several times was solved again: its lines carry the number of their
-//! rerun, and the largest counts, wherever it stands. What a journal promises of its lines is said in the crate `journal`.
+//! The first line is the header, every session starts with a line of its own, and the other lines are
+//! designs in the order of completion. A design that was solved again has several lines with the number
+//! of their rerun; the largest number counts. The crate `journal` documents the guarantees.
 
 mod archive;
 mod edited;
@@ -20,18 +20,18 @@ pub use entry::{JournalEntry, Line, SessionStart};
 /// The header of a journal of designs.
 pub type JournalHeader = journal::JournalHeader<Subset>;
 
-/// The journal of a run that is being written.
+/// The journal of a run, open for writing.
 pub(crate) type Journal = journal::Journal<Archive>;
 
-/// The header of the journal of `subset` of `sweep`.
+/// Creates the header of the journal for `subset` of `sweep`.
 pub(crate) fn header(sweep: &Sweep, subset: Subset, program: &Program) -> JournalHeader {
     JournalHeader::new(sweep.to_toml(), subset, program)
 }
 
-/// The journal in `folder` of the run that `header` describes: a new one, or the one that is there.
+/// Creates or continues the journal in `folder` for the run that `header` describes.
 ///
 /// # Errors
-/// If it is in use, damaged, of another run, or there and `start` says nothing of it.
+/// If the journal is in use, damaged or of another run, or exists and `start` is `New`.
 pub(crate) fn begin(
     folder: &ResultsFolder,
     header: JournalHeader,
@@ -43,15 +43,15 @@ pub(crate) fn begin(
     if start == Start::Fresh { Ok(journal) } else { checked(journal, folder) }
 }
 
-/// The journal that is there in `folder`, to go on with whatever it is of.
+/// Continues the existing journal in `folder`, whatever its definition.
 ///
 /// # Errors
-/// If there is none, or it is in use or damaged.
+/// If there is no journal, or it is in use or damaged.
 pub(crate) fn resume(folder: &ResultsFolder) -> Result<Journal, JournalError> {
     checked(Journal::resume(&folder.journal())?, folder)
 }
 
-/// The journal, checked against the tables in `folder` that were written from it, with a word about the lines that it has lost since.
+/// Checks the journal against the tables in `folder`, and adds a message about lost lines.
 fn checked(mut journal: Journal, folder: &ResultsFolder) -> Result<Journal, JournalError> {
     edited::refuse(journal.records(), folder)?;
     if let Some(lost) = journal.records().lost_lines(folder) {

@@ -1,4 +1,4 @@
-//! Solving designs: one by one, and many at a time.
+//! Solves designs, one by one or in parallel.
 
 pub mod curve;
 pub mod evaluator;

@@ -34,7 +34,7 @@ pub struct RunStatus {
     pub outdated: Vec<Derivation>,
 }
 
-/// A design and how long it took; the quicker is the greater.
+/// A design and its time, ordered so that the fastest is the greatest.
 struct Timed {
     seconds: f64,
     index: u64,
@@ -65,7 +65,7 @@ impl RunStatus {
         Ok(status)
     }
 
-    /// Checks the tables against what the run states of them, if nobody is writing them.
+    /// Checks the tables against `contents.toml`, unless another process is writing them.
     fn check(&mut self, folder: &ResultsFolder) {
         // Tables lag behind the journal while a run goes on; that is no fault.
         if self.in_use {

@@ -1,4 +1,4 @@
-//! The tables of a run, written from its journal.
+//! Writes the tables of a run from its journal.
 
 mod changes;
 mod open_tables;

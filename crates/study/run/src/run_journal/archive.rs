@@ -1,4 +1,4 @@
-//! A journal that was read.
+//! A journal of a run that was read.
 
 use std::fs::File;
 use std::io::{self, BufRead};
@@ -14,7 +14,7 @@ use super::JournalHeader;
 use super::entry::{JournalEntry, Line, SessionStart};
 use super::index::Index;
 
-/// A journal that was read: what it is of, and where its designs stand.
+/// A journal that was read: its header and the offsets of its designs.
 #[derive(Debug)]
 pub struct Archive {
     path: PathBuf,
@@ -26,7 +26,7 @@ pub struct Archive {
     sessions: Vec<SessionStart>,
     /// The number of reruns.
     reruns: u64,
-    /// The rate of the last session.
+    /// The rate of the latest session.
     latest: LatestSession,
     /// Bytes that are intact.
     length: u64,
@@ -34,7 +34,7 @@ pub struct Archive {
     lines: u64,
 }
 
-/// The rate of the last session.
+/// The rate of the latest session.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LatestSession {
     /// The number of designs that the session has finished.
@@ -73,7 +73,7 @@ impl Records for Archive {
     fn take(&mut self, line: Line, bytes: Range<u64>) -> Result<(), String> {
         match line {
             Line::Session(session) => {
-                // The rate is that of the last session: threads and settings of the machine change between them.
+                // Only the latest session counts, because machine and threads may differ between sessions.
                 self.latest = LatestSession::default();
                 self.sessions.push(session);
             }
@@ -208,7 +208,7 @@ impl Archive {
         self.reruns
     }
 
-    /// The rate of the last session.
+    /// The rate of the latest session.
     pub fn latest(&self) -> LatestSession {
         self.latest
     }
@@ -222,7 +222,7 @@ impl Archive {
 
     /// The row that an entry gives in the tables.
     pub fn row(&self, entry: JournalEntry) -> DesignRow {
-        // What was read has an index of the grid.
+        // An index that was read lies in the grid.
         let index = entry.index().unwrap_or_default();
         let grid = self.sweep.grid();
         DesignRow { number: grid.number(index), case: grid.case(index), result: entry.result }
@@ -233,7 +233,7 @@ impl Archive {
     }
 }
 
-/// Reads entries by where they stand.
+/// Reads entries at their offsets.
 pub(crate) struct Entries<'a> {
     archive: &'a Archive,
     lines: Windows,

@@ -1,4 +1,4 @@
-//! Journals that somebody has changed and sealed again: every checksum holds, and the results are not those of the run.
+//! Detects journals with changed lines and valid checksums.
 
 use journal::JournalError;
 use results::columns::{design_columns, name};
@@ -6,9 +6,10 @@ use results::{Contents, JournalExtent, ResultsFolder, WrittenTable};
 
 use super::archive::Archive;
 
-/// Refuses the journal in `folder` if a design in it is not what the table of designs says that was written from it.
+/// Refuses the journal in `folder` if one of its designs differs from the table that was written from it.
 ///
-/// Nothing is compared as long as the journal begins as it did then. Lines that were removed, doubled or swapped change no design.
+/// Designs are compared only if the start of the journal has changed. Removed, duplicated or reordered
+/// lines change no design.
 pub(super) fn refuse(archive: &Archive, folder: &ResultsFolder) -> Result<(), JournalError> {
     let Some(contents) = Contents::stated_in(folder) else { return Ok(()) };
     let stated = &contents.journal;
@@ -25,7 +26,7 @@ pub(super) fn refuse(archive: &Archive, folder: &ResultsFolder) -> Result<(), Jo
     let changed = table.changed(&columns, |record| {
         let index = record.get(0).and_then(|number| grid.parse_number(number).ok());
         let position = index.and_then(|index| archive.designs().position(index));
-        // What stands behind what the tables were written from may be a rerun that they know nothing of.
+        // Lines after the extent that the tables state may be reruns, which the tables do not contain.
         let old = position.filter(|position| archive.stands_before(*position, stated.bytes));
         let entry = old.map(|position| entries.last(position)).transpose()?.flatten();
         let row = entry.map(|entry| archive.row(entry));

@@ -5,7 +5,7 @@ use std::time::SystemTime;
 use results::{CsvFormat, DesignResult};
 use serde::{Deserialize, Serialize};
 
-/// A line of the journal of a run, behind the first.
+/// A line of the journal of a run after the header.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Line {
@@ -45,7 +45,7 @@ impl JournalEntry {
     }
 }
 
-/// The beginning of a run, of its continuation, of a rerun or of a merger.
+/// The start of a run, continuation, rerun or merge.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SessionStart {

@@ -4,12 +4,14 @@ use std::collections::BTreeMap;
 use std::num::NonZeroU64;
 use std::ops::Range;
 
-/// Designs of a page.
-// Pages of 4 kB: a tenth of the designs at random costs a page each at most, the whole grid eight bytes a design.
+/// Number of designs per page.
+// Pages of 4 kB: sparse designs cost at most one page each, a full grid eight bytes per design.
 const PAGE: u64 = 512;
 
-/// For each design the offset of the line that counts: eight bytes per design, on pages of which only those exist that hold
-/// one. Of several lines of one design the one of the latest rerun counts, wherever it stands.
+/// The offset of the valid line of each design.
+///
+/// Takes eight bytes per design; pages without designs are not allocated. Of several lines of one
+/// design, the line of the latest rerun is valid, wherever it is in the file.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Index {
     /// By page and place. The first line is no design, so none has offset 0.
@@ -19,7 +21,7 @@ pub(crate) struct Index {
     reruns: BTreeMap<(u64, u64), u64>,
 }
 
-/// The offsets of two lines of one design, of which the one replaces the other.
+/// The offsets of two lines of one design; the second replaces the first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Replaced {
     /// Offset of the earlier line.

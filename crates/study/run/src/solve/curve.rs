@@ -1,4 +1,4 @@
-//! Curves at chosen places, with what parameters change of them.
+//! Curves at given points, with derivatives with respect to parameters.
 
 use skin::{CurvePoint, Neighbours, flexure, puncture};
 use sweep::{Case, Parameter};
@@ -7,7 +7,7 @@ use super::evaluator::{Evaluator, solved};
 use super::sensitivity::{Varied, bent, punctured};
 use results::Outcome;
 
-/// The points of a curve; `None` where its path does not come.
+/// The points of a curve; `None` beyond the end of its path.
 pub type CurvePoints = Vec<Option<CurvePoint>>;
 
 impl Evaluator {

@@ -1,4 +1,4 @@
-//! Solving one design.
+//! Solves one design.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -17,17 +17,17 @@ use sweep::{Case, DesignNumber, Measure};
 use super::work::{DesignWork, WorkMeter};
 use super::{samples, scatter, sensitivity};
 
-/// The most gaps of a chain that is solved whole: beyond, a path no longer fits into memory.
+/// Maximum number of gaps of a chain, because longer paths do not fit into memory.
 const LONGEST_CHAIN: usize = 100_000;
 
-/// Solves designs, from any number of threads; those of equal footprint share one calibration.
+/// Solves designs on any number of threads; designs with equal footprints share one calibration.
 #[derive(Debug)]
 pub struct Evaluator {
     measures: Vec<Measure>,
     calibrations: Calibrations,
 }
 
-/// A measure that was evaluated: its result and its path, or why there is none.
+/// An evaluated measure: result and path, or the reason for the failure.
 type Evaluated<R, P> = Option<Result<(R, P), Outcome>>;
 
 impl Evaluator {
@@ -45,7 +45,7 @@ impl Evaluator {
         self.solved(number, case, &WorkMeter::default())
     }
 
-    /// The result of [`Self::solve`] alone, sooner: what only tables and drawings of its paths show is not computed.
+    /// Solves a design like [`Self::solve`], but faster: without the data for tables and drawings of paths.
     pub fn row(&self, number: DesignNumber, case: &Case) -> DesignRow {
         self.row_metered(number, case, &WorkMeter::default())
     }
@@ -94,8 +94,10 @@ impl Evaluator {
         solved
     }
 
-    /// Solves `case` with the gaps and slants of the imperfect row of that number in place of its own, if they scatter; otherwise
-    /// the design as it is. Rows of one number have the same random numbers in all designs. The coverage stays that of the design, and an imperfect row has no derivatives.
+    /// Solves imperfect row `sample` of `case`, or the design itself if nothing scatters.
+    ///
+    /// Rows with the same number use the same random numbers in all designs. The coverage is the
+    /// coverage of the design. Imperfect rows have no derivatives.
     pub fn solve_sample(&self, number: DesignNumber, case: &Case, sample: u64) -> DesignRow {
         if case.imperfection.is_none() {
             return self.row(number, case);
@@ -120,8 +122,10 @@ impl Evaluator {
         guarded(punctured)?.ok_or(Outcome::Internal)
     }
 
-    /// The derivatives of the measures of `case` with respect to the gaps and slants of single scales: for every measure one for each
-    /// scale that it depends on, or, in bending, one for all, as independent deviations add up. There are none of what fails.
+    /// Returns the derivatives of the measures of `case` with respect to gaps and slants of single scales.
+    ///
+    /// In puncture there is one derivative per scale, in bending one for all scales. Failed measures have
+    /// no derivatives.
     pub fn scatter(&self, case: &Case) -> Vec<ParameterDerivative> {
         let mut derivatives = Vec::new();
         if self.measures(Measure::Puncture)
@@ -222,7 +226,7 @@ impl Evaluator {
     }
 }
 
-/// The case as measures need it, which is less than its paths show.
+/// Returns the case reduced to the parts of a path that measures need.
 pub(super) fn without_path(case: &Case) -> Case {
     let common = Common { whole_path: false, ..case.common };
     Case { common, ..*case }
@@ -246,7 +250,7 @@ fn bent_sample(case: &Case, sample: u64) -> Result<FlexureResult, Outcome> {
     Ok(FlexureResult::of_sample(&bent))
 }
 
-/// The result and the path of what was asked for, the path only if it ran.
+/// Splits an evaluated measure into result and path; the path exists only if it was solved.
 fn taken_apart<R, P>(
     evaluated: Evaluated<R, P>,
     without_path: fn(Outcome) -> R,
@@ -258,7 +262,7 @@ fn taken_apart<R, P>(
     }
 }
 
-/// The failure of a measure of a solved design; `None` if it has a value.
+/// Returns the failure of a measure, or `None` if it has a value.
 fn failure(measure: Measure, solved: &SolvedDesign) -> Option<Failure> {
     let result = &solved.row.result;
     let is_missing = |outcome: &Outcome| *outcome != Outcome::Complete;
@@ -271,7 +275,7 @@ fn failure(measure: Measure, solved: &SolvedDesign) -> Option<Failure> {
         Measure::Puncture => {
             let puncture = result.puncture?;
             match [puncture.weakest, puncture.way_back].into_iter().flatten().find(is_missing) {
-                // What is missing is the force at another place of the load, whose path nobody keeps, or the way back.
+                // The missing value belongs to another load position, of which no path is kept, or to unloading.
                 Some(other) if puncture.outcome == Outcome::Complete => (other, None),
                 _ => (puncture.outcome, solved.puncture.as_ref().map(PathEnd::of_puncture)),
             }
@@ -288,14 +292,14 @@ fn failure(measure: Measure, solved: &SolvedDesign) -> Option<Failure> {
     is_missing(&outcome).then_some(failure)
 }
 
-/// The solution of a case. Validation lets no case without mechanical meaning come here.
+/// Unwraps a solution; validation has refused cases without mechanical meaning.
 pub(super) fn solved<T>(f: impl FnOnce() -> Result<T, OutOfRange>) -> Result<T, Outcome> {
     guarded(f)?.map_err(|_| Outcome::Internal)
 }
 
-/// The value of `f`, or [`Outcome::Internal`] if it panics.
+/// Calls `f`; returns [`Outcome::Internal`] if it panics.
 fn guarded<T>(f: impl FnOnce() -> T) -> Result<T, Outcome> {
-    // Nothing of what a failed design has touched is looked at again, but for the calibrations,
+    // Data of a failed design is not used again, except for the calibrations,
     // which hold complete entries only.
     catch_unwind(AssertUnwindSafe(f)).map_err(|_| Outcome::Internal)
 }

@@ -1,17 +1,19 @@
-//! Designs in groups that share the springs of their substrate.
+//! Groups designs that share the springs of their substrate.
 
 use std::iter::Peekable;
 
 use substrate::{Coupling, Footprint};
 use sweep::Grid;
 
-/// The most designs of a group. A thread takes a group at a time, so groups must be few designs of a
-/// long sweep whose designs all share their springs.
-// Few enough that no thread is left alone with a long group at the end.
+/// Maximum number of designs in a group.
+///
+/// A thread takes one group at a time. Small groups keep all threads busy at the end of a sweep in
+/// which all designs share their springs.
 const LARGEST: usize = 64;
 
-/// The designs of an iterator in groups of neighbours that share their footprint and coupling. The
-/// slant is the fastest axis, so most neighbours do.
+/// Groups consecutive designs with the same footprint and coupling.
+///
+/// The slant is the fastest axis, so most neighbours have the same footprint.
 pub(crate) struct Groups<'g, I: Iterator<Item = u64>> {
     grid: &'g Grid,
     designs: Peekable<I>,

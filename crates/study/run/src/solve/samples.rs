@@ -1,4 +1,4 @@
-//! Solving imperfect samples of a design.
+//! Solves imperfect samples of a design.
 
 use results::{FlexureResult, PunctureResult, SampleStatistics, Statistics};
 use skin::Sample;
@@ -10,7 +10,7 @@ use sweep::Case;
 use super::evaluator::without_path;
 use super::work::DesignWork;
 
-/// Punctures the samples of `case` on `substrate`, and adds what they gave to `statistics`; tells `work` of each.
+/// Punctures the samples of `case` on `substrate`, adds their results to `statistics` and reports to `work`.
 pub(super) fn puncture(
     case: &Case,
     substrate: &RowStiffness,
@@ -19,7 +19,7 @@ pub(super) fn puncture(
 ) {
     let (mut force, mut penetration) = (Vec::new(), Vec::new());
     for number in 1..=case.samples.count as u64 {
-        // A sample whose scales would overlap is counted as failed, not drawn again: that would bend the distribution.
+        // A sample with overlapping scales counts as failed; drawing again would distort the distribution.
         let punctured =
             imperfect_row(case, number).and_then(|row| punctured(case, substrate, &row));
         let measures = punctured.map(|result| result.measures);
@@ -32,7 +32,7 @@ pub(super) fn puncture(
     statistics.penetration = Statistics::from_values(penetration);
 }
 
-/// Bends the samples of `case`, and adds what they gave to `statistics`; tells `work` of each.
+/// Bends the samples of `case`, adds their results to `statistics` and reports to `work`.
 pub(super) fn flexure(case: &Case, statistics: &mut SampleStatistics, work: &DesignWork<'_>) {
     let (mut compliance, mut closing_range) = (Vec::new(), Vec::new());
     for number in 1..=case.samples.count as u64 {
@@ -55,12 +55,12 @@ fn imperfect_row(case: &Case, number: u64) -> Option<Sample> {
     case.imperfection.sample(&case.design, case.samples.seed as u64, number).ok()
 }
 
-/// The imperfect row of that number of a design with deviations, with the random numbers of all designs.
+/// Returns the imperfect row of this number; the random numbers are the same for all designs.
 pub(super) fn common(case: &Case, number: u64) -> Option<Sample> {
     case.imperfection.common_sample(&case.design, case.samples.seed as u64, number).ok()
 }
 
-/// The puncture of an imperfect row of `case`; `None` if scales would stand within each other.
+/// Punctures an imperfect row of `case`; returns `None` if scales would overlap at rest.
 pub(super) fn punctured(
     case: &Case,
     substrate: &RowStiffness,
@@ -72,7 +72,7 @@ pub(super) fn punctured(
     Some(PunctureResult::new(&puncture, substrate.estimated_error()))
 }
 
-/// The bending of an imperfect strip of `case`; `None` if scales would stand within each other.
+/// Bends an imperfect strip of `case`; returns `None` if scales would overlap at rest.
 pub(super) fn bent(case: &Case, row: &Sample) -> Option<BentSample> {
     flexure::bend_sample(&case.design, &case.common, &case.flexure, row).ok()
 }

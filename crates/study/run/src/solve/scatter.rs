@@ -1,4 +1,4 @@
-//! Derivatives of the measures of a design with respect to the gaps and slants of single scales.
+//! Derivatives of measures with respect to gaps and slants of single scales.
 
 use geometry::OutOfRange;
 use results::ParameterDerivative;
@@ -11,17 +11,19 @@ use sweep::{Case, Parameter};
 
 use super::sensitivity::{self, STEP, named};
 
-/// Scales to each side of the punctured one that are varied, at most. Those beyond hardly feel a puncture.
+/// Maximum number of varied scales on each side of the punctured one; farther scales hardly matter.
 const FARTHEST: usize = 60;
 
 /// The parameters that differ from scale to scale.
 const SCATTERED: [&str; 2] = ["gap_over_t", "slant_deg"];
 
-/// Measures of bending that one gap alone decides.
+/// Measures of bending that depend on a single gap.
 const OF_FIRST_GAP: [&str; 2] = [name::FIRST_CONTACT_CURVATURE, name::CONTACT_CURVATURE];
 
-/// The derivatives of the measures of a puncture with respect to the gap and the slant of every scale near the punctured one,
-/// those that are not zero. The substrate stays as it is, as under imperfect rows.
+/// Returns the nonzero derivatives of puncture measures with respect to gap and slant of every scale
+/// near the punctured one.
+///
+/// The substrate stays fixed, as for imperfect rows.
 pub(super) fn puncture(
     case: &Case,
     stiffness: &RowStiffness,
@@ -44,7 +46,7 @@ pub(super) fn puncture(
     Ok(derivatives)
 }
 
-/// The variation of the row whose scale at `place` alone has another gap or slant.
+/// Returns the variation of a row in which only the scale at `place` changes its gap or slant.
 fn one_scale(
     case: &Case,
     input: &PunctureInput,
@@ -61,9 +63,11 @@ fn one_scale(
     Some(Neighbours { below, above, step })
 }
 
-/// The derivatives of the measures of bending with respect to the gaps and slants, one for all scales: in pure bending every one of
-/// the `n` gaps adds the same, so that independent deviations add up to `1/√n` of a common one. The number of gaps stays. What the first
-/// gap to close decides has a kink where all are alike.
+/// Returns the derivatives of bending measures with respect to gaps and slants, one for all scales.
+///
+/// In pure bending each of the `n` gaps contributes the same, so independent deviations add up to
+/// `1/√n` of a common deviation. The number of gaps stays fixed. Measures that depend on the first gap
+/// to close have a kink if all gaps are equal.
 pub(super) fn flexure(case: &Case) -> Result<Vec<ParameterDerivative>, OutOfRange> {
     let gaps = whole_gaps(&case.design.row()?, &case.flexure);
     let mut fixed = *case;

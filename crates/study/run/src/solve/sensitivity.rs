@@ -9,24 +9,25 @@ use skin::{Derivative, Neighbours};
 use substrate::{RowStiffness, StiffnessSlopes};
 use sweep::{Case, Measure, PARAMETERS, Parameter, Role};
 
-/// Step of the differences of explicit functions, as a part of the parameter.
-// The cube root of the rounding error, 6e-6, is best of central differences; a third of it stays clear of nearby kinks.
+/// Relative step of finite differences of explicit functions.
+// The optimum for central differences is the cube root of the rounding error, 6e-6; a third of it
+// avoids nearby kinks.
 pub(super) const STEP: f64 = 2e-6;
 
-/// The continuous parameters that a measure of `case` depends on.
+/// Returns the continuous parameters that a measure of `case` depends on.
 fn parameters(case: &Case, of: Measure) -> Vec<&'static Parameter> {
     let belongs = |p: &&Parameter| p.has(Role::Continuous) && of.sections().contains(&p.section);
     PARAMETERS.iter().filter(belongs).filter(|p| p.size(case).is_some()).collect()
 }
 
-/// The prefactor of the contact law, and the moduli that the forces have its product with.
+/// The prefactor of the contact law, and the moduli that are multiplied by it.
 const PREFACTOR: &str = "c1";
 const MODULI: [&str; 2] = ["contact_modulus_over_substrate", "contact_modulus_over_membrane"];
 
-/// The parameters that the paths of a measure are differentiated by, each with its variation.
+/// Returns the parameters of a path's derivatives, each with its variation.
 ///
-/// The prefactor of the contact law is none of them: the forces have only its product with the modulus, so its derivatives follow from
-/// those with respect to the modulus ([`with_prefactor`]), for nothing.
+/// The prefactor of the contact law is not among them: only its product with the modulus enters the
+/// forces, so [`with_prefactor`] computes its derivatives from those of the modulus.
 fn variations<P>(
     case: &Case,
     of: Measure,
@@ -36,8 +37,8 @@ fn variations<P>(
     solved.filter_map(|parameter| Some((parameter, variation(parameter)?))).unzip()
 }
 
-/// The derivatives of paths, and behind them those with respect to the prefactor of the contact law; of each measure in the order of
-/// the list of parameters.
+/// Appends the derivatives with respect to the prefactor of the contact law, and sorts the
+/// derivatives of each measure in the order of the list of parameters.
 fn with_prefactor(case: &Case, solved: &[ParameterDerivative]) -> Vec<ParameterDerivative> {
     let c1 = case.common.law.c1;
     let by_prefactor = |by_modulus: &ParameterDerivative| {
@@ -78,7 +79,7 @@ pub(super) fn flexure(case: &Case) -> Result<(Flexure, Vec<ParameterDerivative>)
     Ok((flexure, with_prefactor(case, &named(case, &parameters, derivatives))))
 }
 
-/// The derivatives of the coverage of `case`.
+/// Returns the derivatives of the coverage of `case`.
 pub(super) fn coverage(case: &Case) -> Vec<ParameterDerivative> {
     let Ok(row) = case.design.row() else { return Vec::new() };
     let parameters = parameters(case, Measure::Coverage);
@@ -108,7 +109,7 @@ pub(super) fn coverage(case: &Case) -> Vec<ParameterDerivative> {
     named(case, &parameters, keys.map(derivative).collect())
 }
 
-/// Derivatives with the names and values of the parameters.
+/// Adds names and values of the parameters to derivatives.
 pub(super) fn named(
     case: &Case,
     parameters: &[&'static Parameter],
@@ -122,7 +123,7 @@ pub(super) fn named(
     derivatives.into_iter().filter_map(named).collect()
 }
 
-/// The puncture of `case` on a substrate of that stiffness.
+/// Punctures `case` on a substrate with this stiffness.
 pub(super) fn punctured(case: &Case, stiffness: RowStiffness) -> PunctureInput {
     let Case { design, common, .. } = *case;
     let parameters = case.punctured();
@@ -134,7 +135,7 @@ pub(super) fn bent(case: &Case) -> FlexureInput {
     FlexureInput { design, common, parameters }
 }
 
-/// A case whose parameter varies.
+/// A case with a varying parameter.
 pub(super) struct Varied<'a> {
     pub(super) case: &'a Case,
     pub(super) parameter: &'static Parameter,
@@ -142,7 +143,7 @@ pub(super) struct Varied<'a> {
 }
 
 impl Varied<'_> {
-    /// The variation of what a function makes of the case for a larger value of the parameter.
+    /// Returns the variation of a function of the case with respect to the parameter.
     pub(super) fn variation<P>(&self, of: fn(&Self, f64) -> Option<P>) -> Option<Neighbours<P>> {
         let step = STEP * self.parameter.size(self.case)?;
         let [below, above] = [-step, step].map(|by| of(self, by));

@@ -1,4 +1,4 @@
-//! The task of the workers: each design becomes an entry of the journal.
+//! The task of a worker: solves a design as an entry of the journal.
 
 use std::time::{Duration, Instant};
 
@@ -12,7 +12,7 @@ use crate::run_journal::JournalEntry;
 pub(crate) struct Task<'a> {
     sweep: &'a Sweep,
     evaluator: Evaluator,
-    /// The settings that are not those of the run.
+    /// The settings that differ from the run.
     settings: String,
     rerun: u64,
     clock: Instant,
@@ -20,8 +20,9 @@ pub(crate) struct Task<'a> {
 }
 
 impl<'a> Task<'a> {
-    /// The designs of `sweep`, solved for the `rerun`-th time; `clock` began with the session, and `work` is
-    /// told of what is done.
+    /// Creates the task for the designs of `sweep` in rerun number `rerun`.
+    ///
+    /// `clock` was started with the session; progress is reported to `work`.
     pub fn new(
         sweep: &'a Sweep,
         settings: String,
@@ -65,7 +66,7 @@ impl<'a> Task<'a> {
     }
 }
 
-/// Seconds to the microsecond.
+/// Rounds seconds to microseconds.
 fn seconds(duration: Duration) -> f64 {
     // Digits beyond are noise, and a tenth of the length of a line.
     (duration.as_secs_f64() * 1e6).round() / 1e6

@@ -1,5 +1,6 @@
-//! The work of a run, told to whoever waits: within long designs too, because an imperfect design may take a thousand
-//! times as long as a perfect one.
+//! Measures the progress of a run, also within long designs.
+//!
+//! An imperfect design may take a thousand times as long as a perfect one.
 
 use std::cell::Cell;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -10,10 +11,10 @@ use skin::flexure::{Method, whole_gaps};
 use solver::{PathProgress, report_progress};
 use sweep::{Case, Measure};
 
-/// The time that a design may take before it is told how far it is.
+/// Time after which the progress within a design is reported.
 const PATIENCE: Duration = Duration::from_secs(5);
 
-/// The work that a run has and that it has done, counted in paths of one row or one gap. Any thread may look at it.
+/// Total and completed work of a run, in paths of one row or one gap; shared by all threads.
 #[derive(Debug, Default)]
 pub struct WorkMeter {
     all: AtomicU64,
@@ -49,7 +50,7 @@ fn report_after<T>(
 }
 
 impl WorkMeter {
-    /// Takes what is to be told of designs that take long.
+    /// Receives messages about designs that take long.
     pub fn take_slow(&self) -> Vec<String> {
         std::mem::take(&mut *self.slow.lock().unwrap_or_else(PoisonError::into_inner))
     }
@@ -84,7 +85,9 @@ impl WorkMeter {
     }
 }
 
-/// A piece of the work of which so many units are expected: no more are counted, and what is left when it ends is done with it.
+/// A part of the work with an expected number of units.
+///
+/// Units beyond the expected number are not counted, and missing ones are added when the part ends.
 pub struct WorkPiece<'m> {
     meter: &'m WorkMeter,
     left: Cell<u64>,
@@ -111,7 +114,7 @@ impl Drop for WorkPiece<'_> {
     }
 }
 
-/// The work of the parts of a design.
+/// The expected work of the parts of a design.
 #[derive(Clone, Copy, Debug)]
 struct Parts {
     /// All but the samples.
@@ -142,12 +145,12 @@ impl Parts {
     }
 }
 
-/// The work of a design that is solved for `measures`.
+/// Returns the expected work of a design that is solved for `measures`.
 pub(crate) fn work_of(case: &Case, measures: &[Measure]) -> u64 {
     Parts::count(case, measures).sum()
 }
 
-/// The work of one design while it is solved.
+/// The progress of one design.
 pub(crate) struct DesignWork<'m> {
     piece: WorkPiece<'m>,
     parts: Parts,

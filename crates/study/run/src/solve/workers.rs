@@ -1,4 +1,4 @@
-//! Threads that solve designs, and can be told to stop.
+//! Worker threads that solve designs and can be stopped.
 
 use std::collections::VecDeque;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -8,19 +8,18 @@ use std::thread::{self, Scope};
 
 use crate::progress::RunError;
 
-/// The most results that wait for the journal.
-// Enough that no thread waits for the disk, and no more than a few megabytes.
+/// Maximum number of results that wait for the journal.
+// Threads then do not wait for the disk, and memory stays at a few megabytes.
 const WAITING: usize = 1024;
 
-/// Solves the designs of `groups` on `threads` threads and hands each result to `sink` as soon as it
-/// is there, in any order. The first error of `sink` ends the work; once `stop` is set, designs already
-/// started are finished.
+/// Solves the designs of `groups` on `threads` threads and passes each result to `sink`.
 ///
-/// A thread takes a group at a time, because the designs of a group share something that is slow to
-/// find: so two threads seldom wait for the same. When no group is left, threads help each other.
+/// Results arrive in any order. The first error of `sink` ends the work. After `stop` is set, started
+/// designs are finished. A thread takes one group at a time, because the designs of a group share a
+/// calibration that is slow to compute. When no group is left, threads take designs from each other.
 ///
 /// # Errors
-/// If the threads cannot be started, or those of `sink`.
+/// If the threads cannot be started, or errors of `sink`.
 pub(crate) fn solve<T: Send>(
     threads: usize,
     stop: &AtomicBool,
@@ -68,7 +67,7 @@ fn work<T>(next: impl Fn() -> Option<u64>, solve: impl Fn(u64) -> T, sender: &Sy
     }
 }
 
-/// Groups that nobody has begun, and what is left of the group of each worker.
+/// Groups that were not started, and the rest of the group of each worker.
 struct Queue<G> {
     groups: G,
     open: Vec<VecDeque<u64>>,

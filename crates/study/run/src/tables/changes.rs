@@ -1,4 +1,4 @@
-//! The table of what reruns have changed.
+//! The table of values that reruns changed.
 
 use journal::JournalError;
 use results::columns::{design_columns, name};
@@ -8,7 +8,8 @@ use results::{
 
 use crate::run_journal::Archive;
 
-/// Writes the table of what reruns have changed if there is anything to tell, and returns its name and its SHA-256.
+/// Writes the table of values that reruns changed; returns its name and SHA-256, or `None` if no
+/// design was solved again.
 pub(super) fn write(
     archive: &Archive,
     folder: &ResultsFolder,
@@ -30,7 +31,7 @@ pub(super) fn write(
     Ok(Some((ResultsFolder::RERUNS.to_owned(), table.finish()?)))
 }
 
-/// Every value that changed; one change without a column if none did.
+/// Lists every changed value, or one entry without a column if no value changed.
 fn changes(columns: &[Column<DesignRow>], rerun: u64, rows: &[DesignRow; 2]) -> Vec<RerunChange> {
     let change = |column, values| RerunChange {
         design: rows[1].number,

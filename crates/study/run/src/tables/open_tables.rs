@@ -1,4 +1,4 @@
-//! The tables of a run while they are written.
+//! The tables of a run during writing.
 
 use results::columns::TableLayout;
 use results::{
@@ -7,7 +7,7 @@ use results::{
 };
 use sweep::{Measure, Sweep};
 
-/// The tables that have a row, or rows, of each design.
+/// The tables with one or more rows per design.
 pub(super) struct OpenTables<'a> {
     layouts: &'a [TableLayout],
     designs: Vec<CsvFile<'a, DesignRow>>,
@@ -16,7 +16,7 @@ pub(super) struct OpenTables<'a> {
     derivatives: Option<CsvFile<'static, DerivativeRow>>,
 }
 
-/// The lines of some designs in every table.
+/// The rows of some designs in each table.
 pub(super) struct TableLines {
     designs: Vec<Vec<u8>>,
     failures: Vec<u8>,

@@ -11,7 +11,7 @@ use super::summary::Summary;
 use crate::options::Options;
 use crate::run_journal::Archive;
 
-/// The information on a run that is neither its sweep nor its results.
+/// Information on a run besides its sweep and its results.
 pub(crate) struct RunInfo<'a> {
     program: &'a Program,
     threads: usize,

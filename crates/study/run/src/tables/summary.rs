@@ -16,12 +16,12 @@ pub struct Summary {
     pub failed: u64,
     /// The number of designs of each status, by its text, for each measure that has a path.
     pub statuses: BTreeMap<Measure, BTreeMap<&'static str, u64>>,
-    /// Designs on whose path the surface of the substrate folds over.
+    /// Designs in which the surface of the substrate folds.
     pub folded: u64,
     contests: Vec<Contest>,
 }
 
-/// The best value of its kind, and the first design that has it.
+/// The best value of a measure, and the first design that has it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Best {
     /// The name of the value, in words.
@@ -32,7 +32,7 @@ pub struct Best {
     pub apart: Option<&'static str>,
 }
 
-/// A value of which the best is told.
+/// A measure with the direction in which it is better.
 #[derive(Clone, Copy, Debug)]
 struct Contest {
     what: &'static str,
@@ -41,7 +41,7 @@ struct Contest {
     apart: Option<&'static str>,
 }
 
-/// The values of which the best is told, in words and by their names.
+/// The measures of the summary, with labels and column names.
 const TOLD: [(&str, &str); 5] = [
     ("best coverage", name::COVERAGE),
     ("largest critical force", name::CRITICAL_FORCE),

@@ -1,4 +1,4 @@
-//! Every table of a run, written from its journal now and then.
+//! Writes the tables of a run from its journal at intervals.
 
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
@@ -17,15 +17,14 @@ use crate::options::Options;
 use crate::progress::{Finished, RunError};
 use crate::run_journal::{Archive, Journal};
 
-/// Writing the tables takes at most one part in this many of the time of a run.
-// Long runs write their tables as often as one wants, and lose five per cent by it at most.
+/// Reciprocal of the largest share of a run's time that writing tables may take: 5 %.
 const SHARE: u32 = 20;
 
-/// Designs whose lines one thread makes at a time.
-// Enough lines for a thread to be worth waking; all portions in hand stay below a megabyte.
+/// Number of designs that one thread formats at a time.
+// Large enough to justify a task, small enough to keep all tasks below a megabyte.
 const PORTION: usize = 32;
 
-/// Names of tables, each with its SHA-256, in the order in which people read them.
+/// Names of tables with their SHA-256, in reading order.
 type WrittenTables = Vec<(String, String)>;
 
 /// Writes the tables of one run.
@@ -58,7 +57,7 @@ impl<'a> TableWriter<'a> {
         self.written.elapsed() > self.every.max(self.writing * SHARE)
     }
 
-    /// Writes the tables of what `journal` holds, the record of the run, and last of all what they are.
+    /// Writes the tables of `journal`, the record of the run and, last, `contents.toml`.
     pub fn write(&mut self, journal: &mut Journal) -> Result<Finished, RunError> {
         let begun = Instant::now();
         // The tables must not tell of designs that a loss of power takes from the journal.
@@ -66,12 +65,12 @@ impl<'a> TableWriter<'a> {
         let archive = journal.records();
         let (summary, tables) = self.write_tables(archive)?;
         let names: Vec<_> = tables.iter().map(|(name, _)| name.clone()).collect();
-        // Tables that this run does not have are those of an earlier one.
+        // Other tables are left from an earlier run.
         self.folder.remove_tables_but(&names);
         let record = self.info.write(archive, &self.folder, &summary)?;
         let record = (ResultsFolder::RUN_INFO.to_owned(), record);
         let contents = self.contents(archive, tables.into_iter().chain([record]).collect())?;
-        // Last of all: from here on readers take the tables for what the run wrote.
+        // Written last: readers accept the tables from here on.
         contents.write(&self.folder)?;
         self.folder.sync();
         self.written = Instant::now();
@@ -91,8 +90,9 @@ impl<'a> TableWriter<'a> {
         Ok(Contents { program, designs, done, journal, files })
     }
 
-    /// Writes the tables; returns what the run comes to, and each with its SHA-256. Entries are read one by
-    /// one, in the order of their designs; their lines are made by all threads.
+    /// Writes the tables; returns the summary of the run and the SHA-256 of each table.
+    ///
+    /// Entries are read one by one in the order of their designs; all threads format rows.
     fn write_tables(&self, archive: &Archive) -> Result<(Summary, WrittenTables), RunError> {
         let (folder, format) = (&self.folder, self.format);
         // A pool of its own: the threads of the solver sleep while tables are written, and the number of threads is kept.
