@@ -1,5 +1,5 @@
-//! One factorisation and solve of a tangent such as that of a row of scales: elimination block by block, band LU, and
-//! faer's sparse LU with its symbolic part reused.
+//! Benchmark of one factorisation and solve of the tangent of a row of scales. Compares block
+//! elimination, band LU, and the sparse LU of faer with its symbolic part reused.
 
 use std::hint::black_box;
 
@@ -12,13 +12,13 @@ use solver::{BandLu, BandMatrix, BlockElimination, BlockMatrix, Blocks, Tangent}
 
 type Group<'a> = BenchmarkGroup<'a, WallTime>;
 
-/// Unknowns of a scale: its three displacements and, at each of two levels, the two forces of corners that are
-/// together.
+/// Unknowns of a scale: three displacements and, at each of two levels, the forces of two corners
+/// in contact.
 const BLOCK: usize = 7;
-/// From the first unknown of a scale to the last of the next one.
+/// Half-bandwidth: from the first unknown of a scale to the last displacement of the next.
 const HALF: usize = BLOCK + 3;
 
-/// Entries of a tangent with the pattern of a row of `scales`, all corners together.
+/// Returns entries of a tangent with the pattern of a row of `scales` with all corners closed.
 fn entries(scales: usize) -> Vec<(usize, usize, f64)> {
     let size = BLOCK * scales;
     let mut entries = Vec::new();
@@ -27,7 +27,7 @@ fn entries(scales: usize) -> Vec<(usize, usize, f64)> {
         let coupled: Vec<_> = (first..(first + HALF).min(size)).collect();
         for &i in &coupled {
             for &j in &coupled {
-                // Numbers without a pattern, the diagonal the largest.
+                // Values without a pattern, with a dominant diagonal.
                 let value = ((31 * i + 17 * j) as f64).sin();
                 entries.push((i, j, if i == j { 8.0 + value } else { value }));
             }
@@ -36,7 +36,7 @@ fn entries(scales: usize) -> Vec<(usize, usize, f64)> {
     entries
 }
 
-/// The tangent of a row of `scales`, and a right-hand side.
+/// Tangent of a row of `scales`, and a right-hand side.
 struct RowTangent {
     scales: usize,
     entries: Vec<(usize, usize, f64)>,

@@ -1,4 +1,4 @@
-//! Elimination in matrices of blocks, pivots within the blocks.
+//! Block elimination, with pivots within the blocks.
 #![expect(
     clippy::inline_always,
     reason = "only what is compiled into its caller may use wide registers"
@@ -8,22 +8,25 @@ use pulp::{Arch, NullaryFnOnce};
 
 use crate::block_matrix::{BlockMatrix, FARTHEST_LINK, LINK};
 
-/// Columns of the inner links of a block that is coupled with the next one alone, and of one that reaches as far as any.
+/// Number of inner-link columns of a block with reach 1, and with the largest reach.
 const NARROW: usize = LINK;
 const WIDE: usize = LINK * FARTHEST_LINK;
 
-/// Whether blocks that reach far are left to the caller's other solution: their elimination is a twelfth of the module of a page, and a page
-/// solves one design at a time.
+/// True if matrices of larger reach are left to the band LU of the caller.
+///
+/// Their elimination would take a twelfth of the WebAssembly module, and a page solves one design
+/// at a time.
 const IS_SMALL: bool = cfg!(target_arch = "wasm32");
 
-/// A pivot below this part of the largest entry of its column is too small: digits are lost that rows of other
-/// blocks might save.
+/// Smallest pivot relative to the largest entry of its column.
+///
+/// Below it digits are lost that row exchanges with other blocks might save.
 const SMALL: f64 = 1e-9;
 
-/// Unknowns of the largest block that is eliminated.
+/// Largest number of unknowns of a block.
 pub const LARGEST_BLOCK: usize = 10;
 
-/// A matrix for which elimination block by block is not safe, or not meant.
+/// Matrix that cannot be eliminated block by block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "block {block} of {size} unknowns has no pivot that is large enough, or more than {LARGEST_BLOCK} unknowns"
@@ -35,29 +38,30 @@ pub struct UnsafeBlock {
     pub size: usize,
 }
 
-/// Factors of a [`BlockMatrix`]: every block is eliminated into its inner neighbour, from both ends to the root.
+/// Factors of a [`BlockMatrix`], eliminated from both ends to the root.
 ///
-/// With the matrix `D` of a block after elimination of its outer neighbours, `C` its columns of the inner links and `B` the rows
-/// of those links, the elimination takes `B D⁻¹ C`, 3 by 3 for one link, from the inner blocks (Golub & Van Loan, *Matrix Computations*,
-/// 4th ed. 2013, §4.5.1, isbn 978-1-4214-0794-4). Rows are exchanged within a block only, which is as good
-/// as partial pivoting as long as a block is regular with its inner neighbours held. Where one is not,
-/// its pivot is found too small.
+/// Let `D` be the matrix of a block after elimination of its outer neighbours, `C` its columns of
+/// the inner links, and `B` the rows of those links. Elimination subtracts `B D⁻¹ C` from the inner
+/// blocks, 3 by 3 for each link (Golub & Van Loan, *Matrix Computations*, 4th ed. 2013, §4.5.1,
+/// isbn 978-1-4214-0794-4). Rows are exchanged within a block only. This is as stable as partial
+/// pivoting as long as each block is regular with its inner neighbours fixed; otherwise a small
+/// pivot reveals the singular block.
 #[derive(Clone, Debug, Default)]
 pub struct BlockElimination {
-    /// The matrix, to be filled; its factors, once it is factorised: in the place of `D` those of `D`, in that of `C` the rows of `D⁻¹ C`.
+    /// Matrix to be filled; after factorisation, `D` holds its factors and `C` the rows of `D⁻¹ C`.
     pub matrix: BlockMatrix,
-    /// By place: the row that was exchanged for this one, within its block.
+    /// By place: row exchanged for this one, within its block.
     exchanges: Vec<usize>,
-    /// Whether the determinant of each `D` is negative.
+    /// True for each `D` with a negative determinant.
     negative: Vec<bool>,
-    /// The right-hand side by places.
+    /// Right-hand side, by place.
     work: Vec<f64>,
 }
 
-/// The matrix that elimination takes from the links of the inner neighbours.
+/// Update that elimination subtracts from the links of the inner neighbours.
 type Taken<const W: usize> = [[f64; W]; W];
 
-/// Calls a method with the size of a block as a constant, and the columns of its inner links `W`.
+/// Calls a method with the block size and the number `W` of inner-link columns as constants.
 macro_rules! with_size {
     ($size:expr, $self:ident . $method:ident ( $($argument:expr),* ) , $refused:expr) => {
         match $size {
@@ -76,7 +80,7 @@ macro_rules! with_size {
     };
 }
 
-/// Passes over blocks that reach far, to be compiled for the widest registers of the processor.
+/// Kernels for blocks of large reach, compiled for the widest registers of the processor.
 struct WideFactorisation<'a>(&'a mut BlockElimination);
 struct WideSubstitution<'a>(&'a mut BlockElimination, [usize; 2]);
 
@@ -102,7 +106,7 @@ impl BlockElimination {
     /// Replaces the matrix by its factors.
     ///
     /// # Errors
-    /// If a block has no pivot that is large enough, or is too large.
+    /// If a block has no sufficiently large pivot, or is too large.
     pub fn factorise(&mut self) -> Result<(), UnsafeBlock> {
         let (blocks, places) = (self.matrix.blocks(), self.matrix.kept.len());
         self.exchanges.resize(places, 0);
@@ -121,8 +125,8 @@ impl BlockElimination {
     #[inline(always)]
     fn factorise_all<const W: usize>(&mut self) -> Result<(), UnsafeBlock> {
         let (root, blocks) = (self.matrix.root, self.matrix.blocks());
-        // From both ends inwards: the load acts in the root, and a right-hand side that is zero elsewhere need not be
-        // carried there.
+        // Eliminate from both ends inwards: the load acts in the root, so a right-hand side that is
+        // zero elsewhere need not be propagated there.
         let mut taken = [[0.0; W]; W];
         for block in 0..root {
             self.eliminate(block, &mut taken)?;
@@ -150,8 +154,9 @@ impl BlockElimination {
         with_size!(size, self.eliminate_block(block, taken), None).ok_or(refused)
     }
 
-    /// Factorises a block from whose link, and from those of the blocks behind it, something is `taken`, and replaces that by what is
-    /// taken from the links of the inner ones.
+    /// Factorises a block after subtracting the update `taken` from its outer neighbours.
+    ///
+    /// Replaces `taken` by the update for the inner neighbours.
     #[inline(always)]
     fn eliminate_block<const N: usize, const W: usize>(
         &mut self,
@@ -161,7 +166,7 @@ impl BlockElimination {
         let (start, is_root) = (self.matrix.starts[block], block == self.matrix.root);
         let link = self.matrix.links[block] - start;
         let (d, c, b) = self.matrix.parts_mut::<N, W>(block)?;
-        // Measured before the neighbour's share is taken: what cancels there is what must be noticed.
+        // Measure before subtracting the neighbour's update, so that cancellation is detected.
         let least = least_pivots(d);
         for i in 0..LINK {
             for j in 0..LINK {
@@ -173,7 +178,7 @@ impl BlockElimination {
             }
         }
         self.negative[block] = factorise(d, c, &mut self.exchanges[start..start + N], &least)?;
-        // The root has nothing inward of it to be eliminated into.
+        // The root has no inner neighbour.
         if !is_root {
             substitute_back(d, c);
             take(taken, b, c);
@@ -181,8 +186,9 @@ impl BlockElimination {
         Some(())
     }
 
-    /// Solves in place: `x` holds the right-hand side, then the solution, of all unknowns. Where an unknown was left out, the
-    /// right-hand side does not count and the solution is zero.
+    /// Solves in place: `x` holds the right-hand side, then the solution.
+    ///
+    /// At unknowns that are left out, the right-hand side is ignored and the solution is zero.
     pub fn solve(&mut self, x: &mut [f64]) {
         for (work, &kept) in self.work.iter_mut().zip(&self.matrix.kept) {
             *work = x[kept];
@@ -193,8 +199,9 @@ impl BlockElimination {
         }
     }
 
-    /// The solution for a right-hand side of which one entry alone is not zero: that of `unknown`, which is kept, and in the root
-    /// block or before it, is 1.
+    /// Solves for a right-hand side that is 1 at `unknown` and zero elsewhere.
+    ///
+    /// The unknown must be kept and lie in the root block or before it.
     pub fn solve_unit(&mut self, unknown: usize) -> Vec<f64> {
         self.work.fill(0.0);
         let place = self.matrix.places[unknown];
@@ -204,7 +211,9 @@ impl BlockElimination {
         self.solution().collect()
     }
 
-    /// From the right-hand side, which is zero outside of the blocks between two, inwards to the root, and outwards to the solution.
+    /// Substitutes inwards to the root and outwards to the solution.
+    ///
+    /// Outside the two given blocks and those between, the right-hand side must be zero.
     fn inwards(&mut self, between: [usize; 2]) {
         if self.matrix.reach == 1 || IS_SMALL {
             self.substitute::<NARROW>(between);
@@ -225,18 +234,18 @@ impl BlockElimination {
         }
     }
 
-    /// How many inner neighbours a block has that it is coupled with.
+    /// Returns the number of inner neighbours with which a block is coupled.
     fn inner_blocks(&self, block: usize) -> usize {
         self.matrix.reach.min(block.abs_diff(self.matrix.root))
     }
 
-    /// First place of the link of an inner neighbour, so many blocks away.
+    /// Returns the first place of the link of the inner neighbour `away` blocks further in.
     fn inner_link(&self, block: usize, away: usize) -> usize {
         let inner = if block < self.matrix.root { block + away } else { block - away };
         self.matrix.links[inner]
     }
 
-    /// `y ← D⁻¹ y` in a block, and what that takes from the right-hand side of the inner ones.
+    /// Computes `y ← D⁻¹ y` in a block and updates the right-hand side of the inner blocks.
     #[inline(always)]
     fn forward<const N: usize, const W: usize>(&mut self, block: usize) {
         let start = self.matrix.starts[block];
@@ -273,12 +282,12 @@ impl BlockElimination {
         }
     }
 
-    /// The solution of each unknown: zero where it is left out.
+    /// Returns the solution at each unknown: zero if it is left out.
     fn solution(&self) -> impl Iterator<Item = f64> {
         self.matrix.places.iter().map(|&place| self.work.get(place).copied().unwrap_or(0.0))
     }
 
-    /// `x = y − (D⁻¹ C) x_inner`.
+    /// Computes `x = y − (D⁻¹ C) x_inner`.
     #[inline(always)]
     fn backward<const W: usize>(&mut self, block: usize) {
         let mut links = [0.0; W];
@@ -289,7 +298,8 @@ impl BlockElimination {
         let (_, [c, _]) = self.matrix.parts::<W>(block);
         for (work, c) in self.work[self.matrix.starts[block]..].iter_mut().zip(c) {
             let mut terms: [f64; W] = std::array::from_fn(|k| c[k] * links[k]);
-            // The farther half of the links is added to the nearer one, as wide registers do it, until one is left.
+            // Sum pairwise as wide registers do, adding the farther half of the links to the nearer
+            // half until one link is left.
             let mut half = W;
             while half > LINK {
                 half /= 2;
@@ -301,19 +311,22 @@ impl BlockElimination {
         }
     }
 
-    /// How many blocks have a negative determinant once the outer ones are eliminated. The determinant of the matrix is
-    /// negative if the number is odd.
+    /// Returns the number of blocks with a negative determinant after elimination.
     ///
-    /// Where conditions of constraints stand in the rows of their forces, `[[K, −Gᵀ], [G, C]]` with positive compliances `C`,
-    /// a block has a negative determinant if, with the inner ones held, an odd number of the eigenvalues of `K + Gᵀ C⁻¹ G` is negative
-    /// (Haynsworth 1968, doi 10.1016/0024-3795(68)90050-5).
+    /// The determinant of the matrix is negative if the number is odd.
+    ///
+    /// If the rows of forces contain the conditions of their constraints, `[[K, −Gᵀ], [G, C]]` with
+    /// positive compliances `C`, a block has a negative determinant if, with the inner blocks
+    /// fixed, an odd number of eigenvalues of `K + Gᵀ C⁻¹ G` is negative (Haynsworth 1968, doi
+    /// 10.1016/0024-3795(68)90050-5).
     pub fn negative_blocks(&self) -> usize {
         self.negative.iter().filter(|negative| **negative).count()
     }
 }
 
-/// Replaces what is taken from the links of a block and of those behind it by what is taken from the latter, `B C` by the columns of `B`
-/// included.
+/// Replaces the update of a block by the update of its inner neighbours, including `B C`.
+///
+/// Entries for links beyond the block are carried over. `c` holds the columns `D⁻¹ C`.
 #[inline(always)]
 fn take<const N: usize, const W: usize>(
     taken: &mut Taken<W>,
@@ -334,7 +347,7 @@ fn take<const N: usize, const W: usize>(
     }
 }
 
-/// The least pivots that will do, column by column.
+/// Returns the smallest acceptable pivot of each column.
 #[inline(always)]
 fn least_pivots<const N: usize>(d: &[[f64; N]; N]) -> [f64; N] {
     let mut least = [0.0_f64; N];
@@ -346,8 +359,11 @@ fn least_pivots<const N: usize>(d: &[[f64; N]; N]) -> [f64; N] {
     least.map(|largest| SMALL * largest)
 }
 
-/// LU factors in place with partial pivoting, inverses on the diagonal of the upper one, and the right-hand sides `c` with rows
-/// exchanged and eliminated alike. Returns whether the determinant is negative; `None` if a pivot is not above the `least`.
+/// LU-factorises in place with partial pivoting.
+///
+/// The diagonal of the upper factor is stored inverted. The right-hand sides `c` are exchanged and
+/// eliminated in the same way. Returns true if the determinant is negative, and `None` if a pivot
+/// does not exceed its `least` value.
 #[inline(always)]
 fn factorise<const N: usize, const M: usize>(
     d: &mut [[f64; N]; N],
@@ -363,7 +379,7 @@ fn factorise<const N: usize, const M: usize>(
                 (largest, pivot) = (row[k].abs(), i);
             }
         }
-        // The comparison is false for what is not a number, too.
+        // Written as a negation to reject NaN too.
         if !(largest > least[k] && largest.is_finite()) {
             return None;
         }
@@ -376,7 +392,7 @@ fn factorise<const N: usize, const M: usize>(
         let (head, tail) = d.split_at_mut(k + 1);
         let pivot = &mut head[k];
         negative ^= pivot[k] < 0.0;
-        // Kept inverted, since every substitution needs it and a product is quicker than a quotient.
+        // Store the inverse: every substitution needs it, and a product is faster than a quotient.
         pivot[k] = pivot[k].recip();
         let (c_head, c_tail) = c.split_at_mut(k + 1);
         for (row, c) in tail.iter_mut().zip(c_tail) {
@@ -391,7 +407,7 @@ fn factorise<const N: usize, const M: usize>(
     Some(negative)
 }
 
-/// Back substitution of several right-hand sides in place.
+/// Substitutes back several right-hand sides in place.
 #[inline(always)]
 fn substitute_back<const N: usize, const M: usize>(factors: &[[f64; N]], x: &mut [[f64; M]; N]) {
     for k in (0..N).rev() {
@@ -406,7 +422,7 @@ fn substitute_back<const N: usize, const M: usize>(factors: &[[f64; N]], x: &mut
     }
 }
 
-/// `x ← x − factor y`.
+/// Computes `x ← x − factor y`.
 #[inline(always)]
 fn subtract<const M: usize>(x: &mut [f64; M], factor: f64, y: &[f64; M]) {
     for (x, y) in x.iter_mut().zip(y) {

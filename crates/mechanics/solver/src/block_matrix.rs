@@ -1,4 +1,4 @@
-//! Block-tridiagonal matrices of small blocks.
+//! Block-tridiagonal matrices with small blocks, optionally of larger reach.
 #![expect(
     clippy::inline_always,
     reason = "places within a block are known where it is added, and a twentieth of a sweep is spent there"
@@ -6,25 +6,26 @@
 
 use crate::tangent::Tangent;
 
-/// Unknowns of a block that its outer neighbours are coupled with.
+/// Number of unknowns of a block with which its outer neighbours are coupled.
 pub const LINK: usize = 3;
 
-/// Inner neighbours that a block may be coupled with at most.
+/// Largest number of inner neighbours with which a block may be coupled.
 pub const FARTHEST_LINK: usize = 8;
 
-/// Place of an unknown that is not solved for.
+/// Marks the place of an unknown that is left out.
 const LEFT_OUT: usize = usize::MAX;
 
-/// How the unknowns of a system fall into a chain of blocks.
+/// Partition of the unknowns of a system into a chain of blocks.
 ///
 /// ```text
 /// block 0 ── block 1 ── … ── root ── … ── last block
 /// ```
 ///
-/// Unknowns are coupled within their block and with the neighbouring blocks. Of two neighbours the one
-/// nearer to the root is the *inner* one, the other the *outer* one. All unknowns of the outer block may be coupled with
-/// the *link* of the inner one, which is [`LINK`] unknowns in succession, and with no other unknown of it. Where blocks reach farther
-/// than to the next one, they do so across the root too, so the root is then the last block.
+/// Unknowns are coupled within their block and with neighbouring blocks. Of two neighbours, the one
+/// nearer to the root is the *inner* one, the other the *outer* one. All unknowns of the outer
+/// block may be coupled with the *link* of the inner one, which is [`LINK`] successive unknowns,
+/// and with no other unknown of it. If blocks are coupled beyond their next neighbour, the coupling
+/// also crosses the root, so the root must then be the last block.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Blocks {
     /// First unknown of each block, in ascending order, from 0.
@@ -33,60 +34,62 @@ pub struct Blocks {
     pub links: Vec<usize>,
     /// Number of the block at which elimination from both ends meets.
     pub root: usize,
-    /// How many inner neighbours a block is coupled with: 1, or up to [`FARTHEST_LINK`].
+    /// Number of inner neighbours with which a block is coupled: 1 to [`FARTHEST_LINK`].
     pub reach: usize,
 }
 
-/// A matrix that is block-tridiagonal, or reaches farther, of which the rows and columns of some unknowns are left out.
+/// Block matrix without the rows and columns of some unknowns.
 ///
-/// Rows and columns are named by the numbers of their unknowns. A block of `n` unknowns that are kept stores its own `n × n` entries
-/// `D`, then the entries `C` of its rows in the columns of the inner links, three of each, and then those of its columns in the rows of
-/// these links, `Bᵀ`: together, and in the order in which they are eliminated.
+/// Methods take unknowns as indices of rows and columns. The kept unknowns are numbered in order;
+/// these numbers are called *places*. A block of `n` kept unknowns stores its `n × n` entries `D`,
+/// then the entries `C` of its rows in the columns of the inner links (three for each link), then
+/// the entries `Bᵀ` of its columns in the rows of these links. They are contiguous and in the order
+/// of elimination.
 #[derive(Clone, Debug, Default)]
 pub struct BlockMatrix {
     /// Number of the root block.
     pub(crate) root: usize,
-    /// Inner neighbours that there is room for.
+    /// Number of inner neighbours for which storage exists.
     pub(crate) reach: usize,
-    /// Place of the first unknown of each block among those that are kept, and the number of places.
+    /// Place of the first kept unknown of each block, followed by the number of places.
     pub(crate) starts: Vec<usize>,
     /// Place of the first unknown of each link.
     pub(crate) links: Vec<usize>,
-    /// The unknown at each place, and its block.
+    /// Unknown at each place; `blocks` holds its block.
     pub(crate) kept: Vec<usize>,
     blocks: Vec<usize>,
-    /// The place of each unknown.
+    /// Place of each unknown.
     pub(crate) places: Vec<usize>,
-    /// The first of the values of each block.
+    /// Index of the first value of each block.
     pub(crate) at: Vec<usize>,
-    /// Where, by places, an entry of a row within its block stands, and one that couples with an inner link: behind these by the
-    /// place of the column, or by the number of the unknown of the link among those of all links.
+    /// By place: offset of a row within its block; add the place of the column for the index.
+    ///
+    /// `coupling` holds the offset of a row in the inner links; add the link number of the column.
     within: Vec<usize>,
     coupling: Vec<usize>,
-    /// By places, the number of an unknown among those of all links; no number beside the links.
+    /// By place: number of an unknown among all link unknowns, or [`LEFT_OUT`].
     in_links: Vec<usize>,
     pub(crate) values: Vec<f64>,
 }
 
-/// The part of the matrix in which an entry stands.
+/// Part of the matrix that holds an entry.
 enum Part {
     Within,
-    /// The row belongs to the outer block, the column to the link of the inner one.
+    /// The row belongs to the outer block, the column to the link of the inner block.
     Columns,
-    /// The other way round.
+    /// The column belongs to the outer block, the row to the link of the inner block.
     Rows,
 }
 
-/// `D`, `C` and the rows of `Bᵀ` of a block of `N` unknowns that is coupled with `W` unknowns of inner links.
+/// `D`, `C` and `Bᵀ` of a block of `N` unknowns coupled with `W` unknowns of inner links.
 pub(crate) type PartsMut<'a, const N: usize, const W: usize> =
     (&'a mut [[f64; N]; N], &'a mut [[f64; W]; N], &'a mut [[f64; W]; N]);
 
 impl BlockMatrix {
-    /// Gives the matrix a shape: that of `blocks`, without the unknowns that are `left_out`.
-    /// Every entry is zero afterwards.
+    /// Sets the shape to `blocks` without the unknowns that are `left_out`, and all entries to 0.
     pub fn reshape(&mut self, blocks: &Blocks, left_out: &[bool]) {
         self.root = blocks.root;
-        // One of two widths, so that elimination knows it as a constant.
+        // Use one of two widths, so that elimination knows it as a constant.
         self.reach = if blocks.reach > 1 { FARTHEST_LINK } else { 1 };
         debug_assert!(blocks.reach <= FARTHEST_LINK);
         debug_assert!(blocks.reach <= 1 || blocks.root + 1 == blocks.starts.len());
@@ -115,12 +118,12 @@ impl BlockMatrix {
         let (mut stored, width) = (0, self.width());
         for block in 0..self.starts.len() - 1 {
             let (start, size) = (self.starts[block], self.starts[block + 1] - self.starts[block]);
-            // The root has no inner neighbour, and no entry of its is looked for there.
+            // The root has no inner neighbour, so its link offset is never used.
             let inner = if block < self.root { block + 1 } else { block.saturating_sub(1) };
             let link = LINK * inner;
             self.at.push(stored);
             for row in 0..size {
-                // What comes before the first column cancels when a column is added: it may well be below zero.
+                // The offset may wrap below zero; adding the column compensates.
                 self.within.push((stored + size * row).wrapping_sub(start));
                 let coupled = stored + size * size + width * row;
                 self.coupling.push(coupled.wrapping_sub(link));
@@ -133,22 +136,22 @@ impl BlockMatrix {
         self.values.resize(stored, 0.0);
     }
 
-    /// Entries of a row in the columns of the inner links.
+    /// Returns the number of columns of the inner links.
     fn width(&self) -> usize {
         LINK * self.reach
     }
 
-    /// Number of unknowns of a block that are kept.
+    /// Returns the number of kept unknowns of a block.
     pub(crate) fn size_of(&self, block: usize) -> usize {
         self.starts[block + 1] - self.starts[block]
     }
 
-    /// Where the entries of a column of a block in rows of inner links stand behind those of the row of the same unknown.
+    /// Returns the distance of `Bᵀ` from `C` in the storage of a block.
     fn behind(&self, place: usize) -> usize {
         self.width() * self.size_of(self.blocks[place])
     }
 
-    /// `D` row by row, and the rows of `C` and of `Bᵀ`, of a block that is coupled with `W` unknowns of inner links.
+    /// Returns `D`, row by row, and the rows of `C` and `Bᵀ` of a block.
     #[inline(always)]
     pub(crate) fn parts<const W: usize>(&self, block: usize) -> (&[f64], [&[[f64; W]]; 2]) {
         let size = self.size_of(block);
@@ -157,7 +160,7 @@ impl BlockMatrix {
         (d, coupling.as_chunks().0.split_at(size).into())
     }
 
-    /// The same of a block of `N` unknowns, to be changed.
+    /// Returns the mutable parts of a block of `N` unknowns.
     #[inline(always)]
     pub(crate) fn parts_mut<const N: usize, const W: usize>(
         &mut self,
@@ -169,12 +172,12 @@ impl BlockMatrix {
         Some((d.as_chunks_mut().0.try_into().ok()?, c.try_into().ok()?, b.try_into().ok()?))
     }
 
-    /// Number of blocks.
+    /// Returns the number of blocks.
     pub fn blocks(&self) -> usize {
         self.at.len()
     }
 
-    /// The entry at (`row`, `column`); zero outside the blocks and where it is left out.
+    /// Returns an entry, or zero if it lies outside the blocks or is left out.
     pub fn get(&self, row: usize, column: usize) -> f64 {
         let (row, column) = (self.places[row], self.places[column]);
         if row == LEFT_OUT || column == LEFT_OUT || !self.is_coupled(row, column) {
@@ -183,7 +186,7 @@ impl BlockMatrix {
         self.values[self.index(row, column)]
     }
 
-    /// Whether unknowns may be coupled; by their places.
+    /// Returns true if the unknowns at two places may be coupled.
     fn is_coupled(&self, row: usize, column: usize) -> bool {
         let behind = |outer: usize, inner: usize| {
             let (from, to) = (self.blocks[outer], self.blocks[inner]);
@@ -193,7 +196,7 @@ impl BlockMatrix {
         self.blocks[row] == self.blocks[column] || behind(row, column) || behind(column, row)
     }
 
-    /// The part in which an entry stands; row and column by their places.
+    /// Returns the part that holds an entry, given by places.
     #[inline(always)]
     fn part(&self, row: usize, column: usize) -> Part {
         debug_assert!(
@@ -210,7 +213,7 @@ impl BlockMatrix {
         }
     }
 
-    /// Where an entry stands among the values; row and column by their places.
+    /// Returns the index of an entry among the values, given by places.
     #[inline(always)]
     fn index(&self, row: usize, column: usize) -> usize {
         match self.part(row, column) {
@@ -224,7 +227,7 @@ impl BlockMatrix {
 }
 
 impl Tangent for BlockMatrix {
-    /// Adds `value` to an entry; does nothing where its row or column is left out.
+    /// Adds `value` to an entry, unless its row or column is left out.
     fn add(&mut self, row: usize, column: usize, value: f64) {
         let (row, column) = (self.places[row], self.places[column]);
         if row != LEFT_OUT && column != LEFT_OUT {
@@ -233,7 +236,9 @@ impl Tangent for BlockMatrix {
         }
     }
 
-    /// Adds `values` to the entries from the one at (`row`, `column`) down the diagonal, of unknowns that follow each other in blocks.
+    /// Adds `values` down the diagonal that starts at (`row`, `column`).
+    ///
+    /// The unknowns must be kept and follow each other within their blocks.
     #[inline(always)]
     fn add_diagonal(&mut self, row: usize, column: usize, values: &[f64]) {
         let (row, column) = (self.places[row], self.places[column]);
@@ -247,8 +252,10 @@ impl Tangent for BlockMatrix {
         }
     }
 
-    /// Adds `values` to the entries from the one at (`row`, `column`) on. The unknowns of these rows, and of these columns,
-    /// are all kept and follow each other within a block.
+    /// Adds a block of `values` with its first entry at (`row`, `column`).
+    ///
+    /// The unknowns of these rows, and of these columns, must be kept and follow each other within
+    /// a block.
     #[inline(always)]
     fn add_block<const R: usize, const C: usize>(
         &mut self,

@@ -78,7 +78,7 @@ pub struct Continuation<S: System> {
     pub(crate) slopes: Vec<f64>,
     /// Cached [`System::coordinates`].
     coordinates: Vec<usize>,
-    /// Orientation ([`Newton::is_positive`]) of the path behind `point`.
+    /// Orientation ([`Newton::is_positive`]) of the outgoing path at `point`.
     pub(crate) is_positive: bool,
     /// False if some event had a second outgoing branch among those evaluated.
     pub(crate) is_unique: bool,

@@ -1,8 +1,8 @@
-//! Linear solves: LU factorisation of a band matrix.
+//! Band matrices and their LU factorisation.
 //!
-//! Unknowns are numbered so that every equation couples unknowns a few places apart. One factorisation then costs time
-//! proportional to their number. A general sparse LU needs more than twice as long on such matrices
-//! (`benches/linear.rs` compares them).
+//! Unknowns are numbered so that every equation couples only unknowns close to each other. The cost
+//! of a factorisation is then proportional to their number. A general sparse LU needs more than
+//! twice the time on such matrices (`benches/linear.rs` compares them).
 #![expect(
     clippy::inline_always,
     reason = "only what is compiled into its caller may use wide registers"
@@ -14,7 +14,7 @@ use pulp::{Simd, WithSimd};
 
 use crate::tangent::Tangent;
 
-/// A matrix has no LU factorisation in floating point: a column without a usable pivot.
+/// Matrix without an LU factorisation in floating point: a column has no usable pivot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the matrix is singular: no pivot in column {column} of {size}")]
 pub struct SingularMatrix {
@@ -24,19 +24,19 @@ pub struct SingularMatrix {
     pub size: usize,
 }
 
-/// A square matrix with non-zeros only within `half` places of the diagonal.
+/// Square matrix with non-zeros only within `half` columns of the diagonal.
 #[derive(Clone, Debug)]
 pub struct BandMatrix {
     size: usize,
     half: usize,
     /// Row `i` holds the columns `i − half ..= i + half`.
     rows: Vec<f64>,
-    /// First place of each row that has been written to, and one past the last: outside them it is zero.
+    /// First written column of each row and one past the last; entries outside are zero.
     used: Vec<[usize; 2]>,
 }
 
 impl BandMatrix {
-    /// A zero matrix of `size` rows with half-bandwidth `half`.
+    /// Creates a zero matrix of `size` rows with half-bandwidth `half`.
     pub fn new(size: usize, half: usize) -> Self {
         Self {
             size,
@@ -46,12 +46,12 @@ impl BandMatrix {
         }
     }
 
-    /// Number of rows.
+    /// Returns the number of rows.
     pub fn size(&self) -> usize {
         self.size
     }
 
-    /// Half-bandwidth.
+    /// Returns the half-bandwidth.
     pub fn half_bandwidth(&self) -> usize {
         self.half
     }
@@ -66,14 +66,14 @@ impl BandMatrix {
     /// Replaces a row by zeros.
     pub fn clear_row(&mut self, row: usize) {
         let start = row * self.width();
-        // Only what was written to is cleared: rows of open contacts are nearly empty.
+        // Clear only written entries: rows of open contacts are nearly empty.
         let [first, end] = std::mem::replace(&mut self.used[row], [2 * self.half + 1, 0]);
         if first < end {
             self.rows[start + first..start + end].fill(0.0);
         }
     }
 
-    /// Replaces all entries by those of a matrix of the same shape.
+    /// Replaces all entries by the entries of a matrix of the same shape.
     pub(crate) fn set(&mut self, other: &Self) {
         let width = self.width();
         let rows = self.rows.chunks_exact_mut(width).zip(other.rows.chunks_exact(width));
@@ -86,7 +86,7 @@ impl BandMatrix {
         }
     }
 
-    /// The entry at (`row`, `column`), which must lie within the band.
+    /// Returns the entry at (`row`, `column`), which must lie within the band.
     ///
     /// # Panics
     /// If the entry lies outside the band.
@@ -94,12 +94,12 @@ impl BandMatrix {
         self.rows[row * self.width() + self.place(row, column)]
     }
 
-    /// The columns that a row may use.
+    /// Returns the columns of a row within the band.
     pub fn columns(&self, row: usize) -> Range<usize> {
         row.saturating_sub(self.half)..(row + self.half + 1).min(self.size)
     }
 
-    /// The entries of a row, from `half` places before the diagonal on.
+    /// Returns the stored entries of a row, from column `row − half` on.
     fn row(&self, row: usize) -> &[f64] {
         &self.rows[row * self.width()..][..self.width()]
     }
@@ -108,7 +108,7 @@ impl BandMatrix {
         2 * self.half + 1
     }
 
-    /// Place of a column in the stored part of a row.
+    /// Returns the position of a column in the stored part of a row.
     fn place(&self, row: usize, column: usize) -> usize {
         assert!(
             row.abs_diff(column) <= self.half && column < self.size,
@@ -144,41 +144,45 @@ impl Tangent for BandMatrix {
     }
 }
 
-/// LU factors of a [`BandMatrix`], with rows scaled to equal size and exchanged for the largest
-/// pivot. The storage is reused from one factorisation to the next.
+/// LU factors of a [`BandMatrix`], with row scaling and partial pivoting.
 ///
-/// Unknowns that are known to vanish, such as the forces of open contacts, are left out: what remains
-/// is a band matrix again, a smaller and a narrower one.
+/// The storage is reused between factorisations.
+///
+/// Unknowns that are known to vanish, such as the forces of open contacts, are left out. The
+/// remaining matrix is again a band matrix, smaller and narrower.
 ///
 /// Row exchanges widen the upper factor to twice the half-bandwidth (Golub & Van Loan, *Matrix
-/// Computations*, 4th ed. 2013, §4.3.5, isbn 978-1-4214-0794-4). Most rows need less, and each is worked on
-/// up to its last non-zero only.
+/// Computations*, 4th ed. 2013, §4.3.5, isbn 978-1-4214-0794-4). Most rows need less, so each is
+/// processed only up to its last non-zero.
 #[derive(Clone, Debug)]
 pub struct BandLu {
     size: usize,
     half: usize,
-    /// The unknowns that are solved for, in order. Rows and columns below are numbered among them.
+    /// Kept unknowns, in order; the rows and columns below are numbered among them.
     kept: Vec<usize>,
-    /// Row `i` of the upper factor: columns `i − half ..= i + 2 half`, of which those from the
-    /// diagonal to `ends[i]` are in use.
+    /// Row `i` of the upper factor: columns `i − half ..= i + 2 half`.
+    ///
+    /// The columns from the diagonal to `ends[i]` are in use.
     upper: Vec<f64>,
     /// One past the last column of each row that may be non-zero.
     ends: Vec<usize>,
-    /// The last row that reaches each column.
+    /// Last row that reaches each column.
     reach: Vec<usize>,
-    /// Row `k`: the multipliers that column `k` was eliminated with, rows `k + 1 ..= reach[k]`.
+    /// Row `k`: multipliers of the elimination of column `k`, for rows `k + 1 ..= reach[k]`.
     lower: Vec<f64>,
     pivots: Vec<usize>,
-    /// One over the diagonal of the upper factor.
+    /// Inverse of the diagonal of the upper factor.
     inverses: Vec<f64>,
-    /// Factor by which each row was scaled.
+    /// Scale factor of each row.
     scales: Vec<f64>,
-    /// Storage for the right-hand side and the solution among the unknowns that are kept.
+    /// Storage for right-hand side and solution at the kept unknowns.
     packed: Vec<f64>,
 }
 
-/// The factorisation of a matrix with the widest registers of the processor. Each entry is multiplied and subtracted as with narrow
-/// ones, never fused, so the factors have the same bits on every machine.
+/// Factorisation with the widest registers of the processor.
+///
+/// Entries are multiplied and subtracted separately, never fused, so that the factors have the same
+/// bits on every machine.
 struct Factorisation<'a> {
     lu: &'a mut BandLu,
     matrix: &'a BandMatrix,
@@ -200,7 +204,7 @@ impl WithSimd for Factorisation<'_> {
 }
 
 impl BandLu {
-    /// Storage for the factors of matrices of `size` rows and half-bandwidth `half`.
+    /// Creates storage for matrices of `size` rows and half-bandwidth `half`.
     pub fn new(size: usize, half: usize) -> Self {
         Self {
             size,
@@ -217,8 +221,7 @@ impl BandLu {
         }
     }
 
-    /// Factorises what remains of `matrix` without the rows and columns of the unknowns that are `left_out`, which are known to vanish,
-    /// and forgets the factors held before.
+    /// Factorises `matrix` without the `left_out` rows and columns; replaces earlier factors.
     ///
     /// # Errors
     /// If a column has no finite, non-zero pivot.
@@ -228,20 +231,22 @@ impl BandLu {
         left_out: &[bool],
     ) -> Result<(), SingularMatrix> {
         debug_assert!(matrix.size == self.size && matrix.half == self.half);
-        // Most unknowns of a row are forces of open contacts; without them the band is narrower, too.
+        // Most unknowns of a row are forces of open contacts; without them the band is narrower
+        // too.
         self.kept.clear();
         self.kept.extend((0..self.size).filter(|&i| !left_out[i]));
         pulp::Arch::new().dispatch(Factorisation { lu: self, matrix })
     }
 
-    /// Whether the determinant of what remains is negative.
+    /// Returns true if the determinant of the factorised matrix is negative.
     pub(crate) fn is_negative(&self) -> bool {
         let rows = self.pivots.iter().zip(&self.inverses).take(self.kept.len()).enumerate();
         rows.fold(false, |negative, (k, (&row, inverse))| negative ^ (row != k) ^ (*inverse < 0.0))
     }
 
-    /// Solves in place: `x` holds the right-hand side, then the solution. Where an unknown was left out, the
-    /// right-hand side does not count and the solution is zero.
+    /// Solves in place: `x` holds the right-hand side, then the solution.
+    ///
+    /// At unknowns that are left out, the right-hand side is ignored and the solution is zero.
     pub fn solve(&mut self, x: &mut [f64]) {
         let mut packed = std::mem::take(&mut self.packed);
         packed.clear();
@@ -254,12 +259,12 @@ impl BandLu {
         self.packed = packed;
     }
 
-    /// Forward and back substitution among the unknowns that are kept.
+    /// Substitutes forward and back among the kept unknowns.
     fn substitute(&self, x: &mut [f64]) {
         for k in 0..x.len() {
             x.swap(k, self.pivots[k]);
             let factor = x[k];
-            // The right-hand side is mostly that of the load: zeros before it need no work.
+            // Mostly only the entry of the load is non-zero, so skip the zeros before it.
             if factor != 0.0 {
                 let multipliers = &self.lower[k * self.half..][..self.reach[k] - k];
                 for (x, multiplier) in x[k + 1..].iter_mut().zip(multipliers) {
@@ -274,7 +279,7 @@ impl BandLu {
         }
     }
 
-    /// Copies the rows of `matrix` that are kept, each divided by its largest entry.
+    /// Copies the kept rows of `matrix`, each divided by its largest entry.
     fn load(&mut self, matrix: &BandMatrix) -> Result<(), SingularMatrix> {
         let count = self.kept.len();
         self.reach.clear();
@@ -289,7 +294,9 @@ impl BandLu {
         Ok(())
     }
 
-    /// Copies row `i`, divided by its largest entry. Returns its first column, or the diagonal where that comes before.
+    /// Copies row `i`, divided by its largest entry.
+    ///
+    /// Returns its first column, at most the diagonal.
     fn load_row(&mut self, i: usize, matrix: &BandMatrix) -> Result<usize, SingularMatrix> {
         let Range { start: first, end } = self.columns(i, matrix);
         let row = self.kept[i];
@@ -309,7 +316,8 @@ impl BandLu {
         let larger =
             |largest: f64, entry: &f64| if entry.abs() > largest { entry.abs() } else { largest };
         let largest = entries.iter().fold(0.0, larger);
-        // Equations of forces and of gaps differ by the ratio of the moduli: unscaled, pivots would be chosen by units.
+        // Equations of forces and of gaps differ by the ratio of the moduli. Without scaling, the
+        // units would determine the pivots.
         let scale = 1.0 / largest;
         if !(scale.is_finite() && scale > 0.0) {
             return Err(self.singular(i));
@@ -322,7 +330,7 @@ impl BandLu {
         Ok(first)
     }
 
-    /// The columns of row `i` that are in use, numbered among those that are kept. The diagonal is among them.
+    /// Returns the used columns of row `i` among the kept ones, including the diagonal.
     fn columns(&self, i: usize, matrix: &BandMatrix) -> Range<usize> {
         let row = self.kept[i];
         let [leftmost, rightmost] = matrix.used[row].map(|place| row + place);
@@ -335,7 +343,7 @@ impl BandLu {
         SingularMatrix { column: self.kept[column], size: self.size }
     }
 
-    /// Exchanges row `k` for the one below with the largest entry in column `k`.
+    /// Exchanges row `k` for the row below with the largest entry in column `k`.
     fn pivot(&mut self, k: usize) -> Result<(), SingularMatrix> {
         let column = self.upper[self.diagonal(k)..].iter().step_by((3 * self.half).max(1));
         let (mut row, mut value, mut largest) = (k, 0.0, 0.0);
@@ -344,7 +352,8 @@ impl BandLu {
                 (row, value, largest) = (k + d, x, x.abs());
             }
         }
-        // Only an exact zero is refused: how near to singular a tangent may be is judged by what the step does with it.
+        // Reject only an exact zero: the effect of the step shows how nearly singular the tangent
+        // is.
         if value == 0.0 || !value.is_finite() {
             return Err(self.singular(k));
         }
@@ -356,7 +365,7 @@ impl BandLu {
         Ok(())
     }
 
-    /// Exchanges the columns from `k` on of the rows `k` and `row`, below it.
+    /// Exchanges the rows `k` and `row` from column `k` on; `row` is the lower one.
     fn exchange(&mut self, k: usize, row: usize) {
         let ends = [self.ends[k], self.ends[row]];
         let end = ends[0].max(ends[1]);
@@ -380,7 +389,7 @@ impl BandLu {
         let (head, tail) = self.upper.split_at_mut((k + 1) * (3 * self.half + 1));
         let pivot = &head[diagonal + 1..][..count - 1];
         let inverse = self.inverses[k];
-        // The columns from `k` on of the rows below: each row begins one place earlier than the row above it.
+        // Columns from `k` on of the rows below: each row starts one position before the row above.
         let rows = tail[self.half - 1..].chunks_mut(3 * self.half);
         let multipliers = &mut self.lower[k * self.half..][..below];
         let ends = &mut self.ends[k + 1..][..below];
@@ -397,7 +406,7 @@ impl BandLu {
         }
     }
 
-    /// Brings columns of a row into use, up to `end`.
+    /// Extends the used columns of a row to `end`.
     fn extend(&mut self, row: usize, end: usize) {
         let used = self.ends[row];
         if used < end {
@@ -407,13 +416,13 @@ impl BandLu {
         }
     }
 
-    /// Index of the diagonal entry of a row in `upper`.
+    /// Returns the index of the diagonal entry of a row in `upper`.
     fn diagonal(&self, row: usize) -> usize {
         row * (3 * self.half + 1) + self.half
     }
 }
 
-/// `x ← x − factor y`.
+/// Computes `x ← x − factor y`.
 #[inline(always)]
 fn subtract<S: Simd>(simd: S, x: &mut [f64], factor: f64, y: &[f64]) {
     let (wide, rest) = S::as_mut_simd_f64s(x);
@@ -438,7 +447,7 @@ mod tests {
             ([1.0, 2.0, 2.0, 1.0], [false; 2], true),
             ([0.0, 1.0, -1.0, 0.0], [false; 2], false),
             ([-1.0, 0.0, 0.0, 1.0], [false; 2], true),
-            // What is left out does not count.
+            // Left-out rows do not affect the sign.
             ([-1.0, 0.0, 0.0, 1.0], [true, false], false),
         ] {
             let mut matrix = BandMatrix::new(2, 1);

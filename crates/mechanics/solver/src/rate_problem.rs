@@ -1,4 +1,4 @@
-//! The rate complementarity problem: which way the path goes on where constraints change sides.
+//! Rate complementarity problem: the outgoing branch of the path at an event.
 
 use crate::continuation::{Continuation, Equilibrium};
 use crate::event::{Change, NO_RATE};
@@ -6,26 +6,34 @@ use crate::newton::{Condition, FLOOR, Newton, guard, guard_slope};
 use crate::system::{State, System};
 use crate::termination::Termination;
 
-/// Events at least this far apart happen one after the other: where edges are nearly parallel forces
-/// change by 10⁵ over a unit of the path, and not even a short way may be skipped.
+/// Distance along the path below which two events coincide.
+///
+/// Between nearly parallel edges, forces change by 10⁵ over a unit of the path, so even short
+/// segments between events must be followed.
 const APART: f64 = 1e-10;
 
-/// Where the guard of what has just changed sides is off zero by more than this, and by more than it changes over such a distance, the
-/// equilibrium that was restored is another one.
+/// Largest guard of a changed constraint at the restored equilibrium, relative to 1 plus its slope.
+///
+/// If the guard exceeds this, Newton's method converged to a different equilibrium.
 const ELSEWHERE: f64 = 1e-4;
 
-/// Directions whose cosine differs from 1 by less are one way on.
-const SAME_WAY: f64 = 1e-6;
+/// Two directions are the same branch if their cosine differs from 1 by less.
+const SAME_BRANCH: f64 = 1e-6;
 
-/// More sets of changes than this are not tried where constraints have companions.
+/// Largest number of active sets evaluated at an event of a system with coupled constraints.
 const MOST_WITH_FRICTION: usize = 500;
 
-/// More often than this no path turns round before it comes farther. Those that are known to come through do so once or twice.
+/// Largest number of reversals before the path is abandoned.
+///
+/// Reversals count from the last maximum of the control parameter. Known solvable paths need at
+/// most two.
 const MOST_REVERSALS: usize = 20;
 
-/// At an event the path has a direction `ż` on each side. Of the constraints that meet there, some are at
-/// `z_c = 0` and `r_c(z) = 0` at once, and the direction in which the path goes on solves the complementarity
-/// problem of the rates,
+/// Selects the outgoing branch at an event.
+///
+/// At an event the path has a direction `ż` on each side. Some of the constraints that meet there
+/// have both `z_c = 0` and `r_c(z) = 0`. The outgoing direction solves the complementarity problem
+/// of the rates,
 ///
 /// ```text
 /// ∂r_i/∂z ż = 0     for every equation and every constraint that stays active,
@@ -33,17 +41,23 @@ const MOST_REVERSALS: usize = 20;
 /// 0 ≤ ż_c  ⟂  ∂r_c/∂z ż ≥ 0     for those that meet,                                  (N6)
 /// ```
 ///
-/// whose equations may besides have another mode after the event. It is solved by principal pivoting (Cottle, Pang &
-/// Stone 2009, *The Linear Complementarity Problem*, ch. 4, isbn 978-0-89871-686-3): first all constraints that are about
-/// to change sides do so at once, as they do by symmetry; if the direction then violates one of them, they do so one by one,
-/// the one that is violated fastest first.
+/// in the mode behind the event. The solver uses principal pivoting (Cottle, Pang & Stone 2009,
+/// *The Linear Complementarity Problem*, ch. 4, isbn 978-0-89871-686-3):
+///
+/// 1. A single monotone constraint that turns back needs no search ([`Self::end_growth`]).
+/// 2. Several changes are applied together first, as symmetry requires
+///    ([`Self::pivot_together`]).
+/// 3. If the direction then violates one of them, [`Self::search_active_sets`] changes one
+///    constraint after the other, the most violated one first.
 impl<S: System> Continuation<S> {
-    /// Lets constraints change sides in `state`, an equilibrium in which the path arrives along `arriving`, and returns the
-    /// direction in which it goes on. `changes` are the constraints that are about to change sides, the first of them for
-    /// certain; they are replaced by those that have.
+    /// Changes constraints in `state`, at an event, and returns the outgoing direction.
+    ///
+    /// `arriving` is the incoming direction. `changes` are the constraints about to change sides,
+    /// the located one first; they are replaced by the actual changes.
     ///
     /// # Errors
-    /// [`Termination::Singular`] if there is no single direction, [`Termination::Cycling`] if no set of changes makes all valid.
+    /// [`Termination::Singular`] if the direction is not unique, [`Termination::Cycling`] or, with
+    /// coupled constraints, [`Termination::Jumps`] if every active set violates some constraint.
     pub(crate) fn resolve_event(
         &mut self,
         state: &mut State<S::Mode>,
@@ -56,8 +70,8 @@ impl<S: System> Continuation<S> {
         {
             return self.end_growth(state, arriving, change);
         }
-        // Symmetric rows close two contacts at once. One after the other would leave the symmetric path at its first
-        // event.
+        // Symmetric rows close two contacts at once. Closing one after the other would leave the
+        // symmetric path at its first event.
         if changes.len() > 1
             && let Some((next, leaving)) = self.pivot_together(state, arriving, changes)
             && self.cosine(arriving, &leaving) > 0.0
@@ -65,125 +79,153 @@ impl<S: System> Continuation<S> {
             *state = next;
             return Ok(leaving);
         }
-        // What bears friction lets go of it as it opens: round-off alone says which of the two comes first.
-        let companions = self.system.coupled(changes[0].constraint);
-        let group = changes.iter().take_while(|change| companions.contains(&change.constraint));
+        // Opening a contact also ends its stick-slip constraint. Both events coincide up to
+        // round-off, so sort them.
+        let coupled = self.system.coupled(changes[0].constraint);
+        let group = changes.iter().take_while(|change| coupled.contains(&change.constraint));
         let group = group.count();
         changes[..group].sort_by_key(|change| change.constraint);
-        let mut found: Option<Resolved<S::Mode>> = None;
-        let mut failure = Termination::Singular;
-        let before = self.is_positive;
-        // Of changes that happen at once one may turn the path round, as a corner that closes where another lets go: only then is it asked
-        // what comes of beginning with another of them.
-        for change in changes.clone() {
-            for (from, first) in self.starts(state, changes, change) {
-                self.is_positive = before;
-                match self.pivot_from(from, Some(first), arriving, changes.len() == 1) {
-                    Err(stop) => failure = stop,
-                    Ok(way) => found = Some(self.better_way(found, way, before)),
-                }
-            }
-            if found.as_ref().is_some_and(|way| way.along > 0.0) {
-                break;
-            }
-        }
-        let Resolved { state: next, leaving, changes: made, is_positive, along } =
-            found.ok_or(failure)?;
-        if along < 0.0 && !self.system.monotone().is_empty() {
+        let branch = self.best_branch(state, arriving, changes)?;
+        if branch.along < 0.0 && !self.system.monotone().is_empty() {
             self.reversals += 1;
             if self.reversals > MOST_REVERSALS {
                 return Err(Termination::Jumps);
             }
         }
-        (*state, *changes, self.is_positive) = (next, made, is_positive);
-        Ok(leaving)
+        (*state, *changes, self.is_positive) = (branch.state, branch.changes, branch.is_positive);
+        Ok(branch.leaving)
     }
 
-    /// Of two ways on the one that keeps the orientation, or else turns less.
-    fn better_way(
+    /// Searches for an outgoing branch from each of the simultaneous changes in turn.
+    ///
+    /// Stops at the first change that yields a branch without reversal. A reversal may be an
+    /// artefact of the order, for example if one corner closes while another opens, so the other
+    /// changes are then tried as the first one too.
+    fn best_branch(
         &mut self,
-        found: Option<Resolved<S::Mode>>,
-        other: Resolved<S::Mode>,
-        is_positive: bool,
-    ) -> Resolved<S::Mode> {
-        let Some(found) = found else { return other };
-        self.is_unique &= self.cosine(&found.leaving, &other.leaving) > 1.0 - SAME_WAY;
-        let worth = |way: &Resolved<S::Mode>| (way.is_positive == is_positive, way.along);
-        if worth(&found) < worth(&other) { other } else { found }
+        state: &State<S::Mode>,
+        arriving: &[f64],
+        changes: &[Change],
+    ) -> Result<OutgoingBranch<S::Mode>, Termination> {
+        let is_single = changes.len() == 1;
+        let is_positive = self.is_positive;
+        let mut best: Option<OutgoingBranch<S::Mode>> = None;
+        let mut failure = Termination::Singular;
+        for &change in changes {
+            for (from, first) in self.starts(state, changes, change) {
+                self.is_positive = is_positive;
+                match self.search_active_sets(from, Some(first), arriving, is_single) {
+                    Err(termination) => failure = termination,
+                    Ok(branch) => best = Some(self.better_branch(best, branch, is_positive)),
+                }
+            }
+            if best.as_ref().is_some_and(|branch| branch.along > 0.0) {
+                break;
+            }
+        }
+        best.ok_or(failure)
     }
 
-    /// Turns the path back where it stands: what slides sticks, the load falls, and the path ends where that comes to zero.
+    /// Returns the branch that keeps the orientation, or else the one that turns less.
+    fn better_branch(
+        &mut self,
+        best: Option<OutgoingBranch<S::Mode>>,
+        other: OutgoingBranch<S::Mode>,
+        is_positive: bool,
+    ) -> OutgoingBranch<S::Mode> {
+        let Some(best) = best else { return other };
+        self.is_unique &= self.cosine(&best.leaving, &other.leaving) > 1.0 - SAME_BRANCH;
+        let rank =
+            |branch: &OutgoingBranch<S::Mode>| (branch.is_positive == is_positive, branch.along);
+        if rank(&best) < rank(&other) { other } else { best }
+    }
+
+    /// Reverses the path at its current point, to follow unloading.
+    ///
+    /// Slipping contacts stick, the load decreases, and the path ends where the load vanishes.
     pub fn turn_back(&mut self) {
         let mut state = self.point.state.clone();
         self.system.stop_sliding(&mut state);
         self.is_back = true;
         self.pushes = Some(state.z[self.system.load()].signum());
         let back: Vec<f64> = self.point.arriving.iter().map(|rate| -rate).collect();
-        // Everything may change that is at its limit, such as what falls faster than what it bears.
+        // Any constraint at its limit may change, such as a friction force that falls more slowly
+        // than the normal force.
         let meeting = (0..self.guards.len()).collect();
-        let first = Pivoted { state, meeting, made: Vec::new(), holds: None, turns_back: true };
-        let resolved = self.pivot_from(first, None, &back, false);
-        self.termination = resolved.as_ref().err().copied();
-        if let Ok(Resolved { state, leaving, is_positive, .. }) = resolved {
+        let changes = Vec::new();
+        let start =
+            ActiveSetCandidate { state, meeting, changes, orienting: None, turns_back: true };
+        let branch = self.search_active_sets(start, None, &back, false);
+        self.termination = branch.as_ref().err().copied();
+        if let Ok(OutgoingBranch { state, leaving, is_positive, .. }) = branch {
             self.is_positive = is_positive;
             self.begin(Equilibrium { state, arriving: leaving.clone(), leaving, event: None });
         }
     }
 
-    /// Where pivoting may begin: with the change of the event, or behind it with one of a companion which it leaves undecided. What
-    /// closes with friction may stick, or slip either way, and another beginning may come to another end.
+    /// Returns the starts of the search for one of the simultaneous changes.
+    ///
+    /// The first start is the change itself. Behind it, each coupled constraint that the change
+    /// leaves undecided gives another start: a contact that closes with friction may stick or slip
+    /// either way, and the search may end at a different branch.
     fn starts(
         &self,
         state: &State<S::Mode>,
         changes: &[Change],
         change: Change,
-    ) -> Vec<(Pivoted<S::Mode>, Change)> {
-        let meeting = self.meeting(changes.iter().map(|change| change.constraint));
-        let (state, made) = (state.clone(), Vec::new());
-        let before = Pivoted { state, meeting, made, holds: None, turns_back: false };
-        let mut starts = Vec::new();
-        let companions = self.system.coupled(change.constraint);
-        if companions.len() > 1
-            && let Ok(after) = self.pivoted(&before, change)
-        {
+    ) -> Vec<(ActiveSetCandidate<S::Mode>, Change)> {
+        let before = ActiveSetCandidate {
+            state: state.clone(),
+            meeting: self.meeting(changes.iter().map(|change| change.constraint)),
+            changes: Vec::new(),
+            orienting: None,
+            turns_back: false,
+        };
+        let coupled = self.system.coupled(change.constraint);
+        let after = (coupled.len() > 1).then(|| self.with_change(&before, change));
+        let mut starts = vec![(before, change)];
+        if let Some(Ok(after)) = after {
             let guards = Newton::guards(&self.system, &after.state);
-            let is_undecided = |&c: &usize| {
-                c != change.constraint && Some(c) != after.holds && guards[c].abs() <= FLOOR
-            };
-            starts.extend(companions.filter(is_undecided).map(|constraint| {
-                let activated = !after.state.active[constraint];
-                (after.clone(), Change { constraint, activated })
-            }));
+            for constraint in coupled {
+                let is_undecided = constraint != change.constraint
+                    && Some(constraint) != after.orienting
+                    && guards[constraint].abs() <= FLOOR;
+                if is_undecided {
+                    let activated = !after.state.active[constraint];
+                    starts.push((after.clone(), Change { constraint, activated }));
+                }
+            }
         }
-        starts.insert(0, (before, change));
         starts
     }
 
-    /// Stops what only grows where it turns back. Its rate vanishes there, so the path goes on as it came: on both sides of the event
-    /// the direction is the same, and the condition of the constraint, whose slope is zero along it, says nothing about its sign.
+    /// Ends the growth of a monotone unknown at the point where its rate vanishes.
+    ///
+    /// The rate vanishes on both sides, so the path continues in its incoming direction. The slope
+    /// of the changed condition is zero along that direction and does not determine its sign.
     fn end_growth(
         &mut self,
         state: &mut State<S::Mode>,
         arriving: &[f64],
         change: Change,
     ) -> Result<Vec<f64>, Termination> {
-        // No complementarity problem is left to solve: a rate of zero satisfies both sides.
-        let valid = self.pivot(state, change).ok_or(Termination::Singular)?;
+        // A zero rate satisfies both sides of the complementarity, so no search is needed.
+        let orienting = self.pivot(state, change).ok_or(Termination::Singular)?;
         let controls = self.system.controls();
         let row = controls.iter().map(|c| (c.index, arriving[c.index] / c.scale.powi(2))).collect();
         let condition = Condition::through(row, &state.z);
         let direction = self.newton.solve(&self.system, state, &condition, &self.settings)?;
         let direction = self.normalised(direction);
-        if guard_slope(&self.system, state, valid, &direction) >= -NO_RATE {
+        if guard_slope(&self.system, state, orienting, &direction) >= -NO_RATE {
             return Ok(direction);
         }
-        // All controls turn back with it, as if at a kink, and do not tell which way the path goes.
+        // The controls turn back together with the unknown, as at a kink, so their sign is wrong.
         let direction = opposite(direction);
         self.is_positive = self.newton.is_positive(&condition, &direction);
         Ok(direction)
     }
 
-    /// State and direction after all of `changes`. `None` if the direction violates one of them.
+    /// Applies all `changes` and returns state and direction, or `None` if one is violated.
     fn pivot_together(
         &mut self,
         state: &State<S::Mode>,
@@ -191,156 +233,187 @@ impl<S: System> Continuation<S> {
         changes: &[Change],
     ) -> Option<(State<S::Mode>, Vec<f64>)> {
         let mut next = state.clone();
-        let valid: Option<Vec<usize>> =
-            changes.iter().map(|&change| self.pivot(&mut next, change)).collect();
-        let valid = valid?;
+        let mut valid = Vec::with_capacity(changes.len());
+        for &change in changes {
+            valid.push(self.pivot(&mut next, change)?);
+        }
         let leaving = self.direction(&mut next, arriving, valid.first().copied()).ok()?;
-        // All of them happen here, so that each has to hold from here on. Two corners that come to the ends of their edges within round-off
-        // hold each other by stiff contacts, if both change: what was round-off of a place is a force, which falls.
-        let falls = |&c: &usize| guard_slope(&self.system, &next, c, &leaving) < -FLOOR;
-        if valid.iter().any(falls) {
-            return None;
+        // Every change must be valid behind the event, whatever its guard. Counterexample: two
+        // corners reach the ends of their edges within round-off. If both change, stiff contacts
+        // turn this round-off into a decreasing force.
+        for &constraint in &valid {
+            if guard_slope(&self.system, &next, constraint, &leaving) < -FLOOR {
+                return None;
+            }
         }
         let meeting = self.meeting(valid);
         self.violated(&next, &leaving, &meeting).is_empty().then_some((next, leaving))
     }
 
-    /// Tries one set of changes after the other, beginning with those of a state and one more: while the direction violates one of the
-    /// constraints that meet, the one that it violates fastest changes. A constraint that has changed sides may have to change back; where
-    /// that leads to a set of changes that has been tried, others that are violated change instead. `is_single` tells of an event that is
-    /// one change.
-    fn pivot_from(
+    /// Searches depth-first for an active set with a valid outgoing direction.
+    ///
+    /// ```text
+    /// start ─► take the next candidate ─► evaluate it ─► violated constraints?  none ─► branch
+    ///                    ▲                                      │ some
+    ///                    └── add one candidate for each, the most violated one next
+    /// ```
+    ///
+    /// A changed constraint may change back. If that leads to an active set evaluated before, the
+    /// search continues with the next violated constraint. `is_single` marks an event with a single
+    /// change: without coupled constraints a failure then has no alternative.
+    fn search_active_sets(
         &mut self,
-        first: Pivoted<S::Mode>,
+        start: ActiveSetCandidate<S::Mode>,
         change: Option<Change>,
         arriving: &[f64],
         is_single: bool,
-    ) -> Result<Resolved<S::Mode>, Termination> {
-        let mut waiting = vec![(first, change)];
-        let mut tried = Vec::new();
-        let has_companions =
-            (0..self.guards.len()).any(|other| self.system.coupled(other).len() > 1);
-        let mut failure = if has_companions { Termination::Jumps } else { Termination::Cycling };
-        while let Some((from, change)) = waiting.pop() {
-            if tried.len() >= self.most_changes(has_companions) {
+    ) -> Result<OutgoingBranch<S::Mode>, Termination> {
+        let has_coupled =
+            (0..self.guards.len()).any(|constraint| self.system.coupled(constraint).len() > 1);
+        let limit = self.most_active_sets(has_coupled);
+        let mut failure = if has_coupled { Termination::Jumps } else { Termination::Cycling };
+        let mut evaluated = Vec::new();
+        let mut stack = vec![(start, change)];
+        while let Some((from, change)) = stack.pop() {
+            if evaluated.len() >= limit {
                 break;
             }
-            let pivoted = match change {
-                Some(change) => self.pivoted(&from, change),
-                None => Ok(from),
-            };
-            let way = pivoted.and_then(|mut at| {
-                let is_known = tried.iter().any(|(active, mode)| {
-                    *active == at.state.active && self.system.is_same_form(mode, &at.state.mode)
-                });
-                if is_known {
-                    return Err(Termination::Cycling);
-                }
-                tried.push((at.state.active.clone(), at.state.mode.clone()));
-                let leaving = self.direction(&mut at.state, arriving, at.holds)?;
-                Ok((at, leaving))
-            });
-            let (at, leaving) = match way {
-                Ok(way) => way,
-                // Without companions there is one way to go on, and it has failed.
-                Err(stop) if is_single && !has_companions => return Err(stop),
+            let (candidate, leaving) = match self.evaluate(from, change, arriving, &mut evaluated) {
+                Ok(solved) => solved,
+                Err(termination) if is_single && !has_coupled => return Err(termination),
                 Err(Termination::NoConvergence) => {
                     failure = Termination::NoConvergence;
                     continue;
                 }
                 Err(_) => continue,
             };
-            let violated = self.violated(&at.state, &leaving, &at.meeting);
+            let violated = self.violated(&candidate.state, &leaving, &candidate.meeting);
             if violated.is_empty() {
                 let (along, is_positive) = (self.cosine(arriving, &leaving), self.is_positive);
-                // Where all changes are undone the way back is none on.
-                if at.made.is_empty() && along < 0.0 && change.is_some() {
+                // With all changes undone, a reversed direction is the incoming path.
+                if candidate.changes.is_empty() && along < 0.0 && change.is_some() {
                     continue;
                 }
-                let Pivoted { state, made: changes, .. } = at;
-                return Ok(Resolved { state, leaving, changes, is_positive, along });
+                let ActiveSetCandidate { state, changes, .. } = candidate;
+                return Ok(OutgoingBranch { state, leaving, changes, is_positive, along });
             }
-            let next = violated
-                .into_iter()
-                .map(|constraint| Change { constraint, activated: !at.state.active[constraint] });
-            // The one that is violated fastest is tried next.
-            waiting.extend(next.rev().map(|change| (at.clone(), Some(change))));
+            // In reverse, so that the most violated constraint is on top of the stack.
+            for constraint in violated.into_iter().rev() {
+                let activated = !candidate.state.active[constraint];
+                stack.push((candidate.clone(), Some(Change { constraint, activated })));
+            }
         }
         Err(failure)
     }
 
-    /// What one change more makes of a set of changes.
-    fn pivoted(
+    /// Applies a change to a candidate and solves for its outgoing direction.
+    ///
+    /// # Errors
+    /// [`Termination::Cycling`] if this active set and mode are among those `evaluated` before, or
+    /// the failure of the change or of the solve.
+    fn evaluate(
+        &mut self,
+        from: ActiveSetCandidate<S::Mode>,
+        change: Option<Change>,
+        arriving: &[f64],
+        evaluated: &mut Vec<(Vec<bool>, S::Mode)>,
+    ) -> Result<(ActiveSetCandidate<S::Mode>, Vec<f64>), Termination> {
+        let mut candidate = match change {
+            Some(change) => self.with_change(&from, change)?,
+            None => from,
+        };
+        let state = &mut candidate.state;
+        let is_evaluated = evaluated.iter().any(|(active, mode)| {
+            *active == state.active && self.system.is_same_form(mode, &state.mode)
+        });
+        if is_evaluated {
+            return Err(Termination::Cycling);
+        }
+        evaluated.push((state.active.clone(), state.mode.clone()));
+        let leaving = self.direction(state, arriving, candidate.orienting)?;
+        Ok((candidate, leaving))
+    }
+
+    /// Returns a candidate with one more change.
+    fn with_change(
         &self,
-        from: &Pivoted<S::Mode>,
+        from: &ActiveSetCandidate<S::Mode>,
         change: Change,
-    ) -> Result<Pivoted<S::Mode>, Termination> {
+    ) -> Result<ActiveSetCandidate<S::Mode>, Termination> {
         let mut next = from.clone();
         let valid = self.pivot(&mut next.state, change).ok_or(Termination::Singular)?;
-        // A transition may hand the condition on, from a corner to the edge behind it, say.
+        // A transition may pass the condition on, for example from a corner to the next edge.
         if !next.meeting.contains(&valid) {
             next.meeting.extend(self.system.coupled(valid));
         }
-        toggle(&mut next.made, change);
-        // What changes elsewhere because of friction does not tell which way the path goes: that is said by what has happened.
-        let companions = self.system.coupled(change.constraint);
-        let is_elsewhere = |holds: &usize| companions.len() > 1 && !companions.contains(holds);
-        next.holds = next.holds.filter(is_elsewhere).or(Some(valid)).filter(|_| !next.turns_back);
+        toggle(&mut next.changes, change);
+        if next.turns_back {
+            next.orienting = None;
+            return Ok(next);
+        }
+        // A friction change at another contact is a consequence of the event and must not orient
+        // the path: keep the constraint of the event itself.
+        let coupled = self.system.coupled(change.constraint);
+        let is_elsewhere = |orienting: &usize| coupled.len() > 1 && !coupled.contains(orienting);
+        next.orienting = next.orienting.filter(is_elsewhere).or(Some(valid));
         Ok(next)
     }
 
-    /// The constraints that may change sides where these do.
-    fn meeting(&self, changes: impl IntoIterator<Item = usize>) -> Vec<usize> {
+    /// Returns the constraints that may change sides together with the given ones.
+    fn meeting(&self, constraints: impl IntoIterator<Item = usize>) -> Vec<usize> {
         let mut meeting: Vec<usize> = Vec::new();
-        for change in changes {
-            if !meeting.contains(&change) {
-                meeting.extend(self.system.coupled(change));
+        for constraint in constraints {
+            if !meeting.contains(&constraint) {
+                meeting.extend(self.system.coupled(constraint));
             }
         }
         meeting
     }
 
-    /// Lets a constraint change sides. Returns the one whose condition has to hold as the path goes on, or `None` if the
-    /// mode does not allow the change.
+    /// Changes the side of a constraint.
+    ///
+    /// Returns the constraint with the condition that the outgoing path must satisfy, or `None` if
+    /// the mode does not allow the change.
     fn pivot(&self, state: &mut State<S::Mode>, change: Change) -> Option<usize> {
         state.active[change.constraint] = change.activated;
         state.z[self.system.constraints()[change.constraint]] = 0.0;
         self.system.transition(state, change)
     }
 
-    /// The direction in which a constraint that has just changed sides stays valid, or without one that along `arriving`. A transition may
-    /// have disturbed the equilibrium; it is restored first.
+    /// Restores the equilibrium after a transition and solves for the outgoing direction.
+    ///
+    /// The guard of the `orienting` constraint increases along the direction. Without one, the
+    /// direction follows `arriving`.
     fn direction(
         &mut self,
         state: &mut State<S::Mode>,
         arriving: &[f64],
-        valid: Option<usize>,
+        orienting: Option<usize>,
     ) -> Result<Vec<f64>, Termination> {
         let mut failure = Termination::Singular;
-        // A corner that closes may turn the path so far that it goes on at right angles to the direction in which it
-        // came; then one of the controls alone still grows.
+        // A corner that closes may turn the path by a right angle. Then the arc length is constant
+        // to first order, and only one of the controls still grows.
         for condition in self.measures(state, arriving) {
             let mut trial = state.clone();
             let solved = self.newton.solve(&self.system, &mut trial, &condition, &self.settings);
             let Ok(direction) = solved else { continue };
             let mut direction = self.normalised(direction);
-            let slope =
-                valid.map_or(1.0, |valid| guard_slope(&self.system, &trial, valid, &direction));
-            // At a slope of zero neither sign of the direction is the valid one.
+            let slope = orienting.map_or(1.0, |c| guard_slope(&self.system, &trial, c, &direction));
+            // A zero slope does not determine the sign of the direction.
             if slope == 0.0 || !direction.iter().all(|x| x.is_finite()) {
                 continue;
             }
-            let vanishes = |valid: usize| {
-                guard(&self.system, &trial, valid).abs() <= ELSEWHERE * (1.0 + slope.abs())
-            };
-            if !valid.is_none_or(vanishes) {
+            let is_near = orienting.is_none_or(|constraint| {
+                guard(&self.system, &trial, constraint).abs() <= ELSEWHERE * (1.0 + slope.abs())
+            });
+            if !is_near {
                 failure = Termination::NoConvergence;
                 continue;
             }
             if slope < 0.0 {
                 direction = opposite(direction);
             }
-            // Here alone the sign of (N7) may be another: the equations behind the event are others.
+            // The equations change at an event, the only place where the sign of (N7) may change.
             self.is_positive = self.newton.is_positive(&condition, &direction);
             *state = trial;
             return Ok(direction);
@@ -348,7 +421,7 @@ impl<S: System> Continuation<S> {
         Err(failure)
     }
 
-    /// Ways to measure distance along the path, the likeliest to increase first.
+    /// Returns measures of distance along the path, the most likely to increase first.
     fn measures(&self, state: &State<S::Mode>, direction: &[f64]) -> Vec<Condition> {
         let controls = self.system.controls();
         let arc =
@@ -358,71 +431,77 @@ impl<S: System> Continuation<S> {
         rows.map(|row| Condition::through(row, &state.z)).collect()
     }
 
-    /// The constraints that a direction violates, of those that it violates at no distance, the one that it violates fastest first.
+    /// Returns the constraints that a direction violates immediately, most violated first.
+    ///
+    /// Checks the given constraints and all active monotone ones.
     fn violated(
         &mut self,
         state: &State<S::Mode>,
         direction: &[f64],
         constraints: &[usize],
     ) -> Vec<usize> {
-        let slopes =
-            constraints.iter().map(|&c| (c, guard_slope(&self.system, state, c, direction)));
-        let is_violated = |&(c, slope): &(usize, f64)| {
-            slope < -FLOOR && guard(&self.system, state, c) <= -slope * APART
-        };
-        let meeting = slopes.filter(is_violated);
-        // What only grows may not turn back at a kink either, however far it has come.
-        let growing = self.system.monotone().iter().filter(|&&c| state.active[c]);
-        let growing = growing.map(|&c| (c, direction[self.system.constraints()[c]]));
-        let turned = growing.filter(|&(_, rate)| rate < -FLOOR);
-        let mut violated: Vec<(usize, f64)> = meeting.chain(turned).collect();
+        let mut violated: Vec<(usize, f64)> = Vec::new();
+        for &constraint in constraints {
+            let slope = guard_slope(&self.system, state, constraint, direction);
+            if slope < -FLOOR && guard(&self.system, state, constraint) <= -slope * APART {
+                violated.push((constraint, slope));
+            }
+        }
+        // A monotone unknown must not decrease behind a kink, whatever its value.
+        for &constraint in self.system.monotone() {
+            let rate = direction[self.system.constraints()[constraint]];
+            if state.active[constraint] && rate < -FLOOR {
+                violated.push((constraint, rate));
+            }
+        }
         violated.sort_by(|a, b| a.1.total_cmp(&b.1));
         violated.dedup_by_key(|(constraint, _)| *constraint);
         violated.into_iter().map(|(constraint, _)| constraint).collect()
     }
 
-    /// More pivots than this do not happen at one place.
-    fn most_changes(&self, has_companions: bool) -> usize {
-        // Each constraint may change and change back; the rest is for rows of a few scales. With friction sets of changes form a tree,
-        // whose ways on are found within some dozens if there are any.
+    /// Returns the largest number of active sets to evaluate at an event.
+    fn most_active_sets(&self, has_coupled: bool) -> usize {
+        // Each constraint may change and change back; the constant allows for short rows. Coupled
+        // constraints make the search a tree, in which solvable events need some dozens of sets.
         let most = 2 * self.guards.len() + 8;
-        if has_companions { most.min(MOST_WITH_FRICTION) } else { most }
+        if has_coupled { most.min(MOST_WITH_FRICTION) } else { most }
     }
 }
 
-/// A state at an event after some changes.
+/// State at an event after some changes.
 #[derive(Clone)]
-struct Pivoted<M> {
+struct ActiveSetCandidate<M> {
     state: State<M>,
-    /// The constraints that may be violated there.
+    /// Constraints that may be violated at the event.
     meeting: Vec<usize>,
-    /// The changes made so far.
-    made: Vec<Change>,
-    /// The constraint that has to hold as the path goes on.
-    holds: Option<usize>,
-    /// Whether the path turns back, so that it is its direction that is given, and no constraint.
+    /// Changes made so far.
+    changes: Vec<Change>,
+    /// Constraint with a guard that must increase along the outgoing direction.
+    orienting: Option<usize>,
+    /// True if the path is turned back: its direction is given and no constraint orients it.
     turns_back: bool,
 }
 
-/// A way on from an event.
-struct Resolved<M> {
+/// Outgoing branch at an event.
+struct OutgoingBranch<M> {
     state: State<M>,
     leaving: Vec<f64>,
-    /// The constraints that have changed sides.
+    /// Constraints that have changed sides.
     changes: Vec<Change>,
-    /// The orientation (N7) behind the event.
+    /// Orientation (N7) behind the event.
     is_positive: bool,
     /// Cosine of the angle by which the path turns.
     along: f64,
 }
 
+/// Returns the reversed direction.
 fn opposite(direction: Vec<f64>) -> Vec<f64> {
     direction.into_iter().map(|x| -x).collect()
 }
 
-/// Adds a change to those made, or takes away the one that it undoes.
+/// Adds a change, or removes the earlier change of the same constraint, which it undoes.
 fn toggle(changes: &mut Vec<Change>, change: Change) {
-    match changes.iter().position(|made| made.constraint == change.constraint) {
+    match changes.iter().position(|earlier| earlier.constraint == change.constraint) {
         Some(undone) => drop(changes.remove(undone)),
         None => changes.push(change),
     }

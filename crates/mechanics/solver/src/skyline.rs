@@ -1,22 +1,25 @@
-//! Symmetric matrices of a skyline profile, and their inertia.
+//! Symmetric skyline matrices and their inertia.
 
 use crate::linear::SingularMatrix;
 
-/// A symmetric matrix of which each row holds the entries from its first column to the diagonal.
+/// Symmetric matrix that stores each row from its first column to the diagonal.
 ///
-/// Its factors `L D Lᵀ`, `L` left of the diagonal and `D` on it, take its place; they are found without exchanges of rows, so that the profile is kept. By Sylvester's law `D` has as many negative
-/// entries as the matrix has negative eigenvalues.
+/// Factorisation replaces it by `L D Lᵀ`, with `L` left of the diagonal and `D` on it. Rows are not
+/// exchanged, so the profile is preserved. By Sylvester's law, `D` has as many negative entries as
+/// the matrix has negative eigenvalues.
 #[derive(Clone, Debug)]
 pub struct SkylineMatrix {
     /// First column of each row.
     first: Vec<usize>,
-    /// Where the first entry of each row stands among the values.
+    /// Index of the first value of each row.
     starts: Vec<usize>,
     values: Vec<f64>,
 }
 
 impl SkylineMatrix {
-    /// A matrix of zeros whose rows begin in the columns `first`, none beyond its diagonal.
+    /// Creates a zero matrix with rows that begin in the columns `first`.
+    ///
+    /// No row may begin beyond its diagonal.
     pub fn new(first: Vec<usize>) -> Self {
         let (mut starts, mut stored) = (Vec::with_capacity(first.len()), 0);
         for (row, first) in first.iter().enumerate() {
@@ -26,12 +29,12 @@ impl SkylineMatrix {
         Self { first, starts, values: vec![0.0; stored] }
     }
 
-    /// Number of rows.
+    /// Returns the number of rows.
     pub fn size(&self) -> usize {
         self.first.len()
     }
 
-    /// Adds `value` to the entry at (`row`, `column`). Of the two that mirror each other, the one above the diagonal is ignored.
+    /// Adds `value` to the entry at (`row`, `column`). Entries above the diagonal are ignored.
     pub fn add(&mut self, row: usize, column: usize, value: f64) {
         if column <= row {
             debug_assert!(
@@ -42,7 +45,7 @@ impl SkylineMatrix {
         }
     }
 
-    /// The entries of a row from a column on, up to before another.
+    /// Returns the entries of a row in the columns `from..to`.
     fn entries(&self, row: usize, from: usize, to: usize) -> &[f64] {
         let start = self.starts[row] - self.first[row];
         &self.values[start + from..start + to]
@@ -56,7 +59,7 @@ impl SkylineMatrix {
         let size = self.size();
         for row in 0..size {
             let first = self.first[row];
-            // The entries of the row become those of L D, and then of L.
+            // The entries of the row become the entries of L D, and then of L.
             for column in first..row {
                 let from = first.max(self.first[column]);
                 let known = self.entries(row, from, column).iter();
@@ -65,7 +68,7 @@ impl SkylineMatrix {
                 self.add(row, column, -taken);
             }
             let pivot = self.scale_row(row);
-            // A small pivot is none of these: it still has the sign that the count of negative eigenvalues asks for.
+            // Accept a small pivot: its sign still counts negative eigenvalues.
             if pivot == 0.0 || !pivot.is_finite() {
                 return Err(SingularMatrix { column: row, size });
             }
@@ -73,7 +76,7 @@ impl SkylineMatrix {
         Ok(self)
     }
 
-    /// Divides the entries of a row of L D by D, and returns the pivot of the row.
+    /// Divides a row of L D by D and returns the pivot of the row.
     fn scale_row(&mut self, row: usize) -> f64 {
         let first = self.first[row];
         let mut taken = 0.0;
@@ -88,12 +91,12 @@ impl SkylineMatrix {
         self.pivot(row)
     }
 
-    /// `D` of a row, once the matrix is factorised.
+    /// Returns `D` of a row after factorisation.
     fn pivot(&self, row: usize) -> f64 {
         self.entries(row, row, row + 1)[0]
     }
 
-    /// Number of negative eigenvalues of a matrix that is factorised.
+    /// Returns the number of negative eigenvalues of a factorised matrix.
     pub fn negative_eigenvalues(&self) -> usize {
         (0..self.size()).filter(|&row| self.pivot(row) < 0.0).count()
     }
