@@ -1,22 +1,23 @@
-//! The elastica: large deflections of inextensible beams.
+//! Elastica: large deflections of inextensible beams.
 //!
-//! The tip of a cantilever of length `L` under a transverse dead load `P` turns by `φ₁`. With `sin φ₁ = 2k² − 1` the
-//! modulus `k` of the elliptic integrals solves
+//! The tip of a cantilever of length `L` under a transverse dead load `P` rotates by `φ₁`. With
+//! `sin φ₁ = 2k² − 1`, the modulus `k` of the elliptic integrals solves
 //!
 //! ```text
 //! √(PL²/EI) = K(k) − F(φ, k),     sin φ = 1/(k √2)
 //! w/L = 1 − 2 [E(k) − E(φ, k)] / √(PL²/EI),     u/L = 1 − √(2 (2k² − 1) / (PL²/EI))
 //! ```
 //!
-//! Closed form: K. E. Bisshopp, D. C. Drucker, *Quart. Appl. Math.* 3 (1945) 272, doi 10.1090/qam/13360. Table:
-//! K. Mattiasson, *Int. J. Numer. Methods Eng.* 17 (1981) 145, doi 10.1002/nme.1620170113. Elliptic integrals by
-//! duplication: B. C. Carlson, *Numer. Math.* 33 (1979) 1, doi 10.1007/BF01396491.
+//! Closed form: K. E. Bisshopp, D. C. Drucker, *Quart. Appl. Math.* 3 (1945) 272, doi
+//! 10.1090/qam/13360. Table: K. Mattiasson, *Int. J. Numer. Methods Eng.* 17 (1981) 145, doi
+//! 10.1002/nme.1620170113. Elliptic integrals by duplication: B. C. Carlson, *Numer. Math.* 33
+//! (1979) 1, doi 10.1007/BF01396491.
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
 use crate::bisected;
 
-/// The displacement of the tip of a cantilever, over its length, and its rotation.
+/// Tip displacement of a cantilever, over its length, and tip rotation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tip {
     /// Deflection `w/L` along the load.
@@ -34,7 +35,7 @@ impl Tip {
     }
 }
 
-/// Loads `PL²/EI` with the displacements of the tip, to the five decimals printed by Mattiasson (1981).
+/// Loads `PL²/EI` and tip displacements, to the five decimals printed by Mattiasson (1981).
 pub const MATTIASSON: [(f64, Tip); 4] = [
     (1.0, Tip { deflection: 0.30172, shortening: 0.05643, rotation: 0.46135 }),
     (2.0, Tip { deflection: 0.49346, shortening: 0.16064, rotation: 0.78175 }),
@@ -42,9 +43,9 @@ pub const MATTIASSON: [(f64, Tip); 4] = [
     (10.0, Tip { deflection: 0.81061, shortening: 0.55500, rotation: 1.43029 }),
 ];
 
-/// Returns the displacement of the tip of an inextensible cantilever under the load `PL²/EI > 0`.
+/// Returns the tip displacement of an inextensible cantilever under the load `PL²/EI > 0`.
 pub fn tip(load: f64) -> Tip {
-    // Just inside: at the ends of the interval the load is zero and infinite.
+    // Just inside the interval: at its ends the load is zero and infinite.
     let ends = [FRAC_1_SQRT_2 * (1.0 + 1e-12), 1.0 - 1e-12];
     let k = bisected(ends, |k| between(k)[0] < load.sqrt());
     let twice = 2.0 * k * k - 1.0;
@@ -55,11 +56,14 @@ pub fn tip(load: f64) -> Tip {
     }
 }
 
-/// Returns the nodes of a strip of unit length along `x`, clamped at its left end, whose tip an end moment turns by
-/// `angle`, if it consists of `elements` straight links as long as the arcs they stand for: `(x, y, rotation)` of each
-/// node but the clamped one.
+/// Returns the nodes of a strip rolled up by an end moment, as a polygon of straight links.
 ///
-/// Co-rotational elements in pure bending are such links: exact in rotations and moments, whatever their number.
+/// The strip has unit length along `x` and is clamped at its left end. The moment rotates its tip
+/// by `angle`. Each of the `elements` links is as long as its arc. Returns `(x, y, rotation)` of
+/// every node except the clamped one.
+///
+/// Co-rotational elements in pure bending are such links: their rotations and moments are exact for
+/// any number of elements.
 pub fn rolled_up(elements: usize, angle: f64) -> Vec<[f64; 3]> {
     let count = elements as f64;
     let mut node = [0.0; 2];
@@ -85,8 +89,10 @@ fn legendre(sin_phi: f64, k: f64) -> [f64; 2] {
     [f, f - k.powi(2) * sin_phi.powi(3) / 3.0 * carlson_rd(cos2, delta2, 1.0)]
 }
 
-/// The distance of the arguments from their mean, over the mean, below which the series of Carlson's integrals are
-/// exact to the last digits: their errors are of the sixth power of it.
+/// Relative deviation of the arguments from their mean below which a series is used.
+///
+/// The errors of the series of Carlson's integrals are of sixth order in this deviation, so they
+/// are exact to the last digits.
 const NEAR: f64 = 1e-3;
 
 /// Returns Carlson's symmetric integral of the first kind, by duplication.
@@ -143,7 +149,7 @@ mod tests {
                 assert!((exact - printed).abs() < 5.1e-6, "{load}: {exact} against {printed}");
             }
         }
-        // Fifteen digits by arbitrary-precision arithmetic, which tests the integrals themselves.
+        // Fifteen digits by arbitrary-precision arithmetic, which test the integrals themselves.
         let reference = [0.810_609_024_880_296, 0.554_995_597_753_751, 1.430_285_538_803_858];
         for (exact, reference) in tip(10.0).values().into_iter().zip(reference) {
             assert!((exact - reference).abs() < 1e-13, "{exact} against {reference}");

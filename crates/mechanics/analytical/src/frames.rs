@@ -1,15 +1,20 @@
-//! Limit loads of frames that snap through.
+//! Limit loads of snap-through frames.
 
-/// The first limit load `P L²/EI` of Lee's frame, without stretch: a hinged column that carries a hinged beam of the
-/// same length, loaded at a fifth of the beam.
+/// First limit load `P L²/EI` of Lee's frame, without stretch.
+///
+/// A hinged column carries a hinged beam of the same length, with the load at one fifth of the
+/// beam.
 ///
 /// S.-L. Lee, F. S. Manuel, E. C. Rossow, *J. Eng. Mech. Div. ASCE* 94 (1968) 521.
 pub const LEES_FRAME: f64 = 18.552;
 
-/// Returns the limit load of half a shallow toggle: a bar of axial stiffness `axial` from a hinge up to a slide that
-/// moves vertically, `base` away and `height` up.
+/// Returns the limit load of half a shallow toggle.
 ///
-/// With the length `l` of the bar, `L` at rest, the load is `P = EA (1/l − 1/L) h`, largest where `l³ = L b²`.
+/// A bar of axial stiffness `axial` leads from a hinge up to a vertical slide, at the horizontal
+/// distance `base` and the height `height`.
+///
+/// With the bar length `l`, and `L` at rest, the load is `P = EA (1/l − 1/L) h`. It has its maximum
+/// at `l³ = L b²`.
 pub fn toggle_limit_load(base: f64, height: f64, axial: f64) -> f64 {
     let rest = base.hypot(height);
     let limit = (rest * base * base).cbrt();

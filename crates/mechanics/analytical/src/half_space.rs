@@ -1,11 +1,12 @@
 //! Rigid rectangles and point loads on an elastic half-space, in units of `E* = E_s/(1 − ν²)`.
 //!
-//! Rectangles have the half-width `a = 1` along `x`. The stiffnesses are those of Eq. (1) of Shafiei et al. (2021,
-//! doi 10.1016/j.jmps.2020.104176): `α` of a rectangle for itself, `β` between nearest neighbours.
+//! Rectangles have the half-width `a = 1` along `x`. The stiffnesses are defined by Eq. (1) of
+//! Shafiei et al. (2021, doi 10.1016/j.jmps.2020.104176): `α` couples a rectangle with itself, `β`
+//! nearest neighbours.
 
 use std::f64::consts::PI;
 
-/// Stiffnesses of a rigid rectangle: force along `x`, force along `y`, moment.
+/// Stiffnesses of a rigid rectangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stiffnesses {
     /// Force along `x` for a unit shift along `x`.
@@ -23,15 +24,16 @@ impl Stiffnesses {
     }
 }
 
-/// An isolated square of side `2a`, to four decimals.
+/// Isolated square of side `2a`, to four decimals.
 ///
-/// Normal: a punch of side `s` needs `P = 1.1523 E* s δ` (N. M. Borodachev, *Contact problem for a stamp with a
-/// rectangular base*, J. Appl. Math. Mech. 40 (1976) 505), with `s = 2a`. Shear at `ν = 0.5`, and rotation: converged
-/// boundary elements.
+/// Normal: a punch of side `s` needs `P = 1.1523 E* s δ` (N. M. Borodachev, *Contact problem for a
+/// stamp with a rectangular base*, J. Appl. Math. Mech. 40 (1976) 505), with `s = 2a`. Shear at `ν
+/// = 0.5`, and rotation: converged boundary elements.
 pub const SQUARE: Stiffnesses = Stiffnesses { shear: 1.5384, normal: 2.3046, rocking: 2.0807 };
 
-/// `α` of three squares a tenth of their side apart at `ν = 0.5`, from converged boundary elements, cut after three
-/// decimals.
+/// `α` of three squares with gaps of a tenth of their side at `ν = 0.5`.
+///
+/// From converged boundary elements, truncated after three decimals.
 pub const THREE_SQUARES_DIRECT: Stiffnesses =
     Stiffnesses { shear: 2.699, normal: 3.376, rocking: 2.473 };
 
@@ -39,8 +41,9 @@ pub const THREE_SQUARES_DIRECT: Stiffnesses =
 pub const THREE_SQUARES_COUPLING: Stiffnesses =
     Stiffnesses { shear: 0.993, normal: 1.082, rocking: -0.428 };
 
-/// The displacement of the centre of a square of side 2 under a unit pressure: `8 asinh(1)/π` (integral of Boussinesq's
-/// solution).
+/// Returns the displacement of the centre of a square of side 2 under a unit pressure.
+///
+/// The value `8 asinh(1)/π` is the integral of Boussinesq's solution.
 pub fn loaded_square_centre() -> f64 {
     8.0 * 1_f64.asinh() / PI
 }
@@ -50,19 +53,22 @@ pub fn point_load(r: f64) -> f64 {
     1.0 / (PI * r)
 }
 
-/// Returns the displacement along a unit tangential load, at the distance `r` ahead of it (Cerruti).
+/// Returns the displacement along a unit tangential load, at the distance `r` ahead (Cerruti).
 pub fn tangential_point_load(r: f64, poisson_ratio: f64) -> f64 {
     1.0 / (PI * r * (1.0 - poisson_ratio))
 }
 
-/// Returns the normal displacement at the distance `r` from a unit couple, in its plane: the derivative of
-/// [`point_load`].
+/// Returns the normal displacement at the distance `r` from a unit couple, in its plane.
+///
+/// This is the derivative of [`point_load`].
 pub fn point_couple(r: f64) -> f64 {
     1.0 / (PI * r * r)
 }
 
-/// Returns the stiffnesses of an isolated rectangle `2 × width` at `ν = 0.5` by the formulas of A. Pais, E. Kausel,
-/// *Soil Dyn. Earthq. Eng.* 7 (1988) 213, doi 10.1016/S0267-7261(88)80005-8, good to some 6 %.
+/// Returns the stiffnesses of an isolated rectangle `2 × width` at `ν = 0.5`.
+///
+/// By the formulas of A. Pais, E. Kausel, *Soil Dyn. Earthq. Eng.* 7 (1988) 213, doi
+/// 10.1016/S0267-7261(88)80005-8, with an accuracy of about 6 %.
 ///
 /// With the half-sides `B ≤ L` the formulas are written for `G/(1 − ν) = E*/2`.
 pub fn pais_kausel(width: f64) -> Stiffnesses {
@@ -80,8 +86,10 @@ pub fn pais_kausel(width: f64) -> Stiffnesses {
     }
 }
 
-/// Returns the normal stiffness of an isolated rectangle `2 × width` by the formula of G. Gazetas, *J. Geotech. Eng.*
-/// 117 (1991) 1363, doi 10.1061/(ASCE)0733-9410(1991)117:9(1363), good to some 6 %.
+/// Returns the normal stiffness of an isolated rectangle `2 × width`.
+///
+/// By the formula of G. Gazetas, *J. Geotech. Eng.* 117 (1991) 1363, doi
+/// 10.1061/(ASCE)0733-9410(1991)117:9(1363), with an accuracy of about 6 %.
 pub fn gazetas_normal(width: f64) -> f64 {
     let half = width / 2.0;
     let (b, ratio) = (half.min(1.0), half.max(1.0) / half.min(1.0));

@@ -1,24 +1,24 @@
-//! The puncture of a scale without neighbours.
+//! Puncture of a scale without neighbours.
 //!
-//! With the load `F` down at `r` from the node of a scale that has turned by `ψ` clockwise, held by its own springs
-//! alone,
+//! The load `F` acts downwards at `r` from the node of a scale that has rotated by `ψ` clockwise
+//! and is held only by its own springs,
 //!
 //! ```text
 //! k_y y = −F,    k_φ ψ = F (r_x cos ψ + r_y sin ψ),    k_y = a α_y,  k_φ = a³ α_φ
 //! u = −y + r_x sin ψ + r_y (1 − cos ψ)
 //! ```
 //!
-//! so that `F(ψ)` and `u(ψ)` are known in closed form, as are the energies `½ k_y y²` and `½ k_φ ψ²`. Forces are in
-//! units of `E* t²` and lengths in units of `t`.
+//! so `F(ψ)` and `u(ψ)` are known in closed form, and so are the energies `½ k_y y²` and `½ k_φ
+//! ψ²`. Forces are in units of `E* t²`, lengths in units of `t`.
 
-/// A scale held by its own springs.
+/// Scale held by its own springs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct IsolatedScale {
     /// `k_y = a α_y`.
     pub normal: f64,
     /// `k_φ = a³ α_φ`.
     pub rotation: f64,
-    /// `r`: the point of the load, from the node of the scale at rest.
+    /// `r`: point of the load relative to the node of the scale at rest.
     pub arm: [f64; 2],
 }
 
@@ -35,12 +35,12 @@ impl IsolatedScale {
         self.sink(psi) + self.arm[0] * sin + self.arm[1] * (1.0 - cos)
     }
 
-    /// Returns the sink `−y` of the node at the tilt `psi` (radians).
+    /// Returns the settlement `−y` of the node at the tilt `psi` (radians).
     pub fn sink(&self, psi: f64) -> f64 {
         self.force(psi) / self.normal
     }
 
-    /// Returns the energy of the substrate at the tilt `psi` (radians).
+    /// Returns the elastic energy of the substrate at the tilt `psi` (radians).
     pub fn energy(&self, psi: f64) -> f64 {
         0.5 * (self.force(psi).powi(2) / self.normal + self.rotation * psi.powi(2))
     }

@@ -1,7 +1,7 @@
 //! Closed forms and published values, with their sources.
 //!
-//! Tests and the validation page compare the program with these solutions. None of them uses code of the program: this
-//! crate depends on no other crate of the workspace.
+//! Tests and the validation page compare the program with these solutions. This crate depends on no
+//! other crate of the workspace, so the solutions share no code with the program.
 //!
 //! | Module | Problem |
 //! |---|---|
@@ -31,7 +31,9 @@ pub mod rotating_plates;
 pub mod strips;
 pub mod upright_blocks;
 
-/// Returns where between two places what lies below ends: sixty halvings leave an interval below the resolution of a double.
+/// Bisects an interval for the end of the region that satisfies `is_below`.
+///
+/// Sixty halvings leave an interval below the resolution of a double.
 fn bisected([mut low, mut high]: [f64; 2], is_below: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..60 {
         let middle = 0.5 * (low + high);

@@ -1,19 +1,22 @@
-//! A row of scales that the substrate couples, before the first contact.
+//! Row of scales coupled by the substrate, before the first contact.
 //!
-//! Without contact each of the displacements `y` and the rotations `φ` of a row obeys a tridiagonal system of its own,
-//! `α u_i − β (u_{i−1} + u_{i+1}) = f_i` (Eq. 1 of Shafiei et al. 2021, doi 10.1016/j.jmps.2020.104176).
+//! Without contact, the displacements `y` and the rotations `φ` of a row each obey a tridiagonal
+//! system, `α u_i − β (u_{i−1} + u_{i+1}) = f_i` (Eq. 1 of Shafiei et al. 2021, doi
+//! 10.1016/j.jmps.2020.104176).
 
-/// Displacements for a unit load on the middle one of a row of scales: entries of its Green's function.
+/// Displacements for a unit load on the middle scale of a row: entries of its Green's function.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Compliance {
-    /// Displacement of the middle scale itself.
+    /// Displacement of the middle scale.
     pub middle: f64,
-    /// Displacement of either nearest neighbour.
+    /// Displacement of its nearest neighbours.
     pub neighbour: f64,
 }
 
-/// Returns the compliance of the middle of a row of `scales` (an odd number, at least 3) with the stiffness `direct` of
-/// each and the `coupling` of neighbours, by the Thomas algorithm.
+/// Returns the compliance of the middle of a row of `scales`, by the Thomas algorithm.
+///
+/// `scales` is odd and at least 3. Each scale has the stiffness `direct`, and neighbours have the
+/// stiffness `coupling`.
 pub fn compliance(scales: usize, direct: f64, coupling: f64) -> Compliance {
     let middle = scales / 2;
     let (mut above, mut right) = (vec![0.0; scales], vec![0.0; scales]);
@@ -30,8 +33,9 @@ pub fn compliance(scales: usize, direct: f64, coupling: f64) -> Compliance {
     Compliance { middle: u[middle], neighbour: u[middle + 1] }
 }
 
-/// Returns the compliance of the middle of an endless row: `r^|i|/√(α² − 4β²)` with `β (r + 1/r) = α`, for
-/// `α > 2 |β| > 0`.
+/// Returns the compliance of the middle of an infinite row.
+///
+/// This is `r^|i|/√(α² − 4β²)` with `β (r + 1/r) = α`, for `α > 2 |β| > 0`.
 pub fn endless(direct: f64, coupling: f64) -> Compliance {
     let root = (direct * direct - 4.0 * coupling * coupling).sqrt();
     let decay = (direct - root) / (2.0 * coupling);

@@ -1,18 +1,21 @@
-//! Rigid strips on an elastic half-plane: the limit of long rectangles.
+//! Rigid strips on an elastic half-plane, the limit of long rectangles.
 //!
-//! In plane strain `u_y' = −2/(π E*) ∫ p ln|x − ξ| dξ + const`. With `p = Σ aₙ Tₙ(τ)/√(1 − τ²)` on each
-//! strip, `∫ Tₙ(τ)/√(1 − τ²) ln|t − τ| dτ` is `−(π/n) Tₙ(t)` on the strip and `−(π/n) wⁿ` off it,
-//! `w = t − sgn t √(t² − 1)` (N. I. Muskhelishvili, *Singular Integral Equations*, Noordhoff 1953). The rotation is odd
-//! in `x`, so nothing depends on the constant, and the end effects of a long rectangle stay at its ends.
+//! In plane strain, `u_y' = −2/(π E*) ∫ p ln|x − ξ| dξ + const`. With `p = Σ aₙ Tₙ(τ)/√(1 − τ²)` on
+//! each strip, `∫ Tₙ(τ)/√(1 − τ²) ln|t − τ| dτ` is `−(π/n) Tₙ(t)` on the strip and `−(π/n) wⁿ` off
+//! it, `w = t − sgn t √(t² − 1)` (N. I. Muskhelishvili, *Singular Integral Equations*, Noordhoff
+//! 1953). The rotation is odd in `x`, so the constant has no effect, and end effects stay at the
+//! ends of a long rectangle.
 
 use std::f64::consts::PI;
 
 use nalgebra::{DMatrix, DVector};
 
-/// The moment per length that a unit rotation of a strip of half-width 1 needs, if it is alone: `π/4` (`E* = 1`).
+/// Moment per length for a unit rotation of an isolated strip of half-width 1 (`E* = 1`).
 pub const ALONE: f64 = 0.25 * PI;
 
-/// Moments per length when the middle one of three strips is turned by a unit and the others are held.
+/// Moments per length for a unit rotation of the middle one of three strips.
+///
+/// The outer strips are fixed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rocking {
     /// `α_φ`: moment on the middle strip.
@@ -21,8 +24,9 @@ pub struct Rocking {
     pub coupling: f64,
 }
 
-/// Returns `α_φ` and `β_φ` per length of three strips of half-width 1 at gaps `gap`, from `2 terms` Chebyshev
-/// polynomials on each; `None` if the equations are singular.
+/// Returns `α_φ` and `β_φ` per length of three strips of half-width 1 at gaps `gap`.
+///
+/// Uses `2 terms` Chebyshev polynomials on each strip. `None` if the equations are singular.
 pub fn three_strips(gap: f64, terms: usize) -> Option<Rocking> {
     let centre = 2.0 + gap;
     let point = |k: usize, n: usize| (PI * (k as f64 + 0.5) / n as f64).cos();
@@ -31,7 +35,7 @@ pub fn three_strips(gap: f64, terms: usize) -> Option<Rocking> {
         if i < terms { point(i, 2 * terms) } else { centre + point(i - terms, 2 * terms) }
     };
     let potential = |i: usize, j: usize| {
-        // The left strip is the mirror image of the right one, and bears the opposite.
+        // The left strip mirrors the right one and carries the opposite pressure.
         let odd = |n: usize, x: f64| log_potential(n, x - centre) - log_potential(n, -x - centre);
         let x = x(i);
         -2.0 / PI * if j < terms { log_potential(2 * j + 1, x) } else { odd(j - terms, x) }

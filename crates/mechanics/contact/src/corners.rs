@@ -6,22 +6,24 @@ use geometry::Corner;
 
 use crate::gap::{CornerEdge, Gap, Meeting, Pair, Pose};
 
-/// Edges at a smaller angle than this (radians) count as parallel. Between them the force of corners that are
-/// together turns within round-off of a stiff contact, so it is handed over at once: the path skips a part of
-/// it as small as this angle.
+/// Angle (radians) below which two edges count as parallel.
+///
+/// Between such edges, the force of two corners in contact would turn within the round-off of a
+/// stiff contact. It is transferred at once, which skips a part of the path as small as this angle.
 const PARALLEL: f64 = 1e-6;
 
 /// Level of a pair at which two corners may meet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
-    /// At the tops: the top right corner of the left scale and the top left corner of the right one.
+    /// Tops: the top right corner of the left scale and the top left corner of the right one.
     Upper,
-    /// At the bases: the bottom right corner of the left scale and the bottom left corner of the right one.
+    /// Bases: the bottom right corner of the left scale and the bottom left corner of the right
+    /// one.
     Lower,
 }
 
 impl Level {
-    /// The corners that meet: of the left and of the right scale.
+    /// Returns the corners that meet, of the left and the right scale.
     pub(crate) fn corners(self) -> [Corner; 2] {
         match self {
             Self::Upper => [Corner::TopRight, Corner::TopLeft],
@@ -29,7 +31,7 @@ impl Level {
         }
     }
 
-    /// The contact of the tip, the sharp corner of this level, with the neighbour's top or base.
+    /// Returns the contact of the tip, the sharp corner of this level, with the neighbour's end.
     fn tip_on_end(self) -> CornerEdge {
         match self {
             Self::Upper => CornerEdge::TopRightOnTop,
@@ -37,7 +39,7 @@ impl Level {
         }
     }
 
-    /// The contact of the tip with the neighbour's side.
+    /// Returns the contact of the tip with the neighbour's side.
     pub(crate) fn tip_on_side(self) -> CornerEdge {
         match self {
             Self::Upper => CornerEdge::TopRightOnLeftEdge,
@@ -45,7 +47,7 @@ impl Level {
         }
     }
 
-    /// The contact of the neighbour's corner with the side that ends in the tip.
+    /// Returns the contact of the neighbour's corner with the side that ends in the tip.
     fn corner_on_side(self) -> CornerEdge {
         match self {
             Self::Upper => CornerEdge::TopLeftOnRightEdge,
@@ -54,17 +56,17 @@ impl Level {
     }
 }
 
-/// The two corners that may meet at one level of a pair, the scales in given poses.
+/// Two corners that may meet at one level of a pair, in given poses.
 ///
 /// ```text
 /// upper level:   P = TR of the left scale,   Q = TL of the right scale
 /// lower level:   P = BR of the left scale,   Q = BL of the right scale
 /// ```
 ///
-/// One of the two, `P` above and `Q` below, is as sharp as the scales are slanted: the *tip*. It may rest on the
-/// neighbour's side or on the neighbour's *end*, its top or base. The neighbour's corner may rest on the side that
-/// ends in the tip. Which of tip on end and corner on side is possible depends on whether that side leans beyond the
-/// level of the neighbour's end.
+/// One of the two corners, `P` above and `Q` below, has the acute angle of the slanted scale: the
+/// *tip*. It may rest on the neighbour's side or on the neighbour's *end*, its top or base. The
+/// neighbour's corner may rest on the side that ends in the tip. The inclination of that side
+/// relative to the neighbour's end decides between tip on end and corner on side.
 #[derive(Clone, Copy, Debug)]
 pub struct Corners<'a> {
     pub(crate) level: Level,
@@ -72,8 +74,9 @@ pub struct Corners<'a> {
     pub(crate) poses: [&'a Pose; 2],
 }
 
-/// An angle and its derivative with respect to the rotation of the left scale. The derivative with respect to the
-/// rotation of the right scale is the opposite.
+/// Angle with its derivative by the rotation of the left scale.
+///
+/// The derivative by the rotation of the right scale is the opposite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Angle {
     pub(crate) value: f64,
@@ -81,21 +84,23 @@ pub(crate) struct Angle {
 }
 
 impl<'a> Corners<'a> {
-    /// The corners at a level of `pair`, the left and the right scale in `poses`.
+    /// Selects the corners at a level of `pair`, with the left and the right scale in `poses`.
     pub fn new(level: Level, pair: &'a Pair, poses: [&'a Pose; 2]) -> Self {
         Self { level, pair, poses }
     }
 
-    /// The corner that faces an edge of the neighbour while the contact is open, and its gap over `t`. Of two corners
-    /// that both have their foot within an edge, that of the left scale counts. `None` if neither has.
+    /// Returns the corner that faces an edge while the contact is open, with its gap over `t`.
+    ///
+    /// If both corners have their foot within an edge, the corner of the left scale counts. `None`
+    /// if neither has.
     pub fn facing(&self) -> Option<(CornerEdge, f64)> {
         self.meeting().map(|(edge, meeting)| (edge, meeting.gap))
     }
 
-    /// The corner of [`Self::facing`] and the edge that it faces.
+    /// Returns the corner of [`Self::facing`] with its relation to the edge.
     pub(crate) fn meeting(&self) -> Option<(CornerEdge, Meeting)> {
         let (leaning, on_side) = (self.leaning(), self.level.tip_on_side());
-        // The corner of the left scale comes first: that of the upper level is the tip.
+        // The corner of the left scale comes first; at the upper level it is the tip.
         let edges = match self.level {
             Level::Upper => [on_side, leaning],
             Level::Lower => [leaning, on_side],
@@ -103,35 +108,38 @@ impl<'a> Corners<'a> {
         self.pair.facing(edges, self.poses)
     }
 
-    /// The gap between a corner and an edge of this level.
+    /// Computes the gap between a corner and an edge of this level.
     pub(crate) fn gap(&self, edge: CornerEdge) -> Gap {
         let [left, right] = self.poses;
         self.pair.gap(edge, left, right)
     }
 
-    /// The contacts on both sides of the place where the two corners are together: the one that arrives there as
-    /// `edge`, in the form in which it would leave again, and its partner.
+    /// Returns the contacts on both sides of the state corner on corner.
+    ///
+    /// The first is the contact that arrived as `edge`, in the form in which it would leave again;
+    /// the second is its partner.
     pub fn together(&self, edge: CornerEdge) -> [CornerEdge; 2] {
         let (leaning, on_side) = (self.leaning(), self.level.tip_on_side());
         if edge == on_side { [on_side, leaning] } else { [leaning, on_side] }
     }
 
-    /// Whether the sides that face each other are so nearly parallel that a force need not turn from the normal of one
-    /// to that of the other.
+    /// Returns true if the facing sides are parallel up to a negligible angle.
+    ///
+    /// The force then need not turn from the normal of one to the normal of the other.
     pub fn are_sides_parallel(&self) -> bool {
         // A slant turns an edge clockwise.
         let [of_left, of_right] = self.pair.scales();
         let at_rest = of_left.slant() - of_right.slant();
-        // The sine knows no turns: rotations are counted beyond a full one.
+        // The sine ignores full turns, beyond which rotations are counted.
         (self.turned() - at_rest).sin().abs() < PARALLEL
     }
 
-    /// Rotation of the left scale against the right one, radians.
+    /// Computes the rotation of the left scale relative to the right one, radians.
     fn turned(&self) -> f64 {
         self.poses[0].rotation - self.poses[1].rotation
     }
 
-    /// Which of corner on side and tip on end is possible.
+    /// Returns the possible one of corner on side and tip on end.
     fn leaning(&self) -> CornerEdge {
         if self.beyond_level() > 0.0 {
             self.level.tip_on_end()
@@ -140,7 +148,9 @@ impl<'a> Corners<'a> {
         }
     }
 
-    /// Angle (radians) by which the side that ends in the tip leans beyond the level of the neighbour's end.
+    /// Computes the angle (radians) of the side of the tip beyond the neighbour's end.
+    ///
+    /// At zero the side is level with that end.
     fn beyond_level(&self) -> f64 {
         let [of_left, of_right] = self.pair.scales();
         let from_the_vertical = match self.level {
@@ -150,15 +160,20 @@ impl<'a> Corners<'a> {
         from_the_vertical - FRAC_PI_2
     }
 
-    /// `β` of (C7): the angle by which the side is short of level while the corner rests on it (`flush` is then the tip
-    /// on the end), or beyond level while the tip rests on the end.
+    /// Computes `β` of (C7), the angle to the flush state.
+    ///
+    /// If the corner rests on the side (`flush` is then the tip on the end), `β` is the angle by
+    /// which the side is short of level. If the tip rests on the end, `β` is the angle beyond
+    /// level.
     pub(crate) fn angle_to_flush(&self, flush: CornerEdge) -> Angle {
         let toward = if flush == self.level.tip_on_end() { -1.0 } else { 1.0 };
         let turning = if self.level == Level::Upper { -1.0 } else { 1.0 };
         Angle { value: toward * self.beyond_level(), slope: toward * turning }
     }
 
-    /// Whether the corner of a flush contact has not passed the end of its edge that is far from where the corners meet.
+    /// Returns true if the corner of a flush contact has not passed the far end of its edge.
+    ///
+    /// The far end is the one away from the meeting corners.
     pub(crate) fn is_within_far_end(&self, flush: CornerEdge) -> bool {
         let foot = self.pair.foot(flush, self.poses);
         match (self.level, flush == self.level.tip_on_end()) {

@@ -1,4 +1,4 @@
-//! The gap between a corner of one scale and an edge of its neighbour.
+//! Gap between a corner of one scale and an edge of its neighbour.
 
 #[cfg(test)]
 mod tests;
@@ -17,20 +17,20 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// The pose with displacements `x`, `y` of the node and rotation `rotation`.
+    /// Creates the pose with node displacements `x`, `y` and `rotation`.
     pub fn new(x: f64, y: f64, rotation: f64) -> Self {
-        // Taken once for every vector that turns with the scale.
+        // Computed once for all vectors that turn with the scale.
         let (sin, cos) = rotation.sin_cos();
         Self { displacement: Vec2::new(x, y), rotation, cos, sin }
     }
 
-    /// A vector that turns with the scale.
+    /// Rotates a vector with the scale.
     pub fn turn(&self, v: Vec2) -> Vec2 {
         Vec2::new(self.cos * v.x - self.sin * v.y, self.sin * v.x + self.cos * v.y)
     }
 }
 
-/// Which corner of a pair of neighbours meets which edge of the other.
+/// Corner of one scale and edge of its neighbour that may touch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CornerEdge {
     /// Top right corner of the left scale on the left edge of the right scale.
@@ -48,8 +48,8 @@ pub enum CornerEdge {
 }
 
 impl CornerEdge {
-    /// The six possible meetings, the tips on a top or a base last.
-    // As the variants are numbered: a pair finds the corner and edge of a contact by that.
+    /// All six combinations, the tips on a top or a base last.
+    // In the order of the variants: a pair indexes its corners and edges by variant.
     pub const ALL: [Self; 6] = [
         Self::TopRightOnLeftEdge,
         Self::TopLeftOnRightEdge,
@@ -59,7 +59,7 @@ impl CornerEdge {
         Self::BottomLeftOnBase,
     ];
 
-    /// Its name, the corner that touches and the edge that it meets.
+    /// Returns the name, the corner and the edge.
     fn parts(self) -> (&'static str, Corner, fn(&Parallelogram) -> Edge) {
         match self {
             Self::TopRightOnLeftEdge => ("TR on left edge", Corner::TopRight, Edge::left),
@@ -71,23 +71,25 @@ impl CornerEdge {
         }
     }
 
-    /// Short name, as in tables.
+    /// Returns the short name used in tables.
     pub fn name(self) -> &'static str {
         self.parts().0
     }
 
-    /// The corner that touches.
+    /// Returns the corner that touches.
     pub fn corner(self) -> Corner {
         self.parts().1
     }
 
-    /// Whether the corner belongs to the left scale of the pair.
+    /// Returns true if the corner belongs to the left scale of the pair.
     pub fn corner_is_left(self) -> bool {
         matches!(self, Self::TopRightOnLeftEdge | Self::BottomRightOnLeftEdge | Self::TopRightOnTop)
     }
 
-    /// The contact at the other end of the two edges when they lie flush: the tip on the neighbour's end for the
-    /// neighbour's corner on the side of the tip, and the other way round. `None` for a tip on a side.
+    /// Returns the contact at the other end of two edges that lie flush.
+    ///
+    /// For the tip on the neighbour's end this is the neighbour's corner on the side of the tip,
+    /// and vice versa. `None` for a tip on a side.
     pub fn flush(self) -> Option<Self> {
         match self {
             Self::TopLeftOnRightEdge => Some(Self::TopRightOnTop),
@@ -99,8 +101,9 @@ impl CornerEdge {
     }
 }
 
-/// A gap and its derivatives with respect to the six coordinates
-/// `(x, y, φ)` of the left and `(x, y, φ)` of the right scale.
+/// Gap with its derivatives by the six coordinates of a pair.
+///
+/// The coordinates are `(x, y, φ)` of the left and `(x, y, φ)` of the right scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gap {
     /// `g`, over `t`; negative where the corner has passed the edge.
@@ -109,32 +112,34 @@ pub struct Gap {
     pub gradient: [f64; 6],
     /// `∇²g`, symmetric.
     pub hessian: [[f64; 6]; 6],
-    /// Place of the corner's foot on the edge: from 0 at the base (the left end of a base or a top) to 1.
+    /// Position of the foot of the corner on the edge, from 0 to 1.
+    ///
+    /// It is 0 at the base, or at the left end of a base or a top.
     pub foot: f64,
     /// Outward normal of the edge: the direction of the force on the corner.
     pub normal: Vec2,
 }
 
-/// Neighbouring scales at a pitch.
+/// Two neighbouring scales at a pitch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pair {
-    /// The left scale and the right one.
+    /// Left and right scale.
     scales: [Parallelogram; 2],
     pitch: f64,
-    /// The corner and the edge of each contact, undeformed, in the order of [`CornerEdge`].
+    /// Undeformed corner and edge of each contact, in the order of [`CornerEdge`].
     meetings: [(Vec2, Edge); 6],
 }
 
-/// An edge of a scale, undeformed.
+/// Undeformed edge of a scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Edge {
-    /// Outward.
+    /// Outward unit normal.
     normal: Vec2,
     /// Distance from the node.
     distance: f64,
-    /// Beginning of the edge: at the base, or at the left end of a base or a top.
+    /// Start of the edge: at the base, or at the left end of a base or a top.
     start: Vec2,
-    /// From where it begins to where it ends, over the square of its length.
+    /// Vector from start to end, divided by its squared length.
     along: Vec2,
 }
 
@@ -151,7 +156,7 @@ impl Edge {
     }
 
     fn left(scale: &Parallelogram) -> Self {
-        // Turned by half a turn about its middle, a parallelogram is the same.
+        // A parallelogram has point symmetry about its centre.
         let right = Self::right(scale);
         Self { normal: -right.normal, start: scale.corner(Corner::BottomLeft), ..right }
     }
@@ -171,18 +176,18 @@ impl Edge {
     }
 }
 
-/// A quarter turn counter-clockwise.
+/// Rotates a vector by 90° counter-clockwise.
 pub fn quarter(v: Vec2) -> Vec2 {
     Vec2::new(-v.y, v.x)
 }
 
 impl Pair {
-    /// Neighbours of the shape `scale`, their nodes `pitch` apart (over `t`).
+    /// Creates a pair of equal scales with nodes `pitch` apart (over `t`).
     pub fn new(scale: Parallelogram, pitch: f64) -> Self {
         Self::between([scale; 2], pitch)
     }
 
-    /// Neighbours of any two shapes, the left and the right one, their nodes `pitch` apart (over `t`).
+    /// Creates a pair of a left and a right scale with nodes `pitch` apart (over `t`).
     pub fn between(scales: [Parallelogram; 2], pitch: f64) -> Self {
         let meeting = |corner_edge: CornerEdge| {
             let [left, right] = &scales;
@@ -193,26 +198,27 @@ impl Pair {
         Self { scales, pitch, meetings: CornerEdge::ALL.map(meeting) }
     }
 
-    /// The shapes of the left and of the right scale.
+    /// Returns the shapes of the left and the right scale.
     pub fn scales(&self) -> [Parallelogram; 2] {
         self.scales
     }
 
-    /// Distance of the nodes at rest, over `t`.
+    /// Returns the distance of the nodes at rest, over `t`.
     pub fn pitch(&self) -> f64 {
         self.pitch
     }
 
-    /// Outward normal of the edge that a corner meets, at rest.
+    /// Returns the outward normal, at rest, of the edge that a corner meets.
     pub(crate) fn normal(&self, corner_edge: CornerEdge) -> Vec2 {
         self.meetings[corner_edge as usize].1.normal
     }
 
-    /// The gap between a corner and an edge, with all its derivatives.
+    /// Computes the gap between a corner and an edge, with all its derivatives.
     ///
-    /// With the corner `ρ` from the node of its scale `A`, turned by `φ_A`; the edge's outward normal `n`
-    /// and quarter turn `n'`, turned by `φ_B`; the edge's distance `e` from the node of `B`; and the vector `D` from the
-    /// node of `B` to the corner (a prime is a quarter turn counter-clockwise):
+    /// `ρ` is the vector from the node of scale `A` to its corner, turned by `φ_A`. `n` is the
+    /// outward normal of the edge and `n'` its quarter turn, both turned by `φ_B`. `e` is the
+    /// distance of the edge from the node of `B`, and `D` the vector from the node of `B` to the
+    /// corner. A prime is a quarter turn counter-clockwise:
     ///
     /// ```text
     /// g = D·n − e                                                                  (C1)
@@ -226,27 +232,29 @@ impl Pair {
         meeting.along(corner_edge, meeting.normal, meeting.gap)
     }
 
-    /// How far the left scale has slid along an edge on the right one, or the other way round, with all its derivatives: positive where
-    /// the left scale has moved in the direction of the force on it, turned counter-clockwise by a quarter. Counted from the node of the
-    /// scale of the edge, in the form of [`Pair::gap`] with (C1) to (C3) for the quarter turn of the normal; its own `normal` is that
-    /// direction for the scale of the corner.
+    /// Computes the tangential displacement between corner and edge, with its derivatives.
+    ///
+    /// It is positive if the left scale moves in the direction of the contact force on it, turned
+    /// by 90° counter-clockwise. It is measured from the node of the scale with the edge. The form
+    /// is that of [`Pair::gap`], with the quarter turn of the normal in (C1) to (C3); `normal` is
+    /// the sliding direction of the scale with the corner.
     pub fn slide(&self, corner_edge: CornerEdge, left: &Pose, right: &Pose) -> Gap {
         let meeting = self.meeting(corner_edge, left, right);
         let along = quarter(meeting.normal);
         meeting.along(corner_edge, along, meeting.to_corner.dot(&along))
     }
 
-    /// The gap between a corner and an edge alone.
+    /// Computes the gap between a corner and an edge without derivatives.
     pub fn distance(&self, corner_edge: CornerEdge, left: &Pose, right: &Pose) -> f64 {
         self.meeting(corner_edge, left, right).gap
     }
 
-    /// Place of the foot of a corner on an edge, as [`Gap::foot`].
+    /// Computes the position of the foot of a corner on an edge, as [`Gap::foot`].
     pub(crate) fn foot(&self, corner_edge: CornerEdge, [left, right]: [&Pose; 2]) -> f64 {
         self.meeting(corner_edge, left, right).foot
     }
 
-    /// The first of `corner_edges` whose corner has its foot within the edge.
+    /// Returns the first of `corner_edges` with its foot within the edge.
     pub(crate) fn facing(
         &self,
         corner_edges: [CornerEdge; 2],
@@ -267,7 +275,7 @@ impl Pair {
         };
         let (corner, edge) = &self.meetings[corner_edge as usize];
         let arm = corner_pose.turn(*corner);
-        // Relative positions, so that the place of the pair in a long row costs no digits.
+        // Relative positions, so that the position of the pair in a long row costs no digits.
         let to_corner =
             Vec2::new(offset, 0.0) + (corner_pose.displacement - edge_pose.displacement) + arm;
         let normal = edge_pose.turn(edge.normal);
@@ -277,7 +285,7 @@ impl Pair {
     }
 }
 
-/// A corner at an edge of the neighbour, deformed.
+/// Corner at an edge of the neighbour, deformed.
 pub(crate) struct Meeting {
     arm: Vec2,
     normal: Vec2,
@@ -287,12 +295,12 @@ pub(crate) struct Meeting {
 }
 
 impl Meeting {
-    /// The gradient of the gap.
+    /// Computes the gradient of the gap.
     pub(crate) fn gradient(&self, corner_edge: CornerEdge) -> [f64; 6] {
         self.gradient_along(corner_edge, self.normal)
     }
 
-    /// The gradient of the coordinate of the corner along a direction that turns with the edge.
+    /// Differentiates the corner coordinate along a direction that turns with the edge.
     #[inline]
     fn gradient_along(&self, corner_edge: CornerEdge, direction: Vec2) -> [f64; 6] {
         let (of_corner, of_edge) =
@@ -305,12 +313,13 @@ impl Meeting {
         }
     }
 
-    /// The coordinate of the corner along a direction that turns with the edge.
+    /// Evaluates the corner coordinate along a direction that turns with the edge.
     #[inline]
     fn along(&self, corner_edge: CornerEdge, direction: Vec2, value: f64) -> Gap {
         let Self { arm, to_corner, foot, .. } = *self;
         let turned = quarter(direction);
-        // Coordinates of the corner's scale (A) and of the edge's scale (B) among the six.
+        // Offsets of the scale with the corner (A) and the scale with the edge (B) among the six
+        // coordinates.
         let (a, b) = if corner_edge.corner_is_left() { (0, 3) } else { (3, 0) };
         let mut hessian = [[0.0; 6]; 6];
         for axis in 0..2 {

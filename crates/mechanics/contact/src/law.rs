@@ -1,4 +1,4 @@
-//! The contact law, Eq. (5).
+//! Contact law, Eq. (5).
 
 use geometry::OutOfRange;
 
@@ -12,39 +12,39 @@ pub struct Law {
 }
 
 impl Law {
-    /// The constants as printed by Shafiei et al. (2021): `C₁ = 1.1`, `C₂ = 0.23`.
+    /// Constants as printed by Shafiei et al. (2021): `C₁ = 1.1`, `C₂ = 0.23`.
     pub const PRINTED: Self = Self { c1: 1.1, c2: 0.23 };
 
-    /// The printed constants exchanged, the reading that finite elements support.
+    /// Printed constants exchanged; finite elements support this reading.
     pub const EXCHANGED: Self = Self { c1: 0.23, c2: 1.1 };
 }
 
-/// Contact between scales of one design: the approach `δ` that a force `λ` on a corner takes.
+/// Contact law of one design: the approach `δ` under a force `λ` on a corner.
 ///
 /// ```text
 /// δ(λ) = L (λ/λ₀)^(1/C₂),    λ₀ = C₁ L b E_ct                                      (C4)
 /// ```
 ///
-/// This is Eq. (5) in compliance form. For `C₂ < 1` the stiffness is infinite at first touch, and
-/// the force as a function of the approach is of no use to Newton's method; the approach as a
+/// This is Eq. (5) in compliance form. For `C₂ < 1` the stiffness is infinite at first touch, so
+/// the force as a function of the approach is unsuitable for Newton's method. The approach as a
 /// function of the force is smooth, with zero slope at zero. For `C₂ > 1` the compliance is
-/// infinite at first touch, but only just: a force of `10⁻¹²` of `λ₀` leaves a slope that is finite and
-/// moderate. Below it a parabola takes the place of the law, with the same value and slope there.
+/// infinite at first touch, but drops quickly: at `10⁻¹² λ₀` the slope is moderate. Below this
+/// force a parabola with the same value and slope replaces the law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactLaw {
-    /// `λ₀`: the force at `δ = L`.
+    /// `λ₀`, the force at `δ = L`.
     force: f64,
     /// `L`.
     length: f64,
     exponent: f64,
-    /// `μ` between two scales.
+    /// Coefficient of friction `μ` between two scales.
     friction: f64,
 }
 
-/// Part of `λ₀` below which the law has a finite slope: it may be infinite at zero.
+/// Force, as a fraction of `λ₀`, below which a parabola keeps the slope finite.
 const SMALLEST_FORCE: f64 = 1e-12;
 
-/// The approach of two scales under a contact force.
+/// Approach of two scales under a contact force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Approach {
     /// `δ`, over `t`.
@@ -54,8 +54,9 @@ pub struct Approach {
 }
 
 impl ContactLaw {
-    /// The law for scales of length `L` and width `b` (over `t`), with the contact modulus `E_ct` in
-    /// units of the modulus that forces are measured in.
+    /// Creates the law for scales of length `L` and width `b` (over `t`).
+    ///
+    /// The contact modulus `E_ct` is in the modulus unit of the forces.
     ///
     /// # Errors
     /// If a number is not positive and finite.
@@ -75,23 +76,24 @@ impl ContactLaw {
         Ok(Self { force, length, exponent: law.c2, friction: 0.0 })
     }
 
-    /// The law for scales that rub, with Coulomb's coefficient of friction `μ`.
+    /// Adds Coulomb friction with the coefficient `μ`.
     ///
     /// # Errors
-    /// If it is negative or not finite.
+    /// If the coefficient is negative or not finite.
     pub fn with_friction(self, friction: f64) -> Result<Self, OutOfRange> {
         let is_legal = friction >= 0.0 && friction.is_finite();
         OutOfRange::unless(is_legal, "friction between scales", friction, "a number from 0 on")?;
         Ok(Self { friction, ..self })
     }
 
-    /// The coefficient of friction between two scales.
+    /// Returns the coefficient of friction between two scales.
     pub fn friction(&self) -> f64 {
         self.friction
     }
 
-    /// Approach under a force, Eq. (C4); continued as an odd function to forces below zero, where
-    /// Newton's method may pass through.
+    /// Computes the approach under a force, Eq. (C4).
+    ///
+    /// Negative forces, through which Newton's method may pass, give an odd continuation.
     pub fn approach(&self, force: f64) -> Approach {
         let n = self.exponent.recip();
         let ratio = force / self.force;
@@ -99,7 +101,7 @@ impl ContactLaw {
             return self.first_approach(n, ratio / SMALLEST_FORCE);
         }
         let value = self.length * ratio.abs().powf(n).copysign(ratio);
-        // From the value, so that one power is taken instead of two.
+        // Derived from the value, to save a second power.
         let slope = if ratio.abs() > SMALLEST_FORCE {
             n * value / force
         } else {
@@ -108,8 +110,10 @@ impl ContactLaw {
         Approach { value, slope }
     }
 
-    /// The parabola `(2 − n) x − (1 − n) x |x|` that goes over into `xⁿ` at `x = 1`, `x` a part of the smallest force. Value and slope
-    /// belong together: as a contact opens the path turns within these forces, and Newton's method turns with it.
+    /// Evaluates the parabola `(2 − n) x − (1 − n) x |x|`, which meets `xⁿ` smoothly at `x = 1`.
+    ///
+    /// `x` is relative to the smallest force. Value and slope must be consistent: while a contact
+    /// opens, the path turns within these forces, and Newton's method follows it.
     fn first_approach(&self, n: f64, x: f64) -> Approach {
         let unit = self.length * SMALLEST_FORCE.powf(n);
         Approach {
@@ -118,7 +122,7 @@ impl ContactLaw {
         }
     }
 
-    /// Elastic energy `∫ λ dδ = λ δ / (1 + C₂)` of a contact under a force.
+    /// Computes the elastic energy `∫ λ dδ = λ δ / (1 + C₂)` of a contact under a force.
     pub fn energy(&self, force: f64) -> f64 {
         force * self.approach(force).value / (1.0 + self.exponent)
     }
@@ -158,7 +162,7 @@ mod tests {
         }
     }
 
-    /// Also where the law is steeper than any slope: its parabola goes over into it without a step.
+    /// Also for an exponent with infinite slope at zero, which the parabola replaces smoothly.
     #[test]
     fn slope_is_the_derivative_at_first_touch() {
         let (law, contact) = laws()[1];

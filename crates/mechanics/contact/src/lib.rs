@@ -1,14 +1,16 @@
 //! Contact between neighbouring scales: a corner of one on an edge of the other.
 //!
-//! Scales are rigid for the kinematics and give way where they touch, by a power law between the force
-//! `λ` on a corner and the approach `δ` of the two bodies (Eq. 5 of Shafiei et al. 2021, doi
-//! 10.1016/j.jmps.2020.104176). Every contact is a complementarity condition with its force as unknown,
+//! Scales are kinematically rigid, with local compliance at their contacts: a power law between the
+//! force `λ` on a corner and the approach `δ` of the two bodies (Eq. 5 of Shafiei et al. 2021, doi
+//! 10.1016/j.jmps.2020.104176). Every contact is a complementarity condition with its force as
+//! unknown,
 //!
 //! ```text
 //! 0 ≤ λ  ⟂  g(q) + δ(λ) ≥ 0,
 //! ```
 //!
-//! where the gap `g` depends on the poses `q` of both scales and pulls on them with `λ ∇g` (Eq. 6).
+//! where the gap `g` depends on the poses `q` of both scales and contributes the generalised force
+//! `λ ∇g` (Eq. 6).
 //!
 //! | Type | Role |
 //! |---|---|

@@ -1,7 +1,7 @@
-//! Overlap of deformed scales: the interpenetration audit.
+//! Overlap of deformed scales, for the interpenetration audit.
 //!
-//! Collision queries serve here, in general position, and never the gap or its derivatives: on
-//! aligned edges they lose digits that an equilibrium needs.
+//! This module uses collision queries instead of gaps. They handle scales in general position, but
+//! lose digits on aligned edges, so equilibria must never use them.
 
 use geometry::{Parallelogram, Vec2};
 use parry2d_f64::math::{Pose as Placement, Vector};
@@ -11,19 +11,20 @@ use parry2d_f64::transformation::convex_polygons_intersection_points;
 
 use crate::gap::Pose;
 
-/// Two scales that overlap.
+/// Overlapping pair of scales.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Overlap {
-    /// The scale to the left, from 0.
+    /// Index of the left scale.
     pub left: usize,
-    /// The scale to the right.
+    /// Index of the right scale.
     pub right: usize,
-    /// Least distance by which one must be moved to part them, over `t`.
+    /// Least displacement that separates them, over `t`.
     pub depth: f64,
 }
 
-/// Every pair of scales of a row, neighbours or not, that overlap in the given poses. The shape of scale `i` and the
-/// place of its node at rest are `standing(i)`.
+/// Finds all overlapping pairs of scales of a row, neighbours or not, in given poses.
+///
+/// `standing(i)` returns the shape of scale `i` and the position of its node at rest.
 pub fn overlaps(standing: impl Fn(usize) -> (Parallelogram, f64), poses: &[Pose]) -> Vec<Overlap> {
     let extents: Vec<Extents> = poses
         .iter()
@@ -33,7 +34,7 @@ pub fn overlaps(standing: impl Fn(usize) -> (Parallelogram, f64), poses: &[Pose]
             Extents::new(&scale, pose, place)
         })
         .collect();
-    // Where scale `k` and all to its right begin: beyond it nothing reaches back.
+    // `begins[k]`: leftmost extent of scale `k` and all scales to its right.
     let mut begins: Vec<f64> = extents.iter().map(|extents| extents.horizontal.0).collect();
     for k in (1..begins.len()).rev() {
         begins[k - 1] = begins[k - 1].min(begins[k]);
@@ -56,8 +57,7 @@ pub fn overlaps(standing: impl Fn(usize) -> (Parallelogram, f64), poses: &[Pose]
     found
 }
 
-/// Extents of a scale, horizontally and across the left and right edges of the scales that stand at
-/// `slant`.
+/// Extents of a scale: horizontal, and normal to the side edges at its `slant`.
 struct Extents {
     horizontal: (f64, f64),
     across: (f64, f64),
@@ -72,19 +72,21 @@ impl Extents {
         Self { horizontal: extent(&corners, Vec2::x()), across, slant }
     }
 
-    /// Whether one direction or the other tells that they do not touch.
+    /// Returns true if one of the two directions separates the scales.
     fn are_apart(&self, other: &Self) -> bool {
-        // Two extents can be compared along the same direction only.
+        // Extents across the sides are comparable only for equal slants.
         let alike = self.slant == other.slant;
         apart(self.horizontal, other.horizontal) || (alike && apart(self.across, other.across))
     }
 }
 
-/// The polygon in which two scales overlap, their nodes `offset` apart; empty where they do not.
+/// Computes the polygon in which two scales overlap, with nodes `offset` apart.
+///
+/// Empty if they do not overlap.
 pub fn overlap_polygon(scale: &Parallelogram, offset: f64, left: &Pose, right: &Pose) -> Vec<Vec2> {
     let points = |pose, at| corners(scale, pose, at).map(|v| Vector::new(v.x, v.y));
     let mut polygon = Vec::new();
-    // For pictures alone: of edges that lie on each other this function is not to be trusted.
+    // For drawings only: this function is unreliable for edges that lie on each other.
     convex_polygons_intersection_points(&points(left, 0.0), &points(right, offset), &mut polygon);
     polygon.iter().map(|v| Vec2::new(v.x, v.y)).collect()
 }
@@ -96,7 +98,7 @@ fn depth(scales: [&Parallelogram; 2], offset: f64, poses: [&Pose; 2]) -> Option<
     };
     let first = polygon(scales[0], poses[0], 0.0)?;
     let second = polygon(scales[1], poses[1], offset)?;
-    // The corners are in their places already.
+    // The corners are already in place.
     let here = Placement::IDENTITY;
     let contact = query::contact(&here, &first, &here, &second, 0.0).ok()??;
     (contact.dist < 0.0).then_some(-contact.dist)
@@ -148,14 +150,14 @@ mod tests {
     #[test]
     fn a_scale_that_reaches_back_over_others_that_do_not_is_found() {
         let scale = Parallelogram::new(0.1, 0.0).unwrap();
-        // The two between stand far to the right.
+        // The two scales between are displaced far to the right.
         let poses = [0.0, 0.9, 0.9, -0.85].map(|x| Pose::new(x, 0.0, 0.0));
         let found = overlaps(|i| (scale, 0.3 * i as f64), &poses);
         assert_eq!(found.iter().map(|o| (o.left, o.right)).collect::<Vec<_>>(), [(0, 3)]);
         assert_relative_eq!(found[0].depth, 0.15, epsilon = 1e-9);
     }
 
-    /// Two convex polygons do not overlap where the normal of an edge parts them.
+    /// Computes the overlap of two convex polygons by the separating-axis theorem.
     fn overlap(first: &[Vec2; 4], second: &[Vec2; 4]) -> f64 {
         let edges = [first, second].into_iter().flat_map(|corners| {
             (0..4).map(|i| quarter((corners[(i + 1) % 4] - corners[i]).normalize()))
@@ -195,7 +197,7 @@ mod tests {
     #[test]
     fn the_overlap_of_two_tilted_blocks_is_a_triangle_of_the_right_area() {
         let scale = Parallelogram::new(0.5, 0.0).unwrap();
-        // The left block leans over its neighbour's upright edge with its top right corner.
+        // The left block leans over its neighbour's vertical edge with its top right corner.
         let phi = 0.2_f64;
         let left = Pose::new(0.0, -0.2, -phi);
         let polygon = overlap_polygon(&scale, 1.1, &left, &Pose::new(0.0, 0.0, 0.0));

@@ -1,4 +1,4 @@
-//! The response of a contact of two corners: forces on both scales, conditions, and all derivatives.
+//! Forces and conditions of a contact of two corners, with all derivatives.
 
 use geometry::Vec2;
 
@@ -7,13 +7,13 @@ use crate::corners::Corners;
 use crate::gap::{CornerEdge, Gap, Pair, Pose, quarter};
 use crate::law::ContactLaw;
 
-/// Coordinates of a pair: `(x, y, φ)` of the left and of the right scale.
+/// Number of coordinates of a pair: `(x, y, φ)` of the left and of the right scale.
 pub const COORDINATES: usize = 6;
 
 /// Indices of the rotations of the two scales among the coordinates.
 pub(crate) const ROTATIONS: [usize; 2] = [2, 5];
 
-/// The value of an equation and its derivatives.
+/// Value of an equation with its derivatives.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Equation {
     /// Value of the equation.
@@ -27,15 +27,16 @@ pub struct Equation {
 /// Contribution of a contact of two corners to the equations of a system.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CornerResponse {
-    /// Minus the generalised force of the contact in each coordinate of the pair.
+    /// Negative generalised force of the contact in each coordinate of the pair.
     pub balance: [Equation; COORDINATES],
-    /// The conditions (C6) and (C7) of the three forces, none negative where it holds; `None` for a force that
-    /// cannot act next in this state.
+    /// Conditions (C6) and (C7) of the three forces, which hold if not negative.
+    ///
+    /// `None` for a force that cannot act next in this state.
     pub conditions: [Option<Equation>; FORCES],
 }
 
 impl CornerContact {
-    /// Forces, conditions, and their derivatives, with the values that the three `forces` have.
+    /// Evaluates forces, conditions and their derivatives at the given `forces`.
     pub fn response(
         self,
         corners: &Corners,
@@ -50,7 +51,7 @@ impl CornerContact {
         response
     }
 
-    /// The conditions of the forces that do not act.
+    /// Evaluates the conditions of the forces that do not act.
     pub fn resting_conditions(self, corners: &Corners) -> [Option<Equation>; FORCES] {
         match self {
             Self::Open => [open_condition(corners), None, None],
@@ -64,9 +65,11 @@ impl CornerContact {
         }
     }
 
-    /// The response of [`CornerContact::response`] without the conditions of the forces that do not act. Where corners are together the
-    /// force on the left scale has a part across it besides, `held` times as large, a quarter turn counter-clockwise: friction with which
-    /// they came. The law knows nothing of it.
+    /// Evaluates the response without the conditions of the forces that do not act.
+    ///
+    /// `held` is a friction coefficient for corner on corner: the force on the left scale gains a
+    /// part `held` times as large, turned by 90° counter-clockwise. It represents friction carried
+    /// over from the contact that arrived, and does not enter the contact law.
     pub fn acting_response(
         self,
         corners: &Corners,
@@ -82,7 +85,7 @@ impl CornerContact {
             }
             Self::Flush(edge) => {
                 let mut response = CornerResponse::edge(edge, corners, law, forces);
-                // There always is one: a tip on a side never comes to lie flush.
+                // Always present: a tip on a side never becomes flush.
                 if let Some(flush) = edge.flush() {
                     response.add_force(Force::Flush, &corners.gap(flush), forces);
                     response.conditions[Force::Flush as usize] =
@@ -93,8 +96,9 @@ impl CornerContact {
         }
     }
 
-    /// Forces on the left scale: of the two corners on each other's edge, and of the flush contact. The right scale takes
-    /// their opposites.
+    /// Returns the forces on the left scale: of the two corners, and of the flush contact.
+    ///
+    /// The forces on the right scale are opposite.
     pub fn forces_on_left(self, corners: &Corners, forces: [f64; FORCES]) -> [Vec2; 2] {
         let [own, partner, flush] = forces;
         let along = |edge: CornerEdge| edge.normal(corners.pair, corners.poses).0;
@@ -114,7 +118,7 @@ impl CornerContact {
 }
 
 impl CornerResponse {
-    /// A corner rests on an edge: the first condition of (C6) or of (C7).
+    /// Evaluates a corner on an edge: the first condition of (C6) or of (C7).
     fn edge(edge: CornerEdge, corners: &Corners, law: &ContactLaw, forces: [f64; FORCES]) -> Self {
         let gap = corners.gap(edge);
         let approach = law.approach(forces[Force::Own as usize] + forces[Force::Flush as usize]);
@@ -132,7 +136,7 @@ impl CornerResponse {
         Self { balance, conditions: [Some(own), None, None] }
     }
 
-    /// Adds to the balance what one of the forces, which acts along a gap, does.
+    /// Adds the balance of one of the forces, which acts along a gap.
     fn add_force(&mut self, which: Force, gap: &Gap, forces: [f64; FORCES]) {
         let force = forces[which as usize];
         for (i, row) in self.balance.iter_mut().enumerate() {
@@ -145,20 +149,20 @@ impl CornerResponse {
     }
 }
 
-/// The gap of an open contact; `None` if no corner faces an edge.
+/// Evaluates the gap of an open contact; `None` if no corner faces an edge.
 fn open_condition(corners: &Corners) -> Option<Equation> {
     let (edge, meeting) = corners.meeting()?;
     let (value, by_coordinate) = (meeting.gap, meeting.gradient(edge));
     Some(Equation { value, by_coordinate, ..Equation::default() })
 }
 
-/// The second condition of (C6) for a corner on an edge.
+/// Evaluates the second condition of (C6) for a corner on an edge.
 fn partner_condition(edge: CornerEdge, corners: &Corners) -> Equation {
     let [_, partner] = corners.together(edge);
     Together::new(corners, [edge, partner]).short_of_the_end()
 }
 
-/// `β` of (C7).
+/// Evaluates `β` of (C7).
 fn flush_condition(corners: &Corners, flush: CornerEdge) -> Equation {
     let angle = corners.angle_to_flush(flush);
     let mut condition = Equation { value: angle.value, ..Equation::default() };
@@ -169,10 +173,11 @@ fn flush_condition(corners: &Corners, flush: CornerEdge) -> Equation {
 }
 
 impl CornerEdge {
-    /// The direction of the force on the left scale, and the coordinate (a rotation) with which it turns.
+    /// Returns the direction of the force on the left scale and the rotation that turns it.
     fn normal(self, pair: &Pair, [left, right]: [&Pose; 2]) -> (Vec2, usize) {
         let (normal, [with_left, with_right]) = (pair.normal(self), ROTATIONS);
-        // Outward of the edge is the way in which the corner is pushed; the other scale takes the opposite.
+        // The corner is pushed along the outward normal of the edge; the other scale in the
+        // opposite direction.
         if self.corner_is_left() {
             (right.turn(normal), with_right)
         } else {
@@ -181,15 +186,15 @@ impl CornerEdge {
     }
 }
 
-/// Two corners at or near each other, and the directions at them.
+/// Two corners at or near each other, with the directions at them.
 pub(crate) struct Together {
     /// `D = P − Q`.
     apart: Vec2,
-    /// From the node of its scale to each corner, turned.
+    /// Vector from the node of each scale to its corner, turned.
     pub(crate) arms: [Vec2; 2],
     /// `m` of the contact itself and of its partner.
     pub(crate) normals: [Vec2; 2],
-    /// The rotation with which each normal turns.
+    /// Index of the rotation that turns each normal.
     turns: [usize; 2],
     /// `s` of the contact itself, times `σ`.
     beyond: Vec2,
@@ -206,29 +211,30 @@ impl Together {
             - Vec2::new(pair.pitch(), 0.0);
         let [(normal, turn), (other_normal, other_turn)] =
             [own, partner].map(|edge| edge.normal(pair, poses));
-        // A normal that points left, turned clockwise, points up its edge. The tip leaves the neighbour's side, and the
-        // neighbour's corner the side of the tip, towards its end.
+        // A normal that points left, turned clockwise, points up its edge. The tip leaves the
+        // neighbour's side towards the end of that side, and the neighbour's corner leaves the side
+        // of the tip towards the tip.
         let beyond = if own == level.tip_on_side() { -quarter(normal) } else { quarter(normal) };
         Self { apart, arms, normals: [normal, other_normal], turns: [turn, other_turn], beyond }
     }
 
-    /// Component of a vector along the edge, beyond its end.
+    /// Returns the component of a vector along the edge, beyond its end.
     pub(crate) fn overrun(&self, v: Vec2) -> f64 {
         v.dot(&self.beyond)
     }
 
-    /// The second condition of (C6) while the partner's force is at rest, `v = D`.
+    /// Evaluates the second condition of (C6) while the partner's force vanishes, `v = D`.
     fn short_of_the_end(&self) -> Equation {
         let mut condition = Equation { value: -self.overrun(self.apart), ..Equation::default() };
         for (i, slope) in condition.by_coordinate.iter_mut().enumerate() {
             *slope = -self.overrun(self.apart_slope(i));
         }
-        // The edge turns with its scale, and so does the direction beyond its end.
+        // The edge turns with its scale, and with it the direction beyond its end.
         condition.by_coordinate[self.turns[0]] -= self.apart.dot(&quarter(self.beyond));
         condition
     }
 
-    /// Corner on corner: both forces act, (C5) and (C6).
+    /// Evaluates corner on corner: both forces act, (C5) and (C6).
     fn response(
         &self,
         law: &ContactLaw,
@@ -247,7 +253,7 @@ impl Together {
         CornerResponse { balance, conditions: [Some(closed), Some(at_end), None] }
     }
 
-    /// The conditions (C6) under a force `f` that changes by `turning` with each coordinate.
+    /// Evaluates the conditions (C6) under a force `f` with derivatives `turning`.
     fn conditions(
         &self,
         law: &ContactLaw,
@@ -272,7 +278,10 @@ impl Together {
         [closed, at_end]
     }
 
-    /// The balance of both scales under a force `f` that changes by `turning` with each coordinate, and by `parts` with `λ` and `λ'`.
+    /// Evaluates the balance of both scales under a force `f`.
+    ///
+    /// `turning` holds the derivatives of `f` by each coordinate, `parts` the derivatives by `λ`
+    /// and `λ'`.
     fn balance(
         &self,
         f: Vec2,
@@ -295,7 +304,7 @@ impl Together {
         balance
     }
 
-    /// `∂D` for a coordinate of the pair.
+    /// Returns `∂D` by a coordinate of the pair.
     pub(crate) fn apart_slope(&self, coordinate: usize) -> Vec2 {
         match coordinate {
             0 => Vec2::x(),
@@ -307,7 +316,7 @@ impl Together {
         }
     }
 
-    /// `∂f` for a coordinate of the pair: a normal turns with its scale.
+    /// Returns `∂f` by a coordinate of the pair: a normal turns with its scale.
     fn force_slope(&self, forces: [f64; 2], coordinate: usize) -> Vec2 {
         let mut slope = Vec2::zeros();
         for ((&normal, &turn), force) in self.normals.iter().zip(&self.turns).zip(forces) {
@@ -319,7 +328,9 @@ impl Together {
     }
 }
 
-/// The law along the direction of a force `f`: `δ f/|f| = h f`, and `d(h f) = h df + (h'/|f|) (f·df) f`.
+/// Secant form of the law along a force `f`.
+///
+/// `δ f/|f| = h f` and `d(h f) = h df + (h'/|f|) (f·df) f`.
 pub(crate) struct Secant {
     /// `h = δ/|f|`.
     pub(crate) compliance: f64,
@@ -331,7 +342,7 @@ impl Secant {
     pub(crate) fn new(law: &ContactLaw, f: Vec2) -> Self {
         let force = f.norm();
         if force == 0.0 {
-            // In the limit of no force the secant of the law is its tangent.
+            // In the limit of zero force the secant is the tangent.
             return Self { compliance: law.approach(0.0).slope, growth: 0.0 };
         }
         let approach = law.approach(force);

@@ -1,4 +1,4 @@
-//! The stiffness of a contact of two corners, symmetric as its energy makes it.
+//! Symmetric stiffness of a contact of two corners.
 
 use crate::corner_contact::{CornerContact, FORCES, Force};
 use crate::corners::Corners;
@@ -6,28 +6,31 @@ use crate::gap::Gap;
 use crate::law::ContactLaw;
 use crate::response::{COORDINATES, ROTATIONS, Secant, Together};
 
-/// The tangent of a contact in the coordinates of its pair and the components of its force, of which there are one or two:
+/// Tangent of a contact by the coordinates of its pair and its force components:
 ///
 /// ```text
 /// [[A, B], [Bᵀ, −C]]      stiffness  A + B C⁻¹ Bᵀ                                     (C8)
 /// ```
 ///
-/// On an edge the component is `λ`, flush they are `λ` and `λ''`, and with corner on corner those of `f` along the axes: their directions do
-/// not turn with the scales, as those of `λ` and `λ'` do. `C` is not negative, and vanishes where a contact is rigid.
+/// On an edge the only component is `λ`; flush contacts have `λ` and `λ''`. Corner on corner has
+/// the components of `f` along the fixed axes, because `λ` and `λ'` turn with the scales and would
+/// not give a symmetric tangent. `C` is positive semidefinite, and zero for a rigid contact.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ContactStiffness {
     /// `A`, by the coordinates of the pair.
     pub by_coordinate: [[f64; COORDINATES]; COORDINATES],
     /// The columns of `B`.
     pub by_force: Vec<[f64; COORDINATES]>,
-    /// `C`; of one component its first entry.
+    /// `C`; with one component only its first entry counts.
     pub compliance: [[f64; 2]; 2],
 }
 
 impl CornerContact {
-    /// Whether two corners that are together stand on a ridge of the energy: where the partner's force turns the force towards the end of
-    /// the edge, the corner does so short of that end, where it could slide back along the edge as well. The contact holds the
-    /// corners together (C5), but on a ridge the energy falls to either side.
+    /// Returns true if corner on corner lies on a ridge of the energy.
+    ///
+    /// The condition (C5) holds the corners together. On a ridge, however, the energy decreases to
+    /// either side: the partner's force turns the force towards the end of the edge, and the corner
+    /// lies short of this end, so that it could also slide back along the edge.
     pub fn is_on_ridge(self, corners: &Corners) -> bool {
         match self {
             Self::Corner(edge) => {
@@ -38,7 +41,7 @@ impl CornerContact {
         }
     }
 
-    /// The stiffness of the contact with the values that the three `forces` have.
+    /// Computes the stiffness of the contact at the given `forces`.
     pub fn stiffness(
         self,
         corners: &Corners,
@@ -62,7 +65,7 @@ impl CornerContact {
             }
         }
         let sum = forces[Force::Own as usize] + forces[Force::Flush as usize];
-        // Flush forces share one approach, that of their sum, so that all entries are the same.
+        // Flush forces share one approach, a function of their sum, so all entries are equal.
         stiffness.compliance = [[law.approach(sum).slope; 2]; 2];
         stiffness
     }

@@ -1,4 +1,4 @@
-//! The states of the contact of two corners: their forces and conditions.
+//! Forces and conditions of the contact states of two corners.
 
 mod tips;
 mod transitions;
@@ -13,7 +13,9 @@ use crate::gap::{CornerEdge, Pair, Pose};
 use crate::law::{ContactLaw, Law};
 use crate::response::{COORDINATES, CornerResponse, Equation};
 
-/// Half a turn of a pair makes the first of these the last, the second the last but one, and so on.
+/// Corner-edge combinations with their levels.
+///
+/// Rotating a pair by 180° reverses this order.
 const EDGES: [(Level, CornerEdge); 6] = [
     (Level::Upper, CornerEdge::TopRightOnLeftEdge),
     (Level::Upper, CornerEdge::TopLeftOnRightEdge),
@@ -23,7 +25,7 @@ const EDGES: [(Level, CornerEdge); 6] = [
     (Level::Lower, CornerEdge::BottomLeftOnRightEdge),
 ];
 
-/// Coordinates of a pair and its three forces.
+/// Number of coordinates of a pair plus its three forces.
 const COUPLED: usize = COORDINATES + FORCES;
 
 struct Case {
@@ -43,24 +45,24 @@ impl Case {
     }
 }
 
-/// A state of closed contact.
+/// Constructor of a state of closed contact.
 type Closed = fn(CornerEdge) -> CornerContact;
 
 fn case(edge: usize, slant: f64, law: Law, closed: Closed) -> Case {
     let (level, edge) = EDGES[edge];
     let pair = Pair::new(Parallelogram::new(0.4, slant).unwrap(), 1.0);
-    // A soft law, so that its part of the tangent is seen.
+    // A soft law, so that its part of the tangent is visible.
     let law = ContactLaw::new(law, 0.8, 1.0, 3.0).unwrap();
     Case { level, contact: closed(edge), pair, law }
 }
 
-/// One of the states of closed contact that are possible with an edge.
+/// Returns one of the closed states that are possible with an edge.
 fn closed(edge: usize, state: usize) -> Closed {
     let states: [Closed; 3] = [CornerContact::Edge, CornerContact::Corner, CornerContact::Flush];
     states[state % if EDGES[edge].1.flush().is_some() { 3 } else { 2 }]
 }
 
-/// The value of an equation, and its derivatives by all that is coupled.
+/// Returns the derivatives of an equation by coordinates and forces.
 fn derivatives(equation: &Equation) -> [f64; COUPLED] {
     std::array::from_fn(|i| match i {
         0..COORDINATES => equation.by_coordinate[i],
@@ -68,7 +70,7 @@ fn derivatives(equation: &Equation) -> [f64; COUPLED] {
     })
 }
 
-/// The equations that count in a state: the balance, and the conditions of the forces that act.
+/// Returns the equations of a state: the balance, and the conditions of the acting forces.
 fn equations(response: &CornerResponse, acting: [bool; FORCES]) -> Vec<Equation> {
     let conditions = response.conditions.iter().zip(acting).filter(|(_, acts)| *acts);
     let conditions = conditions.map(|(condition, _)| condition.unwrap());
@@ -99,7 +101,7 @@ proptest! {
         }
     }
 
-    /// The conditions of the end of the edge and of the flush contact are needed before their forces act.
+    /// The conditions of the edge end and of the flush contact are needed before their forces act.
     #[test]
     fn what_stops_a_contact_agrees_with_finite_differences(
         edge in 0_usize..6, slant in 0.0_f64..80.0, q in prop::array::uniform6(-0.5_f64..0.5),
@@ -123,7 +125,6 @@ proptest! {
         }
     }
 
-    /// A gap opens and closes as its gradient says.
     #[test]
     fn the_slope_of_an_open_contact_agrees_with_finite_differences(
         edge in 0_usize..6, slant in 0.0_f64..80.0, q in prop::array::uniform6(-0.2_f64..0.2),
@@ -152,8 +153,7 @@ proptest! {
         }
     }
 
-    /// A pair that is turned by half a turn is a pair again, its left scale the one that was right and its
-    /// upper contact the one that was lower.
+    /// Rotating a pair by 180° gives a pair with left and right, and upper and lower exchanged.
     #[test]
     fn half_a_turn_exchanges_the_levels(
         edge in 0_usize..6, slant in 0.0_f64..80.0, state in 0_usize..3,
@@ -170,7 +170,7 @@ proptest! {
                 assert_relative_eq!(ours.value, there.value, epsilon = 1e-12);
             }
         }
-        // Forces point the other way, the scales have changed places.
+        // The forces are opposite, and the scales have exchanged places.
         for (k, row) in [3, 4, 0, 1].into_iter().enumerate() {
             let column = [0, 1, 3, 4][k];
             assert_relative_eq!(ours.balance[column].value, -there.balance[row].value, epsilon = 1e-12);
@@ -178,13 +178,14 @@ proptest! {
     }
 }
 
-/// Coordinates and forces in one.
+/// Joins coordinates and forces.
 fn with(q: [f64; COORDINATES], forces: [f64; FORCES]) -> [f64; COUPLED] {
     std::array::from_fn(|i| if i < COORDINATES { q[i] } else { forces[i - COORDINATES] })
 }
 
-/// Displacements of a pair that is turned by half a turn. Tops become bases, so that the nodes are
-/// the midpoints of what were tops.
+/// Returns the displacements of a pair rotated by 180°.
+///
+/// Tops become bases, so the nodes are the midpoints of the former tops.
 fn half_turn(slant: f64, q: &[f64; 6]) -> [f64; 6] {
     let top = Vec2::new(slant.to_radians().tan(), 1.0);
     let node = |scale: usize| {
@@ -196,7 +197,7 @@ fn half_turn(slant: f64, q: &[f64; 6]) -> [f64; 6] {
     [a, b, c, d, e, f]
 }
 
-/// Two blocks with relative rotation, the corner of the left exactly at the end of the right one's edge.
+/// Two rotated blocks; the corner of the left one lies exactly at the end of the right one's edge.
 #[test]
 fn edge_and_corner_agree_where_one_becomes_the_other() {
     let (alike, leaning) = ([-0.05, 0.03], [0.05, -0.03]);
@@ -210,7 +211,7 @@ fn edge_and_corner_agree_where_one_becomes_the_other() {
     ] {
         let case = |closed: Closed| case(k, slant, Law::EXCHANGED, closed);
         let force = 0.7;
-        // Place the left scale so that D = −δ m: then the foot is at the end of the edge.
+        // Place the left scale so that D = −δ m, which puts the foot at the end of the edge.
         let edge = case(CornerContact::Edge);
         let at = |x: f64, y: f64| [x, y, phi[0], 0.0, 0.0, phi[1], force, 0.0, 0.0];
         let (mut x, mut y) = (0.0, 0.0);
@@ -225,7 +226,7 @@ fn edge_and_corner_agree_where_one_becomes_the_other() {
         for (edge, corner) in edge.balance.iter().zip(&corner.balance) {
             assert_relative_eq!(edge.value, corner.value, epsilon = 1e-12);
         }
-        // The last condition is that of the flush contact, which corners do not have.
+        // The last condition is the flush one, which corner on corner does not have.
         for k in 0..2 {
             let [edge, corner] = [edge, corner].map(|response| response.conditions[k].unwrap());
             assert_relative_eq!(edge.value, corner.value, epsilon = 1e-12);
@@ -255,7 +256,7 @@ fn a_corner_short_of_the_end_of_its_edge_keeps_its_partner_at_rest() {
 fn sides_are_parallel_where_their_directions_agree() {
     let scales = [50.0, 30.0].map(|slant| Parallelogram::new(0.4, slant).unwrap());
     let pair = Pair::between(scales, 1.0);
-    // The left one leans by 20° more, and turns back by as much.
+    // The left scale leans by 20° more, and turns back by the same angle.
     let parallel = |left: f64, right: f64| {
         let poses = [left, right].map(|degrees| Pose::new(0.3, 0.1, degrees.to_radians()));
         Corners::new(Level::Upper, &pair, poses.each_ref()).are_sides_parallel()
@@ -266,7 +267,7 @@ fn sides_are_parallel_where_their_directions_agree() {
     assert!(!parallel(0.0, 0.0) && !parallel(-20.0, 0.0) && !parallel(0.0, 20.0));
 }
 
-/// The edges that the corners of two levels face where the scales stand in these places.
+/// Returns the edges faced by the corners of both levels at the given positions.
 fn faced(slant: f64, pitch: f64, left: [f64; 2], right: [f64; 2]) -> [Option<CornerEdge>; 2] {
     let pair = Pair::new(Parallelogram::new(0.5, slant).unwrap(), pitch);
     let poses = [left, right].map(|[x, y]| Pose::new(x, y, 0.0));
@@ -281,10 +282,10 @@ fn corners_face_the_sides_of_their_neighbours() {
     let right_corner =
         [CornerEdge::TopLeftOnRightEdge, CornerEdge::BottomLeftOnRightEdge].map(Some);
     assert_eq!(faced(60.0, 1.2, rest, rest), [left_corner[0], right_corner[1]]);
-    // Where a corner has left the edge, its neighbour's faces this scale's.
+    // Where a corner has left the edge, the neighbour's corner faces an edge of this scale.
     assert_eq!(faced(0.0, 1.2, [0.0, 0.1], rest), [right_corner[0], left_corner[1]]);
     assert_eq!(faced(0.0, 1.2, rest, [0.0, 0.1]), [left_corner[0], right_corner[1]]);
-    // Upright blocks at one height: both, and the left one's comes first.
+    // Upright blocks at equal height: both face an edge, and the left corner comes first.
     assert_eq!(faced(0.0, 1.2, rest, rest), left_corner);
     // Far below its neighbour, a corner faces no edge.
     assert_eq!(faced(60.0, 3.0, [0.0, -0.6], rest)[0], None);

@@ -1,17 +1,18 @@
-//! The coverage of a row in closed form.
+//! Coverage of a row in closed form.
 
-/// The difference below which two lengths (over `t`) count as equal.
+/// Difference below which two lengths (over `t`) count as equal.
 ///
-/// `tan 45°` is not exactly 1 in floating point, and a line that only touches a scale must not count as cutting it.
-/// The value is far above the rounding errors of lengths of order 1 (some 1e-15), and far below any length that matters.
+/// `tan 45°` is not exactly 1 in floating point, and a line that only touches a scale must not
+/// count as crossing it. The value is far above the rounding errors of lengths of order 1 (about
+/// 1e-15) and far below any relevant length.
 const TOUCH: f64 = 1e-12;
 
-/// Returns the coverage of scales with shift `S` of the top, base `2a` and pitch `p`, all over `t`.
+/// Returns the coverage for shift `S` of the top, base `2a` and pitch `p`, all over `t`.
 ///
-/// Measured in `y tan α` from the base up, neighbour `k = 1, 2 …` covers
-/// `[S − k p, S − k p + 2a] ∩ [0, S]` of the line. The neighbour begins within the line for
-/// `k ≤ S/p`, and then it is covered whole (its upper end `S − k p + 2a` lies below `S`, since
-/// `2a < p`); the one after that may still reach in from below the base by `S − k p + 2a`.
+/// Measured in `y tan α` from the base up, neighbour `k = 1, 2 …` covers `[S − k p, S − k p + 2a] ∩
+/// [0, S]` of the line. For `k ≤ S/p` the neighbour begins within the line and is covered as a
+/// whole, because its upper end `S − k p + 2a` lies below `S` (`2a < p`). The next neighbour may
+/// extend into the line from below the base by `S − k p + 2a`.
 pub(crate) fn coverage(shift: f64, base: f64, pitch: f64) -> f64 {
     if shift < TOUCH {
         return 0.0;
@@ -19,23 +20,24 @@ pub(crate) fn coverage(shift: f64, base: f64, pitch: f64) -> f64 {
     let whole = ((shift + TOUCH) / pitch).floor();
     let partial = shift - (whole + 1.0) * pitch + base;
     let partial = if partial > TOUCH { partial } else { 0.0 };
-    // A scale that the line misses by less than `TOUCH` counts as cut whole, which is more than all of a short line.
+    // A scale that the line misses by less than `TOUCH` counts as fully crossed, which would exceed
+    // a short line.
     ((whole * base + partial) / shift).min(1.0)
 }
 
-/// Part of the lengths within which a change of the number of scales that are cut counts as happening here.
+/// Relative distance within which a change of the number of crossed scales counts as exact.
 const NEAR: f64 = 1e-9;
 
-/// Returns the rate of [`coverage`] where shift, base and pitch change at the given `rates`, on the side to which they lead.
+/// Returns the one-sided rate of [`coverage`] at the given `rates` of shift, base and pitch.
 pub(crate) fn coverage_rate([shift, base, pitch]: [f64; 3], rates: [f64; 3]) -> f64 {
     if shift < TOUCH {
-        // As long as the shift is smaller than the gap nothing is covered.
+        // Nothing is covered while the shift is smaller than the gap.
         return 0.0;
     }
     let [shifts, bases, pitches] = rates;
     let whole = (shift / pitch).round();
     let at_pitch = (shift - whole * pitch).abs() <= NEAR * pitch;
-    // Where a scale just comes under the line, the side tells whether it is one of the whole ones.
+    // If a scale just reaches the line, the direction of change decides whether it counts as whole.
     let whole = match at_pitch {
         true if shifts >= whole * pitches => whole,
         true => whole - 1.0,
@@ -53,7 +55,7 @@ mod tests {
     use super::{coverage, coverage_rate};
     use proptest::prelude::*;
 
-    /// The coverage by its definition: a sum over neighbours, interval by interval.
+    /// Computes the coverage by its definition: a sum over neighbours, interval by interval.
     fn by_intervals(shift: f64, base: f64, pitch: f64) -> f64 {
         let mut sum = 0.0;
         for k in 1..=(shift / pitch).ceil() as u32 + 1 {
@@ -100,7 +102,7 @@ mod tests {
         }
     }
 
-    /// A difference in a direction, from the place itself on.
+    /// Computes the one-sided difference quotient in a direction.
     fn difference(at: [f64; 3], rates: [f64; 3]) -> f64 {
         let moved = |h: f64| {
             let [shift, base, pitch] = std::array::from_fn(|k| at[k] + h * rates[k]);
@@ -120,7 +122,7 @@ mod tests {
             let at = [shift, base, base + gap];
             let ours = coverage_rate(at, rates);
             let off = (ours - difference(at, rates)).abs();
-            // A change of count within the difference is another matter.
+            // Skip changes of the count within the difference.
             let places = [shift / at[2], (shift + base) / at[2]];
             let apart = places.iter().all(|place| (place - place.round()).abs() > 1e-3);
             prop_assert!(!apart || off < 1e-6 * (1.0 + ours.abs()), "{ours} {off}");
@@ -129,7 +131,8 @@ mod tests {
 
     #[test]
     fn where_the_count_changes_each_side_has_its_rate() {
-        // The line ends at the corner of the first neighbour's base, and at the far corner of the second.
+        // The line ends at the near corner of the first neighbour's base, and at the far corner of
+        // the second.
         for at in [[1.25, 0.5, 1.75], [3.5, 0.5, 1.75], [1.75, 0.5, 1.75]] {
             let mut kinks = 0;
             for rates in [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 1.0]] {

@@ -1,9 +1,10 @@
-//! The undeformed geometry of scales and rows of scales.
+//! Undeformed geometry of scales and rows of scales.
 //!
-//! A scale is a parallelogram of height `t` that leans by the slant `α`; scales with bases `2a` at gaps `d` form a row
-//! of pitch `p = 2a + d`. Lengths are in units of the scale thickness `t`; `y` points up out of the substrate and angles
-//! are counter-clockwise. The coverage of a row is the part of a vertical line, dropped from the top right corner of a
-//! scale, that lies inside of the scales to its right (Eq. G2 of `docs/theory/model.md`):
+//! A scale is a parallelogram of height `t` that leans by the slant `α`. Scales with bases `2a` at
+//! gaps `d` form a row of pitch `p = 2a + d`. Lengths are in units of the scale thickness `t`; `y`
+//! points up out of the substrate, and angles are counter-clockwise. The coverage of a row is the
+//! fraction of a vertical line, dropped from the top right corner of a scale, that lies inside the
+//! scales to its right (Eq. G2 of `docs/theory/model.md`):
 //!
 //! ```text
 //! λ = Σₖ |[S − k p, S − k p + 2a] ∩ [0, S]| / S,     S = t tan α,  k = 1, 2 …
@@ -38,5 +39,5 @@ pub use parallelogram::{Corner, Parallelogram};
 pub use row::{Row, RowChange};
 pub use uneven_row::{UnevenRow, clearance};
 
-/// A point or a vector of the plane, in units of `t`.
+/// Point or vector of the plane, in units of `t`.
 pub type Vec2 = nalgebra::Vector2<f64>;

@@ -1,9 +1,9 @@
-//! The error of every parameter that has no mechanical meaning.
+//! Error of a parameter outside its valid range.
 
-/// A parameter outside the range in which it has a meaning.
+/// Parameter outside its valid range.
 ///
-/// The crates that check parameters share this error, so that every message names the quantity, the value that was
-/// given and the values that are accepted.
+/// All crates that check parameters share this error, so that every message names the quantity, the
+/// given value and the accepted values.
 ///
 /// ```
 /// use geometry::OutOfRange;
@@ -15,11 +15,11 @@
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error("{quantity} is {value}, expected {expected}")]
 pub struct OutOfRange {
-    /// The name of the parameter.
+    /// Name of the parameter.
     pub quantity: &'static str,
-    /// The value that was given.
+    /// Given value.
     pub value: f64,
-    /// The values that are accepted, in words.
+    /// Accepted values, in words.
     pub expected: &'static str,
 }
 

@@ -1,8 +1,8 @@
-//! The shape of one scale.
+//! Shape of a single scale.
 
 use crate::{OutOfRange, Vec2};
 
-/// A scale: a parallelogram of height 1 (the thickness `t`) that leans to the right.
+/// Scale: a parallelogram of height 1 (the thickness `t`) that leans to the right.
 ///
 /// ```text
 ///        TL ────────── TR      y = 1
@@ -15,11 +15,11 @@ use crate::{OutOfRange, Vec2};
 pub struct Parallelogram {
     half_base: f64,
     slant: f64,
-    /// `tan α`, which corners are asked for too often to be taken anew.
+    /// `tan α`, stored because corners are evaluated often.
     shift: f64,
 }
 
-/// A corner of a scale.
+/// Corner of a scale.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Corner {
     /// Left end of the base.
@@ -33,13 +33,12 @@ pub enum Corner {
 }
 
 impl Corner {
-    /// The four corners, counter-clockwise from the bottom left.
+    /// All corners, counter-clockwise from the bottom left.
     pub const ALL: [Self; 4] = [Self::BottomLeft, Self::BottomRight, Self::TopRight, Self::TopLeft];
 }
 
 impl Parallelogram {
-    /// Creates a scale with half-width `half_base` of its base (over `t`) and slant `slant_deg` from the
-    /// vertical (degrees).
+    /// Creates a scale with half-base `half_base` (over `t`) and slant `slant_deg` (degrees).
     ///
     /// # Errors
     /// If `half_base` is not positive and finite, or the slant lies outside `[0°, 90°)`.
@@ -50,8 +49,9 @@ impl Parallelogram {
         Self::leaning(half_base, slant_deg)
     }
 
-    /// Creates a scale that may lean to the left, with a negative slant. Designs lean to the right;
-    /// single scales of an imperfect row need not.
+    /// Creates a scale that may lean to the left, with a negative slant.
+    ///
+    /// Designs lean to the right; single scales of an imperfect row may lean to the left.
     ///
     /// # Errors
     /// If `half_base` is not positive and finite, or the slant lies outside `(−90°, 90°)`.
@@ -73,7 +73,7 @@ impl Parallelogram {
         self.slant
     }
 
-    /// Returns the horizontal shift `S = t tan α` of the top against the base, over `t`.
+    /// Returns the horizontal shift `S = t tan α` of the top relative to the base, over `t`.
     pub fn shift(&self) -> f64 {
         self.shift
     }
@@ -89,7 +89,7 @@ impl Parallelogram {
         }
     }
 
-    /// Returns the four corners relative to the node, counter-clockwise from the bottom left.
+    /// Returns the undeformed corners relative to the node, counter-clockwise from bottom left.
     pub fn corners(&self) -> [Vec2; 4] {
         Corner::ALL.map(|corner| self.corner(corner))
     }

@@ -2,7 +2,7 @@
 
 use crate::{OutOfRange, Parallelogram, coverage};
 
-/// A row of identical scales, separated by the gap `d` at the base.
+/// Row of identical scales with the gap `d` at the base.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row {
     scale: Parallelogram,
@@ -19,7 +19,7 @@ impl Row {
         Ok(Self { scale, gap })
     }
 
-    /// Returns the scale of which the row is made.
+    /// Returns the shape of the scales.
     pub fn scale(&self) -> &Parallelogram {
         &self.scale
     }
@@ -34,16 +34,20 @@ impl Row {
         2.0 * self.scale.half_base() + self.gap
     }
 
-    /// Returns the coverage `λ = t_s / t` (`docs/theory/model.md`, Eq. G2): the total length, over the thickness, that a vertical
-    /// line dropped from the top right corner of a scale cuts in the scales to its right.
+    /// Returns the coverage `λ = t_s / t` (`docs/theory/model.md`, Eq. G2).
     ///
-    /// The coverage is 0 where the substrate is exposed, and always below 1.
+    /// This is the total length, over the thickness, of the scales to the right of a scale along a
+    /// vertical line dropped from its top right corner.
+    ///
+    /// The coverage is 0 for an exposed substrate, and always below 1.
     pub fn coverage(&self) -> f64 {
         coverage::coverage(self.scale.shift(), 2.0 * self.scale.half_base(), self.pitch())
     }
 
-    /// Returns the rate of the coverage where the lengths of the row change, on the side to which the change leads: the coverage has
-    /// a kink where the number of scales that the line cuts changes.
+    /// Returns the one-sided rate of the coverage under a change of the lengths of the row.
+    ///
+    /// The coverage has a kink where the number of crossed scales changes; the rate is the one on
+    /// the side to which the change leads.
     pub fn coverage_rate(&self, change: &RowChange) -> f64 {
         let lengths = [self.scale.shift(), 2.0 * self.scale.half_base(), self.pitch()];
         let RowChange { shift, half_base, gap } = *change;
@@ -51,10 +55,10 @@ impl Row {
     }
 }
 
-/// Rates at which the lengths of a row change, over `t`.
+/// Rates of change of the lengths of a row, over `t`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RowChange {
-    /// Rate of the shift `S` of the top against the base.
+    /// Rate of the shift `S` of the top relative to the base.
     pub shift: f64,
     /// Rate of the half-width `a` of the base.
     pub half_base: f64,

@@ -2,7 +2,7 @@
 
 use crate::{OutOfRange, Parallelogram};
 
-/// A row in which every scale has a slant and every gap a width of its own.
+/// Row with an individual slant for every scale and an individual width for every gap.
 ///
 /// ```text
 ///   ┌────────┐           ┌────────┐      ┌────────┐
@@ -19,12 +19,13 @@ pub struct UnevenRow {
 }
 
 impl UnevenRow {
-    /// Creates a row of `scales` with `gaps` (over `t`) between neighbouring bases, one fewer than there are
-    /// scales.
+    /// Creates a row of `scales` with `gaps` (over `t`) between neighbouring bases.
+    ///
+    /// There is one gap fewer than scales.
     ///
     /// # Errors
-    /// If a gap is not positive and finite, two neighbours overlap above their bases, or the numbers of
-    /// scales and gaps do not fit.
+    /// If a gap is not positive and finite, two neighbours overlap above their bases, or the
+    /// numbers of scales and gaps do not match.
     pub fn new(scales: Vec<Parallelogram>, gaps: Vec<f64>) -> Result<Self, OutOfRange> {
         let one_fewer = gaps.len() + 1 == scales.len();
         let expected = "one fewer than there are scales";
@@ -55,19 +56,21 @@ impl UnevenRow {
         self.scales[i].half_base() + self.gaps[i] + self.scales[i + 1].half_base()
     }
 
-    /// Returns the distance of the node of scale `i` from that of the first, over `t`.
+    /// Returns the distance of node `i` from the first node, over `t`.
     pub fn place(&self, i: usize) -> f64 {
         self.places[i]
     }
 
-    /// Returns the distance of the last node from the first, over `t`.
+    /// Returns the distance of the last node from the first node, over `t`.
     pub fn length(&self) -> f64 {
         self.places[self.places.len() - 1]
     }
 }
 
-/// Returns the narrowest horizontal distance, over `t`, of neighbours with the gap `gap` between their bases:
-/// at the base or, if they lean towards each other, at the top. The distance is negative where they overlap.
+/// Returns the smallest horizontal distance of two neighbours, over `t`.
+///
+/// It occurs at the base, where it is `gap`, or at the top if the scales lean towards each other.
+/// Negative if they overlap.
 pub fn clearance(left: &Parallelogram, right: &Parallelogram, gap: f64) -> f64 {
     gap.min(gap + right.shift() - left.shift())
 }
@@ -96,7 +99,7 @@ mod tests {
 
     #[test]
     fn scales_that_lean_into_each_other_are_refused() {
-        // tan 45° = 1: the tops come closer by 1 than the bases are.
+        // tan 45° = 1: the tops are closer to each other by 1 than the bases.
         close(clearance(&scale(45.0), &scale(0.0), 1.25), 0.25);
         close(clearance(&scale(0.0), &scale(45.0), 1.25), 1.25);
         let error = UnevenRow::new(vec![scale(45.0), scale(0.0)], vec![0.75]).unwrap_err();

@@ -47,7 +47,7 @@ proptest! {
 }
 
 proptest! {
-    /// A corner that is laid on its edge, some way along it.
+    /// A corner placed on its edge, at a fraction of its length.
     #[test]
     fn the_foot_is_where_the_corner_stands_on_the_edge(
         slants in prop::array::uniform2(0.0_f64..80.0), half_bases in prop::array::uniform2(0.02_f64..3.0),
@@ -60,7 +60,7 @@ proptest! {
         let pair = Pair::between(scales, 7.0);
         prop_assert_eq!(pair.pitch(), 7.0);
         let (a, b) = if corner_edge.corner_is_left() { (0, 1) } else { (1, 0) };
-        // From the base up, or from the left to the right.
+        // From the base up, or from left to right.
         let (start, end, outward) = match corner_edge {
             CornerEdge::TopRightOnLeftEdge | CornerEdge::BottomRightOnLeftEdge => {
                 (Corner::BottomLeft, Corner::TopLeft, 1.0)
@@ -113,7 +113,7 @@ fn at_rest_the_gap_is_the_distance_of_the_edges() {
 
 #[test]
 fn a_rotated_neighbour_is_met_where_trigonometry_says() {
-    // Upright blocks; the left one turns clockwise by φ about its node: its top right corner
+    // Upright blocks; the left one turns clockwise by φ about its node, so its top right corner
     // moves right by (sin φ + a (cos φ − 1)).
     let (a, gap, phi) = (0.5, 0.3, 0.2_f64);
     let pair = Pair::new(Parallelogram::new(a, 0.0).unwrap(), 2.0 * a + gap);

@@ -1,4 +1,4 @@
-//! The tips: sharp corners that may rest on the neighbour's top or base.
+//! Tips: sharp corners that may rest on the neighbour's top or base.
 
 use approx::assert_relative_eq;
 use geometry::{Parallelogram, Vec2};
@@ -10,18 +10,20 @@ use crate::gap::{CornerEdge, Pair, Pose};
 use crate::law::{ContactLaw, Law};
 use crate::response::{COORDINATES, Equation};
 
-/// The lower level of two steep scales, the right one leaning over by `turned` degrees, its bottom left corner
-/// under the base of the left one: `inside` its right end and `below`.
+/// Builds the lower level of two steep scales, with a tip under the left base.
+///
+/// The right scale leans over by `turned` degrees. Its bottom left corner lies `inside` the right
+/// end of the left base, and `below` it.
 pub(super) fn under_the_base(turned: f64, inside: f64, below: f64) -> (Pair, [Pose; 2]) {
     let pair = Pair::new(Parallelogram::new(1.0, 75.0).unwrap(), 2.2);
-    // The corner is at −1 from the node of its scale, and the base of the other ends at +1.
+    // The corner is at −1 from the node of its scale, and the neighbour's base ends at +1.
     let arm = Pose::new(0.0, 0.0, -turned.to_radians()).turn(Vec2::new(-1.0, 0.0));
     let corner = Vec2::new(1.0 - inside, -below);
     let place = corner - arm - Vec2::new(2.2, 0.0);
     (pair, [Pose::new(0.0, 0.0, 0.0), Pose::new(place.x, place.y, -turned.to_radians())])
 }
 
-/// The pair turned by half a turn, so that the tops play the part of the bases.
+/// Builds the same pair rotated by 180°, so that tops and bases exchange roles.
 fn above_the_top(turned: f64, inside: f64, above: f64) -> (Pair, [Pose; 2]) {
     let (pair, [left, right]) = under_the_base(turned, inside, above);
     let coordinates = |pose: &Pose| [pose.displacement.x, pose.displacement.y, pose.rotation];
@@ -40,12 +42,12 @@ const ACROSS: [(CornerEdge, CornerEdge); 3] = [
     (CornerEdge::BottomLeftOnBase, CornerEdge::TopRightOnTop),
 ];
 
-/// The upper corner and edge that a lower one becomes by half a turn.
+/// Returns the upper corner and edge that correspond to lower ones after a rotation by 180°.
 fn across(lower: CornerEdge) -> CornerEdge {
     ACROSS.into_iter().find(|(edge, _)| *edge == lower).unwrap().1
 }
 
-/// Something of the lower corners of [`under_the_base`], with an edge, and of what half a turn makes of them.
+/// Evaluates a function for the lower corners of [`under_the_base`] and for the rotated pair.
 fn at_both_levels<T>(
     turned: f64,
     inside: f64,
@@ -65,7 +67,7 @@ fn what_an_open_contact_faces_depends_on_how_its_side_leans() {
     for (turned, inside, expected) in [
         (14.9, 0.3, Some(CornerEdge::BottomRightOnLeftEdge)),
         (15.1, 0.3, Some(CornerEdge::BottomLeftOnBase)),
-        // Beside the base, at either end.
+        // Beyond either end of the base.
         (16.0, -0.1, Some(CornerEdge::BottomLeftOnRightEdge)),
         (16.0, -0.01, None),
         (16.0, 2.1, None),
@@ -85,7 +87,7 @@ fn what_an_open_contact_faces_depends_on_how_its_side_leans() {
     }
 }
 
-/// The angle by which a side is short of level, or beyond it, of a contact that carries.
+/// Returns the angle to level, short or beyond, of a closed contact.
 fn to_level(edge: CornerEdge, closed: Closed, turned: f64, inside: f64) -> Option<f64> {
     let angle = |corners: &Corners, edge| {
         let response = closed(edge).response(corners, &soft(), [0.0; FORCES]);
@@ -106,7 +108,7 @@ fn the_flush_contact_waits_until_the_side_is_level() {
         assert_relative_eq!(angle(on_side), short, epsilon = 1e-12);
         assert_relative_eq!(angle(on_end), -short, epsilon = 1e-12);
     }
-    // Corners that are together have none, and neither has a tip that rests on the neighbour's side.
+    // Corner on corner has no such angle, nor has a tip on the neighbour's side.
     assert_eq!(to_level(on_side, CornerContact::Corner, 14.0, 0.3), None);
     assert_eq!(to_level(on_end, CornerContact::Corner, 16.0, 0.3), None);
     assert_eq!(to_level(CornerEdge::BottomLeftOnRightEdge, CornerContact::Edge, 14.0, 0.3), None);
@@ -120,15 +122,15 @@ fn there_is_no_flush_contact_beyond_the_far_end_of_its_edge() {
         let angle = |inside| to_level(edge, CornerContact::Edge, 15.0, inside);
         assert!(angle(within).unwrap().abs() < 1e-12);
         assert_eq!(angle(beyond), None);
-        // The near end is where the corners meet, and another condition's.
+        // The near end is where the corners meet, which is another condition.
         assert!(angle(-0.01).unwrap().abs() < 1e-12);
-        // While it carries, its condition is there.
+        // While the flush contact acts, its condition exists.
         assert!(to_level(edge, CornerContact::Flush, 15.0, beyond).unwrap().abs() < 1e-12);
     }
 }
 
-/// Short of level the force turns from the normal of the neighbour's side to that of the tip's side, beyond it only to
-/// that of the neighbour's end.
+/// Short of level, the force turns from the normal of the neighbour's side to the normal of the
+/// tip's side; beyond level only to the normal of the neighbour's end.
 #[test]
 fn at_the_corner_the_force_turns_no_further_than_to_the_end() {
     let side = Vec2::new(75.0_f64.to_radians().cos(), -75.0_f64.to_radians().sin());
@@ -191,8 +193,7 @@ fn contacts_of_flush_edges_are_those_at_each_others_ends() {
     assert_eq!(CornerEdge::TopRightOnLeftEdge.flush(), None);
 }
 
-/// Where side and base lie flush, it does not matter to the approach of the two scales which of the two
-/// contacts carries how much.
+/// If side and base lie flush, the approach does not depend on the distribution of the force.
 #[test]
 fn flush_contacts_share_one_approach() {
     let law = soft();
@@ -226,13 +227,13 @@ fn the_forces_on_a_top_are_those_on_a_base_turned_round() {
     let corners = Corners::new(Level::Upper, &pair, [&left, &right]);
     let above = CornerContact::Flush(CornerEdge::TopLeftOnRightEdge);
     let turned = above.forces_on_left(&corners, forces);
-    // The force on the left scale is now minus that on what was the right one, turned round.
+    // The force on the left scale is now the negative rotated force on the former right scale.
     assert_relative_eq!(turned[0], corner, epsilon = 1e-12);
     assert_relative_eq!(turned[1], tip, epsilon = 1e-12);
     assert_eq!(CornerContact::Open.forces_on_left(&corners, forces), [Vec2::zeros(); 2]);
 }
 
-/// An open contact has the gap of the corner that faces an edge, and neither forces nor other conditions.
+/// An open contact has only the gap of the corner that faces an edge.
 #[test]
 fn a_contact_without_forces_has_a_gap_alone() {
     let (pair, [left, right]) = under_the_base(12.0, 0.3, 0.1);

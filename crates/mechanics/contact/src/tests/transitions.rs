@@ -1,4 +1,4 @@
-//! One test for each row of the table of transitions, and for what is not in it.
+//! One test per row of the table of transitions, and one for everything outside the table.
 
 use geometry::Parallelogram;
 
@@ -9,7 +9,9 @@ use crate::corners::{Corners, Level};
 use crate::gap::CornerEdge::{BottomLeftOnBase, BottomLeftOnRightEdge, BottomRightOnLeftEdge};
 use crate::gap::{CornerEdge, Pair, Pose};
 
-/// The transition of a lower contact of [`under_the_base`], the side level but for these degrees.
+/// Applies a transition to a lower contact of [`under_the_base`].
+///
+/// The side is `short_of_level` by this angle in degrees.
 fn next(
     contact: CornerContact,
     (force, acts): (Force, bool),
@@ -50,7 +52,7 @@ fn an_edge_contact_stays_at_the_corner_that_it_reaches() {
     }
 }
 
-/// The scales as they stand at rest have parallel sides.
+/// At rest the scales have parallel sides.
 #[test]
 fn an_edge_contact_passes_the_corner_between_parallel_sides() {
     let pair = Pair::new(Parallelogram::new(0.4, 30.0).unwrap(), 1.0);
@@ -155,7 +157,7 @@ fn forces_that_cannot_act_next_do_not() {
     {
         assert_eq!(next(contact, (force, BEGINS), 1.0, forces), None);
     }
-    // Nor does an open contact close of which no corner faces an edge.
+    // An open contact without a corner that faces an edge does not close either.
     let pair = Pair::new(Parallelogram::new(0.5, 60.0).unwrap(), 3.0);
     let (far_below, rest) = (Pose::new(0.0, -0.6, 0.0), Pose::new(0.0, 0.0, 0.0));
     let corners = Corners::new(Level::Upper, &pair, [&far_below, &rest]);
