@@ -148,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn a_scale_that_reaches_back_over_others_that_do_not_is_found() {
+    fn an_overlap_beyond_scales_in_between_is_found() {
         let scale = Parallelogram::new(0.1, 0.0).unwrap();
         // The two scales between are displaced far to the right.
         let poses = [0.0, 0.9, 0.9, -0.85].map(|x| Pose::new(x, 0.0, 0.0));
@@ -171,7 +171,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn unlike_scales_overlap_where_no_edge_parts_them(
+        fn unequal_scales_overlap_unless_an_edge_separates_them(
             slants in prop::array::uniform3(-80.0_f64..80.0), half_bases in prop::array::uniform3(0.1_f64..1.0),
             q in prop::array::uniform9(-0.8_f64..0.8),
         ) {

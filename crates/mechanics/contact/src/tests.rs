@@ -103,7 +103,7 @@ proptest! {
 
     /// The conditions of the edge end and of the flush contact are needed before their forces act.
     #[test]
-    fn what_stops_a_contact_agrees_with_finite_differences(
+    fn resting_conditions_agree_with_finite_differences(
         edge in 0_usize..6, slant in 0.0_f64..80.0, q in prop::array::uniform6(-0.5_f64..0.5),
     ) {
         let case = case(edge, slant, Law::PRINTED, CornerContact::Edge);
@@ -155,7 +155,7 @@ proptest! {
 
     /// Rotating a pair by 180° gives a pair with left and right, and upper and lower exchanged.
     #[test]
-    fn half_a_turn_exchanges_the_levels(
+    fn rotation_by_180_degrees_exchanges_the_levels(
         edge in 0_usize..6, slant in 0.0_f64..80.0, state in 0_usize..3,
         q in prop::array::uniform6(-0.5_f64..0.5), forces in prop::array::uniform3(0.2_f64..2.0),
     ) {
@@ -199,7 +199,7 @@ fn half_turn(slant: f64, q: &[f64; 6]) -> [f64; 6] {
 
 /// Two rotated blocks; the corner of the left one lies exactly at the end of the right one's edge.
 #[test]
-fn edge_and_corner_agree_where_one_becomes_the_other() {
+fn edge_and_corner_states_agree_at_their_transition() {
     let (alike, leaning) = ([-0.05, 0.03], [0.05, -0.03]);
     for (k, slant, phi) in [
         (0, 40.0, alike),

@@ -87,7 +87,7 @@ proptest! {
 }
 
 #[test]
-fn kinds_have_names_that_say_what_meets_what() {
+fn names_state_corner_and_edge() {
     assert_eq!(
         CornerEdge::ALL.map(CornerEdge::name),
         [
@@ -112,7 +112,7 @@ fn at_rest_the_gap_is_the_distance_of_the_edges() {
 }
 
 #[test]
-fn a_rotated_neighbour_is_met_where_trigonometry_says() {
+fn the_gap_to_a_rotated_neighbour_agrees_with_trigonometry() {
     // Upright blocks; the left one turns clockwise by φ about its node, so its top right corner
     // moves right by (sin φ + a (cos φ − 1)).
     let (a, gap, phi) = (0.5, 0.3, 0.2_f64);

@@ -63,7 +63,7 @@ fn at_both_levels<T>(
 
 /// The side of the tip leans by 75° at rest.
 #[test]
-fn what_an_open_contact_faces_depends_on_how_its_side_leans() {
+fn the_inclination_of_a_side_selects_the_faced_edge() {
     for (turned, inside, expected) in [
         (14.9, 0.3, Some(CornerEdge::BottomRightOnLeftEdge)),
         (15.1, 0.3, Some(CornerEdge::BottomLeftOnBase)),
@@ -100,7 +100,7 @@ fn to_level(edge: CornerEdge, closed: Closed, turned: f64, inside: f64) -> Optio
 }
 
 #[test]
-fn the_flush_contact_waits_until_the_side_is_level() {
+fn the_flush_contact_acts_only_at_a_level_side() {
     let (on_side, on_end) = (CornerEdge::BottomRightOnLeftEdge, CornerEdge::BottomLeftOnBase);
     for turned in [5.0, 14.0, 17.0] {
         let short = (15.0_f64 - turned).to_radians();
@@ -180,7 +180,7 @@ fn a_corner_is_left_as_the_side_leans() {
 }
 
 #[test]
-fn contacts_of_flush_edges_are_those_at_each_others_ends() {
+fn flush_edges_touch_at_both_ends() {
     for (level, edge) in EDGES {
         let flush = edge.flush();
         assert_eq!(flush.and_then(CornerEdge::flush), flush.map(|_| edge));
@@ -217,7 +217,7 @@ fn flush_contacts_share_one_approach() {
 }
 
 #[test]
-fn the_forces_on_a_top_are_those_on_a_base_turned_round() {
+fn forces_on_a_top_equal_rotated_forces_on_a_base() {
     let forces = [0.3, 0.0, 0.2];
     let (pair, [left, right]) = under_the_base(15.0, 0.3, 0.0);
     let corners = Corners::new(Level::Lower, &pair, [&left, &right]);
@@ -235,7 +235,7 @@ fn the_forces_on_a_top_are_those_on_a_base_turned_round() {
 
 /// An open contact has only the gap of the corner that faces an edge.
 #[test]
-fn a_contact_without_forces_has_a_gap_alone() {
+fn an_open_contact_has_only_a_gap() {
     let (pair, [left, right]) = under_the_base(12.0, 0.3, 0.1);
     for level in [Level::Upper, Level::Lower] {
         let corners = Corners::new(level, &pair, [&left, &right]);

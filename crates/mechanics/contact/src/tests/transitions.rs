@@ -165,7 +165,7 @@ fn forces_that_cannot_act_next_do_not() {
 }
 
 #[test]
-fn each_state_says_which_forces_act_and_on_which_edge() {
+fn each_state_lists_its_forces_and_edge() {
     let edge = BottomLeftOnBase;
     assert_eq!((Open.acting(), Open.edge()), ([false, false, false], None));
     assert_eq!((Edge(edge).acting(), Edge(edge).edge()), ([true, false, false], Some(edge)));
