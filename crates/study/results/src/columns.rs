@@ -1,4 +1,4 @@
-//! The one list of columns: every table, and every explanation of a column, comes from here.
+//! The single list of columns: every table and every explanation of a column is derived from it.
 
 mod builders;
 pub mod cell;
@@ -35,71 +35,71 @@ pub use path::{
 pub use reruns::RERUN_COLUMNS;
 pub use sensitivity::DERIVATIVE_COLUMNS;
 
-/// The lengths that every skin of a thickness has in mm.
+/// Lengths in mm that are columns of every skin with a given thickness.
 const LENGTHS_IN_MM: [&str; 4] = ["gap_mm", "length_mm", "width_mm", key::PITCH];
 
-/// The measured value of that name.
+/// Returns the measured value with this name.
 pub fn measured_value(name: &str) -> Option<&'static MeasuredValue> {
     VALUES.iter().find(|value| value.name == name)
 }
 
-/// The unit of a measured value and what it is, by its name.
+/// Returns unit and meaning of a measured value by its name.
 pub fn explain_value(name: &str) -> Option<(&'static str, &'static str)> {
     let column = ValueColumn::named(name).map(|column| (column.unit, column.meaning.as_ref()));
     column.or_else(|| explain_tilt_value(name))
 }
 
-/// The dimensionless value that a column in physical units is made from, by its name, and how.
+/// Returns the dimensionless value and the quantity of a physical column.
 pub fn physical_source(name: &str) -> Option<(&'static str, Quantity)> {
     let column = ValueColumn::named(name)?;
     Some((column.dimensionless()?.name.as_ref(), column.quantity?))
 }
 
-/// The value that the column `name` is about: of one in physical units the dimensionless value, of any other itself.
+/// Returns the dimensionless value of a physical column, any other name unchanged.
 pub fn measure_name(name: &str) -> &str {
     physical_source(name).map_or(name, |(source, _)| source)
 }
 
-/// The measure that the column `name` belongs to; `None` if it is one of parameters, or of how designs were solved.
+/// Returns the measure to which a column belongs. `None` for parameters and solver information.
 pub fn measure_of(name: &str) -> Option<Measure> {
     ValueColumn::named(name)?.value.measure()
 }
 
-/// The column that one of that name, which may be a quantile or another thing that is made from it, is about.
+/// Returns the value and quantity of a column. The name may also be a derived one, such as a
+/// quantile.
 pub(crate) fn about(name: &str) -> Option<(&'static MeasuredValue, Option<Quantity>)> {
     let is_made_from = |column: &&ValueColumn| {
         name.strip_prefix(column.stem())
             .is_some_and(|rest| rest.is_empty() || rest.starts_with('_'))
     };
-    // The longest stem, because `critical_force_per_width` begins as `critical_force` does.
+    // Take the longest stem: `critical_force_per_width` also begins with `critical_force`.
     let nearest = || COLUMNS.iter().filter(is_made_from).max_by_key(|column| column.stem().len());
     let column = ValueColumn::named(name).or_else(nearest)?;
     Some((column.value, column.quantity))
 }
 
-/// Which of the values of a column are good, where that is plain.
+/// Returns whether large or small values of a column are better. `None` if that is ambiguous.
 pub fn plain_goal(name: &str) -> Option<Goal> {
     let (value, quantity) = about(name)?;
     value.good_as(quantity)
 }
 
-/// The names of the values that the table of a page shows at such a place: those of a table together.
+/// Returns the values that the table of a page shows at `place`, grouped by table.
 pub fn shown(place: Shown) -> Vec<&'static str> {
     let mut values: Vec<_> = VALUES.iter().filter(|value| value.shown == place).collect();
-    // Stable: within a table values keep the order of `designs.csv`.
+    // Stable sort: values of one table keep the order of `designs.csv`.
     values.sort_by_key(|value| value.first_table());
     values.into_iter().map(|value| value.name).collect()
 }
 
-/// The layout of a table: the name of its file, and its columns.
+/// Layout of a table: file name and columns.
 pub struct TableLayout {
-    /// Name of the file.
     pub file: String,
     /// Columns, from the left.
     pub columns: Vec<Column<DesignRow>>,
 }
 
-/// The tables of `sweep`: `designs.csv`, and those of the measures that it asks for.
+/// Returns the layouts of the tables of `sweep`: `designs.csv` and a table per requested measure.
 pub fn tables(sweep: &Sweep) -> Vec<TableLayout> {
     let asked = MEASURE_TABLES.iter().filter(|(_, measure)| sweep.measures().contains(measure));
     let mut tables = vec![TableLayout {
@@ -113,14 +113,15 @@ pub fn tables(sweep: &Sweep) -> Vec<TableLayout> {
     tables
 }
 
-/// The columns of `designs.csv`: the same whatever is measured, but for the axes and those that only
-/// imperfections or several critical tilts have.
+/// Returns the columns of `designs.csv`. They do not depend on the measures, but on the axes,
+/// imperfections and the number of critical tilts.
 pub fn design_columns(sweep: &Sweep) -> Vec<Column<DesignRow>> {
     columns(sweep, None)
 }
 
-/// The columns of a table of measures, or of all: number and geometry, what tables are about, the axes that not every sweep
-/// has, the other values, those at several tilts, those in physical units.
+/// Returns the columns of one measure table, or of `designs.csv` for `None`. Order: number and
+/// geometry, leading values, axes that not every sweep has, other values, values at several tilts,
+/// values in physical units.
 fn columns(sweep: &Sweep, table: Option<&str>) -> Vec<Column<DesignRow>> {
     let leads = |column: &ValueColumn| match table {
         Some(table) => column.name == table,
@@ -135,7 +136,7 @@ fn columns(sweep: &Sweep, table: Option<&str>) -> Vec<Column<DesignRow>> {
     columns.extend(axis_columns(sweep));
     columns.extend(made(others));
     columns.extend(tilt_columns(sweep, table));
-    // What a `[material]` adds stands last, so that the columns before it keep their places.
+    // Append the columns of `[material]`, so that the earlier columns keep their positions.
     if table.is_none() && sweep.gives(key::THICKNESS) {
         columns.extend(length_columns(sweep));
     }
@@ -143,7 +144,7 @@ fn columns(sweep: &Sweep, table: Option<&str>) -> Vec<Column<DesignRow>> {
     columns
 }
 
-/// The columns of `failures.csv`.
+/// Returns the columns of `failures.csv`.
 pub fn failure_columns(sweep: &Sweep) -> Vec<Column<FailureRow>> {
     let mut columns = geometry_columns();
     columns.extend(axis_columns(sweep));
@@ -151,20 +152,20 @@ pub fn failure_columns(sweep: &Sweep) -> Vec<Column<FailureRow>> {
     columns
 }
 
-/// The columns of the number of a design and of its geometry.
+/// Returns the columns of design number and geometry.
 fn geometry_columns<R: Borrow<DesignRow>>() -> Vec<Column<R>> {
     let mut columns = vec![number(|row: &R| row.borrow().number.to_string().into())];
     columns.extend(Parameter::with(Role::Geometry).map(parameter_column));
     columns
 }
 
-/// The columns of the axes of `sweep` that not every grid has.
+/// Returns the columns of the axes of `sweep` that not every grid has.
 fn axis_columns<R: Borrow<DesignRow>>(sweep: &Sweep) -> impl Iterator<Item = Column<R>> {
     let axes = sweep.grid().axes().iter().map(Axis::parameter);
     axes.filter(|parameter| !parameter.has(Role::Geometry)).map(parameter_column)
 }
 
-/// The columns of the lengths of a skin in mm, which axes may have too; and of the width, which these are told apart by.
+/// Returns the columns of the width and of the lengths in mm, except for axes.
 fn length_columns(sweep: &Sweep) -> impl Iterator<Item = Column<DesignRow>> {
     let is_axis = |parameter: &&Parameter| sweep.grid().axis(parameter.key).is_some();
     let width = Parameter::named(key::WIDTH).filter(|width| !is_axis(width)).map(parameter_column);

@@ -1,8 +1,8 @@
-//! The contents of a results folder: what a run states, last of all, of what it has written there.
+//! Contents of a results folder: the checksums that a run writes last.
 //!
-//! `contents.toml` names how far the journal had come, and the SHA-256 of every table. Tables are moved to their places one
-//! by one, so a run that is killed between two of them leaves a folder that is not as its contents say: every command that
-//! reads a folder finds that out before it uses a number.
+//! `contents.toml` states the extent of the journal and the SHA-256 of every table. Tables are
+//! moved into place one by one, so a run killed between two moves leaves tables that contradict
+//! `contents.toml`. Every reading command detects this before it uses a number.
 
 pub mod claim;
 pub mod derivation;
@@ -18,20 +18,20 @@ use serde::{Deserialize, Serialize};
 
 use crate::folder::ResultsFolder;
 
-/// The line that seals the text before it.
+/// Prefix of the line that holds the SHA-256 of the text after it.
 const SEAL: &str = "sha256_of_the_above = ";
 
-/// The content of a results folder.
+/// Contents of a results folder.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Contents {
-    /// The program that wrote it.
+    /// Program that wrote the folder.
     pub program: String,
-    /// The number of designs of the run.
+    /// Number of designs of the run.
     pub designs: u64,
-    /// The number of designs that are done.
+    /// Number of finished designs.
     pub done: u64,
-    /// How far the journal had come.
+    /// Extent of the journal when the tables were written.
     pub journal: JournalExtent,
     /// SHA-256 of each file, by its name.
     pub files: BTreeMap<String, String>,
@@ -41,18 +41,19 @@ pub struct Contents {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct JournalExtent {
-    /// Its bytes.
+    /// Length in bytes.
     pub bytes: u64,
-    /// Its lines.
+    /// Number of lines.
     pub lines: u64,
     /// SHA-256 of these bytes.
     pub sha256: String,
 }
 
 impl JournalExtent {
-    /// The extent of the first `bytes` bytes of the journal at `path`, which are `lines` lines.
+    /// Returns the extent of the first `bytes` bytes of a journal with `lines` lines.
     ///
     /// # Errors
+    ///
     /// If the file cannot be read.
     pub fn read(path: &Path, bytes: u64, lines: u64) -> io::Result<Self> {
         Ok(Self { bytes, lines, sha256: sha256_of(File::open(path)?.take(bytes))? })
@@ -63,27 +64,28 @@ impl Contents {
     /// Writes the contents to `folder`, as the last of its files.
     ///
     /// # Errors
-    /// If the folder or the disk does not take them.
+    ///
+    /// If the folder cannot be written.
     pub fn write(&self, folder: &ResultsFolder) -> Result<(), OutputError> {
-        // Numbers and texts always have a form in TOML.
+        // Numbers and texts always have a TOML form, so serialization cannot fail.
         let table = toml::to_string(self).unwrap_or_default();
         let text = format!(
             "# What this folder held when its tables were written. Commands that read it check every file against this.\n\
              {table}"
         );
-        // Over the text as it stands, not over what it says: an edit that keeps the meaning is one too.
+        // Hash the text, not the parsed values: an edit that keeps the values must be detected too.
         let sealed = format!("# {SEAL}{}\n{text}", sha256(&text));
         folder.write_text(ResultsFolder::CONTENTS, &sealed).map(|_| ())
     }
 
-    /// The contents that are stated in `folder`, if they are there and sound.
+    /// Reads the contents of `folder`. `None` if they are missing or damaged.
     pub fn stated_in(folder: &ResultsFolder) -> Option<Self> {
-        // What is wrong with a damaged statement `VerifiedFolder` says; here it is as good as none.
+        // `VerifiedFolder` reports the damage. Here a damaged statement counts as missing.
         let text = read_text(&folder.file(ResultsFolder::CONTENTS)).ok()?;
         Self::parse(&text).ok()
     }
 
-    /// The contents that `text` states.
+    /// Parses the contents.
     fn parse(text: &str) -> Result<Self, String> {
         let sealed = text.split_once('\n').and_then(|(seal, text)| {
             let digest = seal.strip_prefix("# ")?.strip_prefix(SEAL)?;
@@ -93,14 +95,14 @@ impl Contents {
         toml::from_str(text).map_err(|error| text::one_line(error.message()))
     }
 
-    /// Whether every design is done.
+    /// Returns true if every design is done.
     pub fn is_whole(&self) -> bool {
         self.done == self.designs
     }
 
-    /// The tables that it states, as one SHA-256: the same for equal tables, whenever they were written.
+    /// Returns one SHA-256 over all tables. It does not depend on the time of writing.
     pub fn digest(&self) -> String {
-        // The record of the run says when it was.
+        // Leave out the record of the run, because it contains times.
         let tables = self.files.iter().filter(|(name, _)| *name != ResultsFolder::RUN_INFO);
         let lines = tables.map(|(name, digest)| format!("{digest}  {name}\n"));
         sha256(lines.collect::<String>())

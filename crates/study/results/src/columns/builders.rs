@@ -1,4 +1,4 @@
-//! How the entry of a measured value is written: what most values of a kind share, and what a single one has besides.
+//! Constant builders for the entries of measured values.
 
 use skin::flexure::FlexureMeasures;
 use skin::puncture::{PunctureMeasures, TiltMeasures};
@@ -12,7 +12,7 @@ use crate::design::design_result::DesignResult;
 use crate::design::sample_statistics::{SampleStatistics, Statistics};
 use crate::quantity::Quantity;
 
-// The tables in which values stand besides `designs.csv`.
+// Tables that contain a value in addition to `designs.csv`.
 pub(super) const NONE: &[&str] = &[];
 pub(super) const COVERAGE: &[&str] = &[name::COVERAGE];
 pub(super) const FORCE: &[&str] = &[name::CRITICAL_FORCE];
@@ -20,7 +20,7 @@ pub(super) const DEPTH: &[&str] = &[name::PENETRATION];
 pub(super) const BOTH: &[&str] = &[name::CRITICAL_FORCE, name::PENETRATION];
 pub(super) const COMPLIANCE: &[&str] = &[name::COMPLIANCE];
 
-/// A value of which nothing is known yet.
+/// Defaults of an entry.
 const BLANK: MeasuredValue = MeasuredValue {
     name: "",
     unit: "-",
@@ -40,7 +40,7 @@ const BLANK: MeasuredValue = MeasuredValue {
 type PunctureField = fn(&mut PunctureMeasures) -> &mut Option<f64>;
 type FlexureField = fn(&mut FlexureMeasures) -> &mut Option<f64>;
 
-// Entries are made by constant functions, because the list of all of them is a static.
+// The builders are `const`, because the list of entries is a static.
 pub(super) const fn same(quantity: Quantity) -> Physical {
     Physical { quantity, other: None }
 }
@@ -53,7 +53,7 @@ pub(super) const fn other_thing(
     Physical { quantity, other: Some((name, meaning)) }
 }
 
-/// A value in a result, and the tables in which it stands.
+/// Builds an entry for a value of a result, with the tables that contain it.
 pub(super) const fn value(
     name: &'static str,
     tables: &'static [&'static str],
@@ -62,7 +62,7 @@ pub(super) const fn value(
     MeasuredValue { name, tables, value, ..BLANK }
 }
 
-/// A count, a text, or a number without derivatives.
+/// Builds an entry for a count, a text, or a number without derivatives.
 pub(super) const fn other(
     name: &'static str,
     tables: &'static [&'static str],
@@ -71,7 +71,7 @@ pub(super) const fn other(
     value(name, tables, Value::Other(cell))
 }
 
-/// A number of a puncture.
+/// Builds an entry for a number of a puncture.
 pub(super) const fn number(
     name: &'static str,
     place: Place,
@@ -81,7 +81,7 @@ pub(super) const fn number(
 }
 
 pub(super) const fn force(name: &'static str, place: Place, field: PunctureField) -> MeasuredValue {
-    // A constant of its own: a list that borrows what a call returns would end with this function.
+    // A named constant: a slice borrowed from a call result would not live beyond this function.
     const IN_NEWTON: &[Physical] = &[same(Quantity::Force)];
     number(name, place, field).in_unit("E_s L t/(1-nu^2)").physical(IN_NEWTON)
 }
@@ -100,7 +100,7 @@ pub(super) const fn stiffness(
     number(name, place, field).in_unit("E_s t").physical(PER_MM)
 }
 
-/// A number of bending.
+/// Builds an entry for a number of bending.
 pub(super) const fn bending(
     name: &'static str,
     place: Place,
@@ -110,47 +110,47 @@ pub(super) const fn bending(
 }
 
 impl MeasuredValue {
-    /// It has this unit.
+    /// Sets the unit.
     pub(super) const fn in_unit(self, unit: &'static str) -> Self {
         Self { unit, ..self }
     }
 
-    /// Only runs with a guided needle have it.
+    /// Restricts the value to runs with a guided needle.
     pub(super) const fn guided(self) -> Self {
         Self { is_of_guided_needle: true, ..self }
     }
 
-    /// Only runs that set one of these parameters have it.
+    /// Restricts the value to runs that set one of these parameters.
     pub(super) const fn needing(self, needs: &'static [&'static str]) -> Self {
         Self { needs, ..self }
     }
 
-    /// Large values are good.
+    /// Marks large values as better.
     pub(super) const fn large(self) -> Self {
         Self { good: Some(Goal::Maximize), ..self }
     }
 
-    /// Small values are good.
+    /// Marks small values as better.
     pub(super) const fn small(self) -> Self {
         Self { good: Some(Goal::Minimize), ..self }
     }
 
-    /// The tables in which it stands.
+    /// Sets the tables that contain the value.
     pub(super) const fn within(self, tables: &'static [&'static str]) -> Self {
         Self { tables, ..self }
     }
 
-    /// Where on its path it is measured.
+    /// Sets the point of the path at which the value is measured.
     pub(super) const fn at(self, place: Place) -> Self {
         Self { place, ..self }
     }
 
-    /// What it is in physical units.
+    /// Sets the conversions to physical units.
     pub(super) const fn physical(self, physical: &'static [Physical]) -> Self {
         Self { physical, ..self }
     }
 
-    /// Its statistics over imperfect samples, and the value in words.
+    /// Adds statistics over imperfect samples, and the noun for their descriptions.
     pub(super) const fn sampled(
         self,
         noun: &'static str,
@@ -159,7 +159,7 @@ impl MeasuredValue {
         Self { samples: Some(SampledValue { noun, statistics }), ..self }
     }
 
-    /// Its value where the tilt is one of several.
+    /// Adds the value at each of several critical tilts.
     pub(super) const fn at_tilts(
         self,
         meaning: &'static str,
@@ -168,17 +168,17 @@ impl MeasuredValue {
         Self { at_tilts: Some(TiltValue { meaning, value }), ..self }
     }
 
-    /// A page shows it among its first columns.
+    /// Shows the value among the first columns of a page.
     pub(super) const fn first(self) -> Self {
         Self { shown: Shown::First, ..self }
     }
 
-    /// A page shows it behind the columns in physical units.
+    /// Shows the value after the physical columns of a page.
     pub(super) const fn then(self) -> Self {
         Self { shown: Shown::Then, ..self }
     }
 
-    /// A page shows it behind all others.
+    /// Shows the value after all other columns of a page.
     pub(super) const fn last(self) -> Self {
         Self { shown: Shown::Last, ..self }
     }

@@ -1,4 +1,4 @@
-//! One cell of a table.
+//! Cells of tables.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -9,26 +9,24 @@ use text::number;
 
 use crate::design::failure::finite;
 
-/// One cell of a table, not yet text, so that each format writes it in its own way.
+/// One cell of a table, before formatting: each output format writes it differently.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Cell {
     /// A value that does not exist.
     Empty,
-    /// A real number; one that is not finite is written as if it did not exist.
+    /// A real number. A number that is not finite is written as an empty cell.
     Number(f64),
-    /// A count or an index.
     Count(i64),
-    /// A text.
     Text(Cow<'static, str>),
 }
 
 impl Cell {
-    /// The number in the cell, if it is finite.
+    /// Returns the number in the cell, if it is finite.
     pub fn number(&self) -> Option<f64> {
         match self {
             Self::Number(number) => finite(*number),
-            // A count in a table, far below 2^53.
+            // Counts in a table are far below 2^53, so the conversion is exact.
             Self::Count(count) => Some(*count as f64),
             Self::Empty | Self::Text(_) => None,
         }

@@ -1,4 +1,4 @@
-//! One column of a table: its header, its meaning, and the function that makes its cells.
+//! Columns of tables: header, meaning, and the function that computes the cells.
 
 use std::borrow::Cow;
 
@@ -6,28 +6,29 @@ use sweep::{PARAMETERS, Parameter};
 
 use super::cell::Cell;
 
-/// A column of a table whose rows are `R`.
+/// A column of a table with rows of type `R`.
 pub struct Column<R> {
-    /// The header of the column.
+    /// Header of the column.
     pub name: Cow<'static, str>,
-    /// Unit, `-` if it has none.
+    /// Unit, or `-`.
     pub unit: &'static str,
-    /// The meaning of its cells, in half a sentence.
+    /// Meaning of the cells, in half a sentence.
     pub meaning: &'static str,
     cell: CellSource<R>,
 }
 
-/// The function that makes the cell of a row.
+/// Computes the cell of a row. Static column lists need function pointers, because a boxed closure
+/// cannot be built in a constant.
 // A static list holds functions alone: what a closure owns has no place in a constant.
 enum CellSource<R> {
-    /// One of a static list of columns.
+    /// Column of a static list.
     Function(fn(&R) -> Cell),
-    /// One that is made, which knows what it is made from.
+    /// Column computed at run time, with captured data.
     Closure(Box<dyn Fn(&R) -> Cell + Send + Sync>),
 }
 
 impl<R> Column<R> {
-    /// A column whose cells `cell` makes.
+    /// Creates a column from a function pointer.
     pub const fn new(
         name: &'static str,
         unit: &'static str,
@@ -37,7 +38,7 @@ impl<R> Column<R> {
         Self { name: Cow::Borrowed(name), unit, meaning, cell: CellSource::Function(cell) }
     }
 
-    /// A column that is made from something that `cell` knows.
+    /// Creates a column from a closure.
     pub fn computed(
         name: Cow<'static, str>,
         unit: &'static str,
@@ -47,7 +48,7 @@ impl<R> Column<R> {
         Self { name, unit, meaning, cell: CellSource::Closure(Box::new(cell)) }
     }
 
-    /// The column of a parameter.
+    /// Creates the column of a parameter.
     pub fn parameter(
         parameter: &'static Parameter,
         cell: impl Fn(&R) -> Cell + Send + Sync + 'static,
@@ -55,7 +56,7 @@ impl<R> Column<R> {
         Self::computed(header(parameter).into(), parameter.unit, parameter.meaning, cell)
     }
 
-    /// The cell of this column in a row.
+    /// Returns the cell of this column in a row.
     pub fn cell(&self, row: &R) -> Cell {
         match &self.cell {
             CellSource::Function(cell) => cell(row),
@@ -64,7 +65,8 @@ impl<R> Column<R> {
     }
 }
 
-/// The columns of a table whose rows are of the type that comes first, one after the other: header, unit, cell of a row, meaning.
+/// Builds an array of columns for rows of the given type. Each entry: header, unit, cell of a row,
+/// meaning.
 #[macro_export]
 macro_rules! columns {
     ($row:ty: $($name:expr, $unit:expr, |$of:pat_param| $cell:expr, $meaning:expr;)*) => {
@@ -72,13 +74,14 @@ macro_rules! columns {
     };
 }
 
-/// The column of the number of a design.
+/// Creates the column of the design number.
 pub fn number<R>(cell: fn(&R) -> Cell) -> Column<R> {
     Column::new("design", "-", "position of the design in the grid of its sweep", cell)
 }
 
-/// The header of the column of a parameter: its key, but for those that are also values. A row may have more scales than
-/// were asked for, and a strip as many gaps as its length holds.
+/// Returns the header for a parameter: its key, unless a measured value has the same name. For
+/// example, the solved row may have more scales than `scales` requests, and the number of gaps
+/// follows from the length of the strip.
 fn header(parameter: &Parameter) -> &'static str {
     match parameter.key {
         "scales" => "scales_asked",
@@ -87,15 +90,15 @@ fn header(parameter: &Parameter) -> &'static str {
     }
 }
 
-/// Whether the column `name` of a table with these headers tells its designs apart: it is that of a parameter, and of no length in
-/// mm that stands there over the thickness too.
+/// Returns true if a column is a parameter that distinguishes designs. A length in mm does not
+/// count if the same length over the thickness is a column too.
 pub fn tells_apart(name: &str, headers: &[String]) -> bool {
     let over_t = parameter_of(name).map(Parameter::over_t);
     let stands = |of: &Parameter| headers.iter().any(|header| header == of.key);
     over_t.is_some_and(|over_t| !over_t.is_some_and(stands))
 }
 
-/// The parameter whose column has that header.
+/// Returns the parameter with this column header.
 pub fn parameter_of(name: &str) -> Option<&'static Parameter> {
     PARAMETERS.iter().find(|parameter| header(parameter) == name)
 }

@@ -1,5 +1,6 @@
-//! The columns that follow from the entries of the measured values: themselves, their statistics over imperfect samples, and
-//! both in physical units.
+//! Columns derived from the entries of measured values.
+//!
+//! Each entry gives the value, its statistics over imperfect samples, and both in physical units.
 
 use std::borrow::Cow;
 use std::sync::LazyLock;
@@ -14,18 +15,18 @@ use crate::design::row::DesignRow;
 use crate::design::sample_statistics::{QUANTILES, Statistics};
 use crate::quantity::{MASS_NEEDS, Quantity, areal_mass};
 
-/// A column that follows from the entry of a measured value.
+/// A column derived from the entry of a measured value.
 pub(super) struct ValueColumn {
     pub(super) value: &'static MeasuredValue,
     pub(super) quantity: Option<Quantity>,
-    /// Which of [`STATISTICS`] it is, over imperfect samples.
+    /// Index into [`STATISTICS`], for a statistic over imperfect samples.
     statistic: Option<usize>,
     pub(super) name: Cow<'static, str>,
     pub(super) unit: &'static str,
     pub(super) meaning: Cow<'static, str>,
 }
 
-/// The statistics over imperfect samples, in the order of their columns: the end of the name, and words.
+/// Statistics over imperfect samples, in column order: suffix of the name, and description.
 const STATISTICS: [(&str, &str); 4] = [
     ("mean", "mean"),
     (QUANTILES[0].0, "5 % quantile"),
@@ -33,7 +34,8 @@ const STATISTICS: [(&str, &str); 4] = [
     (QUANTILES[2].0, "95 % quantile"),
 ];
 
-/// Every column of measured values, in the order of `designs.csv`, where the tables of their own begin with what they are about.
+/// Every column of measured values, in the order of `designs.csv`. Measure tables move their
+/// leading value to the front.
 pub(super) static COLUMNS: LazyLock<Vec<ValueColumn>> = LazyLock::new(|| {
     let mut columns: Vec<_> =
         VALUES.iter().filter(|value| value.is_nominal()).map(value_column).collect();
@@ -42,13 +44,13 @@ pub(super) static COLUMNS: LazyLock<Vec<ValueColumn>> = LazyLock::new(|| {
     columns
 });
 
-/// The column of the value itself.
+/// Returns the column of the value itself.
 fn value_column(value: &'static MeasuredValue) -> ValueColumn {
     let (name, meaning) = (value.name.into(), value.meaning.into());
     ValueColumn { value, quantity: None, statistic: None, name, unit: value.unit, meaning }
 }
 
-/// The columns of the statistics of a value, or of a count of samples.
+/// Returns the columns of the statistics of a value, or of a sample count.
 fn statistics_columns(value: &'static MeasuredValue) -> Vec<ValueColumn> {
     let statistics = value.samples.iter().flat_map(|samples| {
         STATISTICS.iter().enumerate().map(|(k, (ending, words))| ValueColumn {
@@ -62,10 +64,11 @@ fn statistics_columns(value: &'static MeasuredValue) -> Vec<ValueColumn> {
     count.into_iter().chain(statistics).collect()
 }
 
-/// What the tables are about first, then where a skin gives way, then everything else; statistics and the mass last.
+/// Returns the physical columns: leading values, limits of the skin, other values, statistics,
+/// mass.
 fn in_physical_units() -> impl Iterator<Item = ValueColumn> {
     let mut values: Vec<_> = VALUES.iter().collect();
-    // Stable, so that each of the three groups has the order of `designs.csv`.
+    // Stable sort: each of the three groups keeps the order of `designs.csv`.
     values.sort_by_key(
         |value| if value.leads() { 0 } else { 2 - usize::from(value.place.is_limit()) },
     );
@@ -93,8 +96,10 @@ fn physical_column(value: &'static MeasuredValue, physical: &Physical) -> ValueC
     }
 }
 
-/// The statistics of a value in physical units. A quantile of an inverse is the inverse of the opposite quantile, but its mean
-/// is not the inverse of the mean, and is left out.
+/// Returns the statistics of a value in physical units.
+///
+/// A quantile of an inverse is the inverse of the opposite quantile. The mean of an inverse is not
+/// the inverse of the mean, so it is omitted.
 fn physical_statistics(
     value: &'static MeasuredValue,
     Physical { quantity, other }: &'static Physical,
@@ -119,27 +124,28 @@ fn physical_statistics(
 }
 
 impl MeasuredValue {
-    /// Which of its values, in such a unit, are good, where that is plain.
+    /// Returns whether large or small values are better in this unit. `None` if that is ambiguous.
     pub(super) fn good_as(&self, quantity: Option<Quantity>) -> Option<Goal> {
         let is_inverse = quantity.is_some_and(Quantity::is_inverse);
         self.good.map(|goal| if is_inverse { goal.inverse() } else { goal })
     }
 
-    /// Whether every sweep has it, without imperfections and materials.
+    /// Returns true if the value needs neither imperfections nor a material.
     fn is_nominal(&self) -> bool {
         !matches!(self.value, Value::Samples(_) | Value::SamplesAlone | Value::ArealMass)
     }
 }
 
 impl ValueColumn {
-    /// The column of that name.
+    /// Returns the column with this name.
     pub(super) fn named(name: &str) -> Option<&'static Self> {
         COLUMNS.iter().find(|column| column.name == name)
     }
 
-    /// What the column is in the unit of the model: of one in physical units the column that it is made from.
+    /// Returns the dimensionless column of the same value and statistic. For a dimensionless column
+    /// this is the column itself.
     pub(super) fn dimensionless(&self) -> Option<&'static Self> {
-        // All columns of a value refer to the one entry in the list, so that its address tells.
+        // All columns of a value refer to the same static entry, so compare addresses.
         COLUMNS.iter().find(|column| {
             column.quantity.is_none()
                 && std::ptr::eq(column.value, self.value)
@@ -147,17 +153,18 @@ impl ValueColumn {
         })
     }
 
-    /// Whether it is one of imperfect samples.
+    /// Returns true for statistics and counts of imperfect samples.
     fn is_of_samples(&self) -> bool {
         self.statistic.is_some() || matches!(self.value.value, Value::Samples(_))
     }
 
-    /// Whether it is in physical units, or the mass.
+    /// Returns true for the mass and for columns in physical units.
     pub(super) fn is_physical(&self) -> bool {
         self.quantity.is_some() || matches!(self.value.value, Value::ArealMass)
     }
 
-    /// Whether the designs of `sweep` have it in `table`, or in any.
+    /// Returns true if the designs of `sweep` have this column in `table`. `None` means in any
+    /// table.
     pub(super) fn stands(&self, sweep: &Sweep, table: Option<&str>) -> bool {
         let is_given = match self.value.value {
             Value::ArealMass => MASS_NEEDS.iter().all(|key| sweep.gives(key)),
@@ -189,12 +196,12 @@ impl ValueColumn {
         }
     }
 
-    /// Whether a table of its own is about it.
+    /// Returns true if a measure table is named after this column.
     pub(super) fn leads(&self) -> bool {
         self.quantity.is_none() && self.statistic.is_none() && self.value.leads()
     }
 
-    /// The name without the unit of a physical quantity.
+    /// Returns the name without the suffix of the physical unit.
     pub(super) fn stem(&self) -> &str {
         let unit = self.quantity.map_or("", Quantity::suffix);
         self.name.strip_suffix(unit).unwrap_or(&self.name).trim_end_matches('_')

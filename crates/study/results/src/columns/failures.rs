@@ -1,11 +1,11 @@
-//! The columns of `failures.csv` that say what has no value, and why.
+//! Columns of `failures.csv` that describe the failed measure and the reason.
 
 use super::column::Column;
 use super::name;
 use crate::columns;
 use crate::design::row::FailureRow;
 
-/// The columns of `failures.csv` after those that say which design it is.
+/// Returns the columns of `failures.csv` that follow the columns of the design.
 pub fn failure_detail_columns() -> Vec<Column<FailureRow>> {
     Vec::from(columns! { FailureRow:
         "measure", "-", |f| f.failure.measure.key(), "what has no value";

@@ -1,4 +1,4 @@
-//! A measured value of a design: the one entry from which its columns, its criterion and its place on a page follow.
+//! Measured values of a design. Columns, ranking criteria and page layout derive from each entry.
 
 use skin::flexure::FlexureMeasures;
 use skin::puncture::{PunctureMeasures, TiltMeasures};
@@ -10,66 +10,66 @@ use crate::design::sample_statistics::{SampleStatistics, Statistics};
 use crate::folder::MEASURE_TABLES;
 use crate::quantity::Quantity;
 
-/// A measured value: all that tables, rankings, derivatives and pages have to know of it.
+/// A measured value: everything that tables, rankings, derivatives and pages need to know about it.
 #[derive(Debug)]
 pub struct MeasuredValue {
-    /// The header of its column.
+    /// Header of the column.
     pub name: &'static str,
-    /// Unit, `-` if it has none.
+    /// Unit, or `-`.
     pub unit: &'static str,
-    /// The meaning, in half a sentence.
+    /// Meaning, in half a sentence.
     pub meaning: &'static str,
-    /// The tables in which it stands besides `designs.csv`.
+    /// Tables that contain the value in addition to `designs.csv`.
     pub(super) tables: &'static [&'static str],
-    /// Where on its path it is measured.
+    /// Point of the path at which the value is measured.
     pub(super) place: Place,
-    /// The value in a result.
+    /// Accessor of the value in a result.
     pub(super) value: Value,
-    /// What it is in physical units; the statistics of samples are written in the first of these.
+    /// Conversions to physical units. Statistics of samples are written for the first one.
     pub(super) physical: &'static [Physical],
-    /// Which of its values are good, where that is plain.
+    /// Whether large or small values are better, if that is unambiguous.
     pub good: Option<Goal>,
-    /// Its statistics over imperfect samples.
+    /// Statistics over imperfect samples.
     pub(super) samples: Option<SampledValue>,
-    /// Its value where the tilt is one of several.
+    /// Value at each of several critical tilts.
     pub(super) at_tilts: Option<TiltValue>,
-    /// Whether the table of a page shows it unless others are chosen.
+    /// Position in the default table of a page.
     pub shown: Shown,
-    /// Whether only runs with a guided needle have it.
+    /// Whether the value exists only in runs with a guided needle.
     pub(super) is_of_guided_needle: bool,
-    /// The parameters, in two units, that say where it is measured: only runs that set one of them have it.
+    /// Parameters, in both units, that define how the value is measured. It exists only in runs
+    /// that set one of them.
     pub(super) needs: &'static [&'static str],
 }
 
-/// The value of a measure in a result.
+/// Accessor of a measured value in a result.
 #[derive(Debug)]
 pub(super) enum Value {
-    /// The coverage.
     Coverage,
-    /// A number of a puncture, which has derivatives.
+    /// A number of a puncture, with derivatives.
     Puncture(fn(&mut PunctureMeasures) -> &mut Option<f64>),
-    /// A number of bending, which has derivatives.
+    /// A number of bending, with derivatives.
     Flexure(fn(&mut FlexureMeasures) -> &mut Option<f64>),
     /// A count, a text, or a number without derivatives.
     Other(fn(&DesignResult) -> Cell),
     /// A count of imperfect samples.
     Samples(fn(&SampleStatistics) -> Option<usize>),
-    /// None but over imperfect samples.
+    /// A value that exists only as statistics over imperfect samples.
     SamplesAlone,
-    /// The mass of the scales over the area of the skin, which needs no solution.
+    /// Mass of the scales per area of the skin, computed without a solution.
     ArealMass,
 }
 
-/// Where on its path a value is measured, which says whether the end of the path matters.
+/// Point of the path at which a value is measured. Determines whether the value depends on the end
+/// of the path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Place {
-    /// On no path, or on all of it without a meaning for the skin.
+    /// On no path, or on the whole path without a physical meaning.
     Nowhere,
-    /// At rest.
     Rest,
-    /// Where scales touch.
+    /// At first contact of scales.
     Contact,
-    /// Where the row becomes unstable.
+    /// At the loss of stability of the row.
     Instability,
     /// At the first fold of the surface.
     Fold,
@@ -77,71 +77,71 @@ pub(super) enum Place {
     FoldOrEnd,
     /// At the largest load.
     Peak,
-    /// Anywhere, up to the end.
+    /// Anywhere up to the end.
     Anywhere,
-    /// At the end.
+    /// At the end of the path.
     End,
 }
 
 impl Place {
-    /// Whether the value depends on where the path ends.
+    /// Returns true if the value depends on the end of the path.
     pub(super) fn depends_on_end(self) -> bool {
         matches!(self, Self::FoldOrEnd | Self::Peak | Self::Anywhere | Self::End)
     }
 
-    /// Whether it is where a skin gives way.
+    /// Returns true if the value is a limit of the skin: instability, fold or peak.
     pub(super) fn is_limit(self) -> bool {
         matches!(self, Self::Instability | Self::Fold | Self::FoldOrEnd | Self::Peak)
     }
 }
 
-/// A measured value in physical units.
+/// Conversion of a measured value to physical units.
 #[derive(Debug)]
 pub(super) struct Physical {
     pub(super) quantity: Quantity,
-    /// Name without the unit, and meaning, of another thing than the dimensionless value.
+    /// Name without the unit, and meaning, if they differ from the dimensionless value.
     pub(super) other: Option<(&'static str, &'static str)>,
 }
 
-/// The statistics of a value over imperfect samples.
+/// Statistics of a value over imperfect samples.
 #[derive(Debug)]
 pub(super) struct SampledValue {
-    /// The value in words.
+    /// Noun for descriptions of the statistics.
     pub(super) noun: &'static str,
     pub(super) statistics: fn(&SampleStatistics) -> Option<Statistics>,
 }
 
-/// The value where the tilt is one of several.
+/// Value at each of several critical tilts.
 #[derive(Debug)]
 pub(super) struct TiltValue {
     pub(super) meaning: &'static str,
     pub(super) value: fn(&TiltMeasures) -> f64,
 }
 
-/// Whether the table of a page shows a value unless others are chosen.
+/// Position of a value in the default table of a page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shown {
     /// Among the first columns.
     First,
-    /// Behind the columns in physical units.
+    /// After the physical columns.
     Then,
-    /// Behind all others.
+    /// After all other columns.
     Last,
-    /// Not at first.
+    /// Hidden until the reader selects it.
     Chosen,
 }
 
-/// Which values of a column are good.
+/// Whether large or small values of a column are better.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Goal {
-    /// Large ones.
+    /// Large values are better.
     Maximize,
-    /// Small ones.
+    /// Small values are better.
     Minimize,
 }
 
 impl Goal {
-    /// The goal as criteria are written.
+    /// Returns the key of the goal in ranking criteria.
     pub fn key(self) -> &'static str {
         match self {
             Self::Maximize => "max",
@@ -149,7 +149,7 @@ impl Goal {
         }
     }
 
-    /// Whether one value is better than another.
+    /// Returns true if `value` is better than `other`.
     pub fn prefers(self, value: f64, other: f64) -> bool {
         match self {
             Self::Maximize => value > other,
@@ -157,7 +157,7 @@ impl Goal {
         }
     }
 
-    /// The goal of an inverse.
+    /// Returns the goal of the inverse of a value.
     pub(super) fn inverse(self) -> Self {
         match self {
             Self::Maximize => Self::Minimize,
@@ -167,11 +167,11 @@ impl Goal {
 }
 
 impl MeasuredValue {
-    /// The cell of the value in a result; of what a result does not tell an empty one.
+    /// Returns the cell of the value in a result; empty if the result lacks it.
     pub(super) fn cell(&self, result: &DesignResult) -> Cell {
         match self.value {
             Value::Coverage => result.coverage.into(),
-            // Measures are a copy of some hundred bytes: cheaper than a second accessor for each of them.
+            // Copying the measures, a few hundred bytes, avoids a second accessor for each of them.
             Value::Puncture(field) => {
                 result.puncture.and_then(|mut p| *field(&mut p.measures)).into()
             }
@@ -184,12 +184,13 @@ impl MeasuredValue {
         }
     }
 
-    /// The number in a result, if it has one.
+    /// Returns the number in a result, if it has one.
     pub fn number(&self, result: &DesignResult) -> Option<f64> {
         self.cell(result).number()
     }
 
-    /// The number in a result, to be changed; `None` if it has no derivatives, or was not asked for.
+    /// Returns a mutable reference to the number in a result. `None` if it has no derivatives or
+    /// was not measured.
     pub(crate) fn number_mut<'r>(
         &self,
         result: &'r mut DesignResult,
@@ -202,55 +203,59 @@ impl MeasuredValue {
         }
     }
 
-    /// Whether it is a finite number of a puncture, if it is one at all.
+    /// Returns true unless this is a number of a puncture that is not finite.
     pub(crate) fn is_finite_in_puncture(&self, measures: &mut PunctureMeasures) -> bool {
         let Value::Puncture(field) = self.value else { return true };
         field(measures).is_none_or(f64::is_finite)
     }
 
-    /// Whether it is a finite number of a bending, if it is one at all.
+    /// Returns true unless this is a number of bending that is not finite.
     pub(crate) fn is_finite_in_flexure(&self, measures: &mut FlexureMeasures) -> bool {
         let Value::Flexure(field) = self.value else { return true };
         field(measures).is_none_or(f64::is_finite)
     }
 
-    /// Whether it is a number that has derivatives.
+    /// Returns true if the value is a number with derivatives.
     pub(crate) fn has_derivatives(&self) -> bool {
         matches!(self.value, Value::Coverage | Value::Puncture(_) | Value::Flexure(_))
     }
 
-    /// The measure for which it is solved; `None` if it needs none, or tells how designs were solved.
+    /// Returns the measure that must be solved for this value. `None` for values that need no
+    /// solution and for solver information.
     pub fn measure(&self) -> Option<Measure> {
         let of =
             |(table, measure): &(&str, Measure)| self.tables.contains(table).then_some(*measure);
-        // The mass stands in the table of coverage, but no measure has to be asked for to have it.
+        // The table of coverage contains the mass, but the mass needs no measure to be solved.
         let is_solved = !matches!(self.value, Value::ArealMass);
         MEASURE_TABLES.iter().find_map(of).filter(|_| is_solved)
     }
 
-    /// Whether a parameter says how it is measured, so that nothing can be compared where that differs. The dimensionless
-    /// measures of bending are those of one membrane: `C_f*` counts in `1/(E_m I_m)`, which another thickness changes.
+    /// Returns true if `parameter` defines how the value is measured.
+    ///
+    /// Designs with different values of such a parameter cannot be compared. The dimensionless
+    /// measures of bending refer to one membrane: the unit of `C_f*` is `1/(E_m I_m)`, which
+    /// depends on the thickness of the membrane.
     pub(crate) fn is_measured_by(&self, parameter: &Parameter, quantity: Option<Quantity>) -> bool {
         let ends = match self.measure() {
             Some(Measure::Puncture) => parameter.has(Role::EndsPuncture),
             Some(Measure::Flexure) => parameter.has(Role::EndsBending),
             _ => false,
         };
-        // In physical units the membrane is part of the number, and any two designs compare.
+        // Physical units include the membrane, so that any two designs can be compared.
         let is_unit = quantity.is_none() && self.unit.contains("E_m I_m");
-        // Manufactured properties stay comparable: designs with and without friction may compete.
+        // Properties of the product stay comparable: designs with and without friction may compete.
         let marks = self.needs.contains(&parameter.key) && !parameter.has(Role::Made);
         marks
             || (ends && self.place.depends_on_end())
             || (is_unit && parameter.has(Role::UnitOfBending))
     }
 
-    /// Whether it is what a table of its own is about.
+    /// Returns true if a measure table is named after this value.
     pub(super) fn leads(&self) -> bool {
         MEASURE_TABLES.iter().any(|(table, _)| *table == self.name)
     }
 
-    /// The first table in which it stands.
+    /// Returns the index of the first table that contains the value.
     pub(super) fn first_table(&self) -> Option<usize> {
         MEASURE_TABLES.iter().position(|(table, _)| self.tables.contains(table))
     }

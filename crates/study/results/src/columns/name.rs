@@ -1,56 +1,56 @@
-//! The names of the measured values that code names: tables, derivatives, rankings and pages refer to a value by its name.
+//! Names of the measured values that code refers to: tables, derivatives, rankings, pages.
 
-/// The share of the thickness that scales fill.
+/// Coverage: fraction of the scale layer that a vertical line crosses as solid scale.
 pub const COVERAGE: &str = "coverage";
-/// The force at the critical tilt.
+/// Force at the critical tilt.
 pub const CRITICAL_FORCE: &str = "critical_force";
-/// How deep scales have sunk at the critical tilt.
+/// Depth of the deepest base corner at the critical tilt.
 pub const PENETRATION: &str = "penetration";
-/// The flexural compliance.
+/// Flexural compliance.
 pub const COMPLIANCE: &str = "compliance";
-/// The flexural compliance at rest.
+/// Flexural compliance at rest.
 pub const INITIAL_COMPLIANCE: &str = "initial_compliance";
-/// The force at which the surface first folds over.
+/// Force at the first fold of the surface.
 pub const FOLD_FORCE: &str = "fold_force";
-/// The force that the model can answer for.
+/// Largest force at which the model is valid.
 pub const SOUND_FORCE: &str = "sound_force";
-/// The smallest force over the places of the load.
+/// Smallest critical force over the load positions.
 pub const WEAKEST_FORCE: &str = "weakest_force";
-/// The place with that force.
+/// Load position with the smallest critical force.
 pub const WEAKEST_PLACE: &str = "weakest_place";
-/// The depth of the load at the critical tilt.
+/// Depth of the load at the critical tilt.
 pub const CRITICAL_DISPLACEMENT: &str = "critical_displacement";
-/// What ended the path of a guided needle.
+/// Event that ended the path of a guided needle.
 pub const CRITICAL_EVENT: &str = "critical_event";
-/// The depth at which scales first touch.
+/// Depth at first contact of scales.
 pub const FIRST_CONTACT: &str = "first_contact_displacement";
-/// The tilt at which a guided needle leaves its face.
+/// Tilt at which a guided needle first touches more than its face.
 pub const PASSING_TILT: &str = "passing_tilt_deg";
-/// The stretch of the tightest gap, not above 0 where the surface is folded over.
+/// Stretch of the tightest gap. Not above 0 where the surface is folded.
 pub const GAP_STRETCH_MIN: &str = "gap_stretch_min";
-/// The stretch of the widest gap.
+/// Stretch of the widest gap.
 pub const GAP_STRETCH_MAX: &str = "gap_stretch_max";
-/// The stiffness at rest.
+/// Stiffness at rest.
 pub const INITIAL_STIFFNESS: &str = "initial_stiffness";
-/// The largest stiffness on the path.
+/// Largest stiffness on the path.
 pub const MAX_STIFFNESS: &str = "max_stiffness";
-/// The stiffness of the secant.
+/// Secant stiffness.
 pub const SECANT_STIFFNESS: &str = "secant_stiffness";
-/// Closed contacts.
+/// Number of closed contacts.
 pub const CONTACTS: &str = "contacts";
-/// The work that friction between scales has taken.
+/// Work dissipated by friction between scales.
 pub const FRICTION_WORK: &str = "friction_work";
-/// Whether bending brings scales into contact.
+/// Whether bending closes contacts.
 pub const FLEXURE_CONTACT: &str = "flexure_contact";
-/// The curvature at which scales touch, wherever bending ends.
+/// Curvature at first contact, computed even if the path ends before it.
 pub const CONTACT_CURVATURE: &str = "contact_curvature";
-/// Mean curvature at which scales first touch along the path.
+/// Mean curvature at first contact on the path.
 pub const FIRST_CONTACT_CURVATURE: &str = "first_contact_curvature";
-/// The largest strain of the membrane.
+/// Largest strain of the membrane.
 pub const MEMBRANE_STRAIN: &str = "membrane_strain_max";
-/// The settings of a design that was solved again.
+/// Settings of a rerun design.
 pub const SETTINGS: &str = "settings";
-/// The mass of the scales, which needs no solution.
+/// Mass of the scales per area, computed without a solution.
 pub const AREAL_MASS: &str = "areal_mass_kg_m2";
 
 #[cfg(test)]
@@ -60,10 +60,10 @@ mod tests {
 
     use crate::columns::values::VALUES;
 
-    /// Names that are also words for other things: parameters, charts, groups of a drawing, what a sweep measures.
+    /// Names that code also uses for parameters, charts, drawing groups or measures.
     const WORDS: [&str; 5] = ["compliance", "coverage", "gaps", "penetration", "scales"];
 
-    /// The files below `folder` that the program is made of.
+    /// Collects the source files of the program below `folder`.
     fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
         for path in fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("it").path()) {
             let is = |names: &[&str]| names.iter().any(|name| path.ends_with(name));
@@ -76,7 +76,7 @@ mod tests {
         }
     }
 
-    /// A file without tests, comments and the texts of Python's documentation.
+    /// Returns the code of a file without tests, comments and Python docstrings.
     fn code(path: &Path) -> String {
         let mut text = fs::read_to_string(path).expect("a text");
         if path.extension().is_some_and(|kind| kind == "py") {
@@ -87,7 +87,8 @@ mod tests {
         text.lines().filter(is_code).collect::<Vec<_>>().join("\n")
     }
 
-    /// One home, and at most the place in the mechanics where a derivative gets its name.
+    /// A name occurs in one source file. One more is allowed, where the mechanics names a
+    /// derivative.
     #[test]
     fn a_name_stands_in_two_files_at_most() {
         let mut paths = Vec::new();

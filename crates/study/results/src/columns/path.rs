@@ -12,10 +12,10 @@ use super::name;
 use crate::columns;
 use crate::design::outcome::Outcome;
 
-/// An equilibrium of a puncture and its instability.
+/// Equilibrium of a puncture with its instability.
 pub type StabilityPoint = (PuncturePoint, Instability);
 
-/// The columns of `path.csv`; those of a guided needle and of scales that rub stand in no other.
+/// Returns the columns of `path.csv`. Some exist only for guided needles or scales with friction.
 pub fn path_columns(is_guided: bool, rubs: bool) -> Vec<Column<StabilityPoint>> {
     let mut columns = Vec::from(columns! { StabilityPoint:
         "displacement", "t", |(p, _)| p.displacement,
@@ -49,13 +49,14 @@ pub fn path_columns(is_guided: bool, rubs: bool) -> Vec<Column<StabilityPoint>> 
     columns
 }
 
-/// The columns of `path.csv` for a round tip, one for each scale between the outermost that it comes to touch.
+/// Returns the columns of the forces of a round tip. There is one for each scale from the first to
+/// the last touched scale.
 pub fn tip_force_columns(forces: &[TipForces]) -> Vec<Column<usize>> {
     let scales = || forces.iter().flatten().map(|(scale, _)| *scale);
     let (Some(first), Some(last)) = (scales().min(), scales().max()) else { return Vec::new() };
     let column = |scale: i64| {
         let on = |of: &TipForces| of.iter().find(|(touched, _)| *touched == scale).map(|of| of.1);
-        // A scale that the tip does not touch bears nothing: that is known, and no empty cell.
+        // A scale without contact to the tip carries the known force 0, so its cell is not empty.
         let values: Vec<f64> = forces.iter().map(|of| on(of).unwrap_or(0.0)).collect();
         Column::computed(
             format!("tip_force_{scale}").into(),
@@ -67,7 +68,7 @@ pub fn tip_force_columns(forces: &[TipForces]) -> Vec<Column<usize>> {
     (first..=last).map(column).collect()
 }
 
-/// An event of a puncture.
+/// One row of `events.csv`.
 pub struct PunctureEvent {
     point: PuncturePoint,
     left_scale: Option<i64>,
@@ -78,10 +79,10 @@ pub struct PunctureEvent {
 }
 
 impl PunctureEvent {
-    /// The events of a puncture, in order.
+    /// Returns the events of a puncture, in order.
     pub fn all(puncture: &Puncture) -> Vec<Self> {
-        // A path may turn back in force, depth and tilt, so none of them can order the three lists:
-        // each fold and snap knows how many contact events came before it.
+        // Force, depth and tilt may all reverse along a path, so none of them can order the three
+        // lists. Each fold and snap stores the number of contact events before it.
         let mut snaps = puncture.snaps.iter().peekable();
         let mut folds = puncture.folds.iter().peekable();
         let mut all = Vec::with_capacity(puncture.events.len());
@@ -98,20 +99,20 @@ impl PunctureEvent {
         all
     }
 
-    /// A contact changes its state.
+    /// Creates the row of a contact event.
     fn contact(event: &ContactEvent<PuncturePoint>) -> Self {
         let ContactEvent { point, left_scale, right_scale, .. } = *event;
         let (kind, change) = (Some(event.corner_edge.name()), event.change.name());
         Self { point, left_scale, right_scale, kind, change, drop: None }
     }
 
-    /// The row snaps.
+    /// Creates the row of a snap.
     fn snap(snap: &Snap) -> Self {
         let Snap { point, drop, .. } = *snap;
         Self { point, left_scale: None, right_scale: None, kind: None, change: "snap", drop }
     }
 
-    /// The surface of the substrate folds over in a gap, or unfolds.
+    /// Creates the row of a fold: the surface in a gap folds or unfolds.
     fn fold(fold: &Fold) -> Self {
         let [left_scale, right_scale] = [fold.left_scale, fold.left_scale + 1].map(Some);
         let (point, kind, change) = (fold.point, Some("gap"), fold.name());
@@ -168,7 +169,7 @@ pub static STEPS: &[Column<Iteration>] = &columns! { Iteration:
     "tilt_deg", "deg", |i| i.angle_deg, "clockwise tilt of the punctured scale";
 };
 
-/// The columns of `flexure_path.csv`; that of scales that rub stands in no other.
+/// Returns the columns of `flexure_path.csv`. One exists only for scales with friction.
 pub fn flexure_path_columns(rubs: bool) -> Vec<Column<flexure::FlexurePoint>> {
     let mut columns = Vec::from(columns! { flexure::FlexurePoint:
         "curvature", "1/t", |p| p.curvature, "curvature of the strip";
@@ -201,8 +202,8 @@ pub static FLEXURE_EVENTS: &[Column<ContactEvent<flexure::FlexurePoint>>] = &col
     "change", "-", |e| e.change.name(), "what happens to the contact";
 };
 
-/// A scale of a bent strip: its place from the first, which is held, and how far it has moved
-/// (over `t`) and turned (radians).
+/// A scale of a bent strip: index from the first (fixed) scale, displacement (`t`) and rotation
+/// (radians).
 pub type BentScale = (usize, [f64; 3]);
 
 /// The columns of `flexure_scales.csv`.

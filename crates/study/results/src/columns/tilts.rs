@@ -1,4 +1,4 @@
-//! The columns of measures at tilts on the way, in runs that ask for several critical tilts.
+//! Columns of measures at each of several critical tilts.
 
 use sweep::{Parameter, Scalar, Sweep, key};
 use text::number;
@@ -8,7 +8,7 @@ use super::measured_value::{MeasuredValue, TiltValue};
 use super::values::VALUES;
 use crate::design::row::DesignRow;
 
-/// Every value that is taken at several tilts, those of a table together.
+/// Returns the values measured at several tilts, grouped by table.
 fn tilt_values() -> Vec<(&'static MeasuredValue, &'static TiltValue)> {
     let with_tilts = |value: &'static MeasuredValue| Some((value, value.at_tilts.as_ref()?));
     let mut values: Vec<_> = VALUES.iter().filter_map(with_tilts).collect();
@@ -16,7 +16,8 @@ fn tilt_values() -> Vec<(&'static MeasuredValue, &'static TiltValue)> {
     values
 }
 
-/// The columns at every tilt that `sweep` asks for, of the measures in a table or, with none, of all.
+/// Returns the columns at every tilt of `sweep`. They belong to one measure table or, for `None`,
+/// to all.
 pub(super) fn tilt_columns(sweep: &Sweep, table: Option<&str>) -> Vec<Column<DesignRow>> {
     let places = places(sweep);
     let belongs = |value: &MeasuredValue| table.is_none_or(|table| value.tables.contains(&table));
@@ -33,15 +34,15 @@ pub(super) fn tilt_columns(sweep: &Sweep, table: Option<&str>) -> Vec<Column<Des
     columns.collect()
 }
 
-/// The tilts that `sweep` asks for, as parts of names: `5deg`, or `friction_0.1`.
+/// Returns the tilts of `sweep` as parts of column names: `5deg` or `friction_0.1`.
 fn places(sweep: &Sweep) -> Vec<String> {
     let list = |key: &str| match Parameter::named(key)?.get(sweep.grid().base()) {
-        // On an axis the value of the base means nothing.
+        // The base value of a parameter that is an axis is meaningless.
         Scalar::List(list) if sweep.grid().axis(key).is_none() => Some(list),
         _ => None,
     };
     let text = |&number: &f64| number::text(number);
-    // The tilts follow from the frictions, but columns have the numbers that were asked for.
+    // Name the columns after the requested frictions, not after the tilts computed from them.
     if let Some(frictions) = list(key::NEEDLE_FRICTION) {
         let names = frictions.as_slice().iter().map(text);
         return names.map(|friction| format!("friction_{friction}")).collect();
@@ -50,7 +51,7 @@ fn places(sweep: &Sweep) -> Vec<String> {
     tilts.as_slice().iter().map(text).map(|tilt| format!("{tilt}deg")).collect()
 }
 
-/// Unit and meaning of a column at a tilt, by its name.
+/// Returns unit and meaning of a column at a tilt, by its name.
 pub(super) fn explain_tilt_value(name: &str) -> Option<(&'static str, &'static str)> {
     let is_at = |value: &MeasuredValue| {
         name.strip_prefix(value.name).is_some_and(|rest| rest.starts_with("_at_"))

@@ -1,4 +1,6 @@
-//! The measured values of a design, an entry each: a new one is added here, and nowhere else but where it is measured.
+//! The measured values of a design.
+//!
+//! To add a value, add an entry here and compute it where the measures are computed.
 
 use skin::flexure::FlexureMeasures;
 use skin::puncture::{CriticalEvent, PunctureMeasures};
@@ -20,11 +22,12 @@ use crate::design::design_result::{DesignResult, PunctureResult};
 use crate::design::outcome::Outcome;
 use crate::quantity::Quantity;
 
-/// The parameter that asks for the weakest place of the load.
+/// Parameter that enables the search for the weakest load position.
 const PLACES: &[&str] = &[key::PLACES];
 
-/// Measured values, each with the name of its column, where it is measured or the tables in which it stands, and its value in a
-/// result; then what it has besides, and its meaning.
+/// Builds the list of measured values.
+///
+/// Each entry: name of the column, point of the path or tables, accessor, options, meaning.
 macro_rules! values {
     ($(
         $kind:ident($name:expr, $of:expr, $value:expr)$(.$has:ident($($what:expr),*))*: $meaning:expr;
@@ -65,7 +68,8 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
         "depth of the deepest midpoint of a base at the critical tilt";
     depth(name::FIRST_CONTACT, Contact, |m| &mut m.first_contact_displacement):
         "displacement of the punctured point when scales first touch";
-    // Counts have a place, too, so that nobody compares those at tilts of 5° and 10°.
+    // Contact counts depend on the end of the path: counts at tilts of 5° and 10° must not be
+    // compared.
     other(name::CONTACTS, BOTH, |r| measured(r, |m| m.contacts)).at(End).then():
         "closed contacts at the critical tilt";
     other("engaged_scales", BOTH, |r| measured(r, |m| m.engaged_scales)).at(End).large():
@@ -202,7 +206,8 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
         .physical(&[other_thing(Quantity::Radius, "bend_radius", "smallest radius to which the skin bends before scales touch")])
         .large().then():
         "curvature at which scales touch, wherever the bending ends; empty for a gap that cannot close";
-    // In a perfect strip all gaps close at once, so only imperfect samples have a range.
+    // In a perfect strip all gaps close at the same curvature, so only imperfect samples have a
+    // range.
     value("closing_range", COMPLIANCE, SamplesAlone)
         .in_unit("1/t")
         .sampled("curvature from the first contact to that in the last gap that closes,", |s| s.closing_range):

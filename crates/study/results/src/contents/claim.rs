@@ -1,7 +1,8 @@
 //! The claim of a command to the files that it writes into a folder.
 //!
-//! A record in `derived/` names them before the first of them is written, and their SHA-256 after the last: so what a kill leaves
-//! is known for what it is, a changed file is noticed, and no file is written over that squama has not written.
+//! A record in `derived/` lists the files before the first one is written, and their SHA-256 after
+//! the last one. The files of a killed command are therefore known as unfinished, changed files are
+//! detected, and squama never overwrites a file that it did not write.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File};
@@ -11,24 +12,25 @@ use journal::{OutputError, lock_folder, sha256_of};
 use super::derivation::Derivation;
 use crate::folder::{FileEntry, Maker, ResultsFolder};
 
-/// The claim of one command to its files in one folder, which it writes alone.
+/// Exclusive claim of one command to its files in one folder.
 #[derive(Debug)]
 pub struct Claim<'f> {
     folder: &'f ResultsFolder,
     maker: Maker,
     made: Derivation,
-    // Held as long as the claim: the system gives it back when the file is closed.
+    // Locked for the lifetime of the claim. Closing the file releases the lock.
     lock: File,
 }
 
 impl<'f> Claim<'f> {
-    /// Refuses to write the files of `maker` into `folder` where a file of such a name is a stranger's.
+    /// Refuses to let `maker` overwrite a file that squama did not write.
     ///
     /// # Errors
-    /// If there is one.
+    ///
+    /// If such a file exists.
     pub fn check(folder: &ResultsFolder, maker: Maker) -> Result<(), OutputError> {
         let stated = Self::stated(folder, maker);
-        // A record that was damaged tells no names, but that there were some.
+        // A damaged record lists no files, but proves that the command wrote some.
         if stated.is_none()
             && folder.holds(&format!("{}/{}.toml", ResultsFolder::DERIVED, maker.key()))
         {
@@ -39,23 +41,28 @@ impl<'f> Claim<'f> {
         strange.try_for_each(|file| require_none(folder, file.name))
     }
 
-    /// SHA-256 of the files that `maker` states in `folder`, by their names; `None` if it states nothing.
+    /// Returns the SHA-256 of the recorded files of `maker`, by name. `None` without a record.
     pub fn stated(folder: &ResultsFolder, maker: Maker) -> Option<BTreeMap<String, String>> {
         Derivation::read(folder, maker.key()).map(|made| made.files)
     }
 
-    /// The claim of `maker` to its files in `folder`. Those of an earlier time are removed, unless somebody has changed them: no
-    /// table of one definition stands beside one of another.
+    /// Claims the files of `maker` in `folder`.
+    ///
+    /// Removes unchanged files of an earlier run, so that tables of two definitions never mix.
     ///
     /// # Errors
-    /// If a file is a stranger's, another process is writing there, or the disk does not take the record.
+    ///
+    /// If squama did not write one of the files, another process is writing there, or the record
+    /// cannot be written.
     pub fn take(folder: &'f ResultsFolder, maker: Maker) -> Result<Self, OutputError> {
         folder.make()?;
         let lock = lock_folder(folder.path())?;
-        // Asked under the lock, although a command may have asked before: somebody may have written since.
+        // Check again under the lock, because another process may have written since the first
+        // check.
         Self::check(folder, maker)?;
         Self::release(folder, maker);
-        // Without a digest until `state`: so what a kill leaves is known as unfinished.
+        // The digests stay empty until `state`, so that the files of a killed command count as
+        // unfinished.
         let names = FileEntry::products(maker).map(|file| (file.name.to_owned(), String::new()));
         let (product, command) = maker.names();
         let (product, command) = (product.to_owned(), command.to_owned());
@@ -68,19 +75,25 @@ impl<'f> Claim<'f> {
     /// Claims one more file.
     ///
     /// # Errors
-    /// If it is a stranger's, or the disk does not take the record.
+    ///
+    /// If squama did not write the file, or the record cannot be written.
     pub fn add(&mut self, name: &str) -> Result<(), OutputError> {
         require_none(self.folder, name)?;
-        // Named before it is written: what a kill leaves in between would be a stranger's for ever.
+        // Record the name before the file is written. Otherwise the file of a killed command would
+        // count as foreign and block every later run.
         self.made.files.insert(name.to_owned(), String::new());
         self.made.write(self.folder, self.maker.key())
     }
 
-    /// States that `files` were written, and no other: one of an earlier time that somebody has changed is his. Returns the lock of the
-    /// folder, for whoever has more to do with the files before another command may remove them.
+    /// Records the digests of `files` and ends the claim.
+    ///
+    /// Files that are not listed, such as changed files of an earlier run, no longer belong to the
+    /// command. Returns the lock of the folder, for callers that use the files before another
+    /// command may remove them.
     ///
     /// # Errors
-    /// If a file cannot be read, or the disk does not take the record.
+    ///
+    /// If a file cannot be read, or the record cannot be written.
     pub fn state(mut self, files: &[impl AsRef<str>]) -> Result<File, OutputError> {
         let folder = self.folder;
         self.made.files.retain(|name, _| files.iter().any(|file| file.as_ref() == name));
@@ -94,7 +107,7 @@ impl<'f> Claim<'f> {
         Ok(self.lock)
     }
 
-    /// Removes the files of `maker` in `folder` that are as they were written, and its record.
+    /// Removes the unchanged files of `maker` in `folder`, and its record.
     pub fn release(folder: &ResultsFolder, maker: Maker) {
         if let Some(made) = Derivation::read(folder, maker.key()) {
             made.remove(folder);
@@ -104,10 +117,10 @@ impl<'f> Claim<'f> {
     }
 }
 
-/// Refuses to write the file `name` if there is anything of that name.
+/// Refuses to write the file `name` if anything with that name exists.
 fn require_none(folder: &ResultsFolder, name: &str) -> Result<(), OutputError> {
     let path = folder.file(name);
-    // No link is followed: one is a stranger's, wherever it leads.
+    // Do not follow links: a link was not written by squama, whatever its target.
     let is_there = fs::symlink_metadata(&path).is_ok();
     if is_there { Err(OutputError::strange(&path)) } else { Ok(()) }
 }
@@ -140,7 +153,7 @@ mod tests {
                 write(text);
                 claim.state(&[file.name]).expect("written");
             }
-            // What a kill leaves between the claim and the statement is its own, too.
+            // A killed command leaves files between claim and statement; they are its own too.
             drop(Claim::take(&folder, file.maker).expect(file.name));
             write("half of it");
             Claim::take(&folder, file.maker).expect(file.name);
@@ -162,7 +175,7 @@ mod tests {
         write("yield.csv", "changed");
         let claim = Claim::take(&folder, Maker::Tolerance).expect("a claim");
         assert!(!folder.holds("tolerance.csv") && folder.holds("yield.csv"));
-        // Nor does it count as written if nobody writes it again.
+        // A changed file that the command does not write again is not its own either.
         write("tolerance.csv", "again");
         claim.state(&files[..1]).expect("written");
         let refused = Claim::take(&folder, Maker::Tolerance).expect_err("a stranger's").to_string();

@@ -1,4 +1,4 @@
-//! A product of the tables of a folder, and the tables that it was made from.
+//! Products derived from the tables of a folder, with the SHA-256 of these tables.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -14,77 +14,79 @@ use crate::folder::ResultsFolder;
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Derivation {
-    /// The name of the product, in a word or two.
+    /// Name of the product, in a word or two.
     pub product: String,
-    /// The command that makes it again.
+    /// Command that makes the product again.
     pub command: String,
-    /// SHA-256 of the tables that it was made from, see `Contents::digest`; empty if it was made from a definition.
+    /// SHA-256 of the source tables, see `Contents::digest`. Empty if the source was a definition.
     pub from: String,
-    /// How much of the run it was made from, if it was not the whole.
+    /// Part of the run that the tables covered, if the run was incomplete.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub made_from: Option<String>,
-    /// SHA-256 of its files, by their names in the folder, or by their paths if they are elsewhere.
+    /// SHA-256 of its files, by name in the folder, or by path for files elsewhere.
     pub files: BTreeMap<String, String>,
 }
 
 impl Derivation {
-    /// A product of `results` which `command` makes, none if nobody states what the tables are.
+    /// Creates a product of `results` made by `command`. `None` if the folder has no contents.
     pub fn new(results: &VerifiedFolder, product: &str, command: String) -> Option<Self> {
         let (from, made_from) = (results.digest()?, results.shortfall());
         Some(Self { product: product.to_owned(), command, from, made_from, files: BTreeMap::new() })
     }
 
-    /// Notes the product in `folder` under the name `record`.
+    /// Writes the product to `folder` under the name `record`.
     ///
     /// # Errors
-    /// If the folder or the disk does not take it.
+    ///
+    /// If the folder cannot be written.
     pub fn write(&self, folder: &ResultsFolder, record: &str) -> Result<(), OutputError> {
         let records = ResultsFolder::new(folder.file(ResultsFolder::DERIVED));
         records.make()?;
-        // Texts always have a form in TOML.
+        // Texts always have a TOML form, so serialization cannot fail.
         let table = toml::to_string(self).unwrap_or_default();
         let text = format!("# What was made from the tables, and from which of them.\n{table}");
         records.write_text(&format!("{record}.toml"), &text)?;
         Ok(())
     }
 
-    /// The product in `folder` that is noted under the name `record`.
+    /// Reads the product with the name `record` from `folder`.
     pub fn read(folder: &ResultsFolder, record: &str) -> Option<Self> {
         let path = folder.file(ResultsFolder::DERIVED).join(format!("{record}.toml"));
-        // A record that is damaged speaks for nothing.
+        // Ignore a damaged record.
         toml::from_str(&read_text(&path).ok()?).ok()
     }
 
-    /// All products of `folder`, in the order of their records.
+    /// Returns all products of `folder`, in the order of their records.
     pub fn all(folder: &ResultsFolder) -> Vec<Self> {
         Self::records(folder).iter().filter_map(|record| Self::read(folder, record)).collect()
     }
 
-    /// The names of the records of `folder`, in their order.
+    /// Returns the sorted names of the records of `folder`.
     fn records(folder: &ResultsFolder) -> Vec<String> {
         let entries = fs::read_dir(folder.file(ResultsFolder::DERIVED)).into_iter().flatten();
         let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
         let mut records: Vec<_> =
             names.filter_map(|name| name.strip_suffix(".toml").map(str::to_owned)).collect();
-        // A file system lists a folder in an order of its own.
+        // The order of directory entries depends on the file system.
         records.sort();
         records
     }
 
-    /// Whether any of its files is still there.
+    /// Returns true if any of its files still exists.
     pub fn is_there(&self, folder: &ResultsFolder) -> bool {
         self.files.keys().any(|name| folder.file(name).is_file())
     }
 
-    /// Removes those of its files in `folder` that are as they were made, and returns their names. What stands elsewhere,
-    /// or was changed by somebody, is not squama's to remove.
+    /// Removes its unchanged files in `folder` and returns their names.
+    ///
+    /// Files elsewhere and files that a user has changed are kept.
     pub(super) fn remove(&self, folder: &ResultsFolder) -> Vec<String> {
-        // Without a digest it was not finished, and whatever is there of it is ours.
+        // An empty digest marks an unfinished file, which squama may remove in any state.
         let is_ours = |(name, digest): &(&String, &String)| {
             let path = folder.file(name);
             let is_own =
                 || digest.is_empty() || fs::read(&path).map(sha256).ok().as_ref() == Some(digest);
-            // A record that came with somebody's results may name anything.
+            // A record in somebody else's results may name any path, so stay inside the folder.
             let is_inside =
                 Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
             is_inside && path.is_file() && is_own()
@@ -96,14 +98,15 @@ impl Derivation {
         }
         removed
     }
-    /// Removes all products of `folder` that are as they were made, and the records of all; returns the names of the files.
+    /// Removes the unchanged files of all products of `folder`, and all records. Returns the names
+    /// of the files.
     pub fn remove_all(folder: &ResultsFolder) -> Vec<String> {
         let removed = Self::all(folder).iter().flat_map(|made| made.remove(folder)).collect();
         let records = ResultsFolder::new(folder.file(ResultsFolder::DERIVED));
         for record in Self::records(folder) {
             records.remove(&format!("{record}.toml"));
         }
-        // It stays where somebody has put something else into it.
+        // Fails, as intended, if the user has put other files into it.
         let _ = fs::remove_dir(records.path());
         removed
     }

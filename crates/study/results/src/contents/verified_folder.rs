@@ -1,4 +1,4 @@
-//! A results folder whose contents are checked: what every command reads is read through it.
+//! A results folder with verified contents. Every command reads results through it.
 
 use std::collections::BTreeSet;
 use std::fs::{self, File};
@@ -13,33 +13,34 @@ use super::{Contents, JournalExtent};
 use crate::folder::{FileEntry, Maker, ResultsFolder};
 use text::shell_word;
 
-/// Whether results are used that are not whole.
+/// Whether incomplete results are accepted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Completeness {
-    /// Only results of all designs, as the journal has them.
+    /// Requires the results of all designs, in agreement with the journal.
     #[default]
     Whole,
-    /// Results of those designs, too, that are done so far.
+    /// Also accepts the results of the designs finished so far.
     Partial,
 }
 
-/// A results folder whose contents are as its run states them. A folder with neither contents nor journal holds tables
-/// alone, of which nobody states anything.
+/// A results folder that agrees with its `contents.toml`.
+///
+/// A folder with neither contents nor journal holds tables alone, which cannot be verified.
 #[derive(Clone, Debug)]
 pub struct VerifiedFolder {
     folder: ResultsFolder,
     contents: Option<Contents>,
-    /// Whether the journal goes on beyond the tables.
+    /// Whether the journal is longer than stated in the contents.
     behind: bool,
 }
 
-/// A results folder that is not as its run states it, in one line that says what mends it.
+/// A results folder that contradicts its contents. The one-line message names the repair.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{}: {problem}", path.display())]
 pub struct InvalidFolder {
-    /// The folder, or the file in it that is at fault.
+    /// The folder, or the faulty file in it.
     pub path: PathBuf,
-    /// What is wrong with it, and what mends it.
+    /// The problem and its repair.
     pub problem: String,
 }
 
@@ -55,22 +56,24 @@ impl InvalidFolder {
     }
 }
 
-/// The command that writes tables and contents of a folder again, from its journal.
+/// Returns the command that rebuilds tables and contents from the journal.
 fn mend(folder: &Path) -> String {
     let folder = shell_word(&folder.display().to_string());
     format!("squama merge {folder} --out {folder}")
 }
 
 impl VerifiedFolder {
-    /// The results in `folder`; what its contents name is checked when it is opened.
+    /// Opens the results in `folder`. Each file is verified when it is opened.
     ///
     /// # Errors
-    /// If the contents are missing though there is a journal, are damaged or do not fit the journal; and, unless partial
-    /// results will do, if designs are missing or the journal goes on beyond the tables.
+    ///
+    /// If the contents are missing beside a journal, are damaged or contradict the journal. Unless
+    /// partial results are accepted, also if designs are missing or the journal is longer than the
+    /// tables.
     pub fn open(folder: &Path, completeness: Completeness) -> Result<Self, InvalidFolder> {
         let folder = ResultsFolder::new(folder);
         let contents = read(&folder)?;
-        // Tables that are sound by themselves would hide the designs that are in the journal alone.
+        // Even valid tables lack the designs that only the journal contains.
         let behind = match &contents {
             Some(contents) => is_behind(&folder, &contents.journal)?,
             None => false,
@@ -97,7 +100,7 @@ impl VerifiedFolder {
         }
     }
 
-    /// The message if the journal goes on beyond the tables.
+    /// Returns the message for a journal that is longer than the tables.
     pub fn behind(&self) -> Option<InvalidFolder> {
         let problem = || {
             format!(
@@ -108,21 +111,21 @@ impl VerifiedFolder {
         self.behind.then(|| InvalidFolder::new(self.path(), problem()))
     }
 
-    /// The path of the folder.
+    /// Returns the path of the folder.
     pub fn path(&self) -> &Path {
         self.folder.path()
     }
 
-    /// Whether it holds anything of the name `name`: what is no file is refused when it is opened.
+    /// Returns true if anything named `name` exists. Opening it fails if it is not a file.
     pub fn holds(&self, name: &str) -> bool {
         self.folder.file(name).exists()
     }
 
-    /// The names of the tables that are there, and of those that should be, in the order in which people read them.
+    /// Returns the names of the existing and the expected tables, in reading order.
     pub fn tables(&self) -> Vec<String> {
         let stated = self.contents.iter().flat_map(|contents| contents.files.keys());
         let ranking = Derivation::read(&self.folder, ResultsFolder::RANKING_RECORD);
-        // A ranking that was removed as a whole is not missed.
+        // A ranking that was removed completely does not count as missing.
         let ranking = ranking.filter(|made| self.contents.is_some() && made.is_there(&self.folder));
         let ranked = ranking.iter().flat_map(|made| made.files.keys());
         let expected: BTreeSet<&str> = stated.chain(ranked).map(String::as_str).collect();
@@ -131,12 +134,12 @@ impl VerifiedFolder {
         tables.map(str::to_owned).collect()
     }
 
-    /// The tables as one SHA-256, if the run states it.
+    /// Returns one SHA-256 over all tables, if the folder has contents.
     pub fn digest(&self) -> Option<String> {
         self.contents.as_ref().map(Contents::digest)
     }
 
-    /// How much of the run it holds, in words, if it is not the whole: `24 of 720 designs`.
+    /// Returns the extent of incomplete results in words, such as `24 of 720 designs`.
     pub fn shortfall(&self) -> Option<String> {
         let contents = self.contents.as_ref()?;
         let Contents { done, designs, .. } = contents;
@@ -145,18 +148,19 @@ impl VerifiedFolder {
         is_short.then(|| format!("{done} of {designs} designs{behind}"))
     }
 
-    /// Opens the file `name`, once its bytes are checked.
+    /// Opens the file `name` after verifying its bytes.
     ///
     /// # Errors
-    /// If it cannot be read, or is not as its run has written it.
+    ///
+    /// If it cannot be read, or differs from the file that the run wrote.
     pub fn file(&self, name: &str) -> Result<File, InvalidFolder> {
         let path = self.folder.file(name);
         let unreadable = |error| InvalidFolder::unreadable(&path, &reason(&error));
-        // A pipe of that name would never come to its end.
+        // Reading a named pipe might never end.
         if fs::metadata(&path).is_ok_and(|metadata| !metadata.is_file() && !metadata.is_dir()) {
             return Err(InvalidFolder::unreadable(&path, "it is no regular file"));
         }
-        // One handle for checking and reading: a file that is replaced in between is not read.
+        // Verify and read through one handle, so that a file replaced in between is not read.
         let mut file = File::open(&path).map_err(unreadable)?;
         if let Some(expected) = self.expected(name)? {
             let found = sha256_of(&file).map_err(unreadable)?;
@@ -168,10 +172,11 @@ impl VerifiedFolder {
         Ok(file)
     }
 
-    /// The text of the file `name`, once its bytes are checked.
+    /// Returns the text of the file `name` after verifying its bytes.
     ///
     /// # Errors
-    /// If it cannot be read, or is not as its run has written it.
+    ///
+    /// If it cannot be read, or differs from the file that the run wrote.
     pub fn text(&self, name: &str) -> Result<String, InvalidFolder> {
         let mut text = String::new();
         let read = self.file(name)?.read_to_string(&mut text);
@@ -181,15 +186,15 @@ impl VerifiedFolder {
         Ok(text)
     }
 
-    /// The SHA-256 that the file `name` must have, if anybody states it.
+    /// Returns the recorded SHA-256 of the file `name`, if there is one.
     fn expected(&self, name: &str) -> Result<Option<String>, InvalidFolder> {
         let entry = FileEntry::named(name).filter(|file| file.is_stated);
-        // The contents are those of a run: other commands have records of their own.
+        // The contents cover the files of a run. Other commands have their own records.
         if let Some(file) = entry.filter(|file| !matches!(file.maker, Maker::Run | Maker::Ranking))
         {
             return self.claimed(file);
         }
-        // Tables alone are used as they are: nobody states what they have to be.
+        // Tables without contents have no recorded SHA-256.
         let Some(contents) = &self.contents else { return Ok(None) };
         if let Some(digest) = contents.files.get(name) {
             return Ok(Some(digest.clone()));
@@ -197,12 +202,12 @@ impl VerifiedFolder {
         match entry.map(|file| file.maker) {
             None => Ok(None),
             Some(Maker::Ranking) => self.ranked(name, contents).map(Some),
-            // Of a run that was ended before it stated it, or of one that never made it.
+            // The run was killed before it wrote the contents, or never wrote this file.
             Some(_) => Err(self.changed(name)),
         }
     }
 
-    /// The SHA-256 that a file of the ranking must have.
+    /// Returns the recorded SHA-256 of a file of the ranking.
     fn ranked(&self, name: &str, contents: &Contents) -> Result<String, InvalidFolder> {
         let ranking = Derivation::read(&self.folder, ResultsFolder::RANKING_RECORD);
         let unrecorded = || {
@@ -211,7 +216,7 @@ impl VerifiedFolder {
             InvalidFolder::new(self.folder.file(name), problem)
         };
         let ranking = ranking.ok_or_else(unrecorded)?;
-        // Its tables may be sound, and still rank designs that were solved again since.
+        // The files may be intact and still rank designs that were solved again since.
         if ranking.from != contents.digest() {
             return Err(self.refusal(name, Maker::Ranking, "was made from other tables"));
         }
@@ -221,28 +226,29 @@ impl VerifiedFolder {
         })
     }
 
-    /// The SHA-256 that a file must have that a command has claimed. A folder without a journal of a search and without a record
-    /// holds tables alone.
+    /// Returns the recorded SHA-256 of a file that a command has claimed.
+    ///
+    /// A folder with neither the journal nor the record of a search holds tables alone.
     fn claimed(&self, file: &FileEntry) -> Result<Option<String>, InvalidFolder> {
         let made = Derivation::read(&self.folder, file.maker.key());
-        // A search has its journal from the beginning, and a record only once it writes what it has
-        // found: a journal without a record is that of a search that was ended.
+        // A search writes its journal from the start and its record with its results. A journal
+        // without a record therefore means that the search was interrupted.
         if made.is_none() && !self.folder.file(ResultsFolder::EVALUATIONS).exists() {
             return Ok(None);
         }
         let stated = made.and_then(|made| made.files.get(file.name).cloned());
-        // Without a digest the command was ended before it stated what it had written.
+        // An empty digest means that the command was interrupted before it recorded the file.
         let stated = stated.filter(|digest| !digest.is_empty());
         let ended = "its command did not come to its end";
         stated.map(Some).ok_or_else(|| self.refusal(file.name, file.maker, ended))
     }
 
-    /// The error of a file with what its maker would write again.
+    /// Returns the error of a file, with the command that writes the file again.
     fn refusal(&self, name: &str, maker: Maker, problem: &str) -> InvalidFolder {
         let again = match maker {
             Maker::Run => mend(self.path()),
             Maker::Ranking => format!("squama rank {}", shell_word(&self.path().to_string_lossy())),
-            // Without it a search refuses a folder in which its journal stands.
+            // Without `--resume` a search refuses a folder that contains its journal.
             Maker::Search => "the same command with --resume".to_owned(),
             _ => "the same command".to_owned(),
         };
@@ -254,29 +260,30 @@ impl VerifiedFolder {
         self.refusal(name, maker, "was changed after squama wrote it")
     }
 
-    /// The faults of any of the files that the contents name.
+    /// Returns the faults of all files named in the contents.
     pub fn problems(&self) -> Vec<InvalidFolder> {
         let names = self.contents.iter().flat_map(|contents| contents.files.keys());
         names.filter_map(|name| self.file(name).err()).collect()
     }
 
-    /// The products of the folder that are out of date: each, and the command that makes it again.
+    /// Returns the outdated products of the folder. Each has the command that makes it again.
     pub fn outdated(&self) -> Vec<Derivation> {
         let Some(digest) = self.digest() else { return Vec::new() };
         let all = Derivation::all(&self.folder).into_iter();
-        // What was made from a definition does not grow old when tables are written again.
+        // A product of a definition does not become outdated when tables are rewritten.
         let is_older = |made: &Derivation| !made.from.is_empty() && made.from != digest;
         all.filter(|made| is_older(made) && made.is_there(&self.folder)).collect()
     }
 }
 
-/// Refuses the definition in the file `path` if it is the record of a run, and not as the run wrote it.
+/// Refuses a definition file that is the changed record of a run.
 ///
 /// # Errors
-/// If it is.
+///
+/// If `path` is the record of a run and differs from the record that the run wrote.
 pub fn verify_record(path: &Path) -> Result<(), InvalidFolder> {
     let (Some(name), Some(folder)) = (path.file_name(), path.parent()) else { return Ok(()) };
-    // Under another name a copy is a definition of its own, as the message advises.
+    // A copy under another name is a definition of its own, as the message advises.
     let is_record = name == ResultsFolder::RUN_INFO && path.is_file();
     let stated = is_record.then(|| Contents::stated_in(&ResultsFolder::new(folder))).flatten();
     let expected = stated.and_then(|contents| contents.files.get(ResultsFolder::RUN_INFO).cloned());
@@ -291,7 +298,7 @@ pub fn verify_record(path: &Path) -> Result<(), InvalidFolder> {
     Err(InvalidFolder::new(folder.join(ResultsFolder::RUN_INFO), problem))
 }
 
-/// The contents of `folder`; `None` if it holds tables alone.
+/// Reads the contents of `folder`. `None` if it holds tables alone.
 fn read(folder: &ResultsFolder) -> Result<Option<Contents>, InvalidFolder> {
     let mend = mend(folder.path());
     let path = folder.file(ResultsFolder::CONTENTS);
@@ -315,7 +322,8 @@ fn read(folder: &ResultsFolder) -> Result<Option<Contents>, InvalidFolder> {
     parsed.map(Some).map_err(changed)
 }
 
-/// Whether the journal in `folder` goes on beyond `extent`. Tables may be copied without their journal.
+/// Returns true if the journal in `folder` is longer than `extent`. Tables may be copied without
+/// their journal.
 fn is_behind(folder: &ResultsFolder, extent: &JournalExtent) -> Result<bool, InvalidFolder> {
     let path = folder.journal();
     let Ok(metadata) = fs::metadata(&path) else { return Ok(false) };
@@ -332,7 +340,7 @@ fn is_behind(folder: &ResultsFolder, extent: &JournalExtent) -> Result<bool, Inv
     if metadata.len() < extent.bytes {
         return Err(refuse(&format!("it had {} bytes and has {}", extent.bytes, metadata.len())));
     }
-    // A run that goes on appends to it: only what the tables were written from must not change.
+    // A resumed run appends to the journal, so only the stated extent must be unchanged.
     let found = JournalExtent::read(&path, extent.bytes, extent.lines);
     let found = found.map_err(|error| refuse(&reason(&error)))?;
     if found != *extent {
@@ -348,7 +356,7 @@ mod tests {
     use super::*;
     use crate::folder::FILES;
 
-    /// A folder whose run states these files.
+    /// Creates a folder with contents that list these files.
     fn folder(place: &Path, files: BTreeMap<String, String>) -> ResultsFolder {
         let folder = ResultsFolder::new(place);
         let journal = JournalExtent { bytes: 0, lines: 0, sha256: sha256("") };
