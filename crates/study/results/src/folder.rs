@@ -1,4 +1,4 @@
-//! The folder of results: every file that squama writes there, an entry each, and how files get there.
+//! The folder of results: an entry for every file that squama writes there, and safe writing.
 
 use std::fs::{self, File};
 use std::io::{BufRead as _, BufReader};
@@ -10,7 +10,7 @@ use sweep::Measure;
 use crate::columns::name;
 use crate::tables::csv_format::CsvFormat;
 
-/// The tables of one measure, named by the value that they are about.
+/// Tables of one measure, named after their leading value.
 pub const MEASURE_TABLES: [(&str, Measure); 4] = [
     (name::COVERAGE, Measure::Coverage),
     (name::CRITICAL_FORCE, Measure::Puncture),
@@ -18,7 +18,7 @@ pub const MEASURE_TABLES: [(&str, Measure); 4] = [
     (name::COMPLIANCE, Measure::Flexure),
 ];
 
-/// What makes a file of a results folder.
+/// The command that makes a file of a results folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Maker {
     /// `squama run`, `rerun` and `merge`.
@@ -40,12 +40,12 @@ pub enum Maker {
 }
 
 impl Maker {
-    /// The name of its record.
+    /// Returns the name of the record of this maker.
     pub(crate) fn key(self) -> &'static str {
         self.names().0
     }
 
-    /// The names of its record and of its command.
+    /// Returns the names of the record and of the command.
     pub(crate) fn names(self) -> (&'static str, &'static str) {
         match self {
             Self::Run => ("run", "squama run"),
@@ -60,14 +60,14 @@ impl Maker {
     }
 }
 
-/// What a file of a results folder is for.
+/// Role of a file in a results folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
-    /// The lines that everything else of its maker is written from.
+    /// Lines from which all other files of the maker are written.
     Journal,
-    /// The statement of what the others are.
+    /// Statement of the checksums of the other files.
     Statement,
-    /// A table, which stands in workbooks too.
+    /// A table, also included in workbooks.
     Table,
     /// A text about the tables.
     Record,
@@ -76,29 +76,29 @@ pub enum Role {
 /// A file of a results folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FileEntry {
-    /// Its name.
+    /// Name of the file.
     pub name: &'static str,
-    /// What makes it.
+    /// Command that makes the file.
     pub maker: Maker,
-    /// What it is for.
+    /// Role of the file.
     pub role: Role,
-    /// Whether its maker states its SHA-256, so that it is not read before that is checked.
+    /// Whether the maker records its SHA-256. It is verified before the file is read.
     pub is_stated: bool,
 }
 
-/// An entry of a file whose maker states its SHA-256.
+/// Creates the entry of a file with a recorded SHA-256.
 const fn stated(name: &'static str, maker: Maker, role: Role) -> FileEntry {
     FileEntry { name, maker, role, is_stated: true }
 }
 
-/// An entry of a file of which nobody states anything.
+/// Creates the entry of a file without a recorded SHA-256.
 const fn plain(name: &'static str, maker: Maker, role: Role) -> FileEntry {
     FileEntry { name, maker, role, is_stated: false }
 }
 
-/// Every file of a fixed name that squama leaves in a folder of results, in the order in which people read them.
+/// Every file with a fixed name in a results folder, in reading order.
 pub static FILES: [FileEntry; 47] = [
-    // A journal grows behind what is stated of it: each of its lines bears a checksum instead.
+    // A journal grows after its extent was stated, so each line has its own checksum.
     plain(ResultsFolder::JOURNAL, Maker::Run, Role::Journal),
     stated(ResultsFolder::DESIGNS, Maker::Run, Role::Table),
     stated("coverage.csv", Maker::Run, Role::Table),
@@ -114,7 +114,7 @@ pub static FILES: [FileEntry; 47] = [
     stated(ResultsFolder::RANKING[1], Maker::Ranking, Role::Table),
     stated(ResultsFolder::RANKING[2], Maker::Ranking, Role::Table),
     stated(ResultsFolder::RANKING[3], Maker::Ranking, Role::Table),
-    // Workbook and page read from it what the ranking goes by: a changed one would lie about it.
+    // Workbook and page show the criteria of the ranking from this file, so it must be unchanged.
     stated(ResultsFolder::PREFERENCES, Maker::Ranking, Role::Record),
     stated(ResultsFolder::COMPARISON[0], Maker::Comparison, Role::Table),
     stated(ResultsFolder::COMPARISON[1], Maker::Comparison, Role::Table),
@@ -135,7 +135,8 @@ pub static FILES: [FileEntry; 47] = [
     stated("fitted.toml", Maker::Fit, Role::Record),
     plain("design.toml", Maker::Design, Role::Record),
     plain(ResultsFolder::MEASURES, Maker::Design, Role::Record),
-    // A name that runs have too: who looks it up finds the entry of the run, which stands first and is checked.
+    // Runs have a file of the same name. Lookups find the entry of the run, which comes first and
+    // has a recorded SHA-256.
     plain(ResultsFolder::SENSITIVITY, Maker::Design, Role::Record),
     plain(ResultsFolder::PUNCTURE[0], Maker::Design, Role::Record),
     plain(ResultsFolder::PUNCTURE[1], Maker::Design, Role::Record),
@@ -151,102 +152,104 @@ pub static FILES: [FileEntry; 47] = [
 ];
 
 impl FileEntry {
-    /// The entry of the file `name`, if it is one of squama's; of several makers, that of the run.
+    /// Returns the entry of the file `name`. If several makers share the name, returns the entry of
+    /// the run.
     pub fn named(name: &str) -> Option<&'static Self> {
         FILES.iter().find(|file| file.name == name)
     }
 
-    /// The files that a maker writes from its journal, and its statement.
+    /// Returns the files that a maker writes from its journal, with its statement.
     pub(crate) fn products(maker: Maker) -> impl Iterator<Item = &'static Self> {
         FILES.iter().filter(move |file| file.maker == maker && file.role != Role::Journal)
     }
 }
 
-/// The folder of a run. It owns the names of all files that squama writes there and reads back.
+/// The folder of a run. Defines the names of all files that squama writes there and reads back.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ResultsFolder {
     path: PathBuf,
 }
 
 impl ResultsFolder {
-    /// The journal: every finished design, from which the tables are written.
+    /// Journal: every finished design. The tables are written from it.
     pub const JOURNAL: &'static str = "journal.jsonl";
-    /// The name of the journal of a search.
+    /// Journal of a search.
     pub const EVALUATIONS: &'static str = "evaluations.jsonl";
-    /// The record of the run: its program, its counts, its definition.
+    /// Record of the run: program, counts, definition.
     pub const RUN_INFO: &'static str = "run.toml";
-    /// The statement of what the folder holds, written last.
+    /// Checksums of the files in the folder, written last.
     pub const CONTENTS: &'static str = "contents.toml";
-    /// The folder of the records of what was made from the tables.
+    /// Folder of the records of products derived from the tables.
     pub const DERIVED: &'static str = "derived";
-    /// The name of the record of a ranking.
+    /// Record of a ranking.
     pub const RANKING_RECORD: &'static str = "ranking";
-    /// The table of all designs.
+    /// Table of all designs.
     pub const DESIGNS: &'static str = "designs.csv";
-    /// The table of measures without a value.
+    /// Table of measures without a value.
     pub const FAILURES: &'static str = "failures.csv";
-    /// The table of the derivatives of the measures.
+    /// Table of the derivatives of the measures.
     pub const SENSITIVITY: &'static str = "sensitivity.csv";
-    /// The table of what reruns have changed.
+    /// Table of the changes made by reruns.
     pub const RERUNS: &'static str = "reruns.csv";
-    /// The tables of a ranking: by fitness, the Pareto front, the winners, the winner at every weight.
+    /// Tables of a ranking: by fitness, the Pareto front, the winners, the winner at every weight.
     pub const RANKING: [&'static str; 4] =
         ["ranking.csv", "pareto.csv", "winners.csv", "quaternary.csv"];
-    /// The preferences that a ranking goes by: requirements, criteria, weights, scale.
+    /// Preferences of a ranking: requirements, criteria, weights, scale.
     pub const PREFERENCES: &'static str = "ranking.toml";
-    /// The tables of a comparison: by column and by cell.
+    /// Tables of a comparison: by column and by cell.
     pub const COMPARISON: [&'static str; 2] = ["compare.csv", "differences.csv"];
-    /// The table of the measures of one design.
+    /// Table of the measures of one design.
     pub const MEASURES: &'static str = "measures.csv";
-    /// The tables of the puncture of one design: path, events, scales, iterations.
+    /// Tables of the puncture of one design: path, events, scales, iterations.
     pub const PUNCTURE: [&'static str; 4] = ["path.csv", "events.csv", "scales.csv", "steps.csv"];
-    /// The tables of the bending of one design: path, events, scales, iterations.
+    /// Tables of the bending of one design: path, events, scales, iterations.
     pub const FLEXURE: [&'static str; 4] =
         ["flexure_path.csv", "flexure_events.csv", "flexure_scales.csv", "flexure_steps.csv"];
-    /// The tables of the way back of one design, of its puncture and of its bending.
+    /// Tables of the unloading paths of one design, for puncture and bending.
     pub const WAY_BACK: [&'static str; 2] = ["way_back.csv", "flexure_way_back.csv"];
-    /// The table of the places of the load that were tried.
+    /// Table of the load positions that were evaluated.
     pub const PLACES: &'static str = "places.csv";
 
-    /// The folder at `path`, which need not exist.
+    /// Returns the folder at `path`, which need not exist.
     pub fn new(path: impl Into<PathBuf>) -> Self {
         Self { path: path.into() }
     }
 
-    /// The name of the table of a measured value, e.g. `coverage.csv`.
+    /// Returns the name of the table of a measured value, e.g. `coverage.csv`.
     pub fn measure_table(value: &str) -> String {
         format!("{value}.csv")
     }
 
-    /// The names of all tables that a run, its ranking and its comparison may leave here, in the
-    /// order in which people read them.
+    /// Returns the names of all tables of a run, its ranking and its comparison. They are in
+    /// reading order.
     pub fn tables() -> impl Iterator<Item = &'static str> {
         FILES.iter().filter(|file| file.role == Role::Table).map(|file| file.name)
     }
 
-    /// The path of the folder.
+    /// Returns the path of the folder.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// The path of the file `name` in this folder.
+    /// Returns the path of the file `name` in this folder.
     pub fn file(&self, name: &str) -> PathBuf {
         self.path.join(name)
     }
 
-    /// The path of the journal.
+    /// Returns the path of the journal.
     pub fn journal(&self) -> PathBuf {
         self.file(Self::JOURNAL)
     }
 
-    /// Whether it holds the file `name`.
+    /// Returns true if the file `name` exists.
     pub fn holds(&self, name: &str) -> bool {
         self.file(name).is_file()
     }
 
-    /// The format of the tables in this folder, or of the run that it belongs to; plain if there are none.
+    /// Returns the CSV format of this folder, or of the run that it belongs to. Plain without
+    /// tables.
     ///
-    /// Results of `design` and `tolerance` stand one or two levels below their run.
+    /// Results of `design` and `tolerance` are one or two levels below their run.
     pub fn csv_format(&self) -> CsvFormat {
         for folder in self.path.ancestors().take(3) {
             for table in [Self::DESIGNS, "optimum.csv"] {
@@ -259,50 +262,56 @@ impl ResultsFolder {
         CsvFormat::default()
     }
 
-    /// Makes the folder and those above it, and removes what killed processes have left half-written there.
+    /// Creates the folder and removes partial files of killed processes.
     ///
     /// # Errors
-    /// If it cannot be made.
+    ///
+    /// If it cannot be created.
     pub fn make(&self) -> Result<(), OutputError> {
         make_folder(&self.path)
     }
 
-    /// Begins the file `name`, which appears when it is complete.
+    /// Starts the file `name`, which becomes visible when it is complete.
     ///
     /// # Errors
+    ///
     /// If the folder cannot be written.
     pub fn create(&self, name: &str) -> Result<AtomicFile, OutputError> {
         AtomicFile::create(&self.path, name)
     }
 
-    /// Writes `text` as the file `name`; returns its SHA-256.
+    /// Writes `text` as the file `name` and returns its SHA-256.
     ///
     /// # Errors
+    ///
     /// If it cannot be written.
     pub fn write_text(&self, name: &str, text: &str) -> Result<String, OutputError> {
         write_text(&self.path, name, text)
     }
 
-    /// Asks the system to keep the files that were moved into their places.
+    /// Flushes the renamed files to the disk.
     pub fn sync(&self) {
         sync_folder(&self.path);
     }
 
-    /// Refuses to write what `maker` makes where another maker's journal stands, or files of its names without a journal: nobody knows
-    /// whose they are. To start afresh is to throw those away.
+    /// Refuses to let `maker` write into a folder with files of other origin.
+    ///
+    /// These are the journal of another maker, and files with its names but no journal.
+    /// [`Start::Fresh`] discards the latter.
     ///
     /// # Errors
+    ///
     /// If there are such files.
     pub fn require_own(&self, maker: Maker, start: Start) -> Result<(), JournalError> {
         let folder = || self.path.clone();
-        // Asked of a link itself: one that leads nowhere would be replaced all the same.
+        // Test the link itself, because a dangling link would be replaced too.
         let is_there = |file: &&FileEntry| fs::symlink_metadata(self.file(file.name)).is_ok();
         let mut journals = FILES.iter().filter(|file| file.role == Role::Journal).filter(is_there);
         if let Some(other) = journals.clone().find(|file| file.maker != maker) {
             let what = if other.maker == Maker::Run { "a run" } else { "a search" };
             return Err(JournalError::Holds { folder: folder(), what });
         }
-        // What other makers have written is told by their records, see `Claim`.
+        // The records of other makers cover their files, see `Claim`.
         if maker != Maker::Run || start == Start::Fresh || journals.next().is_some() {
             return Ok(());
         }
@@ -312,24 +321,24 @@ impl ResultsFolder {
         })
     }
 
-    /// Removes the tables of an earlier run, but for those named in `files`: a folder describes one run.
+    /// Removes the tables of an earlier run except `files`. A folder describes one run.
     pub fn remove_tables_but(&self, files: &[String]) {
-        // The record of the run and its statement are written anew whenever the tables are.
+        // The record of the run and its contents are rewritten together with the tables.
         let tables = FileEntry::products(Maker::Run).filter(|file| file.role == Role::Table);
         let gone = tables.filter(|file| files.iter().all(|kept| kept != file.name));
         gone.for_each(|file| self.remove(file.name));
     }
 
-    /// Removes the tables of an earlier run and what it states of itself, but not its journal.
+    /// Removes the tables and the contents of an earlier run, but not its journal.
     pub fn remove_results(&self) {
-        // Where it is gone nobody takes the others for whole.
+        // Remove the contents first: without them nobody takes the remaining tables for complete.
         self.remove(Self::CONTENTS);
         FileEntry::products(Maker::Run).for_each(|file| self.remove(file.name));
     }
 
-    /// Removes the file `name`, if it is there.
+    /// Removes the file `name`, if it exists.
     pub fn remove(&self, name: &str) {
-        // Nearly always there is none.
+        // Usually the file does not exist.
         let _ = fs::remove_file(self.file(name));
     }
 }

@@ -1,7 +1,7 @@
-//! Results: what the folder of a run holds, and how it is written and read.
+//! Reads and writes the results folder of a run.
 //!
-//! A design result is everything that is known of a solved design. Columns make cells of it; tables
-//! are rows of cells, written in one of two CSV formats and read back from either.
+//! A design result holds all measures and statuses of a solved design. Columns convert it to cells;
+//! tables are rows of cells, written in one of two CSV formats and read back from either.
 //!
 //! ```text
 //! DesignResult ─► columns ─► Cell ─► CsvFile ─► designs.csv ─► Results
@@ -9,22 +9,22 @@
 //!
 //! | Type | Role |
 //! |---|---|
-//! | [`DesignResult`], [`PunctureResult`], [`FlexureResult`], [`Outcome`], [`Failure`] | everything that is known of a solved design, and why it failed |
+//! | [`DesignResult`], [`PunctureResult`], [`FlexureResult`], [`Outcome`], [`Failure`] | all measures of a solved design, and the reasons for missing ones |
 //! | [`SolvedDesign`] | the result of a design with its paths |
 //! | [`SampleStatistics`], [`Statistics`] | mean and quantiles over imperfect samples |
 //! | [`DesignRow`], [`FailureRow`], [`RerunChange`] | the rows of `designs.csv`, `failures.csv` and `reruns.csv` |
 //! | [`ParameterDerivative`], [`DerivativeRow`] | the derivative of a measure, and the row of `sensitivity.csv` |
-//! | [`SlopeSide`] | which of two one-sided derivatives a neighbouring row is extrapolated by |
-//! | [`mod@columns`], [`Column`], [`Cell`] | the list of everything that stands in a table |
-//! | [`Quantity`], [`areal_mass()`], [`puncture_units`], [`bending_units`] | from dimensionless values to millimetres, newtons and kilograms |
-//! | [`CsvFormat`], [`CsvFile`] | how tables are written |
-//! | [`ResultsFolder`], [`FILES`], [`FileEntry`] | the folder, and an entry for every file in it: name, maker, whether its SHA-256 is stated |
-//! | [`write_measures`] | writes the measures of one design, a row each |
+//! | [`SlopeSide`] | the one-sided derivative used to extrapolate a row to a neighbouring design |
+//! | [`mod@columns`], [`Column`], [`Cell`] | the list of all columns of the tables |
+//! | [`Quantity`], [`areal_mass()`], [`puncture_units`], [`bending_units`] | conversion of dimensionless values to millimetres, newtons and kilograms |
+//! | [`CsvFormat`], [`CsvFile`] | CSV formats, and tables as files |
+//! | [`ResultsFolder`], [`FILES`], [`FileEntry`] | the folder, and an entry for every file in it: name, maker, whether its SHA-256 is recorded |
+//! | [`write_measures`] | writes a table with one row per measure of a design |
 //! | [`path_tables()`], [`PathTable`], [`write_path_tables`] | the paths, events, scales and iterations of one design, in memory and as files |
-//! | [`round_off`] | which numbers are the same but for round-off, and which of them is the best |
-//! | [`Results`], [`Table`] | the designs of a run read back, and their cells |
-//! | [`Contents`], [`VerifiedFolder`], [`Completeness`] | what a run states of its folder, and the folder once that is checked |
-//! | [`Derivation`], [`Claim`] | what was made from the tables, and from which; the right of a command to write its files |
+//! | [`round_off`] | comparison of numbers up to round-off |
+//! | [`Results`], [`Table`] | the designs read from the folder of a run, and their cells |
+//! | [`Contents`], [`VerifiedFolder`], [`Completeness`] | the checksums of a run, and a folder verified against them |
+//! | [`Derivation`], [`Claim`] | products derived from the tables; the exclusive claim of a command to its files |
 //!
 //! ```
 //! use results::columns::design_columns;

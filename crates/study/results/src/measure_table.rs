@@ -1,4 +1,4 @@
-//! The measures of one design: a row each, to be read from top to bottom.
+//! The measures of one design as a table with one row per measure.
 
 use journal::OutputError;
 use std::borrow::Cow;
@@ -9,7 +9,7 @@ use crate::design::row::DesignRow;
 use crate::folder::ResultsFolder;
 use crate::tables::csv_file::write_rows;
 
-/// A cell of `designs.csv` with all that is to be known of its column.
+/// A cell of `designs.csv` with name, unit and meaning of its column.
 #[derive(Clone, Debug)]
 pub struct DesignMeasure {
     name: Cow<'static, str>,
@@ -18,7 +18,7 @@ pub struct DesignMeasure {
     meaning: &'static str,
 }
 
-/// The columns of `measures.csv`.
+/// Columns of `measures.csv`.
 pub static MEASURE_COLUMNS: &[Column<DesignMeasure>] = &columns! { DesignMeasure:
     "measure", "-", |m| m.name.clone().into_owned(), "column of `designs.csv`";
     "value", "-", |m| m.value.clone(), "value, in its unit";
@@ -26,10 +26,12 @@ pub static MEASURE_COLUMNS: &[Column<DesignMeasure>] = &columns! { DesignMeasure
     "meaning", "-", |m| m.meaning, "meaning, in half a sentence";
 };
 
-/// Writes every column of a row of `designs.csv` as a row of `measures.csv` in `folder`; returns the name of the file.
+/// Writes every column of a row of `designs.csv` as a row of `measures.csv`. Returns the name of
+/// the file.
 ///
 /// # Errors
-/// If the folder or the disk does not take it.
+///
+/// If the folder cannot be written.
 pub fn write_measures(
     folder: &ResultsFolder,
     columns: &[Column<DesignRow>],

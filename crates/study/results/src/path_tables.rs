@@ -1,4 +1,4 @@
-//! The path tables of one design: its paths, events, scales and Newton iterations.
+//! Path tables of one design: paths, events, scales and Newton iterations.
 
 use journal::OutputError;
 use skin::flexure::Flexure;
@@ -15,18 +15,18 @@ use crate::tables::csv_file::write_rows;
 
 /// A table of the paths of one design.
 pub struct PathTable {
-    /// The name of its file.
+    /// Name of the file.
     pub file: &'static str,
-    /// Its columns, whose rows are numbered from 0.
+    /// Columns. Their rows are row numbers from 0.
     pub columns: Vec<Column<usize>>,
-    /// The number of its rows.
+    /// Number of rows.
     pub rows: usize,
 }
 
 impl PathTable {
     fn new<R>(file: &'static str, columns: &[Column<R>], rows: &[R]) -> Self {
-        // Rows of these tables are of many types. With their cells made all tables are of one, for
-        // files and for Python.
+        // Row types differ between the tables. Computing the cells first gives all tables one type,
+        // for files and for Python.
         let filled = |column: &Column<R>| {
             let cells: Vec<Cell> = rows.iter().map(|row| column.cell(row)).collect();
             let cell = move |&row: &usize| cells[row].clone();
@@ -36,7 +36,7 @@ impl PathTable {
     }
 }
 
-/// Returns the path tables of a design: those of what was solved.
+/// Returns the path tables of the measures that were solved.
 pub fn path_tables(solved: &SolvedDesign) -> Vec<PathTable> {
     let SolvedDesign { row, puncture, flexure } = solved;
     let mut tables = Vec::new();
@@ -53,10 +53,13 @@ pub fn path_tables(solved: &SolvedDesign) -> Vec<PathTable> {
     tables
 }
 
-/// Writes the path tables of a design to `folder` and returns the names of the files.
+/// Writes the path tables of a design to `folder`.
+///
+/// Returns the names of the files.
 ///
 /// # Errors
-/// If the folder or the disk does not take them.
+///
+/// If the folder cannot be written.
 pub fn write_path_tables(
     folder: &ResultsFolder,
     solved: &SolvedDesign,
@@ -78,10 +81,10 @@ fn of_puncture(puncture: &Puncture) -> Vec<PathTable> {
         PathTable::new(scales, SCALES, &puncture.scales),
         PathTable::new(steps, STEPS, &puncture.history),
     ];
-    // Which scales a tip touches, and so which columns there are, only the whole path tells.
+    // The columns of a round tip depend on the scales touched anywhere along the path.
     tables[0].columns.extend(tip_force_columns(&puncture.tip_forces));
     if let Some(back) = &puncture.unloading {
-        // Nothing is known of the stability of a row whose load is taken away.
+        // Stability is not computed during unloading.
         columns.retain(|column| !column.name.starts_with("unstable"));
         let points = back.path.iter().map(|&point| (point, Instability::default()));
         let points: Vec<_> = points.collect();
@@ -96,7 +99,7 @@ fn of_puncture(puncture: &Puncture) -> Vec<PathTable> {
 fn of_flexure(flexure: &Flexure) -> Vec<PathTable> {
     let [path, events, scales, steps] = ResultsFolder::FLEXURE;
     let columns = flexure_path_columns(flexure.has_friction());
-    // A path that never began has no shape, and its table no rows.
+    // A path without equilibria has no shape, so its table has no rows.
     let shape = flexure.shape(flexure.path.len().saturating_sub(1)).unwrap_or_default();
     let shape: Vec<BentScale> = shape.into_iter().enumerate().collect();
     let mut tables = vec![

@@ -1,11 +1,12 @@
-//! From dimensionless values to millimetres, newtons and kilograms.
+//! Conversion of dimensionless values to millimetres, newtons and kilograms.
 
 use skin::Design;
 use sweep::{Case, Sweep, key};
 
-/// The kind of a dimensionless value, which says what one unit of it is worth (`docs/theory/model.md`, U1–U7).
+/// The kind of a dimensionless value. It defines the conversion to physical units.
 ///
-/// With the thickness `t`, the moduli `E_s` and `E_m`, the width `b`, and `I_m = b h³/12` of the membrane:
+/// The equations are U1–U7 of `docs/theory/model.md`, with the thickness `t`, the moduli `E_s` and
+/// `E_m`, the width `b`, and `I_m = b h³/12` of the membrane:
 ///
 /// ```text
 /// length           u  = u* t                                                           (U1)
@@ -20,19 +21,19 @@ use sweep::{Case, Sweep, key};
 /// Lengths are in mm and moduli in `MPa`, so forces are in N.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
-    /// A length, in units of `t`.
+    /// Length, in units of `t`.
     Length,
-    /// A puncture force.
+    /// Puncture force.
     Force,
-    /// A puncture force over the width of the scales.
+    /// Puncture force per width of the scales.
     ForcePerWidth,
-    /// A puncture stiffness.
+    /// Puncture stiffness.
     Stiffness,
-    /// A bending moment.
+    /// Bending moment.
     Moment,
-    /// A flexural rigidity, from a compliance.
+    /// Flexural rigidity, from a compliance.
     Rigidity,
-    /// A bend radius, from a curvature.
+    /// Bend radius, from a curvature.
     Radius,
 }
 
@@ -48,7 +49,7 @@ impl Quantity {
         Self::Radius,
     ];
 
-    /// The physical unit.
+    /// Returns the physical unit.
     pub fn unit(self) -> &'static str {
         match self {
             Self::Length | Self::Radius => "mm",
@@ -59,23 +60,24 @@ impl Quantity {
         }
     }
 
-    /// The unit as names of columns end.
+    /// Returns the unit as a suffix of column names.
     pub(crate) fn suffix(self) -> &'static str {
         match self {
             Self::Length | Self::Radius => "mm",
             Self::Force => "N",
-            // A name has no sign for over and times: the unit beside it tells N/mm from N mm.
+            // Names cannot show a division or a product. The unit beside them distinguishes N/mm
+            // from N mm.
             Self::ForcePerWidth | Self::Stiffness | Self::Moment => "N_mm",
             Self::Rigidity => "N_mm2",
         }
     }
 
-    /// Whether it is large where the dimensionless value is small.
+    /// Returns true if it is the inverse of the dimensionless value.
     pub(crate) fn is_inverse(self) -> bool {
         matches!(self, Self::Rigidity | Self::Radius)
     }
 
-    /// The keys of the material that it needs.
+    /// Returns the material keys that the conversion needs.
     pub fn needs(self) -> &'static [&'static str] {
         match self {
             Self::Length | Self::Radius => &[key::THICKNESS],
@@ -86,13 +88,14 @@ impl Quantity {
         }
     }
 
-    /// Whether the designs of a sweep have what it needs.
+    /// Returns true if the designs of a sweep have the required material.
     pub(crate) fn is_given(self, sweep: &Sweep) -> bool {
         self.needs().iter().all(|key| sweep.gives(key))
     }
 
-    /// The dimensionless `value` of a case in the physical unit. `None` if the material does not say what it needs, or for
-    /// the inverse of 0.
+    /// Converts the dimensionless `value` of a case to the physical unit.
+    ///
+    /// `None` if the material lacks a required value, or for the inverse of 0.
     ///
     /// ```
     /// use results::Quantity;
@@ -123,8 +126,10 @@ impl Quantity {
     }
 }
 
-/// What the units of the curves of a puncture are worth: those of displacement, force and energy in mm, N and mJ. `None` if the
-/// material does not say what it needs.
+/// Returns the units of the curves of a puncture.
+///
+/// These are the units of displacement, force and energy, in mm, N and mJ. `None` if the material
+/// lacks a required value.
 pub fn puncture_units(case: &Case) -> Option<[f64; 3]> {
     let (length, force) =
         (Quantity::Length.physical(1.0, case)?, Quantity::Force.physical(1.0, case)?);
@@ -132,8 +137,10 @@ pub fn puncture_units(case: &Case) -> Option<[f64; 3]> {
     Some([length, force, force / case.design.length * length])
 }
 
-/// What the units of the curves of bending are worth: those of curvature, moment and energy in 1/mm, N mm and mJ. `None` if the
-/// material does not say what it needs.
+/// Returns the units of the curves of bending.
+///
+/// These are the units of curvature, moment and energy, in 1/mm, N mm and mJ. `None` if the
+/// material lacks a required value.
 pub fn bending_units(case: &Case) -> Option<[f64; 3]> {
     // Energies of bending are over `E_m t³`, moments over `E_m I_m/t`.
     let (length, modulus) =
@@ -156,11 +163,13 @@ fn bending_stiffness(case: &Case) -> Option<f64> {
     Some(modulus * width * height.powi(3) / 12.0 * thickness.powi(4))
 }
 
-/// The keys of the material that the areal mass needs.
+/// Material keys required for the areal mass.
 pub(crate) const MASS_NEEDS: [&str; 2] = [key::THICKNESS, key::DENSITY];
 
-/// The mass of the scales over the area of the skin that they stand on, kg/m²: the density times the area of a parallelogram
-/// (base times thickness) over the pitch, `ρ 2a t/p` (U8). `None` if thickness or density is not given.
+/// Returns the mass of the scales per area of the skin, kg/m².
+///
+/// Density times the area of a parallelogram (base times thickness) over the pitch, `ρ 2a t/p`
+/// (U8). `None` if thickness or density is not given.
 pub fn areal_mass(case: &Case) -> Option<f64> {
     let (thickness, density) = (case.material.thickness_mm?, case.material.scale_density_kg_m3?);
     let base = 2.0 * Design::half_base(&case.design);
@@ -222,7 +231,7 @@ mod tests {
     }
 
     proptest! {
-        /// With another unit of length, of force and of mass every quantity changes as its dimension says.
+        /// A change of units rescales every quantity by its dimension.
         #[test]
         fn quantities_have_their_dimensions(
             length in 0.01_f64..100.0, force in 0.01_f64..100.0, value in 0.01_f64..100.0,

@@ -1,4 +1,4 @@
-//! The folder of a run read back: one row per design.
+//! Reads the folder of a run: one row per design.
 
 pub(crate) mod table;
 mod thinning;
@@ -19,99 +19,106 @@ use crate::tables::csv_format::CsvFormat;
 use table::Table;
 use thinning::Thinning;
 
-/// The first column of that table.
+/// First column of a table of designs.
 const NUMBER: &str = "design";
 
-/// The designs of a run, as `designs.csv` has them.
+/// The designs of a run, read from `designs.csv`.
 #[derive(Clone, Debug)]
 pub struct Results {
     folder: VerifiedFolder,
     file: &'static str,
     format: CsvFormat,
     table: Arc<Table>,
-    /// The number of rows of the table, of which some may have been left out.
+    /// Number of rows of the table, including rows that were left out.
     in_table: usize,
     parameters: Vec<(&'static Parameter, usize)>,
     definition: Option<Sweep>,
 }
 
-/// A folder that holds no results, or results of another kind.
+/// A folder without results, or with results of another kind.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum InvalidResults {
-    /// The folder is not as its run states it.
+    /// The folder contradicts its contents.
     #[error(transparent)]
     Folder(InvalidFolder),
     /// The table cannot be read.
     #[error("{file}: cannot be read ({reason}), expected the table that squama run writes")]
     Unreadable {
-        /// The table.
+        /// Name of the table.
         file: String,
-        /// The message of the system.
+        /// Message of the operating system.
         reason: String,
     },
-    /// The table is not one of designs.
+    /// The table is not a table of designs.
     #[error("{file}: the first column is {found}, expected {NUMBER}")]
     NoDesigns {
-        /// The table.
+        /// Name of the table.
         file: String,
-        /// The first column.
+        /// First column.
         found: String,
     },
     /// A column is missing.
     #[error("{file}: there is no column {column}, {expected}")]
     NoColumn {
-        /// The table.
+        /// Name of the table.
         file: String,
-        /// The column.
+        /// Name of the missing column.
         column: String,
-        /// The column that may be meant.
+        /// Suggested columns.
         expected: String,
     },
-    /// A cell is not what its column holds.
+    /// A cell does not hold a number.
     #[error("{file}: design {design}: {column}: {found} is not accepted, expected a number")]
     NotANumber {
-        /// The table.
+        /// Name of the table.
         file: String,
         /// Number of the design.
         design: String,
-        /// The column.
+        /// Name of the column.
         column: String,
-        /// The cell.
+        /// Text of the cell.
         found: String,
     },
 }
 
 impl Results {
-    /// The results in `folder`, which must be whole.
+    /// Reads the results in `folder`, which must be complete.
     ///
     /// # Errors
-    /// If the folder is not as its run states it, there is no table of designs, or it cannot be read.
+    ///
+    /// If the folder contradicts its contents, has no table of designs, or cannot be read.
     pub fn read(folder: &Path) -> Result<Self, InvalidResults> {
         let folder = VerifiedFolder::open(folder, Completeness::Whole);
         Self::read_from(&folder.map_err(InvalidResults::Folder)?)
     }
 
-    /// The results in `folder`.
+    /// Reads the results in a verified folder.
     ///
     /// # Errors
-    /// If there is no table of designs, it is not as it was written, or it cannot be read.
+    ///
+    /// If the table of designs is missing, was changed, or cannot be read.
     pub fn read_from(folder: &VerifiedFolder) -> Result<Self, InvalidResults> {
         Self::thinned(folder, usize::MAX)
     }
 
-    /// The results in `folder`, of a table that is much longer than `most` rows only about as many: rows at equal
-    /// distances, and the best by coverage, critical force, penetration and compliance.
+    /// Reads about `most` rows of a longer table.
+    ///
+    /// These are rows at equal distances, and the best by coverage, critical force, penetration and
+    /// compliance.
     ///
     /// # Errors
+    ///
     /// As [`Results::read_from`].
     pub fn thinned(folder: &VerifiedFolder, most: usize) -> Result<Self, InvalidResults> {
         Self::of_table(folder, ResultsFolder::DESIGNS, most, |_| true)
     }
 
-    /// The results in `folder`, of whose columns those are read that `is_read` names: of a million designs all columns take
-    /// 400 MB. The others are as good as empty.
+    /// Reads the columns for which `is_read` returns true; the others are empty.
+    ///
+    /// All columns of a million designs take 400 MB.
     ///
     /// # Errors
+    ///
     /// As [`Results::read_from`].
     pub fn with_columns(
         folder: &VerifiedFolder,
@@ -120,9 +127,10 @@ impl Results {
         Self::of_table(folder, ResultsFolder::DESIGNS, usize::MAX, is_read)
     }
 
-    /// The designs of another table of designs in `folder`, such as those that a search has found.
+    /// Reads another table of designs in `folder`, such as the results of a search.
     ///
     /// # Errors
+    ///
     /// As [`Results::read_from`].
     pub fn of_file(folder: &VerifiedFolder, table: &'static str) -> Result<Self, InvalidResults> {
         Self::of_table(folder, table, usize::MAX, |_| true)
@@ -144,13 +152,13 @@ impl Results {
         match header.first() {
             Some(first) if first == NUMBER => {}
             first => {
-                // Debug output, on one line whatever is in the cell.
+                // Debug output keeps the message on one line for any cell.
                 let found = format!("{:?}", first.map_or("", String::as_str));
                 return Err(InvalidResults::NoDesigns { file: path.display().to_string(), found });
             }
         }
         let parameters = header.iter().enumerate();
-        // A gap in mm beside `gap_over_t` is no second parameter, but the same one again.
+        // A gap in mm beside `gap_over_t` is the same parameter, not a second one.
         let parameters = parameters.filter(|(_, name)| tells_apart(name, header));
         let parameters =
             parameters.filter_map(|(column, name)| Some((parameter_of(name)?, column))).collect();
@@ -161,71 +169,73 @@ impl Results {
             parameters,
             table: Arc::new(table),
             in_table,
-            // A table without the record of its run is still a table.
+            // A table without the record of its run is still readable.
             definition: definition(folder).map_err(InvalidResults::Folder)?,
         })
     }
 
-    /// Some of the designs, by their rows.
+    /// Returns the results with these rows only.
     #[must_use]
     pub fn only(&self, rows: &[usize]) -> Self {
         Self { table: Arc::new(self.table.only(rows)), ..self.clone() }
     }
 
-    /// The folder of the results.
+    /// Returns the path of the folder.
     pub fn folder(&self) -> &Path {
         self.folder.path()
     }
 
-    /// The folder of the results, as it was checked.
+    /// Returns the verified folder.
     pub fn verified_folder(&self) -> &VerifiedFolder {
         &self.folder
     }
 
-    /// The format of the tables.
+    /// Returns the format of the tables.
     pub fn format(&self) -> CsvFormat {
         self.format
     }
 
-    /// Name of the table of designs, for messages.
+    /// Returns the name of the table of designs, for messages.
     pub fn file(&self) -> String {
         self.folder().join(self.file).display().to_string()
     }
 
-    /// The sweep, if the record of the run says so.
+    /// Returns the sweep, if the record of the run exists.
     pub fn definition(&self) -> Option<&Sweep> {
         self.definition.as_ref()
     }
 
-    /// The number of designs.
+    /// Returns the number of designs.
     #[expect(clippy::len_without_is_empty, reason = "a grid is never empty")]
     pub fn len(&self) -> usize {
         self.table.length()
     }
 
-    /// The number of designs in the table, of which [`Results::thinned`] leaves some out.
+    /// Returns the number of designs in the table. It includes those that [`Results::thinned`]
+    /// omits.
     pub fn in_table(&self) -> usize {
         self.in_table
     }
 
-    /// Names of the columns.
+    /// Returns the names of the columns.
     pub fn header(&self) -> &[String] {
         self.table.header()
     }
 
-    /// The cells of the table.
+    /// Returns the cells of the table.
     pub fn table(&self) -> &Arc<Table> {
         &self.table
     }
 
-    /// The parameters that have a column.
+    /// Returns the parameters that have a column.
     pub fn parameters(&self) -> impl Iterator<Item = &'static Parameter> {
         self.parameters.iter().map(|(parameter, _)| *parameter)
     }
 
-    /// The place of a column.
+    /// Returns the index of a column.
     ///
     /// # Errors
+    ///
     /// If there is no such column.
     pub fn column(&self, name: &str) -> Result<usize, InvalidResults> {
         self.table.column(name).ok_or_else(|| self.no_column(name))
@@ -235,7 +245,7 @@ impl Results {
         let known: Vec<&str> = self.header().iter().map(String::as_str).collect();
         let near = nearest(name, &known).map(|near| format!("did you mean {near}?"));
         let alike: Vec<_> = known.iter().copied().filter(|known| has_part(known, name)).collect();
-        // No one of several forces is the one that was meant.
+        // If several names are similar, suggest all of them.
         let expected = near.unwrap_or_else(|| match alike[..] {
             [] if physical_source(name).is_some() => {
                 "which needs a [material] in the definition that was run".to_owned()
@@ -247,26 +257,27 @@ impl Results {
         InvalidResults::NoColumn { file: self.file(), column: name.to_owned(), expected }
     }
 
-    /// The number of a design, as it is written.
+    /// Returns the number of a design, as written.
     pub fn design(&self, row: usize) -> &str {
         self.table.name(row)
     }
 
-    /// The value of a parameter, as it is written; empty if it has no column.
+    /// Returns the value of a parameter, as written. Empty if it has no column.
     pub fn parameter(&self, row: usize, parameter: &Parameter) -> Cow<'_, str> {
         let column = self.parameters.iter().find(|(other, _)| other.key == parameter.key);
         column.map_or(Cow::default(), |(_, column)| self.text(row, *column))
     }
 
-    /// A cell as it is written.
+    /// Returns a cell, as written.
     pub fn text(&self, row: usize, column: usize) -> Cow<'_, str> {
         self.table.text(row, column)
     }
 
-    /// The number in a cell, if there is one.
+    /// Returns the number in a cell, or `None` if the cell is empty.
     ///
     /// # Errors
-    /// If there is something else.
+    ///
+    /// If the cell holds a text.
     pub fn number(&self, row: usize, column: usize) -> Result<Option<f64>, InvalidResults> {
         let number = self.table.number(row, column);
         if number.is_some() || self.table.is_empty(row, column) {
@@ -281,7 +292,7 @@ impl Results {
     }
 }
 
-/// The sweep, if there is a record of the run.
+/// Reads the sweep, if there is a record of the run.
 fn definition(folder: &VerifiedFolder) -> Result<Option<Sweep>, InvalidFolder> {
     if !folder.holds(ResultsFolder::RUN_INFO) {
         return Ok(None);
@@ -290,13 +301,15 @@ fn definition(folder: &VerifiedFolder) -> Result<Option<Sweep>, InvalidFolder> {
     Ok(Sweep::parse(&text, ResultsFolder::RUN_INFO, &[]).ok())
 }
 
-/// Reads a table, or some of its rows and columns: how it is written, its cells, and the number of rows that it has.
+/// Reads a table, or some of its rows and columns.
+///
+/// Returns the format, the cells, and the number of rows in the file.
 fn read_table(
     mut file: File,
     most: usize,
     is_read: impl Fn(&str) -> bool,
 ) -> Result<(CsvFormat, Table, usize), csv::Error> {
-    // Counting reads the whole file once more: only a table that is thinned out needs it.
+    // Counting reads the whole file once more, so count only if rows are left out.
     let in_table = if most == usize::MAX { 0 } else { count_rows(&file)? };
     file.rewind()?;
     let mut file = BufReader::new(file);
@@ -308,7 +321,7 @@ fn read_table(
     let mut count = 0;
     let mut row = csv::StringRecord::new();
     while csv.read_record(&mut row)? {
-        // Whoever reads cells from here on finds points in decimals, whatever the file has.
+        // Convert decimals to points here, so that all readers of cells see one format.
         if format == CsvFormat::ExcelEu {
             row = row.iter().map(|cell| plain(format, cell)).collect();
         }
@@ -318,7 +331,7 @@ fn read_table(
     Ok((format, kept.finish(), count))
 }
 
-/// The number of rows of a table, whose cells have no line ends in them.
+/// Counts the rows of a table. Cells contain no line ends.
 fn count_rows(file: &File) -> io::Result<usize> {
     let mut lines = 0;
     let mut file = BufReader::new(file);
@@ -327,27 +340,28 @@ fn count_rows(file: &File) -> io::Result<usize> {
         let length = bytes.len();
         lines += bytes.split(|byte| *byte == b'\n').count() - 1;
         if length == 0 {
-            // Without the header. A last line that does not end is missed, which does no harm: the
-            // number only says how many rows to leave out.
+            // Without the header. A last line without a line end is not counted, which is harmless:
+            // the count only determines how many rows are left out.
             return Ok(lines.saturating_sub(1));
         }
         file.consume(length);
     }
 }
 
-/// The text of a cell in the plain format.
+/// Returns the text of a cell in the plain format.
 fn plain(format: CsvFormat, cell: &str) -> String {
     let decimal = format.number(cell).filter(|_| cell.contains(','));
     decimal.map_or_else(|| cell.to_owned(), number::text)
 }
 
-/// The error of a table that cannot be read, in one line.
+/// Returns a one-line message for a table that cannot be read.
 pub fn words(error: csv::Error) -> String {
     match error.into_kind() {
         csv::ErrorKind::Io(error) => reason(&error),
         csv::ErrorKind::Utf8 { .. } => "it is no text".to_owned(),
         csv::ErrorKind::UnequalLengths { pos, expected_len, len } => {
-            // No cell has a line end in it, and a line that ends with CR LF is counted late.
+            // No cell contains a line end, and the reader counts a line that ends with CR LF late.
+            // So the record number gives the line.
             let line = pos.map_or(0, |position| position.record() + 1);
             format!("line {line} has {len} cells, the first one {expected_len}")
         }

@@ -1,32 +1,34 @@
-//! Round-off: differences between numbers that say nothing.
+//! Comparison of numbers up to round-off.
 
 use crate::columns::Goal;
 
-/// Two numbers whose difference is at most this part of the larger one are the same but for round-off.
+/// Relative difference below which two numbers count as equal.
 pub const ROUND_OFF: f64 = 1e-9;
 
-/// Whether `a` and `b` are the same but for round-off.
+/// Returns true if `a` and `b` are equal up to round-off.
 pub fn same(a: f64, b: f64) -> bool {
     (a - b).abs() <= ROUND_OFF * a.abs().max(b.abs())
 }
 
-/// The best of values that come one after the other, each with the thing that has it. Of those that are the same
-/// but for round-off the first is the best, and the others are its ties.
+/// The best of a sequence of values, with the item that has it.
+///
+/// If several values are equal up to round-off, the first is the best and the others are ties.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Leader<T> {
-    /// The first thing that has the best value.
+    /// First item with the best value.
     pub first: T,
     /// The value.
     pub value: f64,
-    /// The number of others that have the same value but for round-off.
+    /// Number of other items with an equal value, up to round-off.
     pub ties: u64,
 }
 
 impl<T> Leader<T> {
-    /// Enters a value in a contest for that goal.
+    /// Updates the best value with another candidate.
     pub fn enter(best: &mut Option<Self>, first: T, value: f64, goal: Goal) {
         match best {
-            // Asked before which is better: of two that are the same, the later must not win by its last digits.
+            // Test for equality first: among equal values the later must not win by its last
+            // digits.
             Some(best) if same(value, best.value) => best.ties += 1,
             Some(best) if !goal.prefers(value, best.value) => {}
             _ => *best = Some(Self { first, value, ties: 0 }),

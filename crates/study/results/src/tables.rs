@@ -1,4 +1,4 @@
-//! Tables as CSV files: how they are written and read.
+//! Reading and writing of tables as CSV files.
 
 pub mod csv_file;
 pub mod csv_format;

@@ -1,4 +1,4 @@
-//! The result of a design: everything that is known of it once it is solved.
+//! The result of a design: all measures and statuses of a solved design.
 
 use serde::{Deserialize, Serialize};
 use skin::flexure::{self, BentSample, Flexure};
@@ -13,74 +13,74 @@ use super::sample_statistics::SampleStatistics;
 use super::stored_derivatives;
 use crate::columns::values::VALUES;
 
-/// The character between the settings of a design.
+/// Separator of the settings of a design.
 pub const SEPARATOR: char = ' ';
 
-/// Everything that a solved design measured, which is also what the journal keeps of it. It is small,
-/// whatever the length of the paths.
+/// All measures and statuses of a solved design, as stored in the journal.
 ///
-/// All numbers of a result are finite: JSON has no form for others, and no table shows them. A number that is
-/// not finite counts as one that does not exist.
+/// Its size does not depend on the length of the paths. All numbers are finite, because JSON cannot
+/// represent others. A number that is not finite is stored as a missing value.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct DesignResult {
-    /// The coverage, if it was asked for.
+    /// Coverage, if it was requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub coverage: Option<f64>,
-    /// The puncture, if it was asked for.
+    /// Puncture, if it was requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub puncture: Option<PunctureResult>,
-    /// The measures of the puncture at several critical tilts, if they were asked for; `None` where the path did not get there.
+    /// Puncture measures at several critical tilts, if requested. `None` where the path did not
+    /// reach the tilt.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub at_tilts: Vec<Option<TiltMeasures>>,
-    /// The bending, if it was asked for.
+    /// Bending, if it was requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub flexure: Option<FlexureResult>,
-    /// The statistics of imperfect samples, if they were asked for.
+    /// Statistics over imperfect samples, if they were requested.
     #[serde(skip_serializing_if = "SampleStatistics::is_none")]
     pub samples: SampleStatistics,
-    /// The derivatives of the measures, those of one measure after the other, if they were asked for.
+    /// Derivatives of the measures, grouped by measure, if they were requested.
     #[serde(with = "stored_derivatives", skip_serializing_if = "Vec::is_empty")]
     pub sensitivity: Vec<ParameterDerivative>,
-    /// The settings that are not the sweep's own, as `key=value` with [`SEPARATOR`] between.
+    /// Settings that differ from the sweep, as `key=value`, separated by [`SEPARATOR`].
     #[serde(skip_serializing_if = "String::is_empty")]
     pub settings: String,
-    /// The measures without a value.
+    /// Measures without a value.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub failures: Vec<Failure>,
 }
 
 impl DesignResult {
-    /// Whether something that was asked for has no value.
+    /// Returns true if a requested measure has no value.
     pub fn failed(&self) -> bool {
         !self.failures.is_empty()
     }
 }
 
-/// The result of a puncture.
+/// Result of a puncture.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PunctureResult {
-    /// The outcome: complete, or why it stopped.
+    /// Outcome: complete, or why the path stopped.
     pub outcome: Outcome,
-    /// The measures; they have no final values unless the outcome is complete.
+    /// Measures. Values at the end of the path are missing unless the outcome is complete.
     pub measures: puncture::PunctureMeasures,
-    /// Equilibria of the path.
+    /// Number of equilibria of the path.
     pub points: usize,
-    /// Newton iterations.
+    /// Number of Newton iterations.
     pub iterations: usize,
-    /// Estimated relative error of the springs of the substrate.
+    /// Estimated relative error of the substrate springs.
     pub calibration_error: Option<f64>,
-    /// Whether the weakest place of the load is known, or why not, if it was asked for.
+    /// Outcome of the search for the weakest load position, if it was requested.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub weakest: Option<Outcome>,
-    /// Whether the load came back to zero, or why not, if it was to be taken away.
+    /// Outcome of unloading, if it was requested.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub way_back: Option<Outcome>,
 }
 
 impl PunctureResult {
-    /// The result of a puncture without a path.
+    /// Creates the result of a puncture without a path.
     pub fn without_path(outcome: Outcome) -> Self {
         Self {
             outcome,
@@ -93,10 +93,11 @@ impl PunctureResult {
         }
     }
 
-    /// The result of a solved puncture; if one of its numbers is not finite, all are left out.
+    /// Creates the result of a solved puncture. If one number is not finite, all numbers are
+    /// omitted.
     pub fn new(puncture: &Puncture, calibration_error: f64) -> Self {
         let mut measures = puncture.measures;
-        // How many scales the row has is a count, and sound whatever became of the numbers.
+        // The number of scales is a count, so it stays valid if a number is not finite.
         let few = puncture::PunctureMeasures {
             scales: measures.scales,
             ..puncture::PunctureMeasures::default()
@@ -104,7 +105,7 @@ impl PunctureResult {
         let finite_all = VALUES.iter().all(|value| value.is_finite_in_puncture(&mut measures));
         let (outcome, measures) = finite_or(finite_all, puncture.status.into(), measures, few);
         let weakest = || match puncture::Weakest::from_positions(&puncture.places) {
-            // Measures that were left out lack the weakest place, though the places have one.
+            // The omitted measures lack the weakest load position even if the search found it.
             Ok(weakest) if weakest == measures.weakest => Outcome::Complete,
             Ok(_) => Outcome::NotFinite,
             Err(status) => status.into(),
@@ -121,38 +122,38 @@ impl PunctureResult {
     }
 }
 
-/// The result of a bending.
+/// Result of bending.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FlexureResult {
-    /// The outcome: complete, or why it stopped.
+    /// Outcome: complete, or why the path stopped.
     pub outcome: Outcome,
-    /// The measures; they have no final values unless the outcome is complete.
+    /// Measures. Values at the end of the path are missing unless the outcome is complete.
     pub measures: flexure::FlexureMeasures,
-    /// Equilibria of the path.
+    /// Number of equilibria of the path.
     pub points: usize,
-    /// Newton iterations.
+    /// Number of Newton iterations.
     pub iterations: usize,
-    /// Whether the load came back to zero, or why not, if it was to be taken away.
+    /// Outcome of unloading, if it was requested.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub way_back: Option<Outcome>,
 }
 
 impl FlexureResult {
-    /// The result of a bending without a path.
+    /// Creates the result of bending without a path.
     pub fn without_path(outcome: Outcome) -> Self {
         let measures = flexure::FlexureMeasures::default();
         Self { outcome, measures, points: 0, iterations: 0, way_back: None }
     }
 
-    /// The result of a solved bending; if one of its numbers is not finite, all are left out.
+    /// Creates the result of solved bending. If one number is not finite, all numbers are omitted.
     pub fn new(flexure: &Flexure) -> Self {
         let Flexure { status, measures, path, history, .. } = flexure;
         let way_back = flexure.unloading.as_ref().map(back_to_zero);
         Self { way_back, ..Self::checked(*status, *measures, path.len(), history.len()) }
     }
 
-    /// The result of an imperfect strip, as [`Self::new`].
+    /// Creates the result of an imperfect strip, as [`Self::new`] does.
     pub fn of_sample(bent: &BentSample) -> Self {
         let BentSample { status, measures, points, iterations, .. } = *bent;
         Self::checked(status, measures, points, iterations)
@@ -172,7 +173,7 @@ impl FlexureResult {
     }
 }
 
-/// The outcome of a way back.
+/// Returns the outcome of an unloading path.
 fn back_to_zero<P>(back: &Unloading<P>) -> Outcome {
     match back.stop {
         Termination::Unloaded => Outcome::Complete,
@@ -180,12 +181,12 @@ fn back_to_zero<P>(back: &Unloading<P>) -> Outcome {
     }
 }
 
-/// The outcome and the measures, or, if one of their numbers is not finite, the reason and a `few`.
+/// Returns outcome and measures. If a number is not finite: the reason, and only `few` measures.
 fn finite_or<M>(finite: bool, outcome: Outcome, measures: M, few: M) -> (Outcome, M) {
     match outcome {
         _ if finite => (outcome, measures),
         Outcome::Complete => (Outcome::NotFinite, few),
-        // Why the path stopped says more than what became of its numbers.
+        // The reason why the path stopped says more than `NotFinite`.
         stopped => (stopped, few),
     }
 }

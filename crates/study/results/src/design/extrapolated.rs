@@ -1,8 +1,10 @@
-//! The row of a design near a solved one, by the derivatives of its measures.
+//! Linear extrapolation of a row to a neighbouring design.
 //!
-//! This is how columns have derivatives without rules of their own. Nobody has told that of `critical_force_N`, which is `F* E t²`.
-//! But where `F*` is 0.4 and falls by 2 for each unit of the gap, the row of a gap that is 0.001 larger has `F*` = 0.398, and every
-//! column can be read off that row, in newtons, over a mass or as a margin: its difference over 0.001 is its derivative.
+//!
+//! The derivative of any column follows from extrapolated rows, without a rule per column. For
+//! example, `critical_force_N` is `F* E t²`. If `F*` is 0.4 and falls by 2 per unit of the gap, the
+//! row for a gap larger by 0.001 has `F*` = 0.398, and every column can be computed from that row:
+//! in newtons, per mass, or as a margin. The difference of the column over 0.001 is its derivative.
 
 use skin::flexure::FlexureMeasures;
 use sweep::{Case, Measure, PARAMETERS, Parameter, Role};
@@ -14,38 +16,43 @@ use super::sample_statistics::SampleStatistics;
 use crate::columns::measured_value;
 use crate::columns::values::VALUES;
 
-/// Which of the two one-sided derivatives a row is extrapolated by; away from kinks they are the same.
+/// The one-sided derivative used for extrapolation. Both sides agree except at kinks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SlopeSide {
-    /// The derivatives where parameters decrease.
+    /// Derivative for decreasing parameters.
     Left,
-    /// The derivatives where parameters increase.
+    /// Derivative for increasing parameters.
     Right,
-    /// The derivative on the side to which each parameter moves.
+    /// Derivative on the side to which each parameter moves.
     Ahead,
 }
 
-/// A parameter that is larger `by` so much.
+/// A parameter, and the amount by which it increases.
 struct MovedParameter<'p> {
     parameter: &'p Parameter,
     by: f64,
 }
 
 impl DesignRow {
-    /// The row of a neighbouring case, its measures extrapolated by their derivatives: `m + Σ Δq dm/dq`. A column of such rows
-    /// has the derivatives of the column, whatever it makes of measures and parameters.
+    /// Returns the row of a neighbouring case, extrapolated by the derivatives: `m + Σ Δq dm/dq`.
     ///
-    /// A measure that depends on what changes and has no derivatives does not exist in the row, nor does one at a kink without
-    /// the side that is asked for. A parameter by which a measure has none, though it has others, has no part in it. Counts stay.
+    /// Differences of these rows give the derivative of any column, whatever function of measures
+    /// and parameters it is.
+    ///
+    /// A measure that depends on a changed parameter has no value in the row if it has no
+    /// derivatives, or if it is at a kink without the requested side. If it has derivatives but
+    /// none with respect to the parameter, it does not depend on it. Counts are unchanged.
     #[must_use]
     pub fn extrapolated(&self, to: &Case, side: SlopeSide) -> Self {
         self.changed(to, &changes(&self.case, to), side)
     }
 
-    /// As [`Self::extrapolated`], of the case whose `parameter` is larger `by` so much; `None` if the parameter is no number.
+    /// Returns the extrapolated row of the case with `parameter` larger by `by`. `None` if the
+    /// parameter is not a number.
     pub fn extrapolated_by(&self, parameter: &Parameter, by: f64, side: SlopeSide) -> Option<Self> {
         let to = parameter.moved(&self.case, by)?;
-        // A length in mm, or a thickness, moves lengths over the thickness; measures have their derivatives by those.
+        // A length in mm or a thickness changes lengths over the thickness, and measures have
+        // derivatives with respect to these.
         let changes = if parameter.has(Role::Continuous) {
             vec![MovedParameter { parameter, by }]
         } else {
@@ -55,8 +62,8 @@ impl DesignRow {
     }
 
     fn changed(&self, to: &Case, changes: &[MovedParameter<'_>], side: SlopeSide) -> Self {
-        // First whatever the change has a part in is taken away; then what has derivatives comes
-        // back. So no value of the old case stays in the row by oversight.
+        // First remove all values that depend on the change, then restore those with derivatives.
+        // No value of the old case can remain by oversight.
         let mut row = Self { case: *to, result: self.result.without_dependents(changes), ..*self };
         let derivatives = &self.result.sensitivity;
         for of_measure in derivatives.chunk_by(|one, next| one.measure == next.measure) {
@@ -67,7 +74,8 @@ impl DesignRow {
         row
     }
 
-    /// The row with another value of a continuous measure; `None` if no such measure has that name, or it was not asked for.
+    /// Returns the row with another value of a continuous measure. `None` if no such measure has
+    /// that name, or it was not requested.
     pub fn with_value(&self, measure: &str, value: f64) -> Option<Self> {
         let mut row = self.clone();
         *row.result.value_mut(measure)? = Some(value);
@@ -75,7 +83,7 @@ impl DesignRow {
     }
 }
 
-/// The parameters that differ between two cases.
+/// Returns the parameters that differ between two cases.
 fn changes(from: &Case, to: &Case) -> Vec<MovedParameter<'static>> {
     let change = |parameter: &'static Parameter| {
         let by = parameter.get(to).number()? - parameter.get(from).number()?;
@@ -84,7 +92,7 @@ fn changes(from: &Case, to: &Case) -> Vec<MovedParameter<'static>> {
     PARAMETERS.iter().filter_map(change).collect()
 }
 
-/// A measure that has these derivatives.
+/// Returns the extrapolated value of a measure with these derivatives.
 fn extrapolated(
     derivatives: &[ParameterDerivative],
     changes: &[MovedParameter<'_>],
@@ -99,7 +107,7 @@ fn extrapolated(
 }
 
 impl SlopeSide {
-    /// The derivative on this side.
+    /// Returns the derivative on this side.
     fn slope(self, derivative: &ParameterDerivative, by: f64) -> Option<f64> {
         let is_left = self == Self::Left || (self == Self::Ahead && by < 0.0);
         if is_left { derivative.left } else { derivative.right }
@@ -107,14 +115,14 @@ impl SlopeSide {
 }
 
 impl DesignResult {
-    /// The result without the values that depend on what changes.
+    /// Returns the result without the values that depend on the changes.
     fn without_dependents(&self, changes: &[MovedParameter<'_>]) -> Self {
         let depends = |measure: Measure| {
             let sections = measure.sections();
             changes.iter().any(|change| sections.contains(&change.parameter.section))
         };
         let mut result = Self {
-            // These belong to the design that was solved: nobody knows them of its neighbour.
+            // These values are known only for the solved design, not for its neighbour.
             samples: SampleStatistics::default(),
             sensitivity: Vec::new(),
             settings: String::new(),
@@ -125,7 +133,7 @@ impl DesignResult {
             result.coverage = None;
         }
         if depends(Measure::Puncture) {
-            // Measures at tilts on the way have no derivatives that could move them.
+            // Measures at lower tilts have no derivatives.
             result.at_tilts.clear();
             let of_puncture =
                 VALUES.iter().filter(|value| value.measure() == Some(Measure::Puncture));
@@ -138,14 +146,14 @@ impl DesignResult {
         if depends(Measure::Flexure)
             && let Some(flexure) = &mut result.flexure
         {
-            // Whether scales touch is no number that a derivative moves.
+            // Whether contacts close is not a number, so no derivative extrapolates it.
             let contact = flexure.measures.contact;
             flexure.measures = FlexureMeasures { contact, ..FlexureMeasures::default() };
         }
         result
     }
 
-    /// The value of the continuous measure of that name, to be changed; `None` if there is none, or it was not asked for.
+    /// Returns a continuous measure by name. `None` if there is none, or it was not requested.
     fn value_mut(&mut self, measure: &str) -> Option<&mut Option<f64>> {
         measured_value(measure)?.number_mut(self)
     }

@@ -1,4 +1,4 @@
-//! Failures as data: what has no value, why, and how far its path came.
+//! Failures as data: the measure without a value, the reason, and the end of the path.
 
 use serde::{Deserialize, Serialize};
 use skin::Iteration;
@@ -8,40 +8,39 @@ use sweep::Measure;
 
 use super::outcome::Outcome;
 
-/// A measure of a design that has no value.
+/// A measure of a design without a value.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Failure {
-    /// The measure.
     pub measure: Measure,
-    /// The reason why it has no value.
+    /// Reason why the measure has no value.
     pub outcome: Outcome,
-    /// The end of its path.
+    /// End of the path.
     pub end: PathEnd,
 }
 
-/// The last equilibrium of a path that stopped early, and the last iteration after it.
+/// Last equilibrium of a path that stopped early, and the last iteration after it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PathEnd {
-    /// The tilt of the punctured scale, or the rotation of each end, degrees.
+    /// Tilt of the punctured scale or rotation of each end, degrees.
     pub angle_deg: Option<f64>,
-    /// The puncture force, or the moment.
+    /// Puncture force or bending moment.
     pub load: Option<f64>,
-    /// The displacement of the punctured point, or the curvature.
+    /// Displacement of the punctured point or curvature.
     pub displacement: Option<f64>,
-    /// Closed contacts.
+    /// Number of closed contacts.
     pub contacts: Option<usize>,
-    /// The step of the path that failed.
+    /// Step of the path that failed.
     pub step: Option<usize>,
-    /// The last Newton iteration of that step.
+    /// Last Newton iteration of that step.
     pub iteration: Option<usize>,
-    /// The largest scaled residual of that iteration.
+    /// Largest scaled residual of that iteration.
     pub residual: Option<f64>,
 }
 
 impl PathEnd {
-    /// The end of the path of `puncture`.
+    /// Returns the end of the path of a puncture.
     pub fn of_puncture(puncture: &Puncture) -> Self {
         let end = |point: &PuncturePoint| {
             Self::at([point.tilt_deg, point.force, point.displacement], point.contacts)
@@ -49,7 +48,7 @@ impl PathEnd {
         puncture.path.last().map_or_else(Self::default, end).after(&puncture.history)
     }
 
-    /// The end of the path of `flexure`.
+    /// Returns the end of the path of bending.
     pub fn of_flexure(flexure: &Flexure) -> Self {
         let end = |point: &FlexurePoint| {
             Self::at([point.end_rotation_deg, point.moment, point.curvature], point.contacts)
@@ -67,7 +66,7 @@ impl PathEnd {
         }
     }
 
-    /// With the last iteration of a path.
+    /// Adds the last iteration of the path.
     fn after(self, history: &[Iteration]) -> Self {
         let Some(last) = history.last() else { return self };
         Self {
@@ -79,7 +78,7 @@ impl PathEnd {
     }
 }
 
-/// `number` if it is finite.
+/// Returns `number` if it is finite.
 pub fn finite(number: f64) -> Option<f64> {
     Some(number).filter(|number| number.is_finite())
 }

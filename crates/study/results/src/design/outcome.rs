@@ -1,4 +1,4 @@
-//! The outcome of a measurement: complete, or the reason why it has no values.
+//! The outcome of a measure: complete, or the reason why it has no values.
 
 use std::fmt;
 
@@ -6,43 +6,43 @@ use serde::{Deserialize, Serialize};
 use skin::Status;
 use solver::Termination;
 
-/// The outcome of a measurement of a design: complete, or the reason why it has no values.
+/// Outcome of a measure of a design: complete, or the reason why it has no values.
 ///
-/// The list is closed and its texts are stable, so that tables can be filtered by them.
+/// The list is closed and the texts are stable, so that tables can be filtered by them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Outcome {
     /// Every value exists.
     Complete,
-    /// Newton's iteration did not converge at the smallest step.
+    /// Newton's method did not converge at the smallest step.
     NoConvergence,
-    /// The path has no single continuation.
+    /// The path has no unique continuation.
     Singular,
-    /// The limit on the number of equilibria was hit.
+    /// The path reached the maximum number of equilibria.
     TooManyPoints,
-    /// Contacts open and close at one point without the path moving on.
+    /// Contacts open and close at one point without progress along the path.
     Cycling,
-    /// A value is not a finite number.
+    /// A value is not finite.
     NotFinite,
-    /// A row needs more scales than it may take.
+    /// The row needs more scales than its maximum.
     RowLimit,
-    /// Two scales overlap by more than their contact law allows.
+    /// Two scales overlap by more than the range of the contact law.
     Interpenetration,
-    /// A contact carries beyond the end of its edge.
+    /// A contact slid off a corner.
     OffEdge,
-    /// The springs of the substrate could not be found.
+    /// The calibration of the substrate springs failed.
     Calibration,
-    /// The program is at fault.
+    /// Internal error of the program.
     Internal,
-    /// The load came back to zero.
+    /// The load reached zero.
     Unloaded,
-    /// Load, depth and tilt turned back together and did not recover.
+    /// Load, depth and tilt decreased together and did not recover.
     LimitPoint,
     /// A needle pushed a scale straight down and tilted none critically.
     Untilted,
     /// The scales of a strip locked.
     Locked,
-    /// Scales that rub stick or slip in no way that goes on slowly.
+    /// Friction leaves no quasi-static continuation by sticking or slipping.
     Jumps,
 }
 
@@ -67,7 +67,7 @@ impl Outcome {
         Self::Jumps,
     ];
 
-    /// The text of the outcome in the tables.
+    /// Returns the text of the outcome in the tables.
     pub fn text(self) -> &'static str {
         match self {
             Self::Complete => "complete",
@@ -89,7 +89,7 @@ impl Outcome {
         }
     }
 
-    /// The meaning of the outcome, in half a sentence.
+    /// Returns the meaning of the outcome, in half a sentence.
     pub fn meaning(self) -> &'static str {
         match self {
             Self::Complete => "the path reached its end and every check holds",
@@ -153,7 +153,7 @@ impl From<Termination> for Outcome {
             Termination::Jumps => Self::Jumps,
             Termination::NotFinite => Self::NotFinite,
             Termination::Unloaded => Self::Unloaded,
-            // A path that reached its target has not stopped early.
+            // A path that reached its target has not stopped early, so this is an internal error.
             Termination::Reached => Self::Internal,
         }
     }

@@ -1,13 +1,13 @@
-//! The derivative of a measure with respect to a parameter, as it is kept and written.
+//! The derivative of a measure with respect to a parameter, as stored and written.
 
 use skin::Derivative;
 
 use super::failure::finite;
 
-/// The derivative of a measure of a design with respect to a parameter.
+/// Derivative of a measure of a design with respect to a parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ParameterDerivative {
-    /// Name of the measure, as its column.
+    /// Column name of the measure.
     pub measure: &'static str,
     /// Key of the parameter.
     pub parameter: &'static str,
@@ -19,12 +19,12 @@ pub struct ParameterDerivative {
     pub left: Option<f64>,
     /// Derivative where the parameter increases.
     pub right: Option<f64>,
-    /// The change at a kink; `None` where both derivatives are the same.
+    /// Change of the measure at a kink. `None` if both derivatives are equal.
     pub kink: Option<String>,
 }
 
 impl ParameterDerivative {
-    /// The derivative with respect to the parameter `key` where it has the value `at`.
+    /// Creates the derivative with respect to the parameter `key` at its value `at`.
     pub fn new(key: &'static str, at: f64, derivative: Derivative) -> Self {
         let Derivative { measure, value, left, right, kink, .. } = derivative;
         Self {
@@ -38,17 +38,17 @@ impl ParameterDerivative {
         }
     }
 
-    /// The derivative; `None` at a kink.
+    /// Returns the derivative. `None` at a kink.
     pub fn derivative(&self) -> Option<f64> {
         if self.kink.is_none() { self.left } else { None }
     }
 
-    /// The elasticity `d ln m / d ln q`; `None` at a kink, and where the measure is zero.
+    /// Returns the elasticity `d ln m / d ln q`. `None` at a kink, and where the measure is zero.
     pub fn elasticity(&self) -> Option<f64> {
         finite(self.derivative()? * self.at / self.value)
     }
 
-    /// A one-sided derivative, at a kink.
+    /// Returns a one-sided derivative at a kink, `None` elsewhere.
     pub(crate) fn at_kink(&self, side: Option<f64>) -> Option<f64> {
         side.filter(|_| self.kink.is_some())
     }

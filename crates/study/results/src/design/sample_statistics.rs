@@ -1,4 +1,4 @@
-//! Statistics of the imperfect rows of one design: mean and quantiles over the samples.
+//! Statistics over the imperfect rows of one design: mean and quantiles.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,60 +8,64 @@ use super::failure::finite;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Statistics {
-    /// The mean.
     pub mean: f64,
-    /// The 5 %, 50 % and 95 % quantiles, interpolated between the two nearest values ([`quantile_places`]).
+    /// Quantiles at 5 %, 50 % and 95 %. They are interpolated between the two nearest values
+    /// ([`quantile_places`]).
     pub quantiles: [f64; 3],
 }
 
-/// The names of the quantiles in tables, and the shares of the samples that lie below them.
+/// Names of the quantiles in tables, and their probabilities.
 pub const QUANTILES: [(&str, f64); 3] = [("p05", 0.05), ("p50", 0.5), ("p95", 0.95)];
 
-/// The places of a quantile among `count` values in their order, from 0: those of the two nearest values, and the part that the
-/// second has (type 7 of Hyndman and Fan 1996, doi 10.1080/00031305.1996.10473566). `None` without values.
+/// Returns the positions of a quantile in `count` sorted values.
+///
+/// The result holds the 0-based positions of the two nearest values, and the weight of the second
+/// (type 7 of Hyndman and Fan 1996, doi 10.1080/00031305.1996.10473566). `None` without values.
 pub fn quantile_places(count: usize, share: f64) -> Option<([usize; 2], f64)> {
     let place = share * count.checked_sub(1)? as f64;
     Some(([place.floor() as usize, place.ceil() as usize], place - place.floor()))
 }
 
-/// A quantile of values in their order; `None` if there are no values, or it is not finite.
+/// Returns a quantile of sorted values. `None` if there are no values, or the result is not finite.
 pub fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
     let ([below, above], part) = quantile_places(sorted.len(), share)?;
     finite(sorted[below] + part * (sorted[above] - sorted[below]))
 }
 
 impl Statistics {
-    /// The statistics of `values`; `None` if there are no values, or one of the results is not
+    /// Computes the statistics of `values`. `None` if there are no values, or a result is not
     /// finite.
     pub fn from_values(mut values: Vec<f64>) -> Option<Self> {
         values.sort_by(f64::total_cmp);
         let [low, middle, high] = QUANTILES.map(|(_, share)| quantile(&values, share));
-        // Without values this is 0/0, and so none.
+        // Without values this is 0/0, which `finite` turns into `None`.
         let mean = finite(values.iter().sum::<f64>() / values.len() as f64)?;
         Some(Self { mean, quantiles: [low?, middle?, high?] })
     }
 }
 
-/// The statistics of the samples of a design. Samples that failed have no part in mean and quantiles.
+/// Statistics over the samples of a design.
+///
+/// Failed samples are excluded from mean and quantiles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct SampleStatistics {
-    /// The critical force.
+    /// Critical force.
     pub critical_force: Option<Statistics>,
-    /// The penetration.
+    /// Penetration.
     pub penetration: Option<Statistics>,
-    /// Number of samples whose puncture has no values.
+    /// Number of samples without puncture values.
     pub puncture_failed: Option<usize>,
-    /// The flexural compliance.
+    /// Flexural compliance.
     pub compliance: Option<Statistics>,
-    /// The range of curvatures over which the gaps of a strip close.
+    /// Range of curvatures over which the gaps of a strip close.
     pub closing_range: Option<Statistics>,
-    /// Number of samples whose bending has no values.
+    /// Number of samples without bending values.
     pub flexure_failed: Option<usize>,
 }
 
 impl SampleStatistics {
-    /// Whether no samples were solved.
+    /// Returns true if no samples were solved.
     pub fn is_none(&self) -> bool {
         *self == Self::default()
     }

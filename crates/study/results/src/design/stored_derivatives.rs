@@ -1,4 +1,4 @@
-//! Derivatives as a journal keeps them: measures by parameters, the names of both once.
+//! Compact form of derivatives in the journal: a matrix with each name stored once.
 
 use std::borrow::Cow;
 
@@ -9,13 +9,13 @@ use sweep::Parameter;
 use super::parameter_derivative::ParameterDerivative;
 use crate::columns::values::VALUES;
 
-/// The name of a continuous measure, or the key of a parameter.
+/// Name of a continuous measure, or key of a parameter.
 #[derive(Clone, Copy, Debug, Serialize)]
 struct KnownName(&'static str);
 
 impl KnownName {
     fn parse(text: &str) -> Option<Self> {
-        // Derivatives borrow their names from the program: one that it does not have is refused.
+        // Derivatives borrow static names, so unknown names are refused.
         let value = VALUES.iter().filter(|value| value.has_derivatives());
         let measure = value.map(|value| value.name).find(|name| *name == text);
         measure.or_else(|| Parameter::named(text).map(|parameter| parameter.key)).map(Self)
@@ -39,23 +39,23 @@ struct Matrix {
     of: Vec<Measure>,
 }
 
-/// The derivatives of a measure: its name, its value, the derivatives where the parameters decrease, and kinks.
+/// Derivatives of a measure: name, value, left-sided derivatives, and kinks.
 #[derive(Debug, Serialize, Deserialize)]
 struct Measure(KnownName, f64, Vec<Option<f64>>, Vec<Kink>);
 
-/// A kink: the position of the parameter, the derivative where it increases, and the change.
+/// A kink: index of the parameter, right-sided derivative, and the change.
 #[derive(Debug, Serialize, Deserialize)]
 struct Kink(usize, Option<f64>, String);
 
 impl Matrix {
-    /// Whether it is one of measures with the parameters of these derivatives.
+    /// Returns true if these derivatives have the parameters of this matrix.
     fn fits(&self, derivatives: &[ParameterDerivative]) -> bool {
-        // Bit by bit: of two values that are merely close, one would come back as the other.
+        // Compare bit by bit: merging nearly equal values would change one of them when read back.
         let parameters = derivatives.iter().map(|d| (d.parameter, d.at.to_bits()));
         self.by.iter().map(|(key, at)| (key.0, at.to_bits())).eq(parameters)
     }
 
-    /// A matrix of no measures with the parameters of these derivatives.
+    /// Creates a matrix with the parameters of these derivatives, without measures.
     fn of_parameters(derivatives: &[ParameterDerivative]) -> Self {
         let by = derivatives.iter().map(|d| (KnownName(d.parameter), d.at)).collect();
         Self { by, of: Vec::new() }
@@ -89,7 +89,7 @@ impl Measure {
                 at: *at,
                 value: *value,
                 left,
-                // Away from a kink both sides are the same number, and it is stored once.
+                // Away from a kink both sides are equal, so the number is stored once.
                 right: kink.map_or(left, |kink| kink.1),
                 kink: kink.map(|kink| kink.2.clone()),
             }
@@ -97,14 +97,14 @@ impl Measure {
     }
 }
 
-/// Writes derivatives of which those of a measure follow each other.
+/// Serializes derivatives that are grouped by measure.
 pub fn serialize<S: Serializer>(
     derivatives: &[ParameterDerivative],
     serializer: S,
 ) -> Result<S::Ok, S::Error> {
     let mut matrices: Vec<Matrix> = Vec::new();
     for of_measure in derivatives.chunk_by(|one, next| one.measure == next.measure) {
-        // Measures of one kind follow each other, so that only the last matrix may fit.
+        // Measures with equal parameters are adjacent, so only the last matrix can fit.
         if !matrices.last().is_some_and(|last| last.fits(of_measure)) {
             matrices.push(Matrix::of_parameters(of_measure));
         }
@@ -115,7 +115,7 @@ pub fn serialize<S: Serializer>(
     matrices.serialize(serializer)
 }
 
-/// Reads derivatives.
+/// Deserializes derivatives.
 pub fn deserialize<'de, D: Deserializer<'de>>(
     deserializer: D,
 ) -> Result<Vec<ParameterDerivative>, D::Error> {

@@ -1,11 +1,12 @@
-//! The cells of a table, column by column: numbers as numbers, which take a third of the room of their texts.
+//! Cells of a table, stored by column. Numbers take a third of the memory of texts.
 
 use std::borrow::Cow;
 
 use text::number;
 
-/// The cells of a table below its header. What was written can be read again to the letter, whether a column is kept as
-/// numbers or as texts.
+/// The cells of a table below its header.
+///
+/// Cells read back exactly as written, whether a column is stored as numbers or as texts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
     header: Vec<String>,
@@ -16,19 +17,19 @@ pub struct Table {
 /// The cells of one column, from the top.
 #[derive(Clone, Debug, PartialEq)]
 enum Column {
-    /// Nobody asks for it.
+    /// A column that was not read.
     Unread,
-    /// Numbers, each written as [`number::text`] writes it; NaN for an empty cell.
+    /// Numbers, each written as [`number::text`] writes it. NaN for an empty cell.
     Numbers(Vec<f64>),
-    /// Anything else.
+    /// Texts, for all other columns.
     Texts(Texts),
 }
 
-/// Texts, one behind the other.
+/// Texts stored in one string.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Texts {
     all: String,
-    /// The end of each.
+    /// End of each text.
     ends: Vec<usize>,
 }
 
@@ -63,7 +64,7 @@ impl Column {
                 if let Some(number) = number_of(cell) {
                     numbers.push(number);
                 } else {
-                    // A word, or a number that a person has written: its digits are to stay.
+                    // A word, or a number written by hand: keep its digits.
                     *self = Self::Texts(numbers.iter().map(|number| text_of(*number)).collect());
                     self.push(cell);
                 }
@@ -88,7 +89,7 @@ impl Column {
     }
 }
 
-/// The number in a cell whose text can be made from it again.
+/// Returns the number in a cell, if the number reproduces the text of the cell.
 fn number_of(cell: &str) -> Option<f64> {
     if cell.is_empty() {
         return Some(f64::NAN);
@@ -102,10 +103,12 @@ fn text_of(number: f64) -> String {
 }
 
 impl Table {
-    /// A table without rows, of whose columns those are kept that `is_read` names. The first has the names of the rows.
+    /// Creates an empty table with the columns for which `is_read` returns true.
+    ///
+    /// The first column holds the names of the rows.
     pub fn new(header: Vec<String>, is_read: impl Fn(&str) -> bool) -> Self {
         let column = |(place, name): (usize, &String)| match place {
-            // `7` and `007` are names of two rows.
+            // Names stay texts: `7` and `007` are names of two rows.
             0 => Column::Texts(Texts::default()),
             _ if is_read(name) => Column::Numbers(Vec::new()),
             _ => Column::Unread,
@@ -114,7 +117,7 @@ impl Table {
         Self { header, columns, length: 0 }
     }
 
-    /// Adds a row at the end, with a cell for each column.
+    /// Appends a row, with one cell per column.
     pub fn push<'c>(&mut self, cells: impl IntoIterator<Item = &'c str>) {
         for (column, cell) in self.columns.iter_mut().zip(cells) {
             column.push(cell);
@@ -122,29 +125,29 @@ impl Table {
         self.length += 1;
     }
 
-    /// The rows at these places.
+    /// Returns the rows at these positions.
     #[must_use]
     pub fn only(&self, rows: &[usize]) -> Self {
         let columns = self.columns.iter().map(|column| column.only(rows)).collect();
         Self { header: self.header.clone(), columns, length: rows.len() }
     }
 
-    /// Names of the columns.
+    /// Returns the names of the columns.
     pub fn header(&self) -> &[String] {
         &self.header
     }
 
-    /// The place of a column.
+    /// Returns the index of a column.
     pub fn column(&self, name: &str) -> Option<usize> {
         self.header.iter().position(|column| column == name)
     }
 
-    /// The number of rows.
+    /// Returns the number of rows.
     pub fn length(&self) -> usize {
         self.length
     }
 
-    /// The name of a row: its first cell.
+    /// Returns the name of a row: its first cell.
     pub fn name(&self, row: usize) -> &str {
         match self.columns.first() {
             Some(Column::Texts(texts)) => texts.get(row),
@@ -152,29 +155,29 @@ impl Table {
         }
     }
 
-    /// A cell as it is written.
+    /// Returns a cell, as written.
     pub fn text(&self, row: usize, column: usize) -> Cow<'_, str> {
         self.columns[column].text(row)
     }
 
-    /// Whether a cell is empty.
+    /// Returns true if a cell is empty.
     pub fn is_empty(&self, row: usize, column: usize) -> bool {
         // The text of an empty cell takes nothing to make, and whoever has a number is not empty.
         self.number(row, column).is_none() && self.text(row, column).is_empty()
     }
 
-    /// The number in a cell, if there is one.
+    /// Returns the number in a cell, if there is one.
     pub fn number(&self, row: usize, column: usize) -> Option<f64> {
         let number = match &self.columns[column] {
             Column::Unread => return None,
             Column::Numbers(numbers) => numbers[row],
-            // Rust reads `inf` and `NaN` as numbers, too, but no table of squama has them.
+            // Rust parses `inf` and `NaN` as numbers, but no table of squama contains them.
             Column::Texts(texts) => texts.get(row).parse().ok()?,
         };
         number.is_finite().then_some(number)
     }
 
-    /// The numbers of a column, NaN for empty cells; `None` if it has texts.
+    /// Returns the numbers of a column, NaN for empty cells. `None` if it holds texts.
     pub fn numbers(&self, column: usize) -> Option<&[f64]> {
         match &self.columns[column] {
             Column::Numbers(numbers) => Some(numbers),

@@ -1,10 +1,10 @@
-//! A long table thinned out: every so many rows, and those that are best by one value.
+//! Thins a long table: keeps rows at equal distances, and the best rows by some columns.
 
 use super::table::Table;
 use crate::columns::{Goal, plain_goal};
 use crate::folder::MEASURE_TABLES;
 
-/// Rows of a table that are kept, with their places.
+/// The kept rows of a table, with their positions.
 #[derive(Debug)]
 pub(super) struct Thinning {
     every: usize,
@@ -22,20 +22,20 @@ struct BestRow {
 }
 
 impl Thinning {
-    /// Of a table like `table`, which is empty, with so many rows, about `most`.
+    /// Creates a thinning of a table with `rows` rows to about `most` rows. `table` is empty.
     pub fn new(table: Table, rows: usize, most: usize) -> Self {
         let best = MEASURE_TABLES.iter().filter_map(|(name, _)| {
             let column = table.column(name)?;
             Some(BestRow { column, goal: plain_goal(name)?, row: None })
         });
-        // A table that is kept whole has its best rows anyway.
+        // A table that is kept whole contains its best rows anyway.
         let best = if rows > most { best.collect() } else { Vec::new() };
-        // Of a table without a limit no rows were counted, and every one is kept.
+        // Without a limit `rows` is 0, and every row is kept.
         let every = rows.div_ceil(most.max(1)).max(1);
         Self { every, places: Vec::new(), table, best }
     }
 
-    /// Takes the row at `place` into account.
+    /// Processes the row at position `place`.
     pub fn visit(&mut self, place: usize, row: &csv::StringRecord) {
         for best in &mut self.best {
             best.visit(place, row);
@@ -46,7 +46,7 @@ impl Thinning {
         }
     }
 
-    /// The rows that are kept, in their order.
+    /// Returns the kept rows, in their order.
     pub fn finish(mut self) -> Table {
         if self.best.is_empty() {
             return self.table;
@@ -55,7 +55,8 @@ impl Thinning {
             self.places.push(place);
             self.table.push(&row);
         }
-        // A row may be the best by several values and stand at one of the distances, too.
+        // A row may be kept more than once: as the best by several columns, or at a regular
+        // distance.
         let mut order: Vec<usize> = (0..self.places.len()).collect();
         order.sort_by_key(|k| self.places[*k]);
         order.dedup_by_key(|k| self.places[*k]);
@@ -65,7 +66,7 @@ impl Thinning {
 
 impl BestRow {
     fn visit(&mut self, place: usize, row: &csv::StringRecord) {
-        // A design that failed has an empty cell, and is the best by nothing.
+        // A failed design has an empty cell and cannot be the best.
         let cell = row.get(self.column).and_then(|cell| cell.parse::<f64>().ok());
         let Some(value) = cell else { return };
         if self.row.as_ref().is_none_or(|(best, ..)| self.goal.prefers(value, *best)) {

@@ -1,4 +1,4 @@
-//! Tables as CSV files, the only place where rows become cells of a file.
+//! Writes tables as CSV files. Rows become file cells only here.
 
 use std::borrow::Borrow;
 use std::fmt::Write as _;
@@ -10,10 +10,10 @@ use super::csv_format::CsvFormat;
 use crate::columns::Column;
 use crate::folder::ResultsFolder;
 
-/// Rows whose lines are in memory at a time.
+/// Number of rows that are formatted in memory at a time.
 const PORTION: usize = 1024;
 
-/// A table that grows row by row and appears when it is complete.
+/// A table that grows row by row and becomes visible when it is complete.
 pub struct CsvFile<'c, R> {
     file: BufWriter<AtomicFile>,
     format: CsvFormat,
@@ -21,10 +21,11 @@ pub struct CsvFile<'c, R> {
 }
 
 impl<'c, R> CsvFile<'c, R> {
-    /// Begins the file `name` in `folder` with its header.
+    /// Starts the file `name` in `folder` and writes its header.
     ///
     /// # Errors
-    /// If the folder or the disk does not take it.
+    ///
+    /// If the folder cannot be written.
     pub fn create(
         folder: &ResultsFolder,
         name: &str,
@@ -42,15 +43,16 @@ impl<'c, R> CsvFile<'c, R> {
         Ok(table)
     }
 
-    /// The lines of some rows, as they stand in the file.
+    /// Formats rows as lines of the file.
     ///
     /// # Errors
-    /// If a row is not as long as the header, which no table of columns has.
+    ///
+    /// If a row differs in length from the header, which cannot happen for a table of columns.
     pub fn lines(
         &self,
         rows: impl IntoIterator<Item = impl Borrow<R>>,
     ) -> Result<Vec<u8>, OutputError> {
-        // In memory and without changing the table: a run has all its threads make lines of it.
+        // Formats in memory without changing the table, so that all threads of a run can do it.
         let mut csv = self.format.writer(Vec::new());
         let mut cell = String::new();
         let written = rows.into_iter().try_for_each(|row| {
@@ -65,36 +67,39 @@ impl<'c, R> CsvFile<'c, R> {
         self.text(csv, written)
     }
 
-    /// Adds lines.
+    /// Appends formatted lines.
     ///
     /// # Errors
-    /// If the disk does not take them.
+    ///
+    /// If the disk cannot be written.
     pub fn append(&mut self, lines: &[u8]) -> Result<(), OutputError> {
         let written = self.file.write_all(lines);
         self.checked(written)
     }
 
-    /// Adds a row.
+    /// Appends a row.
     ///
     /// # Errors
-    /// If the disk does not take it.
+    ///
+    /// If the disk cannot be written.
     pub fn write(&mut self, row: &R) -> Result<(), OutputError> {
         let lines = self.lines([row])?;
         self.append(&lines)
     }
 
-    /// Puts the table in its place and returns its SHA-256.
+    /// Moves the table into place and returns its SHA-256.
     ///
     /// # Errors
-    /// If the disk does not take it.
+    ///
+    /// If the disk cannot be written.
     pub fn finish(self) -> Result<String, OutputError> {
         let path = self.file.get_ref().path().to_owned();
-        // This writes the last bytes and tells of a full disk; a dropped buffer keeps silent.
+        // Writes the last bytes and reports a full disk. Dropping the buffer would hide the error.
         let file = self.file.into_inner();
         file.map_err(|error| OutputError::file(&path, error.error()))?.finish()
     }
 
-    /// What was written to memory.
+    /// Returns the text written to memory.
     fn text(
         &self,
         csv: csv::Writer<Vec<u8>>,
@@ -109,10 +114,11 @@ impl<'c, R> CsvFile<'c, R> {
     }
 }
 
-/// Writes `rows` as the file `name` in `folder`, in any format.
+/// Writes `rows` as the file `name` in `folder`, in the given format.
 ///
 /// # Errors
-/// If the folder or the disk does not take it.
+///
+/// If the folder cannot be written.
 pub fn write_rows<R>(
     folder: &ResultsFolder,
     name: &str,

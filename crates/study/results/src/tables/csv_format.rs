@@ -1,4 +1,4 @@
-//! The formats of CSV files: one for programs, one for spreadsheets where the comma is the decimal sign.
+//! CSV formats: one for programs, one for spreadsheets with decimal commas.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -7,32 +7,33 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-/// The format of a CSV file. All of it is RFC 4180 but for the separator: UTF-8, lines that end
-/// with CR LF, quotes where a cell needs them.
+/// Format of a CSV file.
+///
+/// RFC 4180 except for the separator: UTF-8, CR LF line ends, quotes where a cell needs them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum CsvFormat {
-    /// A comma between cells, a point in decimals.
+    /// Comma between cells, decimal point.
     #[default]
     Plain,
-    /// A semicolon between cells, a comma in decimals, a byte-order mark: what Excel opens right
-    /// where the comma is the decimal sign.
+    /// Semicolon between cells, decimal comma, byte-order mark. Excel opens it correctly in locales
+    /// with a decimal comma.
     ExcelEu,
 }
 
-/// A text that names no CSV format.
+/// A text that is not the name of a CSV format.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0:?} is not a CSV format, expected plain or excel-eu")]
 pub struct UnknownCsvFormat(String);
 
-/// Says that a file is UTF-8.
+/// Byte-order mark of UTF-8.
 const MARK: &[u8] = "\u{feff}".as_bytes();
 
 impl CsvFormat {
     /// All formats.
     pub const ALL: [Self; 2] = [Self::Plain, Self::ExcelEu];
 
-    /// The name of the format on the command line.
+    /// Returns the name of the format on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Plain => "plain",
@@ -40,7 +41,7 @@ impl CsvFormat {
         }
     }
 
-    /// The bytes with which a file of this format begins.
+    /// Returns the first bytes of a file in this format.
     pub fn mark(self) -> &'static [u8] {
         match self {
             Self::Plain => &[],
@@ -48,7 +49,7 @@ impl CsvFormat {
         }
     }
 
-    /// Writes cells in this format.
+    /// Creates a writer of cells in this format.
     pub fn writer<W: Write>(self, to: W) -> csv::Writer<W> {
         let mut csv = csv::WriterBuilder::new();
         csv.delimiter(self.delimiter()).terminator(csv::Terminator::CRLF);
@@ -62,31 +63,33 @@ impl CsvFormat {
         }
     }
 
-    /// The text of a cell in a file of this format.
+    /// Returns the text of a cell in a file of this format.
     pub fn cell(self, cell: &str) -> Cow<'_, str> {
-        // Texts keep their points: `solver.max_step=0.01` would be no setting with a comma.
+        // Texts keep their points: `solver.max_step=0,01` would not be a valid setting.
         let is_decimal = self == Self::ExcelEu && cell.contains('.') && is_number(cell);
         if is_decimal { cell.replace('.', ",").into() } else { cell.into() }
     }
 
-    /// The format of a file that begins so, and where its text begins. The header tells: a spreadsheet
-    /// puts the byte-order mark before either separator, or leaves it out.
+    /// Detects the format from the first bytes of a file, and the offset of its text.
+    ///
+    /// The separator in the header decides, because a spreadsheet may add or remove the byte-order
+    /// mark with either separator.
     pub fn detect(beginning: &[u8]) -> (Self, usize) {
         let start = if beginning.starts_with(MARK) { MARK.len() } else { 0 };
         let header = beginning[start..].split(|byte| matches!(byte, b'\r' | b'\n')).next();
         let header = header.unwrap_or_default();
-        // A header of one cell has no separator; then the mark tells, which squama itself writes in
-        // the format of spreadsheets alone.
+        // A header of one cell has no separator. Then the byte-order mark decides, because squama
+        // writes it only in the format for spreadsheets.
         let is_plain = header.contains(&b',') || (start == 0 && !header.contains(&b';'));
         (if is_plain { Self::Plain } else { Self::ExcelEu }, start)
     }
 
-    /// Reads the text of a file in this format.
+    /// Creates a reader of text in this format.
     pub fn reader<R: io::Read>(self, text: R) -> csv::Reader<R> {
         csv::ReaderBuilder::new().delimiter(self.delimiter()).from_reader(text)
     }
 
-    /// The number that a cell of a file in this format holds.
+    /// Returns the number in a cell of a file in this format.
     pub fn number(self, cell: &str) -> Option<f64> {
         let plain = match self {
             Self::Plain => Cow::from(cell),
@@ -96,7 +99,7 @@ impl CsvFormat {
     }
 }
 
-/// Whether it is a number in digits: `inf` and `nan` are words.
+/// Returns true for a number in digits. `inf` and `nan` are words.
 fn is_number(cell: &str) -> bool {
     cell.ends_with(|c: char| c.is_ascii_digit()) && cell.parse::<f64>().is_ok_and(f64::is_finite)
 }

@@ -1,6 +1,7 @@
-//! A table that was written before, beside what its journal makes of its rows now.
+//! An existing table, compared with the rows that its journal gives now.
 //!
-//! Whoever changes a line of a journal and seals it again leaves no checksum that fails: the tables that were written from it tell.
+//! The journal can be edited and its checksums renewed. The tables written from the original lines
+//! reveal such an edit.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -13,17 +14,17 @@ use super::csv_format::CsvFormat;
 use crate::columns::Column;
 use crate::folder::ResultsFolder;
 
-/// A table that was written before.
+/// A table that was written earlier.
 pub struct WrittenTable {
     format: CsvFormat,
     rows: csv::Reader<BufReader<File>>,
 }
 
 impl WrittenTable {
-    /// The table `name` in `folder`; `None` if there is none.
+    /// Opens the table `name` in `folder`. `None` if there is none.
     pub fn open(folder: &ResultsFolder, name: &str) -> Option<Self> {
         let path = folder.file(name);
-        // Opening a pipe may never return.
+        // Opening a named pipe may never return.
         path.is_file().then_some(())?;
         let mut file = BufReader::new(File::open(path).ok()?);
         let (format, start) = CsvFormat::detect(file.fill_buf().ok()?);
@@ -31,7 +32,7 @@ impl WrittenTable {
         Some(Self { format, rows: format.reader(file) })
     }
 
-    /// The table `name` in `folder`, if its SHA-256 is the one that is `stated` of files by their names.
+    /// Opens the table `name` in `folder`, if its SHA-256 agrees with `stated`.
     pub fn as_stated(
         folder: &ResultsFolder,
         name: &str,
@@ -42,10 +43,13 @@ impl WrittenTable {
         (stated.get(name) == Some(&digest)).then_some(table)
     }
 
-    /// The first cells of the rows that have other cells now: `row` makes a row anew, and nothing of one that is not to be compared.
+    /// Returns the first cells of the rows that differ from the table.
+    ///
+    /// `row` computes a row anew, and returns nothing for a row that is not to be compared.
     ///
     /// # Errors
-    /// If a row cannot be made.
+    ///
+    /// If a row cannot be computed.
     pub fn changed<R, E>(
         self,
         columns: &[Column<R>],

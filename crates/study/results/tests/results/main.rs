@@ -1,10 +1,10 @@
-//! The promises of a results folder: which tables it holds, with which columns.
+//! Tests of a results folder: its tables and their columns.
 
 mod tables;
 
 use sweep::Sweep;
 
-/// The sweep that `text` defines.
+/// Parses the sweep `text`.
 fn sweep(text: &str) -> Sweep {
     Sweep::parse(text, "x.toml", &[]).expect("a valid sweep")
 }

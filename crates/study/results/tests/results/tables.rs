@@ -1,4 +1,4 @@
-//! The headers of the tables, which other programs rely on.
+//! Headers of the tables, which other programs rely on.
 
 use results::columns::tables;
 
@@ -26,16 +26,17 @@ fn with_another_axis_and_another_measure() {
 #[test]
 fn every_parameter_may_be_an_axis_with_a_column_of_its_own() {
     let value = |p: &sweep::Parameter| match p.section {
-        // Nothing is given by default.
+        // No material parameter is given by default.
         "material" => "1".to_owned(),
         _ if !p.is_given(&sweep::Case::default()) => "1".to_owned(),
         _ => p.default().to_toml(),
     };
     let axis = |p: &sweep::Parameter| format!("{} = {}\n", p.key, value(p));
-    // A strip has either a length or a number of gaps, a needle either a critical tilt or a friction, a depth one unit; only a guided
-    // needle without friction has a radius.
+    // These parameters exclude each other: length and number of gaps, critical tilt and friction,
+    // the two units of a depth. A radius needs a guided needle without friction.
     let names_without = |needle: &str, others: [&str; 4], in_mm: bool| {
-        // A length is given in one unit, and none in mm has a place beside those that say it in other ways.
+        // A length is given in one unit. None in mm can be combined with parameters that define the
+        // same length in other ways.
         let is_other = |p: &sweep::Parameter| {
             let unit = p.is_in_mm() != in_mm && (p.is_in_mm() || p.in_mm().next().is_some());
             let is_modulus = p.key == "scale_modulus_MPa" && !in_mm;
@@ -76,7 +77,8 @@ fn every_parameter_may_be_an_axis_with_a_column_of_its_own() {
     assert_eq!(names.len(), count);
 }
 
-/// The force at a depth is a column where a depth is given, in either unit, and in newtons with a material.
+/// `force_at_depth` is a column if a depth is given in either unit. With a material it is also a
+/// column in newtons.
 #[test]
 fn a_depth_has_a_force() {
     assert!(!headers("name = 'x'").contains("force_at_depth"));
@@ -88,7 +90,7 @@ fn a_depth_has_a_force() {
     assert!(!results::measurement_conditions("critical_force").contains(&"depth_over_t"));
 }
 
-/// The weakest place is told where places are tried.
+/// The weakest load position is a column if several positions are requested.
 #[test]
 fn places_have_a_weakest() {
     assert!(!headers("name = 'x'").contains("weakest"));
@@ -99,7 +101,7 @@ fn places_have_a_weakest() {
     assert!(results::measurement_conditions("weakest_force").contains(&"places"));
 }
 
-/// One path has columns for each of several critical tilts, or frictions, behind the others.
+/// Each of several critical tilts or frictions has its columns, after the others.
 #[test]
 fn several_critical_tilts_have_columns_of_their_own() {
     let added = |text: &str| {
@@ -128,7 +130,8 @@ fn several_critical_tilts_have_columns_of_their_own() {
     assert_eq!(added("puncture.needle_friction = 0.1").concat(), "");
 }
 
-/// With a thickness every design has its lengths in mm, once, whichever of them are axes; and two columns never tell the same apart.
+/// With a thickness every design has each length in mm once. No two columns distinguish the same
+/// parameter.
 #[test]
 fn a_thickness_gives_lengths_in_mm() {
     let designs = |text: &str| headers(text).lines().next().expect("designs.csv").to_owned();

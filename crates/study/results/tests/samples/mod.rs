@@ -1,4 +1,4 @@
-//! Results of runs that never ran, of any size.
+//! Synthetic results of any size, without a run.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -6,17 +6,19 @@ use std::path::Path;
 use results::columns::design_columns;
 use sweep::Sweep;
 
-/// How the criteria of the designs are related.
+/// Relation between the criteria of the designs.
 #[derive(Clone, Copy, Debug)]
 pub enum Criteria {
-    /// Not at all: few designs are beaten by none.
+    /// Independent criteria: few designs are not dominated.
     Independent,
-    /// The better in one, the worse in another: no design beats any other.
+    /// Conflicting criteria: no design dominates another.
     Conflicting,
 }
 
-/// Writes `designs.csv` of a run of `50 × 50 × slants` designs to `folder`. Every cell of every
-/// column is filled; some designs of small slant have no coverage. `seed` changes the values alone.
+/// Writes `designs.csv` of a synthetic run of `50 × 50 × slants` designs.
+///
+/// Every column has cells; some designs of small slant have no coverage. `seed` changes the values
+/// alone.
 pub fn write_results(folder: &Path, slants: u32, criteria: Criteria, seed: u64) {
     let text = format!(
         "name = 'x'\ndesigns.gap_over_t = {{ from = 0.02, to = 1, step = 0.02 }}\n\
@@ -53,7 +55,7 @@ fn values(criteria: Criteria, index: u64, seed: u64) -> [f64; 4] {
     match criteria {
         Criteria::Independent => random,
         Criteria::Conflicting => {
-            // On a sphere, nothing is larger in everything.
+            // On a sphere no point is larger in every coordinate.
             let norm = random.iter().map(|x: &f64| x * x).sum::<f64>().sqrt();
             let [coverage, force, resistance, compliance] = random.map(|x| x / norm);
             [coverage, force, 1.0 / resistance, compliance]
@@ -61,7 +63,7 @@ fn values(criteria: Criteria, index: u64, seed: u64) -> [f64; 4] {
     }
 }
 
-/// A number between 0 and 1 that looks random: `splitmix64`.
+/// Returns a pseudo-random number between 0 and 1 (`splitmix64`).
 fn unit(index: u64) -> f64 {
     let mut z = index.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
