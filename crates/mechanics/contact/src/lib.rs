@@ -19,7 +19,7 @@
 //! | [`Law`], [`ContactLaw`], [`Approach`] | the power law, and its form for one design |
 //! | [`Level`], [`Corners`] | the two corners that may meet at the tops or at the bases of a pair |
 //! | [`CornerContact`], [`Force`], [`Transition`] | the state of their contact (open, on an edge, corner on corner, flush), and how it changes |
-//! | [`CornerResponse`], [`Equation`] | what a contact adds to a system: forces, conditions, derivatives |
+//! | [`CornerResponse`], [`Equation`] | contribution of a contact to a system: forces, conditions, derivatives |
 //! | [`ContactStiffness`] | the symmetric stiffness of a contact, for questions of stability |
 //! | [`overlaps`], [`overlap_polygon`], [`Overlap`] | scales that overlap, for the audit of final states and for drawings |
 //!

@@ -17,7 +17,7 @@
 //! | [`Row`] | identical scales at a constant gap: pitch, coverage |
 //! | [`RowChange`] | rates at which the lengths of a row change, for the rate of its coverage |
 //! | [`UnevenRow`] | scales of unequal slants at unequal gaps |
-//! | [`OutOfRange`] | a parameter without meaning, with its value and what is accepted |
+//! | [`OutOfRange`] | error of a parameter out of range, with the accepted values |
 //!
 //! ```
 //! use geometry::{Parallelogram, Row};

@@ -1,17 +1,17 @@
-//! The co-rotational Euler–Bernoulli beam element.
+//! Co-rotational Euler–Bernoulli beam element.
 
 use geometry::{OutOfRange, Vec2};
 use nalgebra::{SMatrix, SVector};
 
 use crate::section::positive;
 
-/// Poses of the two ends of an element, `q = (x₁ y₁ φ₁ x₂ y₂ φ₂)`, or the forces on them.
+/// Poses of the two ends of an element, `q = (x₁ y₁ φ₁ x₂ y₂ φ₂)`, or forces on them.
 pub type Ends = SVector<f64, 6>;
 
 /// Second derivatives of an energy with respect to [`Ends`].
 pub type Stiffness = SMatrix<f64, 6, 6>;
 
-/// A two-node Euler–Bernoulli beam: small strains, arbitrarily large rotations.
+/// Two-node Euler–Bernoulli beam: small strains, arbitrarily large rotations.
 ///
 /// ```text
 ///          φ₁ ⟋                      L   length at rest
@@ -28,9 +28,9 @@ pub type Stiffness = SMatrix<f64, 6, 6>;
 /// u = l − L,     θᵢ = φᵢ − β = atan2(e × tᵢ, e · tᵢ),   tᵢ = (cos φᵢ, sin φᵢ)    (M3)
 /// ```
 ///
-/// The arc tangent takes the angle between two directions, so neither the turns counted in `φᵢ` nor
-/// the branch of `β` matter: the one restriction is `|θᵢ| < π`. In that frame the beam is the linear
-/// one, a cubic deflection over a uniform stretch:
+/// The arc tangent returns the angle between two directions. Hence neither the full turns counted
+/// in `φᵢ` nor the branch of `β` matter; the only restriction is `|θᵢ| < π`. In the frame of the
+/// chord the beam is linear, with a cubic deflection and a uniform stretch:
 ///
 /// ```text
 /// N  = EA u/L,   M₁ = EI (4θ₁ + 2θ₂)/L,   M₂ = EI (2θ₁ + 4θ₂)/L                 (M4)
@@ -43,7 +43,7 @@ pub type Stiffness = SMatrix<f64, 6, 6>;
 /// ∂l = r,   ∂β = z/l,   ∂r = z zᵀ/l,   ∂(z/l) = −(r zᵀ + z rᵀ)/l²               (M6)
 /// ```
 ///
-/// and so, with `b₁ = ∂θ₁ = i₃ − z/l` and `b₂ = ∂θ₂ = i₆ − z/l`, the force and the tangent are
+/// so that, with `b₁ = ∂θ₁ = i₃ − z/l` and `b₂ = ∂θ₂ = i₆ − z/l`, the force and the tangent are
 ///
 /// ```text
 /// f = ∂W  = N r + M₁ b₁ + M₂ b₂                                                 (M7)
@@ -51,9 +51,9 @@ pub type Stiffness = SMatrix<f64, 6, 6>;
 ///           + N z zᵀ/l + (M₁ + M₂)(r zᵀ + z rᵀ)/l²                              (M8)
 /// ```
 ///
-/// `K` is symmetric since it derives from an energy, at equilibrium or not. The error against the
-/// elastica is of second order in the element length; pure bending is exact in moments and rotations,
-/// and there the nodes lie on a polygon whose sides are as long as the arcs they stand for.
+/// `K` is symmetric because it derives from an energy, at equilibrium or not. The error relative to
+/// the elastica is of second order in the element length. Pure bending is exact in moments and
+/// rotations; there the nodes lie on a polygon, each side as long as its arc.
 ///
 /// Sources: M. A. Crisfield, *Comput. Methods Appl. Mech. Eng.* 81 (1990) 131,
 /// doi 10.1016/0045-7825(90)90106-V, and *Non-linear Finite Element Analysis of Solids and
@@ -66,7 +66,7 @@ pub struct CorotationalBeam {
     bending_stiffness: f64,
 }
 
-/// An element seen from its chord.
+/// Deformations and forces of an element in the frame of its chord.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Local {
     /// Length `l` of the chord.
@@ -81,14 +81,14 @@ pub struct Local {
     pub moments: [f64; 2],
 }
 
-/// Energies of an element and their derivatives with respect to the poses of its ends.
+/// Energies of an element and their derivatives by the poses of its ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Response {
     /// Stretching energy `Wₐ`.
     pub axial_energy: f64,
     /// Bending energy `W_b`.
     pub bending_energy: f64,
-    /// Internal force `f = ∂(Wₐ + W_b)`: what has to be applied to the ends to hold them.
+    /// Internal force `f = ∂(Wₐ + W_b)`, equal to the applied force at equilibrium.
     pub force: Ends,
     /// Consistent tangent `K = ∂f`, symmetric.
     pub tangent: Stiffness,
@@ -138,7 +138,7 @@ impl CorotationalBeam {
 
     /// Returns energies, force and tangent (M5 to M8) at the poses `q` of the ends.
     ///
-    /// Ends that coincide have no chord: the response is then not finite.
+    /// Coincident ends have no chord: the response is then not finite.
     pub fn response(&self, q: &Ends) -> Response {
         let local = self.local(q);
         let Local { chord_length: l, rotations: [theta1, theta2], axial_force, moments, .. } =

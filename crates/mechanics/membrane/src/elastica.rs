@@ -1,4 +1,4 @@
-//! The membrane of a gap as an extensible elastica.
+//! Membrane of a gap as an extensible elastica.
 
 use std::sync::Arc;
 
@@ -10,34 +10,36 @@ use crate::gap::check;
 use crate::lobatto::Lobatto;
 use crate::{RigidArm, Section, Span};
 
-/// The membrane between two neighbouring scales: one spectral element for the extensible elastica.
+/// Membrane between two neighbouring scales: one spectral element of the extensible elastica.
 ///
-/// Between two rigid bases the membrane carries no load, so one force `F` goes through all of the gap. With
-/// the arc length `S` at rest, the direction `θ(S)` of the axis, `t = (cos θ, sin θ)` and `n` its quarter turn, the
-/// membrane is a beam that neither shears nor, in its section, deforms:
+/// Between two rigid bases the membrane carries no load, so one force `F` acts in the whole gap.
+/// With the arc length `S` at rest, the direction `θ(S)` of the axis, `t = (cos θ, sin θ)` and its
+/// quarter turn `n`, the membrane is a beam without shear and without deformation of its section:
 ///
 /// ```text
 /// r' = (1 + ε) t,   N = F·t = EA ε,   M = EI θ',   EI θ" = −(1 + ε) F·n         (M18)
 /// ```
 ///
-/// This is the limit of co-rotational elements of vanishing length. With the force in units of its axial
-/// stiffness, `F = EA f`, and the vector `Δ` from the end at the left base to that at the right one, the equations
-/// make stationary
+/// This is the limit of co-rotational elements of vanishing length. With the force in units of the
+/// axial stiffness, `F = EA f`, and the vector `Δ` from the end at the left base to the end at the
+/// right base, the equations make stationary
 ///
 /// ```text
 /// Π(θ, f) = ∫ ½ EI θ'² dS − EA ∫ (f·t + ½ (f·t)²) dS + EA f·Δ                   (M19)
 /// ```
 ///
-/// whose stationary value is the energy `∫ ½ (EI θ'² + EA ε²) dS`. The direction is a polynomial through the
-/// Gauss–Lobatto–Legendre points of the gap, whose rule also integrates: to order `n`,
+/// and its stationary value is the energy `∫ ½ (EI θ'² + EA ε²) dS`. The direction is a polynomial
+/// through the Gauss–Lobatto–Legendre points of the gap, which also serve for integration. To order
+/// `n`,
 ///
 /// ```text
 /// θᵢ = φ ξᵢ + ψᵢ,   ψ₀ = ψₙ = 0,   εᵢ = f·tᵢ                                    (M20)
 /// Π = EI/2d (φ² + Σᵢⱼ ψᵢ Kᵢⱼ ψⱼ) − EA d Σᵢ wᵢ (εᵢ + ½ εᵢ²) + EA f·Δ             (M21)
 /// ```
 ///
-/// so pure bending, `ψ = 0` and `f = 0`, is exact. The error falls faster than any power of `1/n` once the points
-/// resolve the layers of length `√(EI/(N (1+ε)))` at the bases, which they do from `n² ≈ d/length` on.
+/// so pure bending, `ψ = 0` and `f = 0`, is exact. The error decreases faster than any power of
+/// `1/n` once the points resolve the boundary layers of length `√(EI/(N (1+ε)))` at the bases, that
+/// is from about `n² ≈ d/length`.
 ///
 /// The state of a gap of order `n` has [`Self::unknowns`] entries, in the frame of the left scale:
 ///
@@ -45,15 +47,18 @@ use crate::{RigidArm, Section, Span};
 /// z = (ψ₁ … ψₙ₋₁, f₁, f₂, uₓ, u_y, φ)                                           (M22)
 /// ```
 ///
-/// `(uₓ, u_y, φ)` being the displacement and the rotation of the right scale. Unknowns `ψ` and `f` belong to the gap, with
-/// the equations `∂Π/∂ψ = 0` and `∂Π/∂f = 0`; eliminating them leaves the force of the membrane on its right scale. As `f` is
-/// a multiplier, two eigenvalues of the tangent are negative at every stable equilibrium.
+/// with the displacement and the rotation `(uₓ, u_y, φ)` of the right scale. The unknowns `ψ` and
+/// `f` belong to the gap, with the equations `∂Π/∂ψ = 0` and `∂Π/∂f = 0`; eliminating them leaves
+/// the force of the membrane on its right scale. Because `f` is a multiplier, two eigenvalues of
+/// the tangent are negative at every stable equilibrium.
 ///
-/// Where no force goes through the gap, `f = 0` and `ψ = 0`. The functions of a state therefore accept one without `ψ` as
-/// well, its last five entries alone, whose gradient and Hessian have five rows: cheap, while scales do not touch.
+/// If no force acts in the gap, `f = 0` and `ψ = 0`. The functions of a state therefore also accept
+/// a state without `ψ`, its last five entries alone, with five rows of gradient and Hessian. This
+/// is cheap while scales do not touch.
 ///
-/// Sources: E. Reissner, *Z. Angew. Math. Phys.* 23 (1972) 795, doi 10.1007/BF01602645 (without shear);
-/// S. S. Antman, *Nonlinear Problems of Elasticity*, 2nd ed., Springer (2005), ch. 4, doi 10.1007/0-387-27649-1.
+/// Sources: E. Reissner, *Z. Angew. Math. Phys.* 23 (1972) 795, doi 10.1007/BF01602645 (without
+/// shear); S. S. Antman, *Nonlinear Problems of Elasticity*, 2nd ed., Springer (2005), ch. 4, doi
+/// 10.1007/0-387-27649-1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Elastica {
     section: Section,
@@ -70,24 +75,26 @@ pub struct GapEnergies {
     pub bending: f64,
 }
 
-/// Derivatives of the potential of a gap with respect to its state.
+/// Derivatives of the potential of a gap by its state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Derivatives {
-    /// The first derivatives, in the order of the state.
+    /// First derivatives, in the order of the state.
     pub gradient: DVector<f64>,
-    /// The second derivatives, symmetric.
+    /// Second derivatives, symmetric.
     pub hessian: DMatrix<f64>,
 }
 
-/// Orders that [`Elastica::new`] accepts: a polynomial bends from 2 on, and more than 128 points are a mistake.
+/// Valid orders for [`Elastica::new`].
+///
+/// A polynomial bends from order 2 on, and more than 128 points are a mistake.
 const ORDERS: std::ops::RangeInclusive<usize> = 2..=128;
 
 impl Elastica {
-    /// The membrane of a section over a span, its direction a polynomial of degree `order`.
+    /// Creates the membrane of a section over a span, with a direction of degree `order`.
     ///
     /// # Errors
-    /// If the gap is not positive and finite, the half-base negative, the offset not finite, or the order not
-    /// among 2 … 128.
+    /// If the gap is not positive and finite, the half-base negative, the offset not finite, or the
+    /// order outside 2 … 128.
     pub fn new(section: Section, span: Span, order: usize) -> Result<Self, OutOfRange> {
         check(&span)?;
         let accepted = ORDERS.contains(&order);
@@ -95,51 +102,51 @@ impl Elastica {
         Ok(Self { section, span, rule: Lobatto::shared(order) })
     }
 
-    /// A membrane of this section and order over another span.
+    /// Creates a membrane of the same section and order over another span.
     ///
     /// # Errors
     /// If the gap is not positive and finite, the half-base negative, or the offset not finite.
     pub fn over(&self, span: Span) -> Result<Self, OutOfRange> {
         check(&span)?;
-        // The rule depends on the order alone, and is shared.
+        // The rule depends only on the order and is shared.
         Ok(Self { span, ..self.clone() })
     }
 
-    /// The order `n`.
+    /// Returns the order `n`.
     pub fn order(&self) -> usize {
         self.rule.order()
     }
 
-    /// Number of unknowns that belong to the gap itself, `ψ` and `f`: the first `n + 1` of the state.
+    /// Returns the number of unknowns `ψ` and `f` of the gap, the first `n + 1` of the state.
     pub fn interior(&self) -> usize {
         self.order() + 1
     }
 
-    /// Number of entries `n + 4` of the state (M22).
+    /// Returns the number of entries `n + 4` of the state (M22).
     pub fn unknowns(&self) -> usize {
         self.interior() + 3
     }
 
-    /// Distance `2a + d` between the nodes of the scales at rest.
+    /// Returns the distance `2a + d` between the nodes of the scales at rest.
     pub fn pitch(&self) -> f64 {
         2.0 * self.span.half_base + self.span.gap
     }
 
-    /// The sizes that the entries of the gradient are to be compared with, in the order of the state.
+    /// Returns the reference sizes of the entries of the gradient, in the order of the state.
     pub fn units(&self) -> DVector<f64> {
         let [axial, bending] = self.stiffness();
         let mut units = DVector::from_element(self.unknowns(), bending);
         let f = self.order() - 1;
-        // The closure counts in gaps; forces, as of elements, in what moving by `t` makes.
+        // Closure is measured in gaps; forces, as for elements, by the force of a displacement `t`.
         units.rows_mut(f, 2).fill(axial * self.span.gap);
         units.rows_mut(f + 2, 2).fill(axial / self.span.gap);
         units
     }
 
-    /// Returns the derivatives of the potential (M21) at a state.
+    /// Computes the derivatives of the potential (M21) at a state.
     ///
-    /// The gradient holds the residuals of the gap's own unknowns, then the force `(Fₓ, F_y)` (over `E_m t²`) and the
-    /// moment about its node (over `E_m t³`) that hold the right scale.
+    /// The gradient holds the residuals of the gap's own unknowns, then the force `(Fₓ, F_y)` (over
+    /// `E_m t²`) and the moment about its node (over `E_m t³`) required to hold the right scale.
     ///
     /// # Panics
     /// If the state `z` has neither [`Self::unknowns`] nor five entries.
@@ -166,7 +173,7 @@ impl Elastica {
             coupling += xi * mixed;
             let mut stretching = hessian.fixed_view_mut::<2, 2>(f, f);
             stretching -= weight * (along * along.transpose());
-            // At both ends the directions are those of the bases, and no unknowns.
+            // The directions at both ends equal those of the bases and are not unknowns.
             if (1..=f).contains(&i) {
                 gradient[i - 1] += torque;
                 hessian[(i - 1, i - 1)] += stiffness;
@@ -185,7 +192,7 @@ impl Elastica {
         Derivatives { gradient, hessian }
     }
 
-    /// Energies at a state that satisfies the equations of the gap's own unknowns.
+    /// Computes the energies at a state that satisfies the gap's own equations.
     ///
     /// # Panics
     /// If the state `z` has neither [`Self::unknowns`] nor five entries.
@@ -194,13 +201,15 @@ impl Elastica {
         let curvatures = self.curvatures(z);
         let density =
             |(i, section): (usize, Direction)| 0.5 * self.weight(i) * section.strain.powi(2);
-        // The rule integrates this exactly: the square of `θ'` is of degree `2n − 2` (M15).
+        // The rule is exact for this integral: the square of `θ'` is of degree `2n − 2` (M15).
         let bending = curvatures.component_mul(&curvatures).dot(&self.rule.weights)
             * (0.5 * bending * self.span.gap.powi(2));
         GapEnergies { axial: self.sections(z).map(density).sum(), bending }
     }
 
-    /// The largest strain `|ε| + ½ h |θ'|` at the surface of the membrane, over the points of the gap.
+    /// Computes the largest strain `|ε| + ½ h |θ'|` at the surface of the membrane.
+    ///
+    /// The maximum is over the points of the gap.
     ///
     /// # Panics
     /// If the state `z` has neither [`Self::unknowns`] nor five entries.
@@ -210,7 +219,9 @@ impl Elastica {
         self.sections(z).map(|(i, section)| section.strain.abs() + bent(i)).fold(0.0, f64::max)
     }
 
-    /// The deformed axis, from base to base, in `intervals ≥ 1` intervals, measured from the node of the left scale.
+    /// Computes the deformed axis from base to base, in `intervals ≥ 1` intervals.
+    ///
+    /// Positions are relative to the node of the left scale.
     ///
     /// # Panics
     /// If the state `z` has neither [`Self::unknowns`] nor five entries.
@@ -223,7 +234,7 @@ impl Elastica {
         };
         let width = 1.0 / intervals as f64;
         let interval = |k: usize| {
-            // A cosine of a polynomial is none: each interval takes the whole rule.
+            // The cosine of a polynomial is not a polynomial, so each interval uses the whole rule.
             let within = self.rule.points.iter().zip(&self.rule.weights);
             within.map(|(xi, w)| *w * width * tangent((k as f64 + xi) * width)).sum::<Vec2>()
         };
@@ -235,7 +246,7 @@ impl Elastica {
         std::iter::once(start).chain(steps).collect()
     }
 
-    /// The state `z` as a membrane of another order sees it, its direction interpolated.
+    /// Transfers the state `z` to a membrane of another order, interpolating its direction.
     ///
     /// # Panics
     /// If the state `z` has neither [`Self::unknowns`] nor five entries.
@@ -246,35 +257,35 @@ impl Elastica {
         psi.chain(z[z.len() - 5..].iter().copied()).collect()
     }
 
-    /// `EA` and `EI/d`.
+    /// Returns `EA` and `EI/d`.
     fn stiffness(&self) -> [f64; 2] {
         [self.section.axial_stiffness(), self.section.bending_stiffness() / self.span.gap]
     }
 
-    /// `EA d wᵢ`.
+    /// Returns `EA d wᵢ`.
     fn weight(&self, i: usize) -> f64 {
         self.section.axial_stiffness() * self.span.gap * self.rule.weights[i]
     }
 
-    /// Arms from the nodes of the scales to the ends of the membrane.
+    /// Returns the arms from the nodes of the scales to the ends of the membrane.
     fn arms(&self) -> [RigidArm; 2] {
         let Span { half_base, axis_offset, .. } = self.span;
         [half_base, -half_base].map(|x| RigidArm::new(Vec2::new(x, -axis_offset)))
     }
 
-    /// From the node of the right scale to the end of the membrane.
+    /// Returns the vector from the node of the right scale to the end of the membrane.
     fn lever(&self, phi: f64) -> Vec2 {
         self.arms()[1].lever(phi)
     }
 
-    /// `Δ`.
+    /// Computes `Δ`.
     fn base_to_base(&self, z: &[f64]) -> Vec2 {
         let ElasticaState { displacement, phi, .. } = ElasticaState::new(z);
         let node = Vec2::new(self.pitch(), 0.0) + displacement;
         node + self.lever(phi) - self.arms()[0].lever(0.0)
     }
 
-    /// Directions `θᵢ` at the points (M20).
+    /// Computes the directions `θᵢ` at the points (M20).
     fn angles(&self, z: &[f64]) -> DVector<f64> {
         let ElasticaState { psi, phi, .. } = ElasticaState::new(z);
         let mut angles = phi * &self.rule.points;
@@ -283,23 +294,23 @@ impl Elastica {
         angles
     }
 
-    /// Curvatures `θ'` at the points.
+    /// Computes the curvatures `θ'` at the points.
     fn curvatures(&self, z: &[f64]) -> DVector<f64> {
         &self.rule.derivative * self.angles(z) / self.span.gap
     }
 
-    /// The sections at the points, in order.
+    /// Iterates over the sections at the points, in order.
     fn sections<'a>(&'a self, z: &'a [f64]) -> impl Iterator<Item = (usize, Direction)> + 'a {
         let ElasticaState { psi, force, phi, .. } = ElasticaState::new(z);
         (0..=self.order()).map(move |i| {
-            // A state without `ψ` is one of pure bending, and bends to an arc.
+            // A state without `ψ` is pure bending, to an arc.
             let deviation = if (1..=psi.len()).contains(&i) { psi[i - 1] } else { 0.0 };
             (i, Direction::new(phi * self.rule.points[i] + deviation, force))
         })
     }
 }
 
-/// The parts of a state (M22).
+/// Components of a state (M22).
 struct ElasticaState<'a> {
     psi: DVectorView<'a, f64>,
     force: Vec2,
@@ -319,7 +330,7 @@ impl<'a> ElasticaState<'a> {
     }
 }
 
-/// A section of the membrane under a force `f`.
+/// Cross-section of the membrane under a force `f`.
 struct Direction {
     /// `t`.
     along: Vec2,
@@ -339,7 +350,7 @@ impl Direction {
     }
 }
 
-/// Sets an entry of a symmetric matrix.
+/// Sets an entry and its mirror image in a symmetric matrix.
 fn set(matrix: &mut DMatrix<f64>, [row, column]: [usize; 2], value: f64) {
     matrix[(row, column)] = value;
     matrix[(column, row)] = value;

@@ -1,4 +1,4 @@
-//! The membrane in the gap between two scales.
+//! Membrane in the gap between two scales, as co-rotational elements.
 
 use geometry::{OutOfRange, Vec2};
 use nalgebra::{DMatrix, DVector};
@@ -6,18 +6,18 @@ use nalgebra::{DMatrix, DVector};
 use crate::section::positive;
 use crate::{CorotationalBeam, Ends, GapEnergies, Local, OffsetBeam, Response, RigidArm, Section};
 
-/// The undeformed span of the membrane in a gap; lengths over `t`.
+/// Undeformed span of the membrane in a gap; lengths over `t`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span {
     /// Half-width `a ≥ 0` of the bases of the scales, under which the membrane is rigid.
     pub half_base: f64,
-    /// Gap `d` between two bases: the free length of the membrane.
+    /// Gap `d` between two bases, the free length of the membrane.
     pub gap: f64,
-    /// Depth `e` of the membrane's axis below the bases; positive away from the scales.
+    /// Depth `e` of the membrane axis below the bases; positive away from the scales.
     pub axis_offset: f64,
 }
 
-/// The membrane between two neighbouring scales: `m` equal elements, rigid under the bases.
+/// Membrane between two neighbouring scales: `m` equal elements, rigid under the bases.
 ///
 /// ```text
 ///  ┌───────┐           ┌───────┐
@@ -28,17 +28,17 @@ pub struct Span {
 ///        a │     d     │ a
 /// ```
 ///
-/// The first element starts at the arm `(a, −e)` of the left scale and the last one ends at the arm
-/// `(−a, −e)` of the right scale. The state consists of displacements and rotations,
+/// The first element starts at the arm `(a, −e)` of the left scale, and the last one ends at the
+/// arm `(−a, −e)` of the right scale. The state consists of displacements and rotations,
 ///
 /// ```text
 /// u = (left; node 1; …; node m−1; right),   three numbers (uₓ, u_y, φ) each     (M13)
 /// W(u) = Σₖ Wₖ(u₃ₖ … u₃ₖ₊₅),   k = 0 … m−1,   each element of length d/m        (M14)
 /// ```
 ///
-/// so element `k` always acts on the six entries of `u` from `3k` on, and a row of gaps that share
-/// their scales has a block-tridiagonal tangent. An element sees only the difference of its two
-/// displacements, added to their distance at rest: the place of the gap in a long row costs no digits.
+/// so element `k` acts on the six entries of `u` from `3k` on, and a row of gaps with shared scales
+/// has a block-tridiagonal tangent. An element uses only the difference of its two displacements,
+/// added to their distance at rest, so that the position of the gap in a long row costs no digits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GapMembrane {
     section: Section,
@@ -47,7 +47,7 @@ pub struct GapMembrane {
     span: Span,
 }
 
-/// Energies of the membrane in a gap, and their derivatives with respect to its state.
+/// Energies of the membrane in a gap, and their derivatives by its state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GapResponse {
     /// Stretching energy.
@@ -64,8 +64,8 @@ impl GapMembrane {
     /// Creates a membrane of `elements` equal elements of the given section over a span.
     ///
     /// # Errors
-    /// If the gap is not positive and finite, the half-base negative, the offset not finite, or there
-    /// is no element.
+    /// If the gap is not positive and finite, the half-base negative, the offset not finite, or the
+    /// number of elements zero.
     pub fn new(section: Section, span: Span, elements: usize) -> Result<Self, OutOfRange> {
         let count = elements as f64;
         OutOfRange::unless(elements > 0, "number of elements per gap", count, "at least 1")?;
@@ -93,7 +93,7 @@ impl GapMembrane {
         2.0 * self.span.half_base + self.span.gap
     }
 
-    /// Returns the poses at rest of the nodes that the state displaces, with the node of the left scale at the origin.
+    /// Returns the poses at rest of the displaced nodes, with the node of the left scale at 0.
     pub fn rest(&self) -> DVector<f64> {
         let mut poses = DVector::zeros(self.unknowns());
         for node in 0..=self.elements {
@@ -104,7 +104,7 @@ impl GapMembrane {
         poses
     }
 
-    /// Returns element `k`, with its arm where it starts or ends at a scale.
+    /// Returns element `k`, with its arm if it starts or ends at a scale.
     pub fn element(&self, k: usize) -> OffsetBeam {
         let Span { half_base, axis_offset, .. } = self.span;
         let mut arms = [RigidArm::NONE; 2];
@@ -117,7 +117,7 @@ impl GapMembrane {
         OffsetBeam { beam: self.beam, arms }
     }
 
-    /// Returns the response of element `k` to the entries `3k … 3k + 5` of the state, for assembly elsewhere.
+    /// Returns the response of element `k` to the entries `3k … 3k + 5` of the state.
     pub fn element_response(&self, k: usize, displacements: &Ends) -> Response {
         self.element(k).response(&self.bodies(k, displacements))
     }
@@ -140,13 +140,15 @@ impl GapMembrane {
         sum
     }
 
-    /// Returns the forces and moments that those on the interior nodes and on the right scale are to be compared with, three
-    /// for each. A finer mesh is stiffer, and rounds off as much more.
+    /// Returns the reference sizes of forces and moments, three for each node.
+    ///
+    /// The nodes are the interior ones and the right scale. A finer mesh is stiffer and has
+    /// proportionally larger round-off.
     pub fn units(&self) -> DVector<f64> {
         let axial = self.section.axial_stiffness() / self.beam.length();
         let bending = self.section.bending_stiffness() / self.beam.length();
         let unit = |k: usize| if k % 3 == 2 { bending } else { axial };
-        // Without the left scale, which is the frame and has no equations.
+        // The left scale is the frame and has no equations.
         DVector::from_iterator(3 * self.elements, (0..3 * self.elements).map(unit))
     }
 
@@ -159,14 +161,16 @@ impl GapMembrane {
         GapEnergies { axial, bending }
     }
 
-    /// Returns the largest strain `|N|/EA + h max(|M₁|, |M₂|)/2EI` at the surface of any element.
+    /// Returns the largest strain `|N|/EA + h max(|M₁|, |M₂|)/2EI` at the surface.
+    ///
+    /// The maximum is over all elements.
     ///
     /// # Panics
     /// If `u` is shorter than [`Self::unknowns`].
     pub fn largest_strain(&self, u: &DVector<f64>) -> f64 {
         let half_thickness = 0.5 * self.section.thickness();
         let strain = |local: Local| {
-            // Moments are linear along an element, so that the largest stands at one of its ends.
+            // Moments are linear along an element, so the maximum is at an end.
             let curvature = local.moments[0].abs().max(local.moments[1].abs())
                 / self.section.bending_stiffness();
             local.axial_force.abs() / self.section.axial_stiffness() + half_thickness * curvature
@@ -183,8 +187,9 @@ impl GapMembrane {
         (0..self.elements).map(local).collect()
     }
 
-    /// Returns the deformed axis, from base to base, as `intervals ≥ 1` intervals per element, measured from
-    /// the position at rest of the left scale's node.
+    /// Returns the deformed axis from base to base, in `intervals ≥ 1` intervals per element.
+    ///
+    /// Positions are relative to the rest position of the left scale's node.
     ///
     /// # Panics
     /// If `u` is shorter than [`Self::unknowns`].
@@ -194,7 +199,7 @@ impl GapMembrane {
             let first = self.rest_position(k) + Vec2::new(displacements[0], displacements[1]);
             first + self.element(k).axis_point(&self.bodies(k, &displacements), xi)
         };
-        // Without the beginning of each element, which is the end of the one before it.
+        // Skip the first point of each element, which is the last one of the element before.
         let within = move |k| (1..=intervals).map(move |i| (k, i as f64 / intervals as f64));
         std::iter::once((0, 0.0))
             .chain((0..self.elements).flat_map(within))
@@ -202,7 +207,7 @@ impl GapMembrane {
             .collect()
     }
 
-    /// Returns the position at rest of the `i`-th pose of the state, from the node of the left scale.
+    /// Returns the rest position of the `i`-th pose of the state, relative to the left node.
     fn rest_position(&self, i: usize) -> Vec2 {
         let Span { half_base, axis_offset, .. } = self.span;
         if i == 0 {
@@ -214,7 +219,7 @@ impl GapMembrane {
         }
     }
 
-    /// Returns the poses of the two bodies that element `k` joins, with the origin at the first.
+    /// Returns the poses of the two bodies joined by element `k`, with the origin at the first.
     fn bodies(&self, k: usize, u: &Ends) -> Ends {
         let at_rest = self.rest_position(k + 1) - self.rest_position(k);
         Ends::new(0.0, 0.0, u[2], at_rest.x + (u[3] - u[0]), at_rest.y + (u[4] - u[1]), u[5])
@@ -233,7 +238,7 @@ impl GapResponse {
     }
 }
 
-/// Returns the six entries of the state that element `k` acts on.
+/// Returns the six entries of the state on which element `k` acts.
 fn entries(u: &DVector<f64>, k: usize) -> Ends {
     u.fixed_rows::<6>(3 * k).into_owned()
 }

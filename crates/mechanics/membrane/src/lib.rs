@@ -1,19 +1,19 @@
-//! The soft membrane that carries the scales, one gap at a time.
+//! Soft membrane that carries the scales, one gap at a time.
 //!
-//! The membrane is bonded to the bases of rigid scales and is rigid under them. In each gap it is
-//! a thin strip in plane bending: linear elastic with small strains, but rotating as far as the
-//! scales take it. An equilibrium makes its energy
+//! The membrane is bonded to the bases of rigid scales and is rigid under them. In each gap it is a
+//! thin strip in plane bending: linear elastic with small strains, but with rotations as large as
+//! those of the scales. Equilibria make its energy
 //!
 //! `W = ½ ∫ (EA ε² + EI κ²) ds`
 //!
-//! stationary, where `ε` is the stretch of the axis and `κ` its curvature. Each gap is solved as an
-//! elastica, by one spectral element, or by co-rotational Euler–Bernoulli elements, whose
-//! deformation is measured in a frame that rotates with them.
+//! stationary, with the stretch `ε` of the axis and its curvature `κ`. Each gap is solved as an
+//! elastica by one spectral element, or by co-rotational Euler–Bernoulli elements, with
+//! deformations measured in a frame that rotates with the element.
 //!
 //! Lengths are in units of the scale thickness `t` and forces in units of `E_m t²`, so moments are
-//! in units of `E_m t³`; angles are counter-clockwise. Elements take a [`NodePose`] `(x, y, φ)` of each
-//! end, a gap the displacements `(uₓ, u_y, φ)` from rest. `φ` is an unbounded real number: half-turns
-//! and full turns are ordinary states.
+//! in units of `E_m t³`; angles are counter-clockwise. Elements take a [`NodePose`] `(x, y, φ)` of
+//! each end, a gap the displacements `(uₓ, u_y, φ)` from rest. `φ` is an unbounded real number;
+//! half turns and full turns are ordinary states.
 //!
 //! | Type | Role |
 //! |---|---|

@@ -5,10 +5,10 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::{DMatrix, DVector};
 
-/// The Gauss–Lobatto–Legendre rule of order `n` on `[0, 1]`: `n + 1` points, both ends among them.
+/// Gauss–Lobatto–Legendre rule of order `n` on `[0, 1]`: `n + 1` points including the ends.
 ///
-/// With the Legendre polynomial `Pₙ`, the points are `ξᵢ = (1 + xᵢ)/2` with `x₀ = −1`, `xₙ = 1` and the roots of
-/// `Pₙ'` between them, and
+/// With the Legendre polynomial `Pₙ`, the points are `ξᵢ = (1 + xᵢ)/2` with `x₀ = −1`, `xₙ = 1` and
+/// the roots of `Pₙ'` between them, and
 ///
 /// ```text
 /// wᵢ = 1/(n (n+1) Pₙ(xᵢ)²)                              weights, exact to degree 2n − 1   (M15)
@@ -16,35 +16,35 @@ use nalgebra::{DMatrix, DVector};
 /// Kᵢⱼ = Σₖ wₖ Dₖᵢ Dₖⱼ = ∫ ℓᵢ' ℓⱼ' dξ                      stiffness of the polynomials ℓᵢ   (M17)
 /// ```
 ///
-/// Source: C. Canuto, M. Y. Hussaini, A. Quarteroni, T. A. Zang, *Spectral Methods: Fundamentals in Single
-/// Domains*, Springer (2006), §2.3, doi 10.1007/978-3-540-30726-6.
+/// Source: C. Canuto, M. Y. Hussaini, A. Quarteroni, T. A. Zang, *Spectral Methods: Fundamentals in
+/// Single Domains*, Springer (2006), §2.3, doi 10.1007/978-3-540-30726-6.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Lobatto {
     /// Points `ξᵢ`, ascending from 0 to 1.
     pub(crate) points: DVector<f64>,
     /// Weights `wᵢ`, of sum 1.
     pub(crate) weights: DVector<f64>,
-    /// `D`: values at the points to derivatives at the points.
+    /// `D`, the matrix from values to derivatives at the points.
     pub(crate) derivative: DMatrix<f64>,
     /// `K`.
     pub(crate) stiffness: DMatrix<f64>,
-    /// `Pₙ(xᵢ)`, whose inverses are the barycentric weights of the points.
+    /// `Pₙ(xᵢ)`; the inverses are the barycentric weights of the points.
     legendre: DVector<f64>,
 }
 
-/// The rules that have been asked for, by order.
+/// Rules computed so far, by order.
 static SHARED: Mutex<BTreeMap<usize, Arc<Lobatto>>> = Mutex::new(BTreeMap::new());
 
 impl Lobatto {
-    /// The rule of order `n ≥ 1`, shared by all who ask for it.
+    /// Returns the shared rule of order `n ≥ 1`.
     pub(crate) fn shared(n: usize) -> Arc<Self> {
-        // A panic elsewhere leaves the map whole, so a poisoned lock is as good as any.
+        // A panic elsewhere leaves the map intact, so a poisoned lock is usable.
         let mut rules = SHARED.lock().unwrap_or_else(PoisonError::into_inner);
-        // Made under the lock: whoever asks meanwhile waits instead of making it again.
+        // Compute under the lock, so that other threads wait instead of repeating the computation.
         Arc::clone(rules.entry(n).or_insert_with(|| Arc::new(Self::new(n))))
     }
 
-    /// The rule of order `n ≥ 1`.
+    /// Computes the rule of order `n ≥ 1`.
     pub(crate) fn new(n: usize) -> Self {
         let x = DVector::from_iterator(n + 1, (0..=n).map(|i| point(n, i)));
         let legendre = x.map(|x| legendre(n, x)[1]);
@@ -53,21 +53,21 @@ impl Lobatto {
             if i == j { 0.0 } else { 2.0 * legendre[i] / (legendre[j] * (x[i] - x[j])) }
         });
         for i in 0..=n {
-            // Minus the rest, so that a constant has no slope whatever the rounding of the others.
+            // The negative row sum, so that a constant has an exactly zero slope.
             derivative[(i, i)] = -derivative.row(i).sum();
         }
         let mut stiffness = derivative.transpose() * DMatrix::from_diagonal(&weights) * &derivative;
-        // Round-off would leave it unsymmetric in the last digits.
+        // Symmetrise, because round-off breaks the symmetry in the last digits.
         stiffness.fill_upper_triangle_with_lower_triangle();
         Self { points: x.map(|x| 0.5 * (1.0 + x)), weights, derivative, stiffness, legendre }
     }
 
-    /// The order `n`.
+    /// Returns the order `n`.
     pub(crate) fn order(&self) -> usize {
         self.points.len() - 1
     }
 
-    /// Value at `ξ` of the polynomial with these values at the points, by the barycentric formula.
+    /// Interpolates `values` at the points to `ξ` by the barycentric formula.
     pub(crate) fn interpolate(&self, values: &DVector<f64>, xi: f64) -> f64 {
         let (mut above, mut below) = (0.0, 0.0);
         for i in 0..values.len() {
@@ -84,18 +84,20 @@ impl Lobatto {
     }
 }
 
-/// `Pₙ₋₁(x)` and `Pₙ(x)`, `n ≥ 1`, by the recurrence of three terms.
+/// Returns `Pₙ₋₁(x)` and `Pₙ(x)`, `n ≥ 1`, by the three-term recurrence.
 fn legendre(n: usize, x: f64) -> [f64; 2] {
     (2..=n).map(|k| k as f64).fold([1.0, x], |[before, last], k| {
         [last, ((2.0 * k - 1.0) * x * last - (k - 1.0) * before) / k]
     })
 }
 
-/// The point `xᵢ`: Newton's method on `(1 − x²) Pₙ' = n (Pₙ₋₁ − x Pₙ)`, whose derivative is `−n (n+1) Pₙ`, from the
-/// point of Chebyshev. The points of the right half mirror those of the left one.
+/// Computes the point `xᵢ` by Newton's method from the Chebyshev point.
+///
+/// The function `(1 − x²) Pₙ' = n (Pₙ₋₁ − x Pₙ)` has the derivative `−n (n+1) Pₙ`. The points of
+/// the right half mirror the left ones.
 fn point(n: usize, i: usize) -> f64 {
     match (2 * i).cmp(&n) {
-        // The middle exactly: Newton's method would leave it at some 1e-17.
+        // The middle is exactly zero; Newton's method would leave about 1e-17.
         std::cmp::Ordering::Equal => return 0.0,
         std::cmp::Ordering::Greater => return -point(n, n - i),
         std::cmp::Ordering::Less => {}
@@ -108,14 +110,14 @@ fn point(n: usize, i: usize) -> f64 {
     x
 }
 
-/// Iterations that bring every point to round-off: Newton's method doubles the digits from two on.
+/// Iterations that reach round-off at every point: from two correct digits, each doubles them.
 const NEWTON: usize = 6;
 
 #[cfg(test)]
 mod tests {
     use super::Lobatto;
 
-    /// The rule of order 4 in closed form.
+    /// Closed form of the rule of order 4.
     #[test]
     fn five_points() {
         let rule = Lobatto::new(4);

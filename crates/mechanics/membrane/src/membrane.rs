@@ -1,31 +1,31 @@
-//! Either model of the membrane in a gap, behind one interface.
+//! Common interface of the two models of the membrane in a gap.
 
 use geometry::Vec2;
 use nalgebra::DVector;
 
 use crate::{Derivatives, Elastica, GapEnergies, GapMembrane, GapResponse};
 
-/// The membrane in one gap: co-rotational elements, or the extensible elastica that is their limit.
+/// Membrane in one gap: co-rotational elements or their limit, the extensible elastica.
 ///
-/// Both are seen from the left scale, whose pose is the frame. The state of a gap consists of its own unknowns and of the
-/// displacement and rotation of the right scale,
+/// Both models use the pose of the left scale as their frame. The state of a gap consists of its
+/// own unknowns and of the displacement and rotation of the right scale,
 ///
 /// ```text
 /// z = (interior, uₓ, u_y, φ)                                                    (M23)
 /// ```
 ///
-/// where the interior is that of (M13) for elements, the poses of the nodes between the scales, and that of (M22) for the
-/// elastica.
+/// with the interior of (M13) for elements, the poses of the nodes between the scales, and of (M22)
+/// for the elastica.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Membrane {
     /// Co-rotational elements.
     Elements(GapMembrane),
-    /// A spectral element for the extensible elastica.
+    /// Spectral element of the extensible elastica.
     Elastica(Elastica),
 }
 
 impl Membrane {
-    /// Returns the number of unknowns that belong to the gap itself, the first of its state.
+    /// Returns the number of the gap's own unknowns, the first of its state.
     pub fn interior(&self) -> usize {
         match self {
             Self::Elements(gap) => 3 * (gap.elements() - 1),
@@ -33,17 +33,18 @@ impl Membrane {
         }
     }
 
-    /// Returns the number of leading unknowns that vanish while no force goes through the gap. The functions of a state
-    /// accept one without them.
+    /// Returns the number of leading unknowns that vanish without a force in the gap.
+    ///
+    /// The functions of a state accept one without them.
     pub fn vanishing(&self) -> usize {
         match self {
-            // Nodes between elements turn with the membrane, force or not.
+            // Nodes between elements rotate with the membrane, with or without force.
             Self::Elements(_) => 0,
             Self::Elastica(gap) => gap.order() - 1,
         }
     }
 
-    /// Returns the sizes that the entries of the gradient are to be compared with, in the order of the state.
+    /// Returns the reference sizes of the entries of the gradient, in the order of the state.
     pub fn units(&self) -> DVector<f64> {
         match self {
             Self::Elements(gap) => gap.units(),
@@ -51,11 +52,11 @@ impl Membrane {
         }
     }
 
-    /// Returns the derivatives of the potential of the gap with respect to its state `z`.
+    /// Computes the derivatives of the potential of the gap by its state `z`.
     pub fn derivatives(&self, z: &[f64]) -> Derivatives {
         match self {
             Self::Elements(gap) => {
-                // The left scale is the frame: its three coordinates are no entries of the state.
+                // The left scale is the frame: its three coordinates are not part of the state.
                 let GapResponse { force, tangent, .. } = gap.response(&from_left(z));
                 Derivatives {
                     gradient: force.rows(3, z.len()).into_owned(),
@@ -66,7 +67,7 @@ impl Membrane {
         }
     }
 
-    /// Returns the energies at a state `z` that satisfies the equations of the gap's own unknowns.
+    /// Computes the energies at a state `z` that satisfies the gap's own equations.
     pub fn energies(&self, z: &[f64]) -> GapEnergies {
         match self {
             Self::Elements(gap) => gap.energies(&from_left(z)),
@@ -74,7 +75,7 @@ impl Membrane {
         }
     }
 
-    /// Returns the largest strain `|ε| + ½ h |κ|` at the surface of the membrane in the state `z`.
+    /// Computes the largest strain `|ε| + ½ h |κ|` at the surface of the membrane.
     pub fn largest_strain(&self, z: &[f64]) -> f64 {
         match self {
             Self::Elements(gap) => gap.largest_strain(&from_left(z)),
@@ -82,8 +83,9 @@ impl Membrane {
         }
     }
 
-    /// Returns the deformed axis, from base to base, measured from the node of the left scale: `intervals` of each
-    /// element, or of the whole gap.
+    /// Computes the deformed axis from base to base, relative to the node of the left scale.
+    ///
+    /// It has `intervals` intervals per element, or in the whole gap for an elastica.
     pub fn axis(&self, z: &[f64], intervals: usize) -> Vec<Vec2> {
         match self {
             Self::Elements(gap) => gap.axis(&from_left(z), intervals),
@@ -91,8 +93,9 @@ impl Membrane {
         }
     }
 
-    /// Returns the state `z` as it is seen by a membrane of another resolution; `None` unless both are elasticas, whose direction
-    /// can be interpolated.
+    /// Transfers the state `z` to a membrane of another resolution.
+    ///
+    /// `None` unless both are elasticas, which can be interpolated.
     pub fn transferred(&self, z: &[f64], to: &Self) -> Option<Vec<f64>> {
         match (self, to) {
             (Self::Elastica(ours), Self::Elastica(theirs)) => Some(ours.transferred(z, theirs)),
@@ -101,7 +104,7 @@ impl Membrane {
     }
 }
 
-/// Returns the state of elements whose left scale is at rest.
+/// Extends a state by the left scale at rest, as elements need it.
 fn from_left(z: &[f64]) -> DVector<f64> {
     let mut state = DVector::zeros(z.len() + 3);
     state.rows_mut(3, z.len()).copy_from_slice(z);

@@ -1,4 +1,4 @@
-//! Points that are rigidly attached to a pose, and elements between such points.
+//! Points rigidly attached to a pose, and elements between such points.
 
 use geometry::Vec2;
 use nalgebra::Matrix3;
@@ -6,7 +6,7 @@ use nalgebra::Matrix3;
 use crate::corotational_beam::{CorotationalBeam, Ends, Response, Stiffness};
 use crate::{Local, NodePose};
 
-/// A point rigidly attached to a body.
+/// Point rigidly attached to a body.
 ///
 /// ```text
 ///      ┌─────────┐
@@ -46,32 +46,34 @@ impl RigidArm {
         NodePose::new(body[0] + lever.x, body[1] + lever.y, body[2])
     }
 
-    /// Returns the gradient of the attached pose with respect to the pose of the body (M11): row by component.
+    /// Returns the gradient of the attached pose by the pose of the body (M11).
+    ///
+    /// Rows are components of the attached pose.
     pub fn gradient(&self, phi: f64) -> Matrix3<f64> {
         let lever = self.lever(phi);
         Matrix3::new(1.0, 0.0, -lever.y, 0.0, 1.0, lever.x, 0.0, 0.0, 1.0)
     }
 
-    /// Returns the second derivative `−R p` of the position of the attached point with respect to `φ` (M11).
+    /// Returns the second derivative `−R p` of the attached position by `φ` (M11).
     pub fn second_derivative(&self, phi: f64) -> Vec2 {
         -self.lever(phi)
     }
 }
 
-/// An element whose ends are rigidly attached to two bodies.
+/// Element with ends that are rigidly attached to two bodies.
 ///
-/// Let `F` and `K` be the force and the tangent of the element at the attached poses `Q(q)`, and
-/// `T = ∂Q/∂q`. In terms of the poses `q` of the bodies,
+/// Let `F` and `K` be the force and the tangent of the element at the attached poses `Q(q)`, and `T
+/// = ∂Q/∂q`. In terms of the poses `q` of the bodies,
 ///
 /// ```text
 /// f = Tᵀ F,   k = Tᵀ K T + Σᵢ Fᵢ·(−R pᵢ) iᵩᵢ iᵩᵢᵀ                               (M12)
 /// ```
 ///
-/// where `Fᵢ` is the force (without the moment) on end `i`, and `iᵩᵢ` the unit vector of the rotation
-/// of body `i`. The sum is the work of the end forces on the curved paths of the ends.
+/// with the force `Fᵢ` (without moment) on end `i` and the unit vector `iᵩᵢ` of the rotation of
+/// body `i`. The sum is the work of the end forces on the curved paths of the ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OffsetBeam {
-    /// The element.
+    /// Element.
     pub beam: CorotationalBeam,
     /// Arms from the bodies to ends 1 and 2.
     pub arms: [RigidArm; 2],
@@ -95,7 +97,7 @@ impl OffsetBeam {
         self.beam.axis_point(&self.ends(bodies), xi)
     }
 
-    /// Returns energies, and their derivatives with respect to the poses of the bodies (M12).
+    /// Returns energies and their derivatives by the poses of the bodies (M12).
     pub fn response(&self, bodies: &Ends) -> Response {
         let at_ends = self.beam.response(&self.ends(bodies));
         let transform = self.transform(bodies);

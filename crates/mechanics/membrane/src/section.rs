@@ -1,15 +1,15 @@
-//! The cross-section of the membrane.
+//! Cross-section of the membrane.
 
 use geometry::OutOfRange;
 
-/// Returns `value` if it is a positive finite number, and otherwise an error.
+/// Returns `value` if it is positive and finite, otherwise an error.
 pub(crate) fn positive(quantity: &'static str, value: f64) -> Result<f64, OutOfRange> {
     let positive = value > 0.0 && value.is_finite();
     OutOfRange::unless(positive, quantity, value, "a positive finite number")?;
     Ok(value)
 }
 
-/// A rectangular section of depth `b` (out of the plane) and thickness `h`, both over `t`.
+/// Rectangular section of depth `b` (out of the plane) and thickness `h`, both over `t`.
 ///
 /// With forces in units of `E_m t²`, the modulus is 1 and
 ///

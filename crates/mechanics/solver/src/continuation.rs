@@ -193,7 +193,7 @@ impl<S: System> Continuation<S> {
 
     /// Solves for the equilibrium at a fraction of the distance between two neighbouring points.
     ///
-    /// Active set and mode are those of the segment. `None` if Newton's method fails.
+    /// Uses the active set and mode of the segment. `None` if Newton's method fails.
     pub fn between(
         &mut self,
         from: &Equilibrium<S::Mode>,
@@ -242,7 +242,7 @@ impl<S: System> Continuation<S> {
 
     /// Solves for the equilibrium near `state` that satisfies a condition.
     ///
-    /// Active set and mode are those of `state`. `None` if Newton's method fails.
+    /// Keeps the active set and mode of `state`. `None` if Newton's method fails.
     pub fn solved(
         &mut self,
         state: State<S::Mode>,

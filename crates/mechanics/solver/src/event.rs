@@ -81,7 +81,7 @@ impl<S: System> Continuation<S> {
         }
     }
 
-    /// Returns the constraint whose guard vanishes first by linear extrapolation.
+    /// Returns the constraint with the first zero of its guard, by linear extrapolation.
     ///
     /// The second number is its distance in units of the outgoing direction.
     fn first_predicted(&self) -> Option<(usize, f64)> {

@@ -1,15 +1,16 @@
 //! Reactions of rigid rectangles on an elastic half-space, by collocation.
 //!
-//! The traction is uniform in each cell `j` and the displacement is met at one point `i` of each,
+//! The traction is uniform in each cell `j`, and the displacement is imposed at one point `i` of
+//! each cell,
 //!
 //! ```text
 //! Σ_j G_ij p_j = u_i      (S5)
 //! ```
 //!
-//! with `G` from (S1) for normal and from (S2) for tangential tractions. Both planes of symmetry are
-//! used: `z` always (every load is even in it), `x` with the sign of the load (displacements are
-//! even, the rotation is odd). So `n × n` cells on a quarter of the middle rectangle and as many on
-//! half a neighbour are all the unknowns. The reactions are
+//! with `G` from (S1) for normal and from (S2) for tangential tractions. Both planes of symmetry
+//! are used: `z` always (every load is even in it), `x` with the sign of the load (displacements
+//! are even, the rotation is odd). The unknowns are therefore `n × n` cells on a quarter of the
+//! middle rectangle and as many on half of each neighbour. The reactions are
 //!
 //! ```text
 //! α_x, α_y = ∬ q, ∬ p,  α_φ = ∬ p (x − x_m)   on the middle rectangle
@@ -25,20 +26,22 @@ use crate::Footprint;
 use crate::half_space::{CornerLine, Influence};
 use crate::mesh::{GradedAxis, Mesh};
 
-/// A row of rectangles that double precision cannot tell apart.
+/// Row of rectangles that double precision cannot resolve.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error(
     "no tractions found under rectangles of gap/a = {:e} and width/a = {:e} with {cells} cells a side",
     .footprint.gap_over_a(), .footprint.width_over_a()
 )]
 pub struct Unresolved {
-    /// The footprint of the row.
+    /// Footprint of the row.
     pub footprint: Footprint,
-    /// Cells a side of the mesh.
+    /// Number of cells along each side of the mesh.
     pub cells: usize,
 }
 
-/// The two cross terms of a pair of rectangles, equal by Betti's theorem as far as the mesh is fine.
+/// The two cross terms of a pair of rectangles.
+///
+/// They are equal by Betti's theorem, up to the error of the mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CrossTerms {
     /// Normal force on the neighbour from a unit rotation of the middle rectangle.
@@ -47,28 +50,32 @@ pub struct CrossTerms {
     pub moment: f64,
 }
 
-/// Reactions of a row of rectangles on one mesh, for `E* = a = 1`, when the middle one is displaced by a
-/// unit and the others are held.
+/// Reactions of a row of rectangles on one mesh, for `E* = a = 1`.
+///
+/// The middle rectangle has a unit displacement and the others are fixed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RowReactions {
     /// Reactions on the middle rectangle, in the direction of the displacement: `x`, `y`, `φ`.
     pub direct: [f64; 3],
     /// Reactions on the neighbours on the right, the nearest first, in the same directions.
     pub neighbours: Vec<[f64; 3]>,
-    /// Coupling of the rotation of the middle rectangle and the normal displacement of each neighbour.
+    /// Coupling of the rotation of the middle rectangle and the normal displacement of each
+    /// neighbour.
     pub cross: Vec<CrossTerms>,
 }
 
-/// Displaces the middle one of a row with `neighbours ≥ 1` rectangles on each side, with the others held, on `n × n` cells a
-/// quarter (S5), and returns the reactions (S6) on all of them.
+/// Computes the reactions (S6) of a row of rectangles on `n × n` cells per quarter (S5).
 ///
-/// Eqs. (2)–(3) of Shafiei et al. (doi 10.1016/j.jmps.2020.104176) treat normal and tangential tractions
-/// apart. At `ν = 0.5` that is exact, as neither moves the surface in the other's direction.
-/// Elsewhere it neglects their coupling, proportional to `1 − 2ν`, as if the base slid freely in the
-/// direction that is not driven.
+/// The row has `neighbours ≥ 1` rectangles on each side of the middle one, which is displaced while
+/// the others are fixed.
+///
+/// Eqs. (2)–(3) of Shafiei et al. (doi 10.1016/j.jmps.2020.104176) treat normal and tangential
+/// tractions separately. This is exact at `ν = 0.5`, where neither displaces the surface in the
+/// direction of the other. Otherwise it neglects their coupling, proportional to `1 − 2ν`, as if
+/// the base slid freely in the direction that is not driven.
 ///
 /// # Errors
-/// If the gap, or a cell, is lost in rounding.
+/// If the gap or a cell vanishes by rounding.
 pub fn row_reactions(
     footprint: &Footprint,
     neighbours: usize,
@@ -78,8 +85,10 @@ pub fn row_reactions(
     found.into_iter().next().ok_or(Unresolved { footprint: *footprint, cells: n })
 }
 
-/// As [`row_reactions`] for several Poisson's ratios in place of that of the footprint. Normal tractions do not depend on it, so
-/// that each ratio takes one matrix more, where each footprint takes three.
+/// Computes [`row_reactions`] for several Poisson's ratios in place of the footprint's own.
+///
+/// Normal tractions do not depend on the ratio, so each ratio takes one more matrix, whereas each
+/// footprint takes three.
 ///
 /// # Errors
 /// As [`row_reactions`].
@@ -90,9 +99,9 @@ pub fn row_reactions_at(
     n: usize,
 ) -> Result<Vec<RowReactions>, Unresolved> {
     let mesh = Mesh::row(footprint, neighbours, n);
-    // What rounding has closed shows in the mesh, before anything is solved.
+    // Rounding shows in the mesh, before anything is solved.
     let found = mesh.is_resolved().then(|| mesh.reactions(footprint, poisson_ratios));
-    // Factors of a singular matrix are no error, only numbers that are not finite.
+    // A singular matrix gives non-finite results instead of an error.
     let are_finite = |found: &Vec<RowReactions>| {
         found.iter().flat_map(RowReactions::numbers).all(f64::is_finite)
     };
@@ -100,8 +109,10 @@ pub fn row_reactions_at(
 }
 
 impl RowReactions {
-    /// Returns all numbers in a list: those of the middle rectangle, then of each neighbour its three reactions and the two cross
-    /// terms.
+    /// Returns all numbers as a list.
+    ///
+    /// First come the reactions of the middle rectangle, then for each neighbour its three
+    /// reactions and two cross terms.
     pub fn numbers(&self) -> Vec<f64> {
         let of_neighbour = |(direct, cross): (&[f64; 3], &CrossTerms)| {
             let [x, y, turn] = *direct;
@@ -112,21 +123,21 @@ impl RowReactions {
     }
 }
 
-/// A displacement of a rectangle, or the arm of its tractions, as a function of `x`.
+/// Displacement of a rectangle, or lever arm of its tractions, as a function of `x`.
 pub(crate) type Profile = fn(f64) -> f64;
 
 pub(crate) const ONE: Profile = |_| 1.0;
 pub(crate) const ZERO: Profile = |_| 0.0;
 pub(crate) const ARM: Profile = |x| x;
 
-/// A load case: the displacement of the middle rectangle, and the neighbour that is displaced by 1 besides.
+/// Load case: displacement of the middle rectangle, and an optional neighbour displaced by 1.
 pub(crate) struct Load {
     pub(crate) middle: Profile,
     pub(crate) neighbour: Option<usize>,
 }
 
 impl Load {
-    /// Returns the displacement of a point of rectangle `body`: 0 is the middle one, 1 its nearest neighbour.
+    /// Returns the displacement at a point of rectangle `body`, 0 being the middle one.
     fn displacement(&self, body: usize, x: f64) -> f64 {
         match body {
             0 => (self.middle)(x),
@@ -139,8 +150,9 @@ impl Mesh {
     fn reactions(&self, footprint: &Footprint, poisson_ratios: &[f64]) -> Vec<RowReactions> {
         let equations = Equations::assemble(self, poisson_ratios);
         let push = self.imposed(&[Load { middle: ONE, neighbour: None }]);
-        // Besides the rotation, a neighbour and its mirror image displaced by 1 and −1: half of it is the
-        // odd part of one displaced alone, and the even part leaves no moment on the middle rectangle.
+        // With the rotation, a neighbour and its mirror image are displaced by 1 and −1. Half of
+        // this is the odd part of a single displaced neighbour; the even part exerts no moment on
+        // the middle rectangle.
         let turn = Load { middle: ARM, neighbour: None };
         let opposed = (0..self.neighbours.len()).map(|k| Load { middle: ZERO, neighbour: Some(k) });
         let loads: Vec<_> = [turn].into_iter().chain(opposed).collect();
@@ -153,7 +165,9 @@ impl Mesh {
         equations.shear.into_iter().map(sums).collect()
     }
 
-    /// Returns the reactions that tractions add up to; `odd` has those of the rotation first, and of each displaced neighbour.
+    /// Sums the tractions to reactions.
+    ///
+    /// `odd` holds the reactions of the rotation first, then of each displaced neighbour.
     fn sums(
         &self,
         footprint: &Footprint,
@@ -186,7 +200,7 @@ impl Mesh {
         }
     }
 
-    /// Returns the axes along `x`, in the order of the unknowns: column by column, `z` fastest.
+    /// Returns the axes along `x` in the order of the unknowns: column by column, `z` fastest.
     pub(crate) fn across(&self) -> impl Iterator<Item = &GradedAxis> + Clone {
         std::iter::once(&self.middle).chain(&self.neighbours)
     }
@@ -195,7 +209,7 @@ impl Mesh {
         self.across().map(GradedAxis::cells).sum::<usize>() * self.depth.cells()
     }
 
-    /// Returns a column for each load: the displacements that it imposes.
+    /// Returns the imposed displacements, one column per load.
     pub(crate) fn imposed(&self, loads: &[Load]) -> Mat<f64> {
         let depth = self.depth.cells();
         let points: Vec<(usize, f64)> = self
@@ -209,12 +223,12 @@ impl Mesh {
         })
     }
 
-    /// Returns `∬ p arm(x)` over the middle rectangle, four times that over its quarter.
+    /// Returns `∬ p arm(x)` over the middle rectangle, four times the integral over its quarter.
     pub(crate) fn middle_sum(&self, tractions: ColRef<'_, f64>, arm: impl Fn(f64) -> f64) -> f64 {
         4.0 * self.sum(&self.middle, 0, tractions, arm)
     }
 
-    /// Returns `∬ p arm(x)` over the neighbour `k`, from 0, twice that over its half.
+    /// Returns `∬ p arm(x)` over neighbour `k`, from 0, twice the integral over its half.
     pub(crate) fn neighbour_sum(
         &self,
         k: usize,
@@ -225,7 +239,7 @@ impl Mesh {
         2.0 * self.sum(&self.neighbours[k], before * self.depth.cells(), tractions, arm)
     }
 
-    /// Returns `∬ p arm(x)` over the meshed part of a rectangle whose first unknown is `first`.
+    /// Returns `∬ p arm(x)` over the meshed part of the rectangle with the first unknown `first`.
     fn sum(
         &self,
         axis: &GradedAxis,
@@ -241,7 +255,7 @@ impl Mesh {
     }
 }
 
-/// The matrices `G` of (S5) for the three loads, for shear one for each Poisson's ratio.
+/// Matrices `G` of (S5) for the three loads; shear has one per Poisson's ratio.
 struct Equations {
     shear: Vec<Mat<f64>>,
     normal: Mat<f64>,
@@ -256,7 +270,8 @@ impl Equations {
         let mut equations = Self { shear, normal: zeros.clone(), rotation: zeros };
         let depth = mesh.depth.cells();
         let fields: Vec<f64> = mesh.across().flat_map(GradedAxis::points).copied().collect();
-        // A line of corners serves all field points of a depth: its logarithms are taken once.
+        // A line of corners serves all field points of a depth, so its logarithms are computed
+        // once.
         for (k, &z) in mesh.depth.points().iter().enumerate() {
             let mut columns = CellColumns::new(CornerLine::new(mesh.depth.mirrored_edges(), z));
             for (i, &x) in fields.iter().enumerate() {
@@ -267,7 +282,7 @@ impl Equations {
         equations
     }
 
-    /// Sources on the right act with their mirror images on the left, even or odd in `x`.
+    /// Fills a row: sources on the right with their mirror images on the left, even or odd in `x`.
     fn fill_row(
         &mut self,
         row: usize,
@@ -276,7 +291,7 @@ impl Equations {
         poisson_ratios: &[f64],
     ) {
         for (column, (&right, &left)) in right.iter().zip(left).enumerate() {
-            // The edges of a mirror image descend, which turns its sign.
+            // The edges of a mirror image descend, which reverses the sign.
             let even = right - left;
             for (shear, ratio) in self.shear.iter_mut().zip(poisson_ratios) {
                 shear[(row, column)] = even.tangential(*ratio);
@@ -287,7 +302,7 @@ impl Equations {
     }
 }
 
-/// Influence of columns of cells at one depth, each cell together with its mirror image in `z`.
+/// Influence of columns of cells at one depth, each cell with its mirror image in `z`.
 pub(crate) struct CellColumns {
     line: CornerLine,
     last: Vec<Influence>,
@@ -295,14 +310,18 @@ pub(crate) struct CellColumns {
 }
 
 impl CellColumns {
-    /// Creates the columns between lines of corners; `line` holds the edges of cells and of their mirror images, an odd number.
+    /// Creates the columns between lines of corners.
+    ///
+    /// `line` holds the edges of cells and of their mirror images, an odd number.
     pub(crate) fn new(line: CornerLine) -> Self {
         let blank = vec![Influence::default(); line.len()];
         Self { line, last: blank.clone(), next: blank }
     }
 
-    /// The influence at `x`, column by column, of the cells on one `side` of the plane of symmetry: 1 right, −1 left, where edges
-    /// descend and the influence is negative.
+    /// Computes the influence at `x` of the cells on one `side` of the symmetry plane, by column.
+    ///
+    /// The side is 1 (right) or −1 (left). On the left the edges descend and the influence is
+    /// negative.
     pub(crate) fn on_side(&mut self, mesh: &Mesh, x: f64, side: f64) -> Vec<Influence> {
         let mut influence = Vec::with_capacity(mesh.unknowns());
         for axis in mesh.across() {
@@ -318,7 +337,9 @@ impl CellColumns {
     }
 }
 
-/// Appends the influence of the cells between two lines of corners, each together with its mirror image in `z`.
+/// Appends the influence of the cells between two lines of corners.
+///
+/// Each cell includes its mirror image in `z`.
 fn append_cells(last: &[Influence], next: &[Influence], into: &mut Vec<Influence>) {
     let half = last.len() / 2;
     let strip = |j: usize| next[j] - last[j];

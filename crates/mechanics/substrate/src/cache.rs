@@ -1,4 +1,4 @@
-//! A bounded cache that solves each footprint once, for all threads.
+//! Bounded cache that solves each footprint once for all threads.
 
 use std::collections::HashMap;
 use std::mem;
@@ -7,13 +7,15 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use crate::Footprint;
 use crate::boundary_element::Unresolved;
 
-/// A result that the first thread to need it fills in; threads that hold it while it is forgotten still share it.
+/// Result filled by the first thread that needs it.
+///
+/// Threads that hold it when the cache drops it still share it.
 type Slot<T> = Arc<OnceLock<Result<T, Unresolved>>>;
 
-/// Results by footprint, at most `capacity` of them, each solved by the first thread that asks.
+/// Results by footprint, each solved by the first thread that requests it.
 ///
-/// Memory is bounded by two generations of at most half the capacity each. When the young one is full, the old one is
-/// forgotten and the young one takes its place; an entry that is used moves back to the young one.
+/// Two generations of at most half the capacity each bound the memory. When the young one is full,
+/// it replaces the old one, which is dropped. An entry that is used again moves to the young one.
 #[derive(Debug)]
 pub(crate) struct BoundedCache<T>(Mutex<Generations<T>>);
 
@@ -31,14 +33,14 @@ impl<T: Clone> BoundedCache<T> {
         Self(Mutex::new(Generations { limit, young: HashMap::new(), old: HashMap::new() }))
     }
 
-    /// Returns the result for `footprint`, from `solve` if it is not known. Errors are kept like results.
+    /// Returns the cached result for `footprint`, or calls `solve`. Errors are cached too.
     pub(crate) fn get_or_solve(
         &self,
         footprint: &Footprint,
         solve: impl FnOnce() -> Result<T, Unresolved>,
     ) -> Result<T, Unresolved> {
-        // Solving happens outside the lock. A panic elsewhere leaves the maps whole, so a poisoned
-        // lock is as good as any.
+        // Solve outside the lock. A panic elsewhere leaves the maps intact, so a poisoned lock is
+        // usable.
         let slot = self.0.lock().unwrap_or_else(PoisonError::into_inner).slot(footprint);
         slot.get_or_init(solve).clone()
     }
@@ -49,7 +51,7 @@ impl<T> Generations<T> {
         if let Some(slot) = self.young.get(footprint) {
             return Arc::clone(slot);
         }
-        // Before the old generation is forgotten: what is used again is not to be solved again.
+        // Move before dropping the old generation, so that an entry in use is not solved again.
         let slot = self.old.remove(footprint).unwrap_or_default();
         if self.young.len() >= self.limit {
             self.old = mem::take(&mut self.young);
@@ -72,7 +74,7 @@ mod tests {
         (1..=count).map(|k| Footprint::new(0.1 * f64::from(k), 2.0, 0.5).unwrap()).collect()
     }
 
-    /// A cache that counts how often it solves; the "result" is the gap.
+    /// Cache that counts its solves; the cached result is the gap.
     struct Counted {
         cache: BoundedCache<f64>,
         solved: AtomicUsize,

@@ -6,22 +6,22 @@ use crate::boundary_element::Unresolved;
 use crate::cache::BoundedCache;
 use crate::{Coupling, Footprint, RowStiffness, Springs, StiffnessSlopes};
 
-/// Calibrations shared by every design and thread that needs them.
+/// Calibrations shared by all designs and threads.
 ///
-/// Designs that differ in slant alone share a footprint. The first thread to ask for one solves it;
-/// others that ask meanwhile wait for that result, and others that ask for another footprint do
-/// not wait. Springs depend on the footprint alone, so results depend neither on the threads
-/// nor on the footprints that the cache forgets when it is full.
+/// Designs that differ only in slant share a footprint. The first thread that requests a footprint
+/// solves it; other requests for the same one wait for that result, and requests for another
+/// footprint do not wait. Results depend on the footprint alone, hence neither on the threads nor
+/// on the footprints that a full cache drops.
 #[derive(Debug)]
 pub struct Calibrations {
     rows: [BoundedCache<Arc<RowStiffness>>; COUPLINGS],
     slopes: [BoundedCache<Arc<StiffnessSlopes>>; COUPLINGS],
 }
 
-/// Kinds of [`Coupling`], which number the caches.
+/// Number of variants of [`Coupling`], each with a cache.
 const COUPLINGS: usize = 2;
 
-/// The default capacity, in footprints: some 10 MB, and more than any sweep needs at a time.
+/// Default capacity, in footprints: about 10 MB, more than any sweep needs at a time.
 const CAPACITY: usize = 1 << 16;
 
 impl Calibrations {
@@ -33,19 +33,19 @@ impl Calibrations {
         }
     }
 
-    /// Returns the springs of `footprint`, solved now if they are not known.
+    /// Returns the springs of `footprint`, solving them if necessary.
     ///
     /// # Errors
-    /// As [`RowStiffness::solve`]; the error is remembered like a result.
+    /// As [`RowStiffness::solve`]; errors are cached too.
     pub fn get(&self, footprint: &Footprint) -> Result<Springs, Unresolved> {
-        // Springs are a row with its nearest neighbours: one cache serves both.
+        // Springs are a row with nearest neighbours, so one cache serves both.
         self.row(footprint, Coupling::Nearest).map(|row| (&*row).into())
     }
 
-    /// Returns the stiffness of a row of that `footprint` and `coupling`, solved now if it is not known.
+    /// Returns the stiffness of a row, solving it if necessary.
     ///
     /// # Errors
-    /// As [`RowStiffness::solve`]; the error is remembered like a result.
+    /// As [`RowStiffness::solve`]; errors are cached too.
     pub fn row(
         &self,
         footprint: &Footprint,
@@ -55,10 +55,10 @@ impl Calibrations {
         self.rows[coupling as usize].get_or_solve(footprint, solve)
     }
 
-    /// Returns the stiffness of a row of that `footprint` and `coupling` with its derivatives, solved now if it is not known.
+    /// Returns the stiffness of a row with its derivatives, solving them if necessary.
     ///
     /// # Errors
-    /// As [`RowStiffness::solve`]; the error is remembered like a result.
+    /// As [`RowStiffness::solve`]; errors are cached too.
     pub fn slopes(
         &self,
         footprint: &Footprint,

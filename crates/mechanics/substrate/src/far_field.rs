@@ -1,4 +1,4 @@
-//! The row beyond the last scale that anything but the substrate acts on.
+//! Closed form for the free scales beyond the end of the solved part of a row.
 
 mod coupled;
 
@@ -6,54 +6,57 @@ use coupled::CoupledRow;
 
 use crate::RowStiffness;
 
-/// The effect of free scales on those at whose end they stand.
+/// Effect of free scales on the scales at the end of the solved part.
 ///
-/// With the coupling of Eq. (1) a free scale `k` obeys `α u_k = β (u_{k−1} + u_{k+1})` in each direction. Of the two
-/// solutions of such a chain the one that decays is
+/// With the coupling of Eq. (1), a free scale `k` obeys `α u_k = β (u_{k−1} + u_{k+1})` in each
+/// direction. The decaying solution of this chain is
 ///
 /// ```text
 /// u_k = r^k u_0,     β (r + 1/r) = α,  |r| < 1                                       (S13)
 /// ```
 ///
-/// so the scale 0, with an endless row on one side of it, is held by `α − β r` in place of `α`, and the scales
-/// beyond need not be solved for. `r` has the sign of `β`: rotations alternate. Of a row that ends after `n` more scales both solutions
-/// together leave the last one free,
+/// so a scale 0 with an infinite row on one side has the stiffness `α − β r` instead of `α`, and
+/// the scales beyond need not be solved. `r` has the sign of `β`: rotations alternate. If the row
+/// ends after `n` more scales, a combination of both solutions leaves the last one free,
 ///
 /// ```text
 /// u_k = r^k (1 − r^{2(n+1−k)})/(1 − r^{2(n+1)}) u_0,     held by α − β u_1/u_0          (S16)
 /// ```
 ///
-/// Where scales feel `m > 1` neighbours, or force from rotation, the last `m` scales take the place of the scale 0 (S17).
+/// If scales couple with `m > 1` neighbours, or forces with rotations, the last `m` scales take the
+/// role of scale 0 (S17).
 ///
-/// Scales are counted from the end, from 0 on; beyond it lies what is to the right.
+/// Scales are counted from the end, starting at 0; the free scales lie to the right.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FarField {
-    /// By how much the row takes the stiffness of the scales at the end down.
+    /// Reductions of the stiffness of the scales at the end.
     pub relief: Vec<Relief>,
     motion: FreeMotion,
 }
 
-/// A part of the stiffness that free scales take from those at whose end they stand; in the units of [`RowStiffness`].
+/// Reduction of one stiffness block by free scales, in the units of [`RowStiffness`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Relief {
-    /// Scale on which the force acts.
+    /// Scale with the force.
     pub force: usize,
-    /// Scale that is displaced.
+    /// Scale with the displacement.
     pub displacement: usize,
-    /// By how much force along `x`, force along `y` and moment are smaller, each for the three displacements.
+    /// Reduction of force along `x`, force along `y` and moment, each for the three displacements.
     pub by: [[f64; 3]; 3],
 }
 
-/// How the scales beyond follow those at the end.
+/// Law by which the free scales follow the scales at the end.
 #[derive(Clone, Debug, PartialEq)]
 enum FreeMotion {
-    /// With the decay `r` of each direction; of a row that ends, the number of scales beyond.
+    /// Decay `r` of each direction, and the number of free scales if the row ends.
     Chain([f64; 3], Option<usize>),
     Coupled(CoupledRow),
 }
 
 impl FarField {
-    /// Displacements of the first `count` scales beyond, by those of the scales at the end.
+    /// Computes the displacements of the first `count` free scales.
+    ///
+    /// `end` returns the displacements of the scales at the end, counted from there.
     pub fn displacements(&self, end: impl Fn(usize) -> [f64; 3], count: usize) -> Vec<[f64; 3]> {
         match &self.motion {
             FreeMotion::Chain(..) => (1..=count).map(|k| self.displacement(&end, k)).collect(),
@@ -61,7 +64,7 @@ impl FarField {
         }
     }
 
-    /// Displacements of the scale `distance > 0` places beyond the end.
+    /// Computes the displacement of the scale `distance > 0` beyond the end.
     pub fn displacement(&self, end: impl Fn(usize) -> [f64; 3], distance: usize) -> [f64; 3] {
         match &self.motion {
             FreeMotion::Chain(decay, scales) => {
@@ -73,20 +76,22 @@ impl FarField {
     }
 }
 
-/// `u_k/u_0` of (S13), or of (S16) where so many `scales` lie beyond.
+/// Returns `u_k/u_0` of (S13), or of (S16) if the row ends after `scales` more.
 fn decayed(r: f64, scales: Option<usize>, k: usize) -> f64 {
-    // A row is never as long as an `i32` counts.
+    // A row is always shorter than the range of `i32`.
     let power = |n: usize| r.powi(n as i32);
     let free = |n: usize| (1.0 - power(2 * (n + 1 - k))) / (1.0 - power(2 * (n + 1)));
     power(k) * scales.map_or(1.0, free)
 }
 
 impl RowStiffness {
-    /// The row beyond the end of one that is solved for: endless, or of so many `scales`, which has a closed form with the coupling
-    /// of Eq. (1) alone. `None` where there is none, and if nothing decays because the row is not stable (`α ≤ 2 |β|`).
+    /// Returns the far field of an infinite row, or of a row with `scales` more scales.
+    ///
+    /// A finite number has a closed form only with the coupling of Eq. (1). `None` without a closed
+    /// form, and if nothing decays because the row is unstable (`α ≤ 2 |β|`).
     pub fn far_field(&self, scales: Option<usize>) -> Option<FarField> {
         match self.neighbours.as_slice() {
-            // Without any coupling of directions each of the three is a chain of its own.
+            // Without coupling of directions, each of the three is a separate chain.
             [nearest] if nearest.is_diagonal() && self.roll == 0.0 => {
                 self.chain(nearest.direct, scales)
             }
@@ -94,7 +99,7 @@ impl RowStiffness {
         }
     }
 
-    /// The far field with the coupling of Eq. (1).
+    /// Returns the far field with the coupling of Eq. (1).
     fn chain(&self, coupling: [f64; 3], scales: Option<usize>) -> Option<FarField> {
         let beta = coupling.map(|stiffness| -stiffness);
         if !(0..3).all(|k| self.direct[k] > 2.0 * beta[k].abs()) {
@@ -102,7 +107,7 @@ impl RowStiffness {
         }
         let decay: [f64; 3] = std::array::from_fn(|k| {
             let (alpha, twice) = (self.direct[k], 2.0 * beta[k]);
-            // The smaller root of β r² − α r + β = 0, without cancellation.
+            // Smaller root of β r² − α r + β = 0, without cancellation.
             twice / (alpha + ((alpha - twice) * (alpha + twice)).sqrt())
         });
         let mut by = [[0.0; 3]; 3];
@@ -113,7 +118,7 @@ impl RowStiffness {
         Some(FarField { relief, motion: FreeMotion::Chain(decay, scales) })
     }
 
-    /// The far field of an endless row in which scales feel several neighbours.
+    /// Returns the far field of an infinite row with coupling to several neighbours.
     fn coupled(&self) -> Option<FarField> {
         let (row, relief) = CoupledRow::endless(self)?;
         Some(FarField { relief, motion: FreeMotion::Coupled(row) })

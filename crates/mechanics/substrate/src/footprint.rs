@@ -1,11 +1,13 @@
-//! The footprint of a row: all that its springs depend on.
+//! Footprint of a row: the parameters that determine its springs.
 
 use std::hash::{Hash, Hasher};
 
 use geometry::OutOfRange;
 
-/// The bases of a row of scales as the substrate sees them: rectangles `2a × b` at gaps `d`, over
-/// the half-width `a`, the Poisson's ratio of the substrate, and its thickness if it is a layer on a rigid base.
+/// Bases of a row of scales as loaded areas of the substrate.
+///
+/// They are rectangles `2a × b` at gaps `d`, with all lengths over the half-width `a`, on a
+/// substrate with a Poisson's ratio and, if it is a layer on a rigid base, a thickness.
 ///
 /// ```text
 ///        z
@@ -15,34 +17,34 @@ use geometry::OutOfRange;
 ///        └── x        ├ d ─┤─ 2a ───┤
 /// ```
 ///
-/// Two footprints are equal, and hash alike, when their four numbers are the same bit by bit
-/// (none is NaN, and a zero has no sign), so that a footprint can be the key of a map.
+/// Footprints are equal, with equal hash, if their four numbers are equal bit by bit. Since none is
+/// NaN and zeros are positive, a footprint can be the key of a map.
 #[derive(Clone, Copy, Debug)]
 pub struct Footprint {
     gap_over_a: f64,
     width_over_a: f64,
     poisson_ratio: f64,
-    /// Infinite on the half-space.
+    /// Infinite for the half-space.
     thickness_over_a: f64,
 }
 
-/// The bases of a row and their substrate, with lengths in any unit: what its footprint is made of.
+/// Bases of a row and their substrate, with lengths in any unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bases {
-    /// Half the width `a` of a base along the row.
+    /// Half-width `a` of a base along the row.
     pub half_width: f64,
-    /// The gap `d` between neighbouring bases.
+    /// Gap `d` between neighbouring bases.
     pub gap: f64,
-    /// The width `b` out of the plane.
+    /// Width `b` out of the plane.
     pub width: f64,
     /// Poisson's ratio `ν` of the substrate.
     pub poisson_ratio: f64,
-    /// The thickness `h` of the substrate; `None` of a half-space.
+    /// Thickness `h` of the substrate; `None` for a half-space.
     pub thickness: Option<f64>,
 }
 
 impl Bases {
-    /// Returns their footprint.
+    /// Returns the footprint of the bases.
     ///
     /// # Errors
     /// As [`Footprint::new`] and [`Footprint::on_layer`].
@@ -53,11 +55,14 @@ impl Bases {
     }
 }
 
-/// The thinnest layer that the cells of a mesh resolve, over `a`.
+/// Smallest thickness, over `a`, that the cells of a mesh resolve.
 const THINNEST: f64 = 0.25;
 
 impl Footprint {
-    /// Creates the footprint of rectangles with gap `d/a` and out-of-plane width `b/a`, on a substrate of Poisson's ratio `ν`.
+    /// Creates a footprint on a half-space.
+    ///
+    /// The rectangles have the gap `d/a` and the out-of-plane width `b/a`; the substrate has
+    /// Poisson's ratio `ν`.
     ///
     /// # Errors
     /// If a length is not positive and finite, or `ν` lies outside `[0, 0.5]`.
@@ -66,12 +71,12 @@ impl Footprint {
         positive("width over a", width_over_a)?;
         let possible = (0.0..=0.5).contains(&poisson_ratio);
         OutOfRange::unless(possible, "poisson's ratio", poisson_ratio, "a ratio from 0 to 0.5")?;
-        // −0 + 0 = 0: one key for one number.
+        // −0 + 0 = 0, so equal numbers give one key.
         let poisson_ratio = poisson_ratio + 0.0;
         Ok(Self { gap_over_a, width_over_a, poisson_ratio, thickness_over_a: f64::INFINITY })
     }
 
-    /// Returns the same rectangles on a layer of a thickness `h/a`, bonded to a rigid base.
+    /// Returns the same rectangles on a layer of thickness `h/a`, bonded to a rigid base.
     ///
     /// # Errors
     /// If the layer is thinner than a quarter of the half-width `a`.
@@ -93,7 +98,7 @@ impl Footprint {
         self.thickness_over_a
     }
 
-    /// Returns whether the substrate is a layer on a rigid base.
+    /// Returns true if the substrate is a layer on a rigid base.
     pub fn is_on_layer(&self) -> bool {
         self.thickness_over_a.is_finite()
     }
@@ -103,7 +108,7 @@ impl Footprint {
         self.gap_over_a
     }
 
-    /// Returns the out-of-plane width `b/a` of the rectangles, whose other side is `2a`.
+    /// Returns the out-of-plane width `b/a` of the rectangles.
     pub fn width_over_a(&self) -> f64 {
         self.width_over_a
     }
@@ -118,8 +123,10 @@ impl Footprint {
         2.0 + self.gap_over_a
     }
 
-    /// Returns the footprint with one of its numbers larger by a small step: the gap, the width, Poisson's ratio, the thickness. Its
-    /// shear has a meaning for ratios beyond the ends of their range too.
+    /// Returns the footprint with one number increased by a small step.
+    ///
+    /// The numbers are gap, width, Poisson's ratio and thickness. The shear compliance has a
+    /// continuation beyond the valid range of the ratio.
     pub(crate) fn moved(&self, number: usize, step: f64) -> Self {
         let mut numbers = self.numbers();
         numbers[number] += step;

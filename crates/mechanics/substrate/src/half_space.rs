@@ -1,6 +1,6 @@
-//! Displacement of the surface of an elastic half-space under uniformly loaded rectangular cells.
+//! Surface displacement of an elastic half-space under uniformly loaded rectangular cells.
 //!
-//! With `E* = E_s / (1 − ν²)` and `r = √(x² + z²)` the distance to a point load, a normal load
+//! With `E* = E_s / (1 − ν²)` and the distance `r = √(x² + z²)` to a point load, a normal load
 //! displaces the surface normally, and a tangential load along `x` displaces it along `x`, by
 //!
 //! ```text
@@ -8,8 +8,8 @@
 //! u_x = 1/(π E*) · Q [1/r + ν/(1 − ν) · x²/r³]      (S2, Cerruti)
 //! ```
 //!
-//! which are Eqs. (3) and (2) of Shafiei et al. (doi 10.1016/j.jmps.2020.104176); see Barber,
-//! *Elasticity* (2002), for both. Integrated over a rectangle, each is a sum over its four corners of
+//! which are Eqs. (3) and (2) of Shafiei et al. (doi 10.1016/j.jmps.2020.104176); for both see
+//! Barber, *Elasticity* (2002). Integrated over a rectangle, each is a sum over its four corners of
 //! two functions of the offset `(X, Z)` from the field point to the corner,
 //!
 //! ```text
@@ -17,13 +17,14 @@
 //! B = Z asinh(X/|Z|),   ∬ x²/r³ = B₊₊ − B₋₊ − B₊₋ + B₋₋     (S3)
 //! ```
 //!
-//! and `1/r = x²/r³ + z²/r³`, so that the pair `(A, B)` serves both loads.
+//! and `1/r = x²/r³ + z²/r³`, so the pair `(A, B)` serves both loads.
 
 use std::f64::consts::PI;
 use std::ops::{Add, Sub};
 
-/// The integrals of (S3): what a unit traction on a cell does at a field point, before the elastic
-/// constants enter. At a corner, the corner functions themselves.
+/// Integrals of (S3): the effect of a unit traction on a cell, without elastic constants.
+///
+/// At a corner, the corner functions themselves.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Influence {
     /// `A`, `∬ z²/r³`.
@@ -60,7 +61,9 @@ impl Sub for Influence {
     }
 }
 
-/// Returns the corner functions (S3) at the offset `(x, z)`; both vanish with their factor.
+/// Returns the corner functions (S3) at the offset `(x, z)`.
+///
+/// Both vanish with their factor.
 pub fn corner(x: f64, z: f64) -> Influence {
     let half = |s: f64, t: f64| {
         if s == 0.0 { 0.0 } else { s * (t / s.abs()).asinh() }
@@ -68,18 +71,20 @@ pub fn corner(x: f64, z: f64) -> Influence {
     Influence { across: half(x, z), along: half(z, x) }
 }
 
-/// Returns the influence of the cell `x[0] < x < x[1]`, `z[0] < z < z[1]` at the field point `(0, 0)` (S3).
+/// Returns the influence of the cell `x[0] < x < x[1]`, `z[0] < z < z[1]` at the field point `(0,
+/// 0)` (S3).
 pub fn cell(x: [f64; 2], z: [f64; 2]) -> Influence {
     corner(x[1], z[1]) - corner(x[0], z[1]) - corner(x[1], z[0]) + corner(x[0], z[0])
 }
 
-/// A line of corners parallel to `z`, seen from one field point: the cells between two such lines
-/// share their corners, and the logarithm of `|Z|` serves every line.
+/// Line of corners parallel to `z`, seen from one field point.
 ///
-/// With `asinh(Z/|X|) = sgn Z · [ln(|Z| + r) − ln|X|]` a corner costs two logarithms and a root.
+/// Cells between two such lines share their corners, and the logarithm of `|Z|` serves every line.
+///
+/// With `asinh(Z/|X|) = sgn Z · [ln(|Z| + r) − ln|X|]`, a corner costs two logarithms and one root.
 #[derive(Clone, Debug)]
 pub struct CornerLine {
-    /// `Z` of each corner, and `ln|Z|`.
+    /// `Z` and `ln|Z|` of each corner.
     corners: Vec<[f64; 2]>,
 }
 
@@ -95,14 +100,14 @@ impl CornerLine {
         self.corners.len()
     }
 
-    /// Returns whether there are no corners.
+    /// Returns true if there are no corners.
     pub fn is_empty(&self) -> bool {
         self.corners.is_empty()
     }
 
-    /// Returns the corner functions along the line at the offset `x`, into `corners`.
+    /// Evaluates the corner functions along the line at the offset `x`, into `corners`.
     ///
-    /// The field point must not be a corner (a collocation point never is).
+    /// The field point must not be a corner, which is never the case for a collocation point.
     pub fn evaluate(&self, x: f64, corners: &mut [Influence]) {
         let ln_x = ln_or_zero(x);
         for (corner, &[z, ln_z]) in corners.iter_mut().zip(&self.corners) {
@@ -113,7 +118,7 @@ impl CornerLine {
     }
 }
 
-/// Returns `ln|s|`, or 0 where the corner function vanishes with its factor `s`.
+/// Returns `ln|s|`, or 0 at `s = 0`, where the corner function vanishes with its factor `s`.
 fn ln_or_zero(s: f64) -> f64 {
     if s == 0.0 { 0.0 } else { s.abs().ln() }
 }

@@ -1,7 +1,8 @@
-//! Displacement of the surface of an elastic layer that is bonded to a rigid base, beside that of the half-space.
+//! Surface displacement of an elastic layer on a rigid base, relative to the half-space.
 //!
-//! A wave of traction of wave number `k` displaces the surface of a layer of thickness `h` by, with `x = k h`, `κ = 3 − 4ν` and
-//! `D = κ cosh 2x + 2x² + 5 − 12ν + 8ν²`, and over `G k`,
+//! A traction wave of wave number `k` displaces the surface of a layer of thickness `h`. With `x =
+//! k h`, `κ = 3 − 4ν` and `D = κ cosh 2x + 2x² + 5 − 12ν + 8ν²`, and over `G k`, the displacement
+//! is
 //!
 //! ```text
 //! normal             N = (1 − ν) (κ sinh 2x − 2x)/D                          (Carbone & Mangialardi 2008)
@@ -9,37 +10,42 @@
 //! normal and shear   C = [x² − (1 − 2ν) κ sinh² x]/D                                                      (S19)
 //! ```
 //!
-//! What a deep layer has, the half-space has too: `1 − ν`, `1 − ν`, `1` and `−(1 − 2ν)/2`. The rest decays as `e^(−2x)`, so that in real
-//! space it is a smooth function of `ρ = r/h`, which is added to the closed forms (S1) and (S2). With `ψ` the direction from the
-//! load to the field point, from the row,
+//! The limits for a deep layer are the values of the half-space: `1 − ν`, `1 − ν`, `1` and `−(1 −
+//! 2ν)/2`. The remainder decays as `e^(−2x)`, so in real space it is a smooth function of `ρ =
+//! r/h`, which is added to the closed forms (S1) and (S2). With the angle `ψ` from the row to the
+//! direction from load to field point,
 //!
 //! ```text
 //! u_y of P   ∫ ΔN J₀(xρ) dx                     u_x of Q   ∫ ½Δ(S + T) J₀ dx − cos 2ψ ∫ ½Δ(S − T) J₂ dx
 //! u_x of P   −cos ψ ∫ ΔC J₁ dx                  u_y of Q   cos ψ ∫ ΔC J₁ dx               all over π (1 − ν) E* h   (S20)
 //! ```
 //!
-//! (Carbone & Mangialardi, J. Mech. Phys. Solids 56, 684, doi 10.1016/j.jmps.2007.05.009.) As on the half-space, the coupling of a
-//! deep layer, in proportion to `1 − 2ν`, is left out.
+//! (Carbone & Mangialardi, J. Mech. Phys. Solids 56, 684, doi 10.1016/j.jmps.2007.05.009.) As on
+//! the half-space, the coupling of a deep layer, proportional to `1 − 2ν`, is neglected.
 
 use std::f64::consts::PI;
 use std::ops::{Add, Mul};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// The four integrals of (S20), in its order.
+/// The four integrals of (S20), in order.
 type Integrals = [f64; 4];
 
-/// Values of `ρ` per unit at which the integrals are kept; cubics between them are right to 1e-8.
+/// Number of tabulated `ρ` per unit; cubic interpolation is then accurate to 1e-8.
 const PER_UNIT: usize = 48;
 
-/// The largest `ρ` that is kept: beyond it a layer moves by less than 1e-6, and the rest takes away what the half-space does.
+/// Largest tabulated `ρ`.
+///
+/// Beyond it the surface of a layer moves by less than 1e-6, so the remainder cancels the
+/// half-space.
 const FARTHEST: usize = 16;
 
-/// The last intervals of the quadrature, where the integrands have decayed to 1e-12, and their width: an eighth of a unit
-/// is a third of a wave of `J(xρ)` at the largest `ρ`.
+/// Number of quadrature intervals, up to where the integrands have decayed to 1e-12.
+///
+/// Each has the width of an eighth of a unit, a third of a wave of `J(xρ)` at the largest `ρ`.
 const INTERVALS: u32 = 128;
 const INTERVAL: f64 = 0.125;
 
-/// Gauss points and weights on an interval from −1 to 1.
+/// Gauss points and weights on the interval from −1 to 1.
 const GAUSS: [[f64; 2]; 4] = [
     [-0.861_136_311_594_052_6, 0.347_854_845_137_453_9],
     [-0.339_981_043_584_856_3, 0.652_145_154_862_546_1],
@@ -47,45 +53,47 @@ const GAUSS: [[f64; 2]; 4] = [
     [0.861_136_311_594_052_6, 0.347_854_845_137_453_9],
 ];
 
-/// Returns `N`, `½(S + T)`, `½(S − T)` and `C` of (S19) at `x`, less those of the half-space.
+/// Returns `N`, `½(S + T)`, `½(S − T)` and `C` of (S19) at `x`, minus the half-space values.
 pub fn beside_half_space(poisson_ratio: f64, x: f64) -> Integrals {
     let (left, kappa) = (1.0 - poisson_ratio, 3.0 - 4.0 * poisson_ratio);
-    // Over e^(2x), in which differences with the half-space keep their digits.
+    // Divided by e^(2x), so that differences with the half-space keep their digits.
     let decay = (-2.0 * x).exp();
     let rest = 5.0 - 12.0 * poisson_ratio + 8.0 * poisson_ratio * poisson_ratio;
     let constant = 2.0 * x * x + rest;
     let d = 0.5 * kappa * (1.0 + decay * decay) + constant * decay;
-    // S and N less 1 − ν, T less 1.
+    // S and N minus 1 − ν, T minus 1.
     let common = -kappa * decay * decay - constant * decay;
     let [normal, shear] = [-2.0, 2.0].map(|sign| left * (common + sign * x * decay) / d);
-    // tanh x − 1, without a difference of near numbers.
+    // tanh x − 1, without cancellation.
     let across = -2.0 * decay / (1.0 + decay);
     let incompressible = 1.0 - 2.0 * poisson_ratio;
     let coupled = x * x * decay + 0.5 * incompressible * decay * (kappa + constant);
     [normal, 0.5 * (shear + across), 0.5 * (shear - across), coupled / d]
 }
 
-/// The four compliances of (S19) of the half-space.
+/// Returns the four compliances of (S19) for the half-space.
 fn half_space(poisson_ratio: f64) -> Integrals {
     [1.0 - poisson_ratio, 1.0 - 0.5 * poisson_ratio, -0.5 * poisson_ratio, poisson_ratio - 0.5]
 }
 
-/// What a point load does on a layer beside what it does on the half-space (S20).
+/// Effect of a point load on a layer, minus its effect on the half-space (S20).
 #[derive(Debug)]
 pub struct Layer {
     poisson_ratio: f64,
-    /// The integrals and their slopes, at steps of `ρ` from 0 on.
+    /// Integrals and their slopes, at equidistant `ρ` from 0.
     nodes: Vec<[[f64; 2]; 4]>,
 }
 
-/// Displacements in two directions of a load in each, `E* = 1`.
+/// Displacements in two directions for a load in each, `E* = 1`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Displacements {
     /// Normal displacement of a normal load.
     pub normal: f64,
     /// Displacement along the row of a load along it.
     pub shear: f64,
-    /// Displacement along the row of a normal load; the normal one of a load along the row is the same with the other sign.
+    /// Displacement along the row of a normal load.
+    ///
+    /// The normal displacement of a load along the row has the opposite sign.
     pub cross: f64,
 }
 
@@ -107,20 +115,20 @@ impl Mul<f64> for Displacements {
     }
 }
 
-/// Layers that were made last, each for a Poisson's ratio: few are needed at a time.
+/// Recently used layers, one per Poisson's ratio; few are needed at a time.
 static MADE: Mutex<Vec<Arc<Layer>>> = Mutex::new(Vec::new());
 
-/// Layers that are kept: those of the differences by Poisson's ratio, for two threads and more.
+/// Number of cached layers: enough for the differences by Poisson's ratio of several threads.
 const KEPT: usize = 16;
 
 impl Layer {
-    /// Returns the layer of a Poisson's ratio: its integrals depend on no thickness.
+    /// Returns the layer for a Poisson's ratio. Its integrals do not depend on the thickness.
     pub fn with_poisson_ratio(poisson_ratio: f64) -> Arc<Self> {
-        // The layer is made under the lock: a thread that needs the same one waits for it instead of making it again.
+        // Compute under the lock, so that a thread that needs the same layer waits for it.
         let mut made = MADE.lock().unwrap_or_else(PoisonError::into_inner);
         let known = made.iter().position(|layer| layer.poisson_ratio == poisson_ratio);
         let layer = known.map_or_else(|| Arc::new(Self::new(poisson_ratio)), |at| made.remove(at));
-        // The one that was used last stands first, so that the longest unused falls off.
+        // Most recently used first, so that the least recently used is dropped.
         made.insert(0, Arc::clone(&layer));
         made.truncate(KEPT);
         layer
@@ -136,9 +144,9 @@ impl Layer {
             (0..INTERVALS).flat_map(|k| GAUSS.map(|gauss| point(k, gauss))).collect();
         let at = |k: usize| integrals(&points, k as f64 / PER_UNIT as f64);
         let last = FARTHEST * PER_UNIT;
-        // Two more than are kept, for the slope of the last.
+        // Two more than tabulated, for the slope of the last.
         let values: Vec<Integrals> = (0..=last + 2).map(at).collect();
-        // Below 0 the integrals go on even, those of J₁ odd.
+        // Below 0 the integrals continue evenly, those with J₁ oddly.
         let value = |k: usize, steps: isize, part: usize| {
             let place = k.cast_signed() + steps;
             let sign = if place < 0 && part == 3 { -1.0 } else { 1.0 };
@@ -152,13 +160,15 @@ impl Layer {
         Self { poisson_ratio, nodes: (0..=last).map(node).collect() }
     }
 
-    /// Returns what unit loads do at the offset `(x, z)` beside what they do on the half-space, on a layer of a `thickness`.
+    /// Returns the displacements of unit loads at the offset `(x, z)`, minus the half-space values.
+    ///
+    /// The layer has the given `thickness`.
     pub fn beside_half_space(&self, thickness: f64, x: f64, z: f64) -> Displacements {
         let square = x * x + z * z;
         let r = square.sqrt();
         let [normal, mean, difference, cross] = self.integrals(r / thickness);
         let unit = 1.0 / (PI * (1.0 - self.poisson_ratio) * thickness);
-        // Where there is no direction, what depends on it vanishes.
+        // At zero offset there is no direction, and the terms that depend on it vanish.
         let (cos, cos_twice) = if r > 0.0 { (x / r, (x * x - z * z) / square) } else { (0.0, 0.0) };
         Displacements {
             normal: unit * normal,
@@ -171,7 +181,7 @@ impl Layer {
         let steps = rho * PER_UNIT as f64;
         let k = steps as usize;
         let Some(next) = self.nodes.get(k + 1) else {
-            // The layer does not move here: J₀, J₁ and J₂ alike have the integral 1/ρ.
+            // The layer does not move here: J₀, J₁ and J₂ all have the integral 1/ρ.
             return half_space(self.poisson_ratio).map(|part| -part / rho);
         };
         let t = steps - k as f64;
@@ -185,7 +195,7 @@ impl Layer {
     }
 }
 
-/// The integrals of (S20) at a `ρ`, from the points of the quadrature.
+/// Computes the integrals of (S20) at `ρ` from the points of the quadrature.
 fn integrals(points: &[(f64, Integrals)], rho: f64) -> Integrals {
     let mut sums = [0.0; 4];
     for (x, [normal, mean, difference, cross]) in points {

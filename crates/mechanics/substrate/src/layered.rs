@@ -1,9 +1,11 @@
-//! What a layer on a rigid base adds to the stiffness of a row on the half-space.
+//! Contribution of a rigid base below a layer to the stiffness of a row.
 //!
-//! Both are solved by collocation on the same meshes and subtracted, so that the errors of the meshes go with them: thick layers
-//! come to the half-space, to the last digit of the table. On a layer the tractions `q` along the row and `p` across it are solved
-//! together, with (S20) added to (S1) and (S2). The plane of symmetry `x = 0` leaves two systems: `q` even and `p` odd for a displacement along the row
-//! and a rotation, `q` odd and `p` even for one across it.
+//! Layer and half-space are solved by collocation on the same meshes and subtracted, so that mesh
+//! errors cancel. Hence thick layers converge to the half-space to the last digit of the table. On
+//! a layer the tractions `q` along the row and `p` across it are solved together, with (S20) added
+//! to (S1) and (S2). The symmetry plane `x = 0` gives two systems: `q` even and `p` odd for a
+//! displacement along the row and for a rotation, `q` odd and `p` even for a displacement across
+//! it.
 
 use crate::boundary_element::{ARM, CellColumns, Load, ONE, Profile, Unresolved, row_reactions};
 use crate::half_space::{CornerLine, Influence};
@@ -16,22 +18,26 @@ use crate::{Coupling, Footprint, NEIGHBOURS, Neighbour, RowStiffness};
 use faer::Mat;
 use faer::linalg::solvers::Solve as _;
 
-/// Cells a side of the meshes. What is added is smoother than the stiffness itself and takes fewer.
+/// Cells per side of the meshes. The contribution is smooth and needs fewer than the stiffness.
 const CELLS: [usize; 2] = [4, 6];
 
-/// Step of the differences, as a part of the length, or of Poisson's ratio itself: terms of the third order and the rounding of
-/// a solution, some 1e-13, both stay below 1e-6 of the derivative.
+/// Relative step of the differences.
+///
+/// Third-order terms and the rounding of a solution, about 1e-13, both stay below 1e-6 of the
+/// derivative.
 const STEP: f64 = 1e-4;
 
-/// Numbers of a scale for itself, and of each neighbour.
+/// Number of values for the scale itself, and for each neighbour.
 const OWN: usize = 4;
 const PER_NEIGHBOUR: usize = 6;
 
-/// Returns what the layer of a footprint adds to the stiffness of a row on the half-space. The quadrature over the cells
-/// is that for the footprint `near`, one of almost the same numbers, so that differences see no change of it.
+/// Computes the contribution of the layer to the stiffness of a row.
+///
+/// The quadrature over the cells is the one of the footprint `near`, with almost equal numbers, so
+/// that differences do not contain a change of it.
 ///
 /// # Errors
-/// If the gap is lost in rounding.
+/// If the gap vanishes by rounding.
 pub(crate) fn addition(
     footprint: &Footprint,
     near: &Footprint,
@@ -39,7 +45,7 @@ pub(crate) fn addition(
 ) -> Result<RowStiffness, Unresolved> {
     let neighbours = if coupling == Coupling::Full { NEIGHBOURS } else { 1 };
     let on = |n: usize| added(footprint, near, neighbours, n);
-    // Two meshes and no third: the step of the extrapolation itself stands for the error.
+    // With two meshes only, the step of the extrapolation is the error estimate.
     let [coarse, fine] = [on(CELLS[0])?, on(CELLS[1])?];
     let best = extrapolation(CELLS, [&coarse.numbers, &fine.numbers]);
     let [x, y, turn] = fine.sizes;
@@ -50,7 +56,7 @@ pub(crate) fn addition(
     let error = steps.map(|((best, fine), size)| CAUTION * ((best - fine) / size).abs());
     let neighbour = |n: &[f64; PER_NEIGHBOUR]| Neighbour {
         direct: [n[0], n[1], n[2]],
-        // Eq. (1) has no force from rotation, and keeps to that.
+        // Eq. (1) has no force from rotation, so drop it here too.
         cross: if coupling == Coupling::Full { n[3] } else { 0.0 },
         lift: n[4],
         roll: n[5],
@@ -64,7 +70,7 @@ pub(crate) fn addition(
     })
 }
 
-/// Returns the derivatives of [`addition`] with respect to gap, width, Poisson's ratio and thickness.
+/// Computes the derivatives of [`addition`] by gap, width, Poisson's ratio and thickness.
 pub(crate) fn slopes(
     footprint: &Footprint,
     coupling: Coupling,
@@ -72,7 +78,8 @@ pub(crate) fn slopes(
     let [gap, width, _, thickness] = footprint.numbers();
     let along = |number: usize, step: f64| {
         let at = |step: f64| addition(&footprint.moved(number, step), footprint, coupling);
-        // Of the second order, at two solutions a number: what a layer adds is smoother than what it is added to.
+        // Second-order differences, with two solutions per number: the contribution of a layer is
+        // smooth.
         Ok(at(step)? * (0.5 / step) + at(-step)? * (-0.5 / step))
     };
     Ok([
@@ -83,9 +90,9 @@ pub(crate) fn slopes(
     ])
 }
 
-/// Reactions on one mesh, less those on the half-space.
+/// Reactions on one mesh, minus the half-space reactions.
 struct Added {
-    /// Of the middle rectangle `K_x`, `K_y`, `K_φ` and `r_0`; of each neighbour `K_x`, `K_y`, `K_φ`, `c`, `l` and `r`.
+    /// `K_x`, `K_y`, `K_φ`, `r_0` of the middle; `K_x`, `K_y`, `K_φ`, `c`, `l`, `r` per neighbour.
     numbers: Vec<f64>,
     /// `K_x`, `K_y`, `K_φ` of the middle rectangle on the layer.
     sizes: [f64; 3],
@@ -124,8 +131,10 @@ fn added(
 }
 
 impl Mesh {
-    /// Solves for the tractions, `q` before `p`; the displacements of the middle rectangle along the row and across it are given,
-    /// those of its neighbours are 0.
+    /// Solves for the tractions, `q` before `p`.
+    ///
+    /// `imposed` holds the displacements of the middle rectangle along and across the row; its
+    /// neighbours are fixed.
     fn solve(&self, equations: &Mat<f64>, imposed: &[[Option<Profile>; 2]]) -> Mat<f64> {
         let n = self.unknowns();
         let mut right = Mat::zeros(2 * n, imposed.len());
@@ -144,9 +153,9 @@ impl Mesh {
 struct Tractions<'a> {
     mesh: &'a Mesh,
     pitch: f64,
-    /// Of a displacement along the row, and of a rotation.
+    /// Tractions of a displacement along the row, and of a rotation.
     along: Mat<f64>,
-    /// Of a displacement across it.
+    /// Tractions of a displacement across the row.
     across: Mat<f64>,
 }
 
@@ -156,7 +165,7 @@ impl Tractions<'_> {
         let sum = |of: &Mat<f64>, load: usize, first: usize, arm: Profile| {
             self.mesh.middle_sum(of.col(load).subrows(first, n), arm)
         };
-        // Collocation leaves a little between the two, and an energy has one.
+        // By reciprocity both are equal; collocation leaves a small difference, so take the mean.
         let roll = f64::midpoint(sum(&self.along, 1, 0, ONE), sum(&self.along, 0, n, ARM));
         let direct = [(&self.along, 0, 0), (&self.across, 0, n)];
         let [x, y] = direct.map(|(of, load, first)| sum(of, load, first, ONE));
@@ -176,24 +185,27 @@ impl Tractions<'_> {
         };
         let [push, turn] = [0, 1].map(|load| forces(&self.along, load));
         let lifted = forces(&self.across, 0);
-        // The middle rectangle has two neighbours and they have one, so that the halves differ: their mean is what an energy has.
+        // The middle rectangle has two neighbours, its neighbours have one, so collocation gives
+        // two values. An energy requires one value: take the mean.
         let lift = 0.5 * (push[1] - lifted[0]);
         let roll = f64::midpoint(push[2], turn[0]);
         [push[0], lifted[1], turn[2], turn[1], lift, roll]
     }
 }
 
-/// A point of a cell with its weight, for the smooth part of the influence.
+/// Point of a cell with its weight, for the smooth part of the influence.
 type QuadraturePoint = [f64; 2];
 
-/// The points over the cells of a mesh: of each column of cells along the row, and of each row of them across it.
+/// Quadrature points of a mesh: per column of cells along the row, per row of cells across it.
 struct Quadrature {
     columns: Vec<Vec<QuadraturePoint>>,
     depth: Vec<Vec<QuadraturePoint>>,
 }
 
 impl Quadrature {
-    /// Two Gauss points on parts of the cells, which are half as long as the layer is thick or less: right to 1e-4 of what is added.
+    /// Places two Gauss points on subcells of at most half the thickness of the layer.
+    ///
+    /// The quadrature is accurate to 1e-4 of the contribution.
     fn new(mesh: &Mesh, near: &Mesh, footprint: &Footprint) -> Self {
         let part = 0.5 * footprint.thickness_over_a();
         let points = |(axis, near): (&GradedAxis, &GradedAxis)| {
@@ -213,7 +225,9 @@ impl Quadrature {
         Self { columns, depth: points((&mesh.depth, &near.depth)) }
     }
 
-    /// The matrices of the two systems, each with the displacements along the row above those across it, `q` before `p`.
+    /// Assembles the matrices of the two systems.
+    ///
+    /// The displacements along the row precede those across it, and `q` precedes `p`.
     fn equations(&self, mesh: &Mesh, footprint: &Footprint) -> [Mat<f64>; 2] {
         let n = mesh.unknowns();
         let layer = Layer::with_poisson_ratio(footprint.poisson_ratio());
@@ -226,7 +240,7 @@ impl Quadrature {
                 let smooth = self.at(&layer, footprint.thickness_over_a(), [x, z]);
                 let [right, left] = [1.0, -1.0].map(|side| columns.on_side(mesh, x, side));
                 for (column, smooth) in smooth.into_iter().enumerate() {
-                    // The edges of a mirror image descend, which turns its sign.
+                    // The edges of a mirror image descend, which reverses the sign.
                     let closed = [right[column], Influence::default() - left[column]];
                     let [right, left] = [0, 1].map(|side| {
                         smooth[side] + on_half_space(closed[side], footprint.poisson_ratio())
@@ -240,7 +254,7 @@ impl Quadrature {
         systems
     }
 
-    /// The smooth influence at a field point of each cell with its image in `z`, and of their images in `x`.
+    /// Computes the smooth influence of each cell with its `z` image, and of their `x` images.
     fn at(&self, layer: &Layer, thickness: f64, [x, z]: [f64; 2]) -> Vec<[Displacements; 2]> {
         let of_cell = |column: &[QuadraturePoint], row: &[QuadraturePoint]| {
             let mut sums = [Displacements::default(); 2];
@@ -262,13 +276,13 @@ impl Quadrature {
     }
 }
 
-/// What a cell does on the half-space.
+/// Returns the displacements of a cell on the half-space.
 fn on_half_space(cell: Influence, poisson_ratio: f64) -> Displacements {
     let (normal, shear) = (cell.normal(), cell.tangential(poisson_ratio));
     Displacements { normal, shear, cross: 0.0 }
 }
 
-/// Fills the four entries of a cell: `signs` are those of `q` and of `p` in the image.
+/// Fills the four entries of a cell; `signs` are the signs of `q` and `p` in the image.
 fn fill(
     matrix: &mut Mat<f64>,
     n: usize,

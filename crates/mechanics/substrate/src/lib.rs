@@ -1,7 +1,7 @@
-//! Springs that stand for an elastic half-space under a row of rigid rectangles.
+//! Springs equivalent to an elastic half-space under a row of rigid rectangles.
 //!
 //! The bases of the scales, `2a × b` at gaps `d`, rest on a substrate much deeper than they are
-//! wide. Each pushes on its neighbours through the substrate. Eq. (1) of Shafiei, Pro, Martini and
+//! wide. Each base loads its neighbours through the substrate. Eq. (1) of Shafiei, Pro, Martini and
 //! Barthelat (2021, doi 10.1016/j.jmps.2020.104176) condenses this to six coefficients,
 //!
 //! ```text
@@ -9,14 +9,14 @@
 //! M⁽ⁱ⁾   = E* a³ [α_φ φ⁽ⁱ⁾ − β_φ (φ⁽ⁱ⁻¹⁾ + φ⁽ⁱ⁺¹⁾)]           E* = E_s / (1 − ν²)
 //! ```
 //!
-//! the reactions of three rigid rectangles when the middle one is displaced by a unit and its
-//! neighbours are held. They depend on `d/a`, `b/a` and `ν` alone. The equations are numbered
+//! the reactions of three rigid rectangles to a unit displacement of the middle one while its
+//! neighbours are fixed. They depend only on `d/a`, `b/a` and `ν`. The equations are numbered
 //! (S1)–(S22) here and in `docs/theory/model.md`.
 //!
 //! | Type | Role |
 //! |---|---|
-//! | [`Footprint`] | what the springs depend on: `d/a`, `b/a`, `ν`, valid by construction |
-//! | [`Bases`] | what a footprint is made of, with lengths in any unit |
+//! | [`Footprint`] | parameters of the springs: `d/a`, `b/a`, `ν`, valid by construction |
+//! | [`Bases`] | dimensions behind a footprint, in any unit |
 //! | [`Springs`] | the six coefficients and their estimated error |
 //! | [`calibrate`] | one footprint to its springs: from a table, elsewhere solved in milliseconds |
 //! | [`RowStiffness`], [`Coupling`], [`Neighbour`] | the same with more neighbours and with force from rotation |
@@ -25,14 +25,15 @@
 //! | [`Calibrations`] | each footprint solved once, shared by all threads |
 //! | [`SurfaceStrip`], [`SubstrateLaw`] | the surface between two bases: its stretch, and how the substrate answers to it |
 //! | [`half_space`] | displacement under a uniformly loaded cell (Boussinesq, Cerruti) |
-//! | [`layer`] | what a layer on a rigid base adds to that |
+//! | [`layer`] | contribution of a rigid base below a layer |
 //! | [`mesh`] | cells graded towards the edges and the gap |
 //! | [`table`] | the springs as polynomials |
 //! | [`boundary_element`] | collocation equations and the reactions of the rectangles |
 //!
-//! [`Footprint::on_layer`] makes the substrate a layer on a rigid base, where force along the row, force across it and moment go together.
-//! On the half-space normal and tangential tractions are treated apart, which is exact at `ν = 0.5` and otherwise
-//! leaves out their coupling (see [`boundary_element::row_reactions`]).
+//! [`Footprint::on_layer`] makes the substrate a layer on a rigid base, which couples the force
+//! along the row, the force across it and the moment. On the half-space, normal and tangential
+//! tractions are treated separately. This is exact at `ν = 0.5` and otherwise neglects their
+//! coupling (see [`boundary_element::row_reactions`]).
 //!
 //! ```
 //! use substrate::{Calibrations, Footprint};

@@ -1,21 +1,22 @@
 //! Cells graded towards the edges of the rectangles, where the tractions are singular.
 //!
-//! Under a rigid rectangle the traction grows like `s^(−1/2)` with the distance `s` from an edge; where
-//! another rectangle lies beyond a gap `ε`, only within about `ε` of it, and like `1/s` farther in.
-//! Cells of equal width in
+//! Under a rigid rectangle the traction grows like `s^(−1/2)` with decreasing distance `s` from an
+//! edge. If another rectangle lies beyond a gap `ε`, this holds only within about `ε`, and the
+//! traction grows like `1/s` further in. Cells of equal width in
 //!
 //! ```text
 //! U(s) = ∫ ds/√(s (s + ε)) = 2 asinh √(s/ε)      (S4)
 //! ```
 //!
-//! from both edges carry about equal loads. They shrink quadratically towards an edge, as
-//! Chebyshev's do, and geometrically between a small `ε` and the length of the side.
+//! from both edges carry approximately equal loads. Their size decreases quadratically towards an
+//! edge, as with Chebyshev points, and geometrically between a small `ε` and the length of the
+//! side.
 
 use std::f64::consts::PI;
 
 use crate::Footprint;
 
-/// Cells along one side of a rectangle: edges, and the collocation points between them.
+/// Cells along one side of a rectangle: edges, and collocation points between them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GradedAxis {
     edges: Vec<f64>,
@@ -23,22 +24,25 @@ pub struct GradedAxis {
 }
 
 impl GradedAxis {
-    /// Creates `cells` cells over the interval `ends`, graded to the `layers` `ε` (S4) at its two ends.
+    /// Creates `cells` cells over the interval `ends`, graded to the `layers` `ε` (S4) at its ends.
     pub fn graded(ends: [f64; 2], layers: [f64; 2], cells: usize) -> Self {
         Self::between(&Grading::new(ends, layers), 0.0, cells)
     }
 
-    /// Creates `cells` cells over `0 … half_length`, the upper half of a graded axis of twice the length.
+    /// Creates the upper half of a graded axis, with `cells` cells over `0 … half_length`.
     pub fn upper_half(half_length: f64, layer: f64, cells: usize) -> Self {
         let grading = Grading::new([-half_length, half_length], [layer; 2]);
         let mut axis = Self::between(&grading, 0.5, cells);
-        // The plane of symmetry, exactly.
+        // The symmetry plane, exactly.
         axis.edges[0] = 0.0;
         axis
     }
 
-    /// Creates cells beyond the part `start` of the graded interval. Their points lie halfway in the mapped coordinate, as in cosine-spaced vortex lattices: halfway
-    /// in length, the error would be ten times as large and of second order only.
+    /// Creates cells beyond the fraction `start` of the graded interval.
+    ///
+    /// Their points lie at the middle in the mapped coordinate, as in cosine-spaced vortex
+    /// lattices. At the middle in length, the error would be ten times as large and only of second
+    /// order.
     fn between(grading: &Grading, start: f64, cells: usize) -> Self {
         let at = |k: f64| grading.at(start + (1.0 - start) * k / cells as f64);
         Self {
@@ -47,7 +51,7 @@ impl GradedAxis {
         }
     }
 
-    /// Returns the edges of the cells, ascending, one more than there are cells.
+    /// Returns the edges of the cells, ascending, one more than cells.
     pub fn edges(&self) -> &[f64] {
         &self.edges
     }
@@ -67,12 +71,12 @@ impl GradedAxis {
         self.edges[k + 1] - self.edges[k]
     }
 
-    /// Returns the middle of cell `k`, through which the resultant of its uniform traction passes.
+    /// Returns the middle of cell `k`, where the resultant of its uniform traction acts.
     pub fn middle(&self, k: usize) -> f64 {
         f64::midpoint(self.edges[k], self.edges[k + 1])
     }
 
-    /// Returns the edges of this axis and of its mirror image below 0, ascending, the edge at 0 once.
+    /// Returns the edges of this axis and of its mirror image below 0, ascending, with 0 once.
     ///
     /// The result is a whole axis if this one is an upper half.
     pub fn mirrored_edges(&self) -> impl Iterator<Item = f64> + Clone + '_ {
@@ -80,29 +84,32 @@ impl GradedAxis {
     }
 }
 
-/// An odd number of equal rectangles in a row, in units of `a`, of which the planes of symmetry leave
-/// the half `x > 0` of the middle one, its neighbours on the right, and the half `z > 0` of all.
+/// Quarter of an odd number of equal rectangles in a row, in units of `a`.
+///
+/// The symmetry planes leave the half `x > 0` of the middle rectangle, its neighbours on the right,
+/// and the half `z > 0` of all.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
     /// Middle rectangle, from its centre to its right edge.
     pub middle: GradedAxis,
     /// Neighbours on the right, the nearest first.
     pub neighbours: Vec<GradedAxis>,
-    /// All, from the centre line to the edge.
+    /// Depth of all rectangles, from the centre line to the edge.
     pub depth: GradedAxis,
 }
 
 impl Mesh {
-    /// Creates the mesh of a rectangle with `neighbours` rectangles on each side, `n` cells across each: half the middle
-    /// one, a neighbour, half the depth.
+    /// Creates the mesh of a rectangle with `neighbours` rectangles on each side.
+    ///
+    /// `n` cells span half the middle rectangle, each neighbour, and half the depth.
     pub fn row(footprint: &Footprint, neighbours: usize, n: usize) -> Self {
         let (gap, width) = (footprint.gap_over_a(), footprint.width_over_a());
-        // The layer of a free edge ends where the far side is felt.
+        // The layer of a free edge extends to the distance of the far edge.
         let free = width.min(2.0);
         let facing = gap.min(free);
         let neighbour = |k: usize| {
             let before = (k - 1) as f64 * footprint.pitch_over_a();
-            // The last neighbour has nothing beyond it, and a free edge's layer.
+            // The last neighbour has a free edge.
             let outer = if k == neighbours { free } else { facing };
             GradedAxis::graded([1.0 + gap + before, 3.0 + gap + before], [facing, outer], n)
         };
@@ -113,7 +120,7 @@ impl Mesh {
         }
     }
 
-    /// Returns whether rounding has left a gap and every cell a width.
+    /// Returns true if the gap and every cell have a positive width after rounding.
     pub fn is_resolved(&self) -> bool {
         let open = |axis: &GradedAxis| axis.edges.windows(2).all(|pair| pair[0] < pair[1]);
         let mut last = self.middle.edges[self.middle.cells()];
@@ -126,7 +133,7 @@ impl Mesh {
     }
 }
 
-/// The map from `0 … 1` to an interval on which the cells are equally wide, (S4) from both ends.
+/// Map from `0 … 1` to an interval with cells of equal width in (S4), from both ends.
 struct Grading {
     ends: [f64; 2],
     /// `√(length/ε)` at the two ends.
@@ -138,8 +145,10 @@ impl Grading {
         Self { ends, steepness: layers.map(|layer| ((ends[1] - ends[0]) / layer).sqrt()) }
     }
 
-    /// Returns the point at the fraction `t` of the range of `U`, found by Newton's method in the angle `θ`
-    /// of `s = length · sin²(θ/2)`, in which `U` is smooth; bisection guards it.
+    /// Returns the point at the fraction `t` of the range of `U`.
+    ///
+    /// Newton's method runs in the angle `θ` of `s = length · sin²(θ/2)`, in which `U` is smooth,
+    /// with bisection as a safeguard.
     fn at(&self, t: f64) -> f64 {
         if t <= 0.0 || t >= 1.0 {
             return if t <= 0.0 { self.ends[0] } else { self.ends[1] };
@@ -150,9 +159,10 @@ impl Grading {
             let (value, slope) = self.mapped(angle);
             *(if value < target { &mut low } else { &mut high }) = angle;
             let step = angle - (value - target) / slope;
-            // A step out of the bracket is no better than its middle.
+            // Bisect if the step leaves the bracket.
             let next = if step > low && step < high { step } else { f64::midpoint(low, high) };
-            // Relative to the nearer end, from which the place is measured: small cells there keep their digits.
+            // Relative to the nearer end, from which positions are measured, so that small cells
+            // there keep their digits.
             let settled = (next - angle).abs() <= 4.0 * f64::EPSILON * angle.min(PI - angle);
             angle = next;
             if settled {
@@ -171,7 +181,7 @@ impl Grading {
         (2.0 * (lower.asinh() - upper.asinh()), slope)
     }
 
-    /// Returns the point at an angle, measured from the nearer end to keep the small cells there exact.
+    /// Returns the point at an angle, measured from the nearer end to keep small cells exact.
     fn position(&self, angle: f64) -> f64 {
         let [low, high] = self.ends;
         let (sin, cos) = (0.5 * angle).sin_cos();
@@ -179,5 +189,5 @@ impl Grading {
     }
 }
 
-/// Bisection alone would need about this many; Newton's method takes four to eight.
+/// Bisection alone would need about this many iterations; Newton's method takes four to eight.
 const MAX_ITERATIONS: usize = 60;

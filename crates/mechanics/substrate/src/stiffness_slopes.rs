@@ -1,34 +1,37 @@
-//! How fast the stiffness of a row changes with its footprint.
+//! Derivatives of the stiffness of a row with respect to its footprint.
 
 use crate::row_stiffness::SOLVES;
 use crate::{Bases, Coupling, Footprint, RowStiffness, Unresolved, layered, table};
 
-/// The stiffness of a row and its derivatives with respect to the numbers of the footprint.
+/// Stiffness of a row with its derivatives by the parameters of the footprint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StiffnessSlopes {
-    /// The stiffness itself, bit by bit that of [`RowStiffness::compute`].
+    /// Stiffness itself, bit-identical to [`RowStiffness::compute`].
     pub stiffness: RowStiffness,
     /// Derivative with respect to `d/a`.
     pub by_gap: RowStiffness,
     /// Derivative with respect to `b/a`.
     pub by_width: RowStiffness,
-    /// Derivative with respect to the logarithm of all lengths over `a` together: that of a base that shrinks.
+    /// Derivative by the logarithm of all lengths over `a` together, as for a shrinking base.
     pub by_size: RowStiffness,
     /// Derivative with respect to `ν`.
     pub by_poisson_ratio: RowStiffness,
-    /// Derivative with respect to the thickness `h/a` of a layer; of the half-space there is none.
+    /// Derivative with respect to the thickness `h/a` of a layer; `None` for the half-space.
     pub by_thickness: Option<RowStiffness>,
 }
 
 impl StiffnessSlopes {
-    /// Returns the stiffness of a row with a coupling and its derivatives: those of the polynomials in the range of the table, elsewhere
-    /// differences of solutions. What a layer adds is differentiated by differences.
+    /// Returns the stiffness of a row with its derivatives.
+    ///
+    /// Within the range of the table these are derivatives of its polynomials, otherwise
+    /// differences of solutions. The contribution of a layer is always differentiated by
+    /// differences.
     ///
     /// # Errors
     /// As [`RowStiffness::compute`].
     pub fn compute(footprint: &Footprint, coupling: Coupling) -> Result<Self, Unresolved> {
         let stiffness = RowStiffness::compute(footprint, coupling)?;
-        // Polynomials are differentiated as they are: differences of them would lose digits.
+        // Differentiate polynomials exactly: differences would lose digits.
         let [mut by_gap, mut by_width, mut by_poisson_ratio] = match table::row(footprint, coupling)
         {
             Some(row) => [1, 2, 3].map(|k| RowStiffness::from_table(&row, k)),
@@ -41,7 +44,7 @@ impl StiffnessSlopes {
             by_poisson_ratio = by_poisson_ratio + ratio;
             by_thickness = Some(thickness);
         }
-        // Over a base that shrinks all other lengths grow in the same ratio.
+        // For a shrinking base, all other lengths grow in the same ratio.
         let mut by_size =
             by_gap.clone() * footprint.gap_over_a() + by_width.clone() * footprint.width_over_a();
         if let Some(by_thickness) = &by_thickness {
@@ -50,10 +53,10 @@ impl StiffnessSlopes {
         Ok(Self { stiffness, by_gap, by_width, by_size, by_poisson_ratio, by_thickness })
     }
 
-    /// Returns the stiffness under bases close to those that it is the stiffness of, on the straight lines of the derivatives.
+    /// Extrapolates the stiffness linearly from bases `from` to nearby bases `to`.
     pub fn moved(&self, from: &Bases, to: &Bases) -> RowStiffness {
         let a = from.half_width;
-        // By lengths, not by their ratios: differences of those would keep fewer digits of a small step.
+        // Uses lengths instead of ratios: differences of ratios would lose digits for a small step.
         let mut ways = vec![
             (&self.by_gap, (to.gap - from.gap) / a),
             (&self.by_width, (to.width - from.width) / a),
@@ -69,14 +72,18 @@ impl StiffnessSlopes {
     }
 }
 
-/// Step of the differences, as a part of the length, or of Poisson's ratio itself. The rounding of a solution, some 1e-13, and the
-/// terms of the fifth order count alike: both are below 1e-9 of the derivative.
+/// Relative step of the differences.
+///
+/// The rounding of a solution, about 1e-13, and the fifth-order terms are balanced; both are below
+/// 1e-9 of the derivative.
 const STEP: f64 = 2e-3;
 
-/// Returns the derivatives by gap, width and Poisson's ratio where boundary elements are solved: `(8 (f₁ − f₋₁) − (f₂ − f₋₂))/12 h`.
+/// Differentiates boundary-element solutions by gap, width and Poisson's ratio.
+///
+/// Uses `(8 (f₁ − f₋₁) − (f₂ − f₋₂))/12 h`.
 fn differences(footprint: &Footprint, coupling: Coupling) -> Result<[RowStiffness; 3], Unresolved> {
     let along = |number: usize, step: f64| {
-        // A place in the range of the table is solved too: from there the difference would be that of the errors.
+        // Solve points within the table too: mixing both would difference their errors.
         let at =
             |steps: f64| RowStiffness::solved(&footprint.moved(number, steps * step), coupling);
         let [near, far] = [8.0 / (12.0 * step), -1.0 / (12.0 * step)];

@@ -1,17 +1,18 @@
-//! The strip of surface between two bases.
+//! Strip of surface between two bases.
 
-/// How the substrate answers where the strip of surface between two neighbouring bases is stretched.
+/// Response of the surface strip between two neighbouring bases.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum SubstrateLaw {
-    /// Linear springs, Eq. (1) of the paper. Nothing keeps two bases from passing each other.
+    /// Linear springs, Eq. (1) of the paper. They do not prevent two bases from passing each other.
     #[default]
     Linear,
-    /// Strips that are incompressible neo-Hookean bars: none can be pressed to nothing.
+    /// Incompressible neo-Hookean bars, which cannot be compressed to zero length.
     NeoHookean,
 }
 
-/// The strip of surface between the right end of one base and the left end of the next, measured along the row between the
-/// corners of the deformed bases:
+/// Surface strip between the right end of one base and the left end of the next.
+///
+/// Measured along the row between the corners of the deformed bases:
 ///
 /// ```text
 ///        BR_i ──── s ──── BL_{i+1}        s = d + e,    e = x' − x + a (2 − cos φ − cos φ')
@@ -28,20 +29,21 @@ pub struct SurfaceStrip {
 }
 
 impl SurfaceStrip {
-    /// The stretch `g` of the strip between two poses `(x, y, φ)`.
+    /// Computes the stretch `g` of the strip between two poses `(x, y, φ)`.
     pub fn stretch(&self, left: [f64; 3], right: [f64; 3]) -> f64 {
         // 1 − cos φ without cancellation.
         let shortened = |rotation: f64| 2.0 * (0.5 * rotation).sin().powi(2);
         self.stretch_by(right[0] - left[0], shortened(left[2]) + shortened(right[2]))
     }
 
-    /// The stretch `g` of the strip whose ends have moved apart with the scales by `x' − x`, and whose bases are shorter by `a` times
-    /// `2 − cos φ − cos φ'`.
+    /// Computes the stretch `g` from the relative displacement and the shortening of the bases.
+    ///
+    /// The displacement is `x' − x`; `shortened` is `2 − cos φ − cos φ'`, in units of `a`.
     pub fn stretch_by(&self, apart: f64, shortened: f64) -> f64 {
         1.0 + (apart + self.half_base * shortened) / self.width
     }
 
-    /// Derivative of the stretch along two directions `(x, y, φ)`.
+    /// Differentiates the stretch along two directions `(x, y, φ)`.
     pub fn stretch_rate(
         &self,
         [left, right]: [[f64; 3]; 2],
@@ -52,13 +54,15 @@ impl SurfaceStrip {
     }
 }
 
-/// Energy of a neo-Hookean bar per `k d²`, with the stiffness `k` at rest, and its first two derivatives in the stretch `g`:
+/// Returns the energy of a neo-Hookean bar per `k d²`, and its first two derivatives by `g`.
+///
+/// `k` is the stiffness at rest and `g` the stretch:
 ///
 /// ```text
 /// w = (g² + 2/g − 3)/6,   w' = (g − g⁻²)/3,   w" = (1 + 2 g⁻³)/3,   w"(1) = 1                    (V3)
 /// ```
 ///
-/// Incompressible, uniaxial. Infinite where the stretch is not above zero, which no bar reaches.
+/// Incompressible, uniaxial. Infinite unless the stretch is positive; a bar never reaches zero.
 pub fn neo_hookean(stretch: f64) -> [f64; 3] {
     if stretch <= 0.0 {
         return [f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY];

@@ -1,45 +1,50 @@
-//! Springs from a table of Chebyshev polynomials, in place of boundary elements.
+//! Springs from a table of Chebyshev polynomials instead of boundary elements.
 //!
-//! At every Poisson's ratio the springs are smooth functions of `log(d/a)` and `log(b/a)`. With `u`, `v`, `w` the places of `d/a`, `b/a`
-//! and `1 − ν` in their ranges on a scale of logarithms, from −1 to 1, and Chebyshev polynomials `T`,
+//! At every Poisson's ratio the springs are smooth functions of `log(d/a)` and `log(b/a)`. Let `u`,
+//! `v`, `w` be the positions of `d/a`, `b/a` and `1 − ν` in their ranges, on logarithmic scales
+//! from −1 to 1. With Chebyshev polynomials `T`,
 //!
 //! ```text
 //! ln α_y, ln α_φ, β_y/α_y, β_φ/α_φ = Σ_ij c_ij T_i(u) T_j(v)
 //! ln α_x, β_x/α_x = Σ_ijk c_ijk T_i(u) T_j(v) T_k(w)                                 (S18)
 //! ```
 //!
-//! A row in which scales feel [`NEIGHBOURS`] neighbours has more polynomials of this kind: what it adds to `K_0` and `K_1`, its further
-//! `K_k` over `α`, and `c` over `√(α_y α_φ)`. Normal tractions do not know `ν`.
+//! A row with coupling to [`NEIGHBOURS`] neighbours has more polynomials of this kind: its
+//! additions to `K_0` and `K_1`, its further `K_k` over `α`, and `c` over `√(α_y α_φ)`. Normal
+//! tractions do not depend on `ν`.
 //!
-//! `table.bin` holds the coefficients as 4-byte floats, the lowest byte first, `j` fastest; `examples/table.rs` makes it.
+//! `table.bin` holds the coefficients as 4-byte floats in little-endian order, `j` fastest;
+//! `examples/table.rs` generates it.
 
 use std::f64::consts::LN_2;
 use std::ops::{Add, Mul};
 
 use crate::{Coupling, Footprint, NEIGHBOURS};
 
-/// The range of `d/a`.
+/// Range of `d/a`.
 pub const GAPS: [f64; 2] = [0.0125, 100.0];
 
-/// The range of `b/a`.
+/// Range of `b/a`.
 pub const WIDTHS: [f64; 2] = [0.25, 80.0];
 
 /// Orders of the polynomials of Eq. (1) in each length.
 pub const NEAREST: usize = 24;
 
-/// Orders of the polynomials of long rows: these add little, and need fewer.
+/// Orders of the additional polynomials of long rows, which are smaller and need fewer.
 pub const ROW: usize = 16;
 
 /// Orders of the polynomials in `log(1 − ν)`, in which `α_x` is smoother than in `ν`.
 pub const RATIOS: usize = 5;
 
-/// Bound of the error of Eq. (1) over `α`: tests solve again at places between the nodes.
+/// Error bound of Eq. (1) over `α`; tests check it by solving between the nodes.
 const ERROR: f64 = 1e-5;
 
-/// Bound of the error of long rows, which are made from coarser meshes: the neglected coupling is sixty times as large.
+/// Error bound of long rows, which stem from coarser meshes.
+///
+/// The neglected coupling is sixty times as large.
 const ROW_ERROR: f64 = 1e-4;
 
-/// Returns the bound of the error of a row, over the `K_0` of the direction.
+/// Returns the error bound of a row, over `K_0` of the direction.
 pub(crate) fn error(coupling: Coupling) -> f64 {
     match coupling {
         Coupling::Nearest => ERROR,
@@ -47,20 +52,20 @@ pub(crate) fn error(coupling: Coupling) -> f64 {
     }
 }
 
-/// Returns Poisson's ratio at the place `w`: `log(1 − ν)` goes from 0 to `log ½`.
+/// Returns Poisson's ratio at `w`: `log(1 − ν)` ranges from 0 to `log ½`.
 pub fn poisson_ratio(w: f64) -> f64 {
     1.0 - (-0.5 - 0.5 * w).exp2()
 }
 
-/// The table itself.
+/// Coefficients of the table.
 static TABLE: &[u8] = include_bytes!("table.bin");
 
-/// A number with its derivatives with respect to `d/a`, `b/a` and `ν`.
+/// Value with its derivatives by `d/a`, `b/a` and `ν`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Differentiated(pub(crate) [f64; 4]);
 
 impl Differentiated {
-    /// A function of the number, by its value and its slope there.
+    /// Applies a function, given by its value and its slope here.
     fn map(self, value: f64, slope: f64) -> Self {
         let [_, by_gap, by_width, by_ratio] = self.0;
         Self([value, by_gap * slope, by_width * slope, by_ratio * slope])
@@ -94,15 +99,16 @@ impl Mul for Differentiated {
     }
 }
 
-/// Returns the numbers of a row with their derivatives: `K_0` in `x`, `y` and `φ`, then `K_x`, `K_y`, `K_φ` and `c` of each
-/// neighbour (S9). `None` out of the range of the table.
+/// Returns the values of a row with their derivatives, or `None` outside the table.
+///
+/// First come `K_0` in `x`, `y` and `φ`, then `K_x`, `K_y`, `K_φ` and `c` of each neighbour (S9).
 pub(crate) fn row(footprint: &Footprint, coupling: Coupling) -> Option<Vec<Differentiated>> {
     let mut reader = Reader::at(footprint)?;
-    // Each call takes the next polynomial of the file: the order of these lines is its format.
+    // Each call reads the next polynomial of the file: the order of these lines is its format.
     let [ln_y, ln_turn, y_ratio, turn_ratio] = [(); 4].map(|()| reader.surface(NEAREST));
     let [ln_x, x_ratio] = [(); 2].map(|()| reader.solid(NEAREST));
     let alpha = [ln_x, ln_y, ln_turn].map(Differentiated::exp);
-    // K_0 and K_1 over α; a long row adds to these what its scales beyond the third feel of each other.
+    // K_0 and K_1 over α; a long row adds the mutual effect of its scales beyond the third.
     let mut ratios = vec![[Differentiated([1.0, 0.0, 0.0, 0.0]); 3]];
     ratios.push([x_ratio, y_ratio, turn_ratio].map(|ratio| ratio.map(-ratio.0[0], -1.0)));
     let mut cross = vec![Differentiated::default()];
@@ -126,7 +132,7 @@ pub(crate) fn row(footprint: &Footprint, coupling: Coupling) -> Option<Vec<Diffe
     Some(own.into_iter().chain(neighbours).collect())
 }
 
-/// Reads one polynomial after the other at a place.
+/// Reader of successive polynomials at one point.
 struct Reader {
     /// `T_i` and its slope by `d/a`, by `b/a` and by `ν`.
     gap: Vec<[f64; 2]>,
@@ -139,11 +145,12 @@ impl Reader {
     fn at(footprint: &Footprint) -> Option<Self> {
         let on_log = |value: f64, [low, high]: [f64; 2]| {
             let slope = 2.0 / (high / low).ln();
-            // Rounding may place an end of the range a little beyond ±1, which polynomials bear.
+            // Rounding may put an end of the range slightly beyond ±1, where polynomials are still
+            // accurate.
             let place = (value / low).ln() * slope - 1.0;
             (low..=high).contains(&value).then(|| chebyshev(place, slope / value, NEAREST))
         };
-        // No footprint has a ratio outside of the range, 0 to ½: only lengths may leave it.
+        // The ratio always lies in its range, 0 to ½; only the lengths may leave theirs.
         let left = 1.0 - footprint.poisson_ratio();
         Some(Self {
             gap: on_log(footprint.gap_over_a(), GAPS)?,
@@ -153,7 +160,7 @@ impl Reader {
         })
     }
 
-    /// The next polynomial in the two lengths.
+    /// Evaluates the next polynomial in the two lengths.
     fn surface(&mut self, orders: usize) -> Differentiated {
         let mut sum = [0.0; 4];
         for [t, t_slope] in &self.gap[..orders] {
@@ -172,7 +179,7 @@ impl Reader {
         Differentiated(sum)
     }
 
-    /// The next polynomial in the two lengths and `ν`.
+    /// Evaluates the next polynomial in the two lengths and `ν`.
     fn solid(&mut self, orders: usize) -> Differentiated {
         let parts: Vec<_> = (0..RATIOS).map(|_| self.surface(orders)).collect();
         let terms = self.ratio.iter().zip(parts);
@@ -183,7 +190,9 @@ impl Reader {
     }
 }
 
-/// Returns the first Chebyshev polynomials at `x` and their slopes by a number of which `x` has this `slope`.
+/// Returns the first Chebyshev polynomials at `x` and their slopes.
+///
+/// `slope` is the derivative of `x` by the variable of the slopes.
 fn chebyshev(x: f64, slope: f64, count: usize) -> Vec<[f64; 2]> {
     let mut found = vec![[1.0, 0.0], [x, slope]];
     for k in 2..count {

@@ -1,4 +1,4 @@
-//! The elastica of a gap: derivatives, closed forms, symmetries, and the elements whose limit it is.
+//! Elastica of a gap: derivatives, closed forms, symmetries, and convergence of the elements to it.
 
 use analytical::elastica::tip;
 use geometry::OutOfRange;
@@ -16,16 +16,18 @@ fn elastica(span: Span, order: usize) -> Result<Elastica, OutOfRange> {
     Elastica::new(Section::new(1.0, THICKNESS)?, span, order)
 }
 
-/// The boundary condition of the right scale.
+/// Boundary condition of the right scale.
 #[derive(Clone, Copy)]
 enum Right {
-    /// Displacement, seen from the left end, and rotation of the right end of the membrane.
+    /// Displacement of the right end of the membrane relative to the left end, and its rotation.
     End(Span, Vector3<f64>),
-    /// Force and moment on it.
+    /// Force and moment on the right scale.
     Load(Vector3<f64>),
 }
 
-/// The state of a gap from rest to `right` in equal steps, each from a straight continuation of the last two.
+/// Solves for the state of a gap under `right`, in equal steps from rest.
+///
+/// Each step starts from a linear extrapolation of the last two.
 fn equilibrium(gap: &Elastica, right: Right, steps: u32) -> Vec<f64> {
     let mut last = DVector::zeros(gap.unknowns());
     let mut z = last.clone();
@@ -60,19 +62,19 @@ fn newton(gap: &Elastica, mut z: DVector<f64>, free: usize, load: Vector3<f64>) 
     panic!("no equilibrium under {load:?}");
 }
 
-/// Displacement and rotation of the scale that holds the right end of the membrane.
+/// Returns displacement and rotation of the scale that holds the right end of the membrane.
 fn held(span: Span, end: Vector3<f64>) -> Vector3<f64> {
     let (arm, (sin, cos)) = (Vector2::new(-span.half_base, -span.axis_offset), end[2].sin_cos());
     let turned = Vector2::new(cos * arm.x - sin * arm.y, sin * arm.x + cos * arm.y) - arm;
     Vector3::new(end[0] - turned.x, end[1] - turned.y, end[2])
 }
 
-/// Displacement and rotation of the right scale.
+/// Returns displacement and rotation of the right scale.
 fn pose(gap: &Elastica, z: &[f64]) -> Vector3<f64> {
     Vector3::from_column_slice(&z[gap.interior()..])
 }
 
-/// Force and moment on the right scale.
+/// Returns force and moment on the right scale.
 fn load(gap: &Elastica, z: &[f64]) -> Vector3<f64> {
     gap.derivatives(z).gradient.fixed_rows::<3>(gap.interior()).into_owned()
 }
@@ -90,7 +92,7 @@ fn span() -> impl Strategy<Value = Span> {
     })
 }
 
-/// A gap and any state of it, in equilibrium or not.
+/// Generates a gap and a random state, not in equilibrium.
 fn any_state() -> impl Strategy<Value = (Elastica, Vec<f64>)> {
     (span(), 2_usize..9, prop::collection::vec(-2.0..2.0, 12)).prop_map(|(span, order, mut z)| {
         let gap = elastica(span, order).unwrap();
@@ -99,7 +101,7 @@ fn any_state() -> impl Strategy<Value = (Elastica, Vec<f64>)> {
     })
 }
 
-/// A span and a displacement and rotation of its right end that pull the membrane far.
+/// Generates a span and a large pull on its right end.
 fn pulled() -> impl Strategy<Value = (Span, Vector3<f64>)> {
     (span(), 0.2..2.0, -0.6..0.6, -0.9..0.9).prop_map(|(span, stretch, shift, phi)| {
         (span, Vector3::new(span.gap * stretch, span.gap * shift, phi))
@@ -148,8 +150,8 @@ proptest! {
         }
     }
 
-    /// Seen from the right scale, and turned by half a turn, the gap is one whose axis lies on the other side: it stores
-    /// the same energies and bears the same force.
+    /// Rotated by 180°, the gap has its scales exchanged and its axis on the other side. Energies
+    /// and force are unchanged.
     #[test]
     fn a_half_turn_exchanges_the_scales((span, end) in pulled()) {
         let gap = elastica(span, 16).unwrap();
@@ -173,8 +175,8 @@ proptest! {
     }
 }
 
-/// The limit of the co-rotational elements is this elastica: their error falls by 4 when they are halved, and what is
-/// left after extrapolation is far smaller. A gap under a strong oblique pull and a moment.
+/// The error of the co-rotational elements decreases by 4 when they are halved, and the remainder
+/// after extrapolation is far smaller. The gap is under a strong oblique pull and a moment.
 #[test]
 fn the_elements_converge_to_it_with_the_square_of_their_length() -> Result<(), OutOfRange> {
     let span = Span { half_base: 0.2, gap: 0.5, axis_offset: 0.0 };
@@ -198,7 +200,8 @@ fn the_elements_converge_to_it_with_the_square_of_their_length() -> Result<(), O
     Ok(())
 }
 
-/// A moment bends the free length to an arc, here to a full circle: exact at every order that integrates its position.
+/// A moment bends the free length to an arc, here a full circle. The result is exact at every order
+/// that integrates the position.
 #[test]
 fn pure_bending_is_a_circle() -> Result<(), OutOfRange> {
     for (order, tolerance) in [(12, 1e-5), (20, 1e-13)] {
@@ -222,7 +225,7 @@ fn pure_bending_is_a_circle() -> Result<(), OutOfRange> {
     Ok(())
 }
 
-/// A pull along the axis stretches it evenly, whatever the stretch; below the bases it needs a couple `N e`.
+/// A pull along the axis stretches it uniformly; an axis below the bases requires a couple `N e`.
 #[test]
 fn pure_stretching_is_even() -> Result<(), OutOfRange> {
     let (stretch, axis_offset) = (3.0, 0.0625);
@@ -239,7 +242,7 @@ fn pure_stretching_is_even() -> Result<(), OutOfRange> {
     Ok(())
 }
 
-/// A thin cantilever with a load across its tip: the elliptic integrals that Mattiasson tabulates.
+/// Thin cantilever with a transverse tip load: the elliptic integrals tabulated by Mattiasson.
 #[test]
 fn mattiasson_elastica() -> Result<(), OutOfRange> {
     let thickness = 1e-4_f64;
@@ -254,8 +257,8 @@ fn mattiasson_elastica() -> Result<(), OutOfRange> {
     Ok(())
 }
 
-/// A pull that makes layers of a thirtieth of the gap at the bases: each two orders more bring the error down by a
-/// factor that grows, to round-off.
+/// A pull with boundary layers of a thirtieth of the gap: each increase of the order by two reduces
+/// the error by a growing factor, down to round-off.
 #[test]
 fn the_error_falls_faster_than_any_power() -> Result<(), OutOfRange> {
     let span = Span { half_base: 0.5, gap: 1.0, axis_offset: 0.0 };
@@ -273,7 +276,7 @@ fn the_error_falls_faster_than_any_power() -> Result<(), OutOfRange> {
     Ok(())
 }
 
-/// A state seen by a higher order is the same polynomial: the energies and the axis stay.
+/// A state at a higher order is the same polynomial: energies and axis are unchanged.
 #[test]
 fn a_state_is_transferred_to_another_order() -> Result<(), OutOfRange> {
     let span = Span { half_base: 0.5, gap: 1.0, axis_offset: 0.0 };
@@ -290,7 +293,7 @@ fn a_state_is_transferred_to_another_order() -> Result<(), OutOfRange> {
     Ok(())
 }
 
-/// A state without `ψ` is the state whose `ψ` vanishes.
+/// A state without `ψ` equals the state with `ψ = 0`.
 #[test]
 fn a_state_without_deviations_is_that_of_an_arc() -> Result<(), OutOfRange> {
     let gap = elastica(Span { half_base: 0.5, gap: 0.3, axis_offset: 0.1 }, 6)?;

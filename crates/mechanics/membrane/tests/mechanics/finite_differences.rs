@@ -1,4 +1,4 @@
-//! Every force is the gradient of its energy and every tangent the gradient of its force.
+//! Forces against gradients of the energy, and tangents against gradients of the force.
 
 use membrane::{Ends, NodePose, Response, RigidArm};
 use nalgebra::{DMatrix, DVector, Vector2};
@@ -9,7 +9,7 @@ use crate::states::{bent_beam, bent_gap, bent_offset_beam};
 const STEP: f64 = 2e-4;
 const TOLERANCE: f64 = 1e-8;
 
-/// Derivative of `f` along component `i`, with an error of fourth order in the step.
+/// Differentiates `f` along component `i`, with a fourth-order difference.
 fn derivative(
     f: impl Fn(&DVector<f64>) -> DVector<f64>,
     q: &DVector<f64>,
@@ -26,7 +26,7 @@ fn derivative(
 /// Energy (as a vector of one), force and tangent at a state.
 type Parts = (DVector<f64>, DVector<f64>, DMatrix<f64>);
 
-/// Largest errors of the force and of the tangent, relative to their largest entries.
+/// Returns the largest errors of force and tangent, relative to their largest entries.
 fn errors(parts: impl Fn(&DVector<f64>) -> Parts, q: &DVector<f64>) -> [f64; 2] {
     let (_, force, tangent) = parts(q);
     let mut errors: [f64; 2] = [0.0; 2];
@@ -47,12 +47,13 @@ fn parts(response: &Response) -> Parts {
     )
 }
 
-/// The six poses of a state of two bodies.
+/// Returns the six poses of a state of two bodies.
 fn ends(q: &DVector<f64>) -> Ends {
     q.fixed_rows::<6>(0).into_owned()
 }
 
-/// Largest difference between a matrix and its transpose, relative to its largest entry.
+/// Returns the largest difference between a matrix and its transpose, relative to its largest
+/// entry.
 fn asymmetry(tangent: &DMatrix<f64>) -> f64 {
     (tangent - tangent.transpose()).amax() / tangent.amax()
 }

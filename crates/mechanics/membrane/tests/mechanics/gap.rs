@@ -1,4 +1,4 @@
-//! The gap between two scales: closed forms, and what cannot be built.
+//! Gap between two scales: closed forms and invalid parameters.
 
 use geometry::OutOfRange;
 use membrane::{GapMembrane, Section, Span};
@@ -12,7 +12,7 @@ fn gap(span: Span, elements: usize) -> Result<GapMembrane, OutOfRange> {
     GapMembrane::new(Section::new(1.0, THICKNESS)?, span, elements)
 }
 
-/// A moment bends the free length alone: `φ = M d/EI`, whatever the bases, the offset and the mesh.
+/// A moment bends only the free length: `φ = M d/EI` for any bases, offset and mesh.
 #[test]
 fn pure_bending_turns_the_scales_by_the_free_length() -> Result<(), OutOfRange> {
     let bending_stiffness = THICKNESS.powi(3) / 12.0;
@@ -40,7 +40,8 @@ fn a_gap_knows_its_mesh() -> Result<(), OutOfRange> {
     Ok(())
 }
 
-/// An axis below the bases pulls there: the right scale is held by a counter-clockwise couple `N e`.
+/// An axis below the bases is pulled there: the right scale is held by a counter-clockwise couple
+/// `N e`.
 #[test]
 fn tension_acts_below_the_base_for_a_positive_offset() -> Result<(), OutOfRange> {
     let (stretch, axis_offset) = (0.01, 0.0625);
@@ -60,8 +61,8 @@ fn tension_acts_below_the_base_for_a_positive_offset() -> Result<(), OutOfRange>
     Ok(())
 }
 
-/// A small curvature keeps its digits in a gap that is displaced by a hundred thicknesses; what is lost
-/// is the rounding of the displacements themselves.
+/// A small curvature keeps its digits in a gap displaced by a hundred thicknesses, except for the
+/// rounding of the displacements themselves.
 #[test]
 fn a_distant_gap_keeps_its_digits() -> Result<(), OutOfRange> {
     let (half_base, angle) = (0.0125, 1e-3_f64);
@@ -90,7 +91,7 @@ fn rest_bears_no_force() -> Result<(), OutOfRange> {
     Ok(())
 }
 
-/// The cubic axis of an element in pure bending follows the arc between its ends to 1 % of the sag.
+/// The cubic axis of an element in pure bending follows its arc to 1 % of the sag.
 #[test]
 fn the_drawn_axis_follows_the_arc() -> Result<(), OutOfRange> {
     let (angle, intervals) = (0.4, 10);

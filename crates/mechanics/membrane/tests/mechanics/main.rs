@@ -1,4 +1,4 @@
-//! The element and the gap against finite differences, symmetries and closed forms.
+//! Element and gap against finite differences, symmetries and closed forms.
 
 mod cantilever;
 mod elastica;

@@ -1,4 +1,4 @@
-//! The inextensible cantilever with a transverse tip load, against [`analytical::elastica`].
+//! Inextensible cantilever with a transverse tip load, against [`analytical::elastica`].
 
 use analytical::elastica;
 use geometry::OutOfRange;
@@ -6,10 +6,10 @@ use nalgebra::Vector3;
 
 use crate::cantilever::{cantilever, equilibrium};
 
-/// A thickness that leaves a tip error of about 1e-8 from the stretch.
+/// Thickness that leaves a tip error of about 1e-8 from the stretch.
 const INEXTENSIBLE: f64 = 1e-4;
 
-/// Deflection, shortening and rotation of the tip from a mesh.
+/// Computes deflection, shortening and rotation of the tip from a mesh.
 fn computed(load: f64, elements: usize, thickness: f64) -> Result<Vector3<f64>, OutOfRange> {
     let gap = cantilever(elements, thickness)?;
     let u = equilibrium(&gap, Vector3::new(0.0, load, 0.0), 20);
@@ -17,8 +17,8 @@ fn computed(load: f64, elements: usize, thickness: f64) -> Result<Vector3<f64>, 
     Ok(Vector3::new(tip[1], -tip[0], tip[2]))
 }
 
-/// The error falls by 4 when the elements are halved, and what is left after extrapolation by that
-/// rule is far smaller, for all loads of the table.
+/// The error decreases by 4 when the elements are halved, and the remainder after extrapolation is
+/// far smaller, for all loads of the table.
 #[test]
 fn mattiasson_elastica() -> Result<(), OutOfRange> {
     for load in (1..=10).map(f64::from) {
@@ -34,7 +34,7 @@ fn mattiasson_elastica() -> Result<(), OutOfRange> {
     Ok(())
 }
 
-/// The stretch leaves at the rate `1/EA`, that is with the square of the thickness.
+/// The error from stretch decreases as `1/EA`, that is, with the square of the thickness.
 #[test]
 fn inextensible_limit() -> Result<(), OutOfRange> {
     let limit = computed(5.0, 8, INEXTENSIBLE)?;

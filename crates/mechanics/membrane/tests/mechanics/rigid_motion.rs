@@ -1,4 +1,4 @@
-//! A rigid motion changes no energy and turns the forces with it, to 1e-12.
+//! A rigid motion preserves energies and rotates the forces, to 1e-12.
 
 use std::f64::consts::{PI, TAU};
 
@@ -9,7 +9,8 @@ use proptest::prelude::*;
 
 use crate::states::{bent_beam, bent_gap};
 
-/// Turns poses (or forces) about the origin: `q ↦ Q q` without the change of the angles.
+/// Returns the rotation of poses (or forces) about the origin, `q ↦ Q q`, without the change of the
+/// angles.
 fn turn(size: usize, angle: f64) -> DMatrix<f64> {
     let mut turn = DMatrix::identity(size, size);
     for node in (0..size).step_by(3) {
@@ -18,7 +19,7 @@ fn turn(size: usize, angle: f64) -> DMatrix<f64> {
     turn
 }
 
-/// Poses turned about the origin, then shifted.
+/// Rotates poses about the origin, then shifts them.
 fn moved(q: &DVector<f64>, angle: f64, shift: Vector2<f64>) -> DVector<f64> {
     let mut moved = turn(q.len(), angle) * q;
     for node in (0..q.len()).step_by(3) {
@@ -73,7 +74,7 @@ proptest! {
     }
 }
 
-/// An undeformed element turned by whole eighths of a turn, through ±π and beyond, stays at rest.
+/// An undeformed element rotated by multiples of 45°, through ±π and beyond, stays at rest.
 #[test]
 fn rest_is_rest_in_every_direction() -> Result<(), OutOfRange> {
     let beam = CorotationalBeam::new(0.1, 1.0, 0.01)?;

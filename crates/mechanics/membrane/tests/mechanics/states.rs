@@ -6,18 +6,17 @@ use membrane::{CorotationalBeam, Ends, GapMembrane, OffsetBeam, RigidArm, Sectio
 use nalgebra::{DVector, Vector2};
 use proptest::prelude::*;
 
-/// An element with stiffnesses of order one.
+/// Generates an element with stiffnesses of order one.
 pub fn beam() -> impl Strategy<Value = CorotationalBeam> {
     (0.3..2.0, 0.2..5.0, 0.02..1.0).prop_filter_map("valid", |(length, axial, bending)| {
         CorotationalBeam::new(length, axial, bending).ok()
     })
 }
 
-/// Position of the first node of a random chain, and its rotation.
+/// Position and rotation of the first node of a random chain.
 type Start = (f64, f64, f64);
 
-/// One element of a random chain: stretch, rotations of its ends from its chord, and full turns of the
-/// second end.
+/// Element of a random chain: stretch, end rotations from its chord, full turns of the second end.
 type Link = (f64, [f64; 2], i32);
 
 fn start() -> impl Strategy<Value = Start> {
@@ -28,7 +27,7 @@ fn link() -> impl Strategy<Value = Link> {
     (0.7..1.4, prop::array::uniform2(-2.5..2.5), -3..=3)
 }
 
-/// Poses of the nodes of a chain of elements of length `rest` at rest.
+/// Returns the node poses of a chain of elements of length `rest` at rest.
 fn walk(rest: f64, start: Start, links: &[Link]) -> Vec<[f64; 3]> {
     let mut node = [start.0, start.1, start.2];
     let mut nodes = vec![node];
@@ -43,7 +42,7 @@ fn walk(rest: f64, start: Start, links: &[Link]) -> Vec<[f64; 3]> {
     nodes
 }
 
-/// An element and a state of it, its ends turned by up to 2.5 rad from the chord.
+/// Generates an element with its ends rotated by up to 2.5 rad from the chord.
 pub fn bent_beam() -> impl Strategy<Value = (CorotationalBeam, Ends)> {
     (beam(), start(), link()).prop_map(|(beam, start, link)| {
         let nodes = walk(beam.length(), start, &[link]);
@@ -51,7 +50,7 @@ pub fn bent_beam() -> impl Strategy<Value = (CorotationalBeam, Ends)> {
     })
 }
 
-/// An element between two random arms, and a state of the bodies that hold it.
+/// Generates an element between two random arms, with poses of the bodies that hold it.
 pub fn bent_offset_beam() -> impl Strategy<Value = (OffsetBeam, Ends)> {
     let arm = || (-1.0..1.0, -1.0..1.0).prop_map(|(x, y)| RigidArm::new(Vector2::new(x, y)));
     (bent_beam(), arm(), arm()).prop_map(|((beam, ends), first, second)| {
@@ -65,7 +64,7 @@ pub fn bent_offset_beam() -> impl Strategy<Value = (OffsetBeam, Ends)> {
     })
 }
 
-/// A gap of one to four elements and displacements of it, far from rest.
+/// Generates a gap of one to four elements, with displacements far from rest.
 pub fn bent_gap() -> impl Strategy<Value = (GapMembrane, DVector<f64>)> {
     let span = (0.0..1.0, 0.5..2.0, -0.3..0.3).prop_map(|(half_base, gap, axis_offset)| Span {
         half_base,
@@ -84,7 +83,7 @@ pub fn bent_gap() -> impl Strategy<Value = (GapMembrane, DVector<f64>)> {
     })
 }
 
-/// Replaces the pose of an end of the membrane by the pose of the scale that holds it at `(x, −e)`.
+/// Replaces the pose of an end of the membrane by the pose of its scale at `(x, −e)`.
 fn hold(pose: &mut [f64; 3], x: f64, axis_offset: f64) {
     let lever = RigidArm::new(Vector2::new(x, -axis_offset)).lever(pose[2]);
     pose[0] -= lever.x;

@@ -1,4 +1,4 @@
-//! The far field where scales feel several neighbours.
+//! Far field with coupling to several neighbours.
 
 use faer::Mat;
 use faer::linalg::solvers::Solve as _;
@@ -6,15 +6,16 @@ use faer::linalg::solvers::Solve as _;
 use super::Relief;
 use crate::RowStiffness;
 
-/// Blocks after which a row counts as one in which nothing decays.
+/// Number of blocks after which a row without convergence counts as non-decaying.
 const BLOCKS: usize = 400;
 
-/// Change of the relief by one more block, as a part of the stiffness, below which the row is as good as endless.
+/// Relative change of the reduction per block below which the row counts as infinite.
 const SETTLED: f64 = 1e-15;
 
-/// An endless row of free scales that feel `m` neighbours on each side, in blocks of `m`.
+/// Infinite row of free scales coupled with `m` neighbours on each side, in blocks of `m`.
 ///
-/// Each block feels itself, by `D`, and its neighbours, by `U` the next one. A block at whose end `n` more stand is held by `D − R_n`,
+/// Each block has the stiffness `D` for itself and `U` for the next block. A block with `n` more
+/// behind it has the stiffness `D − R_n`,
 ///
 /// ```text
 /// R_0 = 0,   R_{n+1} = U (D − R_n)⁻¹ Uᵀ  →  R,      X_{j+1} = −(D − R)⁻¹ Uᵀ X_j         (S17)
@@ -23,14 +24,16 @@ const SETTLED: f64 = 1e-15;
 /// with the displacements `X_j` of block `j`.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct CoupledRow {
-    /// Number `m` of scales in a block.
+    /// Number `m` of scales per block.
     scales: usize,
-    /// `−(D − R)⁻¹ Uᵀ`, with scales in the order from left to right.
+    /// `−(D − R)⁻¹ Uᵀ`, with the scales ordered from left to right.
     transfer: Mat<f64>,
 }
 
 impl CoupledRow {
-    /// The row, and what it takes from the stiffness of the block before it. `None` where nothing decays.
+    /// Solves for the row and its reduction of the stiffness of the block before it.
+    ///
+    /// `None` if nothing decays.
     pub(super) fn endless(stiffness: &RowStiffness) -> Option<(Self, Vec<Relief>)> {
         let scales = stiffness.neighbours.len();
         let own = block(stiffness, 0);
@@ -52,13 +55,15 @@ impl CoupledRow {
         None
     }
 
-    /// Displacements of the first `count` scales beyond, by those of the scales at the end, counted from there.
+    /// Computes the displacements of the first `count` free scales.
+    ///
+    /// `end` counts the scales at the end from there.
     pub(super) fn displacements(
         &self,
         end: impl Fn(usize) -> [f64; 3],
         count: usize,
     ) -> Vec<[f64; 3]> {
-        // The end counts its scales inward, a block from left to right.
+        // The end counts its scales inwards, a block from left to right.
         let mut block: Vec<f64> = (0..self.scales).rev().flat_map(end).collect();
         let mut found = Vec::with_capacity(count + self.scales);
         while found.len() < count {
@@ -69,7 +74,7 @@ impl CoupledRow {
         found
     }
 
-    /// Displacements of the block after one.
+    /// Computes the displacements of the next block.
     fn next(&self, block: &[f64]) -> Vec<f64> {
         let mut next = vec![0.0; block.len()];
         for (column, u) in self.transfer.col_iter().zip(block) {
@@ -81,13 +86,15 @@ impl CoupledRow {
     }
 }
 
-/// The stiffness of a block for displacements of the block that begins so many scales farther to the right: `D` for 0.
+/// Returns the stiffness of a block for a block that begins `farther` scales to the right.
+///
+/// It is `D` for 0.
 fn block(stiffness: &RowStiffness, farther: usize) -> Mat<f64> {
     let size = 3 * stiffness.neighbours.len();
     Mat::from_fn(size, size, |row, column| {
         let (force, displaced) = (row / 3, column / 3 + farther);
         let (k, l) = (row % 3, column % 3);
-        // Seen from the right, force and displacement change places.
+        // Seen from the right, force and displacement are exchanged.
         let (k, l) = if force <= displaced { (k, l) } else { (l, k) };
         match force.abs_diff(displaced) {
             0 if k == l => stiffness.direct[k],
@@ -98,7 +105,7 @@ fn block(stiffness: &RowStiffness, farther: usize) -> Mat<f64> {
     })
 }
 
-/// The parts of a relief, by the scales from the end. Entries that mirror each other are made equal.
+/// Splits a reduction by scales from the end, and symmetrises it.
 fn parts(relief: &Mat<f64>, scales: usize) -> Vec<Relief> {
     let entry = |i, j| f64::midpoint(relief[(i, j)], relief[(j, i)]);
     let part = |force, displacement| {
