@@ -1,4 +1,4 @@
-//! The case of one design: everything that it is solved with.
+//! The case of one design: all parameters of its solution.
 
 use geometry::OutOfRange;
 use skin::flexure;
@@ -9,79 +9,81 @@ use substrate::{Bases, Coupling, Footprint};
 use crate::material::Material;
 use crate::parameter::Scalar;
 
-/// One design with everything that it is solved with.
+/// All parameters of the solution of one design.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Case {
-    /// The geometry.
+    /// Geometry.
     pub design: Design,
-    /// The contact law and the solver's settings, of puncture and bending.
+    /// Contact law and solver settings, shared by puncture and bending.
     pub common: Common,
-    /// The other parameters of the puncture.
+    /// Parameters of the puncture.
     pub puncture: puncture::PunctureParameters,
-    /// The friction between needle and scale: of a free needle the critical tilts follow from it, instead of those of the puncture.
+    /// Friction between needle and scale. For a free needle it determines the critical tilts.
     pub needle_friction: Option<Scalar>,
-    /// How far inside the top right corner the load stands, unless its place is given as a part of the top.
+    /// Distance of the load from the top right corner, inward. `None` if `load_position` gives it.
     pub load_inset: Option<f64>,
-    /// The other parameters of bending.
+    /// Parameters of bending.
     pub flexure: flexure::FlexureParameters,
-    /// The thickness of the substrate, over that of the scales; `None` of a half-space.
+    /// Thickness of the substrate over the scale thickness. `None` for a half-space.
     pub tissue_thickness: Option<f64>,
-    /// The neighbours of a scale that the substrate couples it with.
+    /// Neighbours coupled to a scale by the substrate.
     pub coupling: Coupling,
-    /// The scatter of gaps and slants.
+    /// Scatter of gaps and slants.
     pub imperfection: Imperfection,
-    /// The imperfect rows that are solved if they scatter at all.
+    /// Number of imperfect rows that are solved, if gaps or slants scatter.
     pub samples: Samples,
-    /// The material of the skin, in physical units, as far as that is given.
+    /// Material of the skin in physical units, as far as it is given.
     pub material: Material,
-    /// The lengths that are given in mm: those over the thickness follow from them.
+    /// Lengths given in mm. The lengths over the thickness follow from them.
     pub in_mm: Millimetres,
 }
 
-/// The lengths that are given in mm.
+/// The lengths given in mm.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Millimetres {
-    /// The gap between neighbouring bases.
+    /// Gap between neighbouring bases.
     pub gap: Option<f64>,
-    /// The length of a scale.
+    /// Length of a scale.
     pub length: Option<f64>,
-    /// Base and gap together.
+    /// Pitch: base plus gap.
     pub pitch: Option<f64>,
-    /// Whether the pitch says how long a scale is, rather than how wide its gap.
+    /// Whether the pitch determines the length of a scale instead of the gap.
     pub pitch_says_length: bool,
-    /// The width of the scales.
+    /// Width of the scales.
     pub width: Option<f64>,
-    /// The thickness of the substrate.
+    /// Thickness of the substrate.
     pub tissue_thickness: Option<f64>,
-    /// The distance of the load from the right corner of the top.
+    /// Distance of the load from the right corner of the top.
     pub load_inset: Option<f64>,
-    /// The radius of the tip of a guided needle.
+    /// Radius of the tip of a guided needle.
     pub needle_radius: Option<f64>,
-    /// The depth at which the force is measured besides.
+    /// Additional depth at which the force is measured.
     pub depth: Option<f64>,
-    /// The length of the membrane.
+    /// Length of the membrane.
     pub membrane_length: Option<f64>,
-    /// The thickness of the membrane.
+    /// Thickness of the membrane.
     pub membrane_thickness: Option<f64>,
-    /// The depth of the axis of the membrane below the bases.
+    /// Depth of the axis of the membrane below the bases.
     pub membrane_axis_offset: Option<f64>,
 }
 
 /// The imperfect rows that are solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Samples {
-    /// The number of rows.
+    /// Number of rows.
     pub count: usize,
-    /// Seed of their random numbers.
+    /// Seed of the random numbers.
     pub seed: usize,
 }
 
 impl Case {
-    /// The parameters of the puncture as it is solved, lengths over the thickness, with what friction says of needle and tilts. A load that would stand beyond the middle of a narrow top stands in it,
-    /// and one that would stand on the next scale on its left corner.
+    /// Returns the parameters of the puncture as it is solved. Lengths are over the thickness.
+    ///
+    /// Friction sets the friction of a guided needle, or the critical tilts of a free one. The load
+    /// is moved to the middle of a narrow top if the inset would place it beyond the middle, and to
+    /// the left corner of the next scale if it would be on that scale.
     pub fn punctured(&self) -> puncture::PunctureParameters {
-        // Only here, for the case keeps what was asked: along axes of gap and length the place
-        // moves.
+        // Limit the position here, not in the case: it changes along axes of gap and length.
         let top = 2.0 * self.design.half_base();
         let inside = |inset: f64| (1.0 - inset / top).max(0.5);
         let position = self.puncture.load_position.min(1.0 + self.design.gap / top);
@@ -97,12 +99,14 @@ impl Case {
         punctured
     }
 
-    /// Whether the load stands on a top, or with a round tip that may stand between two.
+    /// Returns true if the load is on a top or has a round tip. A round tip may be between two
+    /// scales.
     pub fn load_can_stand(&self) -> bool {
         self.puncture.load_position <= 1.0 || self.puncture.needle_radius.is_some()
     }
 
-    /// The bases and the substrate, on which the springs depend, with lengths over the thickness.
+    /// Returns the bases and the substrate, which determine the springs. Lengths are over the
+    /// thickness.
     pub fn bases(&self) -> Bases {
         Bases {
             half_width: self.design.half_base(),
@@ -113,16 +117,20 @@ impl Case {
         }
     }
 
-    /// The footprint of the bases.
+    /// Returns the footprint of the bases.
     ///
     /// # Errors
-    /// If the lengths of the design are too far apart for their ratios to be an `f64`, or the substrate is too thin for its springs.
+    ///
+    /// If the ratio of two lengths of the design exceeds an `f64`, or the substrate is too thin for
+    /// its springs.
     pub fn footprint(&self) -> Result<Footprint, OutOfRange> {
         self.bases().footprint()
     }
 }
 
-/// Gives a puncture the tilts that are made of a number, or of a list, whose last one is critical and the others on its way.
+/// Sets the tilts of a puncture from a number or a list.
+///
+/// The last one is the critical tilt; the puncture is measured at the others too.
 pub(crate) fn set_tilts(
     puncture: &mut puncture::PunctureParameters,
     given: Scalar,
@@ -130,7 +138,7 @@ pub(crate) fn set_tilts(
 ) {
     let tilts = match given {
         Scalar::Number(number) => Some((tilt(number), None)),
-        // A rising function keeps the order of a list.
+        // `tilt` is increasing, so the list stays ascending.
         Scalar::List(numbers) => {
             numbers.map(tilt).split_last().map(|(last, others)| (last, Some(others)))
         }
@@ -142,7 +150,7 @@ pub(crate) fn set_tilts(
 }
 
 impl Default for Case {
-    /// The first design of the paper sweep.
+    /// Returns the first design of the paper sweep.
     fn default() -> Self {
         Self {
             design: Design { gap: 0.1, length: 0.025, slant_deg: 0.0, base: Base::L, width: 1.0 },

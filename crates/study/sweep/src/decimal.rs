@@ -1,26 +1,25 @@
-//! Decimal numbers, so that ranges give what a person would type.
+//! Decimal numbers, so that ranges contain the same values as typed lists.
 
 use std::fmt;
 use std::str::FromStr;
 
-/// Exponents beyond this are outside of what an `f64` holds.
+/// Exponents beyond this are outside the range of `f64`.
 const LARGEST_EXPONENT: i32 = 400;
 
-/// The most numbers of a range.
+/// Maximum number of values in a range.
 const LONGEST: i128 = 1_000_000;
 
-/// A number as it is typed, `digits × 10^exponent`, without trailing zeros.
+/// A decimal number, `digits × 10^exponent`, without trailing zeros.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Decimal {
     digits: i128,
     exponent: i32,
 }
 
-/// A text that is no decimal number, or one with more than 38 digits.
+/// A text that is not a decimal number, or has more than 38 digits.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{found} is not a decimal number of at most 38 digits")]
 pub(crate) struct NotDecimal {
-    /// The text.
     pub found: String,
 }
 
@@ -37,18 +36,18 @@ impl Decimal {
         Self { digits, exponent }
     }
 
-    /// The nearest `f64`.
+    /// Returns the nearest `f64`.
     pub fn to_f64(self) -> f64 {
-        // The standard parser rounds correctly, arithmetic with powers of ten does not.
+        // The standard parser rounds correctly; arithmetic with powers of ten does not.
         format!("{}e{}", self.digits, self.exponent).parse().unwrap_or(f64::NAN)
     }
 
-    /// The value if it is a whole number that is not negative.
+    /// Returns the value if it is a whole number and not negative.
     pub fn to_usize(self) -> Option<usize> {
         usize::try_from(self.over(0)?).ok()
     }
 
-    /// The value in units of `10^exponent`, if it is a whole number of them.
+    /// Returns the value in units of `10^exponent`, if it is a whole number of them.
     fn over(self, exponent: i32) -> Option<i128> {
         let power = u32::try_from(self.exponent.checked_sub(exponent)?).ok()?;
         10_i128.checked_pow(power)?.checked_mul(self.digits)
@@ -69,21 +68,22 @@ fn parse(text: &str) -> Option<Decimal> {
         None => (text, 0_i32),
     };
     let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
-    // Where nothing stands before the point the sign would pass for that of the number.
+    // Without digits before the point, a sign after the point would parse as the sign of the
+    // number.
     if fraction.starts_with(['+', '-']) {
         return None;
     }
     let digits: i128 = format!("{whole}{fraction}").parse().ok()?;
     let exponent = power.checked_sub(i32::try_from(fraction.len()).ok()?)?;
     let decimal = Decimal::new(digits, exponent);
-    // Asked behind `new`, which counts zeros at the end of the digits as an exponent.
+    // Check after `new`, which moves trailing zeros of the digits into the exponent.
     (decimal.exponent.abs() <= LARGEST_EXPONENT).then_some(decimal)
 }
 
 impl fmt::Display for Decimal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let short = text::number::text(self.to_f64());
-        // A decimal may have more digits than the `f64` next to it: those are told, too.
+        // A decimal may have more digits than the nearest `f64`; print all of them.
         if short.parse() == Ok(*self) {
             f.write_str(&short)
         } else {
@@ -92,7 +92,7 @@ impl fmt::Display for Decimal {
     }
 }
 
-/// A range that cannot be walked.
+/// An invalid range.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub(crate) enum InvalidRange {
     /// The step is zero or negative.
@@ -101,21 +101,22 @@ pub(crate) enum InvalidRange {
     /// The range ends before it begins.
     #[error("`to` is below `from`, expected a `to` of at least {from}")]
     Backwards { from: Decimal },
-    /// The steps pass by the end.
+    /// The steps miss the end.
     #[error("{to} is not reached in steps of {step}, expected a `to` of {below} or {above}")]
     Missed { to: String, step: String, below: String, above: String },
-    /// The range is longer than a list in memory should be.
+    /// The range has too many values for a list in memory.
     #[error("the range has {count} values, expected at most {LONGEST}, with a larger step")]
     TooLong { count: i128 },
-    /// Neighbours are the same `f64`, or have more digits than can be computed with.
+    /// Neighbours are the same `f64`, or have too many digits.
     #[error("the step {step} is too fine, expected numbers that an f64 tells apart")]
     TooFine { step: Decimal },
 }
 
-/// The numbers `from, from + step … to`, computed as decimals.
+/// Returns the numbers `from, from + step … to`, computed as decimals.
 ///
 /// # Errors
-/// If the step is not positive, `to` lies below `from` or is not reached, there are more than a
+///
+/// If the step is not positive, `to` is below `from` or is not reached, there are more than a
 /// million numbers, or neighbours are the same `f64`.
 pub(crate) fn range(
     from: Decimal,
@@ -125,7 +126,7 @@ pub(crate) fn range(
     if step.digits <= 0 {
         return Err(InvalidRange::Step { step });
     }
-    // In this unit all three are whole numbers, and steps make no round-off.
+    // In this unit all three are whole numbers, so the steps have no round-off.
     let exponent = from.exponent.min(to.exponent).min(step.exponent);
     let scaled = [from, to, step].map(|decimal| decimal.over(exponent));
     let [Some(first), Some(last), Some(stride)] = scaled else {
@@ -142,7 +143,7 @@ pub(crate) fn range(
         let (to, step) = (to.to_string(), step.to_string());
         return Err(InvalidRange::Missed { to, step, below, above });
     }
-    // Counted before any is made: a slip in a step must not fill the memory.
+    // Count before creating any value: a mistyped step must not fill the memory.
     let count = length / stride + 1;
     if count > LONGEST {
         return Err(InvalidRange::TooLong { count });
@@ -152,8 +153,8 @@ pub(crate) fn range(
     if tells_apart(&numbers) { Ok(numbers) } else { Err(InvalidRange::TooFine { step }) }
 }
 
-/// Whether neighbours of a range are different `f64`s. They are closest together, relative to their
-/// size, at the two ends.
+/// Returns true if neighbours of a range are different `f64`s. They are closest together, relative
+/// to their size, at the two ends.
 fn tells_apart(numbers: &[Decimal]) -> bool {
     let differ = |pair: &[Decimal]| pair[0].to_f64() < pair[1].to_f64();
     let mut pairs = numbers.windows(2);

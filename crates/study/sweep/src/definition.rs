@@ -29,7 +29,7 @@ use text::number;
 use text::reason;
 use text::toml_source::{self, KeyValue, KeyValues, Place, Value};
 
-/// A sweep that can run: its name, what it measures, its designs.
+/// A validated sweep: name, measures, designs.
 #[derive(Clone, Debug)]
 pub struct Sweep {
     pub(crate) name: String,
@@ -40,25 +40,28 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// The sweep that the file at `path` defines once `settings` are put in its place.
+    /// Reads the sweep from the file at `path`. `settings` replace its values.
     ///
     /// # Errors
-    /// If the file cannot be read or does not define a sweep; all that is wrong with it is told at once.
+    ///
+    /// If the file cannot be read or does not define a sweep. The error lists all problems.
     pub fn read(path: &Path, settings: &[Setting]) -> Result<Self, InvalidDefinition> {
         Self::of_entries(&read_entries(path, settings)?, &path.display().to_string())
     }
 
-    /// The sweep that `text`, from the file `name`, defines once `settings` are put in its place.
+    /// Parses the sweep `text` of the file `name`. `settings` replace its values.
     ///
     /// # Errors
+    ///
     /// If the text does not define a sweep.
     pub fn parse(text: &str, name: &str, settings: &[Setting]) -> Result<Self, InvalidDefinition> {
         Self::of_entries(&entries(text, name, settings)?, name)
     }
 
-    /// The sweep that keys and values of the file `name` define.
+    /// Creates the sweep from the keys and values of the file `name`.
     ///
     /// # Errors
+    ///
     /// If they do not define a sweep.
     pub fn of_entries(entries: &KeyValues, name: &str) -> Result<Self, InvalidDefinition> {
         let mut reader = Reader::default();
@@ -68,24 +71,24 @@ impl Sweep {
         reader.finish(&Place::File { name: name.into(), line: None })
     }
 
-    /// The name, which is also that of the folder of its results.
+    /// Returns the name, which is also the name of the results folder.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// The measures that every design is solved for.
+    /// Returns the measures that are computed for every design.
     pub fn measures(&self) -> &[Measure] {
         &self.measures
     }
 
-    /// What is measured, without the derivatives of it.
+    /// Returns the measures without sensitivity.
     pub fn plain_measures(&self) -> Vec<Measure> {
         let mut measures = self.measures.clone();
         measures.retain(|measure| *measure != Measure::Sensitivity);
         measures
     }
 
-    /// This sweep, which measures sensitivities besides.
+    /// Returns this sweep with sensitivity added to the measures.
     #[must_use]
     pub fn with_sensitivity(mut self) -> Self {
         if !self.measures.contains(&Measure::Sensitivity) {
@@ -94,53 +97,56 @@ impl Sweep {
         self
     }
 
-    /// The designs.
+    /// Returns the designs.
     pub fn grid(&self) -> &Grid {
         &self.grid
     }
 
-    /// The parameters that no design fixes. Until they are searched over or drawn, they stand in the middle of their values.
+    /// Returns the parameters that are not fixed by any design.
+    ///
+    /// Their value is the middle of their range until a search or a random draw sets them.
     pub fn variables(&self) -> &[Variable] {
         &self.variables
     }
 
-    /// How far what is made differs from what is drawn.
+    /// Returns the manufacturing deviations.
     pub fn deviations(&self) -> &[Deviation] {
         &self.deviations
     }
 
-    /// The sweep with design `index` alone.
+    /// Returns the sweep with design `index` alone.
     #[must_use]
     pub fn only(&self, index: u64) -> Self {
         Self { grid: self.grid.only(index), ..self.clone() }
     }
 
-    /// The sweep with the one design that has the values of `case` on every axis, whether or not they are among those of the axis.
-    /// That sweep has no variables.
+    /// Returns the sweep with one design, which has the values of `case` on every axis.
+    ///
+    /// The values need not be values of the axes. The returned sweep has no variables.
     #[must_use]
     pub fn at(&self, case: &Case) -> Self {
         Self { grid: self.grid.at(case), variables: Vec::new(), ..self.clone() }
     }
 
-    /// Whether any of its designs is solved with imperfections too.
+    /// Returns true if any design is also solved with imperfections.
     pub fn is_imperfect(&self) -> bool {
         let largest = |key: &str| {
             let base = || Parameter::named(key).and_then(|p| p.get(self.grid.base()).number());
-            // One design that scatters is enough for the whole table to have the columns.
+            // The table has the columns if at least one design scatters.
             let axis = self.grid.axis(key).map(|axis| axis.span().1);
             axis.or_else(base).unwrap_or(0.0)
         };
         largest("gap_cv") > 0.0 || largest("slant_sd_deg") > 0.0
     }
 
-    /// Whether the needle of any design is guided.
+    /// Returns true if the needle of any design is guided.
     pub fn is_guided(&self) -> bool {
         let base = || self.grid.base().puncture.needle.is_guided();
         let any = |axis: &Axis| (0..axis.len()).any(|k| axis.value(k) == Scalar::Word("guided"));
         self.grid.axis(key::NEEDLE).map_or_else(base, any)
     }
 
-    /// Whether the designs have a value for the parameter of that name.
+    /// Returns true if the designs have a value for the parameter `key`, also in mm.
     pub fn gives(&self, key: &str) -> bool {
         let is_given = |parameter: &Parameter| {
             let is_said = |key| self.grid.axis(key).is_some();
@@ -151,13 +157,14 @@ impl Sweep {
         Parameter::named(key).is_some_and(is_given)
     }
 
-    /// Whether lengths are given in mm, so that the thickness moves those over it.
+    /// Returns true if lengths are given in mm, so that they depend on the thickness.
     pub fn gives_millimetres(&self) -> bool {
         PARAMETERS.iter().any(|parameter| parameter.is_in_mm() && self.gives(parameter.key))
     }
 
-    /// Whether another parameter of the skin follows from this one: a length over the thickness from a thickness, a ratio of contact from
-    /// a modulus.
+    /// Returns true if another parameter of the skin follows from this one.
+    ///
+    /// A length over the thickness follows from the thickness, a contact ratio from a modulus.
     pub fn has_followers(&self, parameter: &Parameter) -> bool {
         match parameter.key {
             key::THICKNESS => self.gives_millimetres(),
@@ -167,10 +174,11 @@ impl Sweep {
         }
     }
 
-    /// What is strange about the definition though it is valid: a modulus of soft tissue in the unit of another prefix.
+    /// Returns a question about a suspicious value: a substrate modulus that seems to be in another
+    /// unit.
     pub fn question(&self) -> Option<String> {
         let written = |parameter: &Parameter| {
-            // The largest value: one design whose unit is wrong is enough to ask.
+            // Check the largest value: one design with a wrong unit is enough.
             let axis = self.grid.axis(parameter.key).map(|axis| axis.span().1);
             let variable = self.variables.iter().find(|v| v.parameter() == parameter);
             let variable = variable.and_then(|variable| variable.at(1.0).number());
@@ -187,16 +195,18 @@ impl Sweep {
         })
     }
 
-    /// Whether the parameter of that name is an axis, or has another value than that by default.
+    /// Returns true if the parameter `key` is an axis or differs from its default.
     pub fn sets(&self, key: &str) -> bool {
         let is_set = |parameter: &Parameter| parameter.get(self.grid.base()) != parameter.default();
         self.grid.axis(key).is_some() || Parameter::named(key).is_some_and(is_set)
     }
 
-    /// The parameters that all designs share, with their values. The length of a strip is none if its gaps are given, and
-    /// the critical tilt none if the friction of the needle is.
+    /// Returns the parameters shared by all designs, with their values.
+    ///
+    /// Omits the length of a strip if the number of gaps is given, and the critical tilt if the
+    /// friction of the needle is given.
     pub fn shared(&self) -> impl Iterator<Item = (&'static Parameter, Scalar)> {
-        // Found once and few: asking every parameter about every other one took long.
+        // Computed once, because comparing all pairs of parameters was slow.
         let alone: Vec<_> = PARAMETERS.iter().filter(|other| self.gives_alone(other)).collect();
         let shared = move |parameter: &&Parameter| {
             self.grid.axis(parameter.key).is_none()
@@ -209,7 +219,7 @@ impl Sweep {
 }
 
 impl Sweep {
-    /// Whether the definition gives this parameter, so that it leaves nothing to the other way to say the same.
+    /// Returns true if the definition gives this parameter. Its alternatives do not apply then.
     fn gives_alone(&self, parameter: &Parameter) -> bool {
         let value = parameter.get(self.grid.base());
         let follows = parameter.follows(self.grid.base());
@@ -218,27 +228,33 @@ impl Sweep {
     }
 }
 
-/// Modulus in `MPa` above which nothing is soft tissue: that of bone is ten times as much, that of cartilage a hundredth.
+/// Modulus in `MPa` above which a substrate is not soft tissue. Cartilage has a hundredth of it,
+/// bone ten times as much.
 const STIFFEST_TISSUE: f64 = 1e3;
 
-/// Bytes of a definition, at most: a million values of an axis take a third of them.
+/// Maximum length of a definition in bytes. A million values of an axis take a third of it.
 const LONGEST: u64 = 1 << 26;
 
-/// Largest number of keys in a definition. Each takes a kilobyte once it is parsed, so a file of sections would exhaust memory.
+/// Maximum number of keys in a definition. A parsed key takes a kilobyte, so a file of empty
+/// sections would exhaust the memory.
 const MAX_KEYS: usize = 100_000;
 
-/// The keys and values of the definition in the file at `path` once `settings` are put in its place.
+/// Reads the keys and values of the file at `path`. `settings` replace its values.
 ///
 /// # Errors
-/// If the file cannot be read or is no TOML.
+///
+/// If the file cannot be read or is not TOML.
 pub fn read_entries(path: &Path, settings: &[Setting]) -> Result<KeyValues, InvalidDefinition> {
     entries(&read_text(path)?, &path.display().to_string(), settings)
 }
 
-/// The keys and values of the definition `text`, from the file `name`, once `settings` are put in its place.
+/// Parses the keys and values of the definition `text`.
+///
+/// `settings` replace its values. `name` is the file name for messages.
 ///
 /// # Errors
-/// If the text is no TOML.
+///
+/// If the text is not TOML.
 pub fn entries(
     text: &str,
     name: &str,
@@ -254,7 +270,8 @@ pub fn entries(
 /// Reads the text of the definition at `path`.
 ///
 /// # Errors
-/// If the file cannot be read, or is larger than any definition.
+///
+/// If the file cannot be read, or exceeds the maximum length.
 pub fn read_text(path: &Path) -> Result<String, InvalidDefinition> {
     let checked = read_input(path, LONGEST).and_then(|text| match keys(&text) {
         0..=MAX_KEYS => Ok(text),
@@ -266,7 +283,7 @@ pub fn read_text(path: &Path) -> Result<String, InvalidDefinition> {
     })
 }
 
-/// The number of keys and sections of a definition, or a few more: an estimate that needs no memory.
+/// Estimates the number of keys and sections, at most a few too high. Needs no memory.
 fn keys(text: &str) -> usize {
     let is_section = |line: &&str| {
         let name = line.trim_start().trim_start_matches('[');
@@ -276,11 +293,11 @@ fn keys(text: &str) -> usize {
     text.matches('=').count() + text.lines().filter(is_section).count()
 }
 
-/// A run's own record holds its definition in a table of that name.
+/// Returns the definition in the record of a run, or the table itself.
 fn definition_of(mut table: KeyValues) -> KeyValues {
     let holds =
         |key: &str, entry: &KeyValue| entry.key == key && matches!(entry.value, Value::Table(_));
-    // A table `definition` without that of a run is no record, and refused as an unknown key.
+    // A table `definition` without a table `run` is not a record, and is refused as an unknown key.
     if table.iter().any(|entry| holds("run", entry))
         && let Some(position) = table.iter().position(|entry| holds("definition", entry))
         && let Value::Table(definition) = table.swap_remove(position).value

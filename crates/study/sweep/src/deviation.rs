@@ -1,10 +1,12 @@
-//! How far what is made differs from what is drawn.
+//! Manufacturing deviations from the nominal design.
 
 use crate::case::Case;
 use crate::parameter::{Parameter, Role, key, length};
 use text::number;
 
-/// How a parameter differs from its value in the definition: in common for all scales of a batch, and from scale to scale.
+/// Deviation of a parameter from its nominal value.
+///
+/// One part is common to all scales of a batch, one part varies from scale to scale.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Deviation {
     pub(crate) parameter: &'static Parameter,
@@ -12,17 +14,17 @@ pub struct Deviation {
     pub(crate) scale_sd: Option<f64>,
 }
 
-/// The distribution of a deviation that all scales of a batch share.
+/// Distribution of a deviation common to all scales of a batch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum BatchDeviation {
-    /// Normal, of this standard deviation.
+    /// Normal distribution with this standard deviation.
     Normal(f64),
-    /// Equally likely everywhere up to this far to either side.
+    /// Uniform distribution within this distance to either side.
     Uniform(f64),
 }
 
 impl BatchDeviation {
-    /// The standard deviation.
+    /// Returns the standard deviation.
     pub fn standard_deviation(self) -> f64 {
         match self {
             Self::Normal(deviation) => deviation,
@@ -33,43 +35,45 @@ impl BatchDeviation {
 }
 
 impl Deviation {
-    /// The parameter; that over the thickness if the deviation is in mm.
+    /// Returns the parameter. For a deviation in mm this is the length over the thickness.
     pub fn parameter(&self) -> &'static Parameter {
         self.parameter.over_t().unwrap_or(self.parameter)
     }
 
-    /// The key in the definition: that of the parameter, or of the same length in mm.
+    /// Returns the key in the definition: the parameter, or the same length in mm.
     pub fn key(&self) -> String {
         self.parameter.key.to_owned()
     }
 
-    /// The keys without which the deviation has no meaning: its own, unless it has a value by default, and the thickness.
+    /// Returns the keys that must be given: the parameter, unless it has a default, and the
+    /// thickness.
     pub(crate) fn needs(&self) -> impl Iterator<Item = &'static str> {
         let own = (!self.parameter().is_given(&Case::default())).then_some(self.parameter().key);
         own.into_iter().chain(self.parameter.is_in_mm().then_some(key::THICKNESS))
     }
 
-    /// The deviation that all scales of a batch share.
+    /// Returns the deviation common to all scales of a batch.
     pub fn batch(&self) -> Option<BatchDeviation> {
         self.batch
     }
 
-    /// The standard deviation from scale to scale in the unit of the parameter, for the designs of a thickness.
+    /// Returns the standard deviation from scale to scale. It is in the unit of the parameter.
     pub fn scale_sd(&self, case: &Case) -> Option<f64> {
         Some(self.scale_sd? / self.unit(case)?)
     }
 
-    /// The case whose parameter differs `by` so much, in the unit of this deviation; it may leave its bounds.
+    /// Returns the case with the parameter changed by `by`.
     ///
-    /// A thickness differs while the other lengths stay as long as they are drawn, in mm, and a modulus differs while that of the
-    /// scales stays.
+    /// `by` is in the unit of this deviation. The value may leave its bounds. A deviation of the
+    /// thickness keeps all other lengths in mm, and a deviation of a modulus keeps the modulus of
+    /// the scales.
     pub fn moved(&self, case: &Case, by: f64) -> Option<Case> {
         match self.parameter.key {
             key::THICKNESS => length::with_thickness(case, case.material.thickness_mm? + by),
             key::SUBSTRATE_MODULUS => {
                 let (mut moved, modulus) = (*case, case.material.substrate_modulus_mpa?);
                 moved.material.substrate_modulus_mpa = Some(modulus + by);
-                // Without `scale_modulus_MPa` nothing else holds the modulus of the scales.
+                // Without `scale_modulus_MPa` only this ratio keeps the modulus of the scales.
                 moved.puncture.contact_modulus_over_substrate *= modulus / (modulus + by);
                 Some(moved)
             }
@@ -83,7 +87,7 @@ impl Deviation {
         }
     }
 
-    /// Moves `case` as [`Self::moved`] does; `None` if a parameter leaves its bounds.
+    /// Changes `case` as [`Self::moved`] does. `None` if a parameter leaves its bounds.
     pub fn applied(&self, case: &Case, by: f64) -> Option<Case> {
         let moved = self.moved(case, by)?;
         let is_made =
@@ -91,12 +95,12 @@ impl Deviation {
         (is_made && moved.load_can_stand()).then_some(moved)
     }
 
-    /// One unit of the parameter in the unit of the deviation.
+    /// Returns one unit of the parameter in the unit of the deviation.
     fn unit(&self, case: &Case) -> Option<f64> {
         if self.parameter.is_in_mm() { case.material.thickness_mm } else { Some(1.0) }
     }
 
-    /// The deviations as a definition writes them.
+    /// Returns the deviation as written in a definition.
     pub fn to_toml(&self) -> String {
         let batch = self.batch.map(|batch| match batch {
             BatchDeviation::Normal(deviation) => format!("batch_sd = {}", number::text(deviation)),

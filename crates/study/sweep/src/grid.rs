@@ -1,4 +1,4 @@
-//! Every combination of the values of some parameters, numbered and never stored.
+//! Grid of designs: all combinations of parameter values, numbered but never stored.
 
 use std::ops::RangeInclusive;
 
@@ -6,54 +6,54 @@ use crate::case::Case;
 use crate::parameter::Parameter;
 use crate::parameter::Scalar;
 
-/// A parameter that takes several values.
+/// A parameter with several values.
 #[derive(Clone, Debug)]
 pub struct Axis {
     parameter: &'static Parameter,
     values: Vec<Scalar>,
-    /// The range in TOML, if the values were written as one.
+    /// The range in TOML, if the values were written as a range.
     range: Option<String>,
 }
 
 impl Axis {
-    /// An axis whose values were written as a list.
+    /// Creates an axis from a list of values.
     pub(crate) fn list(parameter: &'static Parameter, values: Vec<Scalar>) -> Self {
         Self { parameter, values, range: None }
     }
 
-    /// An axis whose values were written as the range `range`.
+    /// Creates an axis from the values of the written range `range`.
     pub(crate) fn range(parameter: &'static Parameter, values: Vec<Scalar>, range: String) -> Self {
         Self { parameter, values, range: Some(range) }
     }
 
-    /// The parameter that varies.
+    /// Returns the parameter.
     pub fn parameter(&self) -> &'static Parameter {
         self.parameter
     }
 
-    /// The number of values, at least one.
+    /// Returns the number of values, at least one.
     #[expect(clippy::len_without_is_empty, reason = "an axis is never empty")]
     pub fn len(&self) -> u64 {
         self.values.len() as u64
     }
 
-    /// Value `index`, from 0.
+    /// Returns value `index`, from 0.
     pub fn value(&self, index: u64) -> Scalar {
         self.values[usize::try_from(index).unwrap_or(usize::MAX)]
     }
 
-    /// The smallest and the largest value, if they are numbers.
+    /// Returns the smallest and the largest value, if they are numbers.
     pub(crate) fn span(&self) -> (f64, f64) {
         let numbers = self.values.iter().filter_map(|value| value.number());
         numbers.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
     }
 
-    /// The index of `value` among the values.
+    /// Returns the index of `value`.
     pub fn position(&self, value: Scalar) -> Option<u64> {
         self.values.iter().position(|&other| other == value).map(|index| index as u64)
     }
 
-    /// The values as a definition writes them.
+    /// Returns the values as written in a definition.
     pub fn to_toml(&self) -> String {
         let list = || {
             let values: Vec<_> = self.values.iter().map(|value| value.to_toml()).collect();
@@ -63,34 +63,34 @@ impl Axis {
     }
 }
 
-/// The designs of a sweep: every combination of the values of its axes, the last axis fastest.
+/// The designs of a sweep: all combinations of the values of its axes, the last axis fastest.
 #[derive(Clone, Debug)]
 pub struct Grid {
     axes: Vec<Axis>,
-    /// The case that all designs share.
+    /// Case shared by all designs.
     base: Case,
     count: u64,
 }
 
-/// More designs than can be numbered.
+/// The grid has more designs than a `u64` can number.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the axes span more than {} designs, expected fewer values", u64::MAX)]
 pub struct TooManyDesigns;
 
-/// A text that numbers no design of the grid.
+/// A text that is not the number of a design.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("there is no design {found}, expected a number from 1 to {count}")]
 pub struct NoSuchDesign {
-    /// The text.
     pub found: String,
-    /// The number of designs.
+    /// Number of designs.
     pub count: u64,
 }
 
 impl Grid {
-    /// Every combination of the values of `axes`, the rest as in `base`.
+    /// Creates the grid of `axes`, with all other parameters from `base`.
     ///
     /// # Errors
+    ///
     /// If a `u64` cannot number the designs.
     pub fn new(axes: Vec<Axis>, base: Case) -> Result<Self, TooManyDesigns> {
         let product = |count: u64, axis: &Axis| count.checked_mul(axis.len());
@@ -98,37 +98,37 @@ impl Grid {
         Ok(Self { axes, base, count })
     }
 
-    /// The axes, the slowest first.
+    /// Returns the axes, the slowest first.
     pub fn axes(&self) -> &[Axis] {
         &self.axes
     }
 
-    /// The axis of a parameter.
+    /// Returns the axis of a parameter.
     pub fn axis(&self, key: &str) -> Option<&Axis> {
         self.axes.iter().find(|axis| axis.parameter.key == key)
     }
 
-    /// The axis that says the parameter of `key`, itself or in mm.
+    /// Returns the axis of the parameter `key`, directly or in mm.
     pub fn axis_saying(&self, key: &str) -> Option<&Axis> {
         self.axes.iter().find(|axis| axis.parameter.is_or_says(key))
     }
 
-    /// The case that all designs share. Its values on the axes mean nothing.
+    /// Returns the case shared by all designs. Its values of axis parameters are meaningless.
     pub fn base(&self) -> &Case {
         &self.base
     }
 
-    /// The number of designs, at least one.
+    /// Returns the number of designs, at least one.
     #[expect(clippy::len_without_is_empty, reason = "a grid is never empty")]
     pub fn len(&self) -> u64 {
         self.count
     }
 
-    /// Design `index`, from 0 and below [`Self::len`].
+    /// Returns the case of design `index`, from 0 and below [`Self::len`].
     pub fn case(&self, index: u64) -> Case {
         let mut case = self.base;
         let mut rest = index;
-        // The index is a number with a digit for each axis, the last of them that of the fastest.
+        // The index is a mixed-radix number with one digit per axis, the fastest axis last.
         for axis in self.axes.iter().rev() {
             axis.parameter.set(&mut case, axis.value(rest % axis.len()));
             rest /= axis.len();
@@ -136,7 +136,7 @@ impl Grid {
         case
     }
 
-    /// The index of the design that has the values of `case` on every axis.
+    /// Returns the index of the design with the values of `case` on every axis.
     pub fn find(&self, case: &Case) -> Option<u64> {
         self.axes.iter().try_fold(0, |index, axis| {
             let position = axis.position(axis.parameter.get(case))?;
@@ -144,31 +144,33 @@ impl Grid {
         })
     }
 
-    /// The grid of design `index` alone.
+    /// Returns the grid of design `index` alone.
     pub(crate) fn only(&self, index: u64) -> Self {
         self.at(&self.case(index))
     }
 
-    /// The grid of the one design that has the values of `case` on every axis.
+    /// Returns the grid of one design, with the values of `case` on every axis.
     pub(crate) fn at(&self, case: &Case) -> Self {
         let fix = |axis: &Axis| Axis::list(axis.parameter, vec![axis.parameter.get(case)]);
         Self { axes: self.axes.iter().map(fix).collect(), base: self.base, count: 1 }
     }
 
-    /// The index of the design that `text` numbers, with or without leading zeros.
+    /// Parses the number of a design and returns its index. Leading zeros are optional.
     ///
     /// # Errors
-    /// If it is no number of the grid.
+    ///
+    /// If it is not a number of the grid.
     pub fn parse_number(&self, text: &str) -> Result<u64, NoSuchDesign> {
         let number = text.parse::<u64>().ok().filter(|number| (1..=self.count).contains(number));
         let error = || NoSuchDesign { found: text.to_owned(), count: self.count };
         number.map(|number| number - 1).ok_or_else(error)
     }
 
-    /// The indices of the designs that `text` numbers: one, as `7`, or some in a row, as `1-12`.
+    /// Parses one design number, such as `7`, or a range, such as `1-12`. Returns the indices.
     ///
     /// # Errors
-    /// If one of the numbers is none of the grid, or the first is above the last.
+    ///
+    /// If a number is not in the grid, or the first is above the last.
     pub fn parse_numbers(&self, text: &str) -> Result<RangeInclusive<u64>, NoSuchDesign> {
         let Some((first, last)) = text.split_once('-') else {
             return self.parse_number(text).map(|index| index..=index);
@@ -178,14 +180,14 @@ impl Grid {
         if range.is_empty() { Err(error()) } else { Ok(range) }
     }
 
-    /// The number of design `index`.
+    /// Returns the number of design `index`.
     pub fn number(&self, index: u64) -> DesignNumber {
         let digits = self.count.to_string().len();
         DesignNumber { position: index + 1, width: digits.max(4) }
     }
 }
 
-/// The 1-based position of a design in its grid, written with leading zeros.
+/// 1-based position of a design in its grid, written with leading zeros.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DesignNumber {
     position: u64,
@@ -193,7 +195,7 @@ pub struct DesignNumber {
 }
 
 impl DesignNumber {
-    /// The position in the grid, from 0.
+    /// Returns the position in the grid, from 0.
     pub fn index(self) -> u64 {
         self.position - 1
     }

@@ -1,4 +1,4 @@
-//! Reads text files that people name: definitions, goals and measured curves.
+//! Reads text files named by the user: definitions, goals and measured curves.
 
 use std::fs::{self, File};
 use std::io::{self, Read as _};

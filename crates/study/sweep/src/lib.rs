@@ -1,4 +1,4 @@
-//! Sweeps: what is to be solved, from a definition in TOML to the cases of its designs.
+//! Sweep definitions: from TOML to the cases of the designs.
 //!
 //! A sweep is a grid of designs, every combination of the values of its axes. It is never stored:
 //! the number of a design gives its parameters, and its parameters give its number.
@@ -10,17 +10,17 @@
 //!
 //! | Type | Role |
 //! |---|---|
-//! | [`Setting`] | a key set from outside, in place of what is written |
-//! | [`PARAMETERS`], [`Parameter`], [`Scalar`] | the list of everything that may be set, with what is right; a value |
-//! | [`Role`], [`key`] | what a parameter is to the skin; the keys that code names |
-//! | [`Measure`] | what is measured: coverage, puncture, flexure, and the derivatives of these |
+//! | [`Setting`] | a key set from outside, which replaces the value in the file |
+//! | [`PARAMETERS`], [`Parameter`], [`Scalar`] | the list of all parameters with their accepted values; a value |
+//! | [`Role`], [`key`] | roles of parameters in the model; the keys that code refers to |
+//! | [`Measure`] | the measures: coverage, puncture, flexure, and their derivatives |
 //! | [`Sweep`] | the validated definition |
 //! | [`Grid`], [`Axis`], [`DesignNumber`] | the designs, by number |
-//! | [`Case`] | one design with everything that it is solved with |
+//! | [`Case`] | all parameters of the solution of one design |
 //! | [`Variable`], [`VariableValues`] | a parameter that is searched over or drawn, of `[variables]` |
-//! | [`Deviation`], [`BatchDeviation`] | how far what is made differs from what is drawn, of `[tolerance]` |
-//! | [`Material`] | what the skin is made of, in physical units |
-//! | [`Subset`], [`RandomSample`], [`Shard`], [`SubsetDesigns`] | which of the designs a run solves |
+//! | [`Deviation`], [`BatchDeviation`] | manufacturing deviations, of `[tolerance]` |
+//! | [`Material`] | thickness, moduli and density of the skin, in physical units |
+//! | [`Subset`], [`RandomSample`], [`Shard`], [`SubsetDesigns`] | the designs that a run solves |
 //!
 //! ```
 //! use sweep::Sweep;

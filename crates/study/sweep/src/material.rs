@@ -1,6 +1,7 @@
 //! The material of a skin, in physical units.
 
-/// Thickness, moduli and density of a skin in physical units, as far as they are given. The mechanics need none of them.
+/// Thickness, moduli and density of a skin, as far as they are given. The mechanics is
+/// dimensionless and needs none of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Material {
     /// Thickness `t` of the scales, mm.
@@ -9,7 +10,8 @@ pub struct Material {
     pub substrate_modulus_mpa: Option<f64>,
     /// Modulus `E_m` of the membrane, in `MPa`.
     pub membrane_modulus_mpa: Option<f64>,
-    /// Modulus `E_ct` of the scales in contact, in `MPa`: the ratios to the other two follow from it.
+    /// Modulus `E_ct` of the scales in contact, in `MPa`: the ratios to the other two follow from
+    /// it.
     pub scale_modulus_mpa: Option<f64>,
     /// Density `ρ` of the scales, kg/m³.
     pub scale_density_kg_m3: Option<f64>,

@@ -1,4 +1,4 @@
-//! A parameter of a sweep: the values that it takes, and the field of a case that it sets.
+//! A parameter of a sweep: its accepted values and its field in a case.
 
 mod continuous;
 pub mod key;
@@ -21,31 +21,31 @@ pub use list::PARAMETERS;
 pub use role::Role;
 pub use scalar::Scalar;
 
-/// A scalar that a sweep definition may set, in its section or as an axis of the grid.
+/// A scalar parameter of a sweep definition, set in its section or as an axis.
 #[derive(Clone, Copy, Debug)]
 pub struct Parameter {
-    /// Key in the definition, the name of its axis and of its column.
+    /// Key in the definition, and name of its axis and column.
     pub key: &'static str,
-    /// Section in which it is set when it is no axis.
+    /// Section of the parameter when it is not an axis.
     pub section: &'static str,
-    /// Unit, `-` if it has none.
+    /// Unit, or `-`.
     pub unit: &'static str,
-    /// The meaning, in half a sentence.
+    /// Meaning, in half a sentence.
     pub meaning: &'static str,
-    /// What it is to the skin, beyond its value.
+    /// Roles in the model.
     pub(crate) roles: &'static [Role],
-    /// The values that the parameter takes, and the field of a case that it sets.
+    /// Accepted values and field of a case.
     pub(crate) kind: ParameterKind,
 }
 
 impl PartialEq for Parameter {
     fn eq(&self, other: &Self) -> bool {
-        // Keys are unique over all sections, and functions in a parameter cannot be compared.
+        // Keys are unique over all sections, and function pointers cannot be compared.
         self.key == other.key
     }
 }
 
-/// The values that the parameter takes, and the field of a case that it sets.
+/// Accepted values of a parameter, and its field in a case.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum ParameterKind {
     Number {
@@ -61,24 +61,24 @@ pub(crate) enum ParameterKind {
         get: fn(&Case) -> usize,
         set: fn(&mut Case, usize),
     },
-    /// A number whose sign tells the sense of a rotation: within bounds but for the sign.
+    /// A number with either sign; the bounds apply to its magnitude.
     SignedNumber {
         size: Range,
         field: fn(&mut Case) -> &mut f64,
     },
-    /// A number that need not be given.
+    /// A number that may be missing.
     OptionalNumber {
         range: Range,
         field: fn(&mut Case) -> &mut Option<f64>,
     },
-    /// A count, or the word for none.
+    /// A count, or a word for none.
     CountOrWord {
         range: CountRange,
         word: &'static str,
         get: fn(&Case) -> Option<usize>,
         set: fn(&mut Case, Option<usize>),
     },
-    /// A number or a short list of them, ascending, or the word.
+    /// A number, a short ascending list of numbers, or the word.
     Numbers {
         range: Range,
         word: Option<&'static str>,
@@ -108,54 +108,54 @@ pub(crate) struct CountRange {
     pub high: usize,
 }
 
-/// The word of a number that is not given. No definition has it.
+/// Placeholder for a missing number. It cannot be written in a definition.
 const NOT_GIVEN: &str = "not given";
 
-/// A value that a parameter does not take.
+/// A value that a parameter does not accept.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum WrongValue {
-    /// The right type, but outside of the bounds.
+    /// The type is right, but the value is out of bounds.
     #[error("{found} is out of range, expected {expected}")]
     OutOfRange {
         /// The value.
         found: String,
-        /// The values that would be right.
+        /// Accepted values.
         expected: String,
     },
-    /// A key that changes nothing.
+    /// The key has no effect.
     #[error("has no effect: {0}")]
     NoEffect(String),
-    /// Not what this key takes.
+    /// The type or the word is wrong.
     #[error("{found} is not accepted, expected {expected}")]
     NotAccepted {
         /// The value.
         found: String,
-        /// The values that would be right.
+        /// Accepted values.
         expected: String,
     },
 }
 
 impl WrongValue {
-    /// A value that is refused, beside what would be taken.
+    /// Creates the error of a refused value with the accepted values.
     pub fn not_accepted(found: impl fmt::Display, expected: impl Into<String>) -> Self {
         Self::NotAccepted { found: found.to_string(), expected: expected.into() }
     }
 }
 
 impl Parameter {
-    /// The parameter of that name.
+    /// Returns the parameter with this key.
     pub fn named(key: &str) -> Option<&'static Self> {
         PARAMETERS.iter().find(|parameter| parameter.key == key)
     }
 
-    /// `section.key`.
+    /// Returns `section.key`.
     pub fn path(&self) -> String {
         format!("{}.{}", self.section, self.key)
     }
 
-    /// The value of this parameter in `case`.
+    /// Returns the value of this parameter in `case`.
     pub fn get(&self, case: &Case) -> Scalar {
-        // One accessor reads and writes each field, so that reading needs a copy to lend.
+        // One mutable accessor serves for reading and writing, so reading needs a copy of the case.
         let mut case = *case;
         match &self.kind {
             ParameterKind::Number { field, .. } | ParameterKind::SignedNumber { field, .. } => {
@@ -173,19 +173,21 @@ impl Parameter {
         }
     }
 
-    /// Whether a case has a value for it: one that need not be given may have none.
+    /// Returns true if a case has a value for this parameter.
     pub fn is_given(&self, case: &Case) -> bool {
         self.get(case) != Scalar::Word(NOT_GIVEN)
     }
 
-    /// The value that it has unless a definition says otherwise.
+    /// Returns the default value.
     pub fn default(&self) -> Scalar {
         self.get(&Case::default())
     }
 
-    /// Sets this parameter in `case` to a value that [`Self::read`] or [`Self::scalar`] gave, and what follows from it.
+    /// Sets this parameter in `case`, and the parameters that follow from it.
+    ///
+    /// The value must come from [`Self::read`] or [`Self::scalar`].
     pub(crate) fn set(&self, case: &mut Case, value: Scalar) {
-        // Behind each parameter, because axes and sections set them in any order.
+        // Update after each parameter, because axes and sections set them in any order.
         self.assign(case, value);
         length::settle(case);
         modulus::settle(case);
@@ -198,11 +200,11 @@ impl Parameter {
                 ParameterKind::Number { field, .. } | ParameterKind::SignedNumber { field, .. },
                 Scalar::Number(number),
             ) => *field(case) = number,
-            // The word of a number that is not given takes away what the case had.
+            // The placeholder of a missing number removes the value.
             (ParameterKind::OptionalNumber { field, .. }, value) => *field(case) = value.number(),
             (ParameterKind::Count { field, .. }, Scalar::Count(count)) => *field(case) = count,
             (ParameterKind::Word { words, set, .. }, Scalar::Word(word)) => {
-                // `read` takes no other words.
+                // `read` accepts no other words.
                 set(case, words.iter().position(|known| *known == word).unwrap_or(0));
             }
             (ParameterKind::CountOrWord { set, .. }, Scalar::Count(count)) => {
@@ -210,15 +212,16 @@ impl Parameter {
             }
             (ParameterKind::CountOrWord { set, .. }, Scalar::Word(_)) => set(case, None),
             (ParameterKind::Numbers { set, .. }, value) => set(case, value),
-            // Whoever reads a value checks its kind: any other is a mistake of the program.
+            // `read` checks the kind, so any other kind is an internal error.
             _ => debug_assert!(false, "{} cannot be {value}", self.key),
         }
     }
 
-    /// The value `written`, if it is right for this parameter.
+    /// Reads the value `written`.
     ///
     /// # Errors
-    /// If it is of another type or out of range.
+    ///
+    /// If it has another type or is out of range.
     pub fn read(&self, written: &Value) -> Result<Scalar, WrongValue> {
         let value = match (&self.kind, written) {
             (
@@ -241,20 +244,20 @@ impl Parameter {
                 let decimal = text.parse::<Decimal>().ok();
                 decimal.and_then(Decimal::to_usize).map(Scalar::Count)
             }
-            // A boolean is one of the two words of a parameter that says whether.
+            // A boolean is one of the two words of a yes-or-no parameter.
             (ParameterKind::Word { words, .. }, Value::Text(text) | Value::Other(text)) => {
                 words.iter().find(|word| *word == text).map(|word| Scalar::Word(word))
             }
             _ => None,
         };
         match value {
-            // TOML has `nan` and `inf`, too: no bounds contain them.
+            // TOML has `nan` and `inf` too; no bounds contain them.
             Some(value) if self.contains(value) => Ok(tidy(value)),
             _ => Err(self.wrong(written)),
         }
     }
 
-    /// The value that a number of a range stands for.
+    /// Converts a number of a range to a value of this parameter.
     pub(crate) fn scalar(&self, number: Decimal) -> Scalar {
         match self.kind {
             ParameterKind::Number { .. }
@@ -263,20 +266,21 @@ impl Parameter {
             | ParameterKind::Numbers { .. }
             | ParameterKind::Word { .. } => Scalar::Number(number.to_f64()),
             ParameterKind::Count { .. } | ParameterKind::CountOrWord { .. } => {
-                // Whole and in bounds: whoever reads a range has seen both ends and the step.
+                // Whole and within bounds: both ends and the step of the range were checked.
                 Scalar::Count(number.to_usize().unwrap_or(usize::MAX))
             }
         }
     }
 
-    /// The case in which this parameter has a value that [`Self::read`] gave, or the number that it takes.
+    /// Returns `case` with this parameter set to `value`. It comes from [`Self::read`] or is a
+    /// number.
     pub fn put(&self, case: &Case, value: Scalar) -> Case {
         let mut changed = *case;
         self.set(&mut changed, value);
         changed
     }
 
-    /// The case in which this parameter alone has another value: lengths in mm say the same.
+    /// Returns `case` with this parameter alone changed. Lengths in mm are updated to agree.
     pub fn replace(&self, case: &Case, value: Scalar) -> Case {
         let mut changed = *case;
         self.assign(&mut changed, value);
@@ -284,17 +288,17 @@ impl Parameter {
         changed
     }
 
-    /// Whether it is a length in mm that another parameter gives over the thickness.
+    /// Returns true for a length in mm of a parameter over the thickness.
     pub fn is_in_mm(&self) -> bool {
         self.over_t().is_some()
     }
 
-    /// Whether it takes numbers, so that a range of it makes sense.
+    /// Returns true if it takes numbers, so that it may have a range.
     pub(crate) fn takes_numbers(&self) -> bool {
         !matches!(self.kind, ParameterKind::Word { .. })
     }
 
-    /// Whether a word may stand in the place of its numbers.
+    /// Returns true if a word may replace its numbers.
     pub(crate) fn takes_word(&self) -> bool {
         matches!(
             self.kind,
@@ -302,21 +306,21 @@ impl Parameter {
         )
     }
 
-    /// Whether a case may do without a number of it.
+    /// Returns true if the number may be missing.
     pub(crate) fn is_optional(&self) -> bool {
         self.takes_word() || matches!(self.kind, ParameterKind::OptionalNumber { .. })
     }
 
-    /// Whether its numbers are whole.
+    /// Returns true if its numbers are whole.
     pub(crate) fn takes_counts(&self) -> bool {
         matches!(self.kind, ParameterKind::Count { .. } | ParameterKind::CountOrWord { .. })
     }
 
-    /// The error of a value that [`Self::read`] refuses.
+    /// Returns the error of a value that [`Self::read`] refuses.
     fn wrong(&self, written: &Value) -> WrongValue {
         let found = written.to_string();
         let expected = self.expected();
-        // Nobody can say of `nan` that it is out of range: it is not accepted.
+        // `nan` is not out of range, so report it as not accepted.
         let is_finite = |text: &String| text.parse::<f64>().is_ok_and(f64::is_finite);
         let is_number = matches!(written, Value::Number(text) if is_finite(text));
         if is_number && self.takes_numbers() {
@@ -326,7 +330,7 @@ impl Parameter {
         }
     }
 
-    /// Whether a value is within the bounds.
+    /// Returns true if a value is within the bounds.
     pub(crate) fn contains(&self, value: Scalar) -> bool {
         match (&self.kind, value) {
             (
@@ -349,7 +353,7 @@ impl Parameter {
         }
     }
 
-    /// The values that the parameter takes, in words.
+    /// Returns the accepted values in words.
     pub fn expected(&self) -> String {
         match &self.kind {
             ParameterKind::Number { range, .. } | ParameterKind::OptionalNumber { range, .. } => {
@@ -371,7 +375,7 @@ impl Parameter {
         }
     }
 
-    /// Its numbers within bounds, in words.
+    /// Returns the numbers within bounds in words.
     fn numbers(&self, range: Range) -> String {
         let noun = match self.unit {
             "t" | "mm" => "a length",
@@ -383,23 +387,24 @@ impl Parameter {
     }
 }
 
-/// `words` in quotes, as alternatives.
+/// Returns `words` in quotes, as alternatives.
 pub(crate) fn any_of(words: &[&str]) -> String {
     words.iter().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(" or ")
 }
 
-/// The list of the numbers of `items`; `None` if one is no number, or they are too many or not ascending.
+/// Returns the numbers of `items` as a list. `None` if one is not a number, or they are too many or
+/// not ascending.
 fn list(items: &[Value]) -> Option<NumberList> {
     let number = |item: &Value| match item {
         Value::Number(text) => text.parse().ok(),
         _ => None,
     };
     let numbers: Vec<f64> = items.iter().map(number).collect::<Option<_>>()?;
-    // An empty list is how a case says that there is a single tilt.
+    // An empty list is the internal form of a single tilt, so refuse it here.
     NumberList::new(&numbers).filter(|list| !list.is_empty())
 }
 
-/// Negative zero is zero.
+/// Replaces negative zero by zero.
 fn tidy(value: Scalar) -> Scalar {
     match value {
         Scalar::Number(number) => Scalar::Number(number + 0.0),
@@ -408,7 +413,7 @@ fn tidy(value: Scalar) -> Scalar {
 }
 
 impl Range {
-    /// Numbers from one to another, both included.
+    /// Returns the bounds from `low` to `high`, both included.
     pub const fn closed(low: f64, high: f64) -> Self {
         Self { low: Included(low), high: Included(high) }
     }

@@ -1,4 +1,4 @@
-//! The subset of a grid that a run solves: all designs, a random sample, one shard of either.
+//! The designs that a run solves: the grid, a random sample, or one shard of either.
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -9,27 +9,27 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng as _;
 use serde::{Deserialize, Serialize};
 
-/// The part of a grid that a run solves; by default all of it.
+/// The part of a grid that a run solves. The default is the whole grid.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Subset {
-    /// A random subset of the designs.
+    /// Random sample of the designs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sample: Option<RandomSample>,
-    /// One shard of the designs, or of the subset.
+    /// One shard of the designs or of the sample.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shard: Option<Shard>,
 }
 
-/// A random subset: the same for the same seed, on any machine.
+/// A random sample, identical for the same seed on any machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RandomSample {
-    /// The number of designs.
+    /// Number of designs.
     pub designs: u64,
     /// Seed of the generator.
     pub seed: u64,
 }
 
-/// Every N-th design, from the i-th on.
+/// Every N-th design, starting with the i-th.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub struct Shard {
@@ -37,12 +37,12 @@ pub struct Shard {
     count: u64,
 }
 
-/// A text that names no shard.
+/// A text that is not a shard.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0:?} is not a shard, expected i/N with i from 1 to N, e.g. 3/8")]
 pub struct NoShard(String);
 
-/// A subset larger than the grid.
+/// The sample is larger than the grid.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("--sample {asked}: there are only {designs} designs, expected from 1 to {designs}")]
 pub struct SampleTooLarge {
@@ -99,22 +99,23 @@ impl fmt::Display for Subset {
     }
 }
 
-/// The designs that a run solves, in order. Holds the subset, if there is one, but never the grid.
+/// The designs that a run solves, in order. Stores the sample, if there is one, but never the grid.
 #[derive(Clone, Debug)]
 pub struct SubsetDesigns {
-    /// The designs of the subset, ascending.
+    /// Designs of the sample, ascending.
     sample: Option<Vec<u64>>,
-    /// Designs of which every `step`-th is taken.
+    /// Number of designs of which every `step`-th is taken.
     whole: u64,
     first: u64,
     step: u64,
 }
 
 impl SubsetDesigns {
-    /// The designs of `part` of a grid of `designs` designs.
+    /// Creates the designs of `part` of a grid of `designs` designs.
     ///
     /// # Errors
-    /// If the grid has fewer designs than the subset.
+    ///
+    /// If the grid has fewer designs than the sample.
     pub fn new(designs: u64, part: Subset) -> Result<Self, SampleTooLarge> {
         let sample = part.sample.map(|sample| draw(designs, sample)).transpose()?;
         let whole = sample.as_ref().map_or(designs, |sample| sample.len() as u64);
@@ -122,45 +123,47 @@ impl SubsetDesigns {
         Ok(Self { sample, whole, first, step })
     }
 
-    /// The number of designs; a shard of few designs may have none.
+    /// Returns the number of designs. A shard of few designs may be empty.
     pub fn len(&self) -> u64 {
         self.whole.saturating_sub(self.first).div_ceil(self.step)
     }
 
-    /// Whether there are none.
+    /// Returns true if there are none.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// The grid's index of the design at `position`, which is below [`Self::len`].
+    /// Returns the grid index of the design at `position`. It is below [`Self::len`].
     pub fn design(&self, position: u64) -> u64 {
         let position = self.first + position * self.step;
         let sampled = |sample: &Vec<u64>| {
             usize::try_from(position).ok().and_then(|position| sample.get(position)).copied()
         };
-        // No grid has this design, so that a wrong position finds none instead of another.
+        // No grid has this design, so an invalid position cannot return another design.
         self.sample.as_ref().map_or(Some(position), sampled).unwrap_or(u64::MAX)
     }
 
-    /// The position of the grid's design `index`, if it is one of them.
+    /// Returns the position of the design with grid index `index`, if it is included.
     pub fn position(&self, index: u64) -> Option<u64> {
         let place = match &self.sample {
-            // The subset ascends, as `draw` makes it.
+            // `draw` returns an ascending sample.
             Some(sample) => sample.binary_search(&index).ok()? as u64,
             None => index,
         };
         let dealt = place.checked_sub(self.first).filter(|rest| rest % self.step == 0)?;
-        // Without a subset nothing so far says that an index is beyond the grid.
+        // Without a sample, `index` may still be beyond the grid.
         Some(dealt / self.step).filter(|position| *position < self.len())
     }
 }
 
-/// Floyd's algorithm (Bentley & Floyd 1987, doi 10.1145/30401.315746): memory for the subset alone.
+/// Draws a sample by Floyd's algorithm.
+///
+/// See Bentley & Floyd 1987, doi 10.1145/30401.315746. It needs memory for the sample alone.
 fn draw(designs: u64, sample: RandomSample) -> Result<Vec<u64>, SampleTooLarge> {
     if !(1..=designs).contains(&sample.designs) {
         return Err(SampleTooLarge { asked: sample.designs, designs });
     }
-    // Specified for good: the standard generator of a library may change with its version.
+    // This generator is specified permanently; the default generator of a library may change.
     let mut random = ChaCha8Rng::seed_from_u64(sample.seed);
     let mut chosen = BTreeSet::new();
     for last in designs - sample.designs..designs {

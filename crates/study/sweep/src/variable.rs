@@ -1,38 +1,42 @@
-//! A parameter that is searched over, or drawn at random, between bounds or among values.
+//! A variable: a parameter that is searched over or drawn, within bounds or from a list.
 
 use crate::case::Case;
 use crate::parameter::{Parameter, Scalar};
 use text::number;
 
-/// A parameter of `[variables]`: no design of the sweep fixes it, an optimisation searches over it and a global sensitivity
-/// analysis draws it.
+/// A parameter of `[variables]`.
+///
+/// No design fixes it. An optimisation searches over it, and a global sensitivity analysis draws
+/// it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variable {
     pub(crate) parameter: &'static Parameter,
     pub(crate) values: VariableValues,
 }
 
-/// The values that a variable takes.
+/// The values of a variable.
 #[derive(Clone, Debug, PartialEq)]
 pub enum VariableValues {
-    /// Every number from one to the other, which is larger.
+    /// Every number from the first to the second, which is larger.
     Between(f64, f64),
-    /// One of these, at least two.
+    /// One of these values, at least two.
     OneOf(Vec<Scalar>),
 }
 
 impl Variable {
-    /// The parameter.
+    /// Returns the parameter.
     pub fn parameter(&self) -> &'static Parameter {
         self.parameter
     }
 
-    /// The values that it takes.
+    /// Returns the values.
     pub fn values(&self) -> &VariableValues {
         &self.values
     }
 
-    /// The value at a `share` from 0 to 1 of the way through the values; of a list every value has an equal part of the way.
+    /// Returns the value at the fraction `share` (0 to 1) of the range.
+    ///
+    /// For a list, every value has an equal part of the range.
     ///
     /// ```
     /// use sweep::{Scalar, Sweep};
@@ -49,18 +53,18 @@ impl Variable {
             VariableValues::Between(from, to) => Scalar::Number(from + share * (to - from)),
             VariableValues::OneOf(values) => {
                 let place = (share * values.len() as f64) as usize;
-                // The end of the way, a share of 1, belongs to the last value.
+                // The upper end, a `share` of 1, belongs to the last value.
                 values[place.min(values.len() - 1)]
             }
         }
     }
 
-    /// Gives `case` a value of this variable.
+    /// Sets this variable in `case`.
     pub fn set(&self, case: &mut Case, value: Scalar) {
         self.parameter.set(case, value);
     }
 
-    /// The values as a definition writes them.
+    /// Returns the values as written in a definition.
     pub fn to_toml(&self) -> String {
         match &self.values {
             VariableValues::Between(from, to) => {

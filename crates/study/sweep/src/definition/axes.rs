@@ -1,4 +1,4 @@
-//! The axes of a grid as they are written: numbers, lists, ranges; their order.
+//! Reads the axes of a grid: numbers, lists, ranges, and their order.
 
 use std::collections::HashSet;
 
@@ -9,8 +9,9 @@ use crate::grid::Axis;
 use crate::parameter::{Parameter, Scalar, WrongValue};
 use text::toml_source::{self, KeyValue, KeyValues, Value};
 
-/// The axes that every grid has, with the values that they take unless a definition says otherwise:
-/// those of the paper.
+/// The axes of every grid, with the values of the paper as defaults.
+///
+/// They are a text, so that these ranges give the same decimals as typed ones.
 // As text, so that these ranges become the same decimals as those that a person types.
 const PAPER: &str = "
 gap_over_t = { from = 0.1, to = 1, step = 0.1 }
@@ -18,11 +19,13 @@ length_over_t = [0.025, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1]
 slant_deg = { from = 0, to = 75, step = 15 }
 ";
 
-/// The axis that is always the fastest.
+/// The axis that always varies fastest.
+///
+/// The slant does not change the base, so neighbouring designs share their footprint and springs.
 // A slant leaves the base as it is: neighbours share their footprint, and so their springs.
 const FASTEST: &str = "slant_deg";
 
-/// The axis of `parameter` that `value` describes.
+/// Reads the axis of `parameter` from `value`.
 pub(crate) fn read(parameter: &'static Parameter, value: &Value) -> Result<Axis, Problem> {
     match value {
         Value::List(items) => Ok(Axis::list(parameter, read_list(parameter, items)?)),
@@ -31,14 +34,14 @@ pub(crate) fn read(parameter: &'static Parameter, value: &Value) -> Result<Axis,
     }
 }
 
-/// The values of a list, each once.
+/// Reads the values of a list, and refuses repeated ones.
 pub(crate) fn read_list(parameter: &Parameter, items: &[Value]) -> Result<Vec<Scalar>, Problem> {
     if items.is_empty() {
         let expected = format!("a list of at least one value, each {}", parameter.expected());
         return Err(WrongValue::not_accepted("[]", expected).into());
     }
     let mut values = Vec::with_capacity(items.len());
-    // A set of keys: comparing each with all before it took minutes for a long list.
+    // A set of keys: comparing each value with all earlier ones took minutes for a long list.
     let mut seen = HashSet::with_capacity(items.len());
     for item in items {
         if let Value::List(_) = item {
@@ -65,7 +68,7 @@ fn read_range(
         return Err(wrong(format!("words have no range, expected {}", parameter.expected())));
     }
     let [from, to, step] = range_values(entries).map_err(&wrong)?;
-    // Both ends in bounds means all of it, because the bounds are those of an interval.
+    // Both ends within the bounds implies that all values are, because the bounds are an interval.
     parameter.read(from)?;
     parameter.read(to)?;
     let [from, to, step] = [decimal(from), decimal(to), decimal(step)];
@@ -78,12 +81,13 @@ fn read_range(
     }
     let numbers = decimal::range(from, to, step).map_err(|problem| wrong(problem.to_string()))?;
     let values = numbers.into_iter().map(|number| parameter.scalar(number)).collect();
-    // Kept beside the values, so that a record of the run says the range and not a million numbers.
+    // Keep the written range, so that the record of a run contains the range and not a million
+    // numbers.
     let range = format!("{{ from = {from}, to = {to}, step = {step} }}");
     Ok(Axis::range(parameter, values, range))
 }
 
-/// The values of the keys `from`, `to` and `step`, the only ones.
+/// Returns the values of the keys `from`, `to` and `step`, and refuses other keys.
 fn range_values(entries: &KeyValues) -> Result<[&Value; 3], String> {
     const KEYS: [&str; 3] = ["from", "to", "step"];
     if let Some(entry) = entries.iter().find(|entry| !KEYS.contains(&entry.key.as_str())) {
@@ -104,8 +108,10 @@ fn decimal(value: &Value) -> Result<Decimal, String> {
     }
 }
 
-/// `written` with the axes that are not, in the order in which they vary: what is not written
-/// first (slowest), then as written, the slant last. An axis may be written in another way, as the gap by a pitch.
+/// Returns `written` with the missing default axes, in the order of variation.
+///
+/// Default axes come first (slowest), then the axes as written, and the slant last. A default axis
+/// may be replaced by another parameter, such as the gap by a pitch.
 pub(crate) fn ordered(mut written: Vec<Axis>, base: &Case) -> Vec<Axis> {
     let says = |other: &Axis, parameter: &Parameter| {
         let other = other.parameter();
@@ -114,12 +120,12 @@ pub(crate) fn ordered(mut written: Vec<Axis>, base: &Case) -> Vec<Axis> {
     let is_missing = |axis: &Axis| !written.iter().any(|other| says(other, axis.parameter()));
     let mut axes: Vec<Axis> = paper().into_iter().filter(is_missing).collect();
     axes.append(&mut written);
-    // Stable, so that everything else keeps its order.
+    // Stable sort: all other axes keep their order.
     axes.sort_by_key(|axis| axis.parameter().key == FASTEST);
     axes
 }
 
-/// The axes of the paper; the tests see that none is lost.
+/// Returns the axes of the paper. A test checks that none is lost.
 fn paper() -> Vec<Axis> {
     let table = toml_source::parse(PAPER, "the paper sweep").unwrap_or_default();
     let axis = |entry: KeyValue| read(Parameter::named(&entry.key)?, &entry.value).ok();

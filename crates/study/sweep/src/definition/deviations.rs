@@ -1,18 +1,18 @@
-//! The table `[tolerance]` as it is written.
+//! Reads the table `[tolerance]`.
 
 use super::invalid::Problem;
 use crate::deviation::{BatchDeviation, Deviation};
 use crate::parameter::{Parameter, Role, WrongValue};
 use text::toml_source::{KeyValue, KeyValues, Value};
 
-/// The keys of a deviation.
+/// Keys of a deviation.
 const KEYS: [&str; 3] = ["batch_sd", "batch_within", "scale_sd"];
 
-/// A deviation in words.
+/// Description of a deviation for messages.
 const EXAMPLE: &str =
     "e.g. { batch_sd = 0.02 }, { batch_within = 0.05 } or { batch_sd = 0.02, scale_sd = 0.01 }";
 
-/// The deviation that an entry of the table describes.
+/// Reads the deviation in an entry of the table.
 pub(crate) fn read(entry: &KeyValue) -> Result<Deviation, Problem> {
     let Some(parameter) = Parameter::named(&entry.key).filter(|p| p.has(Role::Made)) else {
         return Err(unknown(entry));
@@ -44,7 +44,7 @@ pub(crate) fn read(entry: &KeyValue) -> Result<Deviation, Problem> {
     Ok(Deviation { parameter, batch, scale_sd })
 }
 
-/// The number of a key, if it is there.
+/// Returns the number of a key, if the key exists.
 fn number(entries: &KeyValues, key: &str) -> Result<Option<f64>, Problem> {
     let Some(entry) = entries.iter().find(|entry| entry.key == key) else { return Ok(None) };
     let number = match &entry.value {

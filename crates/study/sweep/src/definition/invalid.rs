@@ -1,11 +1,13 @@
-//! Errors of a definition that cannot run.
+//! Errors of an invalid definition.
 
 use crate::grid::TooManyDesigns;
 use crate::parameter::WrongValue;
 use text::toml_source::{Place, SyntaxError};
 
-/// A definition that cannot run. Each message is one line that names the file, the key, the value
-/// and what would be right; of a definition that has several errors, all are told.
+/// An invalid definition.
+///
+/// Each message is one line that names the file, the key, the value and the accepted values. If a
+/// definition has several errors, all are reported.
 #[derive(Debug, thiserror::Error)]
 pub enum InvalidDefinition {
     /// The file cannot be read.
@@ -13,34 +15,34 @@ pub enum InvalidDefinition {
     Unreadable {
         /// Name of the file.
         file: String,
-        /// The message of the system.
+        /// Message of the operating system.
         reason: String,
     },
-    /// The file is no TOML.
+    /// The file is not TOML.
     #[error(transparent)]
     Syntax(#[from] SyntaxError),
-    /// Several things are not right: one line for each.
+    /// Several errors, one line each.
     #[error("{}", lines(.0))]
     Several(Vec<Self>),
-    /// A key or a value is not right.
+    /// A key or a value is invalid.
     #[error("{place}: {key}: {problem}")]
     Refused {
         /// Place of the key.
         place: Place,
         /// The key, dotted.
         key: String,
-        /// The problem, and what would be right.
+        /// The problem, and the accepted values.
         problem: Box<Problem>,
     },
 }
 
 impl InvalidDefinition {
-    /// Nothing if there are no `errors`; a single one stays as it is.
+    /// Returns `errors` as one error, or `Ok` if there are none.
     pub(crate) fn refuse_any(errors: Vec<Self>) -> Result<(), Self> {
         if errors.is_empty() { Ok(()) } else { Err(Self::several(errors)) }
     }
 
-    /// Errors as one, of which there is at least one.
+    /// Combines errors, of which there is at least one.
     pub fn several(mut errors: Vec<Self>) -> Self {
         if errors.len() == 1 { errors.swap_remove(0) } else { Self::Several(errors) }
     }
@@ -56,18 +58,18 @@ pub enum Problem {
     /// There is no such key.
     #[error("unknown key (its value is {value}), {hint}")]
     Unknown {
-        /// The value that the key is set to.
+        /// Value of the key.
         value: String,
-        /// The key that may be meant.
+        /// Suggested keys.
         hint: String,
     },
     /// A required key is missing.
     #[error("missing, expected {0}")]
     Missing(&'static str),
-    /// The value of a parameter.
+    /// The value of a parameter is invalid.
     #[error(transparent)]
     Value(#[from] WrongValue),
-    /// A range that cannot be walked.
+    /// A range is invalid.
     #[error("{range}: {problem}")]
     Range {
         /// The range as written.
@@ -75,60 +77,60 @@ pub enum Problem {
         /// The problem.
         problem: String,
     },
-    /// A value stands in a list twice.
+    /// A list contains a value twice.
     #[error("{0} is in the list twice")]
     Twice(String),
     /// A parameter is set in its section and in the grid.
     #[error("{value} conflicts with {other} at {place}; keep one of the two")]
     Contradiction {
-        /// The value that the parameter is set to here.
+        /// Value of the parameter here.
         value: String,
         /// The other key.
         other: String,
         /// Place of the other key.
         place: Place,
     },
-    /// Two parameters that say the same in two ways.
+    /// Two parameters define the same quantity.
     #[error("cannot be combined with {other} at {place}; keep one of the two")]
     Alternative {
         /// The other key.
         other: String,
-        /// Where that stands.
+        /// Place of the other key.
         place: Place,
     },
-    /// A pitch besides a gap and a length.
+    /// A pitch is given in addition to a gap and a length.
     #[error(
         "cannot be combined with {other} at {place}: the pitch is base and gap; keep two of gap, length and pitch"
     )]
     Pitch {
         /// One of the other keys.
         other: String,
-        /// Where that stands.
+        /// Place of the other key.
         place: Place,
     },
-    /// A length in mm that no skin of that thickness has, or a modulus of the scales below that of what they lie on.
+    /// A length in mm or the scale modulus gives an invalid ratio.
     #[error("{value} with {beside} makes {key} {found}, expected {expected}")]
     LengthInMm {
-        /// What is given.
+        /// The given value.
         value: String,
-        /// The keys and values beside it.
+        /// Keys and values that it is combined with.
         beside: String,
-        /// The parameter that follows.
+        /// The parameter that follows from them.
         key: &'static str,
-        /// Its value.
+        /// Value of that parameter.
         found: String,
-        /// The values that would be right.
+        /// Accepted values of that parameter.
         expected: String,
     },
-    /// A deviation in a unit that only another key gives.
+    /// Another key is required for the unit of a deviation or a length.
     #[error("needs {0} to be set")]
     Needs(String),
-    /// Steps that no path can follow.
+    /// The smallest step exceeds another step.
     #[error("{value} must be at most {other}")]
     StepOrder {
-        /// The smallest step.
+        /// Smallest step.
         value: String,
-        /// A step that must not be smaller, with its value.
+        /// The step that it exceeds, with its value.
         other: String,
     },
     /// The grid is too large.
@@ -136,7 +138,7 @@ pub enum Problem {
     TooManyDesigns(#[from] TooManyDesigns),
 }
 
-/// A key refused, with the place where it is written.
+/// Creates the error of a key at its place.
 pub fn refuse(place: &Place, key: &str, problem: impl Into<Problem>) -> InvalidDefinition {
     let (place, key) = (place.clone(), key.to_owned());
     InvalidDefinition::Refused { place, key, problem: Box::new(problem.into()) }

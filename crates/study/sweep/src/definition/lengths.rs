@@ -1,5 +1,7 @@
-//! Lengths in mm whose skins cannot be made: too thin, too thick, or scales longer than their pitch; scales softer than what they lie on;
-//! and sharp loads beside their scale.
+//! Checks lengths in mm, the modulus of the scales and the load position.
+//!
+//! Refuses lengths in mm out of range for the thickness, scales longer than their pitch, scales
+//! softer than the material below, and sharp needles between two scales.
 
 use super::invalid::Problem;
 use crate::case::Case;
@@ -8,7 +10,10 @@ use crate::parameter::{Parameter, Scalar, WrongValue, key};
 use crate::variable::{Variable, VariableValues};
 use text::number;
 
-/// What is wrong with `given`, a length in mm or the modulus of the scales, in the designs of a grid and of its variables, if something is.
+/// Checks the parameter `given` in all designs of a grid and its variables.
+///
+/// `given` is a length in mm, the modulus of the scales or the load position; all other parameters
+/// pass.
 pub(super) fn check(given: &Parameter, grid: &Grid, variables: &[Variable]) -> Result<(), Problem> {
     if given.key == key::LOAD_POSITION {
         return check_place(given, grid, variables);
@@ -19,7 +24,7 @@ pub(super) fn check(given: &Parameter, grid: &Grid, variables: &[Variable]) -> R
     all.try_for_each(|(of, unit)| check_one(given, (of, unit), grid, variables))
 }
 
-/// Refuses a place between two scales of a load that is no round tip.
+/// Refuses a load position between two scales unless the needle has a round tip.
 fn check_place(given: &Parameter, grid: &Grid, variables: &[Variable]) -> Result<(), Problem> {
     let axis = grid.axes().iter().find(|axis| axis.parameter() == given);
     let places = axis.map_or_else(|| vec![given.get(grid.base())], |axis| ends(axis, variables));
@@ -33,9 +38,9 @@ fn check_place(given: &Parameter, grid: &Grid, variables: &[Variable]) -> Result
     }
 }
 
-/// The same of one parameter `of` that follows from it, over the parameter `unit`.
+/// Checks the parameter `of` that follows from `given` and the parameter `unit`.
 ///
-/// It is monotone in each of the parameters that it is made of, so the corners of their ranges tell.
+/// It is monotonic in each of its parameters, so it is enough to check the corners of their ranges.
 fn check_one(
     given: &Parameter,
     (of, unit): (&'static Parameter, &str),
@@ -49,7 +54,7 @@ fn check_one(
     };
     let axes = grid.axes().iter().filter(|axis| matters(axis.parameter()));
     let axes: Vec<_> = axes.map(|axis| (axis.parameter(), ends(axis, variables))).collect();
-    // Any design will do: all that the parameter depends on is put into it.
+    // Start from any design: all parameters that matter are overwritten.
     let mut corners = vec![grid.case(0)];
     for (parameter, ends) in &axes {
         let at = |case: &Case| ends.iter().map(|end| parameter.put(case, *end)).collect::<Vec<_>>();
@@ -69,7 +74,7 @@ fn check_one(
     })
 }
 
-/// The values of an axis, or of the variable that stands for it, between which the others are.
+/// Returns the extreme values of an axis or its variable.
 fn ends(axis: &Axis, variables: &[Variable]) -> Vec<Scalar> {
     let own = variables.iter().find(|variable| variable.parameter() == axis.parameter());
     match own.map(Variable::values) {
@@ -79,7 +84,7 @@ fn ends(axis: &Axis, variables: &[Variable]) -> Vec<Scalar> {
             let (low, high) = axis.span();
             vec![Scalar::Number(low), Scalar::Number(high)]
         }
-        // Words have no order of which the ends would tell.
+        // Words have no order, so check all of them.
         None => (0..axis.len()).map(|index| axis.value(index)).collect(),
     }
 }

@@ -6,17 +6,18 @@ use super::invalid::Problem;
 use crate::parameter::{WrongValue, any_of};
 use text::toml_source::Value;
 
-/// Something that a sweep measures.
+/// A measure of a sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Measure {
-    /// The share of the thickness that scales fill along a vertical line down from the top right corner of a scale.
+    /// Coverage: the fraction of the scale layer that a vertical line crosses as solid scale. The
+    /// line passes through the top right corner of a scale.
     Coverage,
-    /// The puncture of the middle scale of a row.
+    /// Puncture of the middle scale of a row.
     Puncture,
-    /// The bending of a strip of membrane that carries the scales.
+    /// Bending of a strip of membrane that carries the scales.
     Flexure,
-    /// The derivatives of the other measures with respect to every continuous parameter.
+    /// Derivatives of the other measures with respect to every continuous parameter.
     Sensitivity,
 }
 
@@ -24,10 +25,10 @@ impl Measure {
     /// All measures, in the order of the tables.
     pub const ALL: [Self; 4] = [Self::Coverage, Self::Puncture, Self::Flexure, Self::Sensitivity];
 
-    /// The measures of a sweep that names none.
+    /// The default measures.
     pub const USUAL: [Self; 3] = [Self::Coverage, Self::Puncture, Self::Flexure];
 
-    /// The name of the measure in a definition.
+    /// Returns the name of the measure in a definition.
     pub fn key(self) -> &'static str {
         match self {
             Self::Coverage => "coverage",
@@ -37,12 +38,12 @@ impl Measure {
         }
     }
 
-    /// The measure of that name.
+    /// Returns the measure with this name.
     pub fn named(key: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|measure| measure.key() == key)
     }
 
-    /// The sections of the definition whose continuous parameters the values of the measure depend on.
+    /// Returns the sections with continuous parameters that the measure depends on.
     pub fn sections(self) -> &'static [&'static str] {
         match self {
             Self::Coverage => &["designs"],
@@ -52,7 +53,7 @@ impl Measure {
         }
     }
 
-    /// The measures of the list `value`, or of the one word.
+    /// Reads the measures from a list or a single word.
     pub(crate) fn read_list(value: &Value) -> Result<Vec<Self>, Problem> {
         let items = match value {
             Value::List(items) if !items.is_empty() => items.as_slice(),
@@ -77,7 +78,8 @@ impl Measure {
             let expected = "sensitivity together with a measure that has derivatives".to_owned();
             return Err(WrongValue::not_accepted(value, expected).into());
         }
-        // Their order means nothing, and makes no other definition of it for a journal.
+        // The order has no meaning. Sort, so that a journal treats both orders as the same
+        // definition.
         measures.sort();
         Ok(measures)
     }

@@ -1,4 +1,4 @@
-//! From keys and values to a sweep.
+//! Builds a sweep from keys and values.
 
 use super::axes;
 use super::deviations;
@@ -16,10 +16,10 @@ use crate::variable::{Variable, VariableValues};
 use text::number;
 use text::toml_source::{KeyValue, KeyValues, Place, Value};
 
-/// Keys that are refused before the rest is left unread: nobody corrects more at a time.
+/// Maximum number of refused keys. The rest is not read, because nobody corrects more at once.
 const MOST: usize = 50;
 
-/// A reader of definitions, with the keys that it has understood so far, and what it has refused.
+/// A reader of definitions, with the accepted keys and the errors so far.
 #[derive(Debug, Default)]
 pub(crate) struct Reader {
     name: Option<String>,
@@ -32,7 +32,7 @@ pub(crate) struct Reader {
     refused: Vec<InvalidDefinition>,
 }
 
-/// An axis, and where it stands.
+/// An axis and its place in the definition.
 #[derive(Debug)]
 struct WrittenAxis {
     axis: Axis,
@@ -40,7 +40,7 @@ struct WrittenAxis {
 }
 
 impl Reader {
-    /// Understands one key outside of the sections, or one section.
+    /// Reads one top-level key or one section.
     pub fn entry(&mut self, entry: &KeyValue) {
         if self.refused.len() >= MOST {
             return;
@@ -57,7 +57,7 @@ impl Reader {
     }
 
     fn read_name(&mut self, entry: &KeyValue) -> Result<(), InvalidDefinition> {
-        // A name that is refused is not missing as well.
+        // A refused name must not be reported as missing too.
         let name = self.name.insert(String::new());
         *name = name_of(&entry.value)
             .map_err(|problem| refuse(&entry.place, &entry.key, Problem::Value(problem)))?;
@@ -74,7 +74,7 @@ impl Reader {
         self.entries(entry, |reader, entry| reader.parameter(section, entry))
     }
 
-    /// Understands the entries of a section, one by one.
+    /// Reads the entries of a section, one by one.
     fn entries(
         &mut self,
         section: &KeyValue,
@@ -105,7 +105,7 @@ impl Reader {
         let key = format!("{}.{}", suggestion::TOLERANCE, entry.key);
         let wrong = |problem| refuse(&entry.place, &key, problem);
         let deviation = deviations::read(entry).map_err(wrong)?;
-        // `gap_mm` and `gap_over_t` are one deviation in two units.
+        // `gap_mm` and `gap_over_t` are the same deviation in two units.
         let other = self.deviations.iter().find(|(d, _)| d.parameter() == deviation.parameter());
         if let Some((other, place)) = other {
             let other = format!("{}.{}", suggestion::TOLERANCE, other.key());
@@ -117,7 +117,7 @@ impl Reader {
 
     fn parameter(&mut self, section: &str, entry: &KeyValue) -> Result<(), InvalidDefinition> {
         let key = format!("{section}.{}", entry.key);
-        // Any parameter may be an axis, whatever its own section.
+        // Any parameter may be an axis, whatever its section.
         let belongs = |p: &&Parameter| section == "designs" || section == p.section;
         let Some(parameter) = Parameter::named(&entry.key).filter(belongs) else {
             return Err(unknown(section, entry));
@@ -134,19 +134,19 @@ impl Reader {
         Ok(())
     }
 
-    /// The sweep, once every key of `file` is understood; or everything that is wrong with it.
+    /// Returns the sweep after all keys of `file` have been read, or all errors.
     pub fn finish(mut self, file: &Place) -> Result<Sweep, InvalidDefinition> {
-        // Beside a gap the pitch says how long a scale is.
+        // In addition to a gap, the pitch determines the length of a scale.
         self.case.in_mm.pitch_says_length = self.says(key::PITCH) && self.says(key::GAP);
         let wrong_together = self.wrong_together(file);
         self.refused.extend(wrong_together);
-        // What follows looks at designs, which only keys without contradictions make.
+        // The following checks need designs, which exist only for keys without contradictions.
         InvalidDefinition::refuse_any(std::mem::take(&mut self.refused))?;
         let written: Vec<_> = self.written().map(|(k, p, place)| (k, p, place.clone())).collect();
         let measures = self.measures.unwrap_or_else(|| Measure::USUAL.to_vec());
         let variables: Vec<_> = self.variables.into_iter().map(|(variable, _)| variable).collect();
         let deviations = self.deviations.into_iter().map(|(deviation, _)| deviation).collect();
-        // A variable stands in the middle of its values until it is searched over or drawn.
+        // A variable has the middle of its range until a search or a random draw sets it.
         let middle = |v: &Variable| Axis::list(v.parameter(), vec![v.at(0.5)]);
         let axes = self.axes.into_iter().map(|written| written.axis);
         let axes = axes::ordered(axes.chain(variables.iter().map(middle)).collect(), &self.case);
@@ -158,7 +158,7 @@ impl Reader {
         Ok(Sweep { name: self.name.unwrap_or_default(), measures, grid, variables, deviations })
     }
 
-    /// Everything that is wrong with keys together, each of which may be right.
+    /// Returns the errors of combinations of keys that are valid by themselves.
     fn wrong_together(&self, file: &Place) -> Vec<InvalidDefinition> {
         let mut wrong: Vec<_> = self.contradictions().collect();
         wrong.extend(self.fixed_variables());
@@ -167,7 +167,7 @@ impl Reader {
         wrong.extend(checked.into_iter().filter_map(Result::err));
         wrong.extend(self.lengths_without_thickness());
         wrong.extend(self.check_scale_modulus().err());
-        // A default in the place of a refused step says nothing about the others.
+        // The default in place of a refused step says nothing about the other steps.
         if self.refused.is_empty() {
             wrong.extend(self.check_steps(file).err());
         }
@@ -175,14 +175,15 @@ impl Reader {
         wrong
     }
 
-    /// Every variable that is also given a value, itself or in another way.
+    /// Returns an error for every variable with a fixed value. The value may be given directly or
+    /// by an alternative.
     fn fixed_variables(&self) -> impl Iterator<Item = InvalidDefinition> {
         let variables = self.variables.iter().enumerate();
         variables.filter_map(|(k, (variable, place))| {
             let parameter = variable.parameter();
             let others = parameter.others_in(&self.case).filter(|other| !self.leaves_open(other));
             let mut all = std::iter::once(parameter).chain(others);
-            // Of two variables that say the same only the later one is refused: once is enough.
+            // If two variables define the same quantity, only the later one is refused.
             let earlier = |other: &Parameter| {
                 let (_, there) =
                     self.variables[..k].iter().find(|(v, _)| v.parameter() == other)?;
@@ -200,7 +201,7 @@ impl Reader {
         })
     }
 
-    /// Every deviation of a material, or in mm, of a skin whose material or thickness is not given.
+    /// Returns an error for every deviation without the required material or thickness.
     fn deviations_without_unit(&self) -> impl Iterator<Item = InvalidDefinition> {
         self.deviations.iter().filter_map(|(deviation, place)| {
             let needed = deviation.needs().find(|needed| !self.says(needed))?;
@@ -210,7 +211,7 @@ impl Reader {
         })
     }
 
-    /// Every parameter that is set in its section and is an axis too.
+    /// Returns an error for every axis that is also set in its section.
     fn contradictions(&self) -> impl Iterator<Item = InvalidDefinition> {
         self.axes.iter().filter_map(|written| {
             let parameter = written.axis.parameter();
@@ -222,7 +223,10 @@ impl Reader {
         })
     }
 
-    /// Refuses a number of gaps besides the length of the strip, or a friction besides the critical tilt.
+    /// Refuses alternatives that are both given.
+    ///
+    /// Examples are the number of gaps with the length of the strip, and friction with the critical
+    /// tilt.
     fn check_alternatives(&self) -> Result<(), InvalidDefinition> {
         for (parameter, place) in &self.shared {
             let gives = !matches!(parameter.get(&self.case), Scalar::Word(_));
@@ -234,8 +238,10 @@ impl Reader {
         Ok(())
     }
 
-    /// Refuses several frictions of a guided needle, which has a path for each, and a friction of 0 of a free one, whose critical tilt
-    /// it would be.
+    /// Checks the friction of the needle.
+    ///
+    /// A guided needle needs one path per friction, so it accepts no list. The critical tilt of a
+    /// free needle follows from its friction, so 0 is refused.
     fn check_needle(&self) -> Result<(), InvalidDefinition> {
         let Some((frictions, path, place)) = self.values(key::NEEDLE_FRICTION) else {
             return Ok(());
@@ -244,7 +250,7 @@ impl Reader {
         let needles = needles.unwrap_or_else(|| vec![Scalar::Word("free")]);
         let may_be = |needle| needles.contains(&Scalar::Word(needle));
         let refused = frictions.into_iter().find_map(|friction| {
-            // Lists ascend.
+            // Lists are ascending, so the first value is the smallest.
             let (is_list, least) = match friction {
                 Scalar::List(all) => (true, all.as_slice().first().copied()),
                 single => (false, single.number()),
@@ -263,7 +269,9 @@ impl Reader {
         Err(refuse(place, &path, wrong))
     }
 
-    /// The values that designs have for a parameter, of a range its ends, with the dotted key and the place where they are written.
+    /// Returns the values of a parameter, its dotted key and its place.
+    ///
+    /// For a range these are its two ends.
     fn values(&self, key: &str) -> Option<(Vec<Scalar>, String, &Place)> {
         let (path, parameter, place) = self.written().find(|(_, p, _)| p.key == key)?;
         let axis = self.axes.iter().find(|written| written.axis.parameter() == parameter);
@@ -279,12 +287,12 @@ impl Reader {
         Some((values, path, place))
     }
 
-    /// Refuses a radius of a needle that is not guided.
+    /// Refuses a needle radius without a guided needle.
     fn check_radius(&self) -> Result<(), InvalidDefinition> {
         let is_radius = |of: &Parameter| of.is_or_says(key::NEEDLE_RADIUS) && !self.leaves_open(of);
         let radius = self.written().find(|(_, parameter, _)| is_radius(parameter));
         let Some((key, _, place)) = radius else { return Ok(()) };
-        // With both needles in one sweep the free one would have a radius, too.
+        // If the needle is an axis, some designs have a free needle, which cannot have a radius.
         let varies = self.axes.iter().any(|written| written.axis.parameter().key == key::NEEDLE);
         if self.case.puncture.needle.is_guided() && !varies {
             return Ok(());
@@ -293,7 +301,7 @@ impl Reader {
         Err(refuse(place, &key, Problem::Needs(needed)))
     }
 
-    /// Every length in mm of scales whose thickness is not given.
+    /// Returns an error for every length in mm without a scale thickness.
     fn lengths_without_thickness(&self) -> impl Iterator<Item = InvalidDefinition> {
         let unknown = !self.says(key::THICKNESS);
         let in_mm = self.written().filter(move |(_, parameter, _)| unknown && parameter.is_in_mm());
@@ -303,7 +311,7 @@ impl Reader {
         })
     }
 
-    /// Refuses a modulus of the scales without that which a measure has its ratio to.
+    /// Refuses a scale modulus without the modulus that a measure divides it by.
     fn check_scale_modulus(&self) -> Result<(), InvalidDefinition> {
         let mut written = self.written().filter(|(_, p, _)| p.key == key::SCALE_MODULUS);
         let Some((key, _, place)) = written.next() else { return Ok(()) };
@@ -318,7 +326,7 @@ impl Reader {
         }
     }
 
-    /// Refuses a parameter that `gives` a value if its alternative does too.
+    /// Refuses a parameter with a value (`gives`) if an alternative has one too.
     fn check_alternative(
         &self,
         parameter: &Parameter,
@@ -334,13 +342,13 @@ impl Reader {
         Err(refuse(place, &parameter.path(), problem))
     }
 
-    /// Whether every design has the word `auto` for a parameter.
+    /// Returns true if all designs have a word, such as `auto`, for a parameter.
     fn leaves_open(&self, parameter: &Parameter) -> bool {
         let is_axis = self.axes.iter().any(|written| written.axis.parameter() == parameter);
         !is_axis && matches!(parameter.get(&self.case), Scalar::Word(_))
     }
 
-    /// Refuses a smallest step above the first or the largest one, for any design of the grid.
+    /// Refuses a smallest step above the first or the largest step of any design.
     fn check_steps(&self, file: &Place) -> Result<(), InvalidDefinition> {
         let (_, smallest) = self.span("min_step");
         for other in ["first_step", "max_step"] {
@@ -349,7 +357,7 @@ impl Reader {
                 let other_key = format!("solver.{other} = {}", number::text(limit));
                 let problem =
                     Problem::StepOrder { value: number::text(smallest), other: other_key };
-                // One of the two is written, because the defaults are in order.
+                // At least one of the two is written, because the defaults are in order.
                 let place = self.place("min_step").or_else(|| self.place(other)).unwrap_or(file);
                 return Err(refuse(place, "solver.min_step", problem));
             }
@@ -357,19 +365,19 @@ impl Reader {
         Ok(())
     }
 
-    /// The smallest and the largest value of a number.
+    /// Returns the smallest and the largest value of a number.
     fn span(&self, key: &str) -> (f64, f64) {
         let axis = self.axes.iter().find(|written| written.axis.parameter().key == key);
         let shared =
             || Parameter::named(key).and_then(|parameter| parameter.get(&self.case).number());
         axis.map_or_else(
-            // No comparison with `NaN` holds, so that nothing is refused for want of a number.
+            // Comparisons with `NaN` are false, so a missing number is not refused.
             || shared().map_or((f64::NAN, f64::NAN), |number| (number, number)),
             |written| written.axis.span(),
         )
     }
 
-    /// The parameters that are written, with their dotted keys and places.
+    /// Returns the written parameters with their dotted keys and places.
     fn written(&self) -> impl Iterator<Item = (String, &'static Parameter, &Place)> {
         let shared = self.shared.iter().map(|(p, place)| (p.path(), *p, place));
         let axes = self.axes.iter().map(|WrittenAxis { axis, place }| {
@@ -382,12 +390,12 @@ impl Reader {
         shared.chain(axes).chain(variables)
     }
 
-    /// Whether a parameter is written, itself or in mm.
+    /// Returns true if a parameter is written, directly or in mm.
     fn says(&self, key: &str) -> bool {
         self.written().any(|(_, parameter, _)| parameter.is_or_says(key))
     }
 
-    /// The place at which a parameter is written.
+    /// Returns the place of a written parameter.
     fn place(&self, key: &str) -> Option<&Place> {
         let axes = self.axes.iter().map(|written| (written.axis.parameter(), &written.place));
         let shared = self.shared.iter().map(|(parameter, place)| (*parameter, place));
@@ -395,7 +403,7 @@ impl Reader {
     }
 }
 
-/// Why two parameters cannot both be given.
+/// Returns the problem of two parameters that exclude each other.
 fn conflict(one: &Parameter, two: &Parameter, other: String, there: &Place) -> Problem {
     let place = there.clone();
     if one == two || [one, two].iter().all(|parameter| parameter.key != key::PITCH) {
@@ -412,7 +420,7 @@ fn unknown(section: &str, entry: &KeyValue) -> InvalidDefinition {
     refuse(&entry.place, &key, Problem::Unknown { value: entry.value.to_string(), hint })
 }
 
-/// The entries of a section.
+/// Returns the entries of a section.
 fn table(section: &KeyValue) -> Result<&KeyValues, InvalidDefinition> {
     match &section.value {
         Value::Table(entries) => Ok(entries),
@@ -428,7 +436,7 @@ fn missing_name(file: &Place) -> InvalidDefinition {
     refuse(file, "name", Problem::Missing(expected))
 }
 
-/// Whether Windows keeps the name for a device, whatever follows its first dot.
+/// Returns true if Windows reserves the name for a device, also with an extension.
 fn is_device(name: &str) -> bool {
     let stem = name.split('.').next().unwrap_or_default().trim_end().to_ascii_lowercase();
     let numbered = |device| {
@@ -436,13 +444,13 @@ fn is_device(name: &str) -> bool {
             let mut digits = rest.chars();
             digits.next().filter(|_| digits.next().is_none())
         });
-        // Windows takes these three superscripts for digits.
+        // Windows treats these three superscripts as digits.
         number.is_some_and(|digit| "123456789¹²³".contains(digit))
     };
     ["con", "prn", "aux", "nul"].contains(&stem.as_str()) || numbered("com") || numbered("lpt")
 }
 
-/// A name that is a folder on any system.
+/// Returns a name that is a valid folder name on any system.
 fn name_of(value: &Value) -> Result<String, WrongValue> {
     let allowed = |c: char| c.is_alphanumeric() || "-_.+ ".contains(c);
     match value {

@@ -1,4 +1,4 @@
-//! Keys set from outside of the file, `--set puncture.scales=41`.
+//! Settings from outside the definition, such as `--set puncture.scales=41`.
 
 use std::sync::Arc;
 
@@ -7,10 +7,11 @@ use crate::case::Case;
 use crate::parameter::{Parameter, key};
 use text::toml_source::{self, KeyValue, KeyValues, Place, Value};
 
-/// Parts of a dotted key, at most. None has more than two, but a mistyped one is refused by name.
+/// Maximum number of parts of a dotted key. Valid keys have two; the margin lets the message name a
+/// mistyped key.
 const DEEPEST: usize = 8;
 
-/// A key and the value that replaces what the file says.
+/// A key and the value that replaces the value in the file.
 ///
 /// ```
 /// use sweep::Setting;
@@ -26,7 +27,7 @@ pub struct Setting {
     place: Place,
 }
 
-/// A setting that cannot be understood.
+/// An invalid setting.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{place}: {problem}, expected KEY=VALUE with a dotted key, e.g. puncture.scales=41")]
 pub struct InvalidSetting {
@@ -35,23 +36,25 @@ pub struct InvalidSetting {
 }
 
 impl Setting {
-    /// The setting `key=value`, where `value` is TOML and a single word needs no quotes.
+    /// Parses `key=value`. The value is TOML; a single word needs no quotes.
     ///
     /// # Errors
-    /// If there is no `=`, the key is empty or the value is no TOML.
+    ///
+    /// If there is no `=`, the key is empty or the value is not TOML.
     pub fn parse(text: &str) -> Result<Self, InvalidSetting> {
         Self::from_option(&format!("--set {text}"), text)
     }
 
-    /// As [`Self::parse`]; errors name `option`, the option as the user gave it.
+    /// Parses a setting like [`Self::parse`]. Errors name `option` as the user typed it.
     ///
     /// # Errors
+    ///
     /// As [`Self::parse`].
     pub fn from_option(option: &str, text: &str) -> Result<Self, InvalidSetting> {
-        // An argument may have several lines, and each refusal is one.
+        // An argument may have several lines, but a message has one.
         let place = Place::Argument(Arc::from(text::one_line(option)));
         let refuse = |problem: String| InvalidSetting { place: place.clone(), problem };
-        // At the first one: a table or a text may have more of them.
+        // Split at the first `=`: a table or a text may contain more of them.
         let (key, value) =
             text.split_once('=').ok_or_else(|| refuse("there is no `=`".to_owned()))?;
         let path: Vec<_> = key.split('.').map(|part| part.trim().to_owned()).collect();
@@ -70,7 +73,7 @@ impl Setting {
         Ok(Self { path, value, place })
     }
 
-    /// The parameter that is set, if it is one.
+    /// Returns the parameter that is set, if the key is a parameter.
     pub fn parameter(&self) -> Option<&'static Parameter> {
         match self.path.as_slice() {
             [section, key] => Parameter::named(key).filter(|parameter| {
@@ -80,12 +83,12 @@ impl Setting {
         }
     }
 
-    /// The place at which the key is set.
+    /// Returns the place of the setting.
     pub fn place(&self) -> &Place {
         &self.place
     }
 
-    /// Puts the value into `table`, in place of what is written there.
+    /// Replaces or adds the value in `table`.
     pub(crate) fn apply(&self, table: &mut KeyValues) {
         self.supersede(table);
         self.put(table, &self.path);
@@ -97,13 +100,14 @@ impl Setting {
             Some(KeyValue { value: Value::Table(inner), .. }) if !rest.is_empty() => {
                 self.put(inner, rest);
             }
-            // In its place: the order of the axes is that of the numbers of designs.
+            // Keep the position, because the order of the axes determines the numbers of the
+            // designs.
             Some(entry) => *entry = self.entry(key, rest),
             None => table.push(self.entry(key, rest)),
         }
     }
 
-    /// `key` with the value in tables of the names `rest`.
+    /// Wraps the value in tables with the names `rest`.
     fn entry(&self, key: &str, rest: &[String]) -> KeyValue {
         let value = match rest.split_first() {
             None => self.value.clone(),
@@ -112,8 +116,11 @@ impl Setting {
         KeyValue { key: key.to_owned(), value, place: self.place.clone() }
     }
 
-    /// A parameter stands in its section, among the axes or among the variables, and some parameters exclude each other. What the file says in
-    /// the other places gives way; what another setting says there stays, and is refused as a contradiction.
+    /// Removes from `table` the values that contradict this setting.
+    ///
+    /// A parameter may be written in its section, as an axis or as a variable, and some parameters
+    /// exclude each other. Values from the file are removed. Values from other settings stay and
+    /// are refused as contradictions.
     fn supersede(&self, table: &mut KeyValues) {
         let Some(parameter) = self.parameter() else { return };
         for section in ["designs", VARIABLES, parameter.section] {
@@ -129,7 +136,7 @@ impl Setting {
     }
 }
 
-/// A case with what a definition says about which of its parameters exclude each other.
+/// Returns a case with the choices that determine excluded alternatives.
 fn case_of(table: &KeyValues) -> Case {
     let mut written = Vec::new();
     for KeyValue { key: section, value, .. } in table {
@@ -140,11 +147,11 @@ fn case_of(table: &KeyValues) -> Case {
     }
     let says = |key| written.iter().any(|(parameter, _)| parameter.is_or_says(key));
     let mut case = Case::default();
-    // Beside a gap the pitch says how long a scale is.
+    // In addition to a gap, the pitch determines a length.
     case.in_mm.pitch_says_length = says(key::PITCH) && says(key::GAP);
-    // Under a guided needle tilt and friction are two things.
+    // For a guided needle tilt and friction are independent.
     for (parameter, value) in written.iter().filter(|(p, _)| p.key == key::NEEDLE) {
-        // Several needles along an axis are no one value, and a wrong one is refused where it is read.
+        // An axis of needles has no single value, and an invalid one is refused when it is read.
         if let Ok(needle) = parameter.read(value) {
             parameter.set(&mut case, needle);
         }
@@ -152,7 +159,7 @@ fn case_of(table: &KeyValues) -> Case {
     case
 }
 
-/// Removes what the file says about a key of a section.
+/// Removes a key of a section unless another setting wrote it.
 fn drop_from_file(table: &mut KeyValues, section: &str, key: &str) {
     let is_file = |entry: &KeyValue| matches!(entry.place, Place::File { .. });
     for entry in table.iter_mut().filter(|entry| entry.key == section) {
@@ -211,7 +218,8 @@ mod tests {
             set("flexure.gaps = 42", &["designs.membrane_length_over_t=[50, 100]"]),
             "{ flexure = {}, designs = { membrane_length_over_t = [50, 100] } }"
         );
-        // Beside a gap the pitch says a length, which stays; without one it says the gap.
+        // In addition to a gap, the pitch determines a length, so it stays. Alone it determines the
+        // gap.
         assert_eq!(
             set("designs = { gap_mm = 0.3, pitch_mm = 2 }", &["designs.gap_over_t=0.2"]),
             "{ designs = { pitch_mm = 2, gap_over_t = 0.2 } }"

@@ -4,39 +4,39 @@ use text::nearest;
 
 use crate::parameter::{PARAMETERS, Parameter, key};
 
-/// The section of the axes.
+/// Section of the axes.
 const DESIGNS: &str = "designs";
 
-/// The section of the parameters that no design fixes.
+/// Section of the parameters that are not fixed by any design.
 pub(crate) const VARIABLES: &str = "variables";
 
-/// The section of the deviations of what is made.
+/// Section of the manufacturing deviations.
 pub(crate) const TOLERANCE: &str = "tolerance";
 
-/// Keys outside of the sections of parameters.
+/// Keys outside the sections of parameters.
 const TOP: [&str; 4] = ["name", "measures", VARIABLES, TOLERANCE];
 
-/// Keys that say the same, one of puncture and the other of bending.
+/// Keys with the same meaning for puncture and bending.
 const TWINS: [[&str; 2]; 1] = [[key::UNLOAD, key::UNBEND]];
 
-/// Whether a definition has a section of that name.
+/// Returns true if a definition has a section with this name.
 pub(crate) fn is_section(key: &str) -> bool {
     sections().contains(&key)
 }
 
-/// The sections, each once, in the order of the parameters.
+/// Returns the sections, each once, in the order of the parameters.
 pub(crate) fn sections() -> Vec<&'static str> {
     let mut sections: Vec<_> = PARAMETERS.iter().map(|parameter| parameter.section).collect();
-    // The list of parameters keeps those of a section together.
+    // The list of parameters is grouped by section.
     sections.dedup();
     sections
 }
 
-/// A suggestion of what to write instead of `key` in `section` (empty: outside of the sections).
+/// Suggests a replacement for `key` in `section` (empty: outside the sections).
 pub(crate) fn for_key(section: &str, key: &str) -> String {
     let known = keys_of(section);
     if let Some(parameter) = Parameter::named(key) {
-        // A thickness of the substrate is that of the tissue, before it is that of the scales.
+        // In `[substrate]`, `thickness` means the tissue rather than the scales.
         let end = format!("_{key}");
         let twin = TWINS.iter().find(|twins| twins.contains(&key));
         let is_twin = |own: &str| twin.is_some_and(|twins| twins.contains(&own));
@@ -45,7 +45,8 @@ pub(crate) fn for_key(section: &str, key: &str) -> String {
         let path = own.map_or_else(|| parameter.path(), |own| format!("{section}.{own}"));
         return format!("did you mean {path}?");
     }
-    // A length without a unit is first of all one over the thickness; it is longer to type, which must not count.
+    // Suggest the length over the thickness for a key without a unit, although its name differs
+    // more.
     let over_t = |near: &'static str| {
         let of = Parameter::named(near).filter(|_| !key.ends_with('m')).and_then(Parameter::over_t);
         of.map_or(near, |of| of.key)

@@ -1,4 +1,4 @@
-//! A sweep as a definition again, complete: what was left out is written with its default.
+//! Writes a sweep as a complete definition, with the defaults of omitted keys.
 
 use std::fmt::Write as _;
 
@@ -10,7 +10,7 @@ use crate::parameter::{Parameter, Scalar};
 use text::toml_source::quoted;
 
 impl Sweep {
-    /// The complete definition in TOML, which reads back as the same sweep.
+    /// Returns the complete definition in TOML, which reads back as the same sweep.
     pub fn to_toml(&self) -> String {
         let mut text = self.top();
         for (section, lines) in self.sections() {
@@ -20,7 +20,7 @@ impl Sweep {
         text
     }
 
-    /// The complete definition within a table `parent`.
+    /// Returns the complete definition inside a table `parent`.
     pub fn to_toml_under(&self, parent: &str) -> String {
         let mut text = format!("[{parent}]\n{}", self.top());
         for (section, lines) in self.sections() {
@@ -35,7 +35,7 @@ impl Sweep {
         format!("name = {}\nmeasures = [{}]\n", quoted(self.name()), measures.join(", "))
     }
 
-    /// The lines of every section that has any.
+    /// Returns the lines of every section that is not empty.
     fn sections(&self) -> Vec<(&'static str, String)> {
         let lines = |section: &&'static str| {
             let lines = match *section {
@@ -52,9 +52,10 @@ impl Sweep {
         all.filter(|(_, lines): &(_, String)| !lines.is_empty()).collect()
     }
 
-    /// The axes but for those of variables.
+    /// Returns the axes except those of variables.
     fn fixed_axes(&self) -> impl Iterator<Item = &Axis> {
-        // A variable has an axis of one value, the middle, that nobody has written.
+        // A variable adds an axis with one value, its middle, which the definition does not
+        // contain.
         let is_variable =
             |axis: &Axis| self.variables.iter().any(|v| v.parameter() == axis.parameter());
         self.grid().axes().iter().filter(move |axis| !is_variable(axis))

@@ -1,4 +1,4 @@
-//! The table `[variables]` as it is written: between bounds, or one of a list.
+//! Reads the table `[variables]`: bounds or a list of values.
 
 use super::axes;
 use super::invalid::Problem;
@@ -6,7 +6,7 @@ use crate::parameter::{Parameter, Scalar, WrongValue};
 use crate::variable::{Variable, VariableValues};
 use text::toml_source::{KeyValues, Value};
 
-/// The variable that `value` describes.
+/// Reads the variable in `value`.
 pub(crate) fn read(parameter: &'static Parameter, value: &Value) -> Result<Variable, Problem> {
     let values = match value {
         Value::Table(entries) => between(parameter, entries, value)?,

@@ -1,10 +1,10 @@
-//! Parameters that change continuously: what has derivatives with respect to them, and cases near one.
+//! Continuous parameters: neighbouring cases and step sizes for derivatives.
 
 use super::Bound::{Excluded, Included};
 use super::{Parameter, ParameterKind, Scalar, key, length};
 use crate::case::Case;
 
-/// Friction smaller than this has no derivatives: a step of differences would lead below zero.
+/// Minimum friction for derivatives. Below it, a difference step would make the friction negative.
 const LEAST_FRICTION: f64 = 1e-4;
 
 impl Parameter {
@@ -16,8 +16,10 @@ impl Parameter {
         (!follows).then(|| self.get(case))
     }
 
-    /// The case in which this parameter, a number, is larger `by` so much; it may leave its bounds. `None` if the parameter is no
-    /// number, not given, or follows from its alternative. A length in mm moves the one over the thickness.
+    /// Returns the case with this numeric parameter increased by `by`.
+    ///
+    /// The value may leave its bounds. A length in mm changes the length over the thickness. `None`
+    /// if the parameter is not a number, not given, or follows from its alternative.
     pub fn moved(&self, case: &Case, by: f64) -> Option<Case> {
         let mut moved = *case;
         if let Some(of) = self.over_t().filter(|_| !self.is_given(case)) {
@@ -37,8 +39,10 @@ impl Parameter {
         Some(moved)
     }
 
-    /// The size by which a change of this parameter, a number, in `case` is small or not: its value, or 1 if it may vanish and
-    /// is smaller. `None` if the parameter is no number, not given, or follows from its alternative.
+    /// Returns the reference size for changes of this numeric parameter in `case`.
+    ///
+    /// The size is the magnitude of the value. If the range includes zero, it is at least 1. `None`
+    /// if the parameter is not a number, not given, or follows from its alternative.
     pub fn size(&self, case: &Case) -> Option<f64> {
         let (ParameterKind::Number { range, .. }
         | ParameterKind::SignedNumber { size: range, .. }
@@ -52,10 +56,12 @@ impl Parameter {
             None => self.written_value(case)?.number()?.abs(),
         };
         if self.key == key::FRICTION && value < LEAST_FRICTION {
-            // A path of scales that do not rub knows nothing of how they slip, and so not what a little friction does.
+            // A path without friction has no slip directions, so it cannot predict the effect of a
+            // small friction.
             return None;
         }
-        // A range that begins above zero has no place where a part of the value would be no step.
+        // A range that starts above zero excludes values near zero, so a fraction of the value is a
+        // valid step.
         let may_vanish = match range.low {
             Excluded(low) => low < 0.0,
             Included(low) => low <= 0.0,

@@ -1,4 +1,4 @@
-//! The one list of parameters: it drives validation, messages, axes, columns and documentation.
+//! The single list of parameters. Validation, messages, axes, columns and documentation use it.
 
 use skin::Base;
 use skin::flexure::{MembraneMesh, Method};
@@ -16,21 +16,21 @@ use crate::parameter::Role::{
 };
 use crate::parameter::{CountRange, Parameter, ParameterKind, Range, Scalar, key};
 
-// Beyond these ranges differences of lengths and of stiffnesses are round-off, and what a path does is that of its digits.
+// Beyond these ranges, differences of lengths and stiffnesses are dominated by round-off.
 const LENGTH: Range = Range::closed(1e-3, 1e3);
 const POSITIVE: Range = Range::closed(1e-6, 1e9);
-// A length in mm is held to bounds where it is divided by the thickness.
+// The bounds of a length in mm apply after the division by the thickness.
 const ANY: Range = Range::closed(-1e9, 1e9);
 pub(super) const FRACTION: Range = Range { low: Excluded(0.0), high: Included(1.0) };
-// Scales are rigid but where they touch: softer than what they stand on they would bend.
+// The model has rigid scales, which is invalid for scales softer than their substrate.
 const STIFF: Range = Range::closed(1.0, 1e9);
 
-/// The word of a count that is to be found.
+/// Word for a count that is determined automatically.
 const AUTO: &str = "auto";
 
 type Field<T> = fn(&mut Case) -> &mut T;
 
-// Kinds are made by constant functions, because the list of all parameters is a static.
+// The constructors of kinds are `const`, because the list of parameters is a static.
 const fn number(range: Range, field: Field<f64>) -> ParameterKind {
     Number { range, field }
 }
@@ -53,7 +53,7 @@ const fn count_or(
     CountOrWord { range: CountRange { low, high }, word, get, set }
 }
 
-/// A field that takes the value of one of a few words.
+/// Builds the kind of a parameter with a few words as values.
 macro_rules! words {
     ($($field:ident).+: $($word:literal = $value:expr),+) => {
         Word {
@@ -66,14 +66,16 @@ macro_rules! words {
     };
 }
 
-/// The meaning of a length in mm beside the same over the thickness, which follows from it.
+/// Builds the meaning of a length in mm.
 macro_rules! in_mm {
     ($stem:literal, $what:literal) => {
         concat!($what, ", instead of ", $stem, "_over_t; with thickness_mm in [material]")
     };
 }
 
-/// The parameters by section, each with its key, unit, roles and kind, and what it means.
+/// Builds the list of parameters by section.
+///
+/// Each entry: key, unit, roles, kind, meaning.
 macro_rules! parameters {
     ($($section:literal {
         $($key:expr, $unit:literal, [$($role:expr),*], $kind:expr, $meaning:expr;)*
@@ -89,8 +91,9 @@ macro_rules! parameters {
     };
 }
 
-/// Every parameter, in the order of the documentation. Keys are unique over all sections, because
-/// an axis is named by its key alone.
+/// Every parameter, in the order of the documentation.
+///
+/// Keys are unique over all sections, because an axis is named by its key alone.
 pub static PARAMETERS: &[Parameter] = parameters! {
     "designs" {
         key::GAP, "t", [Geometry, Continuous, Made, Scattered, MovesSprings],
@@ -140,7 +143,8 @@ pub static PARAMETERS: &[Parameter] = parameters! {
     "contact" {
         "c1", "-", [Continuous, Made],
             number(Range::closed(1e-3, 1e3), |c| &mut c.common.law.c1), "prefactor C1 of the contact law";
-        // A flat end has an exponent of 1, a sphere of 1.5; at larger ones contacts begin without any stiffness.
+        // A flat end has an exponent of 1, a sphere of 1.5. Above 1.5, the initial contact
+        // stiffness would be zero.
         "c2", "-", [Continuous, Made],
             number(Range::closed(0.05, 1.5), |c| &mut c.common.law.c2), "exponent C2 of the contact law";
         // Rubber on a rough surface has about 2.
@@ -158,8 +162,8 @@ pub static PARAMETERS: &[Parameter] = parameters! {
                 },
                 |c, count| c.puncture.scales = count.map_or(RowLength::Auto, RowLength::Scales)),
             "scales in the row";
-        // How far beyond 1 it may stand depends on gap and tip: `load_can_stand` refuses, and
-        // `punctured` keeps it before the next scale.
+        // The largest position beyond 1 depends on gap and tip: `load_can_stand` checks the tip,
+        // and `punctured` limits the position to the next scale.
         key::LOAD_POSITION, "-", [Continuous, Made],
             number(Range::closed(0.0, 1e6), |c| &mut c.puncture.load_position),
             "place of the load on the top of the punctured scale, 0 its left corner, 1 its right; of a round tip also beyond, at most 1 + gap/base, the left corner of the next scale";
@@ -173,7 +177,7 @@ pub static PARAMETERS: &[Parameter] = parameters! {
             Word {
                 words: &["free", "guided"],
                 get: |c| usize::from(c.puncture.needle.is_guided()),
-                // Its friction is that of the case.
+                // The case holds the friction of a guided needle.
                 set: |c, word| c.puncture.needle = [Needle::Free, Needle::Guided { friction: 0.0 }][word],
             },
             "free: a load that follows its point of the scale sideways, as in the paper; guided: a tip that moves straight down and slides on the scale";
@@ -188,7 +192,7 @@ pub static PARAMETERS: &[Parameter] = parameters! {
             "whether the load is taken away again at the end of the puncture";
         key::CRITICAL_TILT, "deg", [Continuous, EndsPuncture],
             Numbers {
-                // Below 1e-14 the path to it drowns in round-off.
+                // Below 1e-14 the path to the tilt is dominated by round-off.
                 range: Range { low: Included(1e-9), high: Excluded(90.0) },
                 word: None,
                 get: tilts,
@@ -197,7 +201,7 @@ pub static PARAMETERS: &[Parameter] = parameters! {
             "tilt of the punctured scale at which the puncture ends; of several the largest, with columns for each";
         key::NEEDLE_FRICTION, "-", [Continuous, EndsPuncture, InsteadOf(key::CRITICAL_TILT)],
             Numbers {
-                // Of 1000 the arctangent is 89.94°; of 1e16 it is 90°, to the last digit.
+                // The arctangent of 1000 is 89.94°; the arctangent of 1e16 rounds to 90°.
                 range: Range::closed(0.0, 1e3),
                 word: Some("none"),
                 get: |c| c.needle_friction.unwrap_or(Scalar::Word("none")),
@@ -318,7 +322,7 @@ pub static PARAMETERS: &[Parameter] = parameters! {
     }
 };
 
-/// The tilts of a puncture as it is solved: those of a free needle may follow from its friction.
+/// Returns the tilts of a puncture as solved. For a free needle they may follow from its friction.
 fn tilts(case: &Case) -> Scalar {
     let punctured = case.punctured();
     let listed = punctured.tilts_before_deg.and_then(|_| {

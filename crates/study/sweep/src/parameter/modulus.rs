@@ -1,13 +1,14 @@
-//! The modulus of the scales in `MPa`, and the two ratios of contact that follow from it.
+//! The modulus of the scales, and the two contact ratios that follow from it.
 //!
-//! What lies behind a case reads `E_ct/E_s` and `E_ct/E_m` of Eq. (5) alone. A scale is stiff because of what it is made of, whatever it is
-//! laid on, so that with `E_ct` in `MPa` both follow, and keep following where a modulus varies.
+//! The solvers read only `E_ct/E_s` and `E_ct/E_m` of Eq. (5). The stiffness of a scale is a
+//! property of its material, not of its substrate. With `E_ct` in `MPa`, both ratios therefore
+//! follow from it, also when another modulus varies.
 
 use super::{Parameter, key};
 use crate::case::Case;
 
 impl Parameter {
-    /// Of a ratio of contact the key of the modulus below the line.
+    /// Returns the key of the modulus in the denominator of a contact ratio.
     fn below_contact(&self) -> Option<&'static str> {
         match self.key {
             key::CONTACT_OVER_SUBSTRATE => Some(key::SUBSTRATE_MODULUS),
@@ -16,7 +17,7 @@ impl Parameter {
         }
     }
 
-    /// Whether one of two parameters is the modulus of the scales and the other a ratio that follows from it.
+    /// Returns true for a pair of the modulus of the scales and a contact ratio.
     pub(super) fn excludes(&self, other: &Self) -> bool {
         let follows = |one: &Self, other: &Self| {
             one.below_contact().is_some() && other.key == key::SCALE_MODULUS
@@ -24,24 +25,24 @@ impl Parameter {
         follows(self, other) || follows(other, self)
     }
 
-    /// Whether it is a ratio that follows from the modulus of the scales.
+    /// Returns true for a contact ratio that follows from the modulus of the scales.
     pub(super) fn follows_modulus(&self, case: &Case) -> bool {
         self.below_contact().is_some() && case.material.scale_modulus_mpa.is_some()
     }
 
-    /// The ratios that the modulus of the scales says in a definition with these moduli, each with the key of the other one.
+    /// Returns the contact ratios, each with the key of its denominator.
     pub(crate) fn ratios() -> impl Iterator<Item = (&'static Self, &'static str)> {
         super::PARAMETERS.iter().filter_map(|ratio| Some((ratio, ratio.below_contact()?)))
     }
 
-    /// Whether ratios of contact follow from it.
+    /// Returns true if contact ratios follow from this parameter.
     pub(super) fn is_modulus(&self) -> bool {
         let below = [key::SUBSTRATE_MODULUS, key::MEMBRANE_MODULUS];
         self.key == key::SCALE_MODULUS || below.contains(&self.key)
     }
 }
 
-/// The ratios of contact with the moduli below the line.
+/// Returns the contact ratios with the moduli in their denominators.
 fn ratios(case: &mut Case) -> [(&mut f64, Option<f64>); 2] {
     let material = case.material;
     [
@@ -50,7 +51,7 @@ fn ratios(case: &mut Case) -> [(&mut f64, Option<f64>); 2] {
     ]
 }
 
-/// Has the ratios follow from the modulus of the scales.
+/// Computes the contact ratios from the modulus of the scales.
 pub(super) fn settle(case: &mut Case) {
     let Some(scales) = case.material.scale_modulus_mpa else { return };
     for (ratio, below) in ratios(case) {
@@ -59,7 +60,7 @@ pub(super) fn settle(case: &mut Case) {
     }
 }
 
-/// Has the modulus of the scales say what `moved`, a ratio, says now.
+/// Updates the modulus of the scales after a change of the ratio `moved`.
 pub(super) fn restate(case: &mut Case, moved: &Parameter) {
     let k = usize::from(moved.key == key::CONTACT_OVER_MEMBRANE);
     let (&mut ratio, below) = ratios(case)[k];

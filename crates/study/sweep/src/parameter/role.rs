@@ -1,54 +1,58 @@
-//! What parameters are to a skin: whoever treats some of them in a way of their own asks for their role, not for their names.
+//! Roles of parameters in the model. Code selects parameters by role, not by name.
 
 use std::sync::LazyLock;
 
 use super::{PARAMETERS, Parameter, key};
 use crate::case::Case;
 
-/// What a parameter is to the skin, beyond its value.
+/// Role of a parameter in the model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
-    /// It is an axis of every grid.
+    /// Axis of every grid.
     Geometry,
-    /// Measures change continuously with it, so that they have derivatives with respect to it: a number that describes the skin
-    /// or how far it is loaded, not how it is solved or how it scatters.
+    /// The measures are differentiable with respect to it.
+    ///
+    /// It is a number that describes the skin or its load, not the solver or the scatter.
     Continuous,
-    /// What is made may differ from it.
+    /// Has manufacturing deviations.
     Made,
-    /// It may differ from scale to scale.
+    /// May vary from scale to scale.
     Scattered,
     /// The springs of the substrate depend on it.
     MovesSprings,
-    /// It says where a puncture ends: a criterion of a study, which nobody makes.
+    /// Defines the end of a puncture: a criterion of the study, without manufacturing deviations.
     EndsPuncture,
-    /// It says where bending ends.
+    /// Defines the end of bending.
     EndsBending,
-    /// The unit of what bending measures depends on it.
+    /// The unit of the bending measures depends on it.
     UnitOfBending,
-    /// It says in another way what the parameter of that key says, and may leave it to that by a word.
+    /// Alternative to the parameter with that key. One of its words may leave the value to that
+    /// parameter.
     InsteadOf(&'static str),
-    /// It is the length of that key in mm, which then follows from it.
+    /// Length in mm that determines the parameter with that key.
     InMm(&'static str),
 }
 
 impl Parameter {
-    /// Whether it has a role.
+    /// Returns true if it has a role.
     pub fn has(&self, role: Role) -> bool {
         self.roles.contains(&role)
     }
 
-    /// The parameters of a role, in the order of the documentation.
+    /// Returns the parameters with a role, in the order of the documentation.
     pub fn with(role: Role) -> impl Iterator<Item = &'static Self> {
         PARAMETERS.iter().filter(move |parameter| parameter.has(role))
     }
 
-    /// The parameters that say the same in another way in a case: a definition has one of them.
+    /// Returns the alternatives of this parameter in a case. A definition gives only one of them.
     pub(crate) fn others_in(&self, case: &Case) -> impl Iterator<Item = &'static Self> {
         PARAMETERS.iter().filter(|other| self.is_said_by(other, case))
     }
 
-    /// Whether another parameter says the same in a case: under a guided needle tilt and friction are two things, and beside a gap the
-    /// pitch says a length.
+    /// Returns true if `other` is an alternative of this parameter in a case.
+    ///
+    /// For a guided needle tilt and friction are independent. In addition to a gap, the pitch
+    /// determines a length.
     pub(crate) fn is_said_by(&self, other: &Self, case: &Case) -> bool {
         let origin = |parameter: &Self| {
             let says_length = parameter.key == key::PITCH && case.in_mm.pitch_says_length;
@@ -59,9 +63,11 @@ impl Parameter {
         is_same || self.excludes(other)
     }
 
-    /// The key of the parameter that this one stands for, in another way or unit; its own, if it stands for none.
+    /// Returns the key that this parameter finally determines, or its own. Follows chains of
+    /// alternatives and units.
     fn origin(&self) -> &'static str {
-        // A definition asks for this thousands of times, and finding a parameter by its key takes as long as all else that is asked.
+        // Cached, because a definition requests this thousands of times and the search by key is
+        // slow.
         static ORIGINS: LazyLock<Vec<(&str, &str)>> = LazyLock::new(|| {
             let next = |key: &&'static str| Parameter::named(key)?.stands_for();
             let origin = |p: &Parameter| std::iter::successors(p.stands_for(), next).last();
@@ -75,7 +81,7 @@ impl Parameter {
         }
     }
 
-    /// The key of the parameter that this one says in another way or unit.
+    /// Returns the key that this parameter replaces, as alternative or in mm.
     fn stands_for(&self) -> Option<&'static str> {
         self.roles.iter().find_map(|role| match role {
             Role::InsteadOf(key) | Role::InMm(key) => Some(*key),
@@ -83,7 +89,7 @@ impl Parameter {
         })
     }
 
-    /// The parameter that may be given instead of this one.
+    /// Returns the parameter that may be given instead of this one.
     pub(super) fn instead(&self) -> Option<&'static Self> {
         Self::with(Role::InsteadOf(self.key)).next()
     }
@@ -124,10 +130,10 @@ mod tests {
         }
     }
 
-    /// The springs are those of the footprint and of the coupling, whatever else a case says.
+    /// The springs depend on the footprint and the coupling alone.
     #[test]
     fn the_springs_move_with_the_parameters_that_say_so() {
-        // Down, because Poisson's ratio stands at the end of its bounds.
+        // Move down, because Poisson's ratio is at its upper bound.
         let case = Case::default();
         for parameter in PARAMETERS.iter().filter(|p| p.has(Role::Continuous)) {
             let Some(moved) = parameter.moved(&case, -0.01) else { continue };

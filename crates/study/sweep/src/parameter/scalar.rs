@@ -36,7 +36,7 @@ impl fmt::Display for Scalar {
 }
 
 impl Scalar {
-    /// The value if it is a real number.
+    /// Returns the value if it is a real number.
     pub fn number(self) -> Option<f64> {
         match self {
             Self::Number(number) => Some(number),
@@ -44,7 +44,7 @@ impl Scalar {
         }
     }
 
-    /// A key that two values of one parameter share if they are equal. A number is never `NaN`.
+    /// Returns a key that is equal for equal values of one parameter. A number is never `NaN`.
     pub(crate) fn key(self) -> (u64, &'static str) {
         match self {
             // Zero and minus zero are equal.
@@ -56,7 +56,7 @@ impl Scalar {
         }
     }
 
-    /// The value as it is written in a definition: words in quotes, but for booleans.
+    /// Returns the value as written in a definition: words in quotes, except booleans.
     pub fn to_toml(self) -> String {
         match self {
             Self::Word(word) if word.parse::<bool>().is_err() => format!("\"{word}\""),

@@ -1,4 +1,4 @@
-//! The meaning of a definition.
+//! Tests of valid definitions.
 
 use sweep::{Case, Parameter, Setting, Sweep};
 
@@ -89,7 +89,7 @@ fn the_record_of_a_run_is_a_definition() {
     assert_eq!(sweep(text).grid().case(0).common.law.c1.to_bits(), 2.0_f64.to_bits());
 }
 
-/// Lengths of a puncture are those over the thickness, in whatever way they are said, and a definition is written as it was read.
+/// The definition is written back in the notation that was read.
 #[test]
 fn a_place_and_a_depth_in_two_ways() {
     let read = |text: &str| Sweep::parse(&format!("name = 'x'\n{text}"), "x.toml", &[]);
@@ -109,7 +109,7 @@ fn a_place_and_a_depth_in_two_ways() {
     assert!(both.contains("cannot be combined"), "{both}");
 }
 
-/// Of a guided needle tilt and friction are two things, in whatever order they are said, and a friction of 0 is one.
+/// Tilt and friction of a guided needle are independent, in any order. A friction of 0 is allowed.
 #[test]
 fn a_guided_needle_has_a_tilt_and_a_friction() {
     use skin::puncture::Needle;
@@ -133,7 +133,7 @@ fn a_guided_needle_has_a_tilt_and_a_friction() {
             "{refused}"
         );
     }
-    // The ends of a range are values of a variable, too, and a search begins at them.
+    // The ends of a range are values of a variable too, and a search starts at them.
     let varied = "variables.needle_friction = { from = 0, to = 0.5 }";
     insta::assert_snapshot!(read(varied).unwrap_err(), @"x.toml:2: variables.needle_friction: 0 is not accepted, expected a number of at least 1e-10: its arctangent is the critical tilt of a free needle");
     for needle in ["puncture.needle = 'guided'", "variables.needle = ['free', 'guided']"] {
@@ -143,7 +143,8 @@ fn a_guided_needle_has_a_tilt_and_a_friction() {
     let smooth = "puncture = { needle_friction = 0, needle = 'guided' }";
     assert_eq!(puncture(smooth, 0).needle, Needle::Guided { friction: 0.0 });
     assert_eq!(puncture(smooth, 0).critical_tilt_deg, 10.0);
-    // Both needles in one sweep: the friction is that of the one, and says the tilt of the other.
+    // With both needles in one sweep, the friction applies to the guided needle and determines the
+    // tilt of the free one.
     let both = "puncture.needle_friction = 0.2\ndesigns.needle = ['free', 'guided']";
     let last = read(both).unwrap().grid().len() - 1;
     assert_eq!(puncture(both, 0).critical_tilt_deg, 0.2_f64.atan().to_degrees());
@@ -163,7 +164,7 @@ fn a_guided_needle_has_a_tilt_and_a_friction() {
     assert_eq!(set.grid().case(0).puncture.critical_tilt_deg, 8.0);
 }
 
-/// A radius of the tip needs a guided needle; it may vary and be said in mm.
+/// A needle radius needs a guided needle. It may vary, and may be given in mm.
 #[test]
 fn a_round_tip_is_that_of_a_guided_needle() {
     let read = |text: &str| Sweep::parse(&format!("name = 'x'\n{text}"), "x.toml", &[]);
@@ -190,7 +191,7 @@ fn a_round_tip_is_that_of_a_guided_needle() {
     }
 }
 
-/// Between two scales a round tip alone may stand, as far as the left corner of the next; a sharp needle stands on its top.
+/// Only a round tip may be between two scales. Its limit is the left corner of the next one.
 #[test]
 fn a_load_between_two_scales_has_a_radius() {
     let read = |text: &str| Sweep::parse(&format!("name = 'x'\n{text}"), "x.toml", &[]);
@@ -209,7 +210,8 @@ fn a_load_between_two_scales_has_a_radius() {
     }
 }
 
-/// Several critical tilts, or the frictions whose arctangents they are: the largest is where a puncture ends.
+/// The largest of several critical tilts ends the puncture; frictions give tilts by their
+/// arctangents.
 #[test]
 fn critical_tilts_are_given_in_degrees_or_by_friction() {
     let read = |text: &str| Sweep::parse(&format!("name = 'x'\n{text}"), "x.toml", &[]).unwrap();
@@ -255,16 +257,16 @@ fn deviations_move_a_case_in_their_own_unit() {
     let gap = gap.moved(&case, 0.4).expect("a thickness").design.gap;
     assert!((gap - 0.15).abs() < 1e-15);
     assert_eq!(slant.moved(&case, -3.0).expect("an angle").design.slant_deg, 42.0);
-    // Twice as thick, and every other length as long as before.
+    // Twice as thick, with all other lengths in mm unchanged.
     let thick = thickness.moved(&case, 8.0).expect("a thickness");
     assert_eq!((thick.material.thickness_mm, thick.design.gap), (Some(16.0), 0.05));
     assert_eq!((thick.design.length, thick.flexure.membrane_thickness), (0.5, 0.0625));
-    // Twice as stiff, and the scales as before.
+    // Twice as stiff, with the scales unchanged.
     let stiff = modulus.moved(&case, 0.3).expect("a modulus");
     assert_eq!(stiff.puncture.contact_modulus_over_substrate, 9677.0 / 2.0);
 }
 
-/// Scales ten thousand times as stiff as what they lie on, and five hundred times as stiff as what joins them.
+/// Scales with contact ratios of 10 000 (substrate) and 500 (membrane).
 const SCALES: &str = "name = 'x'\n[designs]\ngap_over_t = 0.1\nlength_over_t = 1\nslant_deg = 45\n[material]\n\
                       scale_modulus_MPa = 3000\nmembrane_modulus_MPa = 6\n";
 
@@ -286,7 +288,7 @@ fn ratios_of_contact_follow_from_the_modulus_of_the_scales() {
         let of = |index| ratios(&sweep.grid().case(index));
         assert_eq!((0..sweep.grid().len()).map(|k| of(k)[0]).collect::<Vec<_>>(), found, "{text}");
         assert_eq!(of(0)[1], 500.0);
-        // What is written back says the modulus, and neither ratio.
+        // The written definition contains the modulus and neither ratio.
         let again = sweep.to_toml();
         assert!(
             !again.contains("contact_modulus") && again.contains("scale_modulus_MPa"),
@@ -296,7 +298,7 @@ fn ratios_of_contact_follow_from_the_modulus_of_the_scales() {
         assert_eq!(again.grid().case(0), sweep.grid().case(0));
     }
     let case = sweep(&fixed).grid().case(0);
-    // Whatever moves, the three say the same.
+    // Whichever parameter moves, the three stay consistent.
     let named = |key| Parameter::named(key).expect("a parameter");
     let softer = named("substrate_modulus_MPa").moved(&case, 0.3).expect("a modulus");
     assert_eq!(ratios(&softer), [5000.0, 500.0]);
@@ -304,7 +306,7 @@ fn ratios_of_contact_follow_from_the_modulus_of_the_scales() {
     assert_eq!(ratios(&stiffer), [20_000.0, 1000.0]);
     let ratio = named("contact_modulus_over_substrate").moved(&case, 1000.0).expect("a ratio");
     assert_eq!(ratio.material.scale_modulus_mpa, Some(3300.0));
-    // A setting of one takes the place of the other in a file.
+    // A setting of one replaces the other in a file.
     let setting = Setting::parse("puncture.contact_modulus_over_substrate=50").expect("a setting");
     let set = Sweep::parse(&fixed, "x.toml", &[setting]).expect("a sweep");
     assert_eq!(ratios(&set.grid().case(0)), [50.0, 667.0]);
@@ -324,7 +326,7 @@ fn a_modulus_of_tissue_in_another_unit_is_questioned() {
     assert!(sweep(variable).question().is_some());
 }
 
-/// Steps of differences are parts of these sizes.
+/// Difference steps are fractions of these sizes.
 #[test]
 fn only_what_may_vanish_is_measured_by_one_where_it_is_small() {
     let text = "name = 'x'\n[designs]\ngap_over_t = 0.1\nlength_over_t = 0.5\nslant_deg = 0.25";
@@ -335,7 +337,7 @@ fn only_what_may_vanish_is_measured_by_one_where_it_is_small() {
     assert!(found[2].is_some_and(|size| size < 1.0) && found[3] == Some(1.0), "{found:?}");
 }
 
-/// A length in mm is the same skin as that over the thickness, for every thickness; and a pitch is base and gap.
+/// Lengths in mm and over the thickness give the same skin. The pitch is base plus gap.
 #[test]
 fn lengths_in_mm_are_those_over_the_thickness() {
     let case = |text: &str| {
@@ -379,7 +381,7 @@ fn lengths_in_mm_are_those_over_the_thickness() {
     }
 }
 
-/// A thickness moves what is over it where lengths are given in mm, and a length in mm moves what follows from it.
+/// Changes of the thickness and of lengths in mm change the lengths over `t`.
 #[test]
 fn lengths_in_mm_move_together() {
     let text = "name = 'x'\n[designs]\ngap_mm = 0.5\npitch_mm = 3.5\nthickness_mm = 2\n";
@@ -389,14 +391,15 @@ fn lengths_in_mm_move_together() {
     assert_eq!((thick.design.gap, thick.design.length), (0.125, 0.75));
     assert_eq!(moved("pitch_mm", 0.5).design.length, 1.75);
     assert_eq!(moved("gap_mm", 0.5).design.length, 1.25);
-    // The gap alone, over the thickness: the pitch says so too, so that nothing takes it back.
+    // Change the gap over the thickness alone. The pitch is updated, so that it does not revert the
+    // change.
     let wide = moved("gap_over_t", 0.25);
     assert_eq!((wide.design.gap, wide.design.length, wide.in_mm.pitch), (0.5, 1.5, Some(4.0)));
     let length = sweep::Parameter::named("width_mm").unwrap().moved(&wide, 1.0).unwrap();
     assert_eq!((length.design.width, length.design.gap), (1.5, 0.5));
 }
 
-/// A deviation in mm, or a depth, beside a thickness that is searched over.
+/// A deviation in mm or a depth can be combined with a variable thickness.
 #[test]
 fn a_thickness_may_vary_beside_lengths_in_mm() {
     let text = "name = 'x'\npuncture.depth_mm = 1\n[designs]\ngap_mm = 0.5\n[variables]\n\
@@ -409,7 +412,7 @@ fn a_thickness_may_vary_beside_lengths_in_mm() {
     assert_eq!(deviation.moved(&case, 0.1).unwrap().in_mm.gap, Some(0.6));
 }
 
-/// Settings take the place of the other ways to say a length.
+/// Settings replace the alternative ways to give a length.
 #[test]
 fn a_length_in_mm_takes_the_place_of_the_other() {
     let settings = ["designs.gap_mm=0.4", "scale.width_mm=3", "material.thickness_mm=2"];

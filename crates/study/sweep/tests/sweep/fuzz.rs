@@ -1,17 +1,18 @@
-//! Whatever is read, nothing panics: definitions and settings, random and nearly right.
-//! `scripts/fuzz` runs these for as long as one likes.
+//! Fuzz tests: random and nearly valid definitions and settings never cause a panic.
+//!
+//! `scripts/fuzz` runs them for any length of time.
 
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
 use sweep::{PARAMETERS, Setting, Sweep};
 
-/// Section and key of a parameter.
+/// Generates section and key of a parameter.
 fn parameter() -> impl Strategy<Value = (&'static str, &'static str)> {
     (0..PARAMETERS.len()).prop_map(|i| (PARAMETERS[i].section, PARAMETERS[i].key))
 }
 
-/// Words that definitions are made of, and what does not belong there.
+/// Generates words of definitions and foreign ones.
 fn word() -> impl Strategy<Value = String> {
     let key = parameter().prop_map(|(_, key)| key.to_owned());
     let section = parameter().prop_map(|(section, _)| section.to_owned());
@@ -63,7 +64,7 @@ fn word() -> impl Strategy<Value = String> {
     ]
 }
 
-/// A value as someone may write it.
+/// Generates a value as a user may write it.
 fn value() -> impl Strategy<Value = String> {
     prop_oneof![
         any::<f64>().prop_map(|number| number.to_string()),
@@ -81,7 +82,7 @@ fn value() -> impl Strategy<Value = String> {
     ]
 }
 
-/// A definition with a line for each of some parameters, as axis or in its section.
+/// Generates a definition. It has one line for each of some parameters, as axis or in its section.
 fn definition() -> impl Strategy<Value = String> {
     let line = (parameter(), any::<bool>(), value()).prop_map(|((section, key), axis, value)| {
         let section = if axis { "designs" } else { section };
@@ -90,7 +91,7 @@ fn definition() -> impl Strategy<Value = String> {
     vec(line, 0..6).prop_map(|lines| format!("name = 'x'\n{}", lines.concat()))
 }
 
-/// `text` with some bytes replaced, removed or doubled.
+/// Generates `text` with some bytes replaced, removed or doubled.
 fn damaged(text: &'static [u8]) -> impl Strategy<Value = Vec<u8>> {
     let change = (any::<Index>(), 0..40_usize, 0..3_u8, any::<u8>());
     vec(change, 1..4).prop_map(move |changes| {
@@ -115,7 +116,7 @@ fn paper() -> &'static [u8] {
     include_bytes!("../../../../../sweeps/paper.toml")
 }
 
-/// Reads a definition; what is understood must have designs, and read back from its complete form.
+/// Reads a definition. A valid one must have designs and read back from its complete form.
 fn read(text: &str) -> Result<(), TestCaseError> {
     match Sweep::parse(text, "x.toml", &[]) {
         Ok(sweep) => {

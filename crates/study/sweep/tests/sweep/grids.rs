@@ -1,4 +1,4 @@
-//! A grid numbers its designs and finds them again.
+//! A grid numbers its designs and finds designs by parameters.
 
 use proptest::prelude::*;
 

@@ -1,4 +1,4 @@
-//! The promises of a sweep: what is refused and how, what a grid numbers.
+//! Tests of sweeps: refused definitions and their messages, grid numbers.
 
 mod definitions;
 mod fuzz;
@@ -7,7 +7,7 @@ mod refusals;
 
 use sweep::Sweep;
 
-/// The sweep that `text` defines.
+/// Parses the sweep `text`.
 fn sweep(text: &str) -> Sweep {
     Sweep::parse(text, "x.toml", &[]).expect("a valid sweep")
 }

@@ -1,8 +1,8 @@
-//! Refusals: one line with file, key, value and what would be right.
+//! Refusals: one line with file, key, value and the accepted values.
 
 use sweep::{PARAMETERS, Parameter, Setting, Sweep};
 
-/// The message, a line for each error.
+/// Returns the message, one line per error.
 fn errors(text: &str, settings: &[&str]) -> String {
     let settings: Vec<_> = settings.iter().map(|s| Setting::parse(s).expect("valid")).collect();
     Sweep::parse(text, "x.toml", &settings).expect_err("refused").to_string()
@@ -14,7 +14,7 @@ fn refused(text: &str, settings: &[&str]) -> String {
     message
 }
 
-/// The messages for definitions that are a name and `lines`.
+/// Returns the messages for definitions with a name and `lines`.
 fn all(lines: &[&str]) -> String {
     let message = |line: &&str| refused(&format!("name = 'x'\n{line}"), &[]);
     lines.iter().map(message).collect::<Vec<_>>().join("\n")
@@ -49,7 +49,8 @@ fn lengths_and_moduli_beyond_all_measure_are_refused() {
         for value in ["1e-30", "1e30"] {
             let text = format!("name = 'x'\n{} = {value}", parameter.path());
             let message = Sweep::parse(&text, "x.toml", &[]).err().map(|error| error.to_string());
-            // A place or an offset may be next to nothing; in mm it is refused for want of a thickness.
+            // These lengths may be close to zero; in mm they are refused because the thickness is
+            // missing.
             let places = ["load_inset", "membrane_axis_offset"];
             let is_place = places.iter().any(|place| parameter.key.starts_with(place));
             let is_refused = message.is_some_and(|message| message.contains("out of range"));
@@ -202,7 +203,7 @@ proptest::proptest! {
     }
 }
 
-/// A list takes time in proportion to its length: each value is not compared with all before it.
+/// The time for a list is linear in its length: values are not compared pairwise.
 #[test]
 fn a_long_list_with_a_value_twice_is_refused_at_once() {
     let numbers = (1..=300_000).map(|k| format!("{k}e-3")).chain(["0.001".to_owned()]);
@@ -226,7 +227,7 @@ fn names_that_windows_keeps_for_devices_are_refused() {
     }
 }
 
-/// The bound is that of a busy machine; both took minutes when they cost the square of their length.
+/// The bound allows for a busy machine. With quadratic time, both would take minutes.
 #[test]
 fn long_lists_and_many_keys_are_read_or_refused_at_once() {
     let begun = std::time::Instant::now();
@@ -309,7 +310,8 @@ fn a_definition_of_millions_of_values_is_refused_before_it_is_read() {
     assert_eq!(error.lines().count(), 1);
 }
 
-/// Lengths in mm: without a thickness, beside the same over the thickness, all three of gap, length and pitch, and out of bounds.
+/// Cases: no thickness, the same length in both units, all three of gap, length and pitch, out of
+/// bounds.
 #[test]
 fn the_modulus_of_the_scales() {
     let with = |text: &str| format!("material.scale_modulus_MPa = 3000\n{text}");
