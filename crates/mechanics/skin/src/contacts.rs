@@ -12,6 +12,7 @@ mod stiffness;
 
 pub use change::ContactChange;
 pub use closed::Contact;
+pub(crate) use friction::TipFriction;
 pub(crate) use friction::product_integral;
 use friction::{FrictionState, SLIP_DISTANCE};
 pub(crate) use mode::SkinMode;

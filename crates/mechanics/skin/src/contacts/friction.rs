@@ -21,8 +21,9 @@
 //! of their friction matters. One of them, the *carrier*, then carries the friction of both; the
 //! other one is *shared*. Coinciding corners are *locked*: they keep the ratio `T/Λ` with which
 //! they met, which is the ratio for sliding on along the edge behind the corner. A corner at the
-//! position of a needle tip is locked, too, because the friction law of the needle determines their
-//! common motion.
+//! position of a needle tip moves with the tip. While both slide the corner is locked with the
+//! ratio of sliding in that direction; while both stick only the sum of their friction matters, and
+//! tip and corner take equal fractions of their limits ([`TipFriction`]).
 
 use contact::{CornerContact, CornerEdge, FORCES, Force, Gap, Pose, quarter};
 use geometry::Vec2;
@@ -63,6 +64,9 @@ pub(crate) enum FrictionState {
         /// `T/Λ`.
         ratio: f64,
     },
+    /// A sticking needle tip is at the corner. The unknown is `T + 2 μ Λ`, which vanishes only with
+    /// `Λ`: the limits of friction are those of the tip.
+    WithTip,
 }
 
 impl FrictionState {
@@ -81,8 +85,22 @@ impl FrictionState {
 
     /// Tells whether the stick and the slip constraint are active.
     pub(super) fn acting(self) -> [bool; 2] {
-        [matches!(self, Self::Stick { .. }), matches!(self, Self::Slip { .. })]
+        [matches!(self, Self::Stick { .. } | Self::WithTip), matches!(self, Self::Slip { .. })]
     }
+}
+
+/// Friction of a contact at a sticking needle tip.
+pub(crate) struct TipFriction {
+    /// Unknown `T + 2 μ Λ` of the contact; its row takes the equation that the tip adds.
+    pub(crate) unknown: usize,
+    /// `T`.
+    pub(crate) traction: f64,
+    /// `μ Λ`.
+    pub(crate) limit: f64,
+    /// `μ`.
+    pub(crate) friction: f64,
+    /// Unknowns of the normal forces in `Λ`.
+    pub(crate) normal_forces: Vec<usize>,
 }
 
 /// Friction of a closed contact: state, traction, and slip coordinate with derivatives.
@@ -140,7 +158,7 @@ impl Contacts {
             FrictionState::Stick { anchor: kept } | FrictionState::Locked { ratio: kept } => {
                 Some((contact, *kept))
             }
-            FrictionState::None | FrictionState::Slip { .. } => None,
+            FrictionState::None | FrictionState::Slip { .. } | FrictionState::WithTip => None,
         })
     }
 
@@ -194,19 +212,75 @@ impl Contacts {
         }
     }
 
-    /// Locks the friction of a contact because a needle tip has reached the position of its corner.
-    pub(crate) fn lock(&self, state: &mut SkinState, contact: usize) {
+    /// Computes the fraction of its limit that the friction of a contact has, from −1 to 1.
+    pub(crate) fn mobilised(&self, state: &SkinState, contact: usize) -> f64 {
+        if !self.has_friction() {
+            return 0.0;
+        }
+        self.ratio(state, Self::carrier_of(&state.mode, contact)) / self.law.friction()
+    }
+
+    /// Locks the friction of a contact because a needle tip is at its corner.
+    ///
+    /// The ratio stays as it is, or with `sliding` is the one of sliding with the tip: `T` has this
+    /// sign.
+    pub(crate) fn lock(&self, state: &mut SkinState, contact: usize, sliding: Option<f64>) {
         if !self.has_friction() {
             return;
         }
         let carrier = Self::carrier_of(&state.mode, contact);
-        let ratio = self.ratio(state, carrier);
+        let ratio =
+            sliding.map_or_else(|| self.ratio(state, carrier), |sign| sign * self.law.friction());
         state.mode.friction_states[carrier] = FrictionState::Locked { ratio };
         // A locked contact has no friction unknown.
         self.set_friction(state, carrier, 0.0, true);
     }
 
-    /// Releases a locked contact on its edge.
+    /// Makes the corner of a contact stick with the needle tip at its position.
+    ///
+    /// `T` stays as it is, or takes this `fraction` of its limit.
+    pub(crate) fn stick_with_tip(
+        &self,
+        state: &mut SkinState,
+        contact: usize,
+        fraction: Option<f64>,
+    ) {
+        if !self.has_friction() {
+            return;
+        }
+        let carrier = Self::carrier_of(&state.mode, contact);
+        let ratio =
+            fraction.map_or_else(|| self.ratio(state, carrier), |part| part * self.law.friction());
+        let multiplier = (ratio + self.law.friction()) * self.normal_force(state, carrier);
+        state.mode.friction_states[carrier] = FrictionState::WithTip;
+        self.set_friction(state, carrier, multiplier, true);
+    }
+
+    /// Evaluates the friction of a contact that sticks with the needle tip at its corner.
+    pub(crate) fn friction_with_tip(
+        &self,
+        state: &SkinState,
+        contact: usize,
+    ) -> Option<TipFriction> {
+        if !self.has_friction() {
+            return None;
+        }
+        let carrier = Self::carrier_of(&state.mode, contact);
+        if state.mode.friction_states[carrier] != FrictionState::WithTip {
+            return None;
+        }
+        let unknown = self.unknown(carrier, STICK_MULTIPLIER);
+        let limit = self.law.friction() * self.normal_force(state, carrier);
+        Some(TipFriction {
+            unknown,
+            traction: state.z[unknown] - 2.0 * limit,
+            limit,
+            friction: self.law.friction(),
+            normal_forces: self.normal_force_unknowns(&state.mode, carrier).collect(),
+        })
+    }
+
+    /// Releases a contact that was locked or stuck at a needle tip, on its edge.
     ///
     /// `slides` tells whether the needle tip slides; then the corner keeps sliding, too.
     pub(crate) fn release(&self, state: &mut SkinState, contact: usize, slides: bool) {
@@ -214,11 +288,12 @@ impl Contacts {
             return;
         }
         let carrier = Self::carrier_of(&state.mode, contact);
-        let (FrictionState::Locked { ratio }, Some(edge)) =
+        let (FrictionState::Locked { .. } | FrictionState::WithTip, Some(edge)) =
             (state.mode.friction_states[carrier], Self::edge_of(&state.mode, carrier))
         else {
             return;
         };
+        let ratio = self.ratio(state, carrier);
         let position = self.slip_coordinate(state, edge, carrier);
         // Keep `T` continuous: it was `ratio Λ` while locked, and the multiplier is `T + μ Λ`.
         let multiplier = (ratio + self.law.friction()) * self.normal_force(state, carrier);
@@ -269,6 +344,10 @@ impl Contacts {
                     residual.add(slip, state.z[slip]);
                     pair.add_row(matrix, slip, &along.map(|slope| -sign * slope));
                     matrix.add(slip, slip, 1.0);
+                }
+                // The tip adds the equation of the row.
+                FrictionState::WithTip => {
+                    pair.add_column(matrix, multiplier, &along.map(|slope| -slope));
                 }
                 // No active constraint, hence no equation.
                 FrictionState::None | FrictionState::Locked { .. } => {}
@@ -343,7 +422,9 @@ impl Contacts {
     pub(crate) fn friction_work(&self, from: &SkinPoint, to: &SkinPoint, spans: [f64; 2]) -> f64 {
         let slips = from.state.mode.friction_states.iter().enumerate();
         let work = |(contact, friction_state): (usize, &FrictionState)| {
-            let FrictionState::Slip { sign, start } = *friction_state else { return 0.0 };
+            let FrictionState::Slip { sign, start } = *friction_state else {
+                return self.work_at_tip(contact, from, to, spans);
+            };
             let Some(edge) = from.state.mode.contacts[contact].edge() else { return 0.0 };
             let normal_force = |z: &[f64]| -> f64 {
                 // The force may have been handed over to another contact at the second point.
@@ -363,6 +444,46 @@ impl Contacts {
             self.law.friction() * product_integral([forces, growth], [slip_distances, rates])
         };
         slips.map(work).sum()
+    }
+
+    /// Computes the frictional dissipation `−∫ T ds` of a contact with a needle tip at its corner.
+    ///
+    /// Zero for other contacts.
+    fn work_at_tip(
+        &self,
+        contact: usize,
+        from: &SkinPoint,
+        to: &SkinPoint,
+        spans: [f64; 2],
+    ) -> f64 {
+        let mode = &from.state.mode;
+        let friction_state = mode.friction_states[contact];
+        let (FrictionState::Locked { .. } | FrictionState::WithTip, Some(edge)) =
+            (friction_state, Self::edge_of(mode, contact))
+        else {
+            return 0.0;
+        };
+        // The state may have changed at the second point, so both ends use that of the first.
+        let by_normal_force = self.by_normal_force(contact, friction_state);
+        let multiplier = self.unknown(contact, STICK_MULTIPLIER);
+        let traction = |z: &[f64]| {
+            let normal_force: f64 =
+                self.normal_force_unknowns(mode, contact).map(|force| z[force]).sum();
+            by_normal_force * normal_force
+                + if friction_state == FrictionState::WithTip { z[multiplier] } else { 0.0 }
+        };
+        let ends = [(&from.state, &from.leaving, spans[0]), (&to.state, &to.arriving, spans[1])];
+        let tractions = ends.map(|(state, ..)| traction(&state.z));
+        let growth = ends.map(|(_, direction, span)| span * traction(direction));
+        let slides = ends.map(|(state, direction, span)| {
+            let slide = self.slide(edge, contact, &self.pair_poses(&state.z, contact));
+            let rate = self.pair_unknowns(contact).sum(&slide.gradient, direction);
+            (slide.value, span * rate)
+        });
+        -product_integral(
+            [tractions, growth],
+            [slides.map(|(value, _)| value), slides.map(|(_, rate)| rate)],
+        )
     }
 
     /// Returns true if the other contact of the pair carries the friction of this one.
@@ -408,12 +529,10 @@ impl Contacts {
     fn friction_of(&self, state: &SkinState, contact: usize, poses: &[Pose; 2]) -> Option<Sliding> {
         let friction_state = *state.mode.friction_states.get(contact)?;
         let edge = Self::edge_of(&state.mode, contact)?;
-        let by_normal_force = match friction_state {
-            FrictionState::Stick { .. } => -self.law.friction(),
-            FrictionState::Slip { sign, .. } => -sign * self.law.friction(),
-            FrictionState::Locked { ratio } => self.shifted_anchor(contact, ratio),
-            FrictionState::None => return None,
-        };
+        if friction_state == FrictionState::None {
+            return None;
+        }
+        let by_normal_force = self.by_normal_force(contact, friction_state);
         let slide = self.slide(edge, contact, poses);
         let normal_force: f64 =
             self.normal_force_unknowns(&state.mode, contact).map(|force| state.z[force]).sum();
@@ -425,6 +544,17 @@ impl Contacts {
             by_normal_force,
             slide,
         })
+    }
+
+    /// Returns `∂T/∂Λ` at a constant multiplier.
+    fn by_normal_force(&self, contact: usize, friction_state: FrictionState) -> f64 {
+        match friction_state {
+            FrictionState::Stick { .. } => -self.law.friction(),
+            FrictionState::Slip { sign, .. } => -sign * self.law.friction(),
+            FrictionState::Locked { ratio } => self.shifted_anchor(contact, ratio),
+            FrictionState::WithTip => -2.0 * self.law.friction(),
+            FrictionState::None => 0.0,
+        }
     }
 
     /// Returns the edge on which a contact slides; `None` for coinciding corners.
@@ -471,12 +601,13 @@ impl Contacts {
         match state.mode.friction_states[contact] {
             FrictionState::Locked { ratio } => ratio,
             FrictionState::Slip { sign, .. } => -sign * self.law.friction(),
-            FrictionState::Stick { .. } => {
+            FrictionState::Stick { .. } | FrictionState::WithTip => {
                 let normal_force = self.normal_force(state, contact);
                 let multiplier = state.z[self.unknown(contact, STICK_MULTIPLIER)];
                 // Without normal force the ratio would be a quotient of round-off errors.
                 if normal_force > NO_FORCE {
-                    multiplier / normal_force - self.law.friction()
+                    multiplier / normal_force
+                        + self.by_normal_force(contact, state.mode.friction_states[contact])
                 } else {
                     0.0
                 }

@@ -121,8 +121,14 @@ impl Contacts {
             [sticks, slips];
         // While sticking the multiplier is in `[0, 2 μ Λ]`; clamp it against round-off.
         let largest = 2.0 * self.law.friction() * self.normal_force(state, contact);
+        // With a tip at the corner the unknown is larger by `μ Λ`.
+        let offset = if state.mode.friction_states[contact] == FrictionState::WithTip {
+            0.5 * largest
+        } else {
+            0.0
+        };
         state.z[self.unknown(contact, STICK_MULTIPLIER)] =
-            if sticks { multiplier.clamp(0.0, largest.max(0.0)) } else { 0.0 };
+            if sticks { multiplier.clamp(0.0, largest.max(0.0)) + offset } else { 0.0 };
         // A contact that keeps slipping keeps its slip distance.
         if is_new || !slips {
             state.z[self.unknown(contact, SLIP_DISTANCE)] = 0.0;

@@ -243,6 +243,76 @@ fn unloading_closes_the_energy_balance() {
     }
 }
 
+/// Work of a path, by the trapezoidal rule.
+fn work_of(path: &[puncture::PuncturePoint], length: f64) -> f64 {
+    let steps = path.windows(2).map(|pair| {
+        let mean = 0.5 * (pair[0].force + pair[1].force) * length;
+        mean * (pair[1].displacement - pair[0].displacement)
+    });
+    steps.sum()
+}
+
+/// Tip and corner in a notch reverse together, so the friction of both reverses.
+///
+/// The loop work is that of an independent program.
+#[test]
+fn friction_in_a_notch_reverses_with_the_load() {
+    let (gap, length, slant_deg) = (0.0879, 0.5481, 61.07);
+    let parameters = PunctureParameters {
+        needle: Needle::Guided { friction: 0.25 },
+        unload: true,
+        load_position: 1.0 - 0.06 / length,
+        ..Default::default()
+    };
+    let design = design(gap, length, slant_deg, Base::L);
+    let solver = Settings { first_step: 0.002, max_step: 0.02, ..Settings::default() };
+    let common = Common { solver, ..with_friction(0.16) };
+    let puncture = solve_as(&Calibrations::default(), &design, &common, &parameters);
+    let loop_work = puncture.measures.remains.loop_work.unwrap();
+    assert_relative_eq!(loop_work, 0.0444, max_relative = 5e-3);
+    let back = puncture.unloading.as_ref().unwrap();
+    let area = work_of(&puncture.path, length) + work_of(&back.path, length);
+    assert_relative_eq!(loop_work, area, max_relative = 1e-3);
+}
+
+/// The area of the load loop equals the dissipation for all kinds of needles.
+#[test]
+fn loop_work_is_the_area_of_the_loop_for_random_designs() {
+    let count = if long_campaigns() { 400 } else { 24 };
+    let known = Calibrations::default();
+    let mut closed = 0;
+    for (k, design) in random(count, 31).into_iter().enumerate() {
+        let friction = [0.0, 0.1, 0.25][k % 3];
+        let needle = [
+            Needle::Guided { friction: 0.1 },
+            Needle::Guided { friction: 0.3 },
+            Needle::Guided { friction: 0.2 },
+            Needle::Free,
+        ][k / 3 % 4];
+        let needle_radius = (k / 3 % 4 == 2).then_some(0.1);
+        let parameters = PunctureParameters {
+            needle,
+            needle_radius,
+            unload: true,
+            load_position: 0.9,
+            ..Default::default()
+        };
+        let solver = Settings { first_step: 0.001, max_step: 0.01, ..Settings::default() };
+        let common = Common { solver, ..with_friction(friction) };
+        let puncture = solve_as(&known, &design, &common, &parameters);
+        let (Some(loop_work), Some(back)) =
+            (puncture.measures.remains.loop_work, &puncture.unloading)
+        else {
+            continue;
+        };
+        let there = work_of(&puncture.path, design.length);
+        let area = there + work_of(&back.path, design.length);
+        assert!((loop_work - area).abs() < 2e-3 * there, "{design:?} {loop_work} {area} {there}");
+        closed += 1;
+    }
+    assert!(closed > count * 4 / 5, "{closed} of {count}");
+}
+
 /// A tip leaves a notch as the load decreases, or contacts close where others open. If pivoting
 /// starts with the wrong one of simultaneous changes, these paths reverse or stop.
 #[test]

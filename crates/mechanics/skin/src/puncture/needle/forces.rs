@@ -5,7 +5,7 @@ use solver::{Residual, Tangent};
 use super::mode::{OutlinePart, TipState, Touch};
 use super::outline::{COORDINATES, Meeting};
 use super::{BACKWARD, CONSTRAINTS_PER_TOUCH, FACE_END, FACE_START, FORWARD, GuidedNeedle, NORMAL};
-use crate::contacts::{Contacts, HOLDS, SkinPoint, SkinState, product_integral};
+use crate::contacts::{Contacts, HOLDS, SkinPoint, SkinState, TipFriction, product_integral};
 use crate::puncture::system::Chain;
 
 /// Distance (over `t`) by which a foot may exceed the end of a face: round-off and approach of
@@ -67,6 +67,15 @@ impl Chain {
                 add_row(slid, rows, -sign, meeting.xi_slopes(), matrix);
             }
         }
+        if let Some((slot, corner)) = self.corner_friction(state) {
+            needle.add_equal_fractions(slot, &corner, &state.z, residual, matrix);
+        }
+    }
+
+    /// Returns the touch on the face of a notch, and the friction of the corner that sticks with it.
+    fn corner_friction(&self, state: &SkinState) -> Option<(usize, TipFriction)> {
+        let [face, corner] = self.notch(state)?;
+        Some((face, self.contacts.friction_with_tip(state, corner)?))
     }
 
     /// Appends the conditions of the needle constraints.
@@ -103,6 +112,14 @@ impl Chain {
         for (number, touch, _, meeting) in self.touches(state) {
             let of_touch = &mut values[CONSTRAINTS_PER_TOUCH * number..][..CONSTRAINTS_PER_TOUCH];
             self.touch_conditions(needle, state, (number, touch), &meeting, of_touch);
+        }
+        if let Some((slot, corner)) = self.corner_friction(state) {
+            // Tip and corner slide together where the sum of their friction reaches its limit.
+            let [normal_force, tangential_force] = needle.forces(&state.z, slot);
+            let limit = needle.friction * normal_force + corner.limit;
+            let sum = tangential_force + corner.traction;
+            let of_touch = &mut values[CONSTRAINTS_PER_TOUCH * slot..][..CONSTRAINTS_PER_TOUCH];
+            (of_touch[FORWARD], of_touch[BACKWARD]) = (limit - sum, limit + sum);
         }
     }
 
@@ -322,10 +339,41 @@ impl Chain {
 
 impl GuidedNeedle {
     /// Returns `N` and `T` of a touch.
-    fn forces(&self, z: &[f64], slot: usize) -> [f64; 2] {
+    pub(super) fn forces(&self, z: &[f64], slot: usize) -> [f64; 2] {
         let normal_force = self.normal_force(slot);
         let rubs = self.constraints_per_touch < self.unknowns_per_touch;
         [z[normal_force], if rubs { z[normal_force + 1] } else { 0.0 }]
+    }
+
+    /// Adds the equation that tip and corner in a notch take equal fractions of their friction
+    /// limits.
+    ///
+    /// With the friction limits `μ_n N` of the tip and `μ Λ` of the corner it is
+    /// `T_c = (T_c + T) μ Λ/(μ Λ + μ_n N)`, in the row of the unknown of the corner.
+    fn add_equal_fractions(
+        &self,
+        slot: usize,
+        corner: &TipFriction,
+        z: &[f64],
+        residual: &mut Residual,
+        matrix: &mut impl Tangent,
+    ) {
+        let row = corner.unknown;
+        let normal_force = self.normal_force(slot);
+        let of_tip = self.friction * z[normal_force];
+        let limit = of_tip + corner.limit;
+        let (tangential_force, sum) = (z[normal_force + 1], z[normal_force + 1] + corner.traction);
+        let fraction = corner.limit / limit;
+        residual.add(row, (1.0 - fraction) * corner.traction);
+        residual.add(row, -fraction * tangential_force);
+        matrix.add(row, row, 1.0 - fraction);
+        matrix.add(row, normal_force + 1, -fraction);
+        let by_limit_of_tip = sum * fraction / limit;
+        matrix.add(row, normal_force, self.friction * by_limit_of_tip);
+        let by_limit_of_corner = -2.0 * (1.0 - fraction) - sum * (1.0 - fraction) / limit;
+        for &force in &corner.normal_forces {
+            matrix.add(row, force, corner.friction * by_limit_of_corner);
+        }
     }
 
     /// Evaluates the conditions of a sticking touch (L2) and of a sliding touch.

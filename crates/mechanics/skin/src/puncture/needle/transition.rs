@@ -7,6 +7,9 @@ use super::{BACKWARD, FACE_END, FACE_START, FORWARD, GuidedNeedle, NORMAL};
 use crate::contacts::SkinState;
 use crate::puncture::system::Chain;
 
+/// Fractions of friction limits that differ by less are equal.
+const SAME_FRACTION: f64 = 1e-6;
+
 impl Chain {
     /// Moves the needle to its next state.
     ///
@@ -45,11 +48,13 @@ impl Chain {
             (FORWARD | BACKWARD, true) => {
                 let anchor = self.touch_xi(state, slot)?;
                 needle.slide(state, slot, constraint == FORWARD, anchor);
+                self.slide_corner(needle, state, slot, constraint == FORWARD);
                 constraint
             }
             (FORWARD | BACKWARD, false) => {
                 let anchor = self.touch_xi(state, slot)?;
                 state.mode.needle.touches[slot].as_mut()?.tip_state = TipState::Stick { anchor };
+                self.stick_corner(needle, state, slot, constraint == FORWARD);
                 constraint
             }
             (FACE_START | FACE_END, _) => {
@@ -93,6 +98,75 @@ impl Chain {
             state.mode.needle.touches[slot] =
                 Some(Touch { tip_state: TipState::Stick { anchor }, ..touch });
         }
+        self.share_friction(needle, state);
+    }
+
+    /// Makes a sticking tip and the corner of its notch take equal fractions of their limits.
+    ///
+    /// The sum of their friction stays as it is. Only the sum matters while both stick.
+    fn share_friction(&self, needle: &GuidedNeedle, state: &mut SkinState) {
+        let Some([face, corner]) = self.notch(state).filter(|_| needle.has_friction()) else {
+            return;
+        };
+        let sticks = state.mode.needle.touches[face]
+            .is_some_and(|touch| matches!(touch.tip_state, TipState::Stick { .. }));
+        if !sticks || !self.contacts.has_friction() {
+            return;
+        }
+        self.contacts.stick_with_tip(state, corner, None);
+        let Some(friction) = self.contacts.friction_with_tip(state, corner) else { return };
+        let normal_force = needle.normal_force(face);
+        let of_tip = needle.friction * state.z[normal_force];
+        let sum = state.z[normal_force + 1] + friction.traction;
+        let fraction = (sum / (of_tip + friction.limit)).clamp(-1.0, 1.0);
+        if fraction.is_finite() {
+            state.z[normal_force + 1] = fraction * of_tip;
+            self.contacts.stick_with_tip(state, corner, Some(fraction));
+        }
+    }
+
+    /// Makes the corner of a notch slide with the tip on the face of `slot`.
+    fn slide_corner(
+        &self,
+        needle: &GuidedNeedle,
+        state: &mut SkinState,
+        slot: usize,
+        forward: bool,
+    ) {
+        let Some(corner) = self.corner_with_tip(needle, state, slot) else { return };
+        // A corner that is still locked keeps the ratio with which the notch formed.
+        if self.contacts.friction_with_tip(state, corner).is_none() {
+            return;
+        }
+        // The tip slides up the face of the right scale, the corner of the left scale with it: both
+        // drag that face upward.
+        self.contacts.lock(state, corner, Some(if forward { 1.0 } else { -1.0 }));
+    }
+
+    /// Makes the corner of a notch stick with the tip on the face of `slot`, after sliding.
+    fn stick_corner(
+        &self,
+        needle: &GuidedNeedle,
+        state: &mut SkinState,
+        slot: usize,
+        was_forward: bool,
+    ) {
+        let Some(corner) = self.corner_with_tip(needle, state, slot) else { return };
+        let sign = if was_forward { 1.0 } else { -1.0 };
+        if sign * self.contacts.mobilised(state, corner) > 1.0 - SAME_FRACTION {
+            self.contacts.stick_with_tip(state, corner, None);
+        }
+    }
+
+    /// Returns the corner of a notch if the tip has friction on the face of `slot`.
+    fn corner_with_tip(
+        &self,
+        needle: &GuidedNeedle,
+        state: &SkinState,
+        slot: usize,
+    ) -> Option<usize> {
+        let notch = self.notch(state).filter(|[face, _]| *face == slot && needle.has_friction());
+        notch.map(|[_, corner]| corner)
     }
 
     /// Returns `ξ` of a touch.
@@ -128,14 +202,14 @@ impl Chain {
         }
         if let Some([_, corner]) = self.notch(state).filter(|_| needle.friction > 0.0) {
             // Tip and corner are at one position of the face. Lock the corner: two stick equations
-            // would be redundant.
-            self.contacts.lock(state, corner);
+            // would be redundant. Its force stays as it is, so the path goes on without a jump.
+            self.contacts.lock(state, corner, None);
         }
         Some(NORMAL)
     }
 
     /// Finds the touch of the face of a notch, and the contact of the corner that lies on it.
-    fn notch(&self, state: &SkinState) -> Option<[usize; 2]> {
+    pub(super) fn notch(&self, state: &SkinState) -> Option<[usize; 2]> {
         let touches = &state.mode.needle.touches;
         let top = touches.iter().position(|touch| {
             touch.as_ref().is_some_and(|touch| touch.place == OutlinePart::Top && touch.is_locked())
