@@ -4,9 +4,10 @@ use crate::best::{BestDesign, best_design};
 use crate::candidate::{Candidate, Merit, Target, best};
 use crate::evaluations::Halt;
 use crate::front::{self, Front};
-use crate::improvement::{Plan, improved};
+use crate::improvement::{Improved, Plan, improved};
 use crate::local::Search;
 use crate::progress::SearchPart;
+use crate::restarts::{Agreement, restarted};
 
 /// Answer to a goal.
 #[derive(Clone, Debug)]
@@ -30,9 +31,13 @@ pub(crate) fn answer(
     let targets =
         (0..search.judge.objectives()).map(|k| Target { objective: k, floors: Vec::new() });
     let mut targets: Vec<Target> = targets.collect();
+    let mut agreement = Agreement::of(&[]);
     for target in &targets {
         search.progress.begin(SearchPart::Climb, plan.tasks());
-        history.extend(improved(search, history, target, plan)?);
+        let Improved { evaluated, mut ends } = improved(search, history, target, plan)?;
+        history.extend(evaluated);
+        history.extend(restarted(search, history, target, &mut ends)?);
+        agreement = Agreement::of(&ends);
         // Without lower bounds all targets have the same feasible set, so one search decides.
         let is_feasible = |c: &Candidate| matches!(search.merit(c, target), Merit::Met(_));
         if !history.iter().any(is_feasible) {
@@ -42,7 +47,7 @@ pub(crate) fn answer(
     }
     if targets.len() == 1 {
         let best = best_design(search, history, targets.swap_remove(0))?;
-        return Ok(Answer::Optimum(Box::new(best)));
+        return Ok(Answer::Optimum(Box::new(BestDesign { agreement: Some(agreement), ..best })));
     }
     front::search(search, history, plan, points).map(Answer::Front)
 }

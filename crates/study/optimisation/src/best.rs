@@ -8,6 +8,7 @@ use crate::coverage_piece::CoveragePiece;
 use crate::evaluations::Halt;
 use crate::local::Search;
 use crate::price::{Binding, bindings};
+use crate::restarts::Agreement;
 use crate::sampled::confirmation::Confirmation;
 
 /// Minimum distance between two starts, as a fraction of the intervals.
@@ -32,6 +33,8 @@ pub struct BestDesign {
     pub bindings: Vec<Binding>,
     /// Check with independent samples, if the goal is about samples.
     pub confirmation: Option<Confirmation>,
+    /// The agreement of the searches for it, unless it is a point of a front.
+    pub agreement: Option<Agreement>,
 }
 
 /// Returns the best design in `history`, with its binding limits.
@@ -44,7 +47,7 @@ pub(crate) fn best_design(
     let best = search.best(history.iter(), &target).unwrap_or(&history[0]).clone();
     let row = search.evaluations.row(0, &best.point, &best.result);
     let bindings = bindings(search, &best, &target)?;
-    Ok(BestDesign { candidate: best, row, target, bindings, confirmation: None })
+    Ok(BestDesign { candidate: best, row, target, bindings, confirmation: None, agreement: None })
 }
 
 /// A region of the space that a local search does not leave: choices, coverage peak, contact in

@@ -180,8 +180,9 @@ fn improve(
 ) -> Result<(), Halt> {
     search.progress.begin(SearchPart::Front, targets.len() * plan.tasks());
     // Appended in the order of the targets, so that the history is the same on every machine.
-    let walks = targets.par_iter().map(|target| improved(search, history, target, plan));
-    let walks: Vec<Vec<Candidate>> = walks.collect::<Result<_, _>>()?;
+    let walks = targets.par_iter();
+    let walks = walks.map(|target| Ok(improved(search, history, target, plan)?.evaluated));
+    let walks: Vec<Vec<Candidate>> = walks.collect::<Result<_, Halt>>()?;
     history.extend(walks.into_iter().flatten());
     Ok(())
 }

@@ -1,11 +1,15 @@
 //! Improves known designs: short searches in many regions, full searches from the best.
 
-use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
+use rayon::iter::{IntoParallelRefIterator as _, ParallelIterator as _};
 
 use crate::best::starts;
 use crate::candidate::{Candidate, Target};
 use crate::evaluations::Halt;
 use crate::local::{Effort, Search};
+use crate::restarts::met;
+
+/// Minimum distance of two distinct starts, as a fraction of the intervals.
+const DISTINCT: f64 = 1e-3;
 
 /// Numbers of local searches for a target.
 #[derive(Clone, Copy, Debug)]
@@ -42,14 +46,23 @@ impl Plan {
     }
 }
 
-/// Improves the best designs in `history` for a target, and returns all evaluated designs.
+/// Result of the local searches for a target.
+pub(crate) struct Improved {
+    /// All evaluated designs, in the order of the searches.
+    pub evaluated: Vec<Candidate>,
+    /// Objectives, to be maximised, of the full searches and of the searches that they continue, as
+    /// far as these are feasible.
+    pub ends: Vec<f64>,
+}
+
+/// Improves the best designs in `history` for a target.
 pub(crate) fn improved(
     search: &Search<'_>,
     history: &[Candidate],
     target: &Target,
     plan: Plan,
-) -> Result<Vec<Candidate>, Halt> {
-    let mut evaluated: Vec<Candidate> = Vec::new();
+) -> Result<Improved, Halt> {
+    let (mut evaluated, mut ends): (Vec<Candidate>, Vec<f64>) = (Vec::new(), Vec::new());
     // Successive halving: a few steps show which regions are worth a longer search.
     let stages = [
         (plan.regions, Effort::PROBE),
@@ -60,13 +73,24 @@ pub(crate) fn improved(
         // Each search knows its own start alone, so results are independent of the order of
         // completion.
         let starts = starts(search, history.iter().chain(&evaluated), target, count);
-        let walks = starts.into_par_iter().map(|start| {
-            let walk = search.improve(target, &start, effort);
+        let walks = starts.par_iter().map(|start| {
+            let walk = search.improve(target, start, effort)?;
             search.progress.step();
-            walk
+            let best = search.best(walk.iter().chain([start]), target);
+            let end = best.and_then(|best| met(search, best, target));
+            Ok((walk, end))
         });
-        let walks: Vec<_> = walks.collect::<Result<_, _>>()?;
-        evaluated.extend(walks.into_iter().flatten());
+        let walks: Vec<_> = walks.collect::<Result<_, Halt>>()?;
+        // Only the last stage converges. Its starts are the ends of searches by another method, so
+        // they count too. Starts on both sides of a region border are one point, and count once.
+        let is_distinct = |k: usize| {
+            let earlier = &starts[..k];
+            earlier.iter().all(|start| start.point.distance(&starts[k].point) >= DISTINCT)
+        };
+        let distinct = walks.iter().enumerate().filter(|(k, _)| is_distinct(*k));
+        let both = distinct.flat_map(|(k, (_, end))| [met(search, &starts[k], target), *end]);
+        ends = both.flatten().collect();
+        evaluated.extend(walks.into_iter().flat_map(|(walk, _)| walk));
     }
-    Ok(evaluated)
+    Ok(Improved { evaluated, ends })
 }

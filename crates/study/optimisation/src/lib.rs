@@ -26,6 +26,7 @@
 //! | [`Candidate`], [`SearchStage`], [`Target`] | a design that was looked at, in which stage, and what for |
 //! | [`write_found`] | writes the tables of what was found |
 //! | [`BindingText`] | what binds and what it costs, in words |
+//! | [`Agreement`] | how many searches agree on a best design |
 //! | [`Binding`], [`Limit`] | what keeps a design from being better, and its price |
 //! | [`OptimisationError`] | why there was no search |
 //!
@@ -69,6 +70,7 @@ mod local;
 mod price;
 mod progress;
 mod requirement_bounds;
+mod restarts;
 mod sample;
 mod sampled;
 mod search;
@@ -89,6 +91,7 @@ pub use judge::Judge;
 pub use judgement::{Judgement, NominalWorth};
 pub use price::{Binding, Limit};
 pub use progress::{SearchPart, SearchProgress};
+pub use restarts::Agreement;
 pub use sampled::confirmation::{Confirmation, Estimate};
 pub use search::{Found, LeftOutDesigns, SearchOptions, optimise};
 pub use space::{Choice, DesignSpace, Interval, SpacePoint};

@@ -78,8 +78,19 @@ pub(crate) fn bindings(
 }
 
 fn binding_limits(search: &Search<'_>, best: &Candidate, target: &Target) -> Vec<Limit> {
+    near_limits(search, best, target, NEAR)
+}
+
+/// Returns the limits whose relative margin at `best` is below `nearness`.
+pub(crate) fn near_limits(
+    search: &Search<'_>,
+    best: &Candidate,
+    target: &Target,
+    nearness: f64,
+) -> Vec<Limit> {
     let Judgement::Judged(worth) = &best.verdict else { return Vec::new() };
-    let near = |of| if search.judge.is_statistic(of) { NEAR_SAMPLES } else { NEAR };
+    let near =
+        |of| if search.judge.is_statistic(of) { NEAR_SAMPLES.max(nearness) } else { nearness };
     let requirements = worth.margins.iter().enumerate();
     let required =
         requirements.filter(|(k, margin)| **margin < near(StatisticUse::Requirement(*k)));
@@ -91,14 +102,14 @@ fn binding_limits(search: &Search<'_>, best: &Candidate, target: &Target) -> Vec
         }
     }
     for (j, share) in best.point.shares.iter().enumerate() {
-        if *share <= NEAR {
+        if *share <= nearness {
             limits.push(Limit::Lower(j));
-        } else if *share >= 1.0 - NEAR {
+        } else if *share >= 1.0 - nearness {
             limits.push(Limit::Upper(j));
         }
     }
     let case = search.space.case(&best.point);
-    let touches = search.judge.is_about(Measure::Flexure) && contact_margin(&case).abs() < NEAR;
+    let touches = search.judge.is_about(Measure::Flexure) && contact_margin(&case).abs() < nearness;
     limits.extend(touches.then_some(Limit::Touch));
     limits
 }

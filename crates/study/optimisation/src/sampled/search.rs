@@ -101,7 +101,8 @@ fn refine(
     let is_refined = evaluated.iter().any(is_met);
     if is_refined {
         // Only these designs are judged by more samples.
-        *best = best_design(finer, &evaluated, best.target.clone())?;
+        let refined = best_design(finer, &evaluated, best.target.clone())?;
+        *best = BestDesign { agreement: best.agreement, ..refined };
     }
     history.append(&mut evaluated);
     Ok(is_refined)

@@ -60,6 +60,10 @@ fn design(goal: &DesignGoal, words: &BindingText<'_>, best: &BestDesign) -> Valu
         "values": measures,
         "binding": best.bindings.iter().map(binding).collect::<Vec<_>>(),
     });
+    if let Some(of) = best.agreement {
+        design["agreement"] =
+            json!({ "searches": of.searches, "agreeing": of.agreeing, "spread": of.spread });
+    }
     if let Some(made) = &best.confirmation {
         design["made"] = json!(made);
     }

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::time::Duration;
 
 use optimisation::{
-    Answer, BestDesign, BindingText, Candidate, DesignGoal, Found, Front, Judgement,
+    Agreement, Answer, BestDesign, BindingText, Candidate, DesignGoal, Found, Front, Judgement,
 };
 use ranking::{Requirement, Unmet};
 use results::Outcome;
@@ -77,19 +77,18 @@ impl SearchReport<'_> {
         let mut rows: Vec<[String; 2]> = self.variables(&best.candidate);
         rows.extend(self.values(best));
         let mut text = format!("The best design\n{}", aligned(&rows));
-        if !best.bindings.is_empty() {
+        let covered = self.coverage_of_search();
+        let _ = write!(text, "\nThe search found no better design{covered}{}.", agreement(best));
+        if best.bindings.is_empty() {
+            text.push('\n');
+        } else {
             let bindings = best.bindings.iter();
             let row = |binding: &optimisation::Binding| {
                 let price = words.price(binding, &best.target);
                 [words.limit(&binding.limit, &best.target), price.unwrap_or_default()]
             };
             let rows: Vec<_> = bindings.map(row).collect();
-            let _ = write!(
-                text,
-                "\nThe search found no better design{}. It is limited by\n{}",
-                self.coverage_of_search(),
-                aligned(&rows)
-            );
+            let _ = write!(text, " It is limited by\n{}", aligned(&rows));
         }
         text += &weakest_place_note(self.goal, &best.candidate).unwrap_or_default();
         text += &self.coupled(&best.candidate);
@@ -221,6 +220,23 @@ impl SearchReport<'_> {
             let _ = write!(text, "\nThe nearest design\n{}", aligned(&rows));
         }
         text
+    }
+}
+
+/// Reports how many local searches agree on the best design.
+fn agreement(best: &BestDesign) -> String {
+    let Some(Agreement { searches, agreeing, spread }) = best.agreement else {
+        return String::new();
+    };
+    let agree = format!("; {agreeing} of {searches} local searches agree within 0.1 %");
+    match (searches, spread) {
+        (0, _) => String::new(),
+        (1, _) => "; only one local search found it: other seeds may find a better one".to_owned(),
+        (_, Some(spread)) if agreeing == 1 => {
+            let percent = rounded(100.0 * spread);
+            format!("{agree}, the next is {percent} % worse: other seeds may find a better one")
+        }
+        _ => agree,
     }
 }
 

@@ -1,0 +1,269 @@
+//! Restarts of a search whose local searches disagree.
+//!
+//! A measure such as `max_stiffness` is an extremum over a path. It jumps where the path gains or loses a contact, so over the
+//! variables it is a staircase: its derivatives describe one stair, and a local search along them ends on any of many stairs. If the
+//! searches of a target end at different values, restarts sample a box round the best design, centre it on the best sample and shrink
+//! it. Differences over the width of the box describe the whole staircase. Samples are moved onto the limits that bind at the centre:
+//! off them the objective loses more than from stair to stair.
+
+use nalgebra::{DMatrix, DVector};
+use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
+use sweep::Parameter;
+
+use crate::candidate::{Candidate, Merit, SearchStage, Target};
+use crate::contact_margin::{contact_margin, contact_margin_slopes};
+use crate::evaluations::Halt;
+use crate::judgement::Judgement;
+use crate::local::{Effort, Search};
+use crate::price::{Limit, near_limits};
+use crate::slopes::Slopes;
+use crate::space::SpacePoint;
+use crate::space_filling::Sequence;
+
+/// Searches agree if their objectives differ by at most this part.
+pub(crate) const AGREED: f64 = 1e-3;
+
+/// Restarts end once the best two searches differ by at most this part.
+const SETTLED: f64 = 1e-4;
+
+/// The relative gain of a round below which the box shrinks.
+const GAIN: f64 = 1e-4;
+
+/// Restarts, at most.
+const RESTARTS: usize = 6;
+
+/// Samples in a round for each variable.
+const EACH: usize = 5;
+
+/// The half-width of the first box, as a fraction of the intervals, and the half-width at which a restart ends.
+const WIDTHS: [f64; 2] = [0.1, 1e-5];
+
+/// The factor from one half-width to the next.
+const SHRUNK: f64 = 0.5;
+
+/// Rounds of a restart, at most.
+const ROUNDS: usize = 40;
+
+/// A limit binds at the centre of a box if its relative margin is at most this.
+const NEAR: f64 = 1e-3;
+
+/// The margin at which samples are placed inside the limits that bind, so that round-off breaks none.
+const INSIDE: f64 = 1e-6;
+
+/// Steps onto limits that need a solution, at most.
+const SOLVED_STEPS: usize = 3;
+
+/// Steps onto limits in closed form, at most.
+const FREE_STEPS: usize = 30;
+
+/// Agreement of the local searches for a target, a measure of confidence in its best design.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Agreement {
+    /// Number of feasible local searches: the full ones, and those that they continue.
+    pub searches: usize,
+    /// Number of searches whose objective is within 0.1 % of the best.
+    pub agreeing: usize,
+    /// Relative difference between the best two; `None` for fewer than two searches.
+    pub spread: Option<f64>,
+}
+
+impl Agreement {
+    /// Compares searches that ended at these objectives, to be maximised.
+    pub(crate) fn of(ends: &[f64]) -> Self {
+        let mut ends = ends.to_vec();
+        ends.sort_by(|a, b| b.total_cmp(a));
+        let short = |end: &f64| difference(ends[0], *end);
+        Self {
+            searches: ends.len(),
+            agreeing: ends.iter().filter(|end| short(end) <= AGREED).count(),
+            spread: ends.get(1).map(short),
+        }
+    }
+
+    fn is_settled(self) -> bool {
+        self.spread.is_some_and(|spread| spread <= SETTLED)
+    }
+}
+
+/// Returns the relative difference of two objectives.
+fn difference(one: f64, other: f64) -> f64 {
+    let size = one.abs().max(other.abs());
+    if size > 0.0 { (one - other).abs() / size } else { 0.0 }
+}
+
+/// Returns the objective of a feasible design, with the sign to be maximised.
+pub(crate) fn met(search: &Search<'_>, candidate: &Candidate, target: &Target) -> Option<f64> {
+    match search.merit(candidate, target) {
+        Merit::Met(objective) => Some(objective),
+        Merit::Short(_) | Merit::None => None,
+    }
+}
+
+/// Restarts near the best design of `history` until the best two searches agree.
+///
+/// `ends` holds the objectives of the searches so far; those of the restarts are appended. Returns
+/// all evaluated designs.
+pub(crate) fn restarted(
+    search: &Search<'_>,
+    history: &[Candidate],
+    target: &Target,
+    ends: &mut Vec<f64>,
+) -> Result<Vec<Candidate>, Halt> {
+    let mut evaluated: Vec<Candidate> = Vec::new();
+    let best = search.best(history.iter(), target);
+    // Samples of a design cost too much for rounds of them, and their quantiles are uncertain by more than stairs.
+    let Some(best) = best.filter(|best| {
+        met(search, best, target).is_some()
+            && !best.point.shares.is_empty()
+            && search.judge.samples().is_none()
+    }) else {
+        return Ok(evaluated);
+    };
+    for restart in 0..RESTARTS {
+        if Agreement::of(ends).is_settled() {
+            break;
+        }
+        let walk = Restart { search, target, best, number: restart as u64 }.run()?;
+        ends.extend(search.best(walk.iter(), target).and_then(|end| met(search, end, target)));
+        evaluated.extend(walk);
+    }
+    Ok(evaluated)
+}
+
+/// A search by samples of shrinking boxes, starting near the best design.
+struct Restart<'a> {
+    search: &'a Search<'a>,
+    target: &'a Target,
+    best: &'a Candidate,
+    /// The number of the restart: each has samples of its own.
+    number: u64,
+}
+
+impl Restart<'_> {
+    /// Runs the restart, and returns all evaluated designs.
+    fn run(&self) -> Result<Vec<Candidate>, Halt> {
+        let Self { search, target, .. } = *self;
+        search.progress.start();
+        let variables = self.best.point.shares.len();
+        let sequence = Sequence::new(variables, self.number);
+        let (mut centre, mut width, mut drawn) = (self.best.clone(), WIDTHS[0], 0);
+        let mut evaluated: Vec<Candidate> = Vec::new();
+        for _ in 0..ROUNDS {
+            let surface = BindingSurface::at(search, &centre, target)?;
+            let offset = |k| sequence.point(k).into_iter().map(|u| width * (2.0 * u - 1.0));
+            let beside = |k| {
+                let shares = centre.point.shares.iter().zip(offset(k));
+                let shares = shares.map(|(x, by)| (x + by).clamp(0.0, 1.0)).collect();
+                SpacePoint { shares, chosen: centre.point.chosen.clone() }
+            };
+            let count = EACH * variables;
+            let points: Vec<SpacePoint> = (drawn + 1..=drawn + count).map(beside).collect();
+            drawn += count;
+            let samples = points.into_par_iter().map(|point| surface.evaluate(search, point));
+            evaluated.extend(samples.collect::<Result<Vec<_>, Halt>>()?);
+            let is_first = drawn == count;
+            let Some(top) = search.best(evaluated.iter(), target).cloned() else { break };
+            let gain = match [&centre, &top].map(|design| met(search, design, target)) {
+                // The restart begins at a sample, not at the best design: to end there again is evidence.
+                _ if is_first => f64::INFINITY,
+                [Some(before), Some(after)] if after > before => difference(before, after),
+                [None, Some(_)] => f64::INFINITY,
+                _ => 0.0,
+            };
+            if gain > 0.0 {
+                centre = top;
+            }
+            if gain < GAIN {
+                width *= SHRUNK;
+            }
+            if width < WIDTHS[1] {
+                break;
+            }
+        }
+        evaluated.extend(search.improve(target, &centre, Effort::WHOLE)?);
+        Ok(evaluated)
+    }
+}
+
+/// The surface on which the binding limits of a design bind, linearised at the design.
+struct BindingSurface {
+    limits: Vec<Limit>,
+    /// Pseudo-inverse of the gradients of the margins; `None` without limits, or with as many as
+    /// variables.
+    step: Option<DMatrix<f64>>,
+}
+
+impl BindingSurface {
+    fn at(search: &Search<'_>, centre: &Candidate, target: &Target) -> Result<Self, Halt> {
+        let mut limits = near_limits(search, centre, target, NEAR);
+        // Samples are clamped to the intervals, so many of them are on an end at which the centre is.
+        limits.retain(|limit| matches!(limit, Limit::Requirement(_) | Limit::Touch));
+        if limits.is_empty() {
+            return Ok(Self { limits, step: None });
+        }
+        let (_, row) = search.evaluate(SearchStage::Gradient, &centre.point, true)?;
+        let slopes = |limit: &Limit, parameter: &Parameter| match *limit {
+            Limit::Requirement(k) => search.judge.margin_slopes(k, &row, parameter),
+            _ => contact_margin_slopes(&row.nominal.case, parameter),
+        };
+        let intervals = search.space.intervals();
+        let gradient = |limit| {
+            let slope = intervals.iter().map(|interval| {
+                let Slopes { left, right } = slopes(limit, interval.parameter);
+                Some(left.or(right)? * interval.length())
+            });
+            slope.collect::<Option<Vec<f64>>>()
+        };
+        let gradients: Option<Vec<Vec<f64>>> = limits.iter().map(gradient).collect();
+        let step = gradients.filter(|of| of.len() < intervals.len()).and_then(|of| {
+            let gradients = DMatrix::from_row_slice(of.len(), intervals.len(), &of.concat());
+            gradients.pseudo_inverse(f64::EPSILON).ok()
+        });
+        Ok(Self { limits, step })
+    }
+
+    /// Moves a point onto the surface, and evaluates it.
+    fn evaluate(&self, search: &Search<'_>, mut point: SpacePoint) -> Result<Candidate, Halt> {
+        let evaluate = |point: &SpacePoint| search.evaluate(SearchStage::Polish, point, false);
+        let Some(step) = &self.step else { return Ok(evaluate(&point)?.0) };
+        let is_solved = self.limits.iter().any(|limit| matches!(limit, Limit::Requirement(_)));
+        for _ in 0..if is_solved { SOLVED_STEPS } else { FREE_STEPS } {
+            let candidate = if is_solved { Some(evaluate(&point)?.0) } else { None };
+            let margin = |limit: &Limit| match *limit {
+                Limit::Requirement(k) => match &candidate.as_ref()?.verdict {
+                    Judgement::Judged(worth) => Some(worth.margins[k]),
+                    _ => None,
+                },
+                _ => Some(contact_margin(&search.space.case(&point))),
+            };
+            let margins: Option<Vec<f64>> = self.limits.iter().map(margin).collect();
+            // A design without margins cannot be moved: it is judged as it is.
+            let Some(margins) = margins else { break };
+            let missing = DVector::from_iterator(margins.len(), margins.iter().map(|m| INSIDE - m));
+            if missing.amax() < 0.9 * INSIDE {
+                break;
+            }
+            for (share, by) in point.shares.iter_mut().zip((step * missing).iter()) {
+                *share = (*share + by).clamp(0.0, 1.0);
+            }
+        }
+        Ok(evaluate(&point)?.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn agreement_is_measured_from_the_best_search() {
+        let of = |ends: &[f64]| Agreement::of(ends);
+        assert_eq!(of(&[]), Agreement { searches: 0, agreeing: 0, spread: None });
+        assert_eq!(of(&[2.0]), Agreement { searches: 1, agreeing: 1, spread: None });
+        let three = of(&[-2.0, -4.0, -2.001]);
+        assert_eq!((three.searches, three.agreeing), (3, 2));
+        assert!((three.spread.expect("two searches") - 5e-4).abs() < 1e-6);
+        assert!(!three.is_settled() && of(&[0.0, 0.0]).is_settled());
+        assert!(!of(&[1.0]).is_settled(), "a single search is no evidence");
+    }
+}
