@@ -1,4 +1,4 @@
-//! A solved design: how it ended, what it measured, what failed.
+//! A solved design: outcomes, measures and failures.
 
 pub mod design_result;
 pub mod extrapolated;

@@ -363,14 +363,14 @@ mod tests {
     }
 
     #[test]
-    fn no_run_writes_over_a_file_of_a_stranger() {
+    fn a_run_refuses_to_overwrite_a_foreign_file() {
         for file in FileEntry::products(Maker::Run) {
             let place = tempfile::tempdir().expect("a folder");
             let folder = ResultsFolder::new(place.path());
             fs::write(folder.file(file.name), "a stranger's").expect("writable");
             let refused = folder.require_own(Maker::Run, Start::Resume).expect_err(file.name);
             assert!(refused.to_string().contains(file.name), "{refused}");
-            folder.require_own(Maker::Run, Start::Fresh).expect("what was asked for");
+            folder.require_own(Maker::Run, Start::Fresh).expect("a fresh start discards the file");
             folder.remove_results();
             assert!(!folder.holds(file.name), "{}", file.name);
         }

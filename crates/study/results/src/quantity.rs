@@ -207,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn each_quantity_is_the_one_by_hand() {
+    fn quantities_agree_with_hand_calculations() {
         let case = case();
         close(Quantity::Length.physical(0.3, &case), 0.6);
         // 3 · 0.3/(1 − 0.25) · 0.5 · 4 = 2.4 N, on a width of 4 mm.
@@ -223,7 +223,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_given_makes_no_value() {
+    fn missing_material_gives_no_value() {
         let bare = Case { material: Material::default(), ..case() };
         assert!(Quantity::ALL.iter().all(|quantity| quantity.physical(1.0, &bare).is_none()));
         assert_eq!(areal_mass(&bare), None);
@@ -233,7 +233,7 @@ mod tests {
     proptest! {
         /// A change of units rescales every quantity by its dimension.
         #[test]
-        fn quantities_have_their_dimensions(
+        fn quantities_scale_with_their_dimensions(
             length in 0.01_f64..100.0, force in 0.01_f64..100.0, value in 0.01_f64..100.0,
         ) {
             let mut other = case();

@@ -41,7 +41,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_first_of_equals_is_the_best() {
+    fn the_first_of_equal_values_is_the_best() {
         let mut best = None;
         for (design, value) in
             [0.5, 0.8, 0.3, 0.8 + 1e-12, 0.8 - 1e-12, 0.7].into_iter().enumerate()
@@ -52,7 +52,7 @@ mod tests {
     }
 
     #[test]
-    fn zero_is_itself_alone() {
+    fn zero_equals_only_zero() {
         assert!(same(0.0, -0.0));
         assert!(!same(0.0, 1e-300));
         assert!(same(1e20, 1e20 + 1e10));

@@ -108,7 +108,7 @@ pub(crate) enum InvalidRange {
     #[error("the range has {count} values, expected at most {LONGEST}, with a larger step")]
     TooLong { count: i128 },
     /// Neighbours are the same `f64`, or have too many digits.
-    #[error("the step {step} is too fine, expected numbers that an f64 tells apart")]
+    #[error("the step {step} is too fine, expected numbers that differ as f64")]
     TooFine { step: Decimal },
 }
 
@@ -173,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn tenths_are_the_tenths_that_a_person_types() {
+    fn a_range_of_tenths_equals_typed_tenths() {
         let tenths = range("0.1", "1.0", "0.1").expect("valid");
         let texts: Vec<_> = tenths.iter().map(ToString::to_string).collect();
         assert_eq!(texts.join(" "), "0.1 0.2 0.3 0.4 0.5 0.6 0.7 0.8 0.9 1");
@@ -182,20 +182,20 @@ mod tests {
     }
 
     #[test]
-    fn ranges_that_cannot_be_walked_say_why() {
+    fn invalid_ranges_are_refused_with_a_reason() {
         let message = |from, to, step| range(from, to, step).expect_err("invalid").to_string();
         insta::assert_snapshot!(message("0", "1", "0"), @"the step is 0, expected one above 0");
         insta::assert_snapshot!(message("0", "1", "-0.5"), @"the step is -0.5, expected one above 0");
         insta::assert_snapshot!(message("1", "0", "0.5"), @"`to` is below `from`, expected a `to` of at least 1");
         insta::assert_snapshot!(message("0.1", "1", "0.4"), @"1 is not reached in steps of 0.4, expected a `to` of 0.9 or 1.3");
         insta::assert_snapshot!(message("0", "1", "1e-6"), @"the range has 1000001 values, expected at most 1000000, with a larger step");
-        insta::assert_snapshot!(message("0", "1e30", "1e-30"), @"the step 1e-30 is too fine, expected numbers that an f64 tells apart");
-        insta::assert_snapshot!(message("1", "1.000000000000000001", "1e-18"), @"the step 1e-18 is too fine, expected numbers that an f64 tells apart");
+        insta::assert_snapshot!(message("0", "1e30", "1e-30"), @"the step 1e-30 is too fine, expected numbers that differ as f64");
+        insta::assert_snapshot!(message("1", "1.000000000000000001", "1e-18"), @"the step 1e-18 is too fine, expected numbers that differ as f64");
     }
 
     proptest! {
         #[test]
-        fn a_decimal_is_the_number_it_was_typed_as(digits in -1_000_000_i64..1_000_000, exponent in -12_i32..12) {
+        fn a_decimal_equals_the_parsed_f64(digits in -1_000_000_i64..1_000_000, exponent in -12_i32..12) {
             let text = format!("{digits}e{exponent}");
             let decimal: Decimal = text.parse().expect("a decimal");
             prop_assert_eq!(decimal.to_f64().to_bits() << 1, text.parse::<f64>().expect("a number").to_bits() << 1);
@@ -203,7 +203,7 @@ mod tests {
         }
 
         #[test]
-        fn a_range_has_every_number_from_its_beginning_to_its_end(first in -1000_i64..1000, stride in 1_i64..500, count in 1_i64..400, exponent in -6_i32..3) {
+        fn a_range_contains_every_step_and_both_ends(first in -1000_i64..1000, stride in 1_i64..500, count in 1_i64..400, exponent in -6_i32..3) {
             let text = |i: i64| format!("{}e{exponent}", first + stride * i);
             let step = format!("{stride}e{exponent}");
             let range = range(&text(0), &text(count - 1), &step).expect("valid");

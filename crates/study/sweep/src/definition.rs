@@ -187,7 +187,7 @@ impl Sweep {
         let modulus = written(Parameter::named(key::SUBSTRATE_MODULUS)?)?;
         (modulus > STIFFEST_TISSUE).then(|| {
             format!(
-                "material.{} is {} MPa, {} GPa: soft tissue has some 0.001 to 10 MPa; is it in MPa, and not in kPa or Pa?",
+                "material.{} is {} MPa, {} GPa: soft tissue has 0.001 to 10 MPa; check that the unit is MPa, not kPa or Pa",
                 key::SUBSTRATE_MODULUS,
                 number::text(modulus),
                 number::text(modulus / 1e3)

@@ -190,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn a_seed_stands_for_its_designs_for_ever() {
+    fn the_sample_of_a_seed_never_changes() {
         let drawn =
             |seed| all(&SubsetDesigns::new(720, part(Some((8, seed)), None)).expect("fewer"));
         assert_eq!(drawn(7), [59, 112, 119, 258, 431, 503, 520, 611]);
@@ -198,7 +198,7 @@ mod tests {
     }
 
     #[test]
-    fn a_subset_of_a_huge_grid_is_small() {
+    fn a_sample_of_a_huge_grid_needs_little_memory() {
         let huge = SubsetDesigns::new(u64::MAX, part(Some((1000, 1)), None)).expect("fewer");
         assert_eq!(huge.len(), 1000);
         let error = SubsetDesigns::new(5, part(Some((6, 0)), None)).expect_err("more");
@@ -207,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_shard() {
+    fn invalid_shards_are_refused() {
         for text in ["", "1", "0/3", "4/3", "1/0", "-1/3", "1/3/5", "a/b"] {
             let message =
                 format!("{text:?} is not a shard, expected i/N with i from 1 to N, e.g. 3/8");
@@ -217,7 +217,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn shards_deal_every_design_to_one(designs in 1..500_u64, count in 1..9_u64, half: bool) {
+        fn every_design_is_in_exactly_one_shard(designs in 1..500_u64, count in 1..9_u64, half: bool) {
             let sample = half.then_some((designs.div_ceil(2), 3));
             let whole = all(&SubsetDesigns::new(designs, part(sample, None)).expect("fewer"));
             let mut dealt = Vec::new();

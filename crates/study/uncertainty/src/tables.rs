@@ -45,7 +45,7 @@ impl MeasureIndices {
 }
 
 const DESIGN: &str = "position of the design in the grid of its sweep";
-const MEASURE: &str = "the measure, by the name of its column";
+const MEASURE: &str = "column name of the measure";
 const SAME: &str = "as the measure";
 
 /// The columns of `tolerance.csv`.

@@ -19,7 +19,6 @@ pub struct Column<R> {
 
 /// Computes the cell of a row. Static column lists need function pointers, because a boxed closure
 /// cannot be built in a constant.
-// A static list holds functions alone: what a closure owns has no place in a constant.
 enum CellSource<R> {
     /// Column of a static list.
     Function(fn(&R) -> Cell),

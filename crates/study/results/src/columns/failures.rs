@@ -8,8 +8,8 @@ use crate::design::row::FailureRow;
 /// Returns the columns of `failures.csv` that follow the columns of the design.
 pub fn failure_detail_columns() -> Vec<Column<FailureRow>> {
     Vec::from(columns! { FailureRow:
-        "measure", "-", |f| f.failure.measure.key(), "what has no value";
-        "reason", "-", |f| f.failure.outcome.text(), "why, one of the statuses";
+        "measure", "-", |f| f.failure.measure.key(), "measure without a value";
+        "reason", "-", |f| f.failure.outcome.text(), "reason, one of the statuses";
         "angle_deg", "deg", |f| f.failure.end.angle_deg,
             "tilt of the punctured scale, or rotation of each end, at the last equilibrium";
         "load", "E_s L t/(1-nu^2) or E_m I_m/t", |f| f.failure.end.load,
@@ -21,7 +21,7 @@ pub fn failure_detail_columns() -> Vec<Column<FailureRow>> {
         "iteration", "-", |f| f.failure.end.iteration, "last Newton iteration of that step";
         "residual", "-", |f| f.failure.end.residual, "largest scaled residual of that iteration";
         name::SETTINGS, "-", |f| f.design.result.settings.clone(),
-            "settings that are not the sweep's own";
+            "settings that differ from the sweep";
         "command", "-", |f| f.command(),
             "command that solves the design alone, with its whole path, from within this folder";
     })

@@ -90,7 +90,7 @@ mod tests {
     /// A name occurs in one source file. One more is allowed, where the mechanics names a
     /// derivative.
     #[test]
-    fn a_name_stands_in_two_files_at_most() {
+    fn a_name_occurs_in_two_files_at_most() {
         let mut paths = Vec::new();
         sources(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../.."), &mut paths);
         let files: Vec<_> = paths.iter().map(|path| (path, code(path))).collect();

@@ -24,15 +24,15 @@ pub fn path_columns(is_guided: bool, rubs: bool) -> Vec<Column<StabilityPoint>> 
         "tilt_deg", "deg", |(p, _)| p.tilt_deg, "clockwise tilt of the punctured scale";
         name::CONTACTS, "-", |(p, _)| p.contacts, "closed contacts";
         "unstable_under_load", "-", |(_, i)| i.load,
-            "negative eigenvalues of the stiffness if the load is held, as the path leaves";
+            "number of negative eigenvalues of the stiffness under load control, on the outgoing branch";
         "unstable_under_depth", "-", |(_, i)| i.depth,
-            "negative eigenvalues of the stiffness if the depth of the punctured point is held";
+            "number of negative eigenvalues of the stiffness under depth control";
         "unstable_under_tilt", "-", |(_, i)| i.tilt,
-            "negative eigenvalues of the stiffness if the tilt of the punctured scale is held";
+            "number of negative eigenvalues of the stiffness under tilt control";
         name::GAP_STRETCH_MIN, "-", |(p, _)| p.gap_stretch.map(|stretch| stretch.min),
-            "width of the tightest gap between bases over that at rest";
+            "width of the tightest gap between bases over its width at rest";
         name::GAP_STRETCH_MAX, "-", |(p, _)| p.gap_stretch.map(|stretch| stretch.max),
-            "width of the widest gap between bases over that at rest";
+            "width of the widest gap between bases over its width at rest";
     });
     if is_guided {
         columns.extend(columns! { StabilityPoint:
@@ -43,7 +43,7 @@ pub fn path_columns(is_guided: bool, rubs: bool) -> Vec<Column<StabilityPoint>> 
     if rubs {
         columns.extend(columns! { StabilityPoint:
             name::FRICTION_WORK, "E* t^3", |(p, _)| p.friction_work,
-                "work that friction between scales has taken up to here";
+                "work dissipated by friction between scales up to this point";
         });
     }
     columns
@@ -61,7 +61,7 @@ pub fn tip_force_columns(forces: &[TipForces]) -> Vec<Column<usize>> {
         Column::computed(
             format!("tip_force_{scale}").into(),
             "E_s L t/(1-nu^2)",
-            "normal force of a round tip on that scale: 0 is the punctured one, -1 its left neighbour",
+            "normal force of a round tip on the scale in the name: 0 is the punctured one, -1 its left neighbour",
             move |&row: &usize| values[row].into(),
         )
     };
@@ -126,12 +126,12 @@ pub static EVENTS: &[Column<PunctureEvent>] = &columns! { PunctureEvent:
     "force", "E_s L t/(1-nu^2)", |e| e.point.force, "puncture force";
     "tilt_deg", "deg", |e| e.point.tilt_deg, "clockwise tilt of the punctured scale";
     "left_scale", "-", |e| e.left_scale, "left scale of the pair, 0 is the punctured one";
-    "right_scale", "-", |e| e.right_scale, "right scale of the pair, nearly always the next one";
-    "kind", "-", |e| e.kind, "which corner meets which edge; gap between two bases";
+    "right_scale", "-", |e| e.right_scale, "right scale of the pair, usually the next one";
+    "kind", "-", |e| e.kind, "corner and edge in contact, or gap for two bases";
     "change", "-", |e| e.change,
-        "what happens to the contact, or to the surface in the gap; snap where a needle that only goes deeper leaves the path";
+        "change of the contact, or of the surface in the gap; snap where a needle with increasing depth leaves the path";
     "drop", "E_s L t/(1-nu^2)", |e| e.drop,
-        "force before a snap less that after it, at the same depth; empty if the path ends before";
+        "drop of the force in a snap at the same depth; empty if the path ends before";
 };
 
 /// The columns of `scales.csv`.
@@ -148,15 +148,15 @@ pub static SCALES: &[Column<ScaleState>] = &columns! { ScaleState:
 /// The columns of `places.csv`.
 pub static LOADED_PLACES: &[Column<LoadPosition>] = &columns! { LoadPosition:
     "place", "-", |p| p.position,
-        "place of the load: 0 the left corner of the top, 1 the right; beyond, a round tip between two scales";
+        "load position: 0 the left corner of the top, 1 the right; beyond, a round tip between two scales";
     name::CRITICAL_FORCE, "E_s L t/(1-nu^2)", |p| p.force,
-        "puncture force at which the scale is critically tilted, either way, or a guided needle is through";
-    name::CRITICAL_DISPLACEMENT, "t", |p| p.displacement, "downward displacement of the load there";
-    "tilt_deg", "deg", |p| p.tilt_deg, "clockwise tilt of the punctured scale there";
+        "puncture force at which the scale is critically tilted in either direction, or a guided needle is through";
+    name::CRITICAL_DISPLACEMENT, "t", |p| p.displacement, "downward displacement of the load at that force";
+    "tilt_deg", "deg", |p| p.tilt_deg, "clockwise tilt of the punctured scale at that force";
     name::CRITICAL_EVENT, "-", |p| p.critical_event.map(CriticalEvent::name),
-        "which of the two it was, under a guided needle";
+        "event that ended the path of a guided needle: tilt or through";
     "largest_force", "E_s L t/(1-nu^2)", |p| p.borne,
-        "largest puncture force of the path; empty where the load tilts nothing from the first step on";
+        "largest puncture force of the path; empty if the load tilts no scale from the first step on";
     "status", "-", |p| Outcome::from(p.status).text(),
         "complete, or why there is no critical force";
 };
@@ -175,7 +175,7 @@ pub fn flexure_path_columns(rubs: bool) -> Vec<Column<flexure::FlexurePoint>> {
         "curvature", "1/t", |p| p.curvature, "curvature of the strip";
         "moment", "E_m I_m/t", |p| p.moment, "bending moment";
         "stiffness", "E_m I_m", |p| p.stiffness,
-            "moment per curvature of the path that goes on from here";
+            "slope of the moment against the curvature on the outgoing branch";
         "end_rotation_deg", "deg", |p| p.end_rotation_deg, "rotation of each end";
         "bending_energy", "E_m t^3", |p| p.bending_energy, "energy that bends the membrane";
         "axial_energy", "E_m t^3", |p| p.axial_energy, "energy that stretches the membrane";
@@ -187,7 +187,7 @@ pub fn flexure_path_columns(rubs: bool) -> Vec<Column<flexure::FlexurePoint>> {
     if rubs {
         columns.extend(columns! { flexure::FlexurePoint:
             name::FRICTION_WORK, "E_m t^3", |p| p.friction_work,
-                "work that friction between scales has taken up to here, of the whole strip";
+                "work dissipated by friction between scales up to this point, for the whole strip";
         });
     }
     columns
@@ -197,9 +197,9 @@ pub static FLEXURE_EVENTS: &[Column<ContactEvent<flexure::FlexurePoint>>] = &col
     "curvature", "1/t", |e| e.point.curvature, "curvature of the strip";
     "moment", "E_m I_m/t", |e| e.point.moment, "bending moment";
     "end_rotation_deg", "deg", |e| e.point.end_rotation_deg, "rotation of each end";
-    "gap", "-", |e| e.left_scale, "gap, 0 is the first; empty if every gap does the same";
-    "kind", "-", |e| e.corner_edge.name(), "which corner meets which edge";
-    "change", "-", |e| e.change.name(), "what happens to the contact";
+    "gap", "-", |e| e.left_scale, "gap, 0 is the first; empty if all gaps change alike";
+    "kind", "-", |e| e.corner_edge.name(), "corner and edge in contact";
+    "change", "-", |e| e.change.name(), "change of the contact";
 };
 
 /// A scale of a bent strip: index from the first (fixed) scale, displacement (`t`) and rotation
@@ -208,7 +208,7 @@ pub type BentScale = (usize, [f64; 3]);
 
 /// The columns of `flexure_scales.csv`.
 pub static FLEXURE_SCALES: &[Column<BentScale>] = &columns! { BentScale:
-    "scale", "-", |s| s.0, "0 is the first scale, which is held";
+    "scale", "-", |s| s.0, "scale; 0 is the first one, which is fixed";
     "displacement_x", "t", |s| s.1[0], "displacement of the midpoint of the base, to the right";
     "displacement_y", "t", |s| s.1[1], "displacement of the midpoint of the base, upward";
     "rotation_deg", "deg", |s| s.1[2].to_degrees(), "counter-clockwise rotation";

@@ -9,9 +9,9 @@ use crate::design::rerun_change::RerunChange;
 /// The columns of `reruns.csv`.
 pub static RERUN_COLUMNS: &[Column<RerunChange>] = &columns! { RerunChange:
     "design", "-", |c| c.design.to_string(), "position of the design in the grid of its sweep";
-    "rerun", "-", |c| c.rerun.to_string(), "which re-run of the design it was, from 1";
+    "rerun", "-", |c| c.rerun.to_string(), "number of the rerun of the design, from 1";
     name::SETTINGS, "-", |c| c.settings[1].clone(),
-        "settings of the re-run that are not the sweep's own";
+        "settings of the rerun that differ from the sweep";
     "old_settings", "-", |c| c.settings[0].clone(), "settings before";
     "column", "-", |c| Cell::Text(c.column.clone()),
         "column of `designs.csv` that changed, empty if none did";

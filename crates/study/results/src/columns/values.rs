@@ -42,27 +42,27 @@ macro_rules! values {
 /// Every measured value, in the order of `designs.csv`.
 pub(crate) static VALUES: &[MeasuredValue] = values! {
     value(name::COVERAGE, COVERAGE, Coverage).large().first():
-        "share of the thickness that scales fill along a vertical line down from the top right corner of a scale; 0 for upright scales";
+        "fraction of the scale layer that a vertical line through the top right corner of a scale crosses as solid scale; 0 for upright scales";
     force(name::CRITICAL_FORCE, End, |m| &mut m.critical_force)
-        .physical(&[same(Quantity::Force), other_thing(Quantity::ForcePerWidth, "critical_force_per_width", "puncture force at the critical tilt, over the width of the scales")])
+        .physical(&[same(Quantity::Force), other_thing(Quantity::ForcePerWidth, "critical_force_per_width", "puncture force at the critical tilt per width of the scales")])
         .large().sampled("critical force", |s| s.critical_force)
-        .at_tilts("puncture force where the tilt, or its tangent the friction, first is that of the name", |m| m.force)
+        .at_tilts("puncture force where the path first reaches the tilt, or the friction, in the name", |m| m.force)
         .first():
         "puncture force at the critical tilt";
     depth(name::PENETRATION, End, |m| &mut m.penetration)
         .within(DEPTH).small().sampled("penetration", |s| s.penetration)
-        .at_tilts("depth of the deepest base corner where the tilt, or its tangent, first is that of the name", |m| m.penetration)
+        .at_tilts("depth of the deepest base corner where the path first reaches the tilt, or the friction, in the name", |m| m.penetration)
         .first():
         "depth of the deepest base corner of any scale at the critical tilt";
     value("puncture_samples_failed", BOTH, Samples(|s| s.puncture_failed)):
-        "imperfect samples whose puncture has no values, left out of mean and quantiles";
+        "imperfect samples without puncture values, excluded from mean and quantiles";
     other("puncture_status", BOTH, |r| punctured(r, |p| p.outcome.text())).last():
         "complete, or why the puncture has no values";
     force("peak_force", Peak, |m| &mut m.peak_force).large().then():
-        "largest puncture force up to the critical tilt, or up to where the path stopped";
+        "largest puncture force up to the critical tilt, or up to the end of the path";
     depth(name::CRITICAL_DISPLACEMENT, End, |m| &mut m.critical_displacement)
         .within(BOTH)
-        .at_tilts("displacement of the punctured point where the tilt, or its tangent, first is that of the name", |m| m.displacement):
+        .at_tilts("displacement of the punctured point where the path first reaches the tilt, or the friction, in the name", |m| m.displacement):
         "downward displacement of the punctured point at the critical tilt";
     depth("sink", End, |m| &mut m.sink).within(DEPTH).small():
         "depth of the deepest midpoint of a base at the critical tilt";
@@ -73,22 +73,22 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
     other(name::CONTACTS, BOTH, |r| measured(r, |m| m.contacts)).at(End).then():
         "closed contacts at the critical tilt";
     other("engaged_scales", BOTH, |r| measured(r, |m| m.engaged_scales)).at(End).large():
-        "scales that touch a neighbour at the critical tilt, the punctured one included";
+        "scales in contact with a neighbour at the critical tilt, including the punctured one";
     other(name::CRITICAL_EVENT, BOTH, |r| measured(r, |m| m.passage.critical_event.map(CriticalEvent::name)))
         .guided():
-        "what ended the path of a guided needle: tilt, a scale that it touches is critically tilted; through, it has come to the soft surface";
+        "event that ended the path of a guided needle: tilt, a scale in contact with it is critically tilted; through, it has reached the soft surface";
     force("passing_force", Anywhere, |m| &mut m.passage.passing_force).large().guided():
-        "puncture force where a guided needle first touches more than the face that it was set down on, a corner or another scale; empty if it does not";
+        "puncture force where a guided needle first touches a corner or another scale in addition to its face; empty if it does not";
     depth("passing_displacement", Anywhere, |m| &mut m.passage.passing_displacement)
         .within(BOTH).guided():
-        "depth of the tip of a guided needle where it first touches more than its face";
+        "depth of the tip of a guided needle where it first touches a corner or another scale";
     number(name::PASSING_TILT, Anywhere, |m| &mut m.passage.passing_tilt_deg)
         .in_unit("deg").guided():
-        "tilt of the punctured scale where a guided needle first touches more than its face";
+        "tilt of the punctured scale where a guided needle first touches a corner or another scale";
     depth("needle_shift", Anywhere, |m| &mut m.passage.needle_shift).within(BOTH).guided():
-        "how far a guided needle has moved inward on its face: at the end, or where it first touches more";
+        "inward movement of a guided needle on its face, at the end of the path or where it first touches a corner or another scale";
     other("scales", BOTH, |r| measured(r, |m| (m.scales > 0).then_some(m.scales))):
-        "scales in the row that was solved";
+        "number of scales in the solved row";
     stiffness(name::INITIAL_STIFFNESS, Rest, |m| &mut m.initial_stiffness):
         "puncture stiffness at rest";
     stiffness(name::MAX_STIFFNESS, Anywhere, |m| &mut m.max_stiffness).then():
@@ -96,11 +96,11 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
     stiffness(name::SECANT_STIFFNESS, End, |m| &mut m.secant_stiffness):
         "puncture force over displacement at the critical tilt";
     other("puncture_points", NONE, |r| punctured(r, |p| p.points)):
-        "equilibria of the path of puncture";
+        "number of equilibria of the puncture path";
     other("puncture_iterations", NONE, |r| punctured(r, |p| p.iterations)):
-        "Newton iterations of the path of puncture";
+        "number of Newton iterations of the puncture path";
     other("calibration_error", NONE, |r| punctured(r, |p| p.calibration_error)):
-        "estimated relative error of the stiffness of the substrate, with what full coupling neglects";
+        "estimated relative error of the substrate stiffness, including terms that full coupling neglects";
     bending(name::COMPLIANCE, Anywhere, |m| &mut m.compliance)
         .in_unit("1/(E_m I_m)")
         .physical(&[other_thing(Quantity::Rigidity, "flexural_rigidity", "flexural rigidity: largest slope of the moment against the curvature")])
@@ -114,7 +114,7 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
         .large():
         "flexural compliance at rest";
     other(name::FLEXURE_CONTACT, COMPLIANCE, |r| bent(r, |m| m.contact.map(yes_or_no))).then():
-        "yes or no: whether bending brings scales into contact";
+        "yes or no: whether bending closes contacts";
     bending(name::FIRST_CONTACT_CURVATURE, Contact, |m| &mut m.first_contact_curvature)
         .in_unit("1/t").large():
         "curvature when scales first touch";
@@ -122,98 +122,98 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
         .in_unit("E_m I_m/t").physical(&[same(Quantity::Moment)]):
         "largest moment on the path";
     bending("axial_energy_share", End, |m| &mut m.axial_energy_share):
-        "share of the elastic energy that stretches the membrane, at the largest rotation";
+        "fraction of the elastic energy that stretches the membrane, at the largest rotation";
     other("gaps", COMPLIANCE, |r| bent(r, |m| (m.gaps > 0.0).then_some(m.gaps))):
-        "gaps of the strip, a whole number in a chain alone";
+        "number of gaps of the strip; whole only in a chain";
     other("flexure_points", NONE, |r| r.flexure.map(|f| f.points).into()):
-        "equilibria of the path of bending";
+        "number of equilibria of the bending path";
     other("flexure_iterations", NONE, |r| r.flexure.map(|f| f.iterations).into()):
-        "Newton iterations of the path of bending";
+        "number of Newton iterations of the bending path";
     other(name::SETTINGS, NONE, |r| r.settings.clone().into()):
-        "settings of a design that was solved again with others than the sweep's own";
+        "settings of a rerun design that differ from the sweep";
     other("flexure_error", COMPLIANCE, |r| bent(r, |m| m.error)):
         "estimated relative error of the measures of bending, from the resolution of the membrane; empty for a given number of elements";
     bending(name::MEMBRANE_STRAIN, Anywhere, |m| &mut m.membrane_strain_max).small().then():
-        "largest strain at the surface of the membrane; above 0.2 its law of small strains is outside its range";
+        "largest strain at the surface of the membrane; above 0.2 the small-strain law is outside its range";
     depth("peak_displacement", Peak, |m| &mut m.peak_displacement):
         "downward displacement of the punctured point at the largest force";
     number("peak_tilt_deg", Peak, |m| &mut m.peak_tilt_deg).in_unit("deg"):
         "tilt of the punctured scale at the largest force";
     other("stable_under_load", FORCE, |r| measured(r, |m| m.stable_under_load.map(yes_or_no))):
-        "yes or no: whether the row is stable at the critical tilt if the load is held";
+        "yes or no: whether the row is stable at the critical tilt under a constant load";
     other("stable_under_depth", FORCE, |r| measured(r, |m| m.stable_under_depth.map(yes_or_no))):
-        "yes or no: whether the row is stable at the critical tilt if the depth of the punctured point is held";
+        "yes or no: whether the row is stable at the critical tilt at a constant depth of the punctured point";
     force("load_stability_force", Instability, |m| &mut m.load_stability_force):
-        "puncture force at which a row under a held load becomes unstable; empty if it does not";
+        "puncture force at which the row becomes unstable under load control; empty if it does not";
     force("depth_stability_force", Instability, |m| &mut m.depth_stability_force):
-        "puncture force at which a row under a held depth becomes unstable; empty if it does not";
+        "puncture force at which the row becomes unstable under depth control; empty if it does not";
     other("snaps", FORCE, |r| punctured(r, |p| p.measures.snaps)).at(Anywhere):
-        "times that the row snaps under a needle that only goes deeper";
+        "number of snaps of the row under a needle with increasing depth";
     number(name::GAP_STRETCH_MIN, End, |m| &mut m.gap_stretch_min).large().then():
-        "width of the tightest gap between bases at the critical tilt over that at rest; not above 0 where the surface is folded over";
+        "width of the tightest gap between bases at the critical tilt over its width at rest; 0 or less where the surface is folded";
     number(name::GAP_STRETCH_MAX, End, |m| &mut m.gap_stretch_max).small().then():
-        "width of the widest gap between bases at the critical tilt over that at rest";
+        "width of the widest gap between bases at the critical tilt over its width at rest";
     force(name::FOLD_FORCE, Fold, |m| &mut m.fold_force).large().then():
-        "puncture force at which the surface first folds over; empty if it does not";
+        "puncture force at the first fold of the surface; empty if it does not fold";
     depth("fold_displacement", Fold, |m| &mut m.fold_displacement):
-        "displacement of the punctured point at which the surface first folds over";
+        "displacement of the punctured point at the first fold of the surface";
     number("fold_tilt_deg", Fold, |m| &mut m.fold_tilt_deg).in_unit("deg"):
-        "tilt of the punctured scale at which the surface first folds over";
+        "tilt of the punctured scale at the first fold of the surface";
     force(name::SOUND_FORCE, FoldOrEnd, |m| &mut m.sound_force).large().first():
-        "puncture force at the critical tilt or at the first fold, whichever comes first: the largest that the model can answer for";
+        "puncture force at the critical tilt or at the first fold, whichever comes first: the largest force at which the model is valid";
     force("force_at_depth", Anywhere, |m| &mut m.force_at_depth)
         .large().first().needing(&[key::DEPTH, key::DEPTH_MM]):
-        "puncture force at the depth that is asked for, or at the critical tilt if that comes first: skins that sink are weak by it";
+        "puncture force at the requested depth, or at the critical tilt if that comes first; low for skins that sink";
     force(name::WEAKEST_FORCE, Anywhere, |m| &mut m.weakest.force)
         .large().first().needing(PLACES):
-        "smallest puncture force, over the places of the load that are tried, at which the scale is critically tilted or a guided needle is through";
+        "smallest puncture force, over the evaluated load positions, at which the scale is critically tilted or a guided needle is through";
     other(name::WEAKEST_PLACE, FORCE, |r| measured(r, |m| m.weakest.place)).then().needing(PLACES):
-        "place of the load with that force: 0 the left corner of the top, 1 the right";
+        "load position with that force: 0 the left corner of the top, 1 the right";
     other("weakest_status", FORCE, |r| punctured(r, |p| p.weakest.map(Outcome::text)))
         .last().needing(PLACES):
-        "complete, or why a place that may be weaker has no force, and so the weakest is not known";
+        "complete, or why a load position that may be weaker has no force, so that the weakest is unknown";
     other(name::FRICTION_WORK, BOTH, |r| measured(r, |m| m.friction_work))
         .in_unit("E* t^3").at(End).needing(&[key::FRICTION]):
-        "work that friction between scales has taken up to the critical tilt";
+        "work dissipated by friction between scales up to the critical tilt";
     other("loop_work", BOTH, |r| measured(r, |m| m.remains.loop_work))
         .in_unit("E* t^3").at(End).needing(&[key::UNLOAD]):
-        "work of the load that is not given back as it is taken away: taken by friction, or stored in what does not come back";
+        "work of the load that is not recovered during unloading: dissipated by friction, or stored in the remaining deformation";
     other("remaining_displacement", BOTH, |r| measured(r, |m| m.remains.displacement))
         .in_unit("t").at(End).needing(&[key::UNLOAD]):
-        "displacement of the punctured point that remains once the load is gone";
+        "displacement of the punctured point that remains after unloading";
     other("unload_status", BOTH, |r| punctured(r, |p| p.way_back.map(Outcome::text)))
         .last().needing(&[key::UNLOAD]):
-        "complete, or why the load did not come back to zero, and so nothing is known of its way back";
+        "complete, or why the load did not return to zero, so that the values of unloading are unknown";
     other("unique", BOTH, |r| measured(r, |m| m.unique.map(yes_or_no))).needing(&[key::FRICTION]):
-        "yes or no: whether no event of the path of puncture had another way on, among the ways of sticking and slipping that were looked at";
+        "yes or no: whether the outgoing branch was unique at every event of the puncture path, among the evaluated combinations of sticking and slipping";
     other("flexure_friction_work", COMPLIANCE, |r| bent(r, |m| m.friction_work))
         .in_unit("E_m t^3").at(End).needing(&[key::FRICTION]):
-        "work that friction between scales has taken at the largest rotation, of the whole strip";
+        "work dissipated by friction between scales up to the largest rotation, for the whole strip";
     other("flexure_loop_work", COMPLIANCE, |r| bent(r, |m| m.remains.loop_work))
         .in_unit("E_m t^3").at(End).needing(&[key::UNBEND]):
-        "work of the moment that is not given back as it is taken away, of the whole strip";
+        "work of the moment that is not recovered during unloading, for the whole strip";
     other("remaining_curvature", COMPLIANCE, |r| bent(r, |m| m.remains.displacement))
         .in_unit("1/t").at(End).needing(&[key::UNBEND]):
-        "curvature that remains once the moment is gone";
+        "curvature that remains after unloading";
     other("unbend_status", COMPLIANCE, |r| r.flexure.and_then(|f| f.way_back).map(Outcome::text).into())
         .last().needing(&[key::UNBEND]):
-        "complete, or why the moment did not come back to zero, and so nothing is known of its way back";
+        "complete, or why the moment did not return to zero, so that the values of unloading are unknown";
     other("locking_curvature", COMPLIANCE, |r| bent(r, |m| m.locking_curvature))
         .in_unit("1/t").needing(&[key::FRICTION]):
-        "curvature from which on scales stick on each other and hold the strip; empty if it does not lock";
+        "curvature above which the scales stick to each other and lock the strip; empty if it does not lock";
     bending(name::CONTACT_CURVATURE, Contact, |m| &mut m.contact_curvature)
         .in_unit("1/t")
         .physical(&[other_thing(Quantity::Radius, "bend_radius", "smallest radius to which the skin bends before scales touch")])
         .large().then():
-        "curvature at which scales touch, wherever the bending ends; empty for a gap that cannot close";
+        "curvature at which scales touch, even if bending ends before; empty for a gap that cannot close";
     // In a perfect strip all gaps close at the same curvature, so only imperfect samples have a
     // range.
     value("closing_range", COMPLIANCE, SamplesAlone)
         .in_unit("1/t")
-        .sampled("curvature from the first contact to that in the last gap that closes,", |s| s.closing_range):
+        .sampled("curvature range from the first to the last gap that closes,", |s| s.closing_range):
         "";
     value("flexure_samples_failed", COMPLIANCE, Samples(|s| s.flexure_failed)):
-        "imperfect samples whose bending has no values, left out of mean and quantiles";
+        "imperfect samples without bending values, excluded from mean and quantiles";
     value(name::AREAL_MASS, COVERAGE, ArealMass).in_unit("kg/m^2").small():
         "mass of the scales over the area of the skin";
 };

@@ -131,7 +131,7 @@ mod tests {
     use crate::folder::FILES;
 
     #[test]
-    fn no_command_claims_a_file_of_a_stranger_and_every_one_its_own() {
+    fn a_command_claims_its_own_files_but_no_foreign_ones() {
         for file in FILES.iter().filter(|file| file.maker != Maker::Run) {
             let place = tempfile::tempdir().expect("a folder");
             let folder = ResultsFolder::new(place.path());
@@ -162,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn what_somebody_has_changed_is_not_removed_with_the_rest() {
+    fn changed_files_are_not_removed() {
         let place = tempfile::tempdir().expect("a folder");
         let folder = ResultsFolder::new(place.path());
         let claim = Claim::take(&folder, Maker::Tolerance).expect("a claim");

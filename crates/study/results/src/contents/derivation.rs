@@ -44,7 +44,7 @@ impl Derivation {
         records.make()?;
         // Texts always have a TOML form, so serialization cannot fail.
         let table = toml::to_string(self).unwrap_or_default();
-        let text = format!("# What was made from the tables, and from which of them.\n{table}");
+        let text = format!("# A product of the tables, with the SHA-256 of these tables.\n{table}");
         records.write_text(&format!("{record}.toml"), &text)?;
         Ok(())
     }

@@ -222,7 +222,7 @@ impl VerifiedFolder {
         }
         let stated = ranking.files.get(name).cloned();
         stated.ok_or_else(|| {
-            self.refusal(name, Maker::Ranking, "is no file of the ranking beside it")
+            self.refusal(name, Maker::Ranking, "is not a file of the ranking in this folder")
         })
     }
 
@@ -239,7 +239,7 @@ impl VerifiedFolder {
         let stated = made.and_then(|made| made.files.get(file.name).cloned());
         // An empty digest means that the command was interrupted before it recorded the file.
         let stated = stated.filter(|digest| !digest.is_empty());
-        let ended = "its command did not come to its end";
+        let ended = "its command was interrupted";
         stated.map(Some).ok_or_else(|| self.refusal(file.name, file.maker, ended))
     }
 
@@ -367,7 +367,7 @@ mod tests {
     }
 
     #[test]
-    fn of_every_file_whose_maker_states_it_no_other_is_read() {
+    fn changed_files_are_refused_if_their_checksum_is_recorded() {
         for file in FILES.iter().filter(|file| file.is_stated) {
             let place = tempfile::tempdir().expect("a folder");
             let folder = folder(place.path(), BTreeMap::new());

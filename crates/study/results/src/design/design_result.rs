@@ -243,7 +243,7 @@ mod tests {
     }
 
     #[test]
-    fn an_error_that_is_not_finite_does_not_exist() {
+    fn an_error_that_is_not_finite_is_omitted() {
         for error in [f64::NAN, f64::INFINITY] {
             let result = PunctureResult::new(&puncture(Status::Complete, 2.0), error);
             assert_eq!(result.calibration_error, None);

@@ -93,29 +93,31 @@ impl Outcome {
     pub fn meaning(self) -> &'static str {
         match self {
             Self::Complete => "the path reached its end and every check holds",
-            Self::NoConvergence => "Newton's iteration did not converge at the smallest step",
-            Self::Singular => "the tangent is singular: the path has no single continuation",
-            Self::TooManyPoints => "the path took more than `solver.max_points` points",
-            Self::Cycling => "contacts open and close without the path moving on",
-            Self::NotFinite => "a value is not a finite number",
-            Self::RowLimit => "a row needs more scales than it may take",
-            Self::Interpenetration => "two scales overlap by more than their contact law allows",
+            Self::NoConvergence => "Newton's method did not converge at the smallest step",
+            Self::Singular => "the tangent is singular: the path has no unique continuation",
+            Self::TooManyPoints => "the path reached `solver.max_points` equilibria",
+            Self::Cycling => "contacts open and close at one point without progress along the path",
+            Self::NotFinite => "a value is not finite",
+            Self::RowLimit => "the row needs more scales than its maximum",
+            Self::Interpenetration => {
+                "two scales overlap by more than the range of the contact law"
+            }
             Self::OffEdge => {
-                "a contact carries beyond the end of its edge, a corner passes round that end, or one comes at a guided needle from the side"
+                "a contact slid off a corner, or a corner reaches a guided needle from the side"
             }
             Self::Locked => {
-                "the scales of a strip lock: the moment grows, and what still gives is a membrane stretched beyond its law"
+                "the scales of a strip lock: the moment grows, and only the membrane still deforms, beyond the range of its law"
             }
             Self::Jumps => {
-                "scales that rub can neither stick nor slip so that the path goes on: the skin jumps"
+                "friction leaves no quasi-static continuation by sticking or slipping: the skin jumps"
             }
-            Self::Calibration => "the springs of the substrate could not be found",
-            Self::Internal => "the program is at fault; please report the design",
+            Self::Calibration => "the calibration of the substrate springs failed",
+            Self::Internal => "an error of the program; please report the design",
             Self::Unloaded => {
-                "the load came back to zero: a needle only pushes, and the scale has let go"
+                "the load returned to zero: a needle cannot pull, and the scale has lost contact"
             }
             Self::LimitPoint => {
-                "load, depth and tilt turned back together, and the path ends before any of them recovers"
+                "load, depth and tilt decreased together, and the path ends before any of them recovers"
             }
             Self::Untilted => "a needle pushes a scale straight down and tilts none critically",
         }

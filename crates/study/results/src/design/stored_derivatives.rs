@@ -144,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn derivatives_come_back_as_they_were() {
+    fn derivatives_are_read_back_unchanged() {
         let mut derivatives = vec![derivative("coverage", "gap_over_t", 1.0 / 3.0)];
         for measure in ["critical_force", "sink"] {
             derivatives.extend(["gap_over_t", "c1"].map(|key| derivative(measure, key, -1e-9)));

@@ -191,7 +191,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn cells_are_read_again_to_the_letter() {
+    fn cells_are_read_back_exactly() {
         let rows =
             [["1", "", "1e-7", "0.5"], ["02", "", "0.30000000000000004", "-0"], ["3", "", "", "x"]];
         let mut table = Table::new(["n", "a", "b", "c"].map(str::to_owned).to_vec(), |_| true);
@@ -209,7 +209,7 @@ mod tests {
     }
 
     #[test]
-    fn a_column_that_nobody_reads_takes_no_room() {
+    fn an_unread_column_takes_no_memory() {
         let mut table = Table::new(["n", "a"].map(str::to_owned).to_vec(), |name| name != "a");
         table.push(["1", "2"]);
         assert_eq!((table.length(), table.number(0, 1)), (1, None));

@@ -135,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn the_header_tells_the_format_with_and_without_a_mark() {
+    fn the_header_determines_the_format_with_and_without_a_mark() {
         use CsvFormat::{ExcelEu, Plain};
         let of = |text: &str| CsvFormat::detect(text.as_bytes());
         assert_eq!(of("design,gap\r\n1,\"2;3\""), (Plain, 0));

@@ -80,7 +80,7 @@ fn every_parameter_may_be_an_axis_with_a_column_of_its_own() {
 /// `force_at_depth` is a column if a depth is given in either unit. With a material it is also a
 /// column in newtons.
 #[test]
-fn a_depth_has_a_force() {
+fn a_given_depth_adds_the_column_of_its_force() {
     assert!(!headers("name = 'x'").contains("force_at_depth"));
     assert!(headers("name = 'x'\n[puncture]\ndepth_over_t = 0.3").contains(",force_at_depth,"));
     let material = "name = 'x'\n[puncture]\ndepth_mm = 0.3\n[material]\nthickness_mm = 1\nsubstrate_modulus_MPa = 1";
@@ -92,7 +92,7 @@ fn a_depth_has_a_force() {
 
 /// The weakest load position is a column if several positions are requested.
 #[test]
-fn places_have_a_weakest() {
+fn several_load_positions_add_the_columns_of_the_weakest() {
     assert!(!headers("name = 'x'").contains("weakest"));
     let places = "name = 'x'\n[puncture]\nplaces = 11";
     assert!(headers(places).contains(",weakest_force,weakest_place,weakest_status,"));
@@ -103,7 +103,7 @@ fn places_have_a_weakest() {
 
 /// Each of several critical tilts or frictions has its columns, after the others.
 #[test]
-fn several_critical_tilts_have_columns_of_their_own() {
+fn several_critical_tilts_add_a_column_for_each() {
     let added = |text: &str| {
         let (plain, with) = (headers("name = 'x'"), headers(&format!("name = 'x'\n{text}")));
         let added = plain
@@ -133,7 +133,7 @@ fn several_critical_tilts_have_columns_of_their_own() {
 /// With a thickness every design has each length in mm once. No two columns distinguish the same
 /// parameter.
 #[test]
-fn a_thickness_gives_lengths_in_mm() {
+fn a_thickness_adds_the_columns_of_lengths_in_mm() {
     let designs = |text: &str| headers(text).lines().next().expect("designs.csv").to_owned();
     assert!(!designs("name = 'x'").contains("_mm"));
     let material = "name = 'x'\nmaterial.thickness_mm = 2\n";

@@ -12,7 +12,6 @@ use text::toml_source::{self, KeyValue, KeyValues, Value};
 /// The axes of every grid, with the values of the paper as defaults.
 ///
 /// They are a text, so that these ranges give the same decimals as typed ones.
-// As text, so that these ranges become the same decimals as those that a person types.
 const PAPER: &str = "
 gap_over_t = { from = 0.1, to = 1, step = 0.1 }
 length_over_t = [0.025, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1]
@@ -22,7 +21,6 @@ slant_deg = { from = 0, to = 75, step = 15 }
 /// The axis that always varies fastest.
 ///
 /// The slant does not change the base, so neighbouring designs share their footprint and springs.
-// A slant leaves the base as it is: neighbours share their footprint, and so their springs.
 const FASTEST: &str = "slant_deg";
 
 /// Reads the axis of `parameter` from `value`.

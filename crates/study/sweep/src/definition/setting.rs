@@ -174,7 +174,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn settings_that_are_none_say_why() {
+    fn invalid_settings_are_refused_with_a_reason() {
         let message = |text| Setting::parse(text).expect_err("invalid").to_string();
         insta::assert_snapshot!(message("scales"), @"--set scales: there is no `=`, expected KEY=VALUE with a dotted key, e.g. puncture.scales=41");
         insta::assert_snapshot!(message("=3"), @"--set =3: `` is not a key, expected KEY=VALUE with a dotted key, e.g. puncture.scales=41");
@@ -192,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn a_setting_replaces_adds_and_supersedes() {
+    fn a_setting_replaces_adds_or_removes_values() {
         let set = |file: &str, settings: &[&str]| {
             let mut table = toml_source::parse(file, "x.toml").expect("TOML");
             for setting in settings {

@@ -73,7 +73,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn hints_are_near_or_none() {
+    fn suggested_keys_are_similar() {
         assert_eq!(for_key("contact", "cc2"), "did you mean contact.c2?");
         assert_eq!(for_key("contact", "c3"), "expected one of c1, c2, friction");
         assert_eq!(for_key("designs", "slant"), "did you mean designs.slant_deg?");
@@ -92,7 +92,7 @@ mod tests {
     }
 
     #[test]
-    fn every_key_is_unique_and_every_section_stands_together() {
+    fn keys_are_unique_and_sections_contiguous() {
         let mut keys: Vec<_> = PARAMETERS.iter().map(|parameter| parameter.key).collect();
         keys.sort_unstable();
         keys.dedup();

@@ -52,7 +52,7 @@ impl Sweep {
         all.filter(|(_, lines): &(_, String)| !lines.is_empty()).collect()
     }
 
-    /// Returns the axes except those of variables.
+    /// Returns the axes without the axes of variables.
     fn fixed_axes(&self) -> impl Iterator<Item = &Axis> {
         // A variable adds an axis with one value, its middle, which the definition does not
         // contain.

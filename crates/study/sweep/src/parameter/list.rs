@@ -106,7 +106,7 @@ pub static PARAMETERS: &[Parameter] = parameters! {
             optional(POSITIVE, |c| &mut c.in_mm.length), in_mm!("length", "length of a scale");
         key::PITCH, "mm", [InMm(key::GAP), Made, MovesSprings],
             optional(POSITIVE, |c| &mut c.in_mm.pitch),
-            "base and gap of a scale in mm, instead of its gap or, beside a gap, of its length; with thickness_mm in [material]";
+            "base plus gap in mm, instead of the gap or, in addition to a gap, instead of the length; with thickness_mm in [material]";
         key::SLANT, "deg", [Geometry, Continuous, Made, Scattered],
             number(Range { low: Included(0.0), high: Excluded(90.0) }, |c| &mut c.design.slant_deg),
             "slant of the scales from the vertical, to the right";
@@ -119,7 +119,7 @@ pub static PARAMETERS: &[Parameter] = parameters! {
         key::WIDTH, "t", [Continuous, Made, MovesSprings],
             number(LENGTH, |c| &mut c.design.width), "out-of-plane width b of the scales";
         "width_mm", "mm", [InMm(key::WIDTH), Made, MovesSprings],
-            optional(POSITIVE, |c| &mut c.in_mm.width), in_mm!("width", "width of a scale out of the plane");
+            optional(POSITIVE, |c| &mut c.in_mm.width), in_mm!("width", "out-of-plane width of the scales");
     }
 
     "substrate" {
@@ -128,16 +128,16 @@ pub static PARAMETERS: &[Parameter] = parameters! {
             "Poisson's ratio of the substrate";
         key::TISSUE, "t", [Continuous, Made, MovesSprings],
             optional(LENGTH, |c| &mut c.tissue_thickness),
-            "thickness of the substrate on a rigid base, as of tissue on bone; of a half-space unless it is given";
+            "thickness of the substrate on a rigid base, such as tissue on bone; a half-space unless given";
         "tissue_thickness_mm", "mm", [InMm(key::TISSUE), Made, MovesSprings],
             optional(POSITIVE, |c| &mut c.in_mm.tissue_thickness),
             in_mm!("tissue_thickness", "thickness of the tissue on a rigid base");
         "coupling", "-", [MovesSprings],
             words!(coupling: "nearest" = Coupling::Nearest, "full" = Coupling::Full),
-            "neighbours that the substrate couples a scale with, the nearest or all that matter";
+            "neighbours coupled to a scale by the substrate: the nearest, or all with a relevant effect";
         "law", "-", [],
             words!(puncture.substrate_law: "linear" = SubstrateLaw::Linear, "neo-hookean" = SubstrateLaw::NeoHookean),
-            "how the substrate answers where the gap between two bases is stretched or pressed: by linear springs, or as rubber, which cannot fold over";
+            "response of the substrate in the gap between two bases: linear springs, or rubber, which cannot fold over";
     }
 
     "contact" {
@@ -161,15 +161,15 @@ pub static PARAMETERS: &[Parameter] = parameters! {
                     RowLength::Scales(count) => Some(count),
                 },
                 |c, count| c.puncture.scales = count.map_or(RowLength::Auto, RowLength::Scales)),
-            "scales in the row";
+            "number of scales in the row";
         // The largest position beyond 1 depends on gap and tip: `load_can_stand` checks the tip,
         // and `punctured` limits the position to the next scale.
         key::LOAD_POSITION, "-", [Continuous, Made],
             number(Range::closed(0.0, 1e6), |c| &mut c.puncture.load_position),
-            "place of the load on the top of the punctured scale, 0 its left corner, 1 its right; of a round tip also beyond, at most 1 + gap/base, the left corner of the next scale";
+            "load position on the top of the punctured scale: 0 the left corner, 1 the right; for a round tip up to 1 + gap/base, the left corner of the next scale";
         key::LOAD_INSET, "t", [InsteadOf(key::LOAD_POSITION)],
             optional(Range::closed(0.0, 1e6), |c| &mut c.load_inset),
-            "distance of the load from the right corner of the top, inward as far as the middle; instead of load_position";
+            "distance of the load from the right corner of the top, inward, at most to the middle; instead of load_position";
         "load_inset_mm", "mm", [InMm(key::LOAD_INSET)],
             optional(ANY, |c| &mut c.in_mm.load_inset),
             in_mm!("load_inset", "distance of the load from the right corner of the top");
@@ -180,16 +180,16 @@ pub static PARAMETERS: &[Parameter] = parameters! {
                 // The case holds the friction of a guided needle.
                 set: |c, word| c.puncture.needle = [Needle::Free, Needle::Guided { friction: 0.0 }][word],
             },
-            "free: a load that follows its point of the scale sideways, as in the paper; guided: a tip that moves straight down and slides on the scale";
+            "free: a load fixed to a point of the scale, which may move sideways, as in the paper; guided: a tip that moves straight down and slides on the scale";
         key::NEEDLE_RADIUS, "t", [Continuous, Made],
             optional(LENGTH, |c| &mut c.puncture.needle_radius),
-            "radius of the round tip of a guided needle, which may touch several scales; sharp unless it is given";
+            "radius of the round tip of a guided needle, which may touch several scales; sharp unless given";
         "needle_radius_mm", "mm", [InMm(key::NEEDLE_RADIUS), Made],
             optional(POSITIVE, |c| &mut c.in_mm.needle_radius),
             in_mm!("needle_radius", "radius of the round tip of a guided needle");
         key::UNLOAD, "-", [],
             words!(puncture.unload: "false" = false, "true" = true),
-            "whether the load is taken away again at the end of the puncture";
+            "whether the load is removed at the end of the puncture";
         key::CRITICAL_TILT, "deg", [Continuous, EndsPuncture],
             Numbers {
                 // Below 1e-14 the path to the tilt is dominated by round-off.
@@ -198,7 +198,7 @@ pub static PARAMETERS: &[Parameter] = parameters! {
                 get: tilts,
                 set: |c, tilts| set_tilts(&mut c.puncture, tilts, |tilt| tilt),
             },
-            "tilt of the punctured scale at which the puncture ends; of several the largest, with columns for each";
+            "tilt of the punctured scale at which the puncture ends; for a list the largest, with columns for each";
         key::NEEDLE_FRICTION, "-", [Continuous, EndsPuncture, InsteadOf(key::CRITICAL_TILT)],
             Numbers {
                 // The arctangent of 1000 is 89.94°; the arctangent of 1e16 rounds to 90°.
@@ -209,34 +209,34 @@ pub static PARAMETERS: &[Parameter] = parameters! {
                     c.needle_friction = Some(friction).filter(|f| !matches!(f, Scalar::Word(_)));
                 },
             },
-            "friction between needle and scale; of a free needle its arctangent is the critical tilt, instead of that, of a guided one both may be given";
+            "friction between needle and scale; for a free needle it replaces the critical tilt, which is its arctangent; for a guided one both may be given";
         key::DEPTH, "t", [],
             optional(LENGTH, |c| &mut c.puncture.depth),
-            "depth of the punctured point at which the force is measured besides, in force_at_depth";
+            "additional depth of the punctured point at which force_at_depth is measured";
         key::DEPTH_MM, "mm", [InMm(key::DEPTH)],
             optional(POSITIVE, |c| &mut c.in_mm.depth),
             in_mm!("depth", "depth at which force_at_depth is measured");
         key::PLACES, "-", [],
             count_or("none", 2, 1000, |c| c.puncture.places, |c, count| c.puncture.places = count),
-            "places of the load that are tried besides, from the left corner of the top to the right, of a round tip over one pitch, for weakest_force";
+            "number of load positions evaluated for weakest_force, from the left corner of the top to the right, for a round tip over one pitch";
         key::CONTACT_OVER_SUBSTRATE, "-", [Continuous, Made],
             number(STIFF, |c| &mut c.puncture.contact_modulus_over_substrate),
-            "modulus of the scales in contact, E_ct, over that of the substrate, E_s";
+            "modulus of the scales in contact, E_ct, over the modulus of the substrate, E_s";
     }
 
     "flexure" {
         "method", "-", [],
             words!(flexure.method: "unit-cell" = Method::UnitCell, "chain" = Method::Chain),
-            "what is bent: one gap, since all deform alike, or the chain of all";
+            "model of the strip: one gap, because all gaps deform alike, or the chain of all gaps";
         key::MEMBRANE_LENGTH, "t", [Continuous, Made, EndsBending],
             number(LENGTH, |c| &mut c.flexure.membrane_length),
-            "length of the membrane; a chain and imperfect strips round it to whole gaps";
+            "length of the membrane; rounded to whole gaps for a chain and for imperfect strips";
         "membrane_length_mm", "mm", [InMm(key::MEMBRANE_LENGTH), Made, EndsBending],
             optional(POSITIVE, |c| &mut c.in_mm.membrane_length),
             in_mm!("membrane_length", "length of the membrane");
         "gaps", "-", [InsteadOf(key::MEMBRANE_LENGTH)],
             count_or(AUTO, 1, 1_000_000, |c| c.flexure.gaps, |c, count| c.flexure.gaps = count),
-            "gaps of the strip, the same number for every design, instead of a length";
+            "number of gaps of the strip, equal for all designs, instead of a length";
         key::MEMBRANE_THICKNESS, "t", [Continuous, Made, UnitOfBending],
             number(LENGTH, |c| &mut c.flexure.membrane_thickness), "thickness h of the membrane";
         "membrane_thickness_mm", "mm", [InMm(key::MEMBRANE_THICKNESS), Made, UnitOfBending],
@@ -257,19 +257,19 @@ pub static PARAMETERS: &[Parameter] = parameters! {
                 |c, count| {
                     c.flexure.elements_per_gap = count.map_or(MembraneMesh::Auto, MembraneMesh::Elements);
                 }),
-            "beam elements of the membrane between two scales, or as fine as the measures need";
+            "number of beam elements of the membrane between two scales; auto: as fine as the measures require";
         key::UNBEND, "-", [],
             words!(flexure.unload: "false" = false, "true" = true),
-            "whether the moment is taken away again at the end of bending";
+            "whether the moment is removed at the end of bending";
         "max_end_rotation_deg", "deg", [Continuous, Made, EndsBending],
             SignedNumber {
                 size: Range { low: Excluded(0.0), high: Included(180.0) },
                 field: |c| &mut c.flexure.max_end_rotation_deg,
             },
-            "rotation of each end at which bending ends; below zero, bending the other way, scales outside";
+            "rotation of each end at which bending ends; negative values bend the other way, with the scales outside";
         key::CONTACT_OVER_MEMBRANE, "-", [Continuous, Made],
             number(STIFF, |c| &mut c.flexure.contact_modulus_over_membrane),
-            "modulus of the scales in contact, E_ct, over that of the membrane, E_m";
+            "modulus of the scales in contact, E_ct, over the modulus of the membrane, E_m";
     }
 
     "imperfection" {
@@ -281,7 +281,7 @@ pub static PARAMETERS: &[Parameter] = parameters! {
             "standard deviation of the slants of imperfect rows";
         "samples", "-", [],
             count(1, 1_000_000, |c| &mut c.samples.count),
-            "imperfect rows that are solved, if gaps or slants scatter";
+            "number of imperfect rows, if gaps or slants scatter";
         "seed", "-", [],
             count(0, 1_000_000_000, |c| &mut c.samples.seed), "seed of the random gaps and slants";
     }
@@ -295,16 +295,16 @@ pub static PARAMETERS: &[Parameter] = parameters! {
             "largest step, as a fraction of the whole path";
         "min_step", "-", [],
             number(FRACTION, |c| &mut c.common.solver.min_step),
-            "smallest step, as a fraction of the whole path, below which the path stops";
+            "smallest step, as a fraction of the whole path; the path stops below it";
         "tolerance", "-", [],
             number(Range { low: Excluded(0.0), high: Included(0.01) }, |c| &mut c.common.solver.tolerance),
             "largest scaled residual of an equilibrium";
         "max_iterations", "-", [],
             count(1, 1000, |c| &mut c.common.solver.max_iterations),
-            "Newton iterations after which a step is cut to a third";
+            "maximum number of Newton iterations before a step is cut to a third";
         "max_points", "-", [],
             count(2, 1_000_000_000, |c| &mut c.common.solver.max_points),
-            "equilibria after which the path stops";
+            "maximum number of equilibria of a path";
     }
 
     "material" {
@@ -316,7 +316,7 @@ pub static PARAMETERS: &[Parameter] = parameters! {
             optional(POSITIVE, |c| &mut c.material.membrane_modulus_mpa), "modulus E_m of the membrane";
         key::SCALE_MODULUS, "MPa", [Made],
             optional(POSITIVE, |c| &mut c.material.scale_modulus_mpa),
-            "modulus E_ct of the scales in contact, in the place of its ratios to the other two";
+            "modulus E_ct of the scales in contact, instead of its ratios to the other two";
         key::DENSITY, "kg/m^3", [Made],
             optional(POSITIVE, |c| &mut c.material.scale_density_kg_m3), "density of the scales";
     }

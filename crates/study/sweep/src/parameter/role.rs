@@ -132,7 +132,7 @@ mod tests {
 
     /// The springs depend on the footprint and the coupling alone.
     #[test]
-    fn the_springs_move_with_the_parameters_that_say_so() {
+    fn springs_depend_on_the_parameters_with_the_role_moves_springs() {
         // Move down, because Poisson's ratio is at its upper bound.
         let case = Case::default();
         for parameter in PARAMETERS.iter().filter(|p| p.has(Role::Continuous)) {

@@ -34,7 +34,7 @@ fn a_definition_reads_back_from_its_complete_form() {
 }
 
 #[test]
-fn axes_vary_as_they_stand_with_the_slant_fastest() {
+fn axes_vary_in_written_order_with_the_slant_fastest() {
     let keys = |text: &str| {
         let sweep = sweep(text);
         let keys: Vec<_> = sweep.grid().axes().iter().map(|axis| axis.parameter().key).collect();
@@ -52,7 +52,7 @@ fn axes_vary_as_they_stand_with_the_slant_fastest() {
 }
 
 #[test]
-fn a_range_gives_the_decimals_that_a_person_types() {
+fn a_range_gives_the_same_decimals_as_a_typed_list() {
     let sweep = sweep("name = 'x'\n[designs]\ngap_over_t = { from = 0.1, to = 1.0, step = 0.1 }");
     let axis = sweep.grid().axis("gap_over_t").expect("an axis");
     let values: Vec<_> = (0..axis.len()).map(|i| axis.value(i).to_string()).collect();
@@ -60,7 +60,7 @@ fn a_range_gives_the_decimals_that_a_person_types() {
 }
 
 #[test]
-fn numbers_may_be_written_in_any_way_that_toml_knows() {
+fn numbers_may_have_any_toml_notation() {
     let sweep = sweep(
         "name = 'x'\n[puncture]\nscales = 0x29\n[solver]\nmax_points = 1_000\n[contact]\nc1 = 2",
     );
@@ -71,7 +71,7 @@ fn numbers_may_be_written_in_any_way_that_toml_knows() {
 }
 
 #[test]
-fn settings_take_the_place_of_what_is_written() {
+fn settings_replace_values_of_the_file() {
     let file = "name = 'x'\n[scale]\nbase = 'L'\n[designs]\nc1 = [1, 2]";
     let settings =
         ["name=y", "scale.base=2L", "contact.c1=3", "designs.c2=[1, 1.5]", "measures=coverage"];
@@ -91,7 +91,7 @@ fn the_record_of_a_run_is_a_definition() {
 
 /// The definition is written back in the notation that was read.
 #[test]
-fn a_place_and_a_depth_in_two_ways() {
+fn load_position_and_depth_are_written_back_in_their_notation() {
     let read = |text: &str| Sweep::parse(&format!("name = 'x'\n{text}"), "x.toml", &[]);
     let text = "puncture = { load_inset_over_t = 0.05, depth_mm = 1 }\nmaterial.thickness_mm = 2\n\
         designs.length_over_t = [0.08, 0.5]";
@@ -111,7 +111,7 @@ fn a_place_and_a_depth_in_two_ways() {
 
 /// Tilt and friction of a guided needle are independent, in any order. A friction of 0 is allowed.
 #[test]
-fn a_guided_needle_has_a_tilt_and_a_friction() {
+fn tilt_and_friction_of_a_guided_needle_are_independent() {
     use skin::puncture::Needle;
     let read = |text: &str| Sweep::parse(&format!("name = 'x'\n{text}"), "x.toml", &[]);
     let puncture = |text: &str, index| read(text).unwrap().grid().case(index).punctured();
@@ -166,7 +166,7 @@ fn a_guided_needle_has_a_tilt_and_a_friction() {
 
 /// A needle radius needs a guided needle. It may vary, and may be given in mm.
 #[test]
-fn a_round_tip_is_that_of_a_guided_needle() {
+fn a_needle_radius_requires_a_guided_needle() {
     let read = |text: &str| Sweep::parse(&format!("name = 'x'\n{text}"), "x.toml", &[]);
     let radius = |text: &str| read(text).unwrap().grid().case(0).puncture.needle_radius;
     assert_eq!(radius("puncture.needle = 'guided'"), None);
@@ -193,7 +193,7 @@ fn a_round_tip_is_that_of_a_guided_needle() {
 
 /// Only a round tip may be between two scales. Its limit is the left corner of the next one.
 #[test]
-fn a_load_between_two_scales_has_a_radius() {
+fn a_load_between_two_scales_requires_a_round_tip() {
     let read = |text: &str| Sweep::parse(&format!("name = 'x'\n{text}"), "x.toml", &[]);
     let grid = "designs = { gap_over_t = [0.1, 0.5], length_over_t = 1 }\n";
     let round = "puncture = { needle = 'guided', needle_radius_over_t = 0.5, load_position = 1.3 }";
@@ -313,7 +313,7 @@ fn ratios_of_contact_follow_from_the_modulus_of_the_scales() {
 }
 
 #[test]
-fn a_modulus_of_tissue_in_another_unit_is_questioned() {
+fn a_tissue_modulus_of_another_unit_raises_a_question() {
     let question = |modulus: &str| {
         sweep(&format!("name = 'x'\ndesigns.substrate_modulus_MPa = {modulus}")).question()
     };
@@ -321,14 +321,14 @@ fn a_modulus_of_tissue_in_another_unit_is_questioned() {
         (question("0.31"), question("1000"), sweep("name = 'x'").question()),
         (None, None, None)
     );
-    insta::assert_snapshot!(question("[0.31, 310000]").expect("a question"), @"material.substrate_modulus_MPa is 310000 MPa, 310 GPa: soft tissue has some 0.001 to 10 MPa; is it in MPa, and not in kPa or Pa?");
+    insta::assert_snapshot!(question("[0.31, 310000]").expect("a question"), @"material.substrate_modulus_MPa is 310000 MPa, 310 GPa: soft tissue has 0.001 to 10 MPa; check that the unit is MPa, not kPa or Pa");
     let variable = "name = 'x'\nvariables.substrate_modulus_MPa = { from = 1, to = 2000 }";
     assert!(sweep(variable).question().is_some());
 }
 
 /// Difference steps are fractions of these sizes.
 #[test]
-fn only_what_may_vanish_is_measured_by_one_where_it_is_small() {
+fn the_size_of_a_parameter_that_may_be_zero_is_at_least_one() {
     let text = "name = 'x'\n[designs]\ngap_over_t = 0.1\nlength_over_t = 0.5\nslant_deg = 0.25";
     let case = sweep(text).grid().case(0);
     let size = |key| sweep::Parameter::named(key).expect("a parameter").size(&case);
@@ -339,7 +339,7 @@ fn only_what_may_vanish_is_measured_by_one_where_it_is_small() {
 
 /// Lengths in mm and over the thickness give the same skin. The pitch is base plus gap.
 #[test]
-fn lengths_in_mm_are_those_over_the_thickness() {
+fn lengths_in_mm_and_over_the_thickness_give_the_same_case() {
     let case = |text: &str| {
         let text = format!("name = 'x'\n{text}");
         Sweep::parse(&text, "x.toml", &[]).unwrap().grid().case(0)
@@ -383,7 +383,7 @@ fn lengths_in_mm_are_those_over_the_thickness() {
 
 /// Changes of the thickness and of lengths in mm change the lengths over `t`.
 #[test]
-fn lengths_in_mm_move_together() {
+fn lengths_in_mm_follow_changes_of_the_thickness() {
     let text = "name = 'x'\n[designs]\ngap_mm = 0.5\npitch_mm = 3.5\nthickness_mm = 2\n";
     let case = Sweep::parse(text, "x.toml", &[]).unwrap().grid().case(0);
     let moved = |key: &str, by| sweep::Parameter::named(key).unwrap().moved(&case, by).unwrap();
@@ -414,7 +414,7 @@ fn a_thickness_may_vary_beside_lengths_in_mm() {
 
 /// Settings replace the alternative ways to give a length.
 #[test]
-fn a_length_in_mm_takes_the_place_of_the_other() {
+fn a_setting_in_mm_replaces_the_length_over_the_thickness() {
     let settings = ["designs.gap_mm=0.4", "scale.width_mm=3", "material.thickness_mm=2"];
     let settings: Vec<_> = settings.map(|text| Setting::parse(text).expect("valid")).to_vec();
     let text =
