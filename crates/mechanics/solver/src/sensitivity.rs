@@ -5,7 +5,7 @@ mod differences;
 mod stationary;
 
 use crate::event::Change;
-use crate::newton::{Condition, FLOOR, Newton, NewtonFailure, guard};
+use crate::newton::{Condition, FLOOR, Newton, NewtonFailure, guard, guard_slope};
 use crate::settings::Settings;
 use crate::system::{Residual, State, System};
 use differences::{difference, moved, rates, turning};
@@ -244,10 +244,51 @@ impl<M: Clone> Linearisation<M> {
         state.z[system.constraints()[change.constraint]] = 0.0;
         system.transition(&mut state, change)?;
         let condition = Condition::through(self.section.clone(), &self.place.state.z);
-        let direction = Newton::new(system).solve(system, &mut state, &condition, settings).ok()?;
+        let mut newton = Newton::new(system);
+        let mut direction = newton.solve(system, &mut state, &condition, settings).ok()?;
+        let closes = change.activated && !system.monotone().contains(&change.constraint);
+        let coupled = system.coupled(change.constraint);
+        if !closes || coupled.len() == 1 {
+            return Self::new(
+                system,
+                AnchoredPoint { state, direction, anchor: self.place.anchor },
+            )
+            .ok();
+        }
+        // The path tells whether a contact that has just closed sticks or slips, and in which
+        // direction, and which other contacts stop slipping. The motion with the parameter does
+        // not: it shifts the point of closing.
+        for _ in 0..MOST_CHANGES {
+            let limits = coupled
+                .clone()
+                .filter(|&c| c != change.constraint && guard(system, &state, c).abs() <= FLOOR)
+                .map(|c| (c, guard_slope(system, &state, c, &direction)));
+            let slips = system.monotone().iter().copied().filter(|&c| state.active[c]);
+            let slips = slips.map(|c| (c, guard_slope(system, &state, c, &direction)));
+            let violated = limits.chain(slips).filter(|(_, slope)| *slope < -FLOOR);
+            let Some((constraint, _)) = violated.min_by(|a, b| a.1.total_cmp(&b.1)) else { break };
+            let next = Change { constraint, activated: !state.active[constraint] };
+            state.active[constraint] = next.activated;
+            state.z[system.constraints()[constraint]] = 0.0;
+            system.transition(&mut state, next)?;
+            direction = newton.solve(system, &mut state, &condition, settings).ok()?;
+        }
+        // What begins to stick here does so at a place that depends on the parameter.
+        let sticks = (0..state.active.len()).any(|c| {
+            state.active[c]
+                && !self.place.state.active[c]
+                && c != change.constraint
+                && !system.monotone().contains(&c)
+        });
+        if sticks {
+            return None;
+        }
         Self::new(system, AnchoredPoint { state, direction, anchor: self.place.anchor }).ok()
     }
 }
+
+/// Maximum number of changes of friction at the closing of a contact.
+const MOST_CHANGES: usize = 8;
 
 /// Largest guard of an inactive constraint that the step of a difference may violate.
 ///
