@@ -81,6 +81,7 @@ pub struct TooManyDesigns;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("there is no design {found}, expected a number from 1 to {count}")]
 pub struct NoSuchDesign {
+    /// The given text.
     pub found: String,
     /// Number of designs.
     pub count: u64,
