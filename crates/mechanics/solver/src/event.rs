@@ -374,7 +374,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_dip_is_where_the_cubic_is_lowest(
+        fn a_dip_lies_at_the_minimum_of_the_cubic(
             start in 0.0_f64..1.0, end in 0.0_f64..1.0, falling in -5.0_f64..-0.1, rising in 0.1_f64..5.0,
         ) {
             let (place, value) = lowest([start, end], [falling, rising]);

@@ -1,4 +1,4 @@
-//! Cost of one calibration, and of all those that the paper's sweep of 720 designs needs.
+//! Cost of one calibration, and of all calibrations for the paper's sweep of 720 designs.
 
 use std::hint::black_box;
 

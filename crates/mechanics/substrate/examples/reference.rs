@@ -4,8 +4,8 @@
 //! cargo run --release -p substrate --example reference > crates/mechanics/substrate/tests/reference.csv
 //! ```
 //!
-//! 16 and 24 cells a side, extrapolated; a few minutes. The geometries are those of the paper's
-//! sweep with a base of `L` and of `2L` (`b = t`, `ν = 0.5`), and a grid over the whole range.
+//! 16 and 24 cells per side, extrapolated; takes a few minutes. The geometries are the paper's
+//! sweeps with a base of `L` and of `2L` (`b = t`, `ν = 0.5`), and a grid over the whole range.
 
 use std::error::Error;
 
@@ -47,7 +47,7 @@ fn geometries() -> Vec<[f64; 3]> {
             all.push([gap, width, poisson_ratio]);
         }
     }
-    // The same footprint may serve a length with either base.
+    // One footprint may serve a length with either base.
     let mut seen = std::collections::HashSet::new();
     all.retain(|key| seen.insert(key.map(f64::to_bits)));
     all

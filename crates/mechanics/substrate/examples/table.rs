@@ -1,10 +1,10 @@
-//! Makes `src/table.bin`, the coefficients of the Chebyshev polynomials that [`substrate`] takes its springs from:
+//! Generates `src/table.bin`, the Chebyshev coefficients of the springs in [`substrate`]:
 //!
 //! ```text
 //! nice cargo run --release -p substrate --example table -- crates/mechanics/substrate/src/table.bin
 //! ```
 //!
-//! Four minutes of processor time. The layout is written out in `src/table.rs`.
+//! Takes four minutes of processor time. `src/table.rs` documents the layout.
 
 use std::error::Error;
 use std::f64::consts::PI;
@@ -15,8 +15,9 @@ use substrate::boundary_element::{RowReactions, Unresolved, row_reactions_at};
 use substrate::table::{GAPS, NEAREST, RATIOS, ROW, WIDTHS, poisson_ratio};
 use substrate::{Footprint, NEIGHBOURS};
 
-/// Cells a side of the three meshes of rows of three, and of the three of long rows, of which the table has the small
-/// difference to those of three alone.
+/// Cells per side of the three meshes for rows of three scales, and for long rows.
+///
+/// The table stores the small difference of long rows from rows of three.
 const FINE: [usize; 3] = [12, 16, 20];
 const COARSE: [usize; 3] = [6, 8, 10];
 
@@ -29,10 +30,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// A number of the table as a function of the footprint.
+/// Values of the table as a function of the footprint.
 type Solve<'a> = &'a (dyn Fn(&Footprint) -> Result<Vec<f64>, Unresolved> + Sync);
 
-/// The coefficients of polynomials through `nodes × nodes` places, polynomial after polynomial.
+/// Computes the coefficients of polynomials through `nodes × nodes` points, by polynomial.
 fn coefficients(nodes: usize, solve: Solve<'_>) -> Result<Vec<f64>, Unresolved> {
     let place = |number: usize| {
         let [gap, width] = [(number / nodes, GAPS), (number % nodes, WIDTHS)];
@@ -61,7 +62,7 @@ fn coefficients(nodes: usize, solve: Solve<'_>) -> Result<Vec<f64>, Unresolved> 
     Ok((0..functions).flat_map(of).collect())
 }
 
-/// The values in the rows of a square become the coefficients of their polynomials.
+/// Transforms values in the rows of a square to coefficients of their polynomials.
 fn transform(values: &[f64], nodes: usize) -> Vec<f64> {
     let of_row = |row: &[f64]| -> Vec<f64> {
         let coefficient = |order: usize| {
@@ -78,12 +79,15 @@ fn transposed(values: &[f64], nodes: usize) -> Vec<f64> {
     (0..nodes * nodes).map(|i| values[i % nodes * nodes + i / nodes]).collect()
 }
 
-/// A root of the Chebyshev polynomial of the order `nodes`.
+/// Returns a root of the Chebyshev polynomial of order `nodes`.
 fn node(k: usize, nodes: usize) -> f64 {
     ((k as f64 + 0.5) * PI / nodes as f64).cos()
 }
 
-/// `ln α_y, ln α_φ, β_y/α_y, β_φ/α_φ`, then `ln α_x` and `β_x/α_x`, each as a polynomial in `log(1 − ν)`.
+/// Returns the values of Eq. (1) to be tabulated.
+///
+/// `ln α_y, ln α_φ, β_y/α_y, β_φ/α_φ`, then `ln α_x` and `β_x/α_x`, each as a polynomial in `log(1
+/// − ν)`.
 fn nearest(footprint: &Footprint) -> Result<Vec<f64>, Unresolved> {
     let rows = extrapolated(footprint, 1, FINE)?;
     let part =
@@ -94,12 +98,14 @@ fn nearest(footprint: &Footprint) -> Result<Vec<f64>, Unresolved> {
     Ok(normal.into_iter().chain(direct).chain(coupling).collect())
 }
 
-/// What a long row has more than one of three, over `α`: in `y` and then in `φ` the scale itself and its neighbours, then `c` over
-/// `√(α_y α_φ)`, then in `x` polynomials in `log(1 − ν)`.
+/// Returns the additional values of a long row relative to a row of three, over `α`.
+///
+/// In `y` and then in `φ` the scale itself and its neighbours, then `c` over `√(α_y α_φ)`, then in
+/// `x` polynomials in `log(1 − ν)`.
 fn row(footprint: &Footprint) -> Result<Vec<f64>, Unresolved> {
     let long = extrapolated(footprint, NEIGHBOURS, COARSE)?;
     let short = extrapolated(footprint, 1, COARSE)?;
-    // Of the scale itself, or of a neighbour.
+    // For the scale itself, or for a neighbour.
     let number = |row: &[f64], scale: usize, direction: usize| match scale {
         0 => row[direction],
         _ => row.get(3 + 5 * (scale - 1) + direction).copied().unwrap_or(0.0),
@@ -122,8 +128,10 @@ fn row(footprint: &Footprint) -> Result<Vec<f64>, Unresolved> {
     Ok(numbers)
 }
 
-/// The numbers of rows for the Poisson's ratios of the table, from three meshes: the error falls with the third power of the cells, what
-/// is left of it with the fourth.
+/// Computes the values of rows for the Poisson's ratios of the table, from three meshes.
+///
+/// The error decreases with the third power of the cells, the remainder after extrapolation with
+/// the fourth.
 fn extrapolated(
     footprint: &Footprint,
     neighbours: usize,

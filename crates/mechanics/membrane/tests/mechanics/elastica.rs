@@ -153,7 +153,7 @@ proptest! {
     /// Rotated by 180°, the gap has its scales exchanged and its axis on the other side. Energies
     /// and force are unchanged.
     #[test]
-    fn a_half_turn_exchanges_the_scales((span, end) in pulled()) {
+    fn rotation_by_180_degrees_exchanges_the_scales((span, end) in pulled()) {
         let gap = elastica(span, 16).unwrap();
         let other = elastica(Span { axis_offset: -span.axis_offset, ..span }, 16).unwrap();
         let back = |v: Vector2<f64>| {
@@ -178,7 +178,7 @@ proptest! {
 /// The error of the co-rotational elements decreases by 4 when they are halved, and the remainder
 /// after extrapolation is far smaller. The gap is under a strong oblique pull and a moment.
 #[test]
-fn the_elements_converge_to_it_with_the_square_of_their_length() -> Result<(), OutOfRange> {
+fn elements_converge_to_the_elastica_quadratically() -> Result<(), OutOfRange> {
     let span = Span { half_base: 0.2, gap: 0.5, axis_offset: 0.0 };
     let section = Section::new(1.0, THICKNESS)?;
     let applied = Vector3::new(0.05, 0.001, 0.0004);
@@ -227,7 +227,7 @@ fn pure_bending_is_a_circle() -> Result<(), OutOfRange> {
 
 /// A pull along the axis stretches it uniformly; an axis below the bases requires a couple `N e`.
 #[test]
-fn pure_stretching_is_even() -> Result<(), OutOfRange> {
+fn pure_stretching_is_uniform() -> Result<(), OutOfRange> {
     let (stretch, axis_offset) = (3.0, 0.0625);
     let gap = elastica(Span { half_base: 0.5, gap: 0.1, axis_offset }, 2)?;
     let tension = AXIAL * stretch;
@@ -295,7 +295,7 @@ fn a_state_is_transferred_to_another_order() -> Result<(), OutOfRange> {
 
 /// A state without `ψ` equals the state with `ψ = 0`.
 #[test]
-fn a_state_without_deviations_is_that_of_an_arc() -> Result<(), OutOfRange> {
+fn a_state_without_deviations_is_an_arc() -> Result<(), OutOfRange> {
     let gap = elastica(Span { half_base: 0.5, gap: 0.3, axis_offset: 0.1 }, 6)?;
     let short = [0.1, -0.2, 0.3, 0.4, 0.5];
     let whole = [vec![0.0; 5], short.to_vec()].concat();
@@ -312,7 +312,7 @@ fn a_state_without_deviations_is_that_of_an_arc() -> Result<(), OutOfRange> {
 }
 
 #[test]
-fn what_no_elastica_can_be() -> Result<(), OutOfRange> {
+fn invalid_elasticas_are_refused() -> Result<(), OutOfRange> {
     let span = Span { half_base: 0.5, gap: 0.1, axis_offset: 0.0 };
     let message = |span, order| elastica(span, order).err().map(|error| error.to_string());
     let order = "order of the membrane is 1, expected 2 to 128";

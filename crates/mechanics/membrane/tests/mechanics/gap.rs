@@ -32,7 +32,7 @@ fn pure_bending_turns_the_scales_by_the_free_length() -> Result<(), OutOfRange> 
 }
 
 #[test]
-fn a_gap_knows_its_mesh() -> Result<(), OutOfRange> {
+fn a_gap_reports_its_mesh() -> Result<(), OutOfRange> {
     for elements in [1, 2, 5] {
         let gap = gap(Span { half_base: 0.5, gap: 0.1, axis_offset: 0.0 }, elements)?;
         assert_eq!((gap.elements(), gap.unknowns()), (elements, 3 * (elements + 1)));
@@ -82,7 +82,7 @@ fn a_distant_gap_keeps_its_digits() -> Result<(), OutOfRange> {
 }
 
 #[test]
-fn rest_bears_no_force() -> Result<(), OutOfRange> {
+fn the_rest_state_has_no_force() -> Result<(), OutOfRange> {
     let gap = gap(Span { half_base: 0.5, gap: 0.1, axis_offset: 0.05 }, 4)?;
     assert_eq!(gap.unknowns(), 15);
     assert_eq!(gap.rest().len(), 15);
@@ -115,7 +115,7 @@ fn the_drawn_axis_follows_the_arc() -> Result<(), OutOfRange> {
 }
 
 #[test]
-fn what_no_membrane_can_be() {
+fn invalid_membranes_are_refused() {
     let span = Span { half_base: 0.5, gap: 0.1, axis_offset: 0.0 };
     let message = |span, elements| gap(span, elements).err().map(|error| error.to_string());
     assert_eq!(

@@ -76,7 +76,7 @@ proptest! {
 
 /// An undeformed element rotated by multiples of 45°, through ±π and beyond, stays at rest.
 #[test]
-fn rest_is_rest_in_every_direction() -> Result<(), OutOfRange> {
+fn a_rotated_rest_state_has_no_force() -> Result<(), OutOfRange> {
     let beam = CorotationalBeam::new(0.1, 1.0, 0.01)?;
     for eighth in -40..=40 {
         let phi = PI / 4.0 * f64::from(eighth);

@@ -6,8 +6,7 @@ use faer::{Col, Mat};
 use proptest::prelude::*;
 use solver::{BandLu, BandMatrix, Tangent};
 
-/// A band matrix with one entry for each number of `entries` within its band, row by row; numbers above 2
-/// stand for zeros.
+/// Builds a band matrix from `entries`, row by row; numbers above 2 stand for zeros.
 fn matrix(size: usize, half: usize, entries: &[f64]) -> BandMatrix {
     let mut matrix = BandMatrix::new(size, half);
     let places = (0..size).flat_map(|i| matrix.columns(i).map(move |j| (i, j)));
@@ -24,14 +23,15 @@ fn at(matrix: &BandMatrix, i: usize, j: usize) -> f64 {
     if i.abs_diff(j) <= matrix.half_bandwidth() { matrix.get(i, j) } else { 0.0 }
 }
 
-/// The product of a matrix with a vector.
+/// Returns the product of a matrix and a vector.
 fn times(matrix: &BandMatrix, x: &[f64]) -> Vec<f64> {
     let row = |i: usize| matrix.columns(i).map(|j| matrix.get(i, j) * x[j]).sum();
     (0..matrix.size()).map(row).collect()
 }
 
-/// Solution of what remains of the system without some rows and columns, and the smallest pivot relative to the
-/// largest: dense, by faer.
+/// Solves without some rows and columns by faer's dense LU.
+///
+/// Also returns the smallest pivot relative to the largest.
 fn reference(matrix: &BandMatrix, kept: &[usize], rhs: &[f64]) -> (Vec<f64>, f64) {
     let dense = Mat::from_fn(kept.len(), kept.len(), |i, j| at(matrix, kept[i], kept[j]));
     let lu = dense.partial_piv_lu();
@@ -61,7 +61,7 @@ proptest! {
         let (expected, pivots) = reference(&matrix, &kept, &rhs);
         prop_assume!(pivots > 1e-6);
         let mut lu = BandLu::new(size, half);
-        // What an earlier factorisation left behind does not matter.
+        // A previous factorisation must not affect the result.
         let _ = lu.factorise(&matrix, &vec![false; size]);
         lu.factorise(&matrix, &left_out).unwrap();
         let mut x = rhs[..size].to_vec();
@@ -114,7 +114,7 @@ fn dependent_rows_have_no_factors() {
 }
 
 #[test]
-fn a_number_that_is_none_has_no_factors() {
+fn nan_has_no_factors() {
     for value in [f64::NAN, f64::INFINITY] {
         let mut matrix = BandMatrix::new(2, 1);
         matrix.add(0, 0, 1.0);
@@ -159,10 +159,10 @@ fn entries_outside_the_band_are_refused() {
     BandMatrix::new(5, 2).add(0, 3, 1.0);
 }
 
-/// A large row is not a good pivot for being large. Unscaled, the first would be taken and the digits of the second
-/// lost.
+/// A large row is not a good pivot merely because of its units. Without scaling, the first row
+/// would be the pivot and the digits of the second would be lost.
 #[test]
-fn rows_are_compared_by_their_sizes() {
+fn pivots_do_not_depend_on_row_scaling() {
     let mut matrix = BandMatrix::new(2, 1);
     for (row, column, value) in [(0, 0, 10.0), (0, 1, 1e17), (1, 0, 1.0), (1, 1, 1.0)] {
         matrix.add(row, column, value);

@@ -1,11 +1,11 @@
-//! Elimination block by block against faer.
+//! Block elimination against faer.
 
 use faer::prelude::*;
 use faer::{Col, Mat, Side};
 use proptest::prelude::*;
 use solver::{BlockElimination, BlockMatrix, Blocks, FARTHEST_LINK, LINK, Tangent, UnsafeBlock};
 
-/// A chain of blocks; each has so many unknowns before its link and after it.
+/// Chain of blocks, with the numbers of unknowns before and after each link.
 #[derive(Clone, Debug)]
 struct Chain {
     extras: Vec<[usize; 2]>,
@@ -38,7 +38,7 @@ impl Chain {
         (link..link + LINK).contains(&unknown)
     }
 
-    /// Whether two unknowns may be coupled.
+    /// Returns true if two unknowns may be coupled.
     fn couples(&self, i: usize, j: usize) -> bool {
         let [a, b] = [self.block(i), self.block(j)];
         let inner_is_link = |inner: usize, outer_block: usize, inner_block: usize| {
@@ -50,8 +50,9 @@ impl Chain {
     }
 }
 
-/// Chains of at most eight blocks with at most three more unknowns on each side of a link. Those that reach farther than to the next
-/// block have their root at the end.
+/// Generates chains of at most eight blocks with up to three extra unknowns beside each link.
+///
+/// Chains of larger reach have their root at the end.
 fn chains() -> impl Strategy<Value = Chain> {
     let extras = prop::collection::vec(prop::array::uniform2(0_usize..4), 1..8);
     (extras, 0_usize..8, prop_oneof![Just(1), 2..=FARTHEST_LINK]).prop_map(
@@ -62,7 +63,7 @@ fn chains() -> impl Strategy<Value = Chain> {
     )
 }
 
-/// A dense matrix, of which the rows and columns of some unknowns do not count, in the form of blocks.
+/// Converts a dense matrix without some rows and columns to blocks.
 fn in_blocks(chain: &Chain, dense: &Mat<f64>, left_out: &[bool]) -> BlockMatrix {
     let mut matrix = BlockMatrix::default();
     matrix.reshape(&chain.blocks(), left_out);
@@ -74,13 +75,15 @@ fn in_blocks(chain: &Chain, dense: &Mat<f64>, left_out: &[bool]) -> BlockMatrix 
     matrix
 }
 
-/// Replaces what is eliminated by this matrix.
+/// Factorises a matrix in an existing solver.
 fn factorise(solver: &mut BlockElimination, matrix: BlockMatrix) -> Result<(), UnsafeBlock> {
     solver.matrix = matrix;
     solver.factorise()
 }
 
-/// Solution without some unknowns, and the smallest pivot relative to the largest: dense, by faer.
+/// Solves without some unknowns by faer's dense LU.
+///
+/// Also returns the smallest pivot relative to the largest.
 fn reference(dense: &Mat<f64>, left_out: &[bool], rhs: &[f64]) -> (Vec<f64>, f64, f64) {
     let kept: Vec<_> = (0..rhs.len()).filter(|&i| !left_out[i]).collect();
     let part = Mat::from_fn(kept.len(), kept.len(), |i, j| dense[(kept[i], kept[j])]);
@@ -120,7 +123,7 @@ proptest! {
         let (expected, pivots, determinant) = reference(&dense, &left_out, &rhs[..size]);
         prop_assume!(pivots > 1e-3);
         let mut solver = BlockElimination::default();
-        // What an earlier factorisation left behind does not matter.
+        // A previous factorisation must not affect the result.
         let _ = factorise(&mut solver, in_blocks(&chain, &dense, &vec![false; size]));
         let found = factorise(&mut solver, in_blocks(&chain, &dense, &left_out));
         // A block of random numbers is hardly ever singular.
@@ -155,8 +158,8 @@ proptest! {
         prop_assert_eq!(x, solver.solve_unit(unknown));
     }
 
-    /// Without extras a symmetric matrix has as many negative eigenvalues as its blocks have, one after the other; of
-    /// those of a block, an odd number shows.
+    /// Without extra unknowns, a symmetric matrix has as many negative eigenvalues as its blocks
+    /// after elimination. The sign of a block's determinant shows only whether its number is odd.
     #[test]
     fn negative_determinants_count_negative_eigenvalues(
         count in 1_usize..6, root in 0_usize..6, entries in prop::collection::vec(-1.0_f64..1.0, 18 * 18),
@@ -180,8 +183,11 @@ proptest! {
     }
 }
 
-/// A row of scales: springs under bases of half-width `a` and, between some neighbours, contacts that hardly give way.
-/// Forces stand between the displacements of their scales, the load after those of the root.
+/// Row of scales: springs under bases of half-width `a`, and stiff contacts between some
+/// neighbours.
+///
+/// The forces are numbered between the displacements of their scales, the load after the
+/// displacements of the root.
 struct ContactRow {
     chain: Chain,
     dense: Mat<f64>,
@@ -244,7 +250,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 200, ..ProptestConfig::default() })]
 
     #[test]
-    fn rows_of_stiff_contacts_are_solved_as_exactly_as_by_a_dense_solver(
+    fn rows_of_stiff_contacts_are_as_accurate_as_with_a_dense_solver(
         root in 0_usize..10, contacts in prop::collection::vec(0_usize..3, 9),
         half_base in -2.0_f64..0.0, compliance in -18.0_f64..-3.0,
         numbers in prop::collection::vec(-1.0_f64..1.0, 200),
@@ -260,7 +266,7 @@ proptest! {
         prop_assume!(factorise(&mut solver, matrix).is_ok());
         let mut x = rhs.clone();
         solver.solve(&mut x);
-        // What is left of each equation, against its terms.
+        // Residual of each equation, relative to its terms.
         for (i, rhs) in rhs.iter().enumerate() {
             let terms = (0..size).map(|j| row.dense[(i, j)] * x[j]);
             let (sum, scale) = terms.fold((-rhs, 1.0), |(s, a), t| (s + t, a + t.abs()));
@@ -272,8 +278,8 @@ proptest! {
 }
 
 #[test]
-fn a_block_that_its_inner_neighbour_holds_alone_is_refused() {
-    // The outer block is singular, the matrix is not.
+fn a_block_held_only_by_its_inner_neighbour_is_refused() {
+    // The outer block is singular, but the matrix is regular.
     let chain = Chain { extras: vec![[0, 0]; 2], root: 1, reach: 1 };
     let dense =
         Mat::from_fn(6, 6, |i, j| f64::from(u8::from(i % 3 == j % 3 && (i >= 3 || j >= 3))));
@@ -283,7 +289,7 @@ fn a_block_that_its_inner_neighbour_holds_alone_is_refused() {
 }
 
 #[test]
-fn a_number_that_is_none_is_refused() {
+fn blocks_with_nan_are_refused() {
     for value in [f64::NAN, f64::INFINITY] {
         let chain = Chain { extras: vec![[0, 0]; 2], root: 1, reach: 1 };
         let dense = Mat::from_fn(6, 6, |i, j| match (i, j) {
@@ -306,7 +312,7 @@ fn blocks_that_are_too_large_are_refused() {
 }
 
 #[test]
-fn entries_stand_where_they_were_added() {
+fn entries_are_stored_at_their_position() {
     let chain = Chain { extras: vec![[1, 2], [0, 1], [2, 0]], root: 1, reach: 1 };
     let size = chain.size();
     let mut left_out = vec![false; size];

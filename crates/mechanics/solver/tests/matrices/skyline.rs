@@ -1,10 +1,10 @@
-//! The inertia of symmetric matrices, against dense eigenvalues.
+//! Inertia of symmetric matrices, against dense eigenvalues.
 
 use faer::{Mat, Side};
 use proptest::prelude::*;
 use solver::SkylineMatrix;
 
-/// A skyline, and the dense matrix of the same entries.
+/// Returns a skyline matrix and the dense matrix with the same entries.
 fn matrices(size: usize, reach: usize, numbers: &[f64]) -> (SkylineMatrix, Mat<f64>) {
     let first =
         (0..size).map(|row| row.saturating_sub((7 * row) % (reach + 1))).collect::<Vec<_>>();

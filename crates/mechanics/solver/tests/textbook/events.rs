@@ -9,7 +9,7 @@ use crate::walls::Walls;
 use crate::{changes, extrema, follow, steps};
 
 #[test]
-fn a_bump_pushes_and_lets_go() {
+fn a_bump_activates_and_deactivates_its_constraint() {
     let (points, stop) = follow(bump(), Settings::default());
     assert_eq!(stop, Termination::Reached);
     let changes = changes(&points);
@@ -25,7 +25,7 @@ fn a_bump_pushes_and_lets_go() {
     }
 }
 
-/// At both events the path has two directions, and each is the one of its side.
+/// At both events the path has two directions, one for each side.
 #[test]
 fn the_path_has_a_kink_where_a_bump_begins_and_ends() {
     let (points, _) = follow(bump(), Settings::default());
@@ -49,7 +49,7 @@ fn a_bump_within_one_step_is_not_missed() {
     assert_relative_eq!(places[1], 3.0, max_relative = 1e-10);
 }
 
-/// From anywhere, and with a step of any length.
+/// From any point and with a step of any length.
 #[test]
 fn a_bump_within_a_later_step_is_not_missed() {
     for (start, step) in [(0.4, 1.0), (0.9, 0.7), (0.7, 0.6)] {
@@ -66,8 +66,8 @@ fn a_bump_within_a_later_step_is_not_missed() {
     }
 }
 
-/// A wall that a step of the whole path touches for a hundredth of it: the cubic through the ends of the step is
-/// the guard itself, so it is lowest where the wall stands.
+/// A step over the whole path touches the wall for a hundredth of its length. The cubic through the
+/// ends of the step equals the guard, so its minimum lies at the wall.
 #[test]
 fn a_thin_wall_within_one_step_is_not_missed() {
     let wall: fn(f64) -> [f64; 2] = |u| [(u - 0.7).powi(2) - 1e-4, 2.0 * (u - 0.7)];
@@ -84,7 +84,7 @@ fn a_thin_wall_within_one_step_is_not_missed() {
     }
 }
 
-/// The chord of the nearer wall's guard points behind the farther wall.
+/// The chord of the nearer wall's guard points to a position behind the farther wall.
 #[test]
 fn the_nearer_of_two_walls_is_met_first() {
     let near: fn(f64) -> [f64; 2] =
@@ -105,10 +105,10 @@ fn the_nearer_of_two_walls_is_met_first() {
     }
 }
 
-/// Two walls at one place, of which one takes the force off the other: that one never acts, whichever is looked at
-/// first.
+/// Two walls at one position, one of which takes over the force of the other. The other never acts,
+/// whichever is evaluated first.
 #[test]
-fn of_two_walls_at_one_place_the_shielded_one_stays_open() {
+fn a_shielded_wall_stays_open() {
     let wall: fn(f64) -> [f64; 2] = |u| [0.5 - u, -1.0];
     for (shielded, by) in [(0, 1), (1, 0)] {
         let walls = Walls::shielded(vec![wall, wall], shielded, by);
@@ -125,7 +125,7 @@ fn of_two_walls_at_one_place_the_shielded_one_stays_open() {
     }
 }
 
-/// Units are arbitrary: the path goes through the same points, of which there are as many.
+/// Units are arbitrary: the path has the same points, in equal number.
 #[test]
 fn a_path_does_not_depend_on_the_units_of_its_unknowns() {
     fn compare<S: System + Clone>(system: S, factors: Vec<f64>, settings: Settings) {
@@ -168,7 +168,7 @@ fn a_path_that_turns_back_at_an_event_goes_on() {
     assert_relative_eq!(end[1], 0.5 * (1.0 + 5.0_f64.sqrt()), max_relative = 1e-9);
 }
 
-/// On the corner's way back `p = u + 3c` with `u = 1 − c + c²` rises all the time.
+/// On the reversed part of the corner's path, `p = u + 3c` with `u = 1 − c + c²` still increases.
 #[test]
 fn a_turn_at_an_event_is_no_load_extremum() {
     let (points, _) = follow(corner(), Settings::default());

@@ -1,4 +1,4 @@
-//! Loads and control parameters that turn.
+//! Turning loads and control parameters.
 
 use approx::assert_relative_eq;
 use solver::{Continuation, Settings, State, Termination};
@@ -24,7 +24,7 @@ fn the_extrema_of_an_arch_are_those_of_its_cubic() {
 }
 
 #[test]
-fn a_control_parameter_that_turns_back_is_followed() {
+fn a_turning_control_parameter_is_followed() {
     let (points, stop) = follow(arch_on_spring(), steps(0.05));
     assert_eq!(stop, Termination::Reached);
     let arch = |w: f64| w * (1.0 - w) * (2.0 - w);
@@ -33,7 +33,7 @@ fn a_control_parameter_that_turns_back_is_followed() {
         let [w, d, p] = point.state.z[..] else { unreachable!() };
         assert_relative_eq!(p, arch(w), epsilon = 1e-9);
         assert_relative_eq!(d, w + p / SPRING, epsilon = 1e-9);
-        // The arch snaps through without a jump.
+        // The arch snaps through continuously.
         assert!(before < w && w < before + 0.2, "from w = {before} to {w}");
         before = w;
     }
@@ -58,7 +58,7 @@ fn a_snap_back_does_not_depend_on_the_steps() {
     }
 }
 
-/// Followed from its lowest point, with arc length where `x` turns, until it has come round.
+/// Starts at the lowest point, uses arc length where `x` turns, and ends after a full turn.
 #[test]
 fn a_circle_is_followed_all_the_way_round() {
     let start = State { z: vec![0.0, -1.0], active: Vec::new(), mode: () };
@@ -84,9 +84,9 @@ fn a_circle_is_followed_all_the_way_round() {
     }
 }
 
-/// The path leaves each point within 45° of the direction in which it left the one before.
+/// Successive outgoing directions differ by at most 45°.
 #[test]
-fn steps_that_turn_too_sharply_are_cut() {
+fn steps_with_sharp_turns_are_shortened() {
     let start = State { z: vec![0.0, -1.0], active: Vec::new(), mode: () };
     let points: Vec<_> = Continuation::new(circle(), start, steps(1.0)).take(100).collect();
     let turns = points.windows(2).map(|pair| {
@@ -114,7 +114,8 @@ fn the_load_of_a_circle_turns_at_the_top_and_at_the_bottom() {
     }
 }
 
-/// The critical `λ = 2 (2θ/cosh θ)²`… with `θ tanh θ = 1`; the error of central differences is `O(h²)`.
+/// The critical load is `λ = 2 (2θ/cosh θ)²`… with `θ tanh θ = 1`; the error of central differences
+/// is `O(h²)`.
 #[test]
 fn bratu_folds_at_the_critical_load() {
     let critical = 3.513_830_719_125_16;
@@ -141,7 +142,7 @@ fn a_path_is_the_same_every_time() {
 }
 
 #[test]
-fn between_two_points_lies_the_path() {
+fn intermediate_equilibria_lie_on_the_path() {
     let mut path = Continuation::new(arch(), State::at_rest(&arch()), Settings::default());
     let start = path.point().clone();
     let end = path.nth(1).unwrap();

@@ -1,4 +1,4 @@
-//! A block that rubs: history in the state, and a tangent that is not symmetric.
+//! Block with friction: history in the mode, and an unsymmetric tangent.
 
 use approx::assert_relative_eq;
 use solver::{
@@ -7,13 +7,16 @@ use solver::{
 
 use crate::{follow, steps};
 
-/// Coefficient of friction, and by how much the block is pressed on more as it moves.
+/// Coefficient of friction, and the relative increase of the normal force with displacement.
 const FRICTION: f64 = 0.2;
 const WEDGE: f64 = 0.5;
 
-/// A block on a spring of stiffness 1, pushed by `f = 4 D (1 − D)` along a floor on which it rubs with `|T| ≤ μ (1 + c u)`.
+/// Block on a spring of stiffness 1, pushed by `f = 4 D (1 − D)` on a floor with friction.
 ///
-/// Unknowns `u, T, s⁺, s⁻, D`: the block sticks at the anchor `u₀`, its mode, while both ways `s` that it has slid are at rest.
+/// The friction force obeys `|T| ≤ μ (1 + c u)`.
+///
+/// Unknowns `u, T, s⁺, s⁻, D`: the block sticks at the anchor `u₀`, its mode, while both slip
+/// distances `s` are inactive.
 struct Block {
     controls: [Control; 1],
     blocks: Option<Blocks>,
@@ -75,7 +78,8 @@ impl System for Block {
         match active[..] {
             [true, _] => residual.add(1, z[1] - limit(z[0])),
             [_, true] => residual.add(1, z[1] + limit(z[0])),
-            // With this sign the determinant keeps its own where the block begins to slide: a path that turns back is known by it.
+            // This sign preserves the determinant where the block begins to slip, so that a
+            // reversed path is detected.
             _ => residual.add(1, mode - z[0]),
         }
     }
@@ -100,24 +104,25 @@ impl System for Block {
     }
 
     fn transition(&self, state: &mut State<f64>, change: Change) -> Option<usize> {
-        // Where it begins to slide, as where it stops, it is at its anchor.
+        // At the start and at the end of slip, the block is at its anchor.
         state.mode = state.z[0];
         Some(change.constraint)
     }
 }
 
-/// The displacement at which the block turns, and that at the end: `u = (f ∓ μ)/(1 ± μ c)`.
+/// Displacement at the reversal, and at the end: `u = (f ∓ μ)/(1 ± μ c)`.
 const TURNED: f64 = (1.0 - FRICTION) / (1.0 + FRICTION * WEDGE);
 const LEFT: f64 = FRICTION / (1.0 - FRICTION * WEDGE);
 
 #[test]
-fn a_block_sticks_slides_sticks_and_slides_back() {
+fn a_block_sticks_slips_sticks_and_slips_back() {
     for (in_blocks, largest) in [(true, 0.2), (false, 0.2), (true, 0.03), (false, 1.0)] {
         let (points, stop) = follow(block(in_blocks), steps(largest));
         assert_eq!(stop, Termination::Reached);
         let changes: Vec<_> = points.iter().filter(|point| point.event.is_some()).collect();
         let [slides, stops, back, _] = &changes[..] else { panic!("{changes:?}") };
-        // It slides from f = μ on, stops where the push is the largest, and slides back from f = u₀ − μ (1 + c u₀) on.
+        // The block slips from f = μ on, stops at the maximum push, and slips back from f = u₀ − μ
+        // (1 + c u₀) on.
         let place = |push: f64| 0.5 - 0.5 * (1.0 - push).sqrt();
         assert_relative_eq!(slides.state.z[4], place(FRICTION), max_relative = 1e-10);
         assert_relative_eq!(stops.state.z[4], 0.5, max_relative = 1e-7);
@@ -128,13 +133,14 @@ fn a_block_sticks_slides_sticks_and_slides_back() {
     }
 }
 
-/// The tangent of a sliding block is not symmetric, and both eliminations solve with it as it is.
+/// The tangent of a slipping block is unsymmetric, and both eliminations must handle it.
 #[test]
-fn the_tangent_of_a_sliding_block_agrees_with_differences() {
+fn the_tangent_of_a_slipping_block_agrees_with_differences() {
     let (points, _) = follow(block(true), steps(0.05));
     for point in points {
         check_tangent(&block(true), &point.state, 1e-8).unwrap_or_else(|wrong| {
-            // The slope of a way that is open is that of its condition, and it has an equation of its own once it is active.
+            // The slope of an inactive slip distance belongs to its condition; once active it has
+            // its own equation.
             assert!(wrong.row >= 2, "{wrong}");
         });
     }

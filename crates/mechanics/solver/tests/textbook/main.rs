@@ -14,12 +14,12 @@ mod work;
 
 use solver::{Continuation, Equilibrium, Event, Settings, State, System, Termination};
 
-/// Steps of a size.
+/// Returns settings with a largest step.
 fn steps(largest: f64) -> Settings {
     Settings { first_step: largest, max_step: largest, ..Settings::default() }
 }
 
-/// All points of a path from rest, and why it ended.
+/// Returns all points of a path from rest, and the reason of its end.
 fn follow<S: System>(system: S, settings: Settings) -> (Vec<Equilibrium<S::Mode>>, Termination) {
     let rest = State::at_rest(&system);
     let mut path = Continuation::new(system, rest, settings);
@@ -27,13 +27,13 @@ fn follow<S: System>(system: S, settings: Settings) -> (Vec<Equilibrium<S::Mode>
     (points, path.termination().expect("an iterator that has ended tells why"))
 }
 
-/// The loads at the extrema of a path, with the other unknowns.
+/// Returns the states at the load extrema of a path.
 fn extrema(points: &[Equilibrium]) -> Vec<&[f64]> {
     let extrema = points.iter().filter(|point| point.event == Some(Event::LoadExtremum));
     extrema.map(|point| point.state.z.as_slice()).collect()
 }
 
-/// The constraints that change sides along a path, with the point where they do.
+/// Returns the constraints that change sides along a path, with their points.
 fn changes(points: &[Equilibrium]) -> Vec<(&Equilibrium, Vec<(usize, bool)>)> {
     let changes = points.iter().filter_map(|point| match &point.event {
         Some(Event::Changed(changes)) => {

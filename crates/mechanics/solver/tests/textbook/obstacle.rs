@@ -1,4 +1,4 @@
-//! A string over a floor.
+//! String above a floor.
 
 use approx::assert_relative_eq;
 use solver::{Condition, Newton, Settings, State, System, Termination};
@@ -6,7 +6,7 @@ use solver::{Condition, Newton, Settings, State, System, Termination};
 use crate::problems::{DEPTH, StringOverFloor};
 use crate::{changes, follow, steps};
 
-/// The end of a path from rest to a load.
+/// Returns the end of a path from rest to a load.
 #[test]
 fn a_string_comes_to_lie_on_the_floor() {
     for load in [0.5, 0.9, 3.0, 40.0] {
@@ -24,9 +24,10 @@ fn a_string_comes_to_lie_on_the_floor() {
     }
 }
 
-/// Whatever force an iteration begins with, what does not touch has none; and what just touches stays open.
+/// Nodes without contact have no force, whatever the initial iterate; nodes that just touch stay
+/// open.
 #[test]
-fn a_string_that_touches_without_a_force_lies_free() {
+fn nodes_without_force_stay_open() {
     let string = StringOverFloor::whole(4, 1.0);
     let mut newton = Newton::new(&string);
     let touching = string.touching_load(2);
@@ -41,7 +42,7 @@ fn a_string_that_touches_without_a_force_lies_free() {
 }
 
 #[test]
-fn the_floor_takes_one_node_after_the_other() {
+fn the_floor_supports_nodes_one_after_the_other() {
     let string = StringOverFloor::halved(40, 20.0);
     let (points, stop) = follow(string.clone(), Settings::default());
     assert_eq!(stop, Termination::Reached);
@@ -62,7 +63,7 @@ fn the_floor_takes_one_node_after_the_other() {
 }
 
 #[test]
-fn nodes_to_the_left_and_to_the_right_touch_together() {
+fn symmetric_nodes_close_together() {
     let string = StringOverFloor::whole(20, 10.0);
     let (points, stop) = follow(string.clone(), Settings::default());
     assert_eq!(stop, Termination::Reached);

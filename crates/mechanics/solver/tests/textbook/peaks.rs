@@ -1,4 +1,4 @@
-//! Largest slopes of a path.
+//! Maximum slopes of a path.
 
 use approx::assert_relative_eq;
 use solver::{Continuation, Equilibrium, Peak, State, System};
@@ -6,13 +6,13 @@ use solver::{Continuation, Equilibrium, Peak, State, System};
 use crate::problems::{arch, kink, step, two_laws};
 use crate::steps;
 
-/// The largest slope `dp/du` of a path from rest, at its points and between them.
+/// Returns the largest slope `dp/du` of a path from rest, at its points and between them.
 fn steepest<S: System>(system: S, largest_step: f64) -> [f64; 2] {
     let load = system.load();
     largest(system, largest_step, |_, direction| direction[load] / direction[0])
 }
 
-/// The largest value of a function of state and direction on a path from rest, at its points and between them.
+/// Returns the maximum of a function of state and direction, at points and between them.
 fn largest<S: System>(
     system: S,
     largest_step: f64,
@@ -36,10 +36,10 @@ fn largest<S: System>(
 }
 
 #[test]
-fn the_steepest_place_is_found_between_the_points() {
+fn the_largest_slope_is_located_between_points() {
     for largest_step in [0.13, 0.047, 0.017, 0.0031] {
         let mut system = step();
-        // From rest: the equation is satisfied at u = 0 after a shift of the load.
+        // Start from rest: shifting the load satisfies the equation at u = 0.
         system.equations = |z| vec![(4.0 * (z[0] - 0.6)).tanh() + 2.4_f64.tanh() - z[1]];
         let [sampled, refined] = steepest(system, largest_step);
         assert!(sampled < 4.0 - 1e-9, "{sampled} at steps of {largest_step}");
@@ -56,7 +56,9 @@ fn a_largest_slope_at_the_start_stays_there() {
     assert_relative_eq!(refined, 2.0, max_relative = 1e-12);
 }
 
-/// The largest slope of the [`kink`]: `(c^1.1 e^(−kc))′` is largest where `(kc)² − 2.2 kc + 0.11 = 0`.
+/// Returns the maximum slope of the [`kink`].
+///
+/// `(c^1.1 e^(−kc))′` has its maximum where `(kc)² − 2.2 kc + 0.11 = 0`.
 fn steepest_behind_the_kink(decay: f64) -> f64 {
     let scaled = 1.1 - (1.1_f64.powi(2) - 0.11).sqrt();
     let c = scaled / decay;
@@ -71,8 +73,9 @@ fn a_maximum_close_behind_a_kink_is_found() {
     }
 }
 
-/// Within the first thousandth of a segment. Of the bracket in which the place is known to `10⁻⁵` that is a hundredth: an
-/// error of some `10⁻³`, squared. Away from the kink, where the slope is 1 too, the function is lower.
+/// The maximum lies within the first thousandth of a segment. It is located to `10⁻⁵`, a hundredth
+/// of its distance from the kink. The error of the value is quadratic in this, some `(10⁻³)²`. The
+/// function is lower elsewhere, where the slope is 1 too.
 #[test]
 fn a_maximum_very_close_behind_a_kink_is_found() {
     for largest_step in [0.13, 0.047, 0.011] {
@@ -85,7 +88,7 @@ fn a_maximum_very_close_behind_a_kink_is_found() {
 }
 
 #[test]
-fn a_peak_before_a_change_of_mode_is_one_of_the_mode_before() {
+fn a_peak_before_a_change_of_mode_belongs_to_the_earlier_mode() {
     for largest_step in [0.047, 0.031] {
         let [_, refined] = steepest(two_laws(), largest_step);
         assert_relative_eq!(refined, 3.0, max_relative = 1e-8);

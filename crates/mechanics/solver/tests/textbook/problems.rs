@@ -2,8 +2,10 @@
 
 use solver::{Change, Control, Residual, State, System, Tangent};
 
-/// A system without constraints of a few unknowns, given by functions: equations (one fewer than unknowns; the
-/// load is the last unknown), and their derivatives.
+/// Unconstrained system of a few unknowns, given by functions.
+///
+/// The functions are the equations (one fewer than unknowns; the load is the last unknown) and
+/// their derivatives.
 #[derive(Clone)]
 pub struct Smooth<const N: usize> {
     pub controls: Vec<Control>,
@@ -57,8 +59,9 @@ fn controls(controls: &[(usize, f64)]) -> Vec<Control> {
     controls.iter().map(|&(index, scale)| Control { index, scale }).collect()
 }
 
-/// `p = u (1 − u)(2 − u)`: a shallow arch pushed down by `u`. The load has its extrema
-/// `± 2/(3√3)` at `u = 1 ∓ 1/√3`.
+/// Shallow arch pushed down by `u`: `p = u (1 − u)(2 − u)`.
+///
+/// The load has its extrema `± 2/(3√3)` at `u = 1 ∓ 1/√3`.
 pub fn arch() -> Smooth<2> {
     Smooth {
         controls: controls(&[(0, 2.5)]),
@@ -68,7 +71,7 @@ pub fn arch() -> Smooth<2> {
     }
 }
 
-/// The arch under a load that only pushes: it comes back to zero at `u = 1`.
+/// Arch under a load that only pushes and returns to zero at `u = 1`.
 pub fn pushed_arch() -> Smooth<2> {
     Smooth { load_only_pushes: true, ..arch() }
 }
@@ -76,8 +79,10 @@ pub fn pushed_arch() -> Smooth<2> {
 /// Stiffness of the spring of [`arch_on_spring`].
 pub const SPRING: f64 = 0.25;
 
-/// The arch pushed through a soft spring: `p = w (1 − w)(2 − w) = k (d − w)`. The control parameter `d` turns back
-/// at `w = 1/2`, `d = 2`, and forward again at `w = 3/2`, `d = 0`. Unknowns `w, d, p`.
+/// Arch pushed through a soft spring: `p = w (1 − w)(2 − w) = k (d − w)`.
+///
+/// The control parameter `d` turns back at `w = 1/2`, `d = 2`, and forward again at `w = 3/2`, `d =
+/// 0`. Unknowns `w, d, p`.
 pub fn arch_on_spring() -> Smooth<3> {
     Smooth {
         controls: controls(&[(1, 3.0), (0, 1.0)]),
@@ -91,7 +96,7 @@ pub fn arch_on_spring() -> Smooth<3> {
     }
 }
 
-/// `x² + y² = 1`, driven by `x`, which never reaches its target 2.
+/// Circle `x² + y² = 1`, driven by `x`, which never reaches its target 2.
 pub fn circle() -> Smooth<2> {
     Smooth {
         controls: controls(&[(0, 2.0), (1, 2.0)]),
@@ -101,7 +106,7 @@ pub fn circle() -> Smooth<2> {
     }
 }
 
-/// `p = tanh 4 (u − 0.6)`, steepest at `u = 0.6` with slope 4.
+/// Steep step `p = tanh 4 (u − 0.6)`, with the maximum slope 4 at `u = 0.6`.
 pub fn step() -> Smooth<2> {
     Smooth {
         controls: controls(&[(0, 1.0)]),
@@ -111,7 +116,7 @@ pub fn step() -> Smooth<2> {
     }
 }
 
-/// `y² = u`: its control parameter `u` turns at the start.
+/// Parabola `y² = u`: its control parameter `u` turns at the start.
 pub fn parabola() -> Smooth<2> {
     Smooth {
         controls: controls(&[(0, 1.0)]),
@@ -121,7 +126,7 @@ pub fn parabola() -> Smooth<2> {
     }
 }
 
-/// `p = √(1/2 − u)`, which ends at `u = 1/2`.
+/// Square root `p = √(1/2 − u)`, which ends at `u = 1/2`.
 pub fn root() -> Smooth<2> {
     Smooth {
         controls: controls(&[(0, 1.0)]),
@@ -131,7 +136,7 @@ pub fn root() -> Smooth<2> {
     }
 }
 
-/// `p = u`, broken off at `u = 1/2`, where `p` falls by 1.
+/// Discontinuous path `p = u`, with a drop of `p` by 1 at `u = 1/2`.
 pub fn jump() -> Smooth<2> {
     Smooth {
         controls: controls(&[(0, 1.0), (1, 1.0)]),
@@ -141,8 +146,10 @@ pub fn jump() -> Smooth<2> {
     }
 }
 
-/// `u″ + λ eᵘ = 0` on the unit interval with `u = 0` at its ends (Bratu 1914), by central differences;
-/// driven by `u` in the middle. `λ` has its maximum 3.513 830 719 there where `cosh θ = θ sinh θ`.
+/// Bratu's problem `u″ + λ eᵘ = 0` on the unit interval, by central differences.
+///
+/// `u = 0` at the ends (Bratu 1914); driven by `u` in the middle. `λ` has its maximum 3.513 830 719
+/// where `cosh θ = θ sinh θ`.
 #[derive(Clone)]
 pub struct Bratu {
     intervals: usize,
@@ -210,19 +217,21 @@ impl System for Bratu {
     }
 }
 
-/// A string of unit length and tension under a uniform load `q`, hung from its ends above a floor at
-/// depth `D`, by linear elements of length `h = 1/n`:
+/// String above a floor, by linear elements of length `h = 1/n`.
+///
+/// The string has unit length and tension, carries a uniform load `q`, and hangs from its ends at
+/// the height `D` above the floor:
 ///
 /// ```text
 /// (2 u_i − u_{i−1} − u_{i+1})/h + λ_i = q h,     0 ≤ λ_i  ⟂  D − u_i ≥ 0
 /// ```
 ///
-/// Nodes are counted from the left end. The floor takes node `j` at `q = 2D/(h² j (j+1))`, the middle
-/// one of `n = 2m` at `8 D`. Unknowns `u_1, λ_1, u_2, λ_2 … q`.
+/// Nodes are counted from the left end. The floor supports node `j` from `q = 2D/(h² j (j+1))` on,
+/// the middle one of `n = 2m` from `8 D` on. Unknowns `u_1, λ_1, u_2, λ_2 … q`.
 #[derive(Clone)]
 pub struct StringOverFloor {
     intervals: usize,
-    /// Whether the right half is left out, by symmetry.
+    /// True if the right half is omitted by symmetry.
     halved: bool,
     constraints: Vec<usize>,
     controls: [Control; 1],
@@ -232,12 +241,12 @@ pub struct StringOverFloor {
 pub const DEPTH: f64 = 0.1;
 
 impl StringOverFloor {
-    /// A string of `intervals` elements (an even number), loaded until `q = load`.
+    /// Creates a string of `intervals` elements (an even number), loaded up to `q = load`.
     pub fn whole(intervals: usize, load: f64) -> Self {
         Self::new(intervals, load, false)
     }
 
-    /// The left half of the bar.
+    /// Creates the left half of the string.
     pub fn halved(intervals: usize, load: f64) -> Self {
         Self::new(intervals, load, true)
     }
@@ -260,14 +269,16 @@ impl StringOverFloor {
         self.constraints.len()
     }
 
-    /// The load at which the floor takes a node of the left half.
+    /// Returns the load at which the floor begins to support a node of the left half.
     pub fn touching_load(&self, node: usize) -> f64 {
         let next = if 2 * node == self.intervals { node } else { node + 1 };
         2.0 * DEPTH / (self.h().powi(2) * (node * next) as f64)
     }
 
-    /// Deflection of a node under a load: the floor holds the nodes from number `m` on, and the
-    /// string hangs freely from there to its end.
+    /// Returns the deflection of a node under a load.
+    ///
+    /// The floor supports the nodes from number `m` on, and the string hangs freely between there
+    /// and its end.
     pub fn deflection(&self, node: usize, load: f64) -> f64 {
         let middle = self.intervals / 2;
         let node = node.min(self.intervals - node);
@@ -283,7 +294,7 @@ impl StringOverFloor {
         }
     }
 
-    /// Part of an element's load and stiffness that stands at a node.
+    /// Returns the fraction of an element's load and stiffness assigned to a node.
     fn share(&self, i: usize) -> f64 {
         if self.halved && i + 1 == self.nodes() { 0.5 } else { 1.0 }
     }
@@ -348,8 +359,9 @@ impl System for StringOverFloor {
     }
 }
 
-/// A system of one coordinate `u`, one constraint `0 ≤ c ⟂ r(u, c) ≥ 0` and the load
-/// `p = f(u, c)`. Unknowns `u, c, p`; driven by `u`.
+/// System with one coordinate `u`, one constraint `0 ≤ c ⟂ r(u, c) ≥ 0` and `p = f(u, c)`.
+///
+/// Unknowns `u, c, p`; driven by `u`.
 #[derive(Clone)]
 pub struct OneConstraint {
     pub controls: Vec<Control>,
@@ -404,8 +416,9 @@ impl System for OneConstraint {
     }
 }
 
-/// A bead is drawn along a wire over a bump `1 − (u − 2)²`, held down by a unit spring: the bump pushes it
-/// up by `c` from `u = 1` to `u = 3`, and `p = u/2 + 2 c (2 − u)`.
+/// Bead drawn along a wire over a bump `1 − (u − 2)²`, held down by a unit spring.
+///
+/// The bump lifts it by `c` from `u = 1` to `u = 3`, and `p = u/2 + 2 c (2 − u)`.
 pub fn bump() -> OneConstraint {
     OneConstraint {
         controls: controls(&[(0, 4.0)]),
@@ -414,8 +427,10 @@ pub fn bump() -> OneConstraint {
     }
 }
 
-/// `0 ≤ c ⟂ 1 − u − c + c² ≥ 0`, `p = u + 3 c`: the path arrives at `u = 1`, turns back there to
-/// `u = 3/4`, and then reaches its target `u = 2` with `c = (1 + √5)/2`.
+/// Corner: `0 ≤ c ⟂ 1 − u − c + c² ≥ 0`, `p = u + 3 c`.
+///
+/// The path arrives at `u = 1`, reverses to `u = 3/4`, and then reaches its target `u = 2` with `c
+/// = (1 + √5)/2`.
 pub fn corner() -> OneConstraint {
     OneConstraint {
         controls: controls(&[(0, 2.0), (1, 1.0)]),
@@ -424,14 +439,16 @@ pub fn corner() -> OneConstraint {
     }
 }
 
-/// A constraint that acts from `u = 0.5` on with a force `c^1.1 e^(−kc)`, `c = u − 0.5`, of decay `k`: infinitely
-/// curved at first, and steepest soon after.
+/// Kink: a constraint that acts from `u = 0.5` on with a force `c^1.1 e^(−kc)`.
+///
+/// `c = u − 0.5` and the decay is `k`. The force has infinite curvature at first and its maximum
+/// slope soon after.
 pub fn kink<const DECAY: u32>() -> OneConstraint {
     OneConstraint {
         controls: controls(&[(0, 1.0)]),
         condition: |u, c| [0.5 - u + c, -1.0, 1.0],
         load: |u, c| {
-            // Odd below zero, where Newton's method may pass.
+            // Odd continuation below zero, through which Newton's method may pass.
             let (size, decay) = (c.abs(), (-f64::from(DECAY) * c).exp());
             let slope = decay * (1.1 * size.powf(0.1) - f64::from(DECAY) * size.powf(1.1));
             [u + decay * size.powf(1.1).copysign(c), 1.0, slope]
@@ -439,16 +456,17 @@ pub fn kink<const DECAY: u32>() -> OneConstraint {
     }
 }
 
-/// `p = u + 0.2 (tanh 10 (u − 0.2) + tanh 2)` up to `u = 0.5`, and `p = u` but for a constant from there on:
-/// another law holds once the constraint has become active. The first is steepest at `u = 0.2`, with
-/// slope 3.
+/// System with two laws, before and after the activation of a constraint at `u = 0.5`.
+///
+/// `p = u + 0.2 (tanh 10 (u − 0.2) + tanh 2)` before, and `p = u` plus a constant after. The first
+/// law has its maximum slope 3 at `u = 0.2`.
 #[derive(Clone)]
 pub struct TwoLaws {
     before: OneConstraint,
     after: OneConstraint,
 }
 
-/// Which of the laws holds.
+/// Current law.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WhichLaw {
     Before,
@@ -524,10 +542,10 @@ fn without_mode<M>(state: &State<M>) -> State {
     State { z: state.z.clone(), active: state.active.clone(), mode: () }
 }
 
-/// The kink with a constraint that does not become active.
+/// Kink with a constraint that cannot become active.
 #[derive(Clone)]
 pub enum Unwilling {
-    /// The constraint is violated whichever way the path goes.
+    /// The constraint is violated in both directions of the path.
     Refusing(OneConstraint),
     /// The constraint cannot change sides.
     Stuck(OneConstraint),
@@ -586,7 +604,9 @@ impl System for Unwilling {
     }
 }
 
-/// `10¹⁵ (sin u − p) = 0`, driven by `u` to 1: two large terms, which leave a round-off of about 0.1.
+/// System `10¹⁵ (sin u − p) = 0`, driven by `u` to 1.
+///
+/// Its two large terms leave a round-off of about 0.1.
 #[derive(Clone)]
 pub struct Stiff;
 

@@ -4,8 +4,9 @@ use std::borrow::Cow;
 
 use solver::{BandMatrix, Change, Control, Residual, State, System, Tangent};
 
-/// A system whose unknowns are measured in other units: each is `factors` times the one of the `system`, and so
-/// are the scales of its controls. Its path is the same.
+/// System in other units: `factors` multiply the unknowns and the scales of the controls.
+///
+/// The path is the same.
 #[derive(Clone)]
 pub struct Scaled<S> {
     system: S,
@@ -14,7 +15,7 @@ pub struct Scaled<S> {
 }
 
 impl<S: System> Scaled<S> {
-    /// The factors of constraints must be positive.
+    /// Factors of constraints must be positive.
     pub fn new(system: S, factors: Vec<f64>) -> Self {
         let scaled = |c: &Control| Control { scale: c.scale * factors[c.index], ..*c };
         let controls = system.controls().iter().map(scaled).collect();
@@ -25,7 +26,7 @@ impl<S: System> Scaled<S> {
         State { z: self.unscaled(&state.z), ..state.clone() }
     }
 
-    /// The unknowns in the units of the system.
+    /// Returns the unknowns in the units of the system.
     pub fn unscaled<'a>(&self, z: impl Into<Cow<'a, [f64]>>) -> Vec<f64> {
         z.into().iter().zip(&self.factors).map(|(z, factor)| z / factor).collect()
     }

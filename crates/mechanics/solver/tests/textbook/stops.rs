@@ -1,4 +1,4 @@
-//! Every way in which a path can end.
+//! Every reason for which a path can end.
 
 use approx::assert_relative_eq;
 use solver::{Condition, Continuation, Event, Newton, NewtonFailure, Settings, State, Termination};
@@ -14,7 +14,7 @@ fn a_path_ends_at_its_target() {
 }
 
 #[test]
-fn a_path_whose_load_only_pushes_ends_where_the_load_is_back_at_zero() {
+fn a_path_of_a_pushing_load_ends_at_zero_load() {
     for step in [0.01, 0.1, 0.5] {
         let (points, stop) = follow(pushed_arch(), steps(step));
         let last = points.last().unwrap();
@@ -26,14 +26,14 @@ fn a_path_whose_load_only_pushes_ends_where_the_load_is_back_at_zero() {
 }
 
 #[test]
-fn a_path_that_breaks_off_does_not_converge() {
+fn a_discontinuous_path_does_not_converge() {
     let (points, stop) = follow(jump(), Settings::default());
     assert_eq!(stop, Termination::NoConvergence);
     assert_relative_eq!(points.last().unwrap().state.z[0], 0.5, max_relative = 1e-6);
 }
 
 #[test]
-fn a_control_parameter_that_does_not_move_is_singular() {
+fn a_stationary_control_parameter_is_singular() {
     let (points, stop) = follow(parabola(), Settings::default());
     assert_eq!((points.len(), stop), (0, Termination::Singular));
 }
@@ -48,7 +48,7 @@ fn a_path_without_end_has_too_many_points() {
 }
 
 #[test]
-fn a_path_that_leaves_the_domain_of_its_equations_is_not_finite() {
+fn a_path_outside_the_domain_of_its_equations_is_not_finite() {
     let start = State { z: vec![0.0, 0.5_f64.sqrt()], active: Vec::new(), mode: () };
     let mut path = Continuation::new(root(), start, Settings::default());
     let last = path.by_ref().last().unwrap();
@@ -64,15 +64,15 @@ fn a_constraint_that_never_settles_cycles() {
 }
 
 #[test]
-fn a_constraint_that_cannot_change_sides_leaves_no_direction() {
+fn a_constraint_that_cannot_change_sides_is_singular() {
     let (points, stop) = follow(Unwilling::Stuck(kink::<5>()), Settings::default());
     assert_eq!(stop, Termination::Singular);
     assert!(points.last().unwrap().state.z[0] < 0.5);
 }
 
-/// Equations of large terms are satisfied to their round-off, which is large.
+/// Equations with large terms are satisfied up to their large round-off.
 #[test]
-fn an_equation_is_satisfied_where_it_is_small_against_its_terms() {
+fn equations_are_satisfied_relative_to_their_terms() {
     let mut path = Continuation::new(Stiff, State::at_rest(&Stiff), Settings::default());
     let end = path.by_ref().last().unwrap();
     assert_eq!(path.termination(), Some(Termination::Reached));
@@ -83,7 +83,7 @@ fn an_equation_is_satisfied_where_it_is_small_against_its_terms() {
 }
 
 #[test]
-fn newtons_method_says_why_it_fails() {
+fn newton_failures_state_their_reason() {
     let condition = |value| Condition::new(vec![(0, 1.0)], value);
     let fail = |system, value, settings: &Settings| {
         let mut state = State { z: vec![0.0, 0.0], active: Vec::new(), mode: () };
@@ -98,7 +98,7 @@ fn newtons_method_says_why_it_fails() {
 }
 
 #[test]
-fn stops_have_names() {
+fn terminations_have_names() {
     let stops = [
         Termination::Reached,
         Termination::Unloaded,

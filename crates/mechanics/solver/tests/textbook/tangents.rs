@@ -1,4 +1,4 @@
-//! The tangents of the problems agree with differences of their residuals.
+//! Tangents of the problems against differences of their residuals.
 
 use solver::{Change, Control, Residual, State, System, Tangent, check_tangent};
 
@@ -7,7 +7,7 @@ use crate::problems::{
     parabola, root, step,
 };
 
-/// All constraints active.
+/// Returns a state with all constraints active.
 fn state<S: System<Mode = ()>>(system: &S, z: &[f64]) -> State {
     State { z: z.to_vec(), active: vec![true; system.constraints().len()], mode: () }
 }
@@ -32,7 +32,7 @@ fn tangents_are_derivatives() {
     check(&string, &[0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7]);
 }
 
-/// A bead on a bump whose tangent or slope is off in one place.
+/// Bead on a bump with one wrong entry of its tangent or slope.
 struct Wrong {
     right: OneConstraint,
     entry: Option<(usize, usize)>,
@@ -85,7 +85,7 @@ impl System for Wrong {
 }
 
 #[test]
-fn a_derivative_that_is_off_is_named() {
+fn a_wrong_derivative_is_reported() {
     let found = |entry, slope, active| {
         let wrong = Wrong { right: bump(), entry, slope };
         let state = State { active: vec![active], ..state(&wrong, &[1.3, 0.4, 0.2]) };
@@ -98,7 +98,7 @@ fn a_derivative_that_is_off_is_named() {
         }
     }
     assert_eq!(found(None, 1e-6, true), Some((1, 0)));
-    // Of a constraint that is not active the slope counts, and neither row nor column of the tangent.
+    // For an inactive constraint the slope counts, not its row and column of the tangent.
     assert_eq!(found(None, 1e-6, false), Some((1, 0)));
     for entry in [(1, 0), (1, 2), (0, 1)] {
         assert_eq!(found(Some(entry), 0.0, false), None);

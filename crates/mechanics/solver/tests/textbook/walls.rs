@@ -1,22 +1,23 @@
-//! A coordinate that is pushed against walls.
+//! Coordinate pushed against walls.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use solver::{Control, Residual, State, System, Tangent};
 
-/// A coordinate `u` under a load `p`, against walls that give way: `p = u + Σ c_k` with
-/// `0 ≤ c_k ⟂ r_k(u) + c_k + s_k ≥ 0`, where `s_k` is twice the force on a wall that shields this one. Unknowns
-/// `u, c_1, c_2 … p`; driven by `u` to 1.
+/// Coordinate `u` under a load `p`, against compliant walls.
+///
+/// `p = u + Σ c_k` with `0 ≤ c_k ⟂ r_k(u) + c_k + s_k ≥ 0`, and `s_k` twice the force on the wall
+/// that shields wall `k`. Unknowns `u, c_1, c_2 … p`; driven by `u` to 1.
 #[derive(Clone)]
 pub struct Walls {
     /// `r_k` and its derivative.
     gaps: Vec<fn(f64) -> [f64; 2]>,
-    /// A wall, and the one that shields it.
+    /// Shielded wall and shielding wall.
     shielded: Option<(usize, usize)>,
     constraints: Vec<usize>,
     controls: Vec<Control>,
-    /// How many tangents have been asked for.
+    /// Number of evaluated tangents.
     pub tangents: Arc<AtomicUsize>,
 }
 
@@ -27,12 +28,12 @@ impl Walls {
         Self { gaps, shielded: None, constraints, controls, tangents: Arc::default() }
     }
 
-    /// Walls of which one is shielded by another.
+    /// Creates walls, one of which is shielded by another.
     pub fn shielded(gaps: Vec<fn(f64) -> [f64; 2]>, wall: usize, by: usize) -> Self {
         Self { shielded: Some((wall, by)), ..Self::new(gaps) }
     }
 
-    /// Walls, the path measured by the load too.
+    /// Creates walls with the load as a second measure of the path.
     pub fn measured_by_the_load(gaps: Vec<fn(f64) -> [f64; 2]>) -> Self {
         let mut walls = Self::new(gaps);
         walls.controls.push(Control { index: walls.load(), scale: 1.0 });

@@ -1,7 +1,7 @@
-//! The work of a path: how many points, and how many Newton iterations.
+//! Work of a path: numbers of points and Newton iterations.
 //!
-//! A search that converges slowly, or a step that is cut for no reason, still leads to the same
-//! equilibria, and shows here alone. The counts are upper bounds: a change that makes the solver better lowers them.
+//! A slowly converging search or a needlessly cut step still reaches the same equilibria and shows
+//! only here. The counts are upper bounds: lower them when the solver improves.
 
 use std::sync::atomic::Ordering;
 
@@ -13,7 +13,7 @@ use crate::problems::{
 use crate::steps;
 use crate::walls::Walls;
 
-/// Points and Newton iterations of a path from rest.
+/// Returns the points and Newton iterations of a path from rest.
 fn work<S: System>(system: S, settings: Settings) -> [usize; 2] {
     let rest = State::at_rest(&system);
     let mut path = Continuation::new(system, rest, settings);
@@ -28,7 +28,7 @@ fn work<S: System>(system: S, settings: Settings) -> [usize; 2] {
     [points, iterations]
 }
 
-/// Checks that no count is above that of before: less is welcome.
+/// Checks that no count exceeds its bound.
 #[track_caller]
 fn assert_at_most(counts: &[usize], most: &[usize]) {
     assert!(
@@ -38,21 +38,22 @@ fn assert_at_most(counts: &[usize], most: &[usize]) {
 }
 
 #[test]
-fn paths_with_extrema() {
+fn paths_with_extrema_take_few_iterations() {
     assert_at_most(&work(arch(), Settings::default()), &[7, 40]);
     assert_at_most(&work(arch(), steps(0.3)), &[5, 38]);
     assert_at_most(&work(Bratu::new(20), Settings::default()), &[7, 41]);
 }
 
 #[test]
-fn paths_whose_control_parameter_turns() {
+fn paths_with_turning_control_parameters_take_few_iterations() {
     assert_at_most(&work(arch_on_spring(), Settings::default()), &[45, 411]);
     assert_at_most(&work(arch_on_spring(), steps(0.4)), &[42, 432]);
 }
 
-/// `p = tanh 4 (u − 0.6)` up to where it is steepest: the step is one of arc length, and goes past the target.
+/// `p = tanh 4 (u − 0.6)` up to its maximum slope: the step is measured by arc length and passes
+/// the target.
 #[test]
-fn a_path_that_meets_its_target_slowly() {
+fn a_steep_target_takes_few_iterations() {
     let mut steep = step();
     let [progress, load] = [(0, 0.6), (1, 0.03)].map(|(index, scale)| Control { index, scale });
     steep.controls = vec![progress, load];
@@ -74,7 +75,9 @@ fn paths_with_constraints() {
     assert_at_most(&work(StringOverFloor::whole(20, 10.0), steps(0.5)), &[9, 17]);
 }
 
-/// Places at which a maximum is looked for: the quantity is evaluated three times at each, for its value and its slope.
+/// Returns the number of samples of a search for a maximum.
+///
+/// Each sample evaluates the quantity three times, for its value and its slope.
 fn places<S: System>(system: S, largest_step: f64) -> usize {
     let load = system.load();
     let count = std::cell::Cell::new(0);
@@ -105,9 +108,9 @@ fn maxima_between_points() {
     assert_at_most(&[0.047, 0.031].map(|step| places(two_laws(), step)), &[8, 7]);
 }
 
-/// Walls that are met at one place are met at once, and not one after the other with a solve for each.
+/// Walls at one position close together, without a separate solve for each.
 #[test]
-fn walls_that_stand_at_one_place_take_no_longer_than_one() {
+fn coincident_walls_take_no_longer_than_one() {
     let tangents = |count: usize| {
         let walls = Walls::new(vec![|u| [0.5 - u, -1.0]; count]);
         let counter = walls.tangents.clone();

@@ -1,14 +1,14 @@
-//! The discretisation: its order, reciprocity, and the honesty of the estimated error.
+//! Discretisation: order, reciprocity, and reliability of the estimated error.
 
 use std::sync::LazyLock;
 
 use substrate::boundary_element::{CrossTerms, RowReactions, row_reactions};
 use substrate::{Footprint, RowStiffness, Springs, calibrate};
 
-/// The largest relative error that the springs may have.
+/// Largest acceptable relative error of the springs.
 const REQUIRED: f64 = 3e-3;
 
-/// A row of `tests/reference.csv`, which `examples/reference.rs` writes.
+/// Row of `tests/reference.csv`, which `examples/reference.rs` writes.
 struct Reference {
     footprint: Footprint,
     coefficients: [f64; 6],
@@ -26,7 +26,7 @@ impl Reference {
         }
     }
 
-    /// Actual errors over the `α` of the direction.
+    /// Returns the actual errors over the `α` of the direction.
     fn errors(&self, found: &Springs) -> [f64; 6] {
         let exact = &self.coefficients;
         std::array::from_fn(|i| {
@@ -35,7 +35,7 @@ impl Reference {
         })
     }
 
-    /// What boundary elements find without the table.
+    /// Solves by boundary elements, without the table.
     fn solved(&self) -> Springs {
         (&RowStiffness::solve(&self.footprint, 1).unwrap()).into()
     }
@@ -64,7 +64,8 @@ fn springs_are_converged() {
         let actual = row.errors(&row.solved());
         for (i, error) in actual.into_iter().enumerate() {
             assert!(error < REQUIRED / 10.0, "{i} is off by {error:.1e} for {:?}", row.footprint);
-            // A coupling also relative to itself, unless it is below a thousandth of the direct one.
+            // A coupling is also compared relative to itself, unless it is below a thousandth of
+            // the direct one.
             let share = row.coefficients[i].abs() / row.coefficients[i % 3];
             assert!(
                 share < 1e-3 || error < REQUIRED * share,
@@ -76,9 +77,9 @@ fn springs_are_converged() {
     }
 }
 
-/// The references are from 16 and 24 cells a side: their own error is 6e-6 at most.
+/// The references use 16 and 24 cells per side; their own error is 6e-6 at most.
 #[test]
-fn springs_of_the_table_are_those_of_the_references() {
+fn the_table_agrees_with_the_references() {
     for row in REFERENCES.iter() {
         let found = calibrate(&row.footprint).unwrap();
         let worst = row.errors(&found).into_iter().fold(0.0, f64::max);
@@ -88,7 +89,7 @@ fn springs_of_the_table_are_those_of_the_references() {
 }
 
 #[test]
-fn the_estimated_error_is_honest() {
+fn the_estimated_error_bounds_the_actual_error() {
     let mut factors: Vec<f64> = Vec::new();
     for row in REFERENCES.iter() {
         let solved = row.solved();
@@ -103,9 +104,9 @@ fn the_estimated_error_is_honest() {
     assert!(median < 8.0, "the estimate is {median:.1} times the error");
 }
 
-/// The order that the extrapolation takes, between 4, 8 and 16 cells.
+/// The order that the extrapolation assumes, between 4, 8 and 16 cells.
 #[test]
-fn tractions_converge_with_the_third_power() {
+fn reactions_converge_with_third_order() {
     for (gap, width) in [(1e3, 2.0), (2.0, 2.0), (0.05, 2.0), (0.05, 80.0), (2.0, 0.25)] {
         let footprint = Footprint::new(gap, width, 0.5).unwrap();
         let [coarse, medium, fine] =
@@ -115,14 +116,14 @@ fn tractions_converge_with_the_third_power() {
     }
 }
 
-/// The difference of the two cross terms, which Betti's theorem makes equal, over their size.
+/// Returns the relative difference of the two cross terms, which are equal by Betti's theorem.
 fn reciprocity_defect(found: &RowReactions) -> f64 {
     let CrossTerms { force, moment } = found.cross[0];
     (force - moment).abs() / force.abs().max(moment.abs())
 }
 
-/// Betti: collocation does not build it in, so that the defect measures the error. It falls with the
-/// second power of the number of cells at least, mostly with the third.
+/// Collocation does not enforce Betti's theorem, so the defect measures the error. It decreases at
+/// least with the second power of the number of cells, mostly with the third.
 #[test]
 fn reciprocity() {
     for (gap, width) in [(0.05, 0.25), (0.2, 2.0), (2.0, 2.0), (0.05, 80.0), (4.0, 80.0)] {
@@ -134,9 +135,9 @@ fn reciprocity() {
     }
 }
 
-/// Far beyond the range the numbers stay usable, and the estimate says how far.
+/// Far outside the range the values remain usable, and the estimate states their accuracy.
 #[test]
-fn extremes_are_served_with_a_larger_estimate() {
+fn extreme_footprints_have_larger_error_estimates() {
     for (gap, width) in [(1e-3, 2.0), (1e-6, 2.0), (1.0, 1e-2), (1.0, 1e4), (1e-3, 100.0)] {
         let footprint = Footprint::new(gap, width, 0.5).unwrap();
         let found = calibrate(&footprint).unwrap();

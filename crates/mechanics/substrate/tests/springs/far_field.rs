@@ -1,4 +1,4 @@
-//! The far field against rows that are solved whole.
+//! Far field against rows that are solved as a whole.
 
 use faer::Mat;
 use faer::linalg::solvers::Solve;
@@ -11,8 +11,10 @@ fn springs(alpha: f64, ratio: f64) -> RowStiffness {
     RowStiffness::from(&Springs { direct, coupling, error: 0.0 })
 }
 
-/// Displacements of the free scales of a row whose first scale is displaced by 1, and the force on that scale: by Thomas's
-/// algorithm, from the far end, in the direction `k`.
+/// Solves a row of free scales with its first scale displaced by 1, in direction `k`.
+///
+/// Returns the displacements and the force on the first scale, by Thomas's algorithm from the far
+/// end.
 fn finite_row(stiffness: &RowStiffness, k: usize, scales: usize) -> (Vec<f64>, f64) {
     let (alpha, beta) = (stiffness.direct[k], -stiffness.neighbours[0].direct[k]);
     let mut ratios = Vec::new();
@@ -28,7 +30,7 @@ fn finite_row(stiffness: &RowStiffness, k: usize, scales: usize) -> (Vec<f64>, f
     (displacements, own)
 }
 
-/// What the far field leaves of the stiffness of a scale in one direction.
+/// Returns the stiffness of a scale in one direction, reduced by the far field.
 fn held(stiffness: &RowStiffness, far: &FarField, k: usize) -> f64 {
     let relief = far.relief.iter().find(|r| [r.force, r.displacement] == [0, 0]);
     stiffness.direct[k] - relief.unwrap().by[k][k]
@@ -54,7 +56,7 @@ fn a_long_row_behaves_like_an_endless_one() {
 }
 
 #[test]
-fn a_row_that_ends_is_as_soft_as_its_scales_together() {
+fn the_far_field_of_a_finite_row_agrees_with_a_whole_solution() {
     for ratio in [-0.98, 0.0, 0.2, 0.98] {
         let stiffness = springs(3.0, ratio);
         for beyond in [1, 2, 3, 10, 60] {
@@ -79,7 +81,7 @@ fn rows_of_bases_on_a_half_space_decay() {
         let stiffness = RowStiffness::compute(&footprint, Coupling::Nearest).unwrap();
         let far = stiffness.far_field(None).unwrap();
         let [x, y, rotation] = far.displacement(|_| [1.0; 3], 1);
-        // Shear and depth have one sign, rotations alternate.
+        // Shear and depth keep their sign, rotations alternate.
         assert!(0.0 < x && x < 1.0 && 0.0 < y && y < 1.0, "{x} {y}");
         assert!(-1.0 < rotation && rotation < 0.0, "{rotation}");
         for k in 0..3 {
@@ -89,7 +91,7 @@ fn rows_of_bases_on_a_half_space_decay() {
     }
 }
 
-/// The stiffness of a row of so many scales, the couplings of (S9) written out.
+/// Assembles the dense stiffness of a row with the couplings of (S9).
 fn dense(stiffness: &RowStiffness, scales: usize) -> Mat<f64> {
     let mut matrix = Mat::zeros(3 * scales, 3 * scales);
     for i in 0..scales {
@@ -117,8 +119,8 @@ fn dense(stiffness: &RowStiffness, scales: usize) -> Mat<f64> {
     matrix
 }
 
-/// Of an endless row with `m` couplings the last `m` scales take the place of the last one: against the static condensation of 400
-/// scales.
+/// In an infinite row with `m` couplings, the last `m` scales take the role of the last one.
+/// Compared with the static condensation of 400 scales.
 #[test]
 fn a_row_with_far_couplings_is_condensed_to_its_last_scales() {
     let footprint = |gap, width| Footprint::new(gap, width, 0.5).unwrap();
@@ -162,7 +164,7 @@ fn a_row_with_far_couplings_is_condensed_to_its_last_scales() {
 }
 
 #[test]
-fn nothing_decays_where_a_scale_is_held_by_its_neighbours_alone() {
+fn an_unstable_row_has_no_far_field() {
     let mut loose = springs(1.0, 0.5);
     loose.neighbours = vec![Neighbour { direct: [-0.5, -0.1, 0.1], ..Neighbour::default() }];
     assert_eq!(loose.far_field(None).or(loose.far_field(Some(3))), None);

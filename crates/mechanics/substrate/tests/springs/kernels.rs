@@ -1,10 +1,10 @@
-//! The corner functions against numerical quadrature.
+//! Corner functions against numerical quadrature.
 
 use std::f64::consts::TAU;
 
 use substrate::half_space::{CornerLine, Influence, cell, corner};
 
-/// Simpson's rule on `2 half` intervals.
+/// Integrates by Simpson's rule on `2 half` intervals.
 fn simpson(ends: [f64; 2], half: u32, f: impl Fn(f64) -> f64) -> f64 {
     let step = (ends[1] - ends[0]) / f64::from(2 * half);
     let weight = |k: u32| match k {
@@ -32,8 +32,8 @@ fn cells_away_from_the_field_point() {
     }
 }
 
-/// In polar coordinates about a field point inside the cell the integrand is regular:
-/// `∬ x²/r³ = ∫ R(θ) cos²θ dθ` with the distance `R` to the boundary.
+/// In polar coordinates about a field point inside the cell, the integrand is regular: `∬ x²/r³ = ∫
+/// R(θ) cos²θ dθ` with the distance `R` to the boundary.
 #[test]
 fn cells_around_the_field_point() {
     for (x, z) in [([-0.5_f64, 0.5_f64], [-0.5_f64, 0.5_f64]), ([-0.1, 0.7], [-0.02, 0.05])] {
@@ -64,19 +64,19 @@ fn corner_functions_vanish_with_their_factor() {
     assert_eq!(corner(0.0, 0.0), Influence::default());
 }
 
-/// The centre of a uniformly loaded square of side 2 sinks by `8 asinh(1)/π`.
+/// The centre of a uniformly loaded square of side 2 settles by `8 asinh(1)/π`.
 #[test]
 fn centre_of_a_uniformly_loaded_square() {
     let square = cell([-1.0, 1.0], [-1.0, 1.0]);
     let exact = analytical::half_space::loaded_square_centre();
     assert!((square.normal() - exact).abs() < 1e-15);
     assert!((square.tangential(0.0) - exact).abs() < 1e-15);
-    // Incompressible: half as much again, by symmetry of the square.
+    // Incompressible: larger by half, by symmetry of the square.
     assert!((square.tangential(0.5) - 1.5 * exact).abs() < 1e-14);
 }
 
 #[test]
-fn a_line_of_corners_is_its_corners() {
+fn a_line_of_corners_agrees_with_single_corners() {
     let depths = [-3.0, -0.5, -1e-6, 0.0, 0.25, 1.0, 40.0];
     for field in [0.0, 0.2, -0.5] {
         let line = CornerLine::new(depths, field);

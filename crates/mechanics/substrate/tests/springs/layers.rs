@@ -8,7 +8,7 @@ use faer::prelude::Solve;
 use substrate::layer::{Layer, beside_half_space};
 use substrate::{Coupling, Footprint, NEIGHBOURS, RowStiffness, StiffnessSlopes};
 
-/// Three squares at a gap of `0.2 a`.
+/// Returns the stiffness of three squares at a gap of `0.2 a`.
 fn squares(thickness: f64) -> RowStiffness {
     on(0.2, thickness, Coupling::Nearest)
 }
@@ -18,7 +18,7 @@ fn on(gap: f64, thickness: f64, coupling: Coupling) -> RowStiffness {
     RowStiffness::compute(&footprint, coupling).unwrap()
 }
 
-/// Every number of a stiffness.
+/// Returns all values of a stiffness.
 fn numbers(row: &RowStiffness) -> Vec<f64> {
     let neighbours = row.neighbours.iter();
     let of_neighbour =
@@ -26,9 +26,12 @@ fn numbers(row: &RowStiffness) -> Vec<f64> {
     row.direct.into_iter().chain([row.roll]).chain(of_neighbour).collect()
 }
 
-/// A layer of `h = G = 1` with waves `e^(ikx)` in the plane, solved for directly. Its displacements are `(i U, V)` of four fields, two gradients of
-/// harmonic functions and two of Papkovich and Neuber (`κ ψ e_y − y ∇ψ`), which vanish at `y = −1` together and carry a wave of traction at
-/// `y = 0`. Returns `U` and `V` at the surface, times `k`, of a normal traction 1, and of one `i` along `x`.
+/// Solves directly for a layer with `h = G = 1` under waves `e^(ikx)` in the plane.
+///
+/// The displacements are `(i U, V)` of four fields, two gradients of harmonic functions and two
+/// Papkovich–Neuber fields (`κ ψ e_y − y ∇ψ`). Together they vanish at `y = −1` and carry a wave of
+/// traction at `y = 0`. Returns `U` and `V` at the surface, times `k`, for a normal traction 1 and
+/// for a traction `i` along `x`.
 fn wave(ratio: f64, k: f64) -> [[f64; 2]; 2] {
     let kappa = 3.0 - 4.0 * ratio;
     // U, V, and the tractions over i and 1, of each field at a depth.
@@ -57,9 +60,9 @@ fn wave(ratio: f64, k: f64) -> [[f64; 2]; 2] {
     [solution([0.0, 1.0]), solution([1.0, 0.0])]
 }
 
-/// The compliances, with the sign of the coupling, against a layer that is solved for directly.
+/// The compliances, including the sign of the coupling, against a directly solved layer.
 #[test]
-fn compliances_are_those_of_a_layer_solved_directly() {
+fn compliances_agree_with_a_directly_solved_layer() {
     for ratio in [0.5, 0.3, 0.0] {
         for x in [0.05, 0.3, 1.0, 2.5, 4.0] {
             let [[crossed, normal], [shear, back]] = wave(ratio, x);
@@ -74,7 +77,7 @@ fn compliances_are_those_of_a_layer_solved_directly() {
     }
 }
 
-/// In real space against the trapezoidal rule, with the Bessel functions from their own integrals.
+/// In real space against the trapezoidal rule, with Bessel functions from their own integrals.
 #[test]
 fn point_loads_are_hankel_transforms() {
     let bessel = |order: f64, z: f64| {
@@ -94,7 +97,8 @@ fn point_loads_are_hankel_transforms() {
                     let weight = if k == 0 { 0.5 } else { 1.0 };
                     weight * beside_half_space(ratio, x)[part] * bessel(order, x * r / thickness)
                 };
-                // Cut at the other end; at this one the slope takes the rest of the rule away.
+                // Truncated at the other end; at this end the slope cancels the remainder of the
+                // rule.
                 let slope = (at(1) - 2.0 * at(0)) / step;
                 (0..1600).map(at).sum::<f64>() * step + step * step / 12.0 * slope
             };
@@ -109,9 +113,9 @@ fn point_loads_are_hankel_transforms() {
     }
 }
 
-/// What a layer adds falls with its thickness, the normal part as `1/h`.
+/// The contribution of a layer decreases with its thickness, the normal part as `1/h`.
 #[test]
-fn thick_layers_are_half_spaces() {
+fn thick_layers_approach_the_half_space() {
     for coupling in [Coupling::Nearest, Coupling::Full] {
         let half_space =
             RowStiffness::compute(&Footprint::new(0.2, 2.0, 0.5).unwrap(), coupling).unwrap();
@@ -128,10 +132,10 @@ fn thick_layers_are_half_spaces() {
     }
 }
 
-/// Values of an independent program on coarse meshes, printed to two digits: of an isolated square over the half-space, and the new
-/// couplings of three squares.
+/// Values of an independent program on coarse meshes, printed to two digits: an isolated square
+/// relative to the half-space, and the additional couplings of three squares.
 #[test]
-fn layers_are_those_of_another_program() {
+fn layers_agree_with_an_independent_program() {
     let alone = RowStiffness::compute(&Footprint::new(100.0, 2.0, 0.5).unwrap(), Coupling::Nearest);
     let alone = alone.unwrap().direct;
     for (thickness, expected) in
@@ -152,9 +156,10 @@ fn layers_are_those_of_another_program() {
     }
 }
 
-/// The estimated error bounds what another quadrature and other footprints show, and says where a layer is too thin.
+/// The estimated error bounds the deviation of other quadratures and footprints, and excessively
+/// thin layers are rejected.
 #[test]
-fn the_error_is_told_and_thin_layers_are_refused() {
+fn the_error_is_bounded_and_thin_layers_are_refused() {
     for (thickness, bound) in [(10.0, 1e-4), (2.0, 3e-4), (1.0, 5e-4), (0.5, 2e-3)] {
         let error = squares(thickness).error;
         assert!(error < bound, "{thickness} {error:e}");
@@ -163,7 +168,8 @@ fn the_error_is_told_and_thin_layers_are_refused() {
     assert!(refused.to_string().contains("a quarter of the half-width"), "{refused}");
 }
 
-/// Waves along an endless row, as (S12): nine entries of a Hermitian matrix, of which all eigenvalues are positive.
+/// Waves along an infinite row, as (S12): nine entries of a Hermitian matrix with positive
+/// eigenvalues.
 #[test]
 fn the_stiffness_is_positive_definite() {
     for thickness in [0.5, 1.0, 2.0, 5.0, 20.0] {
@@ -179,7 +185,7 @@ fn the_stiffness_is_positive_definite() {
                 let own = [0, 1, 2].map(|i| row.direct[i] + sum(f64::cos, &|k| n[k].direct[i]));
                 let roll = row.roll + sum(f64::cos, &|k| n[k].roll);
                 let (lift, cross) = (sum(f64::sin, &|k| n[k].lift), sum(f64::sin, &|k| n[k].cross));
-                // With y turned by a quarter of a wave the matrix is real.
+                // Shifting y by a quarter wave makes the matrix real.
                 let matrix = Mat::from_fn(3, 3, |i, j| match (i.min(j), i.max(j)) {
                     (0, 1) => lift,
                     (0, 2) => roll,
@@ -193,9 +199,10 @@ fn the_stiffness_is_positive_definite() {
     }
 }
 
-/// Derivatives by all four numbers, and by all lengths together, against differences of whole stiffnesses.
+/// Derivatives by all four parameters, and by all lengths together, against differences of whole
+/// stiffnesses.
 #[test]
-fn derivatives_are_those_of_differences() {
+fn derivatives_agree_with_differences() {
     for (coupling, [gap, width, ratio, thickness]) in [
         (Coupling::Nearest, [0.23, 1.7, 0.31, 2.6]),
         (Coupling::Nearest, [1.4, 6.0, 0.5, 9.0]),
@@ -210,7 +217,7 @@ fn derivatives_are_those_of_differences() {
         let found = StiffnessSlopes::compute(&of(gap, width, ratio, thickness), coupling).unwrap();
         let step = 1e-3;
         let center = [gap, width, ratio, thickness];
-        // Along a direction, by steps of two lengths.
+        // Along a direction, by two step lengths.
         let check = |slopes: &RowStiffness, along: [f64; 4]| {
             let by = |steps: f64| at(std::array::from_fn(|i| center[i] + steps * step * along[i]));
             let [near, far] = [1.0, 2.0].map(|k| by(k).into_iter().zip(by(-k)));

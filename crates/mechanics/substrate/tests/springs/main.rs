@@ -1,4 +1,4 @@
-//! The half-space, its boundary elements, and the springs that stand for it.
+//! Half-space, boundary elements, and the equivalent springs.
 
 mod convergence;
 mod far_field;

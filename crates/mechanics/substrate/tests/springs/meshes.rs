@@ -1,4 +1,4 @@
-//! The graded axes.
+//! Graded axes.
 
 use substrate::Footprint;
 use substrate::mesh::{GradedAxis, Mesh};
@@ -21,7 +21,7 @@ fn points_lie_in_their_cells_for_any_layer() {
     }
 }
 
-/// (S4): from both ends `U` grows by the same amount across every cell.
+/// (S4): from both ends, `U` grows by the same amount across every cell.
 #[test]
 fn cells_are_equal_in_the_mapped_coordinate() {
     let (layers, length) = ([0.05, 0.7], 2.0);
@@ -45,7 +45,7 @@ fn an_upper_half_is_half_of_the_whole() {
     }
 }
 
-/// The two meshes that face each other across a gap are mirror images close to it.
+/// Two meshes that face each other across a gap are mirror images close to it.
 #[test]
 fn facing_edges_are_graded_alike() {
     let mesh = Mesh::row(&Footprint::new(1e-3, 2.0, 0.5).unwrap(), 1, 32);

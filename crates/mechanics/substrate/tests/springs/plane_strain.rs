@@ -1,17 +1,19 @@
-//! Long rectangles: each unit of length adds the rotational stiffness of the plane problem, [`analytical::strips`], which
-//! is solved there by another method altogether.
+//! Long rectangles: each unit of length adds the rotational stiffness of the plane problem.
+//! [`analytical::strips`] solves the plane problem by an independent method.
 
 use analytical::strips;
 use substrate::{Footprint, extrapolated};
 
-/// `α_φ` and `β_φ` per length from rectangles: the difference of two lengths leaves out their ends.
+/// Returns `α_φ` and `β_φ` per length from rectangles.
+///
+/// The difference of two lengths eliminates end effects.
 fn slope(gap: f64) -> [f64; 2] {
     let of = |width: f64| extrapolated(&Footprint::new(gap, width, 0.5).unwrap(), [8, 12]).unwrap();
     let (short, long) = (of(40.0), of(80.0));
     [2, 5].map(|i| (long[i] - short[i]) / 40.0)
 }
 
-/// A rigid strip alone resists a rotation with `M = (π/4) E* a² φ` per length.
+/// An isolated rigid strip resists a rotation with `M = (π/4) E* a² φ` per length.
 #[test]
 fn a_long_rectangle_alone() {
     let found = slope(1e4)[0];

@@ -1,18 +1,18 @@
-//! Values published or found by others, and closed forms.
+//! Published and independent values, and closed forms.
 //!
-//! An error of half a unit of the last printed digit is theirs, `Springs::error` is ours.
+//! The tolerance is half a unit of the last printed digit plus `Springs::error`.
 
 use analytical::half_space;
 use substrate::{Footprint, Springs, calibrate, extrapolated};
 
-/// So far apart that the coupling is below the last digit.
+/// Gap at which the coupling is below the last digit.
 const ALONE: f64 = 1e5;
 
 fn springs(gap: f64, width: f64, poisson_ratio: f64) -> Springs {
     calibrate(&Footprint::new(gap, width, poisson_ratio).unwrap()).unwrap()
 }
 
-/// `printed` as a number of so many `digits` after the point; the error estimate refers to `direct`.
+/// Compares with `printed`, rounded to `digits` decimals; the error estimate refers to `direct`.
 fn assert_printed(found: f64, printed: f64, digits: i32, estimate: f64) {
     let allowed = 0.5 * 10_f64.powi(-digits) + estimate;
     assert!((found - printed).abs() <= allowed, "{found} is not {printed} within {allowed:.1e}");
@@ -29,7 +29,7 @@ fn borodachev_square_punch() {
     }
 }
 
-/// The isolated square sheared and tilted at `ν = 0.5`.
+/// Isolated square under shear and rotation at `ν = 0.5`.
 #[test]
 fn isolated_square() {
     let square = springs(ALONE, 2.0, 0.5);
@@ -38,9 +38,9 @@ fn isolated_square() {
     assert_printed(square.direct[2], known.rocking, 4, square.error * square.direct[2]);
 }
 
-/// Three squares a tenth of their side apart at `ν = 0.5`, values known to three decimals. They are
-/// compared as cut after the third: `β_x = 0.9936`, known as 0.993, would round to 0.994; the other
-/// five agree either way.
+/// Three squares with gaps of a tenth of their side at `ν = 0.5`, with values known to three
+/// decimals. They are compared as truncated after the third: `β_x = 0.9936`, known as 0.993, would
+/// round to 0.994; the other five agree either way.
 #[test]
 fn three_squares() {
     let row = springs(0.2, 2.0, 0.5);
@@ -55,17 +55,17 @@ fn three_squares() {
     assert!(row.coupling[2] < 0.0);
 }
 
-/// A neighbour far away feels a point load: its reaction is `α u` with `u = α/(π p)`, and for
-/// shear `u = α/(π p (1 − ν))`.
+/// A distant neighbour sees a point load: its reaction is `α u` with `u = α/(π p)`, and for shear
+/// `u = α/(π p (1 − ν))`.
 #[test]
-fn distant_neighbours_feel_a_point_load() {
+fn distant_neighbours_respond_as_to_a_point_load() {
     let poisson_ratio = 0.3;
     for gap in [50.0, 200.0] {
         let row = springs(gap, 1.0, poisson_ratio);
         let pitch = gap + 2.0;
         let normal = row.direct[1].powi(2) * half_space::point_load(pitch);
         let shear = row.direct[0].powi(2) * half_space::tangential_point_load(pitch, poisson_ratio);
-        // The two neighbours also push on each other: next order in a/p.
+        // The two neighbours also load each other: next order in a/p.
         assert!(
             (row.coupling[1] / normal - 1.0).abs() < 1.0 / pitch,
             "{}",
@@ -86,7 +86,7 @@ fn coupling_vanishes_with_distance() {
     assert!(last[0] < 4e-3 && last[1] < 4e-3 && last[2] < 1e-6, "{last:?}");
 }
 
-/// A lone rectangle is reached smoothly: what the gap still does at `d` falls as `(a/p)²`.
+/// The limit of an isolated rectangle is smooth: the effect of the gap `d` decreases as `(a/p)²`.
 #[test]
 fn isolated_limit() {
     let alone = extrapolated(&Footprint::new(ALONE, 2.0, 0.5).unwrap(), [16, 24]).unwrap();
@@ -98,8 +98,8 @@ fn isolated_limit() {
     assert!(excess(40.0, 2).abs() < 1e-4 * alone[2]);
 }
 
-/// Normal problems do not know `ν` once `E*` is divided out; shear does, and at `ν = 0` it is the
-/// normal problem.
+/// Normal problems over `E*` do not depend on `ν`. Shear does, and at `ν = 0` it equals the normal
+/// problem.
 #[test]
 fn poisson_ratio_scaling() {
     let [zero, some, half] = [0.0, 0.25, 0.5].map(|ratio| springs(0.3, 1.5, ratio));
@@ -110,7 +110,7 @@ fn poisson_ratio_scaling() {
     assert!((zero.direct[0] - zero.direct[1]).abs() < 2.0 * error, "{zero:?}");
     assert!((zero.coupling[0] - zero.coupling[1]).abs() < 2.0 * error, "{zero:?}");
     assert!(zero.direct[0] > some.direct[0] && some.direct[0] > half.direct[0]);
-    // x²/r³ lies between 0 and 1/r, so α_x between α_y (1 − ν) and α_y.
+    // x²/r³ lies between 0 and 1/r, so α_x lies between α_y (1 − ν) and α_y.
     assert!(half.direct[0] > 0.5 * half.direct[1]);
 }
 

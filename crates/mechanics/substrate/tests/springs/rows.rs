@@ -1,4 +1,4 @@
-//! The stiffness of whole rows, Eqs. (S9)–(S12).
+//! Stiffness of whole rows, Eqs. (S9)–(S12).
 
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -21,7 +21,7 @@ fn row(numbers: [f64; 2], neighbours: usize) -> RowStiffness {
 #[test]
 fn one_neighbour_without_rotation_is_equation_1() {
     for [gap, width] in FOOTPRINTS {
-        // Beyond the table, where both are solved.
+        // Outside the table, where both are solved.
         let beyond = [1e-3 * gap, width];
         let (springs, row) = (calibrate(&footprint(beyond)).unwrap(), row(beyond, 1));
         let mut eq1 = RowStiffness::from(&springs);
@@ -32,8 +32,8 @@ fn one_neighbour_without_rotation_is_equation_1() {
     }
 }
 
-/// (S12): the stiffness of an endless row for displacements that vary along it as `exp(i q k)`. Where it is
-/// positive for every `q`, that of every finite row is positive definite.
+/// (S12): stiffness of an infinite row for displacements that vary along it as `exp(i q k)`. If it
+/// is positive for every `q`, the stiffness of every finite row is positive definite.
 #[test]
 fn the_stiffness_is_positive_definite() {
     for numbers in FOOTPRINTS {
@@ -55,10 +55,10 @@ fn the_stiffness_is_positive_definite() {
     }
 }
 
-/// A scale far away feels a point load, and a couple: it is held against `u = α_y/(π r)` and against
+/// A distant scale sees a point load and a couple: it is held against `u = α_y/(π r)` and against
 /// `u = α_φ/(π r²)`.
 #[test]
-fn far_scales_feel_point_loads_and_couples() {
+fn distant_scales_respond_as_to_point_loads_and_couples() {
     let row = row([200.0, 2.0], 3);
     let [_, alone, turned] = row.direct;
     for (k, neighbour) in row.neighbours.iter().enumerate() {
@@ -66,14 +66,14 @@ fn far_scales_feel_point_loads_and_couples() {
         let force = -alone * alone * half_space::point_load(r);
         let couple = -alone * turned * half_space::point_couple(r);
         assert!((neighbour.direct[1] / force - 1.0).abs() < 0.02, "{k} {}", neighbour.direct[1]);
-        // The scale between takes a part.
+        // The scale between carries a part.
         assert!((neighbour.cross / couple - 1.0).abs() < 0.03, "{k} {}", neighbour.cross);
     }
 }
 
 /// Betti's theorem is part of the error.
 #[test]
-fn the_numbers_are_as_good_as_those_of_equation_1() {
+fn rows_are_as_accurate_as_equation_1() {
     for numbers in FOOTPRINTS {
         let row = row(numbers, NEIGHBOURS);
         assert!(row.error < 1e-3, "{numbers:?} {:e}", row.error);
@@ -82,10 +82,9 @@ fn the_numbers_are_as_good_as_those_of_equation_1() {
     }
 }
 
-/// (S11): what a row with twice as many neighbours changes in any of the numbers is less than the
-/// truncation error.
+/// (S11): doubling the number of neighbours changes no value by more than the truncation error.
 #[test]
-fn the_truncation_error_bounds_what_more_neighbours_change() {
+fn the_truncation_error_bounds_the_effect_of_more_neighbours() {
     for numbers in FOOTPRINTS {
         for neighbours in [2, 4, 8] {
             let (short, long) = (row(numbers, neighbours), row(numbers, 2 * neighbours));
@@ -96,7 +95,7 @@ fn the_truncation_error_bounds_what_more_neighbours_change() {
     }
 }
 
-/// The largest difference of the stiffnesses that two rows have in common, over the `K_0` of the direction.
+/// Returns the largest difference of the common stiffnesses of two rows, over `K_0`.
 fn largest_change(short: &RowStiffness, long: &RowStiffness) -> f64 {
     let pairs = short.neighbours.iter().zip(&long.neighbours).map(|(a, b)| (a.direct, b.direct));
     let changes = pairs
@@ -105,7 +104,7 @@ fn largest_change(short: &RowStiffness, long: &RowStiffness) -> f64 {
     changes.fold(0.0, f64::max)
 }
 
-/// Rotations are felt by the nearest neighbours only, displacements far off.
+/// Rotations affect only the nearest neighbours, displacements also distant ones.
 #[test]
 fn couplings_of_rotations_decay_faster_than_those_of_displacements() {
     for numbers in FOOTPRINTS {

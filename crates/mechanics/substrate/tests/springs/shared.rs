@@ -10,7 +10,7 @@ fn footprints(count: u32) -> Vec<Footprint> {
 
 #[test]
 fn all_threads_get_the_springs_of_their_footprint() {
-    // A cache so small that it forgets footprints meanwhile.
+    // A cache small enough to drop footprints in between.
     let (shared, asked) = (Calibrations::with_capacity(4), footprints(5));
     let ask_from = |start: usize| {
         for footprint in asked.iter().cycle().skip(start).take(asked.len()) {

@@ -1,4 +1,4 @@
-//! The derivatives of the springs: of the table against differences of the table, beyond it against known ones.
+//! Derivatives of the springs: against differences in the table, against known values outside.
 
 use substrate::{Coupling, Footprint, RowStiffness, StiffnessSlopes};
 
@@ -15,7 +15,7 @@ fn slopes(gap: f64, width: f64, poisson_ratio: f64, coupling: Coupling) -> Stiff
     slopes
 }
 
-/// Each number to a part of itself, and the smallest to a part of the largest.
+/// Compares each value relative to itself, and small ones relative to the largest.
 fn assert_close(ours: &[f64], expected: &[f64], tolerance: f64, what: &str) {
     let largest = expected.iter().fold(0.0_f64, |max, x| max.max(x.abs()));
     for (ours, expected) in ours.iter().zip(expected) {
@@ -25,7 +25,7 @@ fn assert_close(ours: &[f64], expected: &[f64], tolerance: f64, what: &str) {
 }
 
 #[test]
-fn derivatives_are_those_of_the_polynomials() {
+fn derivatives_agree_with_differences_of_the_table() {
     let step = 1e-5;
     for [gap, width, ratio] in
         [[0.2, 1.7, 0.1], [0.03, 3.1, 0.37], [60.0, 0.6, 0.45], [1.3, 40.0, 0.2]]
@@ -53,8 +53,11 @@ fn derivatives_are_those_of_the_polynomials() {
     }
 }
 
-/// Footprints beyond the table (gap, width, Poisson's ratio), and the derivatives of their seven numbers by each of the three: found on the
-/// factors of the matrices, from the motion of the mesh.
+/// Footprints outside the table (gap, width, Poisson's ratio), with the derivatives of seven
+/// values.
+///
+/// The derivatives by each of the three parameters stem from the factors of the matrices and the
+/// motion of the mesh.
 const BEYOND: &str = "
 0.005 1.7 0.3 -107.7784891 -107.7603129 -104.7822641 54.0507774 54.09815128 -53.07484983 0.0
 0.005 1.7 0.3 2.339886676 2.366220771 2.042487522 -1.090018983 -1.086563414 0.7467053108 0.0
@@ -70,9 +73,9 @@ const BEYOND: &str = "
 0.3 0.1 0.3 -0.7062879061 0.0 0.0 0.06926553856 0.0 0.0 0.0
 ";
 
-/// Where boundary elements are solved.
+/// Outside the table, boundary elements are solved.
 #[test]
-fn beyond_the_table_differences_are_as_good_as_derivatives() {
+fn differences_outside_the_table_agree_with_exact_derivatives() {
     let rows: Vec<Vec<f64>> = BEYOND
         .trim()
         .lines()

@@ -1,23 +1,23 @@
-//! The table against boundary elements at places of its own, between the nodes of the polynomials.
+//! Table against boundary elements at points between the nodes of the polynomials.
 
 use substrate::boundary_element::row_reactions;
 use substrate::table::{GAPS, WIDTHS};
 use substrate::{Coupling, Footprint, NEIGHBOURS, RowStiffness, calibrate};
 
-/// Footprints all over the range, by the multiples of three irrational numbers.
+/// Generates footprints over the whole range, by multiples of three irrational numbers.
 fn footprints(count: usize) -> impl Iterator<Item = Footprint> {
     (1..=count).map(|k| {
         let part = |step: f64| (k as f64 * step).fract();
         let within = |[low, high]: [f64; 2], part: f64| low * (high / low).powf(part);
         let gap = within(GAPS, part(5_f64.sqrt()));
         let width = within(WIDTHS, part(2_f64.sqrt()));
-        // Incompressible is what most rows are.
+        // Most rows are incompressible.
         let ratio = if k % 2 == 0 { 0.5 } else { 0.5 * part(3_f64.sqrt()) };
         Footprint::new(gap, width, ratio).unwrap()
     })
 }
 
-/// The numbers of a row on three meshes, extrapolated twice.
+/// Solves a row on three meshes, extrapolated twice.
 fn solved(footprint: &Footprint, neighbours: usize, cells: [usize; 3]) -> Vec<f64> {
     let on = |n| row_reactions(footprint, neighbours, n).unwrap().numbers();
     let limit = |[coarse, fine]: [&[f64]; 2], finer: f64, order: i32| -> Vec<f64> {
@@ -32,7 +32,7 @@ fn solved(footprint: &Footprint, neighbours: usize, cells: [usize; 3]) -> Vec<f6
 }
 
 #[test]
-fn springs_are_those_of_fine_meshes() {
+fn springs_agree_with_fine_meshes() {
     for footprint in footprints(12) {
         let springs = calibrate(&footprint).unwrap();
         let exact = solved(&footprint, 1, [10, 14, 20]);
@@ -45,9 +45,10 @@ fn springs_are_those_of_fine_meshes() {
     }
 }
 
-/// Long rows are known less well than Eq. (1): what they leave out, the truncation, is sixty times as large.
+/// Long rows are less accurate than Eq. (1): the neglected coupling, the truncation, is sixty times
+/// as large.
 #[test]
-fn long_rows_are_those_of_boundary_elements() {
+fn long_rows_agree_with_boundary_elements() {
     for footprint in footprints(3) {
         let row = RowStiffness::compute(&footprint, Coupling::Full).unwrap();
         let exact = solved(&footprint, NEIGHBOURS, [6, 8, 12]);
@@ -71,9 +72,9 @@ fn long_rows_are_those_of_boundary_elements() {
     }
 }
 
-/// The range ends with the table; beyond it boundary elements are solved as before, and tell of a larger error.
+/// The range ends with the table; outside, boundary elements are solved and report a larger error.
 #[test]
-fn at_the_ends_of_the_range_both_agree() {
+fn table_and_boundary_elements_agree_at_the_range_limits() {
     for [gap, width] in [[0.0125, 0.25], [0.0125, 80.0], [100.0, 0.25], [100.0, 80.0]] {
         let springs =
             |gap: f64, width: f64| calibrate(&Footprint::new(gap, width, 0.4).unwrap()).unwrap();
