@@ -39,7 +39,7 @@ pub fn overlaps(standing: impl Fn(usize) -> (Parallelogram, f64), poses: &[Pose]
     for k in (1..begins.len()).rev() {
         begins[k - 1] = begins[k - 1].min(begins[k]);
     }
-    let mut found = Vec::new();
+    let mut overlaps = Vec::new();
     for left in 0..poses.len() {
         let reach = extents[left].horizontal.1;
         let candidates = (left + 1..poses.len()).take_while(|&right| begins[right] <= reach);
@@ -50,11 +50,11 @@ pub fn overlaps(standing: impl Fn(usize) -> (Parallelogram, f64), poses: &[Pose]
             let ((first, here), (second, there)) = (standing(left), standing(right));
             let poses = [&poses[left], &poses[right]];
             if let Some(depth) = depth([&first, &second], there - here, poses) {
-                found.push(Overlap { left, right, depth });
+                overlaps.push(Overlap { left, right, depth });
             }
         }
     }
-    found
+    overlaps
 }
 
 /// Extents of a scale: horizontal, and normal to the side edges at its `slant`.

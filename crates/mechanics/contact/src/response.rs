@@ -122,7 +122,7 @@ impl CornerResponse {
     fn edge(edge: CornerEdge, corners: &Corners, law: &ContactLaw, forces: [f64; FORCES]) -> Self {
         let gap = corners.gap(edge);
         let approach = law.approach(forces[Force::Own as usize] + forces[Force::Flush as usize]);
-        let own = Equation {
+        let condition = Equation {
             value: gap.value + approach.value,
             by_coordinate: gap.gradient,
             by_force: [approach.slope, 0.0, approach.slope],
@@ -133,7 +133,7 @@ impl CornerResponse {
             by_coordinate: gap.hessian[i].map(|hessian| -force * hessian),
             by_force: [-gap.gradient[i], 0.0, 0.0],
         });
-        Self { balance, conditions: [Some(own), None, None] }
+        Self { balance, conditions: [Some(condition), None, None] }
     }
 
     /// Adds the balance of one of the forces, which acts along a gap.

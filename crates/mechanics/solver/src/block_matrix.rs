@@ -188,12 +188,16 @@ impl BlockMatrix {
 
     /// Returns true if the unknowns at two places may be coupled.
     fn is_coupled(&self, row: usize, column: usize) -> bool {
-        let behind = |outer: usize, inner: usize| {
-            let (from, to) = (self.blocks[outer], self.blocks[inner]);
-            let is_inward = if from < to { to <= self.root } else { to >= self.root };
-            is_inward && from.abs_diff(to) <= self.reach && self.in_links[inner] != LEFT_OUT
-        };
-        self.blocks[row] == self.blocks[column] || behind(row, column) || behind(column, row)
+        self.blocks[row] == self.blocks[column]
+            || self.is_linked(row, column)
+            || self.is_linked(column, row)
+    }
+
+    /// Returns true if `inner` lies in the link of an inner neighbour of the block of `outer`.
+    fn is_linked(&self, outer: usize, inner: usize) -> bool {
+        let (from, to) = (self.blocks[outer], self.blocks[inner]);
+        let is_inward = if from < to { to <= self.root } else { to >= self.root };
+        is_inward && from.abs_diff(to) <= self.reach && self.in_links[inner] != LEFT_OUT
     }
 
     /// Returns the part that holds an entry, given by places.

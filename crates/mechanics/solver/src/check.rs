@@ -51,24 +51,24 @@ pub fn check_tangent<S: System>(
         |row: usize| differences.iter().fold(0.0_f64, |max, column| max.max(column[row].abs()));
     let sizes: Vec<f64> = (0..system.size()).map(largest).collect();
     for (&column, differences) in columns.iter().zip(&differences) {
-        let compare = |row: usize, derivative: f64| {
-            let difference = differences[row];
-            let off = (derivative - difference).abs();
-            let right = off <= tolerance * sizes[row].max(derivative.abs());
-            if right {
-                Ok(())
-            } else {
-                Err(WrongDerivative { row, column, derivative, difference })
-            }
-        };
+        // Derivatives that the solver uses, with their rows.
+        let mut derivatives = Vec::new();
         for &row in columns.iter().filter(|&&row| row != system.load()) {
             let inside = tangent.columns(row).contains(&column);
-            compare(row, if inside { tangent.get(row, column) } else { 0.0 })?;
+            derivatives.push((row, if inside { tangent.get(row, column) } else { 0.0 }));
         }
         let mut direction = vec![0.0; system.size()];
         direction[column] = 1.0;
         for (constraint, &row) in system.constraints().iter().enumerate() {
-            compare(row, system.slope(state, constraint, &direction))?;
+            derivatives.push((row, system.slope(state, constraint, &direction)));
+        }
+        for (row, derivative) in derivatives {
+            let difference = differences[row];
+            let deviation = (derivative - difference).abs();
+            let is_close = deviation <= tolerance * sizes[row].max(derivative.abs());
+            if !is_close {
+                return Err(WrongDerivative { row, column, derivative, difference });
+            }
         }
     }
     Ok(())
@@ -86,7 +86,7 @@ fn difference<S: System>(system: &S, state: &State<S::Mode>, column: usize) -> V
     let is_constraint = system.constraints().contains(&column);
     let size = state.z[column].abs();
     let step = STEP * if is_constraint { size } else { size.max(SMALL) };
-    let at = |step: f64| {
+    let [high, low] = [step, -step].map(|step| {
         let mut state = state.clone();
         state.z[column] += step;
         let mut residual = Residual::new(system.size());
@@ -100,7 +100,6 @@ fn difference<S: System>(system: &S, state: &State<S::Mode>, column: usize) -> V
             }
         }
         residual.value
-    };
-    let (high, low) = (at(step), at(-step));
+    });
     high.iter().zip(low).map(|(high, low)| (high - low) / (2.0 * step)).collect()
 }

@@ -249,10 +249,10 @@ impl<S: System> Continuation<S> {
         condition: &Condition,
     ) -> Option<Equilibrium<S::Mode>> {
         let iterations = self.newton.history.len();
-        let found = self.correct(state, condition);
+        let corrected = self.correct(state, condition);
         // The record of iterations covers steps only, so leave out evaluations between points.
         self.newton.history.truncate(iterations);
-        let Candidate { state, direction, .. } = found.ok()?;
+        let Candidate { state, direction, .. } = corrected.ok()?;
         let (arriving, leaving) = (direction.clone(), direction);
         Some(Equilibrium { state, arriving, leaving, event: None })
     }

@@ -144,16 +144,16 @@ impl<S: System> Continuation<S> {
         let distance = condition.measure(&candidate.state.z) - condition.value;
         let span = distance / condition.measure(&from.leaving);
         // Evaluate the slope at the end only for guards that are predicted to be negative there.
-        let falls =
-            |c: &usize| self.guards[*c] > FLOOR && self.guards[*c] + self.slopes[*c] * span < 0.0;
-        let falling: Vec<usize> = (0..after.len()).filter(falls).collect();
         let arriving = distance / condition.measure(&candidate.direction);
-        let dips = falling.into_iter().filter_map(|c| {
-            let slope = guard_slope(&self.system, &candidate.state, c, &candidate.direction);
-            let ends = [self.guards[c], after[c]];
-            dip(ends, [self.slopes[c] * span, slope * arriving])
-        });
-        dips.collect()
+        let mut dips = Vec::new();
+        for (c, &after) in after.iter().enumerate() {
+            let (before, fall) = (self.guards[c], self.slopes[c] * span);
+            if before > FLOOR && before + fall < 0.0 {
+                let slope = guard_slope(&self.system, &candidate.state, c, &candidate.direction);
+                dips.extend(dip([before, after], [fall, slope * arriving]));
+            }
+        }
+        dips
     }
 
     /// Locates the first event before `beyond`, where `constraint` is violated.
@@ -163,8 +163,10 @@ impl<S: System> Continuation<S> {
         mut beyond: Candidate<S::Mode>,
         mut constraint: usize,
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
-        let is_it = |change: &Change| change.constraint == constraint;
-        let changed = matches!(&from.event, Some(Event::Changed(all)) if all.iter().any(is_it));
+        let changed = match &from.event {
+            Some(Event::Changed(all)) => all.iter().any(|change| change.constraint == constraint),
+            _ => false,
+        };
         let rises = self.guards[constraint] <= TOGETHER && self.slopes[constraint] > 0.0;
         if changed || rises {
             // The constraint has just changed sides, or a transition passed the condition to it,
@@ -239,19 +241,18 @@ impl<S: System> Continuation<S> {
         guards: &[f64],
     ) -> Candidate<S::Mode> {
         let Candidate { state, direction, is_positive, .. } = located;
-        let closing = |c: usize| {
-            // A small value is not enough: a guard with a small slope may vanish far ahead.
-            let falls_to = |rate: f64| rate < 0.0 && guards[c] <= -rate * BACKWARD;
-            guards[c].abs() <= TOGETHER
-                && falls_to(guard_slope(&self.system, &state, c, &direction))
-        };
+        let mut changes = vec![Change { constraint, activated: !state.active[constraint] }];
         // Guards at zero that rise have just changed sides. Change the falling ones together;
         // otherwise a long chain takes a step of zero length for each of its gaps.
-        let others = (0..guards.len()).filter(|&c| c != constraint && closing(c));
-        let changes = std::iter::once(constraint)
-            .chain(others)
-            .map(|constraint| Change { constraint, activated: !state.active[constraint] })
-            .collect();
+        for (other, guard) in guards.iter().enumerate() {
+            if other != constraint && guard.abs() <= TOGETHER {
+                let rate = guard_slope(&self.system, &state, other, &direction);
+                // A small value is not enough: a guard with a small slope may vanish far ahead.
+                if rate < 0.0 && *guard <= -rate * BACKWARD {
+                    changes.push(Change { constraint: other, activated: !state.active[other] });
+                }
+            }
+        }
         Candidate { state, direction, event: Some(Event::Changed(changes)), is_positive }
     }
 

@@ -142,10 +142,11 @@ impl Newton {
             let guard = guard(system, state, constraint);
             self.solver.solve(&mut self.step);
             let direction = self.direction(system, &condition);
-            let along = |step: &[f64]| guard_slope(system, state, constraint, step);
+            let change = guard_slope(system, state, constraint, &self.step);
+            let slope = guard_slope(system, state, constraint, &direction);
             // First-order zero of the guard along the path, corrected for the residual of this
             // iterate.
-            let distance = -(guard + along(&self.step)) / along(&direction);
+            let distance = -(guard + change) / slope;
             if !distance.is_finite() {
                 return Err(NewtonFailure::NotFinite);
             }

@@ -155,12 +155,11 @@ impl<M: Clone> Linearisation<M> {
         neighbours: &Neighbours<S>,
     ) -> Vec<f64> {
         let state = &self.place.state;
-        let values = |system: &S| {
+        let [below, above] = [&neighbours.below, &neighbours.above].map(|system| {
             let mut residual = Residual::new(system.size());
             system.residual(state, &mut residual);
             residual.value
-        };
-        let [below, above] = [&neighbours.below, &neighbours.above].map(values);
+        });
         let change = difference(below, above, neighbours.step);
         rates(&mut self.newton, system, state, change)
     }
@@ -176,7 +175,6 @@ impl<M: Clone> Linearisation<M> {
             return self.distance_to_extremum(system, neighbours, unknowns, number);
         }
         let AnchoredPoint { state, direction, anchor } = &self.place;
-        let off = |system: &S, step: f64| anchor.off(system, &state.moved(step, unknowns));
         let step = neighbours.step;
         match *anchor {
             PathAnchor::Still => 0.0,
@@ -186,8 +184,9 @@ impl<M: Clone> Linearisation<M> {
                 -unknowns[index] / direction[index]
             }
             _ => {
-                let change = off(&neighbours.above, step) - off(&neighbours.below, -step);
-                -change / (2.0 * step * anchor.slope(system, state, direction))
+                let above = anchor.off(&neighbours.above, &state.moved(step, unknowns));
+                let below = anchor.off(&neighbours.below, &state.moved(-step, unknowns));
+                -(above - below) / (2.0 * step * anchor.slope(system, state, direction))
             }
         }
     }
@@ -202,8 +201,11 @@ impl<M: Clone> Linearisation<M> {
     ) -> f64 {
         let Neighbours { below, above, step } = neighbours;
         let [lower, upper] = self.turned([below, above], *step, unknowns, true);
-        let rate = |system: &S, at: &MovedPoint<M>| system.rate(&at.state, &at.direction, number);
-        let change = (rate(above, &upper) - rate(below, &lower)) / (2.0 * step);
+        let rates = [
+            below.rate(&lower.state, &lower.direction, number),
+            above.rate(&upper.state, &upper.direction, number),
+        ];
+        let change = (rates[1] - rates[0]) / (2.0 * step);
         let AnchoredPoint { state, direction, .. } = &self.place;
         let rate = |system: &S, state: &State<M>, v: &[f64]| system.rate(state, v, number);
         -change / slope_along(system, &mut self.newton, state, direction, &rate)

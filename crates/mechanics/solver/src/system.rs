@@ -207,8 +207,9 @@ pub trait System {
             return 0.0;
         }
         let step = DIFFERENCE / largest;
-        let at = |step: f64| self.condition(&state.moved(step, direction), constraint);
-        (at(step) - at(-step)) / (2.0 * step)
+        let [ahead, behind] =
+            [step, -step].map(|step| self.condition(&state.moved(step, direction), constraint));
+        (ahead - behind) / (2.0 * step)
     }
 
     /// Evaluates a marker: a function that vanishes at a special point that is no event.

@@ -81,8 +81,8 @@ pub fn row_reactions(
     neighbours: usize,
     n: usize,
 ) -> Result<RowReactions, Unresolved> {
-    let found = row_reactions_at(footprint, &[footprint.poisson_ratio()], neighbours, n)?;
-    found.into_iter().next().ok_or(Unresolved { footprint: *footprint, cells: n })
+    let reactions = row_reactions_at(footprint, &[footprint.poisson_ratio()], neighbours, n)?;
+    reactions.into_iter().next().ok_or(Unresolved { footprint: *footprint, cells: n })
 }
 
 /// Computes [`row_reactions`] for several Poisson's ratios in place of the footprint's own.
@@ -100,12 +100,12 @@ pub fn row_reactions_at(
 ) -> Result<Vec<RowReactions>, Unresolved> {
     let mesh = Mesh::row(footprint, neighbours, n);
     // Rounding shows in the mesh, before anything is solved.
-    let found = mesh.is_resolved().then(|| mesh.reactions(footprint, poisson_ratios));
+    let reactions = mesh.is_resolved().then(|| mesh.reactions(footprint, poisson_ratios));
     // A singular matrix gives non-finite results instead of an error.
-    let are_finite = |found: &Vec<RowReactions>| {
-        found.iter().flat_map(RowReactions::numbers).all(f64::is_finite)
+    let are_finite = |reactions: &Vec<RowReactions>| {
+        reactions.iter().flat_map(RowReactions::numbers).all(f64::is_finite)
     };
-    found.filter(are_finite).ok_or(Unresolved { footprint: *footprint, cells: n })
+    reactions.filter(are_finite).ok_or(Unresolved { footprint: *footprint, cells: n })
 }
 
 impl RowReactions {

@@ -116,7 +116,7 @@ impl Mul<f64> for Displacements {
 }
 
 /// Recently used layers, one per Poisson's ratio; few are needed at a time.
-static MADE: Mutex<Vec<Arc<Layer>>> = Mutex::new(Vec::new());
+static RECENT: Mutex<Vec<Arc<Layer>>> = Mutex::new(Vec::new());
 
 /// Number of cached layers: enough for the differences by Poisson's ratio of several threads.
 const KEPT: usize = 16;
@@ -125,27 +125,29 @@ impl Layer {
     /// Returns the layer for a Poisson's ratio. Its integrals do not depend on the thickness.
     pub fn with_poisson_ratio(poisson_ratio: f64) -> Arc<Self> {
         // Compute under the lock, so that a thread that needs the same layer waits for it.
-        let mut made = MADE.lock().unwrap_or_else(PoisonError::into_inner);
-        let known = made.iter().position(|layer| layer.poisson_ratio == poisson_ratio);
-        let layer = known.map_or_else(|| Arc::new(Self::new(poisson_ratio)), |at| made.remove(at));
+        let mut cache = RECENT.lock().unwrap_or_else(PoisonError::into_inner);
+        let cached = cache.iter().position(|layer| layer.poisson_ratio == poisson_ratio);
+        let layer =
+            cached.map_or_else(|| Arc::new(Self::new(poisson_ratio)), |at| cache.remove(at));
         // Most recently used first, so that the least recently used is dropped.
-        made.insert(0, Arc::clone(&layer));
-        made.truncate(KEPT);
+        cache.insert(0, Arc::clone(&layer));
+        cache.truncate(KEPT);
         layer
     }
 
     fn new(poisson_ratio: f64) -> Self {
-        let point = |k: u32, [place, weight]: [f64; 2]| {
-            let x = INTERVAL * (f64::from(k) + 0.5 * (1.0 + place));
-            let parts = beside_half_space(poisson_ratio, x);
-            (x, parts.map(|part| 0.5 * INTERVAL * weight * part))
-        };
-        let points: Vec<_> =
-            (0..INTERVALS).flat_map(|k| GAUSS.map(|gauss| point(k, gauss))).collect();
-        let at = |k: usize| integrals(&points, k as f64 / PER_UNIT as f64);
+        let mut points = Vec::with_capacity(INTERVALS as usize * GAUSS.len());
+        for k in 0..INTERVALS {
+            for [place, weight] in GAUSS {
+                let x = INTERVAL * (f64::from(k) + 0.5 * (1.0 + place));
+                let parts = beside_half_space(poisson_ratio, x);
+                points.push((x, parts.map(|part| 0.5 * INTERVAL * weight * part)));
+            }
+        }
         let last = FARTHEST * PER_UNIT;
         // Two more than tabulated, for the slope of the last.
-        let values: Vec<Integrals> = (0..=last + 2).map(at).collect();
+        let values: Vec<Integrals> =
+            (0..=last + 2).map(|k| integrals(&points, k as f64 / PER_UNIT as f64)).collect();
         // Below 0 the integrals continue evenly, those with J₁ oddly.
         let value = |k: usize, steps: isize, part: usize| {
             let place = k.cast_signed() + steps;

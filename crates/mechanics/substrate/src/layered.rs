@@ -15,8 +15,8 @@ use crate::row_stiffness::CAUTION;
 use crate::springs::extrapolation;
 use crate::{Coupling, Footprint, NEIGHBOURS, Neighbour, RowStiffness};
 
-use faer::Mat;
 use faer::linalg::solvers::Solve as _;
+use faer::{ColRef, Mat};
 
 /// Cells per side of the meshes. The contribution is smooth and needs fewer than the stiffness.
 const CELLS: [usize; 2] = [4, 6];
@@ -44,9 +44,9 @@ pub(crate) fn addition(
     coupling: Coupling,
 ) -> Result<RowStiffness, Unresolved> {
     let neighbours = if coupling == Coupling::Full { NEIGHBOURS } else { 1 };
-    let on = |n: usize| added(footprint, near, neighbours, n);
     // With two meshes only, the step of the extrapolation is the error estimate.
-    let [coarse, fine] = [on(CELLS[0])?, on(CELLS[1])?];
+    let coarse = added(footprint, near, neighbours, CELLS[0])?;
+    let fine = added(footprint, near, neighbours, CELLS[1])?;
     let best = extrapolation(CELLS, [&coarse.numbers, &fine.numbers]);
     let [x, y, turn] = fine.sizes;
     let cross = (y * turn).sqrt();
@@ -98,6 +98,7 @@ struct Added {
     sizes: [f64; 3],
 }
 
+/// Solves for the reactions on the layer and on the half-space, and subtracts them.
 fn added(
     footprint: &Footprint,
     near: &Footprint,
@@ -114,8 +115,8 @@ fn added(
         along: mesh.solve(&along, &[[Some(ONE), None], [None, Some(ARM)]]),
         across: mesh.solve(&across, &[[None, Some(ONE)]]),
     };
-    let own = solved.own();
-    let mut numbers = own.to_vec();
+    let middle = solved.middle();
+    let mut numbers = middle.to_vec();
     (0..neighbours).for_each(|k| numbers.extend(solved.neighbour(k)));
     let all_finite = numbers.iter().all(|number| number.is_finite());
     for (number, less) in numbers.iter_mut().zip(half_space.direct) {
@@ -126,8 +127,8 @@ fn added(
         let [x, y, turn] = *direct;
         number.iter_mut().zip([x, y, turn, cross.force]).for_each(|(n, less)| *n -= less);
     }
-    let found = Added { numbers, sizes: [own[0], own[1], own[2]] };
-    all_finite.then_some(found).ok_or(Unresolved { footprint: *footprint, cells: n })
+    let addition = Added { numbers, sizes: [middle[0], middle[1], middle[2]] };
+    all_finite.then_some(addition).ok_or(Unresolved { footprint: *footprint, cells: n })
 }
 
 impl Mesh {
@@ -160,36 +161,41 @@ struct Tractions<'a> {
 }
 
 impl Tractions<'_> {
-    fn own(&self) -> [f64; OWN] {
+    fn middle(&self) -> [f64; OWN] {
         let n = self.mesh.unknowns();
-        let sum = |of: &Mat<f64>, load: usize, first: usize, arm: Profile| {
-            self.mesh.middle_sum(of.col(load).subrows(first, n), arm)
-        };
+        let (push, turn, lift) = (self.along.col(0), self.along.col(1), self.across.col(0));
+        let x = self.mesh.middle_sum(push.subrows(0, n), ONE);
+        let y = self.mesh.middle_sum(lift.subrows(n, n), ONE);
+        let moment = self.mesh.middle_sum(turn.subrows(n, n), ARM);
         // By reciprocity both are equal; collocation leaves a small difference, so take the mean.
-        let roll = f64::midpoint(sum(&self.along, 1, 0, ONE), sum(&self.along, 0, n, ARM));
-        let direct = [(&self.along, 0, 0), (&self.across, 0, n)];
-        let [x, y] = direct.map(|(of, load, first)| sum(of, load, first, ONE));
-        [x, y, sum(&self.along, 1, n, ARM), roll]
+        let roll = f64::midpoint(
+            self.mesh.middle_sum(turn.subrows(0, n), ONE),
+            self.mesh.middle_sum(push.subrows(n, n), ARM),
+        );
+        [x, y, moment, roll]
     }
 
     fn neighbour(&self, k: usize) -> [f64; PER_NEIGHBOUR] {
-        let n = self.mesh.unknowns();
-        let centre = (k + 1) as f64 * self.pitch;
-        let forces = |of: &Mat<f64>, load: usize| {
-            let [q, p] = [0, n].map(|first| of.col(load).subrows(first, n));
-            [
-                self.mesh.neighbour_sum(k, q, ONE),
-                self.mesh.neighbour_sum(k, p, ONE),
-                self.mesh.neighbour_sum(k, p, |x| x - centre),
-            ]
-        };
-        let [push, turn] = [0, 1].map(|load| forces(&self.along, load));
-        let lifted = forces(&self.across, 0);
+        let push = self.forces_on_neighbour(k, self.along.col(0));
+        let turn = self.forces_on_neighbour(k, self.along.col(1));
+        let lifted = self.forces_on_neighbour(k, self.across.col(0));
         // The middle rectangle has two neighbours, its neighbours have one, so collocation gives
         // two values. An energy requires one value: take the mean.
         let lift = 0.5 * (push[1] - lifted[0]);
         let roll = f64::midpoint(push[2], turn[0]);
         [push[0], lifted[1], turn[2], turn[1], lift, roll]
+    }
+
+    /// Sums the tractions of a load on neighbour `k` to force along, force across and moment.
+    fn forces_on_neighbour(&self, k: usize, tractions: ColRef<'_, f64>) -> [f64; 3] {
+        let n = self.mesh.unknowns();
+        let centre = (k + 1) as f64 * self.pitch;
+        let [q, p] = [0, n].map(|first| tractions.subrows(first, n));
+        [
+            self.mesh.neighbour_sum(k, q, ONE),
+            self.mesh.neighbour_sum(k, p, ONE),
+            self.mesh.neighbour_sum(k, p, |x| x - centre),
+        ]
     }
 }
 
@@ -207,22 +213,10 @@ impl Quadrature {
     ///
     /// The quadrature is accurate to 1e-4 of the contribution.
     fn new(mesh: &Mesh, near: &Mesh, footprint: &Footprint) -> Self {
-        let part = 0.5 * footprint.thickness_over_a();
-        let points = |(axis, near): (&GradedAxis, &GradedAxis)| {
-            let cell = |k: usize| {
-                let parts = (near.width(k) / part).ceil().max(1.0);
-                let width = axis.width(k) / parts;
-                let middle = |i: usize| axis.edges()[k] + (i as f64 + 0.5) * width;
-                let pair = |i: usize| {
-                    let half = 0.5 * width / 3.0_f64.sqrt();
-                    [-half, half].map(|by| [middle(i) + by, 0.5 * width])
-                };
-                (0..parts as usize).flat_map(pair).collect()
-            };
-            (0..axis.cells()).map(cell).collect::<Vec<Vec<QuadraturePoint>>>()
-        };
-        let columns = mesh.across().zip(near.across()).flat_map(points).collect();
-        Self { columns, depth: points((&mesh.depth, &near.depth)) }
+        let largest = 0.5 * footprint.thickness_over_a();
+        let columns = mesh.across().zip(near.across());
+        let columns = columns.flat_map(|(axis, near)| gauss_points(axis, near, largest)).collect();
+        Self { columns, depth: gauss_points(&mesh.depth, &near.depth, largest) }
     }
 
     /// Assembles the matrices of the two systems.
@@ -256,24 +250,44 @@ impl Quadrature {
 
     /// Computes the smooth influence of each cell with its `z` image, and of their `x` images.
     fn at(&self, layer: &Layer, thickness: f64, [x, z]: [f64; 2]) -> Vec<[Displacements; 2]> {
-        let of_cell = |column: &[QuadraturePoint], row: &[QuadraturePoint]| {
-            let mut sums = [Displacements::default(); 2];
-            for &[at_x, width] in column {
-                for &[at_z, depth] in row {
-                    for (sum, x) in sums.iter_mut().zip([x - at_x, x + at_x]) {
-                        let [one, image] =
-                            [z - at_z, z + at_z].map(|z| layer.beside_half_space(thickness, x, z));
-                        *sum = *sum + (one + image) * (width * depth);
+        let mut influences = Vec::with_capacity(self.columns.len() * self.depth.len());
+        for column in &self.columns {
+            for row in &self.depth {
+                let mut sums = [Displacements::default(); 2];
+                for &[at_x, width] in column {
+                    for &[at_z, depth] in row {
+                        for (sum, x) in sums.iter_mut().zip([x - at_x, x + at_x]) {
+                            let [one, image] = [z - at_z, z + at_z]
+                                .map(|z| layer.beside_half_space(thickness, x, z));
+                            *sum = *sum + (one + image) * (width * depth);
+                        }
                     }
                 }
+                influences.push(sums);
             }
-            sums
-        };
-        let of_column = |column: &Vec<QuadraturePoint>| {
-            self.depth.iter().map(|row| of_cell(column, row)).collect::<Vec<_>>()
-        };
-        self.columns.iter().flat_map(of_column).collect()
+        }
+        influences
     }
+}
+
+/// Returns the Gauss points of each cell of an axis.
+///
+/// Each cell is divided into subcells no wider than `largest`. Their number is the one of the axis
+/// `near`.
+fn gauss_points(axis: &GradedAxis, near: &GradedAxis, largest: f64) -> Vec<Vec<QuadraturePoint>> {
+    let mut cells = Vec::with_capacity(axis.cells());
+    for k in 0..axis.cells() {
+        let parts = (near.width(k) / largest).ceil().max(1.0);
+        let width = axis.width(k) / parts;
+        let half = 0.5 * width / 3.0_f64.sqrt();
+        let mut points = Vec::new();
+        for i in 0..parts as usize {
+            let middle = axis.edges()[k] + (i as f64 + 0.5) * width;
+            points.extend([-half, half].map(|by| [middle + by, 0.5 * width]));
+        }
+        cells.push(points);
+    }
+    cells
 }
 
 /// Returns the displacements of a cell on the half-space.

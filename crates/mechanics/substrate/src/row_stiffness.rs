@@ -151,7 +151,8 @@ impl RowStiffness {
         if !SOLVES {
             return Err(Unresolved { footprint: *footprint, cells: 0 });
         }
-        let on = |n: usize| row_reactions(footprint, neighbours, n).map(|found| found.numbers());
+        let on =
+            |n: usize| row_reactions(footprint, neighbours, n).map(|reactions| reactions.numbers());
         let [coarse, medium, fine] = [on(CELLS[0])?, on(CELLS[1])?, on(CELLS[2])?];
         // The difference of two extrapolations estimates the error of the better one.
         let check = extrapolation([CELLS[0], CELLS[1]], [&coarse, &medium]);

@@ -55,7 +55,7 @@ impl From<&RowStiffness> for Springs {
 /// # Errors
 /// As [`calibrate`].
 pub fn extrapolated(footprint: &Footprint, cells: [usize; 2]) -> Result<[f64; 6], Unresolved> {
-    let on = |n| row_reactions(footprint, 1, n).map(|found| found.numbers());
+    let on = |n| row_reactions(footprint, 1, n).map(|reactions| reactions.numbers());
     let [coarse, fine] = [on(cells[0])?, on(cells[1])?];
     let numbers = extrapolation(cells, [&coarse, &fine]);
     // `β` is the negative reaction on the neighbour (S6).

@@ -127,9 +127,9 @@ pub(crate) fn row(footprint: &Footprint, coupling: Coupling) -> Option<Vec<Diffe
     }
     let mut stiffness =
         ratios.into_iter().map(|k| [k[0] * alpha[0], k[1] * alpha[1], k[2] * alpha[2]]);
-    let own = stiffness.next()?;
+    let middle = stiffness.next()?;
     let neighbours = stiffness.zip(cross).flat_map(|([x, y, turn], cross)| [x, y, turn, cross]);
-    Some(own.into_iter().chain(neighbours).collect())
+    Some(middle.into_iter().chain(neighbours).collect())
 }
 
 /// Reader of successive polynomials at one point.
@@ -194,11 +194,11 @@ impl Reader {
 ///
 /// `slope` is the derivative of `x` by the variable of the slopes.
 fn chebyshev(x: f64, slope: f64, count: usize) -> Vec<[f64; 2]> {
-    let mut found = vec![[1.0, 0.0], [x, slope]];
+    let mut polynomials = vec![[1.0, 0.0], [x, slope]];
     for k in 2..count {
-        let ([t, t_slope], [before, before_slope]) = (found[k - 1], found[k - 2]);
+        let ([t, t_slope], [before, before_slope]) = (polynomials[k - 1], polynomials[k - 2]);
         let next_slope = 2.0 * (slope * t + x * t_slope) - before_slope;
-        found.push([2.0 * x * t - before, next_slope]);
+        polynomials.push([2.0 * x * t - before, next_slope]);
     }
-    found
+    polynomials
 }

@@ -65,8 +65,9 @@ impl PathAnchor {
             Self::Guard(constraint) => guard_slope(system, state, constraint, direction),
             Self::Marker(number) => {
                 // A system provides only the value of a marker, so use a difference.
-                let at = |step: f64| system.marker(&state.moved(step, direction), number);
-                (at(ALONG) - at(-ALONG)) / (2.0 * ALONG)
+                let [ahead, behind] =
+                    [ALONG, -ALONG].map(|s| system.marker(&state.moved(s, direction), number));
+                (ahead - behind) / (2.0 * ALONG)
             }
         }
     }

@@ -36,12 +36,12 @@ impl CoupledRow {
     /// `None` if nothing decays.
     pub(super) fn endless(stiffness: &RowStiffness) -> Option<(Self, Vec<Relief>)> {
         let scales = stiffness.neighbours.len();
-        let own = block(stiffness, 0);
+        let diagonal = block(stiffness, 0);
         let next = block(stiffness, scales);
         let least = SETTLED * stiffness.direct.iter().copied().fold(0.0, f64::max);
         let mut relief = Mat::zeros(3 * scales, 3 * scales);
         for _ in 0..BLOCKS {
-            let follows = (&own - &relief).partial_piv_lu().solve(next.transpose());
+            let follows = (&diagonal - &relief).partial_piv_lu().solve(next.transpose());
             let before = std::mem::replace(&mut relief, &next * &follows);
             let change = (&relief - &before).norm_max();
             if change <= least {
@@ -65,13 +65,13 @@ impl CoupledRow {
     ) -> Vec<[f64; 3]> {
         // The end counts its scales inwards, a block from left to right.
         let mut block: Vec<f64> = (0..self.scales).rev().flat_map(end).collect();
-        let mut found = Vec::with_capacity(count + self.scales);
-        while found.len() < count {
+        let mut displacements = Vec::with_capacity(count + self.scales);
+        while displacements.len() < count {
             block = self.next(&block);
-            found.extend_from_slice(block.as_chunks().0);
+            displacements.extend_from_slice(block.as_chunks().0);
         }
-        found.truncate(count);
-        found
+        displacements.truncate(count);
+        displacements
     }
 
     /// Computes the displacements of the next block.
