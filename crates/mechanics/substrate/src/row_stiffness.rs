@@ -242,10 +242,10 @@ const CELLS: [usize; 3] = [4, 6, 8];
 /// The smallest one that bounds the actual error for all reference values of the tests.
 pub(crate) const CAUTION: f64 = 0.3;
 
-/// Number of values per neighbour in [`RowReactions::numbers`]: three reactions, two cross terms.
+/// Number of values per neighbour in `RowReactions::numbers`: three reactions, two cross terms.
 const PER_NEIGHBOUR: usize = 5;
 
-/// Returns the reference size for the error of each value of [`RowReactions::numbers`].
+/// Returns the reference size for the error of each value of `RowReactions::numbers`.
 fn sizes(numbers: &[f64]) -> Vec<f64> {
     let [x, y, turn] = [numbers[0], numbers[1], numbers[2]];
     let cross = (y * turn).sqrt();
