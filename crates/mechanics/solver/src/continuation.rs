@@ -133,7 +133,7 @@ impl<S: System> Continuation<S> {
             termination: None,
         };
         path.pushes = path.system.load_only_pushes().then_some(1.0);
-        path.start(point);
+        path.set_start(point);
         path
     }
 
@@ -151,7 +151,7 @@ impl<S: System> Continuation<S> {
     ///
     /// The path keeps the outgoing direction of `point`. The state of `point` need only be an
     /// equilibrium of the new system to first order. Returns the previous system.
-    pub fn go_on(&mut self, system: S, mut point: Equilibrium<S::Mode>) -> S {
+    pub fn continue_with(&mut self, system: S, mut point: Equilibrium<S::Mode>) -> S {
         // The record of iterations covers steps only, so leave out the iterations of the transfer.
         let history = std::mem::take(&mut self.newton.history);
         self.newton = Newton::new(&system);
@@ -167,7 +167,7 @@ impl<S: System> Continuation<S> {
             Err(failure) => self.termination = Some(Termination::from(failure)),
         }
         self.newton.history = history;
-        self.stand(point);
+        self.set_point(point);
         left
     }
 
@@ -237,7 +237,7 @@ impl<S: System> Continuation<S> {
         let mut condition = self.condition(from);
         let distance = fraction * (condition.measure(&to.state.z) - condition.value);
         condition.value += distance;
-        self.solved(Self::towards(near, &condition), &condition)
+        self.solved(Self::extrapolate(near, &condition), &condition)
     }
 
     /// Solves for the equilibrium near `state` that satisfies a condition.
@@ -257,7 +257,7 @@ impl<S: System> Continuation<S> {
         Some(Equilibrium { state, arriving, leaving, event: None })
     }
 
-    fn start(&mut self, mut point: Equilibrium<S::Mode>) {
+    fn set_start(&mut self, mut point: Equilibrium<S::Mode>) {
         let control = self.control_parameter();
         let condition = Condition::new(vec![(control.index, 1.0 / control.scale)], 0.0);
         match self.newton.tangent(&self.system, &point.state, &condition) {
@@ -268,18 +268,18 @@ impl<S: System> Continuation<S> {
             }
             Err(failure) => self.termination = Some(Termination::from(failure)),
         }
-        self.stand(point);
+        self.set_point(point);
     }
 
     /// Restarts the path at a point, with the first step size and the point count at zero.
-    pub(crate) fn begin(&mut self, point: Equilibrium<S::Mode>) {
+    pub(crate) fn restart_at(&mut self, point: Equilibrium<S::Mode>) {
         self.step = self.settings.first_step.min(self.settings.max_step);
         self.points = 0;
-        self.stand(point);
+        self.set_point(point);
     }
 
     /// Makes `point` the current point and evaluates its guards.
-    fn stand(&mut self, point: Equilibrium<S::Mode>) {
+    fn set_point(&mut self, point: Equilibrium<S::Mode>) {
         let (Self { system, guards, slopes, .. }, Equilibrium { state, leaving, .. }) =
             (&mut *self, &point);
         Newton::guard_slopes(system, state, leaving, guards, slopes);
@@ -322,14 +322,14 @@ impl<S: System> Continuation<S> {
     }
 
     /// Solves for the equilibrium at a distance from a point, with its outgoing active set.
-    pub(crate) fn trial(
+    pub(crate) fn step_to(
         &mut self,
         from: &Equilibrium<S::Mode>,
         distance: f64,
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let mut condition = self.condition(from);
         condition.value += distance;
-        let candidate = self.correct(Self::towards(from, &condition), &condition)?;
+        let candidate = self.correct(Self::extrapolate(from, &condition), &condition)?;
         if self.turns_sharply(from, &candidate) {
             return Err(NewtonFailure::TooManyIterations);
         }
@@ -337,12 +337,13 @@ impl<S: System> Continuation<S> {
     }
 
     /// Extrapolates along the outgoing direction of `near` to the state that meets `condition`.
-    fn towards(near: &Equilibrium<S::Mode>, condition: &Condition) -> State<S::Mode> {
+    fn extrapolate(near: &Equilibrium<S::Mode>, condition: &Condition) -> State<S::Mode> {
         let distance = condition.value - condition.measure(&near.state.z);
         let factor = distance / condition.measure(&near.leaving);
         near.state.moved(factor, &near.leaving)
     }
 
+    /// Corrects a predicted state to the equilibrium that satisfies `condition`.
     pub(crate) fn correct(
         &mut self,
         mut state: State<S::Mode>,
@@ -366,12 +367,12 @@ impl<S: System> Continuation<S> {
             // minimum, so that the last point shows the state in which the path ends.
             match attempt.map_err(Termination::from).and_then(|candidate| self.accept(candidate)) {
                 Ok(point) => {
-                    self.adapt(iterations, is_smooth);
+                    self.lengthen_step(iterations, is_smooth);
                     return Ok(point);
                 }
                 // A failed attempt leaves the current point unchanged, so try again with a shorter
                 // step.
-                Err(stop) => self.shorten(distance, stop)?,
+                Err(stop) => self.shorten_step(distance, stop)?,
             }
         }
     }
@@ -384,7 +385,7 @@ impl<S: System> Continuation<S> {
         if drive >= DRIVES { self.step.min(left) } else { self.step }
     }
 
-    fn shorten(&mut self, distance: f64, stop: Termination) -> Result<(), Termination> {
+    fn shorten_step(&mut self, distance: f64, stop: Termination) -> Result<(), Termination> {
         // Shorten the attempted distance, because the target may have made it shorter than the step
         // size.
         self.step = distance / 3.0;
@@ -396,7 +397,7 @@ impl<S: System> Continuation<S> {
         Err(if self.undone >= UNDONE { Termination::Jumps } else { stop })
     }
 
-    fn adapt(&mut self, iterations: usize, smooth: bool) {
+    fn lengthen_step(&mut self, iterations: usize, smooth: bool) {
         if smooth && iterations <= 5 {
             // Newton's method doubles the correct digits in each iteration, so five iterations
             // suffice from a predictor with two digits. The length and iterations of a step cut
@@ -417,10 +418,10 @@ impl<S: System> Continuation<S> {
             _ => self.plain_step(&from, distance)?,
         };
         candidate = self.up_to_turn(&from, candidate)?;
-        if self.lets_go(&candidate) {
+        if self.load_vanishes(&candidate) {
             candidate.event = Some(Event::Unloaded);
-        } else if self.pulls(&candidate) {
-            candidate = self.unloaded(&from, &candidate)?;
+        } else if self.load_reverses(&candidate) {
+            candidate = self.locate_unloading(&from, &candidate)?;
         }
         // Check again, because the turning point and unloading have moved the end of the step.
         if self.strays(&from, &candidate) {
@@ -435,15 +436,15 @@ impl<S: System> Continuation<S> {
         from: &Equilibrium<S::Mode>,
         distance: f64,
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
-        let mut candidate = self.trial(from, distance)?;
+        let mut candidate = self.step_to(from, distance)?;
         if self.progress(&candidate.state.z) > self.system.target() {
-            candidate = self.target(from, &candidate)?;
+            candidate = self.locate_target(from, &candidate)?;
         }
         self.first_event(from, candidate)
     }
 
     /// Solves for the point between two points where the control parameter reaches its target.
-    fn target(
+    fn locate_target(
         &mut self,
         from: &Equilibrium<S::Mode>,
         beyond: &Candidate<S::Mode>,
@@ -520,7 +521,7 @@ impl<S: System> Iterator for Continuation<S> {
                     self.termination =
                         Some(if has_turned { Termination::Jumps } else { Termination::Unloaded });
                 }
-                self.stand(point.clone());
+                self.set_point(point.clone());
                 Some(point)
             }
             Err(stop) => {

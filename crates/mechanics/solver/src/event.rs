@@ -76,8 +76,10 @@ impl<S: System> Continuation<S> {
         let guards = Newton::guards(&self.system, &located.state);
         match self.first_violated(&guards) {
             // A guard with increasingly negative slope may vanish before the predicted one.
-            Some(earlier) if earlier != constraint => self.event(from, located, earlier).ok(),
-            _ => Some(self.changed(located, constraint, &guards)),
+            Some(earlier) if earlier != constraint => {
+                self.locate_first_event(from, located, earlier).ok()
+            }
+            _ => Some(self.mark_event(located, constraint, &guards)),
         }
     }
 
@@ -99,17 +101,17 @@ impl<S: System> Continuation<S> {
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let guards = Newton::guards(&self.system, &candidate.state);
         if let Some(constraint) = self.first_violated(&guards) {
-            return self.event(from, candidate, constraint);
+            return self.locate_first_event(from, candidate, constraint);
         }
         // A contact may close and open again within a step, or a force vanish and grow again. All
         // guards at the end of the step are then positive.
         for fraction in self.dips(from, &candidate, &guards) {
             let condition = self.condition(from);
             let distance = condition.measure(&candidate.state.z) - condition.value;
-            let inside = self.trial(from, fraction * distance)?;
+            let inside = self.step_to(from, fraction * distance)?;
             let guards = Newton::guards(&self.system, &inside.state);
             if let Some(constraint) = self.first_violated(&guards) {
-                return self.event(from, inside, constraint);
+                return self.locate_first_event(from, inside, constraint);
             }
         }
         Ok(candidate)
@@ -157,7 +159,7 @@ impl<S: System> Continuation<S> {
     }
 
     /// Locates the first event before `beyond`, where `constraint` is violated.
-    fn event(
+    fn locate_first_event(
         &mut self,
         from: &Equilibrium<S::Mode>,
         mut beyond: Candidate<S::Mode>,
@@ -184,7 +186,7 @@ impl<S: System> Continuation<S> {
             let guards = Newton::guards(&self.system, &located.state);
             match self.first_violated(&guards) {
                 Some(earlier) if earlier != constraint => constraint = earlier,
-                _ => return Ok(self.changed(located, constraint, &guards)),
+                _ => return Ok(self.mark_event(located, constraint, &guards)),
             }
             beyond = located;
         }
@@ -234,7 +236,7 @@ impl<S: System> Continuation<S> {
     }
 
     /// Makes the candidate an event at which `constraint` and simultaneous others change sides.
-    fn changed(
+    fn mark_event(
         &self,
         located: Candidate<S::Mode>,
         constraint: usize,
@@ -266,7 +268,7 @@ impl<S: System> Continuation<S> {
         // A load extremum is a point of the path. Behind it the load must turn, so skip the search.
         let turns = from.leaving[load] * candidate.direction[load] < 0.0;
         if turns && from.event != Some(Event::LoadExtremum) {
-            candidate = self.extremum(from, &candidate, load)?;
+            candidate = self.locate_extremum(from, &candidate, load)?;
             candidate.event = Some(Event::LoadExtremum);
         }
         for number in 0..self.system.monotone().len() {
@@ -274,7 +276,7 @@ impl<S: System> Continuation<S> {
             let unknown = self.system.constraints()[constraint];
             let grows = from.state.active[constraint] && from.leaving[unknown] > 0.0;
             if grows && candidate.direction[unknown] < 0.0 {
-                candidate = self.extremum(from, &candidate, unknown)?;
+                candidate = self.locate_extremum(from, &candidate, unknown)?;
                 candidate.event =
                     Some(Event::Changed(vec![Change { constraint, activated: false }]));
             }
@@ -283,7 +285,7 @@ impl<S: System> Continuation<S> {
     }
 
     /// Locates the point where an unknown turns.
-    fn extremum(
+    fn locate_extremum(
         &mut self,
         from: &Equilibrium<S::Mode>,
         beyond: &Candidate<S::Mode>,
@@ -296,7 +298,7 @@ impl<S: System> Continuation<S> {
         let mut bracket = Bracket::patient((0.0, start), (span, beyond.direction[unknown]));
         for _ in 0..MAX_ROUNDS {
             let distance = bracket.secant();
-            let candidate = self.trial(from, distance)?;
+            let candidate = self.step_to(from, distance)?;
             let rate = candidate.direction[unknown];
             // Either criterion suffices: a flat extremum is ill-defined in place, a sharp one in
             // rate.
@@ -309,14 +311,14 @@ impl<S: System> Continuation<S> {
     }
 
     /// Returns true if a load that only pushes would have to pull at the candidate.
-    pub(crate) fn pulls(&self, candidate: &Candidate<S::Mode>) -> bool {
+    pub(crate) fn load_reverses(&self, candidate: &Candidate<S::Mode>) -> bool {
         self.pushes.is_some_and(|sign| sign * candidate.state.z[self.system.load()] < 0.0)
     }
 
     /// Returns true if the load vanishes at an event, up to round-off, and would reverse.
     ///
     /// The contact that carries the load opens, so the path ends.
-    pub(crate) fn lets_go(&self, candidate: &Candidate<S::Mode>) -> bool {
+    pub(crate) fn load_vanishes(&self, candidate: &Candidate<S::Mode>) -> bool {
         let load = self.system.load();
         matches!(candidate.event, Some(Event::Changed(_)))
             && candidate.state.z[load].abs() <= FLOOR
@@ -324,7 +326,7 @@ impl<S: System> Continuation<S> {
     }
 
     /// Locates the point before `beyond` where the load returns to zero.
-    pub(crate) fn unloaded(
+    pub(crate) fn locate_unloading(
         &mut self,
         from: &Equilibrium<S::Mode>,
         beyond: &Candidate<S::Mode>,

@@ -44,10 +44,10 @@ const MOST_REVERSALS: usize = 20;
 /// in the mode behind the event. The solver uses principal pivoting (Cottle, Pang & Stone 2009,
 /// *The Linear Complementarity Problem*, ch. 4, isbn 978-0-89871-686-3):
 ///
-/// 1. A single monotone constraint that turns back needs no search ([`Self::end_growth`]).
+/// 1. A single monotone constraint that turns back needs no search (`end_growth`).
 /// 2. Several changes are applied together first, as symmetry requires
-///    ([`Self::pivot_together`]).
-/// 3. If the direction then violates one of them, [`Self::search_active_sets`] changes one
+///    (`pivot_together`).
+/// 3. If the direction then violates one of them, `search_active_sets` changes one
 ///    constraint after the other, the most violated one first.
 impl<S: System> Continuation<S> {
     /// Changes constraints in `state`, at an event, and returns the outgoing direction.
@@ -159,7 +159,7 @@ impl<S: System> Continuation<S> {
         self.termination = branch.as_ref().err().copied();
         if let Ok(OutgoingBranch { state, leaving, is_positive, .. }) = branch {
             self.is_positive = is_positive;
-            self.begin(Equilibrium { state, arriving: leaving.clone(), leaving, event: None });
+            self.restart_at(Equilibrium { state, arriving: leaving.clone(), leaving, event: None });
         }
     }
 

@@ -93,7 +93,7 @@ impl<'a> AdaptiveRowPath<'a> {
             // A row may grow twice at one point: keep the first form of the point.
             let left = self.arrived.take().map(|left| chain.extended(self.path.system(), &left));
             self.arrived = left.or_else(|| Some(from.clone()));
-            self.shorter.push(self.path.go_on(chain, from));
+            self.shorter.push(self.path.continue_with(chain, from));
         }
         Ok(())
     }
