@@ -20,10 +20,6 @@ const REFILLS: usize = 3;
 /// own bound slightly.
 const INSIDE: f64 = 1e-3;
 
-/// Relative difference up to which objectives count as equal; lower bounds are met to this
-/// accuracy.
-const EQUAL: f64 = 1e-9;
-
 /// Relative difference up to which designs are one point of the front; tables show six digits.
 const SAME: f64 = 1e-6;
 
@@ -227,7 +223,9 @@ fn designs(search: &Search<'_>, history: &[Candidate], targets: &[Target]) -> Re
         Front { designs: Vec::new(), same: 0, beaten: 0, empty: targets.len() - found.len() };
     let mut kept: Vec<(BestDesign, f64)> = Vec::new();
     for (k, (design, turned)) in found.into_iter().enumerate() {
-        if values.iter().any(|other| beats(other, &turned)) {
+        // If two limits bind, lower bounds separate points by round-off in one objective; exact
+        // dominance would keep the worst.
+        if values.iter().any(|other| dominates(other, &turned)) {
             front.beaten += 1;
         } else if values[..k].iter().any(|other| is_same(other, &turned)) {
             front.same += 1;
@@ -243,14 +241,6 @@ fn designs(search: &Search<'_>, history: &[Candidate], targets: &[Target]) -> Re
 /// Returns true if all objectives agree within the visible digits.
 fn is_same(one: &[f64], other: &[f64]) -> bool {
     one.iter().zip(other).all(|(a, b)| (a - b).abs() <= SAME * b.abs())
-}
-
-/// Returns true if `one` dominates `other` beyond round-off.
-fn beats(one: &[f64], other: &[f64]) -> bool {
-    // If two limits bind, lower bounds separate points by round-off in one objective; exact
-    // dominance would keep the worst.
-    let pairs = || one.iter().zip(other).map(|(a, b)| (a - b, EQUAL * b.abs()));
-    pairs().all(|(gain, size)| gain >= -size) && pairs().any(|(gain, size)| gain > size)
 }
 
 /// Returns the objectives of a feasible design, with changed sign if minimised.
@@ -329,14 +319,14 @@ fn spread(values: &[Vec<f64>], taken: &[Vec<f64>], count: usize) -> Vec<Vec<f64>
 
 #[cfg(test)]
 mod tests {
-    use super::{beats, is_same};
+    use super::{dominates, is_same};
 
     #[test]
     fn of_points_alike_but_for_round_off_in_one_objective_the_better_stays() {
         // Such points occur if coverage and compliance both bind.
         let (poor, good) = ([0.800_000_000_004_8, 0.06], [0.799_999_999_999_9, 0.6]);
-        assert!(beats(&good, &poor) && !beats(&poor, &good));
-        assert!(!beats(&good, &good) && is_same(&good, &[0.8, 0.6]));
-        assert!(!beats(&[0.81, 0.06], &good));
+        assert!(dominates(&good, &poor) && !dominates(&poor, &good));
+        assert!(!dominates(&good, &good) && is_same(&good, &[0.8, 0.6]));
+        assert!(!dominates(&[0.81, 0.06], &good));
     }
 }

@@ -2,6 +2,8 @@
 
 use std::cmp::Ordering;
 
+use results::round_off::same;
+
 /// A point of four coordinates, larger being better.
 type Quadruple = [f64; 4];
 
@@ -38,7 +40,7 @@ fn sifted(points: &[&[f64]]) -> Vec<bool> {
 /// Whether a point is at least as good as another in every coordinate, and better in one (R6).
 pub fn dominates(p: &[f64], q: &[f64]) -> bool {
     let pairs = || p.iter().zip(q);
-    pairs().all(|(p, q)| p >= q) && pairs().any(|(p, q)| p > q)
+    pairs().all(|(p, q)| p >= q || same(*p, *q)) && pairs().any(|(p, q)| p > q && !same(*p, *q))
 }
 
 /// Marks which of `points` no other dominates. Coordinates are finite, larger is better.

@@ -10,6 +10,26 @@ pub fn same(a: f64, b: f64) -> bool {
     (a - b).abs() <= ROUND_OFF * a.abs().max(b.abs())
 }
 
+/// Replaces values that are equal up to round-off by one of them, the best by `goal`.
+///
+/// Equality is tested against the best value of a group, not from one value to the next, so that
+/// many small steps do not make all values equal. Rankings group equal scores in the same way.
+pub fn merge_equal<'a>(values: impl IntoIterator<Item = &'a mut f64>, goal: Goal) {
+    let mut values: Vec<&mut f64> = values.into_iter().collect();
+    values.sort_by(|a, b| match goal {
+        Goal::Maximize => b.total_cmp(a),
+        Goal::Minimize => a.total_cmp(b),
+    });
+    let mut best = f64::NAN;
+    for value in values {
+        if same(*value, best) {
+            *value = best;
+        } else {
+            best = *value;
+        }
+    }
+}
+
 /// The best of a sequence of values, with the item that has it.
 ///
 /// If several values are equal up to round-off, the first is the best and the others are ties.
@@ -39,6 +59,17 @@ impl<T> Leader<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn equal_values_become_the_best_of_them() {
+        let mut values = [0.5, 0.8, 0.8 - 1e-12, 0.3, 0.8 + 1e-12, 0.5 + 1e-15];
+        merge_equal(&mut values, Goal::Maximize);
+        assert_eq!(values, [0.5 + 1e-15, 0.8 + 1e-12, 0.8 + 1e-12, 0.3, 0.8 + 1e-12, 0.5 + 1e-15]);
+        // Steps below round-off that add up to more.
+        let mut steps = [1.0, 1.0 + 8e-10, 1.0 + 16e-10];
+        merge_equal(&mut steps, Goal::Minimize);
+        assert_eq!(steps, [1.0, 1.0, 1.0 + 16e-10]);
+    }
 
     #[test]
     fn the_first_of_equal_values_is_the_best() {

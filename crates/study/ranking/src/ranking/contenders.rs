@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use results::columns::name;
-use results::round_off::same;
+use results::round_off::{merge_equal, same};
 use results::{InvalidResults, Results};
 
 use crate::filter::RequirementFilter;
@@ -121,12 +121,21 @@ impl Contenders {
         let count = columns.len();
         // Values tell whether anything but round-off tells designs apart: a logarithm may be near 0.
         let is_tie = spans(&values, count).map(|(low, high)| same(low, high));
+        // Digits of round-off must not decide on dominance.
+        let mut merged = values.clone();
+        for (c, of) in preferences.criteria.iter().enumerate() {
+            merge_equal(merged.iter_mut().skip(c).step_by(count), of.goal);
+        }
+        for (place, value) in merged.iter_mut().enumerate() {
+            *value = criterion(preferences, place % count, *value);
+        }
+        // Of criteria as they are: who beats whom needs neither weights nor rescaling.
+        let on_front = front_of(&merged, count);
+        drop(merged);
         // Criteria, and then terms, take the places of the values, which the table has.
         for (place, value) in values.iter_mut().enumerate() {
             *value = criterion(preferences, place % count, *value);
         }
-        // Of criteria as they are: who beats whom needs neither weights nor rescaling.
-        let on_front = front_of(&values, count);
         let spans = spans(&values, count).into_iter().zip(is_tie).take(count);
         let spans = spans.map(|(span, is_tie)| (!is_tie).then_some(span)).collect();
         let mut contenders = Self { rows, columns, on_front, spans, terms: Vec::new() };

@@ -2,8 +2,8 @@
 
 use proptest::prelude::*;
 use ranking::{
-    InvalidRanking, Preferences, RankedDesign, Ranking, TetrahedralGrid, UnmetRequirement, Weights,
-    check_comparable, comparable_groups, write_ranking, write_unmet,
+    Criterion, Goal, InvalidRanking, Preferences, RankedDesign, Ranking, Scale, TetrahedralGrid,
+    UnmetRequirement, Weights, check_comparable, comparable_groups, write_ranking, write_unmet,
 };
 use results::{Completeness, Results, VerifiedFolder};
 use tempfile::TempDir;
@@ -333,4 +333,24 @@ proptest! {
         let sum: f64 = ranking.winners().iter().map(RankedDesign::share).sum();
         prop_assert!((sum - 1.0).abs() < 1e-12, "{sum}");
     }
+}
+
+/// Fronts and ranks agree on which values are equal: differences at the last digit decide nothing.
+#[test]
+fn round_off_puts_no_design_on_the_front() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let front = |table: &str, criteria: &[&str]| {
+        std::fs::write(folder.path().join("designs.csv"), table).expect("writable");
+        let results = Results::read(folder.path()).expect("a table");
+        let criteria = criteria.iter().map(|column| Criterion::new(column, Goal::Maximize));
+        let preferences = Preferences::new(Vec::new(), criteria.collect(), None, Scale::Paper);
+        let ranking = Ranking::by(&results, preferences.expect("preferences"), grid("4"));
+        let ranking = ranking.expect("a ranking");
+        ranking.front().iter().map(|design| design.design().to_owned()).collect::<Vec<_>>()
+    };
+    // Equal coverage but for the last digit, and the third has the largest force.
+    let table = "design,coverage,critical_force\n0001,0.826794919243112,1\n\
+                 0002,0.8267949192431123,2\n0003,0.8267949192431121,3\n";
+    assert_eq!(front(table, &["coverage", "critical_force"]), ["0003"]);
+    assert_eq!(front(table, &["coverage"]), ["0001", "0002", "0003"]);
 }
