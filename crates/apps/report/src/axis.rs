@@ -29,8 +29,10 @@ pub(crate) struct Tick {
 }
 
 impl ChartAxis {
-    /// Fits an axis to `values`: logarithmic if they are positive and span decades, otherwise linear
-    /// and, if zero is near, from zero.
+    /// Fits an axis to `values`.
+    ///
+    /// The axis is logarithmic if the values are positive and span decades. Otherwise it is linear,
+    /// and starts at zero if zero is near.
     pub(crate) fn fit(label: &str, values: impl Iterator<Item = f64>) -> Self {
         let (low, high) = ends(values);
         if low > 0.0 && high / low > SPANS_DECADES {
@@ -47,7 +49,9 @@ impl ChartAxis {
         Self::linear(label, low, high)
     }
 
-    /// Creates a linear axis with 5 % of its length beyond each end; zero stays an end, unless all values are zero.
+    /// Creates a linear axis with a margin of 5 % beyond each end.
+    ///
+    /// An end at zero gets no margin, unless all values are zero.
     pub(crate) fn linear(label: &str, low: f64, high: f64) -> Self {
         let size = low.abs().max(high.abs());
         // Values that differ only by round-off still need an axis of finite length.
@@ -72,7 +76,7 @@ impl ChartAxis {
         Self { label: label.to_owned(), scale: AxisScale::Log, low: low / air, high: high * air }
     }
 
-    /// Returns the position of a value: 0 at the low end, 1 at the high end, `None` outside.
+    /// Returns the position of a value: 0 at the low end, 1 at the high end; `None` outside.
     pub(crate) fn place(&self, value: f64) -> Option<f64> {
         let place = match self.scale {
             AxisScale::Linear => (value - self.low) / (self.high - self.low),
@@ -93,7 +97,7 @@ impl ChartAxis {
     fn linear_ticks(&self, wanted: usize) -> Vec<Tick> {
         let rough = (self.high - self.low) / wanted as f64;
         let unit = 10f64.powf(rough.log10().floor());
-        // A step that is nearly wide enough is accepted, because the next one may halve the number of ticks.
+        // Accept a step that is nearly wide enough: the next one may halve the number of ticks.
         let step = [1.0, 2.0, 5.0, 10.0].into_iter().find(|m| m * unit >= 0.9 * rough);
         let step = step.unwrap_or(10.0) * unit;
         // A small count: the axis has few steps.
@@ -113,13 +117,13 @@ impl ChartAxis {
         let every = ((decades / (1.4 * wanted as f64)).ceil() as i32).max(1);
         let labelled = |decade: i32, digit: i32| match digit {
             1 => decade.rem_euclid(every) == 0,
-            // Powers of ten alone would give one or two labels.
+            // Powers of ten alone would give only one or two labels.
             2 | 5 => decades < 2.2 && wanted > 3,
             _ => false,
         };
-        // Beyond that, ticks between powers of ten would overlap.
+        // Over more decades, ticks between powers of ten would overlap.
         let digits = if decades > 7.0 { 1 } else { 9 };
-        // Decided for the whole axis, so that all labels have the same notation.
+        // One decision for the whole axis, so that all labels have the same notation.
         let decimal = first >= -2 && last <= 4;
         let all = (first..=last).flat_map(|decade| (1..=digits).map(move |digit| (decade, digit)));
         all.map(|(decade, digit)| {
@@ -132,7 +136,9 @@ impl ChartAxis {
     }
 }
 
-/// Formats a tick of a linear axis: in full where that is short, otherwise with the power of ten of the larger end.
+/// Formats a tick of a linear axis.
+///
+/// Long numbers are divided by the power of ten of the larger end.
 fn linear_label(value: f64, step: f64, ends: f64) -> String {
     let decade = ends.log10().floor();
     if (-3.0..5.0).contains(&decade) {
@@ -146,7 +152,7 @@ fn linear_label(value: f64, step: f64, ends: f64) -> String {
     minus(&format!("{:.decimals$}·10^{{{decade}}}", value / 10f64.powf(decade)))
 }
 
-/// Formats `digit · 10^decade`: in full or as a power, as all ticks of its axis.
+/// Formats `digit · 10^decade`, as a decimal number or as a power of ten.
 fn power(decade: i32, digit: i32, decimal: bool) -> String {
     let decimals = usize::try_from(-decade).unwrap_or(0);
     match digit {
@@ -161,7 +167,7 @@ fn minus(text: &str) -> String {
     text.replace('-', "−")
 }
 
-/// Returns the smallest and the largest of `values`; 0 and 1 if there are none.
+/// Returns the smallest and largest of `values`; 0 and 1 if there are none.
 pub(crate) fn ends(values: impl Iterator<Item = f64>) -> (f64, f64) {
     let ends = values
         .filter(|value| value.is_finite())
@@ -198,7 +204,7 @@ mod tests {
     }
 
     #[test]
-    fn decades_have_a_logarithmic_axis() {
+    fn values_over_decades_get_a_logarithmic_axis() {
         assert_eq!(
             labels(&ChartAxis::fit("", [1e-6, 1e4].into_iter())),
             "10^{−6} 10^{−4} 10^{−2} 10^{0} 10^{2} 10^{4}"

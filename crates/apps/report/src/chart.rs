@@ -30,7 +30,8 @@ impl Area {
         self.top + self.height
     }
 
-    /// Returns panel `k` of a grid that starts with this one, with the given spacing across and down.
+    /// Returns panel `k` of a grid that starts with this one, with the given spacing across and
+    /// down.
     pub(crate) fn panel(self, k: usize, columns: usize, between: [f64; 2]) -> Self {
         let [column, row] = [k % columns, k / columns].map(|place| place as f64);
         let left = self.left + column * (self.width + between[0]);
@@ -68,7 +69,7 @@ impl<'a> ChartPanel<'a> {
         Self { area, x, y, title: String::new(), x_labels: true, y_labels: true }
     }
 
-    /// Draws the frame and the names of both axes, that of y `away` px left of it.
+    /// Draws the frame and the labels of both axes, with the y label `away` px left of the axis.
     pub(crate) fn axes(&self, away: f64) -> [Element; 3] {
         [self.frame(), self.x_name(), self.y_name(away)]
     }
@@ -155,14 +156,15 @@ impl<'a> ChartPanel<'a> {
     pub(crate) fn y_name(&self, away: f64) -> Element {
         let spot = [self.area.left - away, self.area.center()[1]];
         let label = &self.y.label;
-        // Without the formula behind its symbol where that is taller than the panel.
+        // A long label is cut before its formula, because it would be longer than the panel is
+        // high.
         let is_long = width(label, NAME) > self.area.height;
         let name = label.split(" = ").next().filter(|_| is_long).unwrap_or(label);
         upright(name, spot, fitting(name, self.area.height)).with("fill", INK)
     }
 }
 
-/// Returns the font size at which a label fits into `room`.
+/// Returns the font size at which a label fits into `room` px.
 fn fitting(label: &str, room: f64) -> f64 {
     NAME * (room / width(label, NAME)).min(1.0)
 }
@@ -170,24 +172,24 @@ fn fitting(label: &str, room: f64) -> f64 {
 /// Radius of a circle with the area of a mark, px.
 const MARK: f64 = 3.4;
 
-/// The look of a mark, besides its slant.
+/// The style of a mark. The slant determines its shape and colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum MarkLook {
     Filled,
     Open,
-    /// The surface of the substrate folds: the mark is pale and struck through.
+    /// The surface of the substrate folds: the mark is pale and crossed out.
     Folded,
 }
 
 impl MarkLook {
     const ALL: [Self; 3] = [Self::Filled, Self::Open, Self::Folded];
 
-    /// Returns the look of a design in a figure of a measure that depends on folds.
+    /// Returns the style of a design in figures of measures that a fold invalidates.
     pub(crate) fn of(designs: &Designs, row: usize) -> Self {
         if designs.folded(row) { Self::Folded } else { Self::Filled }
     }
 
-    /// Returns the identifier of the shape of a mark with this look.
+    /// Returns the identifier of the shape for a mark in this style.
     fn shape(self, mark: Mark) -> String {
         match self {
             Self::Filled => mark.name(),
@@ -196,7 +198,7 @@ impl MarkLook {
         }
     }
 
-    /// Draws the shape around the origin, without a colour.
+    /// Draws the shape around the origin, without colour.
     fn draw(self, mark: Mark) -> Element {
         let shape = mark.draw([0.0, 0.0], MARK);
         let filled = |shape: Element| shape.with("fill", "currentColor").with("stroke", "#fff");
@@ -207,7 +209,7 @@ impl MarkLook {
                 shape.at("stroke-width", 1.3)
             }
             Self::Folded => {
-                // The line stays opaque.
+                // Only the shape is pale; the crossing line stays opaque.
                 let pale = filled(shape).at("stroke-width", 0.5).with("opacity", "0.45");
                 let [from, to] = [-1.4, 1.4].map(|s| [s * MARK, -s * MARK]);
                 Element::new("g").containing([pale, line(from, to, RED, 1.3)])
@@ -248,7 +250,7 @@ pub(crate) fn design_mark(
     Some(mark.with("data-design", designs.design(row)))
 }
 
-/// Returns a legend of the slants and of the looks of marks.
+/// Returns a legend of the slants and the styles of marks.
 pub(crate) fn mark_legend(palette: &SlantPalette, has_folds: bool, [x, y]: Spot) -> Element {
     let name = label("slant $α$", [x, y + 4.0], 12.0, Anchor::Start).with("fill", INK);
     // The legend also defines the shapes, because every figure with marks has a legend.

@@ -27,7 +27,7 @@ pub(crate) fn map_color(fraction: f64) -> String {
     mixed(&SEQUENCE, fraction)
 }
 
-/// Returns a colour mixed with white, or, below 0, with black.
+/// Mixes a colour with white (`part` > 0) or with black (`part` < 0).
 pub(crate) fn shaded(color: &str, part: f64) -> String {
     let channel = |k: usize| {
         let text = color.get(2 * k + 1..2 * k + 3).unwrap_or_default();
@@ -42,7 +42,7 @@ pub(crate) fn shaded(color: &str, part: f64) -> String {
 pub(crate) fn mixed(steps: &[[u8; 3]], fraction: f64) -> String {
     let last = steps.len() - 1;
     let place = fraction.clamp(0.0, 1.0) * last as f64;
-    // Between 0 and the last step.
+    // The index lies between 0 and the second to last step.
     let below = (place.floor() as usize).min(last - 1);
     let part = place - below as f64;
     let [r, g, b] = [0, 1, 2].map(|k| {

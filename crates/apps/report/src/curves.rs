@@ -17,12 +17,12 @@ use crate::palette::SlantPalette;
 use crate::svg::{Element, Spot, circle, line, polygon, polyline};
 
 const WIDTH: f64 = 760.0;
-/// Room for the axes, px: left, right, below.
+/// Margins for the axes, px: left, right, below.
 const MARGINS: [f64; 3] = [78.0, 24.0, 62.0];
 const HEIGHT: f64 = 430.0;
-/// Height of the first line of the legend, px.
+/// Vertical position of the first line of the legend, px.
 const LEGEND: f64 = 70.0;
-/// Least distance between crosses, px.
+/// Minimum distance between crosses, px.
 const CROSS: f64 = 9.0;
 /// Width and height of a panel of energies, px.
 const ENERGY_PANEL: [f64; 2] = [330.0, 300.0];
@@ -40,7 +40,7 @@ const SHADES: [f64; 4] = [0.0, -0.35, -0.6, 0.3];
 pub struct DesignCurves<'a> {
     /// The number of the design.
     pub number: String,
-    /// Its parameters; curves are in mm and N if all designs have a thickness and a modulus.
+    /// Its parameters. Curves are in mm and N if all designs have a thickness and a modulus.
     pub case: &'a Case,
     /// The path in puncture, if it was solved.
     pub puncture: Option<&'a Puncture>,
@@ -51,7 +51,8 @@ pub struct DesignCurves<'a> {
 /// Measured curves, overlaid on the curves of designs.
 #[derive(Clone, Debug)]
 pub struct MeasuredCurves {
-    /// True for bending (moment against curvature), false for puncture (force against displacement).
+    /// True for bending (moment against curvature), false for puncture (force against
+    /// displacement).
     pub bending: bool,
     /// True for physical units (mm and N, or 1/mm and N mm), false for dimensionless curves.
     pub is_physical: bool,
@@ -89,9 +90,9 @@ pub fn curves(
 /// The texts of a kind of figure.
 struct FigureText {
     title: &'static str,
-    /// Labels of the axes: dimensionless, and in physical units.
+    /// Labels of the axes: dimensionless and in physical units.
     axes: [[&'static str; 2]; 2],
-    /// Notes below the title: always shown, shown with a ring, and shown with a dotted part.
+    /// Notes below the title: shown always, with a ring, and with a dotted part of a curve.
     notes: [&'static str; 3],
     /// Factors from the units of both axes to physical units, if the material is known.
     units: fn(&Case) -> Option<[f64; 2]>,
@@ -153,7 +154,7 @@ const FLEXURE_ENERGY: FigureText = FigureText {
 };
 
 impl FigureText {
-    /// Returns the factors to physical units for each design; `None` if one of them has no material.
+    /// Returns the factors to physical units of each design; `None` if a design has no material.
     fn physical(&self, designs: &[DesignCurves]) -> Option<Vec<[f64; 2]>> {
         designs.iter().map(|solved| (self.units)(solved.case)).collect()
     }
@@ -164,12 +165,12 @@ fn puncture(solved: &DesignCurves) -> Option<CurveValues> {
     let place = |p: &PuncturePoint| [p.displacement, p.force];
     let back = puncture.unloading.iter().flat_map(|back| &back.path);
     let crosses = puncture.events.iter().map(|e| [e.point.displacement, e.point.force]);
-    // Stability under a held depth, because a needle can follow such a path.
+    // Stability under prescribed depth, because a needle can follow such a path.
     let unstable = puncture.instability.iter().map(|instability| instability.depth > 0);
     let fold = puncture.folds.first().map(|fold| [fold.point.displacement, fold.point.force]);
     let passage = &puncture.measures.passage;
     let passing = passage.passing_displacement.zip(passage.passing_force);
-    // A truncated path may end before.
+    // A truncated path may end before this event.
     let is_shown = |at: &[f64; 2]| puncture.path.iter().any(|p| p.displacement >= at[0]);
     Some(CurveValues {
         points: puncture.path.iter().map(place).collect(),
@@ -207,7 +208,7 @@ fn flexure(solved: &DesignCurves) -> Option<CurveValues> {
     })
 }
 
-/// The energies of a design, with their dashes.
+/// The energies of a design, each with its dash pattern.
 type Energies = Vec<(&'static str, Vec<[f64; 2]>)>;
 
 fn puncture_energies(solved: &DesignCurves) -> Option<Energies> {
@@ -235,7 +236,7 @@ struct CurveValues {
     back: Vec<[f64; 2]>,
     crosses: Vec<[f64; 2]>,
     rings: Vec<[f64; 2]>,
-    /// The point at which a guided needle first touches more than its face.
+    /// The point at which a guided needle first touches the scale beyond its top face.
     passing: Vec<[f64; 2]>,
     /// True if the segment after each point is unstable under a held depth.
     unstable: Vec<bool>,
@@ -255,7 +256,7 @@ impl CurveValues {
     }
 }
 
-/// Returns the curve of a design; `None` if it was not solved.
+/// A function that returns the curve of a design; `None` if it was not solved.
 type ValuesOf = fn(&DesignCurves) -> Option<CurveValues>;
 
 fn one_panel(
@@ -265,7 +266,7 @@ fn one_panel(
     values: ValuesOf,
     measured: Option<&MeasuredCurves>,
 ) -> Option<String> {
-    // Measured curves without units are compared with dimensionless ones.
+    // Compare measured curves without units with dimensionless curves.
     let is_wanted = measured.is_none_or(|measured| measured.is_physical);
     let units = text.physical(designs).filter(|_| is_wanted);
     let labels = text.axes[usize::from(units.is_some())];
@@ -297,7 +298,7 @@ fn one_panel(
         ("▼ passing", any(|values| !values.passing.is_empty())),
         ("thin dashes: the way back", any(|values| !values.back.is_empty())),
     ];
-    // Only notes that apply, because all of them would be wider than the figure.
+    // Show only the notes that apply: all of them are wider than the figure.
     let told = notes.into_iter().filter(|(words, occurs)| *occurs && !words.is_empty());
     let words = told.map(|(words, _)| words).collect::<Vec<_>>().join(";  ");
     inside.push(label(&words, note, 12.0, Anchor::Start).with("fill", INK));
@@ -309,7 +310,7 @@ fn one_panel(
         let y = LEGEND + 20.0 * (curves.len() + k) as f64;
         inside.push(dots(&panel, points, color));
         inside.push(dot([MARGINS[0] + 20.0, y], color));
-        // File names are not formulas.
+        // File names are plain text, without formulas.
         let text = Element::new("text").at("x", MARGINS[0] + 50.0).at("y", y + 4.0);
         inside.push(text.at("font-size", 12.0).with("fill", INK).text(name));
     }
@@ -338,7 +339,7 @@ fn curves_of(designs: &[DesignCurves], values: ValuesOf, units: &[[f64; 2]]) -> 
         let Some(mut values) = values(solved) else { continue };
         values.in_units(units.get(k).copied().unwrap_or([1.0; 2]));
         let slant = solved.case.design.slant_deg;
-        // Counted among all designs, so that a design looks the same in every figure.
+        // Count among all designs, so that a design has the same look in every figure.
         let before = designs[..k].iter().filter(|other| other.case.design.slant_deg == slant);
         let before = before.count();
         let color = shaded(&palette.color(slant), SHADES[before % SHADES.len()]);
@@ -358,7 +359,7 @@ fn palette(designs: &[DesignCurves]) -> SlantPalette {
     SlantPalette::new(designs.iter().map(|solved| solved.case.design.slant_deg))
 }
 
-/// Fits axes to points, both from zero.
+/// Fits both axes to points, starting at zero.
 fn axes(labels: [&str; 2], points: &[[f64; 2]]) -> (ChartAxis, ChartAxis) {
     let axis = |name: &str, k: usize| {
         let (low, high) = crate::axis::ends(points.iter().map(|point| point[k]));
@@ -371,13 +372,15 @@ fn axes(labels: [&str; 2], points: &[[f64; 2]]) -> (ChartAxis, ChartAxis) {
 fn logarithmic(label: &str, curves: &[Curve]) -> Option<ChartAxis> {
     let ends = curves.iter().map(|curve| curve.values.all().map(|p| p[1]).fold(0.0, f64::max));
     let (low, high) = crate::axis::ends(ends);
-    // Curves begin at zero, which a logarithmic axis cannot show: the axis ends 1.5 decades below
-    // the lowest end of a curve.
+    // Curves begin at zero, which a logarithmic axis cannot show. The axis therefore ends 1.5
+    // decades below the lowest final value of a curve.
     (low > 0.0 && high > 30.0 * low).then(|| ChartAxis::fit(label, [low / 30.0, high].into_iter()))
 }
 
 impl Curve {
-    /// Splits the line by stability, with dashes and widths, and adds the unloading path.
+    /// Splits the curve into stable and unstable parts, and adds the unloading path.
+    ///
+    /// Each part has its dash pattern and line width.
     fn parts(&self) -> Vec<(&[[f64; 2]], &'static str, f64)> {
         let CurveValues { points, back, unstable, .. } = &self.values;
         let is_unstable = |k: usize| unstable.get(k) == Some(&true);
@@ -424,7 +427,7 @@ fn drawn(panel: &ChartPanel, curve: &Curve) -> Element {
         .containing(passing)
 }
 
-/// Removes spots close to the previous one, because crosses would hide a steep path.
+/// Removes spots close to the previous one, because crosses would hide a steep curve.
 fn apart(spots: Vec<Spot>) -> Vec<Spot> {
     let mut kept: Vec<Spot> = Vec::new();
     for [x, y] in spots {
@@ -442,7 +445,7 @@ fn legend(curve: &Curve, y: f64) -> Element {
     Element::group("legend").containing([sample, name.with("fill", INK)])
 }
 
-/// Returns a panel for each design, with axes of its own.
+/// Returns a panel for each design, each with its own axes.
 fn panels(
     name: &str,
     text: &FigureText,

@@ -9,10 +9,10 @@ use results::{Results, Table};
 
 use crate::palette::SlantPalette;
 
-/// Parameters that figures of a sweep are drawn over.
+/// Parameters on the axes of the standard figures.
 const GEOMETRY: [&str; 3] = ["gap_over_t", "length_over_t", "slant_deg"];
 
-/// Parameters, as their columns, and their values.
+/// Parameters (by column name) with their values.
 pub(crate) type AxisValues<'a> = Vec<(&'a str, Cow<'a, str>)>;
 
 /// The designs of a sweep, from `designs.csv`.
@@ -37,7 +37,7 @@ impl Designs {
         self.table.length()
     }
 
-    /// Returns the number of a design, as it is written.
+    /// Returns the number of a design as text, as in the table.
     pub fn design(&self, row: usize) -> &str {
         self.table.name(row)
     }
@@ -52,7 +52,7 @@ impl Designs {
         self.table.number(row, self.table.column(column)?)
     }
 
-    /// Returns a column as numbers, NaN where a cell is empty; `None` if it has texts.
+    /// Returns a column as numbers, NaN for empty cells; `None` if any cell is text.
     pub(crate) fn only_numbers(&self, column: &str) -> Option<&[f64]> {
         self.table.numbers(self.table.column(column)?)
     }
@@ -62,29 +62,33 @@ impl Designs {
         (0..self.count()).any(|row| self.number(column, row).is_some())
     }
 
-    /// Returns the numbers of a column, where there are any.
+    /// Returns all numbers of a column.
     pub(crate) fn numbers(&self, column: &str) -> impl Iterator<Item = f64> {
         (0..self.count()).filter_map(move |row| self.number(column, row))
     }
 
-    /// Returns the varied parameters, as their columns.
+    /// Returns the column names of the varied parameters.
     pub(crate) fn varied(&self) -> Vec<&str> {
         let headers = self.headers().iter().map(String::as_str);
         let parameters = headers.filter(|name| tells_apart(name, self.headers()));
         parameters.filter(|name| self.texts(name).len() > 1).collect()
     }
 
-    /// Returns the varied parameters besides gap, aspect ratio and slant, as their columns.
+    /// Returns the column names of the varied parameters besides gap, aspect ratio and slant.
     pub(crate) fn further_axes(&self) -> Vec<&str> {
         self.varied().into_iter().filter(|name| !GEOMETRY.contains(name)).collect()
     }
 
-    /// Groups the designs by their further axes, each group with the values of these axes.
+    /// Groups the designs by their further axes.
+    ///
+    /// Each group has the values of these axes.
     pub(crate) fn parts(&self) -> Vec<(AxisValues<'_>, Self)> {
         self.parts_by(&GEOMETRY)
     }
 
-    /// Groups the designs by the varied parameters that are not among `axes`, each group with their values.
+    /// Groups the designs by the varied parameters that are not among `axes`.
+    ///
+    /// Each group has the values of these parameters.
     pub(crate) fn parts_by(&self, axes: &[&str]) -> Vec<(AxisValues<'_>, Self)> {
         let others: Vec<&str> =
             self.varied().into_iter().filter(|name| !axes.contains(name)).collect();
@@ -106,7 +110,7 @@ impl Designs {
         fold.is_some_and(|fold| !self.table.is_empty(row, fold))
     }
 
-    /// Returns true if the surface folds under any of the designs.
+    /// Returns true if the surface folds in the puncture of any design.
     pub(crate) fn any_folded(&self) -> bool {
         (0..self.count()).any(|row| self.folded(row))
     }
@@ -116,7 +120,7 @@ impl Designs {
         Self { table: Arc::new(self.table.only(rows)) }
     }
 
-    /// Returns the different texts of a column.
+    /// Returns the distinct texts of a column.
     pub(crate) fn texts(&self, column: &str) -> BTreeSet<Cow<'_, str>> {
         (0..self.count()).map(|row| self.text(column, row)).collect()
     }
@@ -126,7 +130,7 @@ impl Designs {
         SlantPalette::new(self.numbers("slant_deg"))
     }
 
-    /// Returns the different numbers of a column, sorted.
+    /// Returns the distinct numbers of a column, sorted.
     pub(crate) fn values(&self, column: &str) -> Vec<f64> {
         let mut values: Vec<f64> = self.numbers(column).collect();
         values.sort_by(f64::total_cmp);

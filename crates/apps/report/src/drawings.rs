@@ -30,7 +30,7 @@ const HEAD: f64 = 40.0;
 /// Height of the line above a panel, px.
 const CAPTION: f64 = 26.0;
 
-/// A part of a drawing, drawn from its own upper left corner.
+/// A part of a drawing, in coordinates from its own upper left corner.
 struct DrawingPanel {
     height: f64,
     caption: String,
@@ -49,7 +49,7 @@ fn stacked(title: &str, panels: Vec<DrawingPanel>) -> String {
     document(WIDTH, top + 0.5 * MARGIN, &plain(title), inside)
 }
 
-/// Returns a panel with its letter and caption at a height.
+/// Returns a panel with its letter and caption, moved down to `top`.
 fn placed(DrawingPanel { caption, inside, .. }: DrawingPanel, top: f64, number: usize) -> Element {
     let letter = char::from(b'a' + u8::try_from(number % 26).unwrap_or(0));
     let text = format!("({letter})  {caption}");
@@ -69,7 +69,7 @@ pub fn geometry_label(case: &Case) -> String {
     let Design { gap, length, slant_deg, .. } = case.design;
     let thickness = case.material.thickness_mm;
     let unit = thickness.unwrap_or(1.0);
-    // Rounded, because designs of a search have 16 digits.
+    // Rounded, because designs found by a search have 16 digits.
     let [gap, length, slant, unit] =
         [gap * unit, length * unit, slant_deg, unit].map(|value| number::rounded(value, 6));
     match thickness {
@@ -85,7 +85,7 @@ fn contacts_label(contacts: &[Contact]) -> String {
         1 => "1 contact".to_owned(),
         count => format!("{count} contacts"),
     };
-    // Without friction, stick and slip are not mentioned.
+    // Omit stick and slip if there is no friction.
     match contacts.iter().filter(|contact| contact.slips == Some(true)).count() {
         _ if contacts.iter().all(|contact| contact.slips.is_none()) => count,
         0 => format!("{count}, all stick"),

@@ -14,10 +14,11 @@ const PAGE: &str = concat!(
     include_str!("../assets/page/head.html"),
     include_str!("../assets/explore/explore.html")
 );
-/// The section of the page.
+/// The HTML section of the interactive design.
 const SECTION: &str = include_str!("../assets/explore/explorer.html");
-/// Its style on any page, and the style of a page of its own.
+/// The style of the section on any page.
 pub(crate) const STYLE: &str = include_str!("../assets/explore/explore.css");
+/// The styles of a separate page.
 const STYLES: [&str; 2] =
     [include_str!("../assets/page/styles/theme.css"), include_str!("../assets/explore/page.css")];
 /// The scripts of the page, in the order in which they run.
@@ -30,17 +31,17 @@ pub(crate) const SCRIPTS: [&str; 7] = [
     include_str!("../assets/explore/curves.js"),
     include_str!("../assets/explore/explorer.js"),
 ];
-/// The thread in which the page solves.
+/// The script of the worker thread, which runs the solver.
 const WORKER: &str = include_str!("../assets/explore/worker.js");
-/// The solver as WebAssembly, compressed: `scripts/wasm` makes it.
+/// The solver as compressed WebAssembly, compiled by `scripts/wasm`.
 const MODULE: &[u8] = include_bytes!("../assets/explore/solver.wasm.gz");
 
 /// The initial state of an interactive page.
 #[derive(Clone, Debug)]
 pub struct Explorer {
-    /// The definition.
+    /// The definition of the sweep.
     pub sweep: Sweep,
-    /// The definition or results folder as an argument of commands, with settings.
+    /// The definition or results folder with its settings, as on the command line.
     pub source: String,
     /// The requirements, such as `coverage >= 0.5`.
     pub requirements: Vec<String>,
@@ -62,11 +63,11 @@ struct Control {
     unit: &'static str,
     min: f64,
     max: f64,
-    /// The change at one press of a key.
+    /// The change per key press.
     step: f64,
-    /// The initial value, a number or a word.
+    /// The initial value: a number or a word.
     value: Value,
-    /// The accepted words, if it takes words.
+    /// The allowed words of a parameter that takes words.
     words: Option<[&'static str; 2]>,
     /// The kind of needle to which the parameter applies, if it is restricted.
     only: Option<&'static str>,
@@ -74,8 +75,8 @@ struct Control {
 
 /// Default control of a parameter: key, label, range, initial fraction of the range, optional.
 ///
-/// The range and initial value apply if the definition has none. An optional parameter has a control
-/// only if the definition gives it.
+/// The range and initial value apply if the definition has none. An optional parameter has a
+/// control only if the definition gives it.
 type Offered = (&'static str, &'static str, [f64; 2], f64, bool);
 
 /// The controls, with overlapping scales as the initial design.
@@ -98,7 +99,7 @@ const OFFERED: [Offered; 11] = [
 struct Shown {
     name: &'static str,
     label: &'static str,
-    /// The column in physical units that replaces it, if there is one.
+    /// The column in physical units that replaces it, if available.
     physical: &'static str,
     /// A short explanation.
     words: &'static str,
@@ -144,7 +145,7 @@ struct Data<'a> {
     definition: String,
     source: &'a str,
     base: String,
-    /// Thickness of the scales, mm, if it is known.
+    /// Thickness of the scales, mm, if known.
     thickness: Option<f64>,
     controls: Vec<Control>,
     measures: &'static [Shown],
@@ -152,10 +153,10 @@ struct Data<'a> {
 }
 
 impl Explorer {
-    /// Writes a page as HTML that needs no other file.
+    /// Writes a self-contained HTML page.
     ///
     /// # Errors
-    /// Those of `out`.
+    /// Returns the errors of `out`.
     pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
         fill(out, PAGE, |out, place| match place {
             "style" => write!(out, "{}{STYLE}", STYLES.concat()),
@@ -185,7 +186,8 @@ impl Explorer {
         })
     }
 
-    /// Creates the control of a parameter, over the values of its axis or variable, or a default range.
+    /// Creates the control of a parameter, over the values of its axis or variable, or a default
+    /// range.
     fn control(&self, &(key, label, range, opens_at, if_given): &Offered) -> Option<Control> {
         let parameter = Parameter::named(key)?;
         let grid = self.sweep.grid();
@@ -196,7 +198,8 @@ impl Explorer {
         if if_given && span.is_none() && own.number().is_none() {
             return None;
         }
-        // For a free needle, friction determines the critical tilt, so only one of them applies.
+        // For a free needle, friction determines the critical tilt, so only one of them has a
+        // control.
         let friction_is_given =
             grid.base().needle_friction.is_some() || grid.axis(key::NEEDLE_FRICTION).is_some();
         let friction_says_tilt = friction_is_given && !self.sweep.is_guided();
@@ -206,10 +209,10 @@ impl Explorer {
             _ => None,
         };
         let [min, max] = span.unwrap_or(range);
-        // Not the first design, which is a corner of the grid and seldom a good one.
+        // The first design is a corner of the grid and seldom a good one.
         let middle = min + opens_at * (max - min);
         let number = own.number().filter(|_| span.is_none()).unwrap_or(middle);
-        // The value of a definition may exceed the default range.
+        // The value in a definition may lie outside the default range.
         let (min, max) = (min.min(number), max.max(number));
         let (words, value) = match own {
             Scalar::Word(word) if key == key::NEEDLE => (Some(["free", "guided"]), word.into()),
@@ -220,7 +223,7 @@ impl Explorer {
     }
 }
 
-/// Returns the ends of an axis with several numbers.
+/// Returns the ends of an axis with several numeric values.
 fn span(axis: &Axis) -> Option<[f64; 2]> {
     let values = (0..axis.len()).filter_map(|k| axis.value(k).number());
     let ends =
@@ -228,7 +231,7 @@ fn span(axis: &Axis) -> Option<[f64; 2]> {
     (ends[0] < ends[1]).then_some(ends)
 }
 
-/// Returns the ends of a variable, if it has this `key` and numeric values.
+/// Returns the bounds of a variable if it has this `key` and numeric bounds.
 fn interval(variable: &Variable, key: &str) -> Option<[f64; 2]> {
     let ends = [0.0, 1.0].map(|share| variable.at(share).number());
     let [Some(low), Some(high)] = ends else { return None };

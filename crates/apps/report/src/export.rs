@@ -32,16 +32,16 @@ const ROWS: u32 = 1_048_575;
 /// The content of a workbook that was written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Exported {
-    /// Names of its tables and how many rows each has.
+    /// Names of its tables, each with its number of rows.
     pub tables: Vec<(String, u32)>,
 }
 
-/// A table that a search, a tolerance or a fit writes, with name, unit and meaning of its columns.
+/// A table of a search, tolerance analysis or fit, with the columns explained.
 #[derive(Clone, Debug)]
 pub struct OtherTable {
-    /// Its file.
+    /// Its file name.
     pub file: &'static str,
-    /// Its columns.
+    /// Name, unit and meaning of its columns.
     pub columns: Vec<(String, &'static str, &'static str)>,
 }
 
@@ -80,7 +80,7 @@ pub enum ExportError {
     /// The name of the file does not end in `.xlsx`.
     #[error("{}: a workbook needs a name that ends in .xlsx", file.display())]
     NoWorkbook {
-        /// The file that was asked for.
+        /// The requested file.
         file: PathBuf,
     },
     /// The workbook cannot be written.
@@ -91,14 +91,15 @@ pub enum ExportError {
 /// Writes every table in the folder `results` to the workbook `file`.
 ///
 /// The workbook has a summary, a sheet for each table (with a chart for each measure), and an
-/// explanation of the columns. For searches and analyses it has the tables in `others` and no summary.
+/// explanation of the columns. For searches and analyses it has the tables in `others` and no
+/// summary.
 ///
-/// Numbers keep all digits and display a few; design numbers display leading zeros; other cells are
-/// text. Failures are red, and the main values of a table have a colour scale.
+/// Cells hold all digits of numbers and display a few; design numbers display leading zeros; other
+/// cells are text. Failures are red, and the main values of a table have a colour scale.
 ///
 /// # Errors
-/// If there are no tables, one of them cannot be read or is longer than a sheet, or the disk does
-/// not take the workbook.
+/// If there are no tables, a table cannot be read or is longer than a sheet, or the workbook cannot
+/// be written to the disk.
 pub fn export(
     results: &VerifiedFolder,
     others: &[OtherTable],
@@ -115,7 +116,7 @@ pub fn export(
     let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
     let folder = &ResultsFolder::new(folder.unwrap_or(Path::new(".")));
     folder.make()?;
-    // The writer of workbooks panics if its temporary file cannot be written.
+    // The writer of workbooks panics if it cannot write its temporary file.
     let written = catch_unwind(AssertUnwindSafe(|| write(results, &others, folder, name)));
     written.unwrap_or_else(|panic| Err(unwritable(folder, name, &said(&*panic))))
 }
@@ -148,7 +149,7 @@ fn write(
         let sheet = Sheet::new(&mut workbook, &table, &profiles).map_err(failed)?;
         let other = others.iter().find(|other| other.file == file);
         let own = other.map_or(&[][..], |other| &other.columns);
-        // Verified again, because it is read a second time.
+        // Verify the file again, because it is read a second time.
         let file = (path.as_path(), results.file(&file)?);
         let (page, rows) = copy(file, sheet, (&mut guide, own), &failed)?;
         pages.push(page);
@@ -172,13 +173,13 @@ fn write(
     Ok(Exported { tables })
 }
 
-/// Returns the properties of every workbook, without a time stamp, so that bytes are reproducible.
+/// Returns the document properties, without a time stamp, so that the bytes are reproducible.
 fn properties() -> Result<DocProperties, XlsxError> {
     let epoch = ExcelDateTime::from_ymd(2000, 1, 1)?;
     Ok(DocProperties::new().set_author("squama").set_creation_datetime(&epoch))
 }
 
-/// The content of a table in a file with its path: its profiles by column, and its best values.
+/// Reads a table once: returns the profiles of its columns and its best values.
 fn look_over((path, file): (&Path, File)) -> Result<(TableProfile, BestValues), ExportError> {
     let unreadable = |reason| ExportError::Unreadable { file: path.to_owned(), reason };
     let (format, mut csv) = open(file).map_err(|error| unreadable(reason(&error)))?;
@@ -188,7 +189,7 @@ fn look_over((path, file): (&Path, File)) -> Result<(TableProfile, BestValues), 
     let (mut row, mut rows) = (csv::StringRecord::new(), 0);
     while csv.read_record(&mut row).map_err(|error| unreadable(words(error)))? {
         rows += 1;
-        // Checked before a minute is spent on a sheet that is too small.
+        // Fail early, because writing a sheet of this size takes a minute.
         if rows > ROWS {
             return Err(ExportError::TooManyRows { file: path.to_owned() });
         }
@@ -205,7 +206,7 @@ struct TableProfile {
     columns: Vec<ColumnProfile>,
 }
 
-/// Fills a sheet with the table in a file with its path; returns its page and how many rows it has.
+/// Copies a table into a sheet; returns the sheet and its number of rows.
 fn copy(
     (path, file): (&Path, File),
     mut sheet: Sheet,
@@ -235,12 +236,12 @@ fn unwritable(folder: &ResultsFolder, name: &str, reason: &str) -> ExportError {
     OutputError::file(&folder.file(name), &io::Error::other(reason.to_owned())).into()
 }
 
-/// Extracts the message of a panic, in one line; for a system error, the original message.
+/// Returns the message of a panic in one line; for a system error only its original message.
 fn said(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<String>().map(String::as_str);
     let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
     let text = text.unwrap_or("the writer of workbooks failed");
-    // A panic quotes the message of a system error; only that message is useful.
+    // A panic quotes the message of a system error; the rest is of no use to the user.
     let message = text.split_once("message: \"").and_then(|(_, rest)| rest.split_once('"'));
     message.map_or(text, |(message, _)| message).lines().collect::<Vec<_>>().join(" ")
 }

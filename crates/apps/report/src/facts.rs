@@ -4,9 +4,9 @@ use text::toml_source::{self, KeyValue, Value};
 
 use crate::page::Fact;
 
-/// Returns the entries of the table `run` of `run.toml`, whose text is given.
+/// Returns the entries of the table `run` in the text of `run.toml`.
 pub fn facts(text: &str) -> Vec<Fact> {
-    // Pages reject an invalid record before; a workbook omits the facts.
+    // Pages reject an invalid record earlier; a workbook omits the facts.
     let table = toml_source::parse(text, "run.toml").unwrap_or_default();
     let run = table.into_iter().find(|entry| entry.key == "run").map(|entry| entry.value);
     let Some(Value::Table(entries)) = run else { return Vec::new() };

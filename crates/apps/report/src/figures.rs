@@ -43,8 +43,9 @@ pub(crate) struct Quantity {
 }
 
 impl Quantity {
-    /// Chooses the column of a measure: the median if designs have samples, else the nominal value, in
-    /// physical units if available.
+    /// Chooses the column of a measure: the median if designs have samples.
+    ///
+    /// Without samples it is the nominal value, in physical units if available.
     pub(crate) fn of(designs: &Designs, measure: &str) -> Self {
         let quantile =
             |end: &str| Some(format!("{measure}_{end}")).filter(|name| designs.has(name));
@@ -66,7 +67,7 @@ pub(crate) fn is_touched_by_folds(column: &str) -> bool {
     measure_of(column) == Some(Measure::Puncture)
 }
 
-/// Returns the title suffix of a figure that shows perfect designs of a sweep with random gaps.
+/// Returns the title suffix that marks figures of the perfect designs in a sweep with random gaps.
 pub(crate) fn of_perfect(designs: &Designs) -> &'static str {
     let has_samples = MULTIPLES.iter().any(|(measure, _)| designs.has(&format!("{measure}_p50")));
     if has_samples { ", of the perfect designs" } else { "" }
@@ -77,7 +78,7 @@ pub(crate) fn physical(designs: &Designs, measure: &str) -> Option<String> {
     physical_of(designs.headers().iter().map(String::as_str), measure).map(str::to_owned)
 }
 
-/// Returns the one of the columns that has a measure in newtons or millimetres.
+/// Returns the header that holds a measure in newtons or millimetres, if any.
 pub(crate) fn physical_of<'h>(
     headers: impl IntoIterator<Item = &'h str>,
     measure: &str,
@@ -94,10 +95,11 @@ pub(crate) fn physical_of<'h>(
 /// Maximum number of parts of a figure.
 pub(crate) const PARTS: usize = 24;
 
-/// Draws every figure for which the table has values; the Pareto fronts and the best designs for all weights
-/// if they can be ranked.
+/// Draws every figure for which the table has values.
 ///
-/// A sweep with more axes than gap, aspect ratio and slant has figures for each value of those, up to 24; the name of a figure
+/// With a ranking it includes the Pareto fronts and the best designs for all weights. A sweep with
+/// more axes than gap, aspect ratio and slant has separate figures for each value of those, up to
+/// 24; their names and titles include the values.
 /// and its title say which.
 pub fn figures(name: &str, designs: &Designs, ranking: Option<&Ranking<'_>>) -> Vec<Figure> {
     let parts = designs.parts();
@@ -109,11 +111,11 @@ pub fn figures(name: &str, designs: &Designs, ranking: Option<&Ranking<'_>>) -> 
     if let Some(ranking) = ranking {
         let worth =
             |design: RankedDesign<'_>| (design.row(), std::array::from_fn(|k| design.criterion(k)));
-        // Other criteria than the paper's have other axes, or fewer.
+        // User-defined criteria may have other axes, or fewer.
         let is_drawn = ranking.preferences().are_the_papers();
         let ranked = is_drawn.then(|| ranking.by_fitness(Weights::BALANCED));
         let mut worths: Vec<_> = ranked.into_iter().flatten().map(worth).collect();
-        // In the order of the table, as the page has them.
+        // In the order of the table, as on the page.
         worths.sort_by_key(|(row, _)| *row);
         let fronts = pareto::figure(name, designs, &worths);
         figures.extend(fronts.map(|svg| Figure { name: "pareto-fronts-pairwise".to_owned(), svg }));
@@ -123,19 +125,21 @@ pub fn figures(name: &str, designs: &Designs, ranking: Option<&Ranking<'_>>) -> 
     figures
 }
 
-/// Returns the title of the figures of a part.
+/// Returns the title of the figures of a part, with the values of its further axes.
 fn title(name: &str, values: &[(&str, Cow<'_, str>)]) -> String {
     let words = values.iter().map(with_value);
     std::iter::once(name.to_owned()).chain(words).collect::<Vec<_>>().join(", ")
 }
 
-/// Returns the name of a figure of a part.
+/// Returns the file name of a figure of a part.
 fn file_name(file: &str, values: &[(&str, Cow<'_, str>)]) -> String {
     let part = values.iter().map(|(axis, value)| format!("{}-{value}", axis.replace('_', "-")));
     std::iter::once(file.to_owned()).chain(part).collect::<Vec<_>>().join("-")
 }
 
-/// Measures that have a figure against gap, aspect ratio and slant, each with the column that says which marks are filled.
+/// Measures with a figure against gap, aspect ratio and slant.
+///
+/// The second entry is the column that decides which marks are filled.
 pub(crate) const MULTIPLES: [(&str, Option<&str>); 3] = [
     (name::CRITICAL_FORCE, None),
     (name::PENETRATION, None),
@@ -160,13 +164,13 @@ fn of_part(name: &str, designs: &Designs) -> Vec<(String, String)> {
     figures
 }
 
-/// Returns a sheet of paper with a title.
+/// Returns a titled figure.
 pub(crate) fn sheet(width: f64, height: f64, title: &str, inside: Vec<Element>) -> String {
     let head = heading(label(title, [20.0, 26.0], 15.0, Anchor::Start));
     document(width, height, &plain(title), std::iter::once(head).chain(inside).collect())
 }
 
-/// Returns the number of columns in which `count` panels stand that share their axes.
+/// Returns the number of columns for `count` panels with shared axes.
 pub(crate) fn columns(count: usize) -> usize {
     match count {
         0..=3 => count.max(1),
@@ -177,7 +181,7 @@ pub(crate) fn columns(count: usize) -> usize {
     }
 }
 
-/// Approximate maximum number of marks of a figure: more would overlap and make pages too large.
+/// Approximate maximum number of marks in a figure; more would overlap and enlarge pages.
 const DRAWN: usize = 10_000;
 
 /// Selects the designs with marks out of `count`: all, or every n-th.

@@ -7,24 +7,25 @@ use crate::figures::sheet;
 use crate::label::{Anchor, label};
 use crate::svg::{Element, Spot, circle, line, polyline};
 
-/// A measured curve beside the fitted one.
+/// A measured curve with its fitted curve.
 #[derive(Clone, Copy, Debug)]
 pub struct FitPanel<'a> {
-    /// The name of its file.
+    /// The name of the file.
     pub file: &'a str,
-    /// What its axes are, with their units.
+    /// The quantities on its axes, with units.
     pub axes: &'a [String; 2],
-    /// Place, measured value, fitted value.
+    /// Position, measured value and fitted value of each point.
     pub points: &'a [[f64; 3]],
     /// Standard deviation of the residuals.
     pub noise: f64,
 }
 
-/// Width and height of a panel, and the room around it, px.
+/// Width and height of a panel, px.
 const PANEL: [f64; 2] = [330.0, 230.0];
+/// Margins around a panel, px.
 const ROOM: [f64; 2] = [92.0, 92.0];
 
-/// Draws each curve and its residuals, with the 95 % range of purely random residuals.
+/// Draws each curve and its residuals, with the 95 % range of random residuals.
 pub fn fit_figure(name: &str, curves: &[FitPanel]) -> String {
     let [width, height] = PANEL;
     let first = Area { left: 78.0, top: 74.0, width, height };
@@ -47,7 +48,7 @@ impl FitPanel<'_> {
         let (x, y) = (self.places(), ChartAxis::spanning(&self.axes[1], values));
         let panel = ChartPanel::new(area, &x, &y);
         let mut fitted = self.points.to_vec();
-        // Points may be measured in any order, but a line goes from left to right.
+        // Points may be measured in any order, but a line needs them sorted.
         fitted.sort_by(|a, b| a[0].total_cmp(&b[0]));
         let fitted = polyline(&panel.spots(fitted.iter().map(|p| [p[0], p[2]])));
         let fitted = fitted.with("stroke", INK).at("stroke-width", 1.6);

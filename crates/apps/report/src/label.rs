@@ -15,11 +15,12 @@ pub(crate) enum Anchor {
 struct TextRun {
     text: String,
     italic: bool,
-    /// The level: -1 below, 0 on, 1 above the line.
+    /// The level: -1 subscript, 0 baseline, 1 superscript.
     level: i8,
 }
 
-/// Splits `source` into runs: `$` toggles italics; `_x`, `^x`, `_{xy}`, `^{xy}` are sub- and superscripts.
+/// Splits `source` into runs: `$` toggles italics; `_x`, `^x`, `_{xy}`, `^{xy}` are sub- and
+/// superscripts.
 fn runs(source: &str) -> Vec<TextRun> {
     let mut runs = vec![TextRun::default()];
     let (mut italic, mut level) = (false, 0);
@@ -47,7 +48,7 @@ fn runs(source: &str) -> Vec<TextRun> {
     runs
 }
 
-/// Returns the characters of `source` without its notation.
+/// Returns the text of `source` without markup.
 pub(crate) fn plain(source: &str) -> String {
     runs(source).into_iter().map(|run| run.text).collect()
 }
@@ -69,7 +70,7 @@ pub(crate) fn label(source: &str, [x, y]: Spot, size: f64, anchor: Anchor) -> El
     }
     let runs = runs(source);
     if runs.len() > 1 {
-        // Some renderers drop the spaces at the ends of every run otherwise.
+        // Otherwise some renderers drop spaces at the ends of runs.
         text = text.with("xml:space", "preserve");
     }
     let mut height = 0.0;
@@ -83,7 +84,7 @@ pub(crate) fn label(source: &str, [x, y]: Spot, size: f64, anchor: Anchor) -> El
             span = span.at("font-size", 0.7 * size);
         }
         if target != height {
-            // A shift counts from where the run before stood, not from the line.
+            // `dy` is relative to the previous run, not to the baseline.
             span = span.at("dy", height - target);
             height = target;
         }
@@ -92,7 +93,7 @@ pub(crate) fn label(source: &str, [x, y]: Spot, size: f64, anchor: Anchor) -> El
     text
 }
 
-/// Returns `source` as an SVG text that reads upwards.
+/// Returns `source` as an SVG text rotated by 90°, reading upwards.
 pub(crate) fn upright(source: &str, spot: Spot, size: f64) -> Element {
     let turn = format!("rotate(-90 {} {})", crate::svg::px(spot[0]), crate::svg::px(spot[1]));
     label(source, spot, size, Anchor::Middle).with("transform", turn)
@@ -103,7 +104,7 @@ mod tests {
     use super::{Anchor, label, plain};
 
     #[test]
-    fn symbols_keep_their_place() {
+    fn indices_and_spaces_are_laid_out_in_svg() {
         assert_eq!(plain("$F_c^*$, dimensionless"), "Fc*, dimensionless");
         let text = label("$F_{ct}^*$ x", [0.0, 0.0], 10.0, Anchor::Start).to_text();
         assert_eq!(

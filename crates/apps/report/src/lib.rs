@@ -1,7 +1,7 @@
 //! Drawings of designs, and figures and pages of sweeps.
 //!
-//! Reports use the tables of a run or solved designs; nothing is solved here. A drawing maps a point
-//! `(x, y)` of the plane, in units of `t`, to px by `(x₀ + s x, y₀ − s y)`.
+//! Reports use the tables of a run or solved designs; nothing is solved here. A drawing maps a
+//! point `(x, y)` of the plane, in units of `t`, to px by `(x₀ + s x, y₀ − s y)`.
 //!
 //! | Item | Role |
 //! |---|---|

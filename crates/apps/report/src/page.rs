@@ -1,7 +1,8 @@
 //! The page of a sweep: one self-contained HTML file.
 //!
-//! The figures are drawn by this crate; the scripts of the page only show and hide marks, and draw the
-//! row of the chosen design. The page ranks like the crate `ranking`; `scripts/check-page` compares both.
+//! This crate draws the figures; the scripts of the page show and hide marks, and draw the row of
+//! the selected design. The page ranks designs like the crate `ranking`; `scripts/check-page`
+//! compares both.
 
 mod curves;
 mod data;
@@ -68,7 +69,7 @@ pub struct Page {
     pub name: String,
     /// The version of the program.
     pub version: String,
-    /// The folder of the results, as commands name it.
+    /// The results folder, as given on the command line.
     pub folder: String,
     /// The designs of the table.
     pub designs: Designs,
@@ -78,15 +79,15 @@ pub struct Page {
     pub columns: Vec<(String, String)>,
     /// Facts about the run.
     pub run: Vec<Fact>,
-    /// The key, the value and the meaning of each parameter that all designs share.
+    /// Key, value and meaning of each parameter shared by all designs.
     pub shared: Vec<[String; 3]>,
-    /// True if the curves of puncture, and of bending, are in physical units.
+    /// True if the curves (puncture, bending) are in physical units.
     pub is_physical: [bool; 2],
     /// Designs that were solved again for the page.
     pub solved: Vec<PageDesign>,
     /// Designs found by a search, if any are shown.
     pub front: Option<PageFront>,
-    /// The initial state of the page, as in its address: `require=coverage >= 0.6&weights=40,30,20,10`.
+    /// The initial state, as in the address: `require=coverage >= 0.6&weights=40,30,20,10`.
     pub opening: String,
 }
 
@@ -95,7 +96,7 @@ pub struct Page {
 pub struct GapFactors {
     /// The column.
     pub column: String,
-    /// The factors for the smaller and the larger gap; `None` without a value.
+    /// The factors for the smaller and the larger gap; `None` if a value is missing.
     pub factors: [Option<f64>; 2],
 }
 
@@ -110,17 +111,17 @@ pub struct PageDesign {
     pub puncture: Vec<[f64; 2]>,
     /// Curvatures and moments along the path of bending.
     pub flexure: Vec<[f64; 2]>,
-    /// The changes of columns for a gap 10 % smaller and larger.
+    /// Factors by which columns change for a gap 10 % smaller and larger.
     pub gap_factors: Vec<GapFactors>,
 }
 
 impl Page {
     /// Writes the page as a self-contained HTML file.
     ///
-    /// Figures are drawn, compressed and written one by one, because all together take 100 MB.
+    /// Figures are drawn, compressed and written one by one, because together they take 100 MB.
     ///
     /// # Errors
-    /// Those of `out`.
+    /// Returns the errors of `out`.
     pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
         let solver = self.explorer.as_ref();
         let mut figures = Vec::new();
@@ -149,7 +150,7 @@ impl Page {
     }
 }
 
-/// Writes `template`; `filled` writes each `{{place}}`.
+/// Writes `template`; the function `filled` writes the content of each `{{place}}`.
 pub(crate) fn fill<W: Write>(
     out: &mut W,
     template: &str,

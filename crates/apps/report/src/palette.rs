@@ -18,8 +18,8 @@ const SLANTS: [[u8; 3]; 7] = [
 
 /// Colours and marks of the slants of a sweep.
 ///
-/// Multiples of 15° have the same look in every sweep. Other slants take the seven looks in order; more
-/// than seven share marks, but not with their neighbours.
+/// Multiples of 15° have the same look in every sweep. Other slants take the seven looks in order.
+/// With more than seven slants, looks repeat, but neighbours always differ.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SlantPalette(Vec<f64>);
 
@@ -59,7 +59,7 @@ impl SlantPalette {
         self.0.partition_point(|other| *other < slant_deg)
     }
 
-    /// Returns whether all slants are multiples of 15°.
+    /// Returns true if all slants are multiples of 15°.
     fn is_by_fifteen(&self) -> bool {
         self.0.iter().all(|slant| (slant / 15.0 - (slant / 15.0).round()).abs() < 1e-9)
     }
@@ -85,7 +85,7 @@ pub enum Mark {
 }
 
 impl Mark {
-    /// All marks, as slants take them.
+    /// All marks, in the order of the slants.
     pub(crate) const ALL: [Self; 7] = [
         Self::Circle,
         Self::Square,
@@ -101,7 +101,7 @@ impl Mark {
         format!("{self:?}").to_lowercase()
     }
 
-    /// Returns the mark at a place, about as large as a circle of `radius`.
+    /// Draws the mark at a spot, with about the area of a circle of `radius`.
     pub(crate) fn draw(self, center: Spot, radius: f64) -> Element {
         let (size, corners, start, inner) = match self {
             Self::Circle => return circle(center, radius),
@@ -116,7 +116,9 @@ impl Mark {
     }
 }
 
-/// Returns the corners of a polygon, the first at an angle; with `inner` below 1 those of a star.
+/// Returns the corners of a regular polygon, the first at the angle `start`.
+///
+/// If `inner` is below 1, it is a star with this ratio of inner to outer radius.
 fn regular([x, y]: Spot, radius: f64, corners: usize, start: f64, inner: f64) -> Vec<Spot> {
     let corner = |k: usize| {
         let angle = start + k as f64 * PI / corners as f64;
@@ -131,7 +133,7 @@ mod tests {
     use super::{Mark, SlantPalette};
 
     #[test]
-    fn a_slant_of_the_paper_looks_the_same_everywhere() {
+    fn slants_of_the_paper_have_fixed_colours_and_marks() {
         for palette in [SlantPalette::new([0.0, 45.0]), SlantPalette::new([0.0, 15.0, 45.0, 75.0])]
         {
             assert_eq!(palette.color(0.0), "#0072b2");
@@ -141,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn slants_of_a_sweep_have_marks_and_colours_of_their_own() {
+    fn slants_of_a_sweep_have_distinct_marks_and_colours() {
         let slants = [0.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0];
         let palette = SlantPalette::new(slants);
         for (k, slant) in slants.iter().enumerate() {

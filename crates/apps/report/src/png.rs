@@ -5,7 +5,7 @@ use std::sync::{Arc, LazyLock};
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree, fontdb};
 
-/// Resolution at which a pixel is a px of the drawing, dots per inch.
+/// Resolution at which a pixel equals a px of the drawing, dots per inch.
 const PX_PER_INCH: f64 = 96.0;
 
 static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
@@ -28,7 +28,7 @@ pub struct NoImage(String);
 /// Renders `svg` as a PNG with `dpi` dots per inch; a drawing has 96 px per inch.
 ///
 /// # Errors
-/// If the text is no SVG or the image does not fit in memory.
+/// If the text is not SVG or the image does not fit in memory.
 pub fn png(svg: &str, dpi: f64) -> Result<Vec<u8>, NoImage> {
     let options = Options {
         fontdb: FONTS.clone(),
@@ -36,7 +36,7 @@ pub fn png(svg: &str, dpi: f64) -> Result<Vec<u8>, NoImage> {
         ..Options::default()
     };
     let tree = Tree::from_str(svg, &options).map_err(|error| NoImage(error.to_string()))?;
-    // As exact as pixels are.
+    // The precision of `f32` suffices for pixels.
     let sharpness = (dpi / PX_PER_INCH) as f32;
     let size = tree.size().to_int_size().scale_by(sharpness);
     let size = size.ok_or_else(|| NoImage("it has no size".to_owned()))?;

@@ -1,4 +1,4 @@
-//! Figures of tolerances: histograms of samples, and sources of a spread.
+//! Figures of tolerances: histograms of samples, and contributions to a variance.
 
 use crate::axis::{ChartAxis, ends};
 use crate::chart::{Area, ChartPanel};
@@ -32,7 +32,7 @@ impl Histogram<'_> {
     /// Draws the histogram, with red lines at the bounds and a dark line at the nominal value.
     pub fn svg(&self) -> String {
         let shown = self.values.iter().copied().chain(self.drawn);
-        // Includes bounds beyond all samples, because their distance matters.
+        // Include bounds beyond all samples, because their distance matters.
         let (low, high) = ends(shown.chain(self.bounds.iter().map(|(_, at)| *at)));
         let x = ChartAxis::linear(&in_words(self.measure), low, high);
         let bars = self.bars();
@@ -45,7 +45,7 @@ impl Histogram<'_> {
         inside.extend(self.drawn.and_then(|at| marked(&panel, "as drawn", at, INK, 0.0)));
         let bounds = self.bounds.iter().enumerate();
         inside.extend(
-            // Each text has its own line, because bounds may be close to each other.
+            // Each text has its own line, because bounds may be close together.
             bounds.filter_map(|(k, (text, at))| {
                 marked(&panel, text, *at, RED, 14.0 * (k + 1) as f64)
             }),
@@ -54,15 +54,15 @@ impl Histogram<'_> {
         sheet(WIDTH, HISTOGRAM_HEIGHT, &title, inside)
     }
 
-    /// The bars, each from one value to another, with its count.
+    /// Returns the bars: lower end, upper end and count.
     fn bars(&self) -> Vec<(f64, f64, f64)> {
         let (low, high) = ends(self.values.iter().copied());
-        // More bars than the square root of the number of samples would show noise.
+        // More bars than the square root of the number of samples would show only noise.
         let count = ((self.values.len() as f64).sqrt() as usize).clamp(BARS[0], BARS[1]);
         let step = (high - low) / count as f64;
         let mut counts = vec![0.0; count];
         for value in self.values {
-            // If all values are equal, the division by zero gives the first bar.
+            // If all values are equal, 0/0 is cast to the first bar.
             let bar = ((value - low) / step) as usize;
             counts[bar.min(count - 1)] += 1.0;
         }
@@ -77,7 +77,7 @@ impl Histogram<'_> {
     }
 }
 
-/// A line across the panel at a value, with its text above.
+/// Draws a vertical line at a value, with its text above.
 fn marked(
     panel: &ChartPanel<'_>,
     text: &str,
@@ -96,7 +96,7 @@ fn marked(
     )
 }
 
-/// A measure with its sources and their fractions of the variance.
+/// A measure and its sources, each with its fraction of the variance.
 pub type Shares = (String, Vec<(String, f64)>);
 
 const ROW: f64 = 30.0;
@@ -123,7 +123,7 @@ pub fn share_bars(name: &str, measures: &[Shares]) -> String {
     sheet(WIDTH, top + ROW * measures.len() as f64 + 16.0, &title, inside)
 }
 
-/// The colour of source `k` and its name.
+/// Draws the legend of source `k`: its colour and name.
 fn legend(k: usize, source: &str, sources: &[&str]) -> [Element; 2] {
     let [x, y] = [24.0 + 360.0 * (k % 2) as f64, 50.0 + 18.0 * (k / 2) as f64];
     let name = label(&in_words(source), [x + 18.0, y + 2.0], 12.0, Anchor::Start);
@@ -134,7 +134,7 @@ fn color(k: usize, sources: &[&str]) -> String {
     map_color((k as f64 + 0.5) / sources.len() as f64)
 }
 
-/// The parts of one bar, from the left.
+/// Draws the parts of one bar, from the left.
 fn parts(shares: &[(String, f64)], sources: &[&str], y: f64) -> Vec<Element> {
     let full = WIDTH - NAMES - 24.0;
     let (mut left, mut drawn) = (NAMES, Vec::new());
@@ -155,7 +155,7 @@ fn block(at: Spot, size: [f64; 2], color: &str) -> Element {
     rect(at, size).with("fill", color).with("stroke", "#fff").at("stroke-width", 0.8)
 }
 
-/// A text that can be read on a bar of any colour.
+/// Draws a text that is legible on bars of any colour.
 fn on_bar(text: &str, at: [f64; 2]) -> Element {
     let text = label(text, at, 12.0, Anchor::Middle).with("fill", INK);
     text.with("stroke", "#fff").at("stroke-width", 3.0).with("paint-order", "stroke")
@@ -166,7 +166,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_sample_stands_in_one_bar() {
+    fn every_sample_is_counted_in_one_bar() {
         let all = |values: &[f64]| {
             let histogram = Histogram { name: "x", measure: "y", values, drawn: None, bounds: &[] };
             histogram.bars()
@@ -174,7 +174,7 @@ mod tests {
         let values: Vec<f64> = (0..100).map(|k| f64::from(k).sqrt()).collect();
         let bars = all(&values);
         assert_eq!((bars.len(), bars.iter().map(|(.., count)| count).sum::<f64>()), (10, 100.0));
-        // Of 0 to √99, those up to a tenth are 0 alone.
+        // The first bar covers values up to a tenth of the range, which is only 0 here.
         assert_eq!((bars[0].0, bars[0].2), (0.0, 1.0));
         let equal = all(&[2.0; 3]);
         assert_eq!(equal.iter().map(|(.., count)| count).sum::<f64>(), 3.0);

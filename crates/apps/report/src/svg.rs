@@ -4,10 +4,10 @@ use std::fmt::Write as _;
 
 use crate::colors::INK;
 
-/// Fonts of all drawings: the embedded one and those of the same widths.
+/// Fonts of all drawings: the embedded font and others of the same metrics.
 const FONTS: &str = "Liberation Sans, Arial, Helvetica, sans-serif";
 
-/// A point on paper: to the right and down, px.
+/// A point on paper, px: x to the right, y down.
 pub(crate) type Spot = [f64; 2];
 
 /// An element with attributes and content.
@@ -24,7 +24,7 @@ impl Element {
         Self { name, attributes: Vec::new(), text: None, inside: Vec::new() }
     }
 
-    /// Returns a group with a class, which says what it shows.
+    /// Creates a group with a class that names its content.
     pub(crate) fn group(class: &str) -> Self {
         Self::new("g").with("class", class)
     }
@@ -34,7 +34,7 @@ impl Element {
         self
     }
 
-    /// Returns an attribute in px.
+    /// Adds an attribute in px.
     pub(crate) fn at(self, name: &'static str, value: f64) -> Self {
         self.with(name, px(value))
     }
@@ -64,7 +64,7 @@ impl Element {
         }
         out.push('>');
         out.push_str(&escaped(self.text.as_deref().unwrap_or_default()));
-        // White space inside a text would be visible.
+        // White space inside a text element would be visible.
         let lines = self.name != "text" && !self.inside.is_empty();
         for element in &self.inside {
             if lines {
@@ -95,14 +95,14 @@ fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// Returns a coordinate to the hundredth of a pixel.
+/// Formats a coordinate to a hundredth of a pixel.
 pub(crate) fn px(value: f64) -> String {
     let rounded = (value * 100.0).round() / 100.0;
-    // Negative zero is zero.
+    // Adding zero replaces −0 by 0.
     (rounded + 0.0).to_string()
 }
 
-/// Returns a whole drawing of `width` by `height` px on white paper.
+/// Returns a complete drawing of `width` by `height` px on white paper.
 pub(crate) fn document(width: f64, height: f64, title: &str, inside: Vec<Element>) -> String {
     let paper = Element::new("rect").at("width", width).at("height", height).with("fill", "#fff");
     let root = Element::new("svg")
@@ -117,7 +117,7 @@ pub(crate) fn document(width: f64, height: f64, title: &str, inside: Vec<Element
     format!("{}\n", root.to_text())
 }
 
-/// Height that the title of a drawing takes, px.
+/// Height of the title of a drawing, px.
 const TITLE: f64 = 32.0;
 
 /// Returns the title of a drawing, in the form that [`untitled`] removes.
@@ -125,7 +125,7 @@ pub(crate) fn heading(title: Element) -> Element {
     title.with("class", "title").with("fill", INK).with("font-weight", "bold")
 }
 
-/// Removes the title of a drawing and its space, if there is one.
+/// Removes the title of a drawing and the space it takes, if there is one.
 pub fn untitled(svg: &str) -> String {
     let parts = || {
         let (before, rest) = svg.split_once("class=\"title\"")?;
@@ -143,10 +143,10 @@ pub fn untitled(svg: &str) -> String {
     parts().unwrap_or_else(|| svg.to_owned())
 }
 
-/// Returns a drawing that is `width` mm wide on paper, with everything in it in proportion.
+/// Returns a drawing scaled to a printed width of `width` mm.
 pub fn resized(svg: &str, width: f64) -> String {
     let parts = || {
-        // The root stands first, so that the first width and height are those of the drawing.
+        // The root element is first, so the first width and height belong to the drawing.
         let (start, rest) = svg.split_once(" width=\"")?;
         let (across, rest) = rest.split_once("\" height=\"")?;
         let (down, rest) = rest.split_once('"')?;
@@ -157,9 +157,9 @@ pub fn resized(svg: &str, width: f64) -> String {
     parts().unwrap_or_else(|| svg.to_owned())
 }
 
-/// Returns the smallest font size of a drawing `width` mm wide, in points; `None` without text.
+/// Returns the smallest font size of a drawing printed `width` mm wide, in points.
 ///
-/// Indices do not count.
+/// `None` without text. Subscripts and superscripts do not count.
 pub fn smallest_letters(svg: &str, width: f64) -> Option<f64> {
     let number = |text: &str, name: &str| -> Option<f64> {
         text.split_once(name)?.1.split_once('"')?.0.parse().ok()
@@ -170,10 +170,10 @@ pub fn smallest_letters(svg: &str, width: f64) -> Option<f64> {
     sizes.map(|size| size * per_unit).min_by(f64::total_cmp)
 }
 
-/// Points of letters in a millimetre.
+/// Typographic points per millimetre.
 const POINTS_PER_MM: f64 = 72.0 / 25.4;
 
-/// Returns the data of a path through `points`; `text` formats coordinates.
+/// Returns the data of an SVG path through `points`; `text` formats the coordinates.
 pub(crate) fn path_data(points: &[Spot], closed: bool, text: fn(f64) -> String) -> String {
     let corners = points.iter().map(|[x, y]| format!("{} {}", text(*x), text(*y)));
     let line = corners.collect::<Vec<_>>().join(" L");
@@ -207,12 +207,12 @@ pub(crate) fn circle(center: Spot, radius: f64) -> Element {
     Element::new("circle").at("cx", center[0]).at("cy", center[1]).at("r", radius)
 }
 
-/// Returns an arrow whose head ends in `to`; the head shrinks with a short arrow.
+/// Draws an arrow with its head at `to`; the head shrinks with a short arrow.
 pub(crate) fn arrow(from: Spot, to: Spot, color: &str, width: f64) -> Element {
     let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
     let length = dx.hypot(dy);
     let head = (4.5 * width).min(0.7 * length);
-    // Arrows have a positive length, so a direction exists.
+    // Arrows have a positive length, so the direction is defined.
     let (along, across) = ([dx / length, dy / length], [-dy / length, dx / length]);
     let back = |s: f64, side: f64| {
         [0, 1].map(|k| to[k] - s * head * along[k] + side * 0.42 * head * across[k])
@@ -227,7 +227,7 @@ mod tests {
     use super::{Element, document, heading, resized, untitled};
 
     #[test]
-    fn a_drawing_without_title_is_lower_by_its_room() {
+    fn untitled_drawings_lose_the_height_of_the_title() {
         let title = heading(Element::new("text").at("x", 20.0).text("a < b"));
         let svg = document(300.0, 200.0, "a < b", vec![title, Element::group("rest")]);
         let bare = untitled(&svg);

@@ -1,4 +1,4 @@
-//! Animations of a path: one HTML page, every frame a solved equilibrium.
+//! Animations of a path: one HTML page in which every frame is a solved equilibrium.
 
 use geometry::OutOfRange;
 
@@ -31,7 +31,7 @@ impl FlexureDrawing<'_> {
 }
 
 fn page(title: &str, frames: Vec<DrawingPanel>) -> String {
-    // All frames have the same height, so that the page does not jump.
+    // All frames have the same height, so that the page does not jump between frames.
     let highest = frames.iter().map(|frame| frame.height).fold(0.0, f64::max);
     let height = CAPTION + highest + 0.5 * MARGIN;
     let drawn: Vec<_> = frames.into_iter().map(frame).collect();

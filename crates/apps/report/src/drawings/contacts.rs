@@ -1,4 +1,4 @@
-//! Contacts: overlaps in red, a halo around each, forces along their lines of action.
+//! Contacts: overlaps in red, a halo around each contact, and forces along their lines of action.
 
 use skin::Contact;
 
@@ -8,11 +8,12 @@ use crate::svg::{Element, Spot, arrow, circle, path_data};
 
 /// Length of the arrow of the largest force, px.
 pub(super) const LONGEST: f64 = 64.0;
-/// Arrows shorter than this are left out, px.
+/// Shorter arrows are omitted, px.
 const SHORTEST: f64 = 2.5;
 
-/// Returns the true overlaps. Nearly rigid scales overlap by a millionth of their thickness: coordinates are
-/// written with all their digits.
+/// Draws the overlaps without magnification.
+///
+/// Nearly rigid scales overlap by a millionth of their thickness, so coordinates keep all digits.
 pub(super) fn overlaps(view: &View, polygons: &[(usize, Vec<[f64; 2]>)]) -> Element {
     let polygon = |(left, points): &(usize, Vec<[f64; 2]>)| {
         Element::new("path")
@@ -23,7 +24,9 @@ pub(super) fn overlaps(view: &View, polygons: &[(usize, Vec<[f64; 2]>)]) -> Elem
     Element::group("overlaps").containing(polygons.iter().map(polygon))
 }
 
-/// Returns a halo and a dot at each contact, so that it is seen however small its overlap; where it slips the halo is a ring.
+/// Draws a halo and a dot at each contact, which marks even very small overlaps.
+///
+/// The halo of a slipping contact is a ring.
 pub(super) fn halos(view: &View, contacts: &[Contact], radius: f64) -> Element {
     let halo = |contact: &Contact| {
         let center = view.place(contact.point);
@@ -40,7 +43,9 @@ pub(super) fn halos(view: &View, contacts: &[Contact], radius: f64) -> Element {
     Element::group("contacts").containing(contacts.iter().flat_map(halo))
 }
 
-/// Returns the force on either scale of each contact, as arrows from where they touch; `unit` px for a force of 1.
+/// Draws the forces on both scales of each contact as arrows from the contact point.
+///
+/// A force of 1 has a length of `unit` px.
 pub(super) fn forces(view: &View, contacts: &[Contact], unit: f64) -> Element {
     let pair = |contact: &Contact| {
         let from = view.place(contact.point);
@@ -58,7 +63,7 @@ fn force(from: Spot, force: [f64; 2], unit: f64) -> Option<Element> {
     long.then(|| arrow(from, to, "#8f0013", 1.5))
 }
 
-/// Returns the largest force.
+/// Returns the magnitude of the largest contact force.
 pub(super) fn largest(contacts: &[Contact]) -> f64 {
     contacts.iter().map(|contact| contact.force[0].hypot(contact.force[1])).fold(0.0, f64::max)
 }

@@ -16,43 +16,47 @@ use crate::colors::{FAINT, INK};
 use crate::label::{Anchor, label};
 use crate::svg::{Element, Spot, arrow, circle, line, polygon, polyline, px, rect};
 
-/// The largest scale of a drawing: px for a length of `t`.
+/// Maximum length of `t` on paper, px.
 const LARGEST: f64 = 130.0;
-/// Lengths (over `t`) that a drawing spans at most.
+/// Maximum width of the drawn row, in units of `t`.
 const WIDEST: f64 = 44.0;
-/// Scales that move by less than this part of the largest displacement may lie outside.
+/// Limit for scales outside the drawing: fraction of the largest displacement.
 const STILL: f64 = 0.01;
 /// Depth of substrate below the deepest corner, px.
 const SUBSTRATE: f64 = 26.0;
 /// Height of the bars of the reactions, px.
 const BARS: f64 = 62.0;
-/// Half the width of the shaft of a sharp needle, and the length of its point, px.
+/// Half the width of the shaft of a sharp needle, px.
 const SHAFT: f64 = 5.0;
+/// Length of the point of a sharp needle, px.
 const NOSE: f64 = 16.0;
-/// Radius of the ring where a needle was set down, px.
+/// Radius of the ring at the point where the needle was set down, px.
 const RING: f64 = 3.5;
-/// Room above the scales for the load, px.
+/// Height above the scales for the load arrow, px.
 const AIR: f64 = LONGEST + 24.0;
 
-/// A punctured design, to be drawn.
+/// The drawing of a punctured design.
 #[derive(Clone, Debug)]
 pub struct PunctureDrawing<'a> {
-    /// The name of the design, which stands before the geometry in the title.
+    /// The name of the design, placed before the geometry in the title.
     pub name: &'a str,
-    /// Geometry, needle and material: where the thickness is known, there is a scale bar.
+    /// Geometry, needle and material. A known thickness adds a scale bar.
     pub case: &'a Case,
-    /// The states, from the top; the row at rest is drawn above them.
+    /// The states, from top to bottom; the row at rest is drawn above them.
     pub states: &'a [RowSnapshot],
 }
 
 impl PunctureDrawing<'_> {
-    /// Returns the drawing as SVG: the row at rest, with the line that measures its coverage, then each state.
+    /// Returns the drawing as SVG.
+    ///
+    /// The first panel is the row at rest with its coverage line; each state follows in its own
+    /// panel.
     ///
     /// # Errors
     /// If the design is invalid.
     pub fn svg(&self) -> Result<String, OutOfRange> {
         let sheet = RowSheet::new(self)?;
-        // An unloaded row is drawn once.
+        // The row at rest is drawn already, so skip unloaded states.
         let loaded = self.states.iter().filter(|state| state.force != 0.0);
         let states = loaded.map(|state| sheet.state(state, sheet.free(state)));
         let panels: Vec<_> = std::iter::once(sheet.at_rest()).chain(states).collect();
@@ -65,31 +69,31 @@ impl PunctureDrawing<'_> {
 
     pub(super) fn frames(&self) -> Result<Vec<DrawingPanel>, OutOfRange> {
         let sheet = RowSheet::new(self)?;
-        // All frames have the same offset, so that the row does not jump.
+        // All frames have the same offset, so that the row does not jump between frames.
         let free = self.states.iter().map(|state| sheet.free(state)).fold(AIR, f64::min);
         Ok(self.states.iter().map(|state| sheet.state(state, free)).collect())
     }
 }
 
-/// Returns the load of a state over `E* t²`.
+/// Returns the load of a state in units of `E* t²`.
 fn load(case: &Case, state: &RowSnapshot) -> f64 {
     state.force * case.design.length
 }
 
-/// The scales, windows and units that all panels of a drawing share.
+/// The scales, view and units shared by all panels of a drawing.
 struct RowSheet<'a> {
     case: &'a Case,
     row: Row,
-    /// Numbers of the first and the last scale shown.
+    /// Indices of the first and last scale shown.
     first: i64,
     last: i64,
     view: View,
-    /// The height on paper of the bars of the reactions, px.
+    /// Vertical position of the bars of the reactions, px.
     bars: f64,
     height: f64,
-    /// Px for a force of 1, over `E* t²`.
+    /// Length of the arrow of a unit force (`E* t²`), px.
     force: f64,
-    /// Largest and smallest reaction, over the load.
+    /// Largest and smallest reaction as fractions of the load.
     reactions: (f64, f64),
 }
 
@@ -102,13 +106,13 @@ impl<'a> RowSheet<'a> {
         let (a, shift, pitch) = (row.scale().half_base(), row.scale().shift(), row.pitch());
         let width = (last - first) as f64 * pitch + 2.0 * a + shift;
         let scale = ((WIDTH - 4.0 * MARGIN) / width).min(LARGEST);
-        // A tilted base has a corner deeper than its middle.
+        // A corner of a tilted base is deeper than its middle.
         let deepest = states
             .iter()
             .flat_map(|state| &state.scales)
             .map(|s| a * s.rotation_deg.to_radians().sin().abs() - s.displacement[1]);
         let deepest = scale * deepest.fold(0.0, f64::max) + SUBSTRATE;
-        // Centred on the paper.
+        // Centre the row on the paper.
         let middle = first as f64 * pitch - a + 0.5 * width;
         let view = View { scale, origin: [0.5 * WIDTH - scale * middle, AIR + scale] };
         let bars = AIR + scale + deepest + 18.0;
@@ -117,7 +121,7 @@ impl<'a> RowSheet<'a> {
             let load = load(case, state);
             state.scales.iter().filter(move |_| load > 0.0).map(move |s| s.reaction / load)
         });
-        // From zero, because the line without a reaction is always drawn.
+        // Include zero, because the zero line of the bars is always drawn.
         let reactions =
             reactions.fold((0.0, 0.0), |(high, low): (f64, f64), r| (high.max(r), low.min(r)));
         Ok(Self {
@@ -150,11 +154,11 @@ impl<'a> RowSheet<'a> {
         let within_substrate = [WIDTH - 2.0 * MARGIN, bottom - 6.0];
         inside.extend(scale_bar(&self.view, self.case.material.thickness_mm, within_substrate));
         let caption = format!("at rest, coverage $λ$ = {:.3}", self.row.coverage());
-        // Neither a load nor reactions: the panel needs less room.
+        // Without load and reactions the panel needs less height.
         lifted(AIR - 14.0, bottom + 10.0, caption, inside)
     }
 
-    /// Returns the height at the top of a state's panel in which nothing is drawn, px.
+    /// Returns the height of the empty area at the top of the panel of a state, px.
     fn free(&self, state: &RowSnapshot) -> f64 {
         let view = self.measured_from_left(state);
         let arrow = |contact: &skin::Contact| {
@@ -180,7 +184,7 @@ impl<'a> RowSheet<'a> {
             self.tilt(state),
             self.reactions(&shown, load(self.case, state)),
         ];
-        // Folds are counted in the whole row, also where it is not shown.
+        // Count the folds of the whole row, including scales that are not shown.
         let all: Vec<_> = state.scales.iter().map(|s| (s.scale, pose(s))).collect();
         let caption = self.caption(state) + &surface::folds_label(&self.row, &all);
         lifted(free, self.height, caption, inside)
@@ -210,7 +214,7 @@ impl<'a> RowSheet<'a> {
         )
     }
 
-    /// Returns the substrate, its surface bonded to the bases.
+    /// Returns the substrate with its surface bonded to the bases.
     fn substrate(&self, poses: &[(i64, Pose)], bottom: f64) -> Element {
         let surface = poses.iter().flat_map(|(i, pose)| {
             let [left, right, ..] = corners(&self.row, *i as f64, pose);
@@ -218,7 +222,7 @@ impl<'a> RowSheet<'a> {
         });
         let mut top: Vec<Spot> = surface.map(|point| self.place(point)).collect();
         let (left, right) = (MARGIN, WIDTH - MARGIN);
-        // There is the punctured scale, at least.
+        // At least the punctured scale exists.
         top.insert(0, [left, top[0][1]]);
         top.push([right, top[top.len() - 1][1]]);
         let mut body = top.clone();
@@ -242,13 +246,15 @@ impl<'a> RowSheet<'a> {
             .containing(poses.iter().map(scale))
     }
 
-    /// Returns the width of outlines, px: thinner around thin scales, so that their area is seen.
+    /// Returns the line width of outlines, px.
+    ///
+    /// Outlines of thin scales are thinner, so that the area inside stays visible.
     fn outline(&self) -> f64 {
         let thickness = 2.0 * self.row.scale().half_base() * self.row.scale().slant().cos();
         (0.12 * self.view.scale * thickness).clamp(0.25, 0.9)
     }
 
-    /// Returns the outlines at rest.
+    /// Returns the outlines of the scales at rest.
     fn ghosts(&self) -> Element {
         let rest = Pose::new(0.0, 0.0, 0.0);
         let ghost = |i: i64| polygon(&self.view.all(&corners(&self.row, i as f64, &rest)));
@@ -280,13 +286,14 @@ impl<'a> RowSheet<'a> {
         ])
     }
 
-    /// Returns the view of what is measured from the left end of the row.
+    /// Returns the view for coordinates measured from the left end of the row.
     fn measured_from_left(&self, state: &RowSnapshot) -> View {
         let first = state.scales.first().map_or(0, |scale| scale.scale);
         View { origin: self.place([first as f64 * self.row.pitch(), 0.0]), ..self.view }
     }
 
-    /// Returns the current position of the loaded point of the punctured scale; `None` without a load.
+    /// Returns the current position of the loaded point of the punctured scale; `None` without a
+    /// load.
     fn set_down(&self, state: &RowSnapshot) -> Option<Vec2> {
         let punctured = state.scales.iter().find(|s| s.scale == 0 && state.force != 0.0)?;
         let scale = self.row.scale();
@@ -299,16 +306,16 @@ impl<'a> RowSheet<'a> {
     /// Returns the ends of the arrow of the load; `None` without a load.
     fn load_arrow(&self, state: &RowSnapshot) -> Option<[Spot; 2]> {
         let follows = self.set_down(state)?;
-        // A guided tip moves straight down.
+        // A guided tip moves straight down instead of following the scale.
         let to = self.place(state.tip.unwrap_or(follows.into()));
-        // A small load has a minimum arrow length, to show its point of application.
+        // Small loads get a minimum arrow length, which shows the point of application.
         let length = (self.force * load(self.case, state)).max(9.0);
         Some([[to[0], to[1] - length], to])
     }
 
-    /// Draws the load, and for a guided needle its tip and a ring at its first contact point.
+    /// Draws the load; for a guided needle also its tip and a ring at its first contact point.
     ///
-    /// The distance between tip and ring shows how far the needle has slid, or that it has passed.
+    /// The distance from tip to ring shows how far the needle has slid.
     fn load(&self, state: &RowSnapshot) -> Element {
         let drawn = self.load_arrow(state).map(|[from, to]| {
             let name = label("$F$", [from[0], from[1] - 5.0], 14.0, Anchor::Middle);
@@ -318,12 +325,14 @@ impl<'a> RowSheet<'a> {
             let ring = circle(self.place(place.into()), RING);
             ring.with("fill", "none").with("stroke", INK).with("class", "set-down")
         });
-        // The arrow stands in front of the needle.
+        // The arrow is drawn over the needle.
         let parts = self.tip(state).into_iter().chain(drawn.into_iter().flatten());
         Element::group("load").containing(parts.chain(ring))
     }
 
-    /// The place on the scale on which a guided needle was set down. A round tip between two scales was set down on none.
+    /// Returns the material point on which a guided needle was set down.
+    ///
+    /// `None` for a round tip between two scales, which is set down on neither of them.
     fn ring(&self, state: &RowSnapshot) -> Option<Vec2> {
         let is_on_top = (0.0..=1.0).contains(&self.case.punctured().load_position);
         self.set_down(state).filter(|_| is_on_top && state.tip.is_some())
@@ -347,7 +356,7 @@ impl<'a> RowSheet<'a> {
         Some(tip.with("fill", "#e3e7ea").with("fill-opacity", "0.6").with("stroke", INK))
     }
 
-    /// Returns the angle between the base of the punctured scale and its place at rest.
+    /// Draws the angle between the base of the punctured scale and its position at rest.
     fn tilt(&self, state: &RowSnapshot) -> Element {
         let Some(punctured) = state.scales.iter().find(|s| s.scale == 0) else {
             return Element::group("tilt");
@@ -356,7 +365,7 @@ impl<'a> RowSheet<'a> {
         let along = (right[0] - left[0]).hypot(right[1] - left[1]);
         let reach = (1.25 * along).max(34.0);
         let tilt = state.tilt_deg.to_radians();
-        // A tilt is clockwise, as angles are on paper, where heights count downwards.
+        // A positive tilt is clockwise, like angles on paper, where y points down.
         let at = |angle: f64, r: f64| [left[0] + r * angle.cos(), left[1] + r * angle.sin()];
         let arc: Vec<Spot> =
             (0..=12).map(|k| at(tilt * f64::from(k) / 12.0, 0.8 * reach)).collect();
@@ -367,10 +376,10 @@ impl<'a> RowSheet<'a> {
         ])
     }
 
-    /// Returns the upward reactions of the substrate over the load, as bars under the scales.
+    /// Draws the upward reactions of the substrate, divided by the load, as bars under the scales.
     fn reactions(&self, shown: &[&ScaleState], load: f64) -> Element {
         let (high, low) = self.reactions;
-        // Without a load there are no reactions to divide by.
+        // Without a load the reactions are zero, too.
         let unit = BARS / (high - low).max(1e-3);
         let zero = self.bars + BARS + unit * low;
         let width = (0.86 * 2.0 * self.row.scale().half_base() * self.view.scale).max(2.0);
@@ -395,7 +404,7 @@ impl<'a> RowSheet<'a> {
             .containing([bars, name])
     }
 
-    /// Draws the vertical line that measures coverage, thick inside scales.
+    /// Draws the vertical line that defines coverage, with thick parts inside scales.
     fn coverage_line(&self) -> Option<Element> {
         let (a, shift, pitch) =
             (self.row.scale().half_base(), self.row.scale().shift(), self.row.pitch());
@@ -406,7 +415,7 @@ impl<'a> RowSheet<'a> {
                 line(self.place([x, 1.0]), self.place([x, 0.0]), "#b34700", 1.2)
                     .with("stroke-dasharray", "4 3"),
             ];
-            // A base is shorter than a pitch, so that none beyond these reaches the line.
+            // A base is shorter than a pitch, so scales beyond these cannot reach the line.
             let neighbours = 1..=(shift / pitch).ceil() as i64 + 1;
             parts.extend(neighbours.filter_map(|k| {
                 let low = ((shift - k as f64 * pitch) / shift).max(0.0);
@@ -419,7 +428,7 @@ impl<'a> RowSheet<'a> {
     }
 }
 
-/// Returns a panel of what is drawn down to `bottom`, without the `free` px at its top.
+/// Returns a panel of the elements down to `bottom`, without the `free` px at its top.
 fn lifted(free: f64, bottom: f64, caption: String, inside: Vec<Element>) -> DrawingPanel {
     let lifted = Element::group("lifted")
         .with("transform", format!("translate(0 {})", px(-free)))
@@ -432,7 +441,9 @@ fn pose(state: &ScaleState) -> Pose {
     Pose::new(x, y, state.rotation_deg.to_radians())
 }
 
-/// Returns the first and last scale to be shown: those that touch or move, and two on either side.
+/// Returns the first and last scale to be shown.
+///
+/// The range covers all scales in contact or in motion, and two more on each side.
 fn window(row: &Row, states: &[RowSnapshot]) -> (i64, i64) {
     let moved = |s: &ScaleState| s.displacement[0].hypot(s.displacement[1]);
     let all = || states.iter().flat_map(|state| &state.scales);
@@ -450,12 +461,12 @@ fn window(row: &Row, states: &[RowSnapshot]) -> (i64, i64) {
     ((first - 2).clamp(-half, -3), (last + 2).clamp(3, half))
 }
 
-/// Returns a number to three digits.
+/// Formats a number with three significant digits.
 pub(super) fn short(value: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();
     }
-    // Rounded first: 0.09999 and 0.1 have the same digits.
+    // Round first, because 0.09999 and 0.1 are equal to three digits.
     let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
     let text = match 2 - rounded.abs().log10().floor() as i32 {
         decimals @ 0..=6 => format!("{rounded:.0$}", decimals.unsigned_abs() as usize),

@@ -1,16 +1,16 @@
-//! A bar of a round number of millimetres, for drawings of skins whose thickness is known.
+//! A scale bar of a round number of millimetres, for skins of known thickness.
 
 use super::view::View;
 use crate::colors::INK;
 use crate::label::{Anchor, label};
 use crate::svg::{Element, Spot, line};
 
-/// The longest bar, px.
+/// Maximum length of the bar, px.
 const LONGEST: f64 = 110.0;
 /// Height of the ticks at its ends, px.
 const TICK: f64 = 3.0;
 
-/// Returns the bar for a view of scales that are `thickness_mm` thick, its right end at a spot. None without a thickness.
+/// Returns the scale bar with its right end at `[x, y]`; `None` without a thickness.
 pub(super) fn scale_bar(view: &View, thickness_mm: Option<f64>, [x, y]: Spot) -> Option<Element> {
     let px_per_mm = view.scale / thickness_mm?;
     let length = round_below(LONGEST / px_per_mm);
@@ -26,11 +26,11 @@ pub(super) fn scale_bar(view: &View, thickness_mm: Option<f64>, [x, y]: Spot) ->
     ]))
 }
 
-/// The largest of 1, 2, 5, 10, 20 … that is at most `length`.
+/// Returns the largest of 1, 2, 5, 10, 20 … that is at most `length`.
 fn round_below(length: f64) -> f64 {
     let exponent = length.log10().floor() as i32;
     let fits = [5.0, 2.0, 1.0].into_iter().find(|digit| digit * 10_f64.powi(exponent) <= length);
-    // A power of ten below 1 is the inverse of one that is exact.
+    // A negative power is computed as an inverse, because positive powers of ten are exact.
     let power = 10_f64.powi(exponent.abs());
     let digit = fits.unwrap_or(1.0);
     if exponent < 0 { digit / power } else { digit * power }
@@ -41,9 +41,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_bar_is_round_and_as_long_as_it_says() {
+    fn scale_bars_have_round_lengths_to_scale() {
         assert_eq!([7.3, 1.0, 0.04, 230.0, 0.5].map(round_below), [5.0, 1.0, 0.02, 200.0, 0.5]);
-        // 40 px for 2 mm: 5 mm take 100 px.
+        // With 40 px for 2 mm, a bar of 5 mm is 100 px long.
         let view = View { scale: 40.0, origin: [0.0, 0.0] };
         let bar = scale_bar(&view, Some(2.0), [200.0, 10.0]).expect("a bar").to_text();
         assert!(bar.contains("5 mm") && bar.contains("x1=\"100\""), "{bar}");

@@ -17,28 +17,28 @@ use crate::colors::{FAINT, INK};
 use crate::label::{Anchor, label};
 use crate::svg::{Element, Spot, arrow, polygon, polyline, rect};
 
-/// Width of the part that shows one gap enlarged, px.
+/// Width of the enlarged gap, px.
 const ENLARGED: f64 = 290.0;
-/// Height of the enlarged part, px: at least and at most.
+/// Minimum and maximum height of the enlarged gap, px.
 const HEIGHT: [f64; 2] = [190.0, 300.0];
-/// Room for the arrows around an enlarged gap, px, across and down.
+/// Margins for the arrows around an enlarged gap, px: across and down.
 const ARROWS: Spot = [100.0, 150.0];
-/// Height of the part that shows the whole strip, at most, px.
+/// Maximum height of the whole strip, px.
 const TALLEST: f64 = 430.0;
 
-/// A bent design, to be drawn.
+/// The drawing of a bent design.
 #[derive(Clone, Debug)]
 pub struct FlexureDrawing<'a> {
-    /// The name of the design, which stands before the geometry in the title.
+    /// The name of the design, placed before the geometry in the title.
     pub name: &'a str,
-    /// Geometry, membrane and material: where the thickness is known, there are scale bars.
+    /// Geometry, membrane and material. A known thickness adds scale bars.
     pub case: &'a Case,
-    /// The states, from the top.
+    /// The states, from top to bottom.
     pub states: &'a [StripSnapshot],
 }
 
 impl FlexureDrawing<'_> {
-    /// Returns the drawing as SVG: for each state the whole strip, and the gap in its middle enlarged.
+    /// Returns the drawing as SVG: each state with the whole strip and the enlarged middle gap.
     ///
     /// # Errors
     /// If the design is invalid.
@@ -78,7 +78,7 @@ impl FlexureDrawing<'_> {
         DrawingPanel { height: tall + 8.0, caption: caption(self.case, state), inside }
     }
 
-    /// Draws an enlarged gap with the forces and the overlap.
+    /// Draws an enlarged gap with contact forces, moments and overlap.
     fn cell(&self, row: &Row, enlarged: &Enlarged, tall: f64) -> Element {
         let Enlarged { shape, scale, middle, height, .. } = enlarged;
         let frame = [WIDTH - MARGIN - ENLARGED, 0.5 * (tall - height)];
@@ -109,21 +109,21 @@ impl FlexureDrawing<'_> {
     }
 }
 
-/// The gap in the middle of a strip, to be drawn enlarged.
+/// The enlarged gap in the middle of a strip.
 struct Enlarged {
     shape: Shape,
-    /// Size of `t`, px.
+    /// Length of `t`, px.
     scale: f64,
-    /// The middle of its two scales.
+    /// Centre of its two scales.
     middle: [f64; 2],
-    /// Height of the part that shows it, px.
+    /// Height of the enlarged gap, px.
     height: f64,
-    /// Whether the moment bends the strip with its scales inside.
+    /// True if the moment bends the strip towards its scales.
     bends_inward: bool,
 }
 
 impl Enlarged {
-    /// Returns the gap in the middle of the strip, as large as its part has room for.
+    /// Returns the middle gap, enlarged as far as its frame allows.
     fn of(row: &Row, state: &StripSnapshot) -> Self {
         let shape = Shape::of_gap(row, state, (state.scales.len() - 1) / 2);
         let extent = shape.extent();
@@ -134,7 +134,9 @@ impl Enlarged {
     }
 }
 
-/// Returns the width of an outline, px: thinner around thin scales, so that their area is seen.
+/// Returns the line width of outlines, px.
+///
+/// Outlines of thin scales are thinner, so that the area inside stays visible.
 fn outline(row: &Row, scale: f64) -> f64 {
     0.12 * scale * row.pitch()
 }
@@ -149,13 +151,13 @@ fn caption(case: &Case, state: &StripSnapshot) -> String {
     };
     format!(
         "{bend},  each end turned by {}°,  {}",
-        // Adding zero turns −0 into 0.
+        // Adding zero replaces −0 by 0.
         format!("{:.2}", state.end_rotation_deg + 0.0).replace('-', "−"),
         contacts_label(&state.contacts)
     )
 }
 
-/// The shapes of a state, turned so that both ends have turned alike.
+/// The shapes of a state, rotated so that its ends have equal and opposite rotations.
 struct Shape {
     bodies: Vec<[[f64; 2]; 4]>,
     membrane: Vec<Vec<[f64; 2]>>,
@@ -171,10 +173,10 @@ impl Shape {
             bodies: bodies.collect(),
             membrane: state.membrane.clone(),
             contacts: state.contacts.clone(),
-            // An overlap of a millionth of a thickness is not seen in a whole strip.
+            // Overlaps of a millionth of the thickness are invisible at the size of a whole strip.
             overlaps: Vec::new(),
         };
-        // A strip has a gap, and a scale on either side of it.
+        // A strip has at least one gap, hence two scales.
         let turn = |place: usize| state.scales[place][2];
         shape.turned(-0.5 * (turn(0) + turn(state.scales.len() - 1)))
     }
@@ -182,7 +184,7 @@ impl Shape {
     /// Returns the gap right of scale `left` and its two scales.
     fn of_gap(row: &Row, state: &StripSnapshot, left: usize) -> Self {
         let pair: Vec<Pose> = poses(state)[left..left + 2].to_vec();
-        // A pair is measured from its own left scale, the strip from its first one.
+        // A pair is measured from its left scale, a strip from its first scale.
         let along = left as f64 * row.pitch();
         let bodies = (0..2).map(|i| corners(row, (left + i) as f64, &pair[i]));
         let shift = |points: Vec<[f64; 2]>| points.iter().map(|p| [p[0] + along, p[1]]).collect();
@@ -229,7 +231,7 @@ impl Shape {
             .containing(self.bodies.iter().map(|body| polygon(&view.all(body))))
     }
 
-    /// Returns the axis of the membrane: bent in the gaps, straight where it is rigid.
+    /// Draws the axis of the membrane: curved in the gaps, straight under the bases.
     fn membrane(&self, view: &View, width: f64) -> Element {
         let bases = self.bodies.iter().map(|body| view.all(&body[..2]));
         let gaps = self.membrane.iter().map(|axis| view.all(axis));
@@ -244,11 +246,11 @@ fn poses(state: &StripSnapshot) -> Vec<Pose> {
     state.scales.iter().map(|&[x, y, rotation]| Pose::new(x, y, rotation)).collect()
 }
 
-/// Returns the moments that bend the gap, as arrows round its two ends.
+/// Draws the moments that bend the gap as arrows round its two ends.
 fn moments(view: &View, shape: &Shape, inward: bool) -> Element {
     let ([left, ..], [_, right, ..]) = (shape.bodies[0], shape.bodies[1]);
     let (left, right) = (view.place(left), view.place(right));
-    // The arrows of a short gap stand apart too.
+    // Move the arrows of a short gap apart.
     let apart = (0.5 * (50.0 - (right[0] - left[0]))).max(0.0);
     let (left, right) = (shifted(left, [-apart, 0.0]), shifted(right, [apart, 0.0]));
     let around = |center: Spot, start: f64, sweep: f64| -> Element {
@@ -260,7 +262,7 @@ fn moments(view: &View, shape: &Shape, inward: bool) -> Element {
         let curve = polyline(&arc).with("stroke", INK).at("stroke-width", 1.8);
         Element::group("moment").containing([curve, arrow(arc[14], tip, INK, 1.8)])
     };
-    // From below the base outwards, so that scales that lean over stay free.
+    // The arrows run outwards from below the base, so that they do not cross slanted scales.
     let turn = 2.0;
     let [of_left, of_right] = if inward {
         [around(left, 5.3, -turn), around(right, -2.16, turn)]

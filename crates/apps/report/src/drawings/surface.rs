@@ -1,4 +1,4 @@
-//! The surface of the substrate where two bases have passed each other.
+//! Folds of the substrate surface, where two neighbouring bases cross.
 
 use contact::Pose;
 use geometry::Row;
@@ -8,13 +8,15 @@ use super::view::View;
 use crate::colors::RED;
 use crate::svg::{Element, line};
 
-/// Returns the strips of surface that are folded over, in red: each from the right end of a base back to the left end of the next.
+/// Draws the folded strips of the surface in red.
+///
+/// Each strip runs from the right end of a base back to the left end of the next base.
 pub(super) fn folds(row: &Row, view: &View, poses: &[(i64, Pose)]) -> Element {
     let strip = |[from, to]: [[f64; 2]; 2]| line(view.place(from), view.place(to), RED, 2.6);
     Element::group("folds").containing(folded(row, poses).map(strip))
 }
 
-/// Formats in how many gaps the surface is folded over; empty if in none.
+/// Formats the number of gaps with a fold; empty if there is none.
 pub(super) fn folds_label(row: &Row, poses: &[(i64, Pose)]) -> String {
     match folded(row, poses).count() {
         0 => String::new(),
@@ -23,7 +25,7 @@ pub(super) fn folds_label(row: &Row, poses: &[(i64, Pose)]) -> String {
     }
 }
 
-/// The ends of the strips that are folded over: the base to the right begins before the one to the left ends.
+/// Returns the ends of the folded strips: the right base begins left of the end of the left base.
 fn folded<'a>(row: &'a Row, poses: &'a [(i64, Pose)]) -> impl Iterator<Item = [[f64; 2]; 2]> + 'a {
     poses.windows(2).filter_map(|pair| {
         let [[_, from, ..], [to, ..]] =

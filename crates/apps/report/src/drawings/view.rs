@@ -5,7 +5,7 @@ use crate::svg::Spot;
 /// A map from points of the plane (over `t`, `y` up) to paper (px, `y` down).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct View {
-    /// Px for a length of `t`.
+    /// Length of `t` on paper, px.
     pub(super) scale: f64,
     /// The spot of the origin.
     pub(super) origin: Spot,
@@ -29,7 +29,7 @@ pub(super) struct Extent {
 }
 
 impl Extent {
-    /// Returns the least rectangle around `points`, at least one.
+    /// Returns the smallest rectangle around `points`; there must be at least one point.
     pub(super) fn around<'p>(points: impl IntoIterator<Item = &'p [f64; 2]>) -> Self {
         let nothing = Self { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] };
         points.into_iter().fold(nothing, |Self { low, high }, point| Self {

@@ -1,4 +1,4 @@
-//! The meaning of a column of a table, looked up by the names of both.
+//! Explanations of columns, found by the names of table and column.
 
 use ranking::{
     COMPARISON_COLUMNS, Preferences, difference_columns, pareto_columns, quaternary_columns,
@@ -7,21 +7,23 @@ use ranking::{
 use results::columns::{Cell, explain_value, number, parameter_of};
 use results::{Column, MEASURE_TABLES, RERUN_COLUMNS, failure_detail_columns};
 
-/// Unit and meaning of a column, in half a sentence.
+/// Unit and meaning of a column; the meaning is a short phrase.
 type Explanation = (&'static str, &'static str);
 
-/// The meaning of the column `name` of the table `table` (without `.csv`); `None` if this program writes no such column.
+/// Returns the explanation of column `name` of table `table` (without `.csv`).
+///
+/// `None` if this program writes no such column.
 pub(super) fn explained(table: &str, name: &str) -> Option<Explanation> {
-    // The own meaning comes first: `contacts` of failures are others than those of designs.
+    // The table comes first: `contacts` means something else in failures than in designs.
     own(table, name).or_else(|| common(name))
 }
 
-/// A column that this table has, or explains otherwise than others do.
+/// Returns the explanation of a column that is specific to this table.
 fn own(table: &str, name: &str) -> Option<Explanation> {
     match table {
         "failures" => among(&failure_detail_columns(), name),
         "reruns" => among(RERUN_COLUMNS, name),
-        // Columns of other criteria than the paper's are known by the ends of their names.
+        // Columns of user-defined criteria are recognised by the ends of their names, in `common`.
         "ranking" => among(&ranking_columns(&[], &Preferences::paper()), name),
         "pareto" => among(&pareto_columns(&[], &Preferences::paper()), name),
         "winners" => among(&winner_columns(&[], &Preferences::paper()), name),
@@ -32,7 +34,7 @@ fn own(table: &str, name: &str) -> Option<Explanation> {
     }
 }
 
-/// Numbers, parameters and measured values mean the same everywhere.
+/// Returns the explanation of columns with the same meaning in all tables.
 fn common(name: &str) -> Option<Explanation> {
     let parameter = || parameter_of(name).map(|parameter| (parameter.unit, parameter.meaning));
     among(&[number(|(): &()| Cell::Empty)], name)
@@ -41,7 +43,7 @@ fn common(name: &str) -> Option<Explanation> {
         .or_else(|| of_criterion(name))
 }
 
-/// A column of a ranking by criteria of one's own.
+/// Returns the explanation of a column of a user-defined criterion in a ranking.
 fn of_criterion(name: &str) -> Option<Explanation> {
     match name.rsplit_once('_')?.1 {
         "rescaled" => {
@@ -57,7 +59,7 @@ fn among<R>(columns: &[Column<R>], name: &str) -> Option<Explanation> {
     Some((column.unit, column.meaning))
 }
 
-/// Whether a column holds the values that its table is about.
+/// Returns true if a column holds the main values of its table.
 pub(super) fn is_leading(table: &str, name: &str) -> bool {
     match table {
         "designs" => MEASURE_TABLES.iter().any(|(measure, _)| *measure == name),
@@ -92,7 +94,7 @@ mod tests {
     }
 
     #[test]
-    fn a_name_means_what_its_table_means_by_it() {
+    fn explanations_depend_on_the_table() {
         let contacts = ["designs", "failures"].map(|table| explained(table, "contacts"));
         assert_ne!(contacts[0], contacts[1]);
         assert_eq!(explained("designs", "somebody's own column"), None);

@@ -1,4 +1,4 @@
-//! The chart of a measure: its values over an axis of the grid, as spreadsheets draw it.
+//! The native spreadsheet chart of a measure over an axis of the grid.
 
 use csv::StringRecord;
 use rust_xlsxwriter::{Chart, ChartMarker, ChartMarkerType, ColNum, RowNum, Worksheet, XlsxError};
@@ -8,29 +8,29 @@ use results::{CsvFormat, MEASURE_TABLES};
 
 use crate::figures::physical_of;
 
-/// The columns that may be along the axis of a chart, the first that varies.
+/// Candidate columns for the horizontal axis; the first one that varies is used.
 const ALONG: [&str; 3] = ["slant_deg", "length_over_t", "gap_over_t"];
-/// The column by whose values the marks are told apart.
+/// The column that separates the series.
 const APART: &str = "gap_over_t";
-/// Series of a chart, at most: what has more is one series.
+/// Maximum number of series; a chart with more shows all designs as one series.
 const SERIES: usize = 24;
 /// Width and height of a chart, px.
 const SIZE: (u32, u32) = (760, 460);
 
-/// The chart of a table of one measure, while its rows are seen.
+/// The chart of the table of one measure, collected while the rows are written.
 #[derive(Debug)]
 pub(super) struct MeasureChart {
-    /// The column of the measure, in newtons or millimetres if there are any, and its place.
+    /// The column of the measure, in newtons or millimetres if available, and its index.
     name: String,
     value: ColNum,
     along: Vec<AxisColumn>,
     apart: Option<usize>,
-    /// Rows that begin a run of equal values of the column that tells marks apart, and those values.
+    /// The first row of each run of equal values in the column [`APART`], and the value.
     runs: Vec<(RowNum, String)>,
     is_positive: bool,
 }
 
-/// A column that may be along the axis.
+/// A candidate column for the horizontal axis.
 #[derive(Debug)]
 struct AxisColumn {
     name: &'static str,
@@ -40,7 +40,7 @@ struct AxisColumn {
 }
 
 impl MeasureChart {
-    /// The chart of a table with this header; `None` if it is not that of a measure.
+    /// Creates the chart for a table with this header; `None` if it is not the table of a measure.
     pub fn new(table: &str, header: &StringRecord) -> Option<Self> {
         MEASURE_TABLES.iter().find(|(measure, _)| *measure == table)?;
         let place = |name: &str| header.iter().position(|column| column == name);
@@ -61,7 +61,7 @@ impl MeasureChart {
         })
     }
 
-    /// Sees a row of the table, the first being row 1.
+    /// Records a row of the table; the first row below the header is row 1.
     pub fn add(&mut self, row: RowNum, format: CsvFormat, cells: &StringRecord) {
         for axis in &mut self.along {
             let cell = cells.get(axis.place).unwrap_or_default();
@@ -69,7 +69,7 @@ impl MeasureChart {
             axis.varies |= first != cell;
         }
         let apart = self.apart.and_then(|place| cells.get(place)).unwrap_or_default();
-        // One more than a chart takes tells that there are too many: a long table is not kept.
+        // Stop after one run too many, because a long table would take much memory.
         if self.runs.len() <= SERIES && self.runs.last().is_none_or(|(_, value)| value != apart) {
             self.runs.push((row, apart.to_owned()));
         }
@@ -77,7 +77,9 @@ impl MeasureChart {
         self.is_positive &= value.is_none_or(|value| value > 0.0);
     }
 
-    /// Puts the chart on the sheet of its table, which has `rows` rows below its header and as many `columns`.
+    /// Inserts the chart into the sheet of its table, to the right of the `columns` columns.
+    ///
+    /// The table has `rows` rows below its header.
     pub fn insert(
         &self,
         page: &mut Worksheet,
@@ -108,12 +110,14 @@ impl MeasureChart {
         Ok(())
     }
 
-    /// Name, first and last row of each series: one for each gap, if the rows of each stand together.
+    /// Returns the name, first row and last row of each series.
+    ///
+    /// There is one series for each gap if the rows of each gap are contiguous.
     fn series(&self, axis: &AxisColumn, rows: RowNum) -> Vec<(String, RowNum, RowNum)> {
         let mut values: Vec<&str> = self.runs.iter().map(|(_, value)| value.as_str()).collect();
         values.sort_unstable();
         values.dedup();
-        // A series is one range of cells: a gap that comes back further down would need two.
+        // A series is one range of cells, so a gap with separate runs of rows cannot be one.
         let stand_together = values.len() == self.runs.len() && self.runs.len() <= SERIES;
         if !stand_together || axis.name == APART {
             return vec![("all designs".to_owned(), 1, rows)];

@@ -1,36 +1,36 @@
-//! The content of a table, column by column, before it is written as a sheet.
+//! Statistics of the columns of a table, collected before its sheet is written.
 
 use csv::StringRecord;
 use results::CsvFormat;
 
-/// The facts about a column once all its cells have been seen.
+/// Statistics of the cells of a column.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct ColumnProfile {
-    /// Characters of the longest text.
+    /// Length of the longest text, characters.
     text: usize,
-    /// Cells that are numbers.
+    /// Number of numeric cells.
     numbers: u32,
     /// The smallest and the largest number.
     span: Option<(f64, f64)>,
-    /// The smallest size of a number that is not 0.
+    /// The smallest nonzero magnitude.
     smallest: Option<f64>,
-    /// Whether there are fractions.
+    /// True if any number has a fraction.
     has_fractions: bool,
-    /// Decimals of the number that has most, as it is written.
+    /// Largest number of decimals, as written in the table.
     decimals: usize,
 }
 
-/// Decimals with which numbers are still shown as they are written: what has more is measured.
+/// Numbers with at most this many decimals are shown as written; others are computed values.
 const WRITTEN: usize = 4;
-/// Digits that the smallest number of a column shows.
+/// Significant digits shown for the smallest number of a column.
 const DIGITS: i32 = 3;
-/// Decimals that a column shows, at most; what needs more is shown as a power of ten.
+/// Maximum number of decimals of a column; smaller numbers use powers of ten.
 const MOST_DECIMALS: i32 = 6;
-/// A number below this part of the largest one of its column is round-off.
+/// Numbers below this fraction of the largest one in their column are round-off.
 const ROUND_OFF: f64 = 1e-9;
 
 impl ColumnProfile {
-    /// The profiles of the columns of a table, from all its rows.
+    /// Adds a row to the profiles of the columns of its table.
     pub fn add(profiles: &mut [Self], format: CsvFormat, row: &StringRecord) {
         for (profile, cell) in profiles.iter_mut().zip(row).filter(|(_, cell)| !cell.is_empty()) {
             match format.number(cell) {
@@ -49,49 +49,52 @@ impl ColumnProfile {
             self.smallest = Some(self.smallest.map_or(size, |smallest| smallest.min(size)));
         }
         self.has_fractions |= number.fract() != 0.0;
-        // Decimals stand behind a comma in tables of the other format.
+        // Some tables have decimal commas.
         let decimals = cell.split(['.', ',']).nth(1).map_or(0, str::len);
-        // Nobody writes a power of ten by hand: the column is measured.
+        // Only computed values are written with powers of ten.
         self.decimals = self.decimals.max(if cell.contains('e') { usize::MAX } else { decimals });
     }
 
-    /// The largest size of a number.
+    /// Returns the largest magnitude.
     fn largest(&self) -> f64 {
         self.span.map_or(0.0, |(low, high)| low.abs().max(high.abs()))
     }
 
-    /// The smallest size of a number that is more than round-off.
+    /// Returns the smallest magnitude above round-off.
     fn least(&self) -> f64 {
         let smallest = self.smallest.unwrap_or(1.0);
         if smallest < ROUND_OFF * self.largest() { self.largest() } else { smallest }
     }
 
-    /// How numbers of the column are shown, in the notation of spreadsheets: digits that a person needs, and none that are
-    /// round-off. The cells hold all digits.
+    /// Returns the number format of the column in the notation of spreadsheets.
+    ///
+    /// It shows the significant digits without round-off. The cells hold all digits.
     pub fn number_format(&self) -> String {
         let decimals = DIGITS - 1 - self.least().log10().floor() as i32;
-        // Spreadsheets keep fifteen digits.
+        // Spreadsheets keep 15 digits.
         if !self.has_fractions && self.largest() < 1e15 {
             "0".to_owned()
         } else if self.decimals <= WRITTEN {
             format!("0.{}", "0".repeat(self.decimals))
         } else if decimals <= MOST_DECIMALS {
-            // At least one: there are fractions.
+            // At least one decimal, because there are fractions.
             format!("0.{}", "0".repeat(decimals.max(1) as usize))
         } else {
             self.scientific()
         }
     }
 
-    /// Powers of ten, in which what is round-off against the rest of the column is 0.
+    /// Returns a format with powers of ten that shows round-off as 0.
     fn scientific(&self) -> String {
         let is_positive = self.span.is_none_or(|(low, _)| low >= 0.0);
         let round_off = ROUND_OFF * self.largest();
-        // Most of a column over decades can be read as it is; what is small keeps its digits by a power of ten.
+        // Over several decades, large values are legible as decimals; small ones need powers of
+        // ten.
         let is_plain = is_positive && self.largest() < 1e5;
         let digits = if is_plain { "[<0.001]0.000E+00;0.0000" } else { "0.000E+00" };
         if is_positive && round_off > 0.0 && self.smallest.is_some_and(|least| least < round_off) {
-            // As a decimal fraction of one digit: conditions of formats know no powers of ten.
+            // Conditions in formats accept no powers of ten, so write one digit as a decimal
+            // fraction.
             let limit: f64 = format!("{round_off:.0e}").parse().unwrap_or(round_off);
             format!("[<{limit}]0;{digits}")
         } else {
@@ -99,7 +102,7 @@ impl ColumnProfile {
         }
     }
 
-    /// Characters that the widest cell takes as it is shown.
+    /// Returns the width of the widest cell as displayed, characters.
     pub fn width(&self) -> usize {
         let format = self.number_format();
         let number = if format.contains('E') {
@@ -126,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_show_what_a_person_needs() {
+    fn number_formats_show_significant_digits() {
         let format = |cells: &[&str]| profile(cells).number_format();
         assert_eq!(format(&["1", "800", "12"]), "0");
         assert_eq!(format(&["0.025", "0.1", "1"]), "0.000");
@@ -144,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn columns_are_as_wide_as_what_they_show() {
+    fn column_widths_fit_displayed_cells() {
         assert_eq!(profile(&["0.7999999996252686", "-12.3"]).width(), "-12.300".len());
         assert_eq!(profile(&["no convergence", ""]).width(), 14);
         assert_eq!(profile(&["1", "800"]).width(), 3);

@@ -16,17 +16,17 @@ use super::{MeasureChart, TableProfile};
 const RED: [Color; 2] = [Color::RGB(0x009C_0006), Color::RGB(0x00FF_C7CE)];
 /// The background of headers.
 const GREY: Color = Color::RGB(0x00E6_E6E6);
-/// The scale of a measure: light to dark blue-green, on which black stays legible.
+/// Colour scale of a measure: light to dark blue-green, on which black text stays legible.
 const SCALE: [u32; 3] = [0x00FF_FFD9, 0x007F_CDBB, 0x0041_B6C4];
 
-/// Characters that the button of a filter takes.
+/// Width of the button of a filter, characters.
 const BUTTON: usize = 3;
-/// Columns of a table that is printed one page wide, at most: letters of more would be too small.
+/// Maximum number of columns printed on one page width; more would be too small to read.
 const ON_PAPER: usize = 14;
-/// The narrowest and the widest column, in characters.
+/// Minimum and maximum width of a column, characters.
 const WIDTHS: (usize, usize) = (8, 60);
 
-/// How cells look.
+/// Cell formats.
 struct Formats {
     header: Format,
     failed: Format,
@@ -35,7 +35,7 @@ struct Formats {
 }
 
 impl Formats {
-    /// Design numbers show `digits` digits.
+    /// Creates the formats; design numbers show `digits` digits.
     fn new(digits: usize) -> Self {
         let header = Format::new().set_bold().set_background_color(GREY);
         let header = header.set_border_bottom(FormatBorder::Thin).set_align(FormatAlign::Left);
@@ -55,23 +55,23 @@ pub(super) struct Sheet {
     columns: Vec<SheetColumn>,
     formats: Formats,
     chart: Option<MeasureChart>,
-    /// How many rows there are below the header.
+    /// Number of rows below the header.
     pub rows: u32,
 }
 
 /// A column of a sheet.
 struct SheetColumn {
-    /// The place of the column; a sheet has fewer than 2^14.
+    /// Index of the column; a sheet has fewer than 2^14 columns.
     place: ColNum,
-    /// Whether it holds the numbers of designs.
+    /// True for the numbers of designs.
     is_number: bool,
-    /// Whether it says how designs ended.
+    /// True for the status of designs.
     is_status: bool,
-    /// Whether its values have a scale of colours.
+    /// True if its values have a colour scale.
     is_measure: bool,
-    /// How its numbers are shown.
+    /// Format of its numbers.
     number: Format,
-    /// Characters of the longest cell.
+    /// Width of the longest cell, characters.
     width: usize,
 }
 
@@ -88,14 +88,14 @@ impl SheetColumn {
         }
     }
 
-    /// Whether `cell` says that a design failed.
+    /// Returns true if `cell` is the status of a failed design.
     fn says_failed(&self, cell: &str) -> bool {
         self.is_status && !cell.is_empty() && cell != Outcome::Complete.text()
     }
 }
 
 impl Sheet {
-    /// A sheet with its header.
+    /// Creates a sheet with its header.
     pub fn new(
         workbook: &mut Workbook,
         table: &str,
@@ -124,7 +124,7 @@ impl Sheet {
     /// Adds a row.
     pub fn add(&mut self, cells: &StringRecord) -> Result<(), XlsxError> {
         if self.rows == 0 {
-            // As many digits as the tables give every design of this sweep.
+            // Show as many digits as the design numbers of this table have.
             let number = self.columns.iter().position(|column| column.is_number);
             let digits = number.and_then(|place| cells.get(place)).map_or(0, str::len);
             self.formats = Formats::new(digits.max(1));
@@ -156,11 +156,11 @@ impl Sheet {
 
     /// Returns the page, with filters, colours and the chart of a measure.
     pub fn finish(mut self) -> Result<Worksheet, XlsxError> {
-        // A filter needs a row to stand on.
+        // A filter needs at least one row.
         let (last_row, last_column) = (self.rows.max(1), self.columns.len().saturating_sub(1));
         let last_column = ColNum::try_from(last_column).unwrap_or(ColNum::MAX);
         let begins_with_number = self.columns.first().is_some_and(|column| column.is_number);
-        // The number of a design stays in sight while its columns pass.
+        // Freeze the number of the design while the other columns scroll.
         self.page.set_freeze_panes(1, ColNum::from(begins_with_number))?;
         self.page.autofilter(0, 0, last_row, last_column)?;
         let [low, middle, high] = SCALE.map(Color::RGB);
@@ -184,7 +184,7 @@ impl Sheet {
     }
 }
 
-/// The sheet that explains the columns of the others.
+/// The sheet that explains the columns of all other sheets.
 pub(super) struct Guide {
     page: Worksheet,
     row: u32,
@@ -195,7 +195,7 @@ impl Guide {
     const COLUMNS: [(&str, f64); 4] =
         [("sheet", 16.0), ("column", 28.0), ("unit", 30.0), ("meaning", 90.0)];
 
-    /// A sheet with its header.
+    /// Creates the sheet with its header.
     pub fn new(workbook: &mut Workbook) -> Result<Self, XlsxError> {
         let mut page = workbook.new_worksheet_with_constant_memory()?;
         page.set_name("columns")?.set_freeze_panes(1, 0)?;
@@ -207,7 +207,7 @@ impl Guide {
         Ok(Self { page, row: 0 })
     }
 
-    /// Explains the columns of a table, some of which are its `own`.
+    /// Explains the columns of a table; `own` explains those that are specific to this folder.
     pub fn explain(
         &mut self,
         table: &str,
@@ -227,14 +227,14 @@ impl Guide {
         Ok(())
     }
 
-    /// Says something of all tables.
+    /// Adds a note that applies to all tables.
     pub fn note(&mut self, text: &str) -> Result<(), XlsxError> {
         self.row += 1;
         self.page.write_string(self.row, 3, text)?;
         Ok(())
     }
 
-    /// The sheet.
+    /// Returns the finished sheet.
     pub fn finish(mut self) -> Result<Worksheet, XlsxError> {
         self.page.autofilter(0, 0, self.row, 3)?;
         Ok(self.page)

@@ -1,4 +1,4 @@
-//! The first sheet of a workbook: what the run is, how it ended, which designs are best.
+//! The first sheet of a workbook: description of the run, outcome and best designs.
 
 use std::collections::HashSet;
 
@@ -16,25 +16,25 @@ use crate::figures::physical_of;
 
 /// The name of the sheet.
 const NAME: &str = "summary";
-/// The designs of the ranking that are listed.
+/// Number of designs listed from the ranking.
 const LISTED: usize = 10;
-/// What is said of a design under which the surface of the substrate folds over.
+/// Warning for a design with a fold in the surface of the substrate.
 const FOLDS: &str = "the surface folds: the critical force is not valid";
 const DOUBT: &str = " ⚠ surface folds";
-/// Widths of its columns, in characters.
+/// Widths of the columns, characters.
 const WIDTHS: [f64; 4] = [34.0, 22.0, 26.0, 90.0];
 
-/// The best values of the designs, as rows of `designs.csv` pass.
+/// The best value of each criterion, collected from the rows of `designs.csv`.
 #[derive(Debug, Default)]
 pub(super) struct BestValues {
     columns: Vec<BestColumn>,
     designs: u64,
-    /// Place of the force at which the surface folds over, and the designs under which it does.
+    /// Index of the column with the force at the first fold, and the designs with a fold.
     fold: Option<usize>,
     folded: HashSet<String>,
 }
 
-/// A column whose best value is told: that of a criterion, in newtons or millimetres if there are any.
+/// The column of a criterion, in newtons or millimetres if available, with its best value.
 #[derive(Debug)]
 struct BestColumn {
     name: String,
@@ -52,20 +52,20 @@ impl BestColumn {
 }
 
 impl BestValues {
-    /// The best values of a table with this header.
+    /// Creates the collection for a table with this header.
     pub fn new(header: &csv::StringRecord) -> Self {
         let fold = header.iter().position(|name| name == name::FOLD_FORCE);
         let columns = CRITERIA.iter().filter_map(|criterion| BestColumn::of(criterion, header));
         Self { fold, columns: columns.collect(), ..Self::default() }
     }
 
-    /// What stands behind a design that is named best by a measure, if the fold touches that measure.
+    /// Returns the warning for a best design if a fold invalidates this measure.
     fn doubt(&self, design: &str, measure: &str) -> &'static str {
         let is_touched = measure_of(measure) == Some(Measure::Puncture);
         if is_touched && self.folded.contains(design) { DOUBT } else { "" }
     }
 
-    /// Sees a row.
+    /// Records a row.
     pub fn add(&mut self, format: CsvFormat, row: &csv::StringRecord) {
         self.designs += 1;
         let design = row.get(0).unwrap_or_default();
@@ -80,16 +80,16 @@ impl BestValues {
     }
 }
 
-/// The sheet while it is written.
+/// The summary sheet while it is written.
 struct Sheet {
     page: Worksheet,
     row: u32,
     bold: Format,
 }
 
-/// What the summary tells besides the best values, once it is checked.
+/// The content of the summary besides the best values, read and checked.
 pub(super) struct SummaryFacts {
-    /// The record of the run, empty where there is none.
+    /// The record of the run; empty if there is none.
     record: String,
     preferences: Option<Preferences>,
     /// Rank, number and fitness of the first designs of the ranking.
@@ -97,7 +97,7 @@ pub(super) struct SummaryFacts {
 }
 
 impl SummaryFacts {
-    /// The facts in `folder`.
+    /// Reads the facts from `folder`.
     pub fn read(folder: &VerifiedFolder) -> Result<Self, ExportError> {
         let has_record = folder.holds(ResultsFolder::RUN_INFO);
         let record = has_record.then(|| folder.text(ResultsFolder::RUN_INFO)).transpose()?;
@@ -107,7 +107,7 @@ impl SummaryFacts {
     }
 }
 
-/// The summary of the run in `folder`.
+/// Creates the summary of the run in `folder`.
 pub(super) fn summary(
     folder: &VerifiedFolder,
     best: &BestValues,
@@ -141,7 +141,7 @@ impl Sheet {
         Ok(())
     }
 
-    /// Begins a part, after an empty row.
+    /// Begins a section, after an empty row.
     fn part(&mut self, cells: &[&str]) -> Result<(), XlsxError> {
         self.row += 1;
         for (place, cell) in (0..).zip(cells) {
@@ -151,7 +151,7 @@ impl Sheet {
         Ok(())
     }
 
-    /// Adds a row; what is a number becomes one.
+    /// Adds a row; numeric text is written as numbers.
     fn add(&mut self, cells: &[&str]) -> Result<(), XlsxError> {
         let left = Format::new().set_align(FormatAlign::Left);
         for (place, cell) in (0..).zip(cells) {
@@ -166,7 +166,7 @@ impl Sheet {
         Ok(())
     }
 
-    /// How many designs there are, and what the record of the run says of it.
+    /// Writes the number of designs and the record of the run.
     fn run(
         &mut self,
         record: &str,
@@ -214,7 +214,7 @@ impl Sheet {
         Ok(())
     }
 
-    /// What the ranking of the run goes by, and its first designs.
+    /// Writes the requirements and criteria of the ranking, and its first designs.
     fn ranking(&mut self, facts: &SummaryFacts, best: &BestValues) -> Result<(), XlsxError> {
         let Some(preferences) = &facts.preferences else { return Ok(()) };
         self.part(&["Ranking: requirements"])?;
@@ -259,26 +259,26 @@ impl Sheet {
     }
 }
 
-/// Whether it is the number of a design, which keeps its zeros and so is a text.
+/// Returns true for the number of a design, which is written as text to keep leading zeros.
 fn is_design_number(cell: &str) -> bool {
     cell.len() > 1 && cell.starts_with('0') && cell.chars().all(|c| c.is_ascii_digit())
 }
 
-/// Rank, number and fitness of the first designs of the ranking of a folder.
+/// Returns rank, number and fitness of the first designs of the ranking in a folder.
 fn leading(folder: &VerifiedFolder) -> Result<Vec<[String; 3]>, ExportError> {
     let [ranking, ..] = ResultsFolder::RANKING;
-    // A ranking that no design meets has preferences and no tables.
+    // If no design meets the requirements, the ranking has preferences but no tables.
     if !folder.holds(ranking) {
         return Ok(Vec::new());
     }
-    // A table that cannot be read was refused before, when its sheet was made.
+    // An unreadable table has been rejected before, when its own sheet was written.
     let Ok((format, mut table)) = super::open(folder.file(ranking)?) else { return Ok(Vec::new()) };
     let Ok(header) = table.headers().cloned() else { return Ok(Vec::new()) };
     let places = ["rank", "design", "fitness"].map(|name| header.iter().position(|h| h == name));
     let row = |row: csv::StringRecord| {
         places.map(|place| {
             let cell = place.and_then(|place| row.get(place)).unwrap_or_default();
-            // Fitness alone has decimals: ranks and numbers of designs stay as they are.
+            // Only fitness has decimals. Ranks and design numbers stay as they are.
             match format.number(cell).filter(|_| cell.contains(['.', ','])) {
                 Some(number) => format!("{number:.6}"),
                 None => cell.to_owned(),
@@ -295,7 +295,7 @@ mod tests {
     use super::BestColumn;
 
     #[test]
-    fn the_best_designs_are_told_in_newtons_where_there_are_any() {
+    fn best_designs_are_listed_in_newtons_if_available() {
         let told = |header: &[&str]| {
             let header = csv::StringRecord::from(header.to_vec());
             let columns =
@@ -303,7 +303,7 @@ mod tests {
             columns.map(|column| column.name).collect::<Vec<_>>()
         };
         assert_eq!(told(&["critical_force", "compliance"]), ["critical_force", "compliance"]);
-        // A force over a width is another quantity.
+        // The force per width is a different quantity.
         let physical = ["critical_force", "critical_force_per_width_N_mm", "critical_force_N"];
         assert_eq!(told(&physical), ["critical_force_N"]);
     }

@@ -1,10 +1,11 @@
 //! Contours of values on a grid, by marching squares.
 
-/// A place on the grid: whole numbers at its nodes.
+/// A position on the grid; nodes have whole numbers.
 type Place = [f64; 2];
 
-/// Returns the pieces of the line along which values on a grid of `size` nodes are `level`, straight within each square of four
-/// nodes; none in a square with a node that has no value.
+/// Returns the contour segments at `level` of values on a grid of `size` nodes.
+///
+/// Segments are straight within each square of four nodes. A square with a missing value has none.
 pub(super) fn contours(
     size: [usize; 2],
     value: &impl Fn(usize, usize) -> Option<f64>,
@@ -21,7 +22,7 @@ fn square(
     value: &impl Fn(usize, usize) -> Option<f64>,
     level: f64,
 ) -> Option<Vec<[Place; 2]>> {
-    // Around the square, so that every edge joins a corner and the next.
+    // The corners in cyclic order, so that each edge joins a corner and the next one.
     let corners = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]];
     let mut values = [0.0; 4];
     for (own, [i, j]) in values.iter_mut().zip(corners) {
@@ -37,7 +38,7 @@ fn square(
     Some(match *edges.as_slice() {
         [a, b] => vec![[a, b]],
         [a, b, c, d] => {
-            // The middle tells which two corners belong together.
+            // The mean value decides which two of the four crossings are connected.
             let middle = values.iter().sum::<f64>() / 4.0;
             if (middle < level) == (values[0] < level) {
                 vec![[a, b], [c, d]]
@@ -49,7 +50,7 @@ fn square(
     })
 }
 
-/// Returns the place on the way from one node to another.
+/// Returns the position at the fraction `part` between two nodes.
 fn between(from: [usize; 2], to: [usize; 2], part: f64) -> Place {
     [0, 1].map(|k| (1.0 - part) * from[k] as f64 + part * to[k] as f64)
 }
@@ -59,7 +60,7 @@ mod tests {
     use super::contours;
 
     #[test]
-    fn contours_of_a_plane_are_where_it_has_their_level() {
+    fn contours_of_a_plane_lie_at_their_level() {
         let plane = |i: usize, j: usize| Some(i as f64 + 2.0 * j as f64);
         let pieces = contours([5, 4], &plane, 3.3);
         assert!(pieces.len() >= 4);
@@ -69,8 +70,8 @@ mod tests {
     }
 
     #[test]
-    fn a_saddle_is_cut_on_the_side_of_its_middle() {
-        // High at two opposite corners, and in the middle or not.
+    fn contours_of_a_saddle_follow_its_mean_value() {
+        // High values at two opposite corners, so that the mean decides.
         let saddle = |high: f64| move |i: usize, j: usize| Some(if i == j { high } else { 0.0 });
         for (high, cuts_off_the_low) in [(3.0, true), (1.5, false)] {
             let pieces = contours([2, 2], &saddle(high), 1.0);
@@ -84,7 +85,7 @@ mod tests {
     }
 
     #[test]
-    fn there_is_no_line_beside_a_node_without_value() {
+    fn squares_with_missing_values_have_no_contours() {
         let holed = |i: usize, j: usize| (i != 1 || j != 1).then_some(i as f64);
         assert!(contours([3, 3], &holed, 0.5).is_empty());
         assert!(contours([1, 3], &|_, j| Some(j as f64), 0.5).is_empty());

@@ -1,4 +1,4 @@
-//! A column over two parameters: a map for each value of the others, with contours.
+//! Maps of a column over two parameters: one for each value of the others, with contours.
 
 use std::collections::HashMap;
 
@@ -19,40 +19,41 @@ const LEFT: f64 = 74.0;
 const RIGHT: f64 = 118.0;
 const TOP: f64 = 74.0;
 const BETWEEN: [f64; 2] = [16.0, 34.0];
-/// Heights of a map: of several, and of one alone.
+/// Height of a map among several, and of a single map, px.
 const HEIGHTS: [f64; 2] = [200.0, 420.0];
-/// Maps of one figure, at most.
+/// Maximum number of maps in a figure.
 const MAPS: usize = 24;
-/// Colours of the scale.
+/// Number of steps of the colour bar.
 const STEPS: u32 = 60;
 
-/// The column whose scale goes from none to all, and that no fold touches.
+/// A column with a fixed colour scale from 0 to 1; folds do not affect it.
 const COVERAGE: &str = name::COVERAGE;
 
-/// A map that is asked for: a column over two parameters.
+/// A requested map: a column over two parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MapRequest {
-    /// Parameter across, by its column.
+    /// Column name of the horizontal parameter.
     pub x: String,
-    /// Parameter upwards, by its column.
+    /// Column name of the vertical parameter.
     pub y: String,
-    /// Column that is shown.
+    /// Column to show.
     pub of: String,
-    /// Values that other parameters are held at, each by its column; of the rest there is a map for each value.
+    /// Fixed parameters by column name, with their values. The remaining ones have a map for each
+    /// value.
     pub at: Vec<(String, String)>,
 }
 
-/// A map that cannot be drawn.
+/// The reason why a map cannot be drawn.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum InvalidMap {
-    /// An axis is no parameter that varies.
+    /// An axis is not a varied parameter.
     #[error("{option} {found}: is not a parameter that varies, expected one of {}", known.join(", "))]
     NoAxis {
-        /// Option that names the axis.
+        /// Option with the axis.
         option: &'static str,
-        /// Name that was given.
+        /// Name given.
         found: String,
-        /// Parameters that vary.
+        /// Varied parameters.
         known: Vec<String>,
     },
     /// Both axes are the same.
@@ -61,12 +62,12 @@ pub enum InvalidMap {
     /// The column has no numbers.
     #[error("--of {0}: designs.csv has no such column of numbers")]
     NoNumbers(String),
-    /// No design has the values that are held.
+    /// No design has the given values.
     #[error("--at {found}: no design has it, expected one of {}", known.join(", "))]
     NoValue {
-        /// The column and the value that were asked for.
+        /// The requested column and value.
         found: String,
-        /// The values that may be held.
+        /// The available values.
         known: Vec<String>,
     },
     /// There are too many maps.
@@ -74,19 +75,20 @@ pub enum InvalidMap {
     TooMany {
         /// Number of maps.
         count: usize,
-        /// Parameters that are neither axes nor held.
+        /// Parameters that are neither axes nor fixed.
         axes: Vec<String>,
-        /// A value that one of them may be held at.
+        /// An example of a value that fixes one of them.
         example: String,
     },
 }
 
-/// Draws a column over two parameters, a map for each value of those that are neither axes nor held.
+/// Draws a column over two parameters, with a map for each value of the parameters left over.
 ///
 /// # Errors
-/// If an axis does not vary, the column has no numbers, no design has the values that are held, or there are too many maps.
+/// If an axis does not vary, the column has no numbers, no design has the given values, or there
+/// are too many maps.
 pub fn map(name: &str, designs: &Designs, request: &MapRequest) -> Result<Figure, InvalidMap> {
-    // A parameter of words varies, too, but has no place along an axis.
+    // A parameter with words varies, too, but cannot be an axis.
     let known = designs.varied().into_iter().filter(|axis| designs.has(axis));
     let known: Vec<String> = known.map(str::to_owned).collect();
     for (option, axis) in [("--x", &request.x), ("--y", &request.y)] {
@@ -97,7 +99,7 @@ pub fn map(name: &str, designs: &Designs, request: &MapRequest) -> Result<Figure
     if request.x == request.y {
         return Err(InvalidMap::Twice(request.y.clone()));
     }
-    // The number of a design reads as a number, and measures nothing.
+    // The number of a design is numeric, but not a quantity.
     if !designs.has(&request.of) || request.of == "design" {
         return Err(InvalidMap::NoNumbers(request.of.clone()));
     }
@@ -107,7 +109,7 @@ pub fn map(name: &str, designs: &Designs, request: &MapRequest) -> Result<Figure
     if parts.len() > MAPS {
         return Err(too_many(&parts));
     }
-    // One scale for all maps: otherwise their colours could not be compared.
+    // One scale for all maps, so that their colours are comparable.
     let scale = ChartAxis::fit(&axis_label(of), held.numbers(of));
     let subject = MapSubject { x, y, of, scale };
     let at = request.at.iter().map(|(axis, value)| (axis.as_str(), value.as_str().into()));
@@ -132,11 +134,11 @@ pub(crate) fn by_slant(name: &str, designs: &Designs, of: &str) -> String {
     MapSubject { x, y, of, scale }.figure(&title, &designs.parts_by(&[x, y]))
 }
 
-/// Returns the designs that have all values that are held.
+/// Returns the designs with the given values.
 fn held(designs: &Designs, at: &[(String, String)]) -> Result<Designs, InvalidMap> {
     let mut held = designs.clone();
     for (axis, value) in at {
-        // A value may be written otherwise than in the table, as 0.10 for 0.1.
+        // The same number may have another notation than in the table, as 0.10 for 0.1.
         let number = value.parse::<f64>().ok();
         let is_number = |row| number.is_some() && held.number(axis, row) == number;
         let is_at = |&row: &usize| held.text(axis, row) == *value || is_number(row);
@@ -164,12 +166,12 @@ fn too_many(parts: &[(AxisValues<'_>, Designs)]) -> InvalidMap {
     InvalidMap::TooMany { count: parts.len(), axes, example }
 }
 
-/// The column that a map shows, and the parameters over which it does.
+/// The column of a map and the parameters of its axes.
 struct MapSubject<'a> {
     x: &'a str,
     y: &'a str,
     of: &'a str,
-    /// The scale of its colours.
+    /// The colour scale.
     scale: ChartAxis,
 }
 
@@ -214,7 +216,7 @@ impl MapSubject<'_> {
         sheet(WIDTH, bottom + 54.0, title, inside)
     }
 
-    /// Whether the column depends on the substrate that may have folded over: bending and coverage do not.
+    /// Returns true if a fold of the substrate surface invalidates the column.
     fn marks_folds(&self) -> bool {
         is_touched_by_folds(self.of)
     }
@@ -226,17 +228,17 @@ impl MapSubject<'_> {
         self.scale.place(value).map(map_color)
     }
 
-    /// Returns the places of the contours along the scale.
+    /// Returns the levels of the contours as positions on the scale.
     fn levels(&self) -> Vec<f64> {
         let ticks = self.scale.ticks(6).into_iter().filter(|tick| tick.label.is_some());
         ticks
             .filter_map(|tick| self.scale.place(tick.value))
-            // Nothing lies beyond an end of the scale that a contour could part from the rest.
+            // A contour at an end of the scale would separate nothing.
             .filter(|place| (0.01..0.99).contains(place))
             .collect()
     }
 
-    /// Returns the scale of colours, with the values at which contours stand.
+    /// Returns the colour bar, labelled at the levels of the contours.
     fn bar(&self, height: f64) -> Element {
         let (left, width) = (WIDTH - RIGHT + 22.0, 16.0);
         let step = height / f64::from(STEPS);
@@ -294,14 +296,14 @@ impl Map<'_> {
     fn cells(&self, at: &HashMap<[usize; 2], usize>) -> Element {
         let [width, height] = self.cell();
         let mut map = Element::group("map");
-        // In one order, whatever the order of a hash map.
+        // Iterate in a fixed order, because the order of a hash map is random.
         for (i, j) in (0..self.x.len()).flat_map(|i| (0..self.y.len()).map(move |j| (i, j))) {
             let Some(&row) = at.get(&[i, j]) else { continue };
             let value = self.designs.number(self.subject.of, row);
             let Some(color) = value.and_then(|value| self.subject.color(value)) else { continue };
             let [left, top] =
                 [self.area.left + i as f64 * width, self.area.bottom() - (j + 1) as f64 * height];
-            // A hair wider than its place, so that no seam shows.
+            // Slightly wider than a cell, so that no seams show.
             map.add(
                 rect([left, top], [width + 0.3, height + 0.3])
                     .with("fill", color)
@@ -314,11 +316,12 @@ impl Map<'_> {
         map
     }
 
-    /// Returns the lines along which the column has the values of the ticks of its scale.
+    /// Returns the contours at the labelled ticks of the colour scale.
     fn contours(&self, at: &HashMap<[usize; 2], usize>) -> Element {
         let value = |i, j| {
             let value = self.designs.number(self.subject.of, *at.get(&[i, j])?)?;
-            // Places along the scale: contours lie where colours change, also between decades.
+            // Interpolate positions on the scale, so that contours of logarithmic scales follow the
+            // colours.
             self.subject.scale.place(value)
         };
         let [width, height] = self.cell();
@@ -329,7 +332,7 @@ impl Map<'_> {
         let lines =
             self.subject.levels().into_iter().flat_map(|level| contours(size, &value, level));
         let drawn = lines.flat_map(|[from, to]| {
-            // Dark on light and light on dark.
+            // A dark line over a wider light one is visible on all colours.
             [("#fff", 2.8), (INK, 1.4)]
                 .map(|(color, width)| line(place(from), place(to), color, width))
         });
@@ -343,7 +346,7 @@ impl Map<'_> {
             Element::group("frame").containing([self.area.border(), title.with("fill", INK)]);
         let [w, h] = self.cell();
         if x_labels {
-            // Every label has room for five characters.
+            // Each label needs the width of about five characters.
             let every = (34.0 / w).ceil() as usize;
             for (i, value) in self.x.iter().enumerate().step_by(every.max(1)) {
                 let spot = [left + (i as f64 + 0.5) * w, top + height + 15.0];

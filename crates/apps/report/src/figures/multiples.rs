@@ -1,4 +1,4 @@
-//! One value against the aspect ratio: a panel for each gap, a line for each slant (Figs. 7b and 12).
+//! A measure against the aspect ratio: a panel per gap, a line per slant (Figs. 7b and 12).
 
 use super::names::{axis_label, with_value};
 use super::{Quantity, columns, is_touched_by_folds, sheet};
@@ -15,20 +15,22 @@ const LEFT: f64 = 78.0;
 const RIGHT: f64 = 16.0;
 const TOP: f64 = 84.0;
 const BOTTOM: f64 = 54.0;
-/// Between panels, across and down.
+/// Spacing of panels, px: across and down.
 const BETWEEN: [f64; 2] = [12.0, 28.0];
 const HEIGHT: f64 = 190.0;
-/// Panels at most: of more gaps some are shown.
+/// Maximum number of panels; of more gaps only some are shown.
 const PANELS: usize = 15;
 
-/// Returns the length along the axis and the one from panel to panel: the one with more values stands along the axis.
+/// Returns the column of the horizontal axis and the column of the panels.
+///
+/// Of gap and aspect ratio, the one with more values is the axis.
 fn lengths(designs: &Designs) -> [&'static str; 2] {
     let (gap, length) = ("gap_over_t", "length_over_t");
     let is_longer = designs.values(length).len() >= designs.values(gap).len();
     if is_longer { [length, gap] } else { [gap, length] }
 }
 
-/// Returns the figure of a quantity; marks are filled where the column `filled` says so.
+/// Draws a quantity; marks are filled if the column `filled` holds `yes`.
 pub(crate) fn figure(
     name: &str,
     designs: &Designs,
@@ -69,7 +71,7 @@ pub(crate) fn figure(
     sheet(WIDTH, bottom + BOTTOM, &title, inside)
 }
 
-/// Returns at most as many of `values` as there is room for, from end to end.
+/// Selects at most [`PANELS`] of `values`, evenly and with both ends.
 fn some(values: Vec<f64>) -> Vec<f64> {
     if values.len() <= PANELS {
         return values;
@@ -88,7 +90,9 @@ struct PanelSeries<'a> {
 }
 
 impl PanelSeries<'_> {
-    /// Returns the designs of one slant: a line and a band where each value along the axis stands once, and their marks.
+    /// Draws the designs of one slant.
+    ///
+    /// The marks are joined by a line and a band if the values along the axis are distinct.
     fn series(&self, panel: &ChartPanel, slant: f64) -> Element {
         let designs = self.designs;
         let own = |row: &&usize| designs.number("slant_deg", **row) == Some(slant);
@@ -96,14 +100,14 @@ impl PanelSeries<'_> {
             self.rows.iter().filter(own).filter_map(|&row| self.point(panel, row)).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut series = Element::group("series").with("data-slant", slant.to_string());
-        // A line through several designs of one place would go up and down there.
+        // With several designs at one position a line would zigzag.
         if points.windows(2).all(|pair| pair[0].0 < pair[1].0) {
             let color = self.palette.color(slant);
             let band = self.quantity.band.as_ref().map(|band| self.band(panel, &points, band));
-            // The stroke shows where there is one design, and the band has no width.
+            // The outline stays visible where the band has no width, as at a single design.
             let stroked = band.map(|band| band.with("fill", &color).with("stroke", &color));
             series = series.containing(stroked);
-            // No line crosses the place where contact begins: the value jumps there.
+            // Interrupt the line where contact begins, because the value jumps there.
             for part in points.chunk_by(|a, b| self.is_filled(a.2) == self.is_filled(b.2)) {
                 let spots: Vec<Spot> = part.iter().map(|point| point.1).collect();
                 series.add(polyline(&spots).with("stroke", color.as_str()).at("stroke-width", 1.2));

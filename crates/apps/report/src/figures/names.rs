@@ -1,8 +1,8 @@
-//! The names of columns in titles, at axes and in legends. `$` begins and ends italics, as in labels.
+//! Names of columns in titles, axis labels and legends. `$` delimits italics, as in labels.
 
 use results::columns::{explain_value, name};
 
-/// Columns that have a symbol: the words, the symbol, and what the symbol stands for where there is room to say it.
+/// Columns with a symbol: words, symbol, and the definition of the symbol, used where it fits.
 const NAMED: [(&str, &str, &str, &str); 13] = [
     (name::COVERAGE, "coverage", "$λ$", ""),
     (name::CRITICAL_FORCE, "critical force", "$F_c^*$", " = $F_c$(1 − $ν$^2)/($E_s L t$)"),
@@ -19,7 +19,7 @@ const NAMED: [(&str, &str, &str, &str); 13] = [
     ("thickness_mm", "thickness", "$t$", ""),
 ];
 
-/// Units at the end of a name, the longest first, and as they are printed.
+/// Unit suffixes of column names, the longest first, with their printed form.
 const UNITS: [(&str, &str); 7] = [
     ("_N_mm2", "N mm²"),
     ("_kg_m2", "kg/m²"),
@@ -30,25 +30,25 @@ const UNITS: [(&str, &str); 7] = [
     ("_deg", "°"),
 ];
 
-/// Quantiles at the end of a name.
+/// Quantile suffixes of column names.
 const QUANTILES: [(&str, &str); 3] =
     [("_p05", "5 % quantile of "), ("_p50", "median of "), ("_p95", "95 % quantile of ")];
 
-/// Returns the name of a column without its unit, and the unit; an empty one if it has none.
+/// Splits a column name into the name without unit and the unit, which may be empty.
 fn without_unit(column: &str) -> (&str, String) {
     let end = UNITS.iter().find_map(|(end, unit)| Some((column.strip_suffix(end)?, *unit)));
     let Some((name, unit)) = end else { return (column, String::new()) };
-    // A moment and a force over a width end alike: the column itself says which it is.
+    // The suffix is ambiguous (a moment, or a force per width), so the column decides.
     let said = explain_value(column).map(|(unit, _)| unit.replace("^2", "²"));
     (name, said.filter(|said| !["-", "deg"].contains(&said.as_str())).unwrap_or(unit.to_owned()))
 }
 
-/// Returns the symbol of a column and what that stands for, if it has one.
+/// Returns the symbol of a column and its definition, if it has one.
 fn symbol(column: &str) -> Option<(&'static str, &'static str)> {
     NAMED.iter().find(|(name, ..)| *name == column).map(|(.., symbol, meaning)| (*symbol, *meaning))
 }
 
-/// Returns a name without unit in words.
+/// Returns a name without unit as words.
 fn words(name: &str) -> String {
     let quantile = |(end, words): &(&str, &'static str)| Some((name.strip_suffix(end)?, *words));
     let (name, quantile) = QUANTILES.iter().find_map(quantile).unwrap_or((name, ""));
@@ -57,7 +57,7 @@ fn words(name: &str) -> String {
     quantile.to_owned() + &named.map_or_else(plain, |(_, words, ..)| (*words).to_owned())
 }
 
-/// Returns a column in words, with its unit in parentheses.
+/// Returns the name of a column as words, with the unit in parentheses.
 pub(crate) fn in_words(column: &str) -> String {
     match without_unit(column) {
         (name, unit) if unit.is_empty() => words(name),
@@ -65,13 +65,13 @@ pub(crate) fn in_words(column: &str) -> String {
     }
 }
 
-/// Returns a parameter as short as a title has it: its symbol, or its words.
+/// Returns the short name of a parameter for titles: its symbol, or else words.
 pub(crate) fn in_short(parameter: &str) -> String {
     let symbol = symbol(parameter).map(|(symbol, _)| symbol.to_owned());
     symbol.unwrap_or_else(|| words(without_unit(parameter).0))
 }
 
-/// Returns a parameter with its value, as titles and panels have it.
+/// Formats a parameter with its value, for titles of figures and panels.
 pub(crate) fn with_value((parameter, value): &(&str, impl AsRef<str>)) -> String {
     let value = value.as_ref();
     let unit = without_unit(parameter).1;
@@ -79,7 +79,7 @@ pub(crate) fn with_value((parameter, value): &(&str, impl AsRef<str>)) -> String
     format!("{} = {value}{space}{unit}", in_short(parameter))
 }
 
-/// Returns the label of an axis along which a column goes.
+/// Returns the label of an axis for a column.
 pub(crate) fn axis_label(column: &str) -> String {
     let (name, unit) = without_unit(column);
     let (symbol, meaning) = symbol(column).unwrap_or_default();
@@ -96,7 +96,7 @@ mod tests {
     use super::{axis_label, in_short, in_words, with_value};
 
     #[test]
-    fn columns_are_called_as_people_call_them() {
+    fn column_names_are_spelled_out() {
         let words =
             ["critical_force_N", "critical_force_p50_N", "max_moment_N_mm", "peak_tilt_deg"];
         assert_eq!(

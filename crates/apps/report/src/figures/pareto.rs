@@ -1,4 +1,4 @@
-//! The Pareto fronts of the four criteria, two at a time.
+//! Pareto fronts of the four criteria in pairs.
 
 use results::columns::name;
 
@@ -16,7 +16,7 @@ const LEFT: f64 = 74.0;
 const BETWEEN: [f64; 2] = [74.0, 62.0];
 const FIRST: Area = Area { left: LEFT, top: 80.0, width: 244.0, height: 240.0 };
 
-/// The criteria, each the larger the better, with their columns; all labels fit along a panel.
+/// The criteria, all to be maximised, with their columns; the labels fit along a panel.
 const CRITERIA: [(&str, &str); 4] = [
     (name::COVERAGE, "coverage $λ$, dimensionless"),
     (name::CRITICAL_FORCE, "critical force $F_c^*$, dimensionless"),
@@ -27,7 +27,7 @@ const PAIRS: [(usize, usize); 6] = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 
 /// Colour of dominated designs.
 const BEATEN: &str = "#b5b5b5";
 
-/// Draws designs by their criteria; `None` if there are fewer than two.
+/// Draws the designs in all pairs of criteria; `None` for fewer than two designs.
 pub(crate) fn figure(
     name: &str,
     designs: &Designs,
@@ -68,14 +68,14 @@ struct Point {
 
 /// Draws dominated designs as grey dots, and the front with its line.
 fn front(points: &[Point], designs: &Designs, palette: &SlantPalette) -> Element {
-    // A front is that of four criteria: two that are equal for all decide nothing.
+    // [`ranking::pareto_front`] takes four criteria; two constant ones do not affect dominance.
     let criteria: Vec<_> =
         points.iter().map(|&Point { criteria: [a, b], .. }| [a, b, 0.0, 0.0]).collect();
     let on_front = ranking::pareto_front(&criteria);
     let mut front: Vec<&Point> =
         points.iter().zip(&on_front).filter(|(_, on)| **on).map(|(point, _)| point).collect();
     front.sort_by(|a, b| a.criteria[0].total_cmp(&b.criteria[0]));
-    // The front itself has all its marks, however long the table is.
+    // The front keeps all its marks; dominated designs of long tables are thinned.
     let beaten = thinned(points.len(), PAIRS.len()).filter(|&k| !on_front[k]).map(|k| {
         let (point, dot) = (&points[k], Element::new("use").with("href", "#dot"));
         let dot = dot.at("x", point.spot[0]).at("y", point.spot[1]).with("color", BEATEN);

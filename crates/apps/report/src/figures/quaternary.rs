@@ -1,4 +1,5 @@
-//! The best design for every weighting of the four criteria, in slices of the tetrahedron of weights (Fig. 13).
+//! Best designs for all weights of the four criteria, in slices of the weight tetrahedron (Fig.
+//! 13).
 
 use geometry::{Parallelogram, Row};
 use ranking::{RankedDesign, Ranking, Weights};
@@ -12,7 +13,7 @@ use crate::svg::{Element, Spot, circle, line, polygon, rect};
 
 const WIDTH: f64 = 1000.0;
 const HEIGHT: f64 = 640.0;
-/// The number of winners that are listed: as many as fit on the sheet.
+/// Maximum number of listed winners, limited by the sheet.
 const LISTED: usize = 9;
 
 pub(super) fn figure(name: &str, designs: &Designs, ranking: &Ranking<'_>) -> String {
@@ -48,7 +49,10 @@ pub(super) fn figure(name: &str, designs: &Designs, ranking: &Ranking<'_>) -> St
     sheet(WIDTH, HEIGHT, &title, inside)
 }
 
-/// Returns the listed regions: in the colour of the slant of their design, lighter or darker for further ones of one slant.
+/// Returns the look of the listed regions.
+///
+/// The slant of the winner determines the colour; further winners of the same slant are lighter or
+/// darker.
 fn regions(designs: &Designs, winners: &[RankedDesign<'_>]) -> Vec<RegionLook> {
     const SHADES: [f64; 6] = [0.0, 0.55, -0.45, 0.3, -0.25, 0.78];
     let rows = || winners.iter().map(RankedDesign::row).take(LISTED);
@@ -69,7 +73,7 @@ fn badge(text: &str, [x, y]: Spot) -> Element {
     ])
 }
 
-/// Returns a design of the list: its letter, parameters, share, and row at rest.
+/// Draws an entry of the list: letter, parameters, share of the weights, and the row at rest.
 fn entry(designs: &Designs, region: &RegionLook, share: f64, [x, y]: Spot) -> Element {
     let value = |column| designs.text(column, region.row);
     let text = format!(
@@ -97,17 +101,19 @@ fn entry(designs: &Designs, region: &RegionLook, share: f64, [x, y]: Spot) -> El
     entry.containing(small_row(designs, region.row, [x + 276.0, y + 16.0]))
 }
 
-/// Returns the values of the axes beyond gap, aspect ratio and slant, below the row and as small as the width of the list asks for.
+/// Draws the values of the axes besides gap, aspect ratio and slant below the row.
+///
+/// The font shrinks to the width of the list.
 fn further(designs: &Designs, row: usize, spot: Spot) -> Option<Element> {
     let axes = designs.further_axes().into_iter();
     let values = axes.map(|axis| format!("{} {}", in_words(axis), designs.text(axis, row)));
     let text = values.collect::<Vec<_>>().join(",  ");
-    // A letter is about half as wide as its size.
+    // A character is about half as wide as its font size.
     let size = (2.0 * (WIDTH - spot[0]) / text.chars().count() as f64).min(11.0);
     (!text.is_empty()).then(|| label(&text, spot, size, Anchor::Start).with("fill", FAINT))
 }
 
-/// Returns a few scales of a row, to scale, on 110 by 34 px.
+/// Draws a few scales of a row, to scale, in 110 by 34 px.
 fn small_row(designs: &Designs, row: usize, [x, y]: Spot) -> Option<Element> {
     let number = |column| designs.number(column, row);
     let base = if designs.text("base", row) == "2L" { 1.0 } else { 0.5 };
@@ -122,7 +128,7 @@ fn small_row(designs: &Designs, row: usize, [x, y]: Spot) -> Option<Element> {
         [x + size * (half + i as f64 * pitch + corner.x), y - size * corner.y]
     };
     let body = |i| polygon(&scale.corners().map(|corner| place(i, corner)));
-    // A small whole number.
+    // The count is a small integer.
     let bodies = (0..count as usize).map(body);
     Some(
         Element::group("row")

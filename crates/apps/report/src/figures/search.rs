@@ -1,4 +1,4 @@
-//! Figures of a search: its history and front.
+//! Figures of a search: its history and its front.
 
 use super::{in_words, sheet};
 use crate::axis::ChartAxis;
@@ -12,7 +12,7 @@ const HEIGHT: f64 = 480.0;
 const AREA: Area =
     Area { left: 84.0, top: 78.0, width: WIDTH - 84.0 - 30.0, height: HEIGHT - 78.0 - 60.0 };
 
-/// Ink of designs that fall short, and of those that meet every requirement.
+/// Colours of designs that violate a requirement, and of feasible designs.
 const SHADES: [&str; 2] = ["#d8d8d8", "#7f9fbf"];
 
 /// A design evaluated by a search.
@@ -33,14 +33,14 @@ pub struct SearchFigure<'a> {
     pub axes: [&'a str; 2],
     /// All evaluated designs.
     pub designs: &'a [SearchedDesign],
-    /// The places of the line, in its order.
+    /// The points of the line, in order.
     pub line: &'a [[f64; 2]],
     /// The meaning of the line, in words.
     pub legend: &'a str,
 }
 
 impl SearchFigure<'_> {
-    /// The chart as SVG.
+    /// Returns the chart as SVG.
     pub fn svg(&self) -> String {
         let axis = |k: usize| {
             let designs = self.designs.iter().map(|design| design.place[k]);

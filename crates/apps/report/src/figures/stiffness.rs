@@ -11,7 +11,7 @@ use crate::designs::Designs;
 const WIDTH: f64 = 1000.0;
 const HEIGHT: f64 = 520.0;
 
-/// The stiffnesses that a puncture has, and what each is.
+/// The stiffnesses of a puncture, each with its description.
 const STIFFNESSES: [(&str, &str); 2] = [
     (name::MAX_STIFFNESS, "largest slope of the path"),
     (name::SECANT_STIFFNESS, "secant at the critical tilt"),
@@ -20,7 +20,7 @@ const STIFFNESSES: [(&str, &str); 2] = [
 pub(crate) fn figure(name: &str, designs: &Designs) -> String {
     let palette = designs.palette();
     let mut inside = vec![mark_legend(&palette, designs.any_folded(), [78.0, 50.0])];
-    // Samples have no stiffness of their own: both axes are those of the perfect design.
+    // Samples have no stiffness, so both axes show the perfect design.
     let physical = |measure: &str| physical(designs, measure).unwrap_or(measure.to_owned());
     let force = physical(name::CRITICAL_FORCE);
     let x = ChartAxis::fit(&axis_label(&force), designs.numbers(&force));

@@ -1,28 +1,28 @@
-//! The tetrahedron of weights cut into slices of equal weight of coverage, so that no weighting hides another.
+//! Slices of the weight tetrahedron at equal weights of coverage, so that no point hides another.
 
 use crate::colors::{FAINT, INK, RED};
 use crate::designs::Designs;
 use crate::label::{Anchor, label};
 use crate::svg::{Element, Spot, circle, line, polygon};
 
-/// Slices, without the corner at which coverage counts alone.
+/// Number of slices, not counting the corner with all weight on coverage.
 const SLICES: u32 = 5;
 /// Side of the largest slice, px.
 const SIDE: f64 = 286.0;
-/// Height of a triangle over its side.
+/// Height of an equilateral triangle relative to its side.
 const RISE: f64 = 0.866_025_403_784_438_6;
-/// Left end and base of each slice, and of the corner.
+/// Left end and base of each slice and of the corner.
 const PLACES: [Spot; SLICES as usize + 1] =
     [[44.0, 340.0], [352.0, 340.0], [44.0, 552.0], [258.0, 552.0], [412.0, 552.0], [520.0, 552.0]];
-/// Radius of the letter of a region, and of the largest dot, px.
+/// Radius of the letter of a region, and maximum radius of a dot, px.
 const LETTER: f64 = 6.6;
 const LARGEST_DOT: f64 = 8.0;
 /// Colour of regions that are not listed.
 const OTHERS: &str = "#d9d9d9";
 
-/// How a region of weights looks.
+/// The look of a region of weights.
 pub(crate) struct RegionLook {
-    /// Row of the design that is best there.
+    /// Row of the best design in the region.
     pub(crate) row: usize,
     pub(crate) color: String,
     pub(crate) letter: String,
@@ -30,13 +30,13 @@ pub(crate) struct RegionLook {
 
 /// The best design for every weighting, in slices.
 pub(crate) struct WeightSlices {
-    /// Steps from one corner of the tetrahedron to the next.
+    /// Number of steps along an edge of the tetrahedron.
     pub(crate) resolution: u32,
-    /// Weights, and the row of the design that is best for them.
+    /// Weightings, each with the row of its best design.
     pub(crate) winners: Vec<([f64; 4], usize)>,
 }
 
-/// A weighting on paper.
+/// A weighting as a point on paper.
 struct Dot {
     spot: Spot,
     row: usize,
@@ -45,7 +45,10 @@ struct Dot {
 }
 
 impl WeightSlices {
-    /// Draws the slices; `best` names the design that is best by each criterion alone, or none where that may change.
+    /// Draws the slices.
+    ///
+    /// `best` names the best design by each criterion alone; it is empty if the criteria may
+    /// change.
     pub(crate) fn drawn(
         &self,
         designs: &Designs,
@@ -63,10 +66,10 @@ impl WeightSlices {
         drawn
     }
 
-    /// Returns the steps of the weight of coverage at which the tetrahedron is cut, from 0 to its corner.
+    /// Returns the weights of coverage of the slices, in steps from 0 to the corner.
     fn slices(&self) -> Vec<u32> {
         let mut steps: Vec<u32> = (0..=SLICES).map(|k| k * self.resolution / SLICES).collect();
-        // A coarse grid has fewer steps than there are slices.
+        // A coarse grid may have fewer steps than slices.
         steps.dedup();
         steps
     }
@@ -75,7 +78,9 @@ impl WeightSlices {
         f64::from(steps) / f64::from(self.resolution)
     }
 
-    /// Returns a weighting on its slice: critical force above, penetration resistance at the left, compliance at the right.
+    /// Returns the spot of a weighting on slice `k`.
+    ///
+    /// Corners: critical force at the top, penetration resistance left, compliance right.
     fn spot(k: usize, [_, n, _, l]: [f64; 4]) -> Spot {
         let [left, base] = PLACES[k];
         [left + SIDE * (l + 0.5 * n), base - SIDE * RISE * n]
@@ -85,7 +90,7 @@ impl WeightSlices {
         let slices = self.slices();
         let dot = |(weights, row): &([f64; 4], usize)| {
             let is_here = |steps: &u32| (self.weight(*steps) - weights[0]).abs() < 1e-9;
-            // Weightings between two slices are not drawn, however fine the grid is.
+            // Weightings between two slices of a fine grid are not drawn.
             let slice = slices.iter().position(is_here)?;
             Some(Dot { spot: Self::spot(slice, *weights), row: *row, slice, weights: *weights })
         };
@@ -96,7 +101,7 @@ impl WeightSlices {
         (0.48 * SIDE / f64::from(self.resolution)).min(LARGEST_DOT)
     }
 
-    /// Returns a weighting in the colour of its best design, struck through where that folds.
+    /// Draws a weighting in the colour of its best design, crossed out if its surface folds.
     fn marked(&self, designs: &Designs, looks: &[RegionLook], dot: &Dot) -> Vec<Element> {
         let look = looks.iter().find(|look| look.row == dot.row);
         let color = look.map_or(OTHERS, |look| look.color.as_str());
@@ -112,7 +117,9 @@ impl WeightSlices {
         marked
     }
 
-    /// Returns the outline of a slice with the names of its corners, those of the first in full.
+    /// Draws the outline and title of a slice, with the names of its corners.
+    ///
+    /// The first slice has the full names.
     fn frame(&self, k: usize, best: &[&str]) -> Element {
         let m = self.weight(self.slices()[k]);
         let [top, left, right] = self.corners(k);
@@ -138,7 +145,7 @@ impl WeightSlices {
         frame
     }
 
-    /// The corners of slice `k`: above, on the left and on the right.
+    /// Returns the corners of slice `k`: top, left, right.
     fn corners(&self, k: usize) -> [Spot; 3] {
         let m = self.weight(self.slices()[k]);
         [1, 2, 3].map(|corner| {
@@ -148,7 +155,7 @@ impl WeightSlices {
         })
     }
 
-    /// The criteria at the corners of slice `k`, in words in the first one.
+    /// Returns the names of the criteria at the corners of slice `k`, as words for the first slice.
     fn corner_names(&self, k: usize) -> impl Iterator<Item = Element> {
         let names: [&str; 3] = match k {
             0 => ["critical force $n$", "penetration resistance $k$", "compliance $l$"],
@@ -165,27 +172,28 @@ impl WeightSlices {
         names.into_iter().zip(spots).map(|(name, spot)| middle(name, spot, 12.0))
     }
 
-    /// Returns the letter of each listed design on that of its dots which is farthest from dots of others.
+    /// Draws the letter of each listed design on its dot with the largest clearance from other
+    /// designs.
     fn letters(&self, dots: &[Dot], looks: &[RegionLook]) -> Element {
         let letter = |look: &RegionLook| {
             let own = dots.iter().filter(|dot| dot.row == look.row);
             let clear = own.map(|dot| (dot.spot, clearance(dots, dot)));
             let (spot, clear) = clear.max_by(|a, b| a.1.total_cmp(&b.1))?;
-            // A letter that would cover dots of others is left out: the list has the colour.
+            // Omit a letter that would cover dots of other designs; the list shows the colour.
             (clear > LETTER + 0.5 * self.radius()).then(|| letter_at(&look.letter, spot))
         };
         Element::group("letters").containing(looks.iter().filter_map(letter))
     }
 }
 
-/// Returns how far the nearest dot of another design is on the same slice.
+/// Returns the distance to the nearest dot of another design on the same slice.
 fn clearance(dots: &[Dot], own: &Dot) -> f64 {
     let others = dots.iter().filter(|dot| dot.slice == own.slice && dot.row != own.row);
     let away = others.map(|dot| (dot.spot[0] - own.spot[0]).hypot(dot.spot[1] - own.spot[1]));
     away.fold(SIDE, f64::min)
 }
 
-/// A text whose middle is at a spot.
+/// Draws a text centred horizontally at a spot.
 fn middle(text: &str, spot: Spot, size: f64) -> Element {
     label(text, spot, size, Anchor::Middle).with("fill", INK)
 }
@@ -197,7 +205,7 @@ fn letter_at(letter: &str, [x, y]: Spot) -> Element {
     ])
 }
 
-/// Returns a weight to two digits.
+/// Rounds a weight to two decimals.
 fn short(weight: f64) -> f64 {
     (weight * 100.0).round() / 100.0
 }
@@ -206,7 +214,7 @@ fn short(weight: f64) -> f64 {
 mod tests {
     use super::{Dot, WeightSlices};
 
-    /// Every weighting of a grid, each the best of a design of its own.
+    /// Returns slices of a grid in which each weighting has a best design of its own.
     fn slices(resolution: u32) -> WeightSlices {
         let all = (0..=resolution).flat_map(|m| {
             (0..=resolution - m).flat_map(move |n| {
@@ -221,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn no_dot_hides_another() {
+    fn dots_do_not_overlap() {
         for resolution in [1, 4, 10, 20, 23] {
             let slices = slices(resolution);
             let dots: Vec<Dot> = slices.dots();
@@ -236,7 +244,7 @@ mod tests {
     }
 
     #[test]
-    fn slices_are_cut_from_face_to_corner() {
+    fn slices_run_from_face_to_corner() {
         assert_eq!(slices(20).slices(), [0, 4, 8, 12, 16, 20]);
         assert_eq!(slices(1).slices(), [0, 1]);
         assert_eq!(slices(20).dots().len(), 231 + 153 + 91 + 45 + 15 + 1);

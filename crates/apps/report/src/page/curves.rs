@@ -1,4 +1,4 @@
-//! The curves of the designs that were solved again, all in one chart, of which the page shows those of two designs.
+//! The chart with the curves of all solved designs; the page shows two of them at a time.
 
 use super::simplified::simplified;
 use super::{Page, PageDesign};
@@ -8,15 +8,15 @@ use crate::figures::sheet;
 use crate::svg::{Element, Spot, polyline};
 
 const PANEL: [f64; 2] = [400.0, 250.0];
-/// Room around a panel: left, above, below.
+/// Margins of a panel, px: left, above, below.
 const MARGINS: [f64; 3] = [78.0, 44.0, 52.0];
-/// The smallest highest value of a curve over the lowest that a logarithmic axis shows.
+/// Range of a logarithmic axis below the smallest maximum of a curve, as a factor.
 const DECADES: f64 = 100.0;
 
-/// The chart of one kind of curve: which of a design it is, and the labels of its axes.
+/// A kind of curve: its points in a design and the labels of its axes.
 struct Kind {
     points: fn(&PageDesign) -> &[[f64; 2]],
-    /// Dimensionless, and in newtons and millimetres.
+    /// Labels in dimensionless and in physical units.
     labels: [[&'static str; 2]; 2],
 }
 
@@ -37,7 +37,7 @@ const KINDS: [Kind; 2] = [
     },
 ];
 
-/// Draws force against displacement and moment against curvature, as far as there are any; `None` if there are none.
+/// Draws force–displacement and moment–curvature curves; `None` if there are no curves.
 pub(super) fn figure(page: &Page, is_log: bool) -> Option<String> {
     let has_curves =
         |kind: &&Kind| page.solved.iter().any(|design| (kind.points)(design).len() > 1);
@@ -62,8 +62,10 @@ pub(super) fn figure(page: &Page, is_log: bool) -> Option<String> {
     (!inside.is_empty()).then(|| sheet(width, height, "Curves", inside))
 }
 
-/// Draws the curves of one kind, each as large as the panel, and the axes that any two of them may need: the page chooses the
-/// axes of two curves, and scales both to them. A logarithmic axis upwards is the same for all.
+/// Draws the curves of one kind, each scaled to the full panel, with all axes that may be needed.
+///
+/// The page selects the axes for two curves and scales both curves to them. A logarithmic vertical
+/// axis is the same for all.
 fn panel(page: &Page, kind: &Kind, labels: [&str; 2], is_log: bool, area: Area) -> Vec<Element> {
     let solved = || page.solved.iter().filter(|design| (kind.points)(design).len() > 1);
     let size = |design: &PageDesign| {
@@ -91,7 +93,7 @@ fn panel(page: &Page, kind: &Kind, labels: [&str; 2], is_log: bool, area: Area) 
     drawn.extend([area.border(), panel.x_name(), panel.y_name(56.0)]);
     let curve = |design: &PageDesign| {
         let [width, height] = if is_log { [size(design)[0], 1.0] } else { size(design) };
-        // What a logarithmic axis has no place for is left out.
+        // Omit points that a logarithmic axis cannot show.
         let points = (kind.points)(design).iter();
         let places = points.filter_map(|&[x, y]| panel.place(x / width, y / height));
         let spots: Vec<Spot> = simplified(&places.collect::<Vec<_>>());
@@ -104,7 +106,7 @@ fn panel(page: &Page, kind: &Kind, labels: [&str; 2], is_log: bool, area: Area) 
     vec![whole.containing(drawn).containing([curves])]
 }
 
-/// Returns ends of axes at round numbers, from that of the smallest curve to that of the largest.
+/// Returns round upper ends of axes, from the smallest curve to the largest.
 fn rungs((low, high): (f64, f64)) -> Vec<f64> {
     let decades = low.log10().floor() as i32..=high.log10().ceil() as i32;
     let steps = decades.flat_map(|decade| [1.0, 2.0, 5.0].map(|step| step * 10f64.powi(decade)));

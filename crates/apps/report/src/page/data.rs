@@ -1,4 +1,4 @@
-//! The data of a page, as its scripts read them.
+//! The data of a page, in the format that its scripts read.
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -15,8 +15,10 @@ use crate::designs::Designs;
 use crate::packed::write_packed;
 use crate::palette::SlantPalette;
 
-/// Writes the cells of the table: its columns of numbers, and those that have texts. Of the numbers of a column the first bytes
-/// stand first, then the second ones: so those that are alike stand together, and half is left of them.
+/// Writes the cells of the table: numeric columns as bytes, text columns as JSON.
+///
+/// For each numeric column all first bytes are written first, then all second bytes, and so on.
+/// Similar bytes are then adjacent and compress to half the size.
 pub(super) fn write_packed_cells(out: &mut impl Write, designs: &Designs) -> io::Result<()> {
     let (mut numbers, mut texts) = (Vec::new(), BTreeMap::new());
     for header in designs.headers() {
@@ -44,7 +46,7 @@ fn drawing_id(design: &PageDesign) -> String {
     format!("solved-{}", design.number)
 }
 
-/// Returns the data of a page, whose figures are written already.
+/// Returns the data of a page with its written figures.
 pub(super) fn of(page: &Page, figures: &[Value]) -> Value {
     let headers = page.designs.headers();
     let columns = headers.iter().zip(&page.columns);
@@ -88,7 +90,7 @@ pub(super) fn cells(designs: &Designs, header: &str) -> Vec<Value> {
     (0..designs.count()).map(|row| cell(designs, header, row)).collect()
 }
 
-/// Returns a cell as a number where it is one; the number of a design keeps its zeros.
+/// Returns a cell as a number if possible; design numbers stay text, to keep leading zeros.
 pub(super) fn cell(designs: &Designs, header: &str, row: usize) -> Value {
     let text = designs.text(header, row);
     match designs.number(header, row) {

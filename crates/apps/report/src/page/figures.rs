@@ -1,4 +1,6 @@
-//! The figures of a page: as the crate draws them, packed. The page unpacks those in sight, and marks and hides what they hold.
+//! The figures of a page, drawn by this crate and packed.
+//!
+//! The page unpacks the visible figures, and marks and hides elements in them.
 
 use std::io::{self, Write};
 
@@ -14,20 +16,20 @@ use crate::figures::{MULTIPLES, PARTS, Quantity, map, multiples, pareto, sheet, 
 use crate::packed::write_packed;
 use crate::svg::untitled;
 
-/// Measures beyond those of the paper that have a figure, at most.
+/// Maximum number of measures with a figure, besides those of the paper.
 const MEASURES: usize = 24;
-/// Marks of all their figures, about, at most.
+/// Approximate maximum number of marks in all their figures.
 const MARKS: usize = 60_000;
 
-/// The figures of a page on their way into its file.
+/// Writes the figures of a page and collects their descriptions.
 struct FigureWriter<'w, W> {
     out: &'w mut W,
-    /// Those that are written, as the scripts of the page read them.
+    /// Descriptions of the figures written, for the scripts of the page.
     written: Vec<Value>,
 }
 
 impl<W: Write> FigureWriter<'_, W> {
-    /// Writes a figure: its kind, what of it was chosen, the further parameters that it holds.
+    /// Writes a figure with its kind, its variant and the values of its further parameters.
     fn add(
         &mut self,
         kind: &str,
@@ -35,9 +37,9 @@ impl<W: Write> FigureWriter<'_, W> {
         part: &Map<String, Value>,
         svg: &str,
     ) -> io::Result<()> {
-        // The page has headings of its own, above the figures.
+        // The page has its own headings above the figures.
         let svg = untitled(svg);
-        // The page keeps room for a figure that it has not unpacked yet.
+        // The page reserves space for figures that are not unpacked yet.
         let size = svg.split("viewBox=\"").nth(1).and_then(|rest| rest.split('"').next());
         let id = format!("drawn-{}", self.written.len());
         write_packed(self.out, &id, svg.as_bytes())?;
@@ -46,12 +48,12 @@ impl<W: Write> FigureWriter<'_, W> {
         Ok(())
     }
 
-    /// Writes a figure of which there is one, if there is any.
+    /// Writes a figure of which there is at most one.
     fn only(&mut self, kind: &str, choice: &str, svg: Option<String>) -> io::Result<()> {
         svg.map_or(Ok(()), |svg| self.add(kind, choice, &Map::new(), &svg))
     }
 
-    /// Draws designs that differ in gap, aspect ratio and slant.
+    /// Writes the figures of designs that differ in gap, aspect ratio and slant.
     fn part(
         &mut self,
         (values, designs): &(AxisValues<'_>, Designs),
@@ -81,11 +83,11 @@ impl<W: Write> FigureWriter<'_, W> {
     }
 }
 
-/// Writes the figures of a page; returns them as its scripts read them.
+/// Writes the figures of a page; returns their descriptions for its scripts.
 pub(super) fn write(out: &mut impl Write, page: &Page) -> io::Result<Vec<Value>> {
     let designs = &page.designs;
     let mut parts = designs.parts();
-    // Of many parts those that hold the best designs, which are the ones that were solved again.
+    // Prefer the parts with the best designs, which are the ones that were solved again.
     let is_solved = |number: &str| page.solved.iter().any(|design| design.number == number);
     parts.sort_by_key(|(_, part)| !(0..part.count()).any(|row| is_solved(part.design(row))));
     let measures = measures(designs);
@@ -100,7 +102,7 @@ pub(super) fn write(out: &mut impl Write, page: &Page) -> io::Result<Vec<Value>>
     Ok(figures.written)
 }
 
-/// Returns the measures that have a figure besides those of the paper: of large tables fewer.
+/// Returns the measures with a figure besides those of the paper; large tables have fewer.
 fn measures(designs: &Designs) -> Vec<String> {
     let is_shown = |header: &&String| {
         let is_papers = MULTIPLES.iter().any(|(measure, _)| header == measure);
@@ -114,7 +116,7 @@ fn measures(designs: &Designs) -> Vec<String> {
     designs.headers().iter().filter(is_shown).take(most).cloned().collect()
 }
 
-/// Returns what designs are worth by the criteria of the paper: the covered ones that have all four.
+/// Returns the criteria of the paper for the covered designs that have all four.
 fn worths(designs: &Designs) -> Vec<(usize, [f64; 4])> {
     let worth = |row| {
         let value = |column: &str| designs.number(column, row).filter(|value| *value > 0.0);
@@ -124,10 +126,10 @@ fn worths(designs: &Designs) -> Vec<(usize, [f64; 4])> {
     (0..designs.count()).filter_map(worth).collect()
 }
 
-/// Draws every weighting of four criteria, which the page colours by the design that is best for it.
+/// Draws the slices of all weightings; the page colours them by the best design.
 fn weights() -> String {
     let grid = TetrahedralGrid::default();
-    // No row of a design: the page looks up itself which one is best for a weighting.
+    // No rows: the page itself determines the best design for each weighting.
     let winners = grid.nodes().map(|steps| (grid.weights(steps), usize::MAX)).collect();
     let slices = WeightSlices { resolution: grid.resolution(), winners };
     sheet(600.0, 610.0, "weights", slices.drawn(&Designs::default(), &[], &[]))

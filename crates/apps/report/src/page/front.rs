@@ -1,4 +1,4 @@
-//! Designs that a search has found, beside those of the grid.
+//! The figure of designs found by a search, with the designs of the grid.
 
 use ranking::{Criterion, Requirement};
 use serde_json::{Map, Value, json};
@@ -12,36 +12,39 @@ use crate::figures::names::axis_label;
 use crate::figures::{sheet, thinned};
 use crate::svg::{Element, Spot, circle, polygon, polyline};
 
-/// Height of a panel, and the room around it: left, right, above, below.
+/// Height of a panel, px.
 const PANEL: f64 = 360.0;
+/// Margins of a panel, px: left, right, above, below.
 const MARGINS: [f64; 4] = [74.0, 16.0, 46.0, 58.0];
 const WIDTH: f64 = 1000.0;
-/// Colours of the front and of the designs of the grid.
+/// Colours of the front and of the grid designs.
 const COLORS: [&str; 2] = ["#b34700", "#b9c1c9"];
 
 /// The designs found by `squama optimise`, for the page of a grid.
 #[derive(Clone, Debug)]
 pub struct PageFront {
-    /// The folder of the search, as commands name it.
+    /// The folder of the search, as given on the command line.
     pub folder: String,
     /// The criteria of the search, at least one.
     pub objectives: Vec<Criterion>,
-    /// The bounds that a design must keep.
+    /// The requirements of the search.
     pub requirements: Vec<Requirement>,
-    /// The columns of statistics over samples that the search used.
+    /// The columns of sample statistics that the search used.
     pub made: Vec<String>,
     /// True if designs with a fold are left out.
     pub sound: bool,
-    /// The parameters that vary, as their columns.
+    /// The columns of the varied parameters.
     pub variables: Vec<String>,
     /// Fixed parameters that differ from the grid, as text.
     pub differences: Vec<String>,
-    /// The designs, with the columns of the grid, active constraints and prices.
+    /// The designs, with the columns of the grid, binding constraints and prices.
     pub designs: Designs,
 }
 
 impl PageFront {
-    /// Returns the columns of the axes: the objectives; for a single one also the first requirement or variable.
+    /// Returns the columns of the axes: the objectives.
+    ///
+    /// A single objective is paired with the first requirement or variable.
     fn axes(&self) -> Vec<&str> {
         let objectives = self.objectives.iter().map(|objective| objective.column.as_ref());
         let required = self.requirements.iter().map(|requirement| requirement.column.as_str());
@@ -50,7 +53,7 @@ impl PageFront {
         objectives.chain(others.take(usize::from(self.objectives.len() == 1))).collect()
     }
 
-    /// Draws the found designs over the designs of `grid`, with a panel for each pair of axes.
+    /// Draws the designs found over the designs of `grid`, with a panel for each pair of axes.
     pub(super) fn figure(&self, grid: &Designs) -> String {
         let axes = self.axes();
         let pairs = (0..axes.len()).flat_map(|i| (i + 1..axes.len()).map(move |j| (i, j)));
@@ -75,7 +78,8 @@ impl PageFront {
         sheet(WIDTH, above + rows * (PANEL + below), "What a search has found", inside)
     }
 
-    /// Draws one panel: designs of the grid, found designs, and a line if they form a front of two objectives.
+    /// Draws one panel: grid designs, designs found, and a line if they form a front of two
+    /// objectives.
     fn panel(&self, grid: &Designs, pair: &[&str; 2], area: Area, panels: usize) -> Vec<Element> {
         let axis = |column: &str| {
             let values = grid.numbers(column).chain(self.designs.numbers(column));
@@ -96,7 +100,7 @@ impl PageFront {
         });
         let mut found: Vec<(usize, Spot)> =
             (0..self.designs.count()).filter_map(|k| Some((k, spot(&self.designs, k)?))).collect();
-        // The line of a front goes from left to right, whatever the order of its table.
+        // Sort from left to right for the line, because the table may have another order.
         found.sort_by(|a, b| a.1[0].total_cmp(&b.1[0]));
         let joined = if self.objectives.len() == 2 { found.as_slice() } else { &[] };
         let line: Vec<Spot> = joined.iter().map(|(_, spot)| *spot).collect();
@@ -109,7 +113,7 @@ impl PageFront {
         vec![panel.frame(), panel.x_name(), panel.y_name(52.0), grid, found]
     }
 
-    /// Returns the data of the front, as the scripts of the page read them.
+    /// Returns the data of the front as the scripts of the page read them.
     pub(super) fn to_json(&self) -> Value {
         let objective = |criterion: &Criterion| json!({"column": criterion.column, "goal": criterion.goal.key()});
         let requirement = |requirement: &Requirement| json!({"column": requirement.column, "sign": requirement.relation.sign(), "limit": requirement.limit});

@@ -10,7 +10,7 @@ pub(super) fn simplified(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let Some(last) = points.len().checked_sub(1) else { return Vec::new() };
     let size = [0, 1].map(|k| {
         let (low, high) = crate::axis::ends(points.iter().map(|point| point[k]));
-        // A level curve has no height to divide by.
+        // The extent of a level curve is zero; avoid dividing by it.
         (high - low).max(f64::MIN_POSITIVE)
     });
     let mut kept = vec![false; points.len()];
@@ -29,7 +29,7 @@ pub(super) fn simplified(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     points.iter().zip(kept).filter(|(_, kept)| *kept).map(|(point, _)| *point).collect()
 }
 
-/// Returns the distance of a point from a piece of line, both over the size of the curve.
+/// Returns the distance of a point from a segment, relative to the size of the curve.
 fn distance(point: [f64; 2], [from, to]: [[f64; 2]; 2], size: [f64; 2]) -> f64 {
     let scaled = |a: [f64; 2], b: [f64; 2]| [0, 1].map(|k| (b[k] - a[k]) / size[k]);
     let (along, away) = (scaled(from, to), scaled(from, point));
@@ -45,7 +45,7 @@ mod tests {
     use super::simplified;
 
     #[test]
-    fn a_straight_line_needs_its_ends_and_a_corner_stays() {
+    fn simplification_keeps_ends_and_corners() {
         let corner: Vec<_> = (0..=100).map(|k| [f64::from(k), f64::from(k.max(40) - 40)]).collect();
         assert_eq!(simplified(&corner), [[0.0, 0.0], [40.0, 0.0], [100.0, 60.0]]);
         assert_eq!(simplified(&[[1.0, 2.0]]), [[1.0, 2.0]]);
@@ -53,7 +53,7 @@ mod tests {
     }
 
     #[test]
-    fn a_curve_stays_where_it_was() {
+    fn simplified_curves_stay_within_the_tolerance() {
         let curve: Vec<_> =
             (0..=1000).map(|k| f64::from(k) / 1000.0).map(|x| [x, 7.0 * x * x * x]).collect();
         let kept = simplified(&curve);

@@ -1,4 +1,4 @@
-//! Drawings say what the numbers say, and say it the same every time.
+//! Drawings show the solved values and are reproducible.
 
 mod overlap;
 mod page;
@@ -9,13 +9,14 @@ use skin::{Base, Common, Design};
 use substrate::Springs;
 use sweep::{Case, Sweep};
 
-/// A design whose scales touch before the critical tilt.
+/// Returns a design with contacts before the critical tilt.
 fn design(slant_deg: f64) -> Design {
     Design { gap: 0.1, length: 1.0, slant_deg, base: Base::L, width: 1.0 }
 }
 
-/// A design punctured with contacts so soft that overlaps are seen, at a displacement and at the
-/// critical tilt.
+/// Solves a puncture with contacts so soft that overlaps are visible.
+///
+/// Returns the states at a displacement and at the critical tilt.
 fn punctured(design: &Design, modulus: f64) -> Vec<RowSnapshot> {
     let springs: Springs =
         substrate::calibrate(&design.footprint(0.5).expect("a footprint")).expect("springs");
@@ -38,14 +39,14 @@ fn drawn(case: &Case, states: &[RowSnapshot]) -> String {
     drawings::PunctureDrawing { name: "test", case, states }.svg().expect("a drawing")
 }
 
-/// The case of a design with these entries of `[puncture]` and `[material]`.
+/// Returns the case of a design with these entries of `[puncture]` and `[material]`.
 fn case(design: &Design, puncture: &str, material: &str) -> Case {
     let text = format!("name = 'x'\n[puncture]\n{puncture}\n[material]\n{material}");
     let sweep = Sweep::parse(&text, "x.toml", &[]).expect("a definition");
     Case { design: *design, ..sweep.grid().case(0) }
 }
 
-/// With a material, captions, axes and titles are in mm and N: a scale bar in mm beside a force without a unit misleads.
+/// With a material, captions, axes and titles must be in mm and N, like the scale bar.
 #[test]
 fn with_a_material_everything_is_in_millimetres_and_newtons() {
     let design = design(60.0);
@@ -55,7 +56,7 @@ fn with_a_material_everything_is_in_millimetres_and_newtons() {
     let svg = drawings::PunctureDrawing { name: "x", case: &case, states: &states[..1] }.svg();
     let tags = ["<tspan font-style=\"italic\">", "<tspan>", "</tspan>"];
     let text = tags.iter().fold(svg.expect("a drawing"), |text, tag| text.replace(tag, ""));
-    // 0.15 t; E_s/(1 − ν²) L t = 4 N.
+    // 0.15 t is 0.3 mm, and E_s/(1 − ν²) L t is 4 N.
     let newtons = format!("u = 0.300 mm,  F = {:.3} N", 4.0 * states[0].force);
     assert!(text.contains(&newtons), "{newtons} in {text}");
     assert!(text.contains("d = 0.2 mm, L = 2 mm, t = 2 mm, α = 60°"), "{text}");
@@ -76,13 +77,13 @@ fn with_a_material_everything_is_in_millimetres_and_newtons() {
         let is_physical = ["N<", "N mm", "mJ"].iter().any(|unit| figure.svg.contains(unit));
         assert!(is_physical && !figure.svg.contains("dimensionless"), "{}", figure.name);
     }
-    // Beside a design without a material both are in the units of the model.
+    // Next to a design without a material both are dimensionless.
     let plain = Case { material: sweep::Material::default(), ..case };
     for figure in report::curves("x", &[of(&case), of(&plain)], None) {
         assert!(figure.svg.contains("dimensionless"), "{}", figure.name);
     }
 
-    // The work of the force in N mm is the energy in mJ.
+    // A work of 1 N mm is an energy of 1 mJ.
     let [mm, newton, energy] = results::puncture_units(&case).expect("units");
     let work: f64 = puncture
         .path
@@ -97,7 +98,7 @@ fn with_a_material_everything_is_in_millimetres_and_newtons() {
     assert!((work / stored - 1.0).abs() < 1e-2, "{work} {stored}");
 }
 
-/// Where a needle passes, its curve has a triangle, and the note says what that is.
+/// A needle that passes has a triangle on its curve, explained in the note.
 #[test]
 fn a_needle_that_passes_is_marked_on_its_curve() {
     let marks = |needle: &str| {
@@ -114,7 +115,7 @@ fn a_needle_that_passes_is_marked_on_its_curve() {
     assert_eq!([marks("guided"), marks("free")], [[1, 1], [0, 0]]);
 }
 
-/// Where scales rub, contacts that slip have rings, and the others discs; the caption counts them.
+/// With friction, slipping contacts have rings, sticking ones discs; the caption counts both.
 #[test]
 fn contacts_that_slip_have_rings() {
     let design = design(60.0);
@@ -132,7 +133,7 @@ fn contacts_that_slip_have_rings() {
     assert!(drawn.contains(&format!("{} contacts, {slip} slip (rings)", slip + stick)));
 }
 
-/// A needle that is guided stands at one place in all panels, whatever the scale below it does, and a ring goes with the scale.
+/// A guided needle has the same position in all panels; the ring moves with the scale.
 #[test]
 fn a_guided_needle_stays_where_it_was_set_down() {
     let design = design(45.0);
@@ -145,7 +146,7 @@ fn a_guided_needle_stays_where_it_was_set_down() {
         snapshots(&design, &springs, &Common::default(), &parameters, &at).expect("a design");
     let states: Vec<_> = solved.at.into_iter().map(|state| state.expect("reached")).collect();
     let text = svg(&design, &states);
-    // The first number of that name behind the beginning of each group of a load.
+    // The first number with that name after each group of a load.
     let places = |name: &str| -> Vec<f64> {
         let loads = text.split("class=\"load\"").skip(1);
         let after = |load: &str| load.split(&format!(" {name}=\"")).nth(1).map(str::to_owned);
@@ -160,27 +161,27 @@ fn a_guided_needle_stays_where_it_was_set_down() {
     assert!(!svg(&design, &punctured(&design, 9677.0)).contains("set-down"));
 }
 
-/// A round tip between two scales hangs between their corners: drawn at rest it is lower than their tops, and touches both.
+/// A round tip between two scales rests on both corners, with its lowest point below their tops.
 #[test]
-fn a_round_tip_stands_where_it_touches() {
+fn a_round_tip_touches_both_corners() {
     let design = Design { gap: 0.6, ..design(0.0) };
     let springs: Springs =
         substrate::calibrate(&design.footprint(0.5).expect("a footprint")).expect("springs");
     let parameters = PunctureParameters {
         needle: Needle::Guided { friction: 0.0 },
         needle_radius: Some(0.5),
-        // In the middle of the gap.
+        // The middle of the gap.
         load_position: 1.3 / design.length,
         ..PunctureParameters::default()
     };
     let at = [At::Displacement(0.05)];
     let solved = snapshots(&design, &springs, &Common::default(), &parameters, &at);
     let state = solved.expect("a design").at.remove(0).expect("reached");
-    // At rest its centre is 0.4 above the corners, 0.3 beside them.
+    // At rest the centre of the tip is 0.4 above the corners and 0.3 beside them.
     let lowest = 1.0 + 0.4 - 0.5 - 0.05;
     let [x, y] = state.tip.expect("a tip");
     assert!((x - (0.5 * design.length + 0.3)).abs() < 1e-12 && (y - lowest).abs() < 1e-12);
-    // It was set down on no scale, so that no ring shows where.
+    // The tip was set down on no scale, so there is no ring.
     let between = format!("load_position = {}", parameters.load_position);
     let needle = format!("needle = 'guided'\nneedle_radius_over_t = 0.5\n{between}");
     let text = drawn(&case(&design, &needle, ""), &[state]);

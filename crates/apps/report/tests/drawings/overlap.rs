@@ -1,4 +1,4 @@
-//! The red areas are the intersections of the deformed scales.
+//! The red areas in drawings are the intersections of the deformed scales.
 
 use contact::Pose;
 use skin::Design;
@@ -13,7 +13,7 @@ fn area(polygon: &[Point]) -> f64 {
     0.5 * polygon.iter().zip(next).map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum::<f64>()
 }
 
-/// The part of a polygon to the left of the line from `a` to `b`.
+/// Clips a polygon to the left side of the line from `a` to `b`.
 fn clipped(polygon: &[Point], a: Point, b: Point) -> Vec<Point> {
     let side = |p: Point| (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
     let mut inside = Vec::new();
@@ -31,13 +31,13 @@ fn clipped(polygon: &[Point], a: Point, b: Point) -> Vec<Point> {
     inside
 }
 
-/// The area that two convex polygons share, by clipping one at each edge of the other.
+/// Returns the intersection area of two convex polygons, by clipping one at each edge of the other.
 fn shared(a: &[Point; 4], b: &[Point; 4]) -> f64 {
     let edges = (0..4).map(|k| (b[k], b[(k + 1) % 4]));
     area(&edges.fold(a.to_vec(), |polygon, (from, to)| clipped(&polygon, from, to)))
 }
 
-/// Corners of every scale, from the node of the first.
+/// Returns the corners of every scale, with the origin at the first node.
 fn bodies(design: &Design, state: &RowSnapshot) -> Vec<[Point; 4]> {
     let row = design.row().expect("a row");
     let body = |(i, scale): (usize, &skin::puncture::ScaleState)| {
@@ -51,7 +51,7 @@ fn bodies(design: &Design, state: &RowSnapshot) -> Vec<[Point; 4]> {
     state.scales.iter().enumerate().map(body).collect()
 }
 
-/// Left scale and area, in px, of every red polygon of a drawing.
+/// Returns the left scale and the area (px²) of every red polygon in a drawing.
 fn red_areas(svg: &str) -> Vec<(usize, f64)> {
     let paths = svg.split("<path d=\"").skip(1).filter(|path| path.contains("data-left=\""));
     let parsed = paths.map(|path| {
@@ -71,7 +71,7 @@ fn red_areas(svg: &str) -> Vec<(usize, f64)> {
     parsed.collect()
 }
 
-/// Px for a length of `t`: the height of a scale at rest.
+/// Returns the length of `t`, px: the height of a scale at rest.
 fn scale(svg: &str) -> f64 {
     let ghost =
         svg.split("class=\"at-rest\"").nth(1).and_then(|rest| rest.split("<path d=\"").nth(1));
@@ -84,7 +84,7 @@ fn scale(svg: &str) -> f64 {
     numbers[1] - numbers[5]
 }
 
-/// Compares every pair; returns the largest area.
+/// Compares the areas of every pair of scales; returns the largest.
 fn agree(slant: f64, modulus: f64) -> f64 {
     let design = design(slant);
     let mut largest: f64 = 0.0;
@@ -98,7 +98,7 @@ fn agree(slant: f64, modulus: f64) -> f64 {
             let own = red.iter().filter(|(l, _)| *l == left).map(|(_, area)| area / unit);
             let found: f64 = own.sum();
             largest = largest.max(expected);
-            // The height of a scale is written to the hundredth of a px.
+            // Drawings state the height of a scale to a hundredth of a px.
             assert!(
                 (found - expected).abs() <= 2e-3 * expected + 1e-13,
                 "slant {slant}, pair {left}: drawn {found:e}, expected {expected:e}"
@@ -117,7 +117,7 @@ fn soft_contacts_are_drawn_with_their_areas() {
 }
 
 #[test]
-fn nearly_rigid_contacts_show_nothing_that_is_not_there() {
+fn nearly_rigid_contacts_have_exact_tiny_overlaps() {
     let largest = agree(45.0, 9677.0);
     assert!(largest < 1e-10, "{largest:e}");
 }
@@ -133,20 +133,20 @@ fn every_contact_has_a_halo_and_its_forces() {
 }
 
 #[test]
-fn snapshots_are_equilibria_at_the_places_asked_for() {
+fn snapshots_are_equilibria_at_the_requested_points() {
     let states = punctured(&design(45.0), 9677.0);
     assert!((states[0].displacement - 0.15).abs() < 1e-11);
     assert!((states[1].tilt_deg - 10.0).abs() < 1e-10);
     assert!((states[2].force - 0.05).abs() < 1e-11);
     for state in states {
-        // The reactions of the substrate carry the load: L/t is 1.
+        // The reactions of the substrate add up to the load, because L/t is 1.
         let carried: f64 = state.scales.iter().map(|scale| scale.reaction).sum();
         assert!((carried - state.force).abs() < 1e-8 * state.force, "{carried} {}", state.force);
     }
 }
 
 #[test]
-fn a_drawing_is_the_same_every_time() {
+fn drawings_are_reproducible() {
     let design = design(45.0);
     let draw = || svg(&design, &punctured(&design, 9677.0));
     assert_eq!(draw(), draw());
@@ -154,7 +154,7 @@ fn a_drawing_is_the_same_every_time() {
 
 #[cfg(feature = "png")]
 #[test]
-fn an_image_is_the_same_every_time() {
+fn images_are_reproducible() {
     let design = design(45.0);
     let drawing = || svg(&design, &punctured(&design, 9677.0));
     let image = || report::png(&drawing(), 96.0).expect("an image");

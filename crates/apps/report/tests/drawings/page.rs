@@ -1,4 +1,4 @@
-//! Figures and page of a table.
+//! Tests of the figures and the page of a table.
 
 use std::fmt::Write as _;
 use std::io::Read as _;
@@ -30,7 +30,7 @@ fn table() -> String {
     text
 }
 
-/// The results of a run with this table.
+/// Returns the results of a run with this table.
 fn results(table: &str) -> Results {
     let folder = tempfile::tempdir().expect("a folder");
     std::fs::write(folder.path().join("designs.csv"), table).expect("a file");
@@ -59,7 +59,7 @@ fn html_of(page: &Page) -> String {
 }
 
 #[test]
-fn figures_are_named_and_the_same_every_time() {
+fn figures_are_named_and_reproducible() {
     let results = results(&table());
     let ranking = Ranking::new(&results, TetrahedralGrid::default()).expect("designs to rank");
     let designs = Designs::of(&results);
@@ -80,9 +80,9 @@ fn figures_are_named_and_the_same_every_time() {
     assert_eq!(all, figures("x", &designs, Some(&ranking)));
 }
 
-/// The page ranks by a column in the direction in which `squama rank` does, for every column that a table may have.
+/// The page ranks each column in the same direction as `squama rank`.
 #[test]
-fn the_page_knows_which_values_are_good_as_rankings_do() {
+fn the_page_ranks_columns_in_the_direction_of_rankings() {
     let material = "material.thickness_mm = 1\nmaterial.substrate_modulus_MPa = 0.3\nmaterial.membrane_modulus_MPa = 4.5\n\
                     material.scale_density_kg_m3 = 1200\nimperfection.gap_cv = 0.1";
     let sweep =
@@ -110,7 +110,7 @@ fn the_page_knows_which_values_are_good_as_rankings_do() {
 }
 
 #[test]
-fn what_was_not_measured_has_no_figure() {
+fn columns_without_values_have_no_figure() {
     let table =
         "design,gap_over_t,length_over_t,slant_deg,coverage,critical_force\n0001,1,1,0,0,\n";
     let designs = Designs::of(&results(table));
@@ -119,7 +119,7 @@ fn what_was_not_measured_has_no_figure() {
 }
 
 #[test]
-fn every_value_of_a_further_axis_has_figures_of_its_own() {
+fn further_axes_have_separate_figures_for_each_value() {
     let mut lines = table().lines().map(str::to_owned).collect::<Vec<_>>();
     for (k, line) in lines.iter_mut().enumerate() {
         line.push_str(if k == 0 { ",width_over_t" } else { [",0.5", ",2"][k % 2] });
@@ -136,14 +136,14 @@ fn every_value_of_a_further_axis_has_figures_of_its_own() {
             "critical-force-by-gap-aspect-slant-width-over-t-0.5"
         ]
     );
-    // Each has the half of the marks, and says which.
+    // Each figure has half of the marks and states its value.
     for (figure, width) in forces.iter().zip(["2", "0.5"]) {
         assert!(figure.svg.contains(&format!("x, b/t = {width}: critical force")));
     }
 }
 
 #[test]
-fn a_page_is_whole_and_the_same_every_time() {
+fn pages_are_complete_and_reproducible() {
     let html = html_of(&page(designs()));
     assert_eq!(html, html_of(&page(designs())));
     for place in ["title", "version", "style", "scripts", "data"] {
@@ -152,9 +152,9 @@ fn a_page_is_whole_and_the_same_every_time() {
     for outside in ["src=\"http", "<link", "@import"] {
         assert!(!html.contains(outside), "{outside}");
     }
-    // A name cannot end the script that holds the data.
+    // A hostile name must not end the script that holds the data.
     assert!(!html.contains("a </script>"));
-    // Text that would begin a comment or a script within the script that holds the data.
+    // Neither may other text open a comment or a script inside it.
     let hostile = Page {
         name: "<!--<script>\u{202e}x".to_owned(),
         folder: "a b/<!--".to_owned(),
@@ -180,7 +180,7 @@ fn a_page_of_720_designs_is_below_1_mb() {
 }
 
 #[test]
-fn a_page_knows_which_columns_are_numbers() {
+fn the_page_lists_numeric_columns() {
     let html = html_of(&page(designs()));
     let numeric = html.split("\"numeric\":[").nth(1).and_then(|rest| rest.split(']').next());
     let numeric = numeric.expect("the columns of numbers");
@@ -193,7 +193,7 @@ fn a_page_knows_which_columns_are_numbers() {
     }
 }
 
-/// The figures of a page, unpacked, each with its kind and its choice.
+/// Returns the unpacked figures of a page, each with kind and variant.
 fn figures_of(html: &str) -> Vec<(String, String)> {
     let data = html.split("id=\"data\">").nth(1).and_then(|rest| rest.split("</script>").next());
     let data: serde_json::Value = serde_json::from_str(data.expect("data")).expect("JSON");
@@ -235,7 +235,7 @@ fn the_figures_of_a_page_are_those_of_files() {
 }
 
 #[test]
-fn curves_of_solved_designs_stand_in_one_chart() {
+fn curves_of_solved_designs_share_one_chart() {
     let solved = |number: &str, force| PageDesign {
         number: number.to_owned(),
         puncture: vec![[0.0, 0.0], [0.1, force]],
@@ -248,16 +248,16 @@ fn curves_of_solved_designs_stand_in_one_chart() {
         let (_, svg) = all.iter().find(|(kind, _)| kind == choice).expect("curves");
         assert_eq!(svg.matches("class=\"curve\"").count(), 2, "one point is no curve: {svg}");
         assert!(svg.contains("force") && !svg.contains("moment"));
-        // The smaller one has an axis as well, so that both can be seen alone.
+        // The smaller curve has its own axis, so that both curves can be shown alone.
         let axes = svg.matches("data-axis=\"y\"").count();
         assert_eq!(axes > 4, choice == "curves linear", "{axes}");
     }
 }
 
-/// A column and its value of a design, by the number of the design.
+/// A column name and its value as a function of the design number.
 type Column = (&'static str, fn(u32) -> f64);
 
-/// A table like [`table`], with more columns, each made from the number of a design.
+/// Returns [`table`] with further columns, computed from the design number.
 fn table_with(columns: &[Column]) -> String {
     let own = table();
     let mut lines = own.lines();
@@ -270,7 +270,7 @@ fn table_with(columns: &[Column]) -> String {
     std::iter::once(header).chain(rows).collect::<Vec<_>>().join("\n")
 }
 
-/// Where the marks of a figure stand, by their designs.
+/// Returns the marks of a figure: design and position.
 fn marks(svg: &str) -> Vec<(&str, &str)> {
     let uses = svg.split("<use ").filter(|text| text.contains("data-design"));
     let attribute = |text: &'_ str, name: &str| -> Option<std::ops::Range<usize>> {
@@ -294,7 +294,7 @@ fn figures_of_random_gaps_show_the_median_and_the_band() {
     };
     let (one, other) = (
         sampled([|k| 0.1 * f64::from(k), |k| 0.2 * f64::from(k), |k| 0.5 * f64::from(k)]),
-        // The same perfect designs, of which the median lies elsewhere.
+        // The perfect designs are the same, but their medians differ.
         sampled([|k| 0.1 * f64::from(k), |k| 0.4 * f64::from(k), |k| 0.5 * f64::from(k)]),
     );
     let (one, other) = (figure(&one, "critical-force"), figure(&other, "critical-force"));
@@ -323,7 +323,7 @@ fn figures_of_a_material_are_in_newtons_and_millimetres() {
 }
 
 #[test]
-fn only_what_the_fold_touches_is_struck_out() {
+fn only_measures_affected_by_folds_are_crossed_out() {
     let designs = Designs::of(&results(&table_with(&[
         ("fold_force", |k| f64::from(k)),
         ("bend_radius_mm", |k| f64::from(k)),

@@ -1,4 +1,4 @@
-//! The guides to sweeps and results say what the program does.
+//! The guides to sweeps and results agree with the program.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -18,12 +18,12 @@ use results::{
 use skin::puncture::Needle;
 use sweep::{PARAMETERS, Sweep};
 
-/// The sweep that `text` defines.
+/// Parses a sweep.
 fn sweep(text: &str) -> Sweep {
     Sweep::parse(text, "x.toml", &[]).expect("a valid sweep")
 }
 
-/// The goal that `text` holds.
+/// Parses a goal.
 fn goal(text: &str) -> DesignGoal {
     DesignGoal::parse(text, "x.toml", &[]).expect("a goal")
 }
@@ -124,14 +124,14 @@ fn the_guide_to_the_results_explains_every_column() {
 }
 
 #[test]
-fn the_paper_sweep_writes_every_key_with_its_default() {
+fn the_paper_sweep_lists_every_key_with_its_default() {
     let paper = text("sweeps/paper.toml");
     for parameter in PARAMETERS {
-        // What is not given by default stands there as a remark.
+        // Parameters without a default appear as a comment.
         let is_given = parameter.is_given(&sweep::Case::default());
         let remark = if is_given { "" } else { "# " };
         let line = format!("\n{remark}{} = ", parameter.key);
-        // A list of the lengths in mm is enough: each stands in the place of the same over the thickness.
+        // Listing the lengths in mm is enough: each replaces its ratio to the thickness.
         let listed = format!(" {}", parameter.key);
         let stands = paper.contains(if parameter.is_in_mm() { &listed } else { &line });
         assert!(stands, "{} is missing", parameter.path());
@@ -140,7 +140,7 @@ fn the_paper_sweep_writes_every_key_with_its_default() {
 }
 
 #[test]
-fn the_other_sweeps_are_what_they_say() {
+fn descriptions_of_the_other_sweeps_are_true() {
     assert_eq!(read("sweeps/paper-as-written.toml").grid().len(), 720);
     assert_eq!(read("sweeps/paper-neo-hookean.toml").grid().len(), 720);
     assert_eq!(read("sweeps/smoke.toml").grid().len(), 12);
@@ -150,7 +150,7 @@ fn the_other_sweeps_are_what_they_say() {
     assert!(!read("sweeps/paper.toml").is_imperfect());
     let strong = DesignGoal::read(&root().join("sweeps/goals/strong-and-covered.toml"), &[]);
     assert_eq!(strong.expect("a goal").space.intervals().len(), 3);
-    // What gives advice has a needle that moves straight down.
+    // Goals that recommend a design use a guided needle.
     let guided = DesignGoal::read(&root().join("sweeps/goals/strong-under-a-needle.toml"), &[]);
     let of_goal = guided.expect("a goal").space.sweep().grid().case(0).punctured();
     let of_sweep = |file: &str| read(file).grid().case(0).punctured();

@@ -1,4 +1,4 @@
-//! A workbook holds what the tables hold, to the last bit.
+//! Workbooks hold the values of the tables exactly.
 
 use std::fs;
 use std::path::Path;
@@ -8,7 +8,7 @@ use results::{Completeness, VerifiedFolder};
 
 use crate::samples::{Criteria, write_results};
 
-/// Cells of a sheet, the header first.
+/// Returns the cells of a sheet, the header first.
 fn sheet(file: &Path, name: &str) -> Vec<Vec<Data>> {
     let mut workbook: Xlsx<_> = open_workbook(file).expect("a workbook");
     let range = workbook.worksheet_range(name).expect("a sheet");
@@ -20,7 +20,7 @@ fn names(file: &Path) -> String {
     workbook.sheet_names().join(" ")
 }
 
-/// The cells that a sheet is to hold: every number a number, every other cell a text.
+/// Returns the expected cells of a sheet: numbers as numbers, everything else as text.
 fn expected(table: &str, separator: char) -> Vec<Vec<Data>> {
     let cell = |text: &str| {
         let number = text.replace(',', ".").parse::<f64>().ok().filter(|n| n.is_finite());
@@ -34,7 +34,7 @@ fn expected(table: &str, separator: char) -> Vec<Vec<Data>> {
     table.lines().map(|line| line.split(separator).map(cell).collect()).collect()
 }
 
-/// Results that nobody states anything of, or as they are stated.
+/// Opens complete results, verified against `contents.toml` if the file exists.
 fn opened(results: &Path) -> VerifiedFolder {
     VerifiedFolder::open(results, Completeness::Whole).expect("results")
 }
@@ -46,7 +46,7 @@ fn exported(results: &Path) -> std::path::PathBuf {
 }
 
 #[test]
-fn every_number_is_the_same_to_the_last_bit() {
+fn workbooks_hold_numbers_exactly() {
     let place = tempfile::tempdir().expect("a folder");
     write_results(place.path(), 3, Criteria::Independent, 7);
     let file = exported(place.path());
@@ -56,7 +56,7 @@ fn every_number_is_the_same_to_the_last_bit() {
 }
 
 #[test]
-fn extreme_numbers_failures_and_texts_come_through() {
+fn extreme_numbers_failures_and_texts_are_preserved() {
     let place = tempfile::tempdir().expect("a folder");
     let designs = "design,gap_over_t,critical_force,puncture_status,base,settings\r\n\
                    0001,0.1,0.30000000000000004,complete,L,\r\n\
@@ -95,14 +95,14 @@ fn tables_with_decimal_commas_make_the_same_workbook() {
 }
 
 #[test]
-fn the_same_tables_make_the_same_bytes() {
+fn workbooks_are_reproducible() {
     let place = tempfile::tempdir().expect("a folder");
     write_results(place.path(), 2, Criteria::Conflicting, 1);
     let file = exported(place.path());
     let one = fs::read(&file).expect("a workbook");
     let other = fs::read(exported(place.path())).expect("a workbook");
     assert!(one == other, "the same bytes");
-    // Nor do they tell when they were written, neither as an archive nor as a document.
+    // Neither the archive nor the document contains a time stamp.
     let mut archive =
         zip::ZipArchive::new(fs::File::open(&file).expect("a workbook")).expect("an archive");
     for part in 0..archive.len() {
@@ -117,7 +117,7 @@ fn the_same_tables_make_the_same_bytes() {
 }
 
 #[test]
-fn what_failed_is_red_and_measures_have_a_scale() {
+fn failures_are_red_and_measures_have_a_colour_scale() {
     let place = tempfile::tempdir().expect("a folder");
     let designs = "design,coverage,puncture_status\r\n0001,0.1,complete\r\n0002,0.2,row limit\r\n";
     fs::write(place.path().join("designs.csv"), designs).expect("writable");
@@ -145,7 +145,7 @@ fn what_failed_is_red_and_measures_have_a_scale() {
 }
 
 #[test]
-fn the_first_sheet_tells_what_the_run_is() {
+fn the_first_sheet_describes_the_run() {
     let place = tempfile::tempdir().expect("a folder");
     let table = "design,gap_over_t,length_over_t,slant_deg,coverage,critical_force,penetration,compliance,fold_force\r\n\
                  0001,0.1,1,45,0.5,2,0.1,0.2,1\r\n0002,0.2,1,45,0.7,1,0.1,0.3,\r\n0003,0.2,1,45,0.7,1,0.2,0.1,\r\n";
@@ -174,7 +174,7 @@ fn the_first_sheet_tells_what_the_run_is() {
 }
 
 #[test]
-fn what_is_round_off_is_not_seen_and_a_measure_has_a_chart() {
+fn round_off_is_hidden_and_measures_have_a_chart() {
     let place = tempfile::tempdir().expect("a folder");
     let table = "design,gap_over_t,length_over_t,slant_deg,compliance\r\n\
                  0001,0.1,1,0,0.7999999996252686\r\n0002,0.1,1,45,0.3\r\n0003,0.2,1,0,0.5\r\n";
@@ -190,13 +190,13 @@ fn what_is_round_off_is_not_seen_and_a_measure_has_a_chart() {
     assert!(chart.contains("<c:scatterChart>"));
     let ranges = ["compliance!$E$2:$E$3", "compliance!$E$4<", "compliance!$D$2:$D$3"];
     assert!(ranges.iter().all(|range| chart.contains(range)), "{chart}");
-    // A header is the name of its column, as programs that read workbooks want it; the units stand in the last sheet.
+    // Headers are column names, for programs that read workbooks; units are in the last sheet.
     assert_eq!(sheet(&file, "compliance")[0][4], Data::String("compliance".to_owned()));
     let guide = sheet(&file, "columns");
     assert!(guide.iter().any(|row| row[1] == "compliance" && row[2] == "1/(E_m I_m)"));
 }
 
-/// A file within a workbook.
+/// Returns the text of a file inside a workbook.
 fn zip_text(workbook: &Path, name: &str) -> String {
     let file = fs::File::open(workbook).expect("a workbook");
     let mut archive = zip::ZipArchive::new(file).expect("an archive");
@@ -205,7 +205,7 @@ fn zip_text(workbook: &Path, name: &str) -> String {
 }
 
 #[test]
-fn what_is_no_workbook_or_no_table_is_refused() {
+fn invalid_workbook_names_and_missing_tables_are_rejected() {
     let place = tempfile::tempdir().expect("a folder");
     let refused = |name: &str| {
         let error = report::export(&opened(place.path()), &[], &place.path().join(name))
@@ -224,7 +224,7 @@ fn what_is_no_workbook_or_no_table_is_refused() {
 }
 
 #[test]
-fn a_table_longer_than_a_sheet_is_refused() {
+fn tables_longer_than_a_sheet_are_rejected() {
     let place = tempfile::tempdir().expect("a folder");
     let longest = "design\r\n".to_owned() + &"1\r\n".repeat(1_048_575);
     fs::write(place.path().join("designs.csv"), &longest).expect("writable");
