@@ -1,4 +1,4 @@
-//! What is fitted to which curves, as it is written: a definition with `[variables]` and one `[[curve]]` for each file.
+//! Definition of a fit: a sweep with `[variables]` and one `[[curve]]` per file.
 
 use std::fmt::Display;
 use std::path::Path;
@@ -11,7 +11,7 @@ use text::toml_source::{KeyValue, KeyValues, Place, Value};
 
 use crate::measured_curve::{InvalidMeasured, MeasuredCurve, Test};
 
-/// Curves, and what is sought behind them.
+/// Unknowns of a fit, and the measured curves that determine them.
 #[derive(Debug)]
 pub struct FitDefinition {
     pub(crate) sweep: Sweep,
@@ -19,22 +19,24 @@ pub struct FitDefinition {
     pub(crate) curves: Vec<TestCurve>,
 }
 
-/// A number that is sought between two bounds.
+/// A number to be fitted, between two bounds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unknown {
-    /// Its name: the key of a parameter, or the offset of a curve.
+    /// Key of a parameter, or name of the offset of a curve.
     pub name: String,
-    /// Its unit, `-` if it has none.
+    /// Unit, `-` if it has none.
     pub unit: &'static str,
-    /// The least value that is tried.
+    /// Lower bound.
     pub from: f64,
-    /// The largest.
+    /// Upper bound.
     pub to: f64,
     pub(crate) source: Source,
 }
 
 impl Unknown {
-    /// A value, or 0 where that is negative and no definition would take it: a modulus, a friction.
+    /// Returns `value`, or 0 if it is negative and the parameter must not be.
+    ///
+    /// Examples are moduli and coefficients of friction.
     pub(crate) fn at_least_allowed(&self, value: f64) -> f64 {
         let is_refused = |p: &Parameter| p.read(&Value::Number(value.to_string())).is_err();
         let is_allowed = !matches!(self.source, Source::Parameter(p) if is_refused(p));
@@ -42,51 +44,54 @@ impl Unknown {
     }
 }
 
-/// What an unknown changes.
+/// Quantity that an unknown stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Source {
     Parameter(&'static Parameter),
-    /// The zero of an axis, 0 or 1, of the curve of that number.
+    /// Offset of a curve: its number, then 0 for the first axis or 1 for the second.
     Offset(usize, usize),
 }
 
-/// A measured curve with the skin that it is of.
+/// A measured curve with its specimen.
 #[derive(Debug)]
 pub(crate) struct TestCurve {
     pub(crate) measured: MeasuredCurve,
     pub(crate) case: Case,
-    /// What this specimen has values of its own for.
+    /// Parameters set in the table of this curve. Unknowns do not change them.
     pub(crate) own: Vec<&'static Parameter>,
 }
 
-/// A definition that cannot be fitted.
+/// Error in the definition of a fit.
 #[derive(Debug, thiserror::Error)]
 pub enum InvalidFit {
-    /// A key or a value is not right.
+    /// A key or a value is not accepted.
     #[error(transparent)]
     Definition(#[from] InvalidDefinition),
-    /// The value of a specimen is not right.
+    /// A value of a specimen is not accepted.
     #[error(transparent)]
     Setting(#[from] InvalidSetting),
-    /// A file of measurements is not right.
+    /// A file of measurements is not accepted.
     #[error(transparent)]
     Measured(#[from] InvalidMeasured),
 }
 
-/// Keys of a curve besides those of parameters.
+/// Keys of a `[[curve]]` besides parameters.
 const KEYS: [&str; 6] = ["file", "kind", "columns", "from", "to", "offsets"];
 
-/// Offsets reach to this part of the largest value of their axis.
+/// Bounds of an offset, as a fraction of the largest value on its axis.
 const FARTHEST_OFFSET: f64 = 0.25;
 
-/// Points of a curve, at most; of more the means of neighbours are taken.
+/// Maximum number of points of a curve. Longer curves are averaged over neighbouring points.
 const MOST_POINTS: usize = 200;
 
 impl FitDefinition {
-    /// The definition in the file at `path` once `settings` are put in its place; files of curves are found from its folder.
+    /// Reads the definition at `path` and applies `settings`.
+    ///
+    /// Paths of curves are relative to the folder of the definition.
     ///
     /// # Errors
-    /// If a file cannot be read, or a key or a value is not right.
+    ///
+    /// If a file cannot be read, or a key or a value is not accepted.
     pub fn read(path: &Path, settings: &[Setting]) -> Result<Self, InvalidFit> {
         let name = path.display().to_string();
         let entries = read_entries(path, settings)?;
@@ -97,12 +102,13 @@ impl FitDefinition {
         for table in tables(&entries, &name)? {
             let measured = table.measured(folder)?;
             let own = table.own_values()?;
-            // Read again with its own values, a specimen is checked like any other definition.
+            // Each specimen is read as a definition of its own, which checks its values.
             let specimen = own.iter().map(|(_, setting)| setting);
-            // Behind those of the command: the last value of a key counts, and is the specimen's.
+            // The last value of a key counts, so values of the specimen override those of the
+            // command.
             let specimen: Vec<_> = settings.iter().chain(specimen).cloned().collect();
             let case = one_design(&read_entries(path, &specimen)?, &name)?.grid().case(0);
-            // Asked here, where the line is known: later nobody could say what is missing.
+            // Checked here, because the line of the curve is known only here.
             let missing = measured.test.units(&case).err().filter(|_| measured.is_physical);
             if let Some(missing) = missing {
                 let expected = format!("{missing} beside a file in mm and N");
@@ -116,7 +122,7 @@ impl FitDefinition {
         Ok(Self { sweep, unknowns, curves })
     }
 
-    /// The skin and what is sought of it, as a sweep with variables.
+    /// Returns the definition as a sweep with the unknown parameters as variables.
     pub fn sweep(&self) -> &Sweep {
         &self.sweep
     }
@@ -132,7 +138,9 @@ fn not_accepted(place: &Place, key: &str, found: impl Display, expected: &str) -
     refused(place, key, WrongValue::NotAccepted { found, expected }.into())
 }
 
-/// The sweep of a definition without its curves, which has one design but for its variables.
+/// Reads the definition without its curves.
+///
+/// Apart from its variables, it must have a single design.
 fn one_design(entries: &KeyValues, name: &str) -> Result<Sweep, InvalidFit> {
     let entries = entries.iter().filter(|entry| entry.key != "curve").cloned().collect();
     let sweep = Sweep::of_entries(&entries, name)?;
@@ -147,7 +155,7 @@ fn one_design(entries: &KeyValues, name: &str) -> Result<Sweep, InvalidFit> {
     }
 }
 
-/// The parameters that are sought.
+/// Returns the parameters listed in `[variables]`.
 fn parameters(entries: &KeyValues, sweep: &Sweep) -> Result<Vec<Unknown>, InvalidFit> {
     let written = entries.iter().filter(|entry| entry.key == "variables");
     let written: Vec<_> = written.filter_map(|entry| table(&entry.value)).flatten().collect();
@@ -176,7 +184,7 @@ fn table(value: &Value) -> Option<&[KeyValue]> {
     }
 }
 
-/// The tables `[[curve]]`, at least one.
+/// Returns the `[[curve]]` tables, at least one.
 fn tables<'e>(entries: &'e KeyValues, name: &str) -> Result<Vec<CurveTable<'e>>, InvalidFit> {
     let file = Place::File { name: name.into(), line: None };
     let entry = entries.iter().find(|entry| entry.key == "curve");
@@ -194,7 +202,7 @@ fn tables<'e>(entries: &'e KeyValues, name: &str) -> Result<Vec<CurveTable<'e>>,
     Ok(keys.into_iter().map(CurveTable).collect())
 }
 
-/// A table `[[curve]]`, which has at least one key.
+/// A `[[curve]]` table with at least one key.
 #[derive(Clone, Copy)]
 struct CurveTable<'e>(&'e [KeyValue]);
 
@@ -203,7 +211,7 @@ impl CurveTable<'_> {
         self.0.iter().find(|entry| entry.key == key)
     }
 
-    /// The error of a key whose value is not accepted, or that is missing.
+    /// Returns the error for a key with an unaccepted value, or without one.
     fn wrong(&self, key: &str, expected: &'static str) -> InvalidFit {
         let name = format!("curve.{key}");
         match self.entry(key) {
@@ -219,7 +227,7 @@ impl CurveTable<'_> {
         }
     }
 
-    /// The number of a key that may be left out.
+    /// Returns the number of an optional key.
     fn number(&self, key: &str) -> Result<Option<f64>, InvalidFit> {
         let read = |entry: &KeyValue| match &entry.value {
             Value::Number(text) => text.parse().ok(),
@@ -229,7 +237,7 @@ impl CurveTable<'_> {
         self.entry(key).map(|entry| read(entry).ok_or_else(wrong)).transpose()
     }
 
-    /// The texts of a key that may be left out.
+    /// Returns the texts of an optional key.
     fn texts(&self, key: &str) -> Result<Option<Vec<String>>, InvalidFit> {
         let text = |item: &Value| match item {
             Value::Text(text) => Some(text.clone()),
@@ -243,13 +251,13 @@ impl CurveTable<'_> {
         self.entry(key).map(|entry| read(entry).ok_or_else(wrong)).transpose()
     }
 
-    /// The measured curve, without what lies outside of its range.
+    /// Reads the measured curve from `from` to `to`, and averages it if it is long.
     fn measured(&self, folder: &Path) -> Result<MeasuredCurve, InvalidFit> {
         let file = self.text("file", "the name of a CSV file")?;
         let kind = self.text("kind", "\"puncture\" or \"bending\"")?;
         let columns = self.texts("columns")?;
         let mut curve = MeasuredCurve::read(&folder.join(file), columns.as_deref())?;
-        // As the definition names it, and not as it was found from the folder.
+        // Messages name the file as the definition does, without the folder.
         file.clone_into(&mut curve.file);
         if kind != curve.test.name() {
             let expected = match curve.test {
@@ -260,13 +268,13 @@ impl CurveTable<'_> {
         }
         let from = self.number("from")?.unwrap_or(f64::NEG_INFINITY) * curve.x_unit;
         let to = self.number("to")?.unwrap_or(f64::INFINITY) * curve.x_unit;
-        // Before means are taken: one across an end would mix in what does not count.
+        // Select the range before averaging, so that no mean includes points outside of it.
         curve.points.retain(|point| (from..=to).contains(&point[0]));
         if curve.points.is_empty() {
             let key = if self.entry("from").is_some() { "from" } else { "to" };
             return Err(self.wrong(key, "a range with points of the file in it"));
         }
-        // A machine writes thousands, and its noise is no longer chance from one to the next.
+        // Machines record thousands of points, and the noise of neighbouring points is correlated.
         let part = curve.points.len().div_ceil(MOST_POINTS);
         let mean = |points: &[[f64; 2]]| {
             [0, 1].map(|axis| points.iter().map(|p| p[axis]).sum::<f64>() / points.len() as f64)
@@ -275,7 +283,7 @@ impl CurveTable<'_> {
         Ok(curve)
     }
 
-    /// The values that this specimen alone has.
+    /// Returns the parameters that this specimen sets itself, with their values.
     fn own_values(&self) -> Result<Vec<(&'static Parameter, Setting)>, InvalidFit> {
         let own = |entry: &KeyValue| {
             let name = format!("curve.{}", entry.key);
@@ -292,7 +300,7 @@ impl CurveTable<'_> {
         self.0.iter().filter(|entry| !KEYS.contains(&entry.key.as_str())).map(own).collect()
     }
 
-    /// The offsets of the curve of that number that are sought.
+    /// Returns the offsets of this curve that are fitted.
     fn offsets(&self, measured: &MeasuredCurve, curve: usize) -> Result<Vec<Unknown>, InvalidFit> {
         let axes = measured.test.axes();
         let offset = |name: String| {
@@ -303,7 +311,7 @@ impl CurveTable<'_> {
             let axis = axes.iter().position(|(axis, _)| *axis == name);
             let axis = axis.ok_or_else(|| self.wrong("offsets", expected))?;
             let sizes = measured.points.iter().map(|point| point[axis].abs());
-            // Of a curve of zeros, too, the range has a length.
+            // A curve of zeros also needs bounds that differ.
             let to = FARTHEST_OFFSET * sizes.fold(f64::MIN_POSITIVE, f64::max);
             let unit = if measured.is_physical { axes[axis].1 } else { "-" };
             let name = format!("{name} offset of {}", measured.file);
@@ -314,10 +322,10 @@ impl CurveTable<'_> {
 }
 
 impl TestCurve {
-    /// What one unit of the model is worth in those of the curve.
+    /// Returns one model unit on each axis, in the units of the curve.
     pub(crate) fn units(&self, case: &Case) -> [f64; 2] {
         let MeasuredCurve { test, is_physical, .. } = self.measured;
-        // The units were asked for when the curve was read.
+        // `FitDefinition::read` has checked that physical curves have their units.
         if is_physical { test.units(case).unwrap_or([f64::NAN; 2]) } else { [1.0; 2] }
     }
 }

@@ -1,8 +1,9 @@
-//! What the curves say of the unknowns, and how surely.
+//! Result of a fit: estimates, confidence intervals and undetermined unknowns.
 //!
-//! With the residuals `r` over the noise of their curves and `J = ∂r/∂p` at the least squares, `p` being shares of the ranges, the covariance
-//! of `p` is `(JᵀJ)⁻¹ = V S⁻² Vᵀ` with the singular values `S` and directions `V` of `J`. Of a direction along which the curves say no more
-//! than the ranges do, the unknowns that it mixes are named.
+//! Let `r` be the residuals over the noise of their curves, `p` the unknowns scaled to their
+//! ranges, and `J = ∂r/∂p` at the minimum. The covariance of `p` is `(JᵀJ)⁻¹ = V S⁻² Vᵀ`, with the
+//! singular values `S` and directions `V` of `J`. Along some directions the curves may constrain
+//! the unknowns less than the ranges do. The result names the unknowns in these directions.
 
 use std::sync::atomic::AtomicBool;
 
@@ -15,109 +16,118 @@ use crate::definition::{FitDefinition, TestCurve, Unknown};
 use crate::model::ModelCurve;
 use crate::search::Residuals;
 
-/// The answer of a fit.
+/// Result of a fit.
 #[derive(Clone, Debug)]
 pub struct Fitted {
-    /// The unknowns, in their order.
+    /// Estimates, in the order of the unknowns.
     pub estimates: Vec<Estimate>,
     /// Correlations of the estimates, −1 to 1.
     pub correlations: Vec<Vec<f64>>,
-    /// Groups of unknowns, by their numbers, of which the curves tell less than their ranges: of a group of one next to nothing, of a
-    /// larger one that they cannot be told apart.
+    /// Groups of undetermined unknowns, by index.
+    ///
+    /// The curves hardly depend on the unknown in a group of one. In a larger group, only
+    /// combinations of the unknowns are determined.
     pub untold: Vec<Vec<usize>>,
-    /// The curves.
+    /// Measured and fitted curves.
     pub curves: Vec<FittedCurve>,
-    /// Skins that were solved.
+    /// Number of solved skins.
     pub solutions: usize,
-    /// The skin of the definition, with what was found.
+    /// Design of the definition, with the estimates.
     pub sweep: Sweep,
 }
 
-/// What was found of an unknown.
+/// Estimate of an unknown.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Estimate {
     /// The unknown.
     pub unknown: Unknown,
-    /// The value with the least squares.
+    /// Value at the minimum of the sum of squares.
     pub value: f64,
-    /// Its 95 % confidence interval; `None` where the curves do not tell it.
+    /// 95 % confidence interval; `None` if the curves do not determine the unknown.
     pub interval: Option<[f64; 2]>,
-    /// Whether the value stands at an end of its range, so that the interval means little.
+    /// True if the value is at a bound, where the interval is unreliable.
     pub at_end: bool,
 }
 
-/// A curve beside that of the skin.
+/// A measured curve and the fitted curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FittedCurve {
     /// Name of its file.
     pub file: String,
-    /// What its axes are.
+    /// Quantities on the axes, with their units.
     pub axes: [String; 2],
-    /// Place, measured value, fitted value.
+    /// Displacement or curvature, measured value, fitted value.
     pub points: Vec<[f64; 3]>,
-    /// Whether its columns name units; without, it is in those of the model.
+    /// True if the columns have physical units, false for units of the model.
     pub is_physical: bool,
-    /// Lines of its file that hold no numbers, and were left out.
+    /// Number of lines without numbers, which were skipped.
     pub left_out: usize,
-    /// Whether it has no point at which a skin that is pushed or bent would resist, as where signs are turned round.
+    /// True if the skin resists at no point, for example because signs are reversed.
     pub is_turned: bool,
     /// Standard deviation of the residuals.
     pub noise: f64,
-    /// Correlation of neighbouring residuals, where it is more than chance would make it: the skin bends otherwise than its model.
+    /// Correlation of neighbouring residuals, if it is significant.
+    /// The model then differs systematically from the skin.
     pub trend: Option<f64>,
-    /// Points beyond the end of the fitted path.
+    /// Number of points beyond the end of the fitted path.
     pub beyond: usize,
-    /// Derivatives that are differences of whole solutions.
+    /// Number of derivatives from differences of solutions.
     pub differenced: usize,
 }
 
-/// A fit that has no answer.
+/// A fit without a result.
 #[derive(Debug, thiserror::Error)]
 pub enum FitError {
-    /// It was told to stop.
+    /// The fit was stopped.
     #[error("stopped before an answer was found")]
     Stopped,
-    /// There are too few points.
+    /// There are not more points than unknowns.
     #[error(
         "too few points: {points}, for {unknowns} unknowns; expected more points than unknowns"
     )]
     TooFew {
-        /// Points of all curves.
+        /// Number of points of all curves.
         points: usize,
-        /// Unknowns.
+        /// Number of unknowns.
         unknowns: usize,
     },
-    /// There is nothing to be found.
+    /// The definition has no unknowns.
     #[error("nothing is sought; add [variables] or offsets to a [[curve]]")]
     NothingSought,
-    /// No skin of the ranges can be solved.
+    /// No evaluated skin within the ranges can be solved.
     #[error("none of the skins that were tried can be solved; look at one with squama design")]
     Unsolvable,
 }
 
-/// Rounds in which the noise of several curves is found, at most; it settles in three or four.
+/// Maximum number of iterations for the noise. Three or four usually suffice.
 const ROUNDS: usize = 10;
-/// Change of the noise at which it has settled.
+/// Relative change of the noise at convergence.
 const SETTLED: f64 = 1e-3;
-/// The least noise, as a part of the size of a curve: that of the solver.
+/// Smallest noise as a fraction of the size of a curve: accuracy of the solver.
 const LEAST_NOISE: f64 = 1e-8;
-/// A direction whose singular value is a smaller part of the largest is one of round-off.
+/// Singular values below this fraction of the largest are round-off.
 const ROUND_OFF: f64 = 1e-6;
-/// Half of an interval that is as wide as the range of its unknown, in shares of that: the curves do not tell it.
+/// Half-width, as a fraction of the range, above which an unknown is undetermined.
 const AS_WIDE: f64 = 0.5;
-/// Residuals that have nothing to do with each other are correlated by more than this over the root of their number once in 700 curves.
+/// Significance limit for the correlation of neighbouring residuals, times √n.
+///
+/// Independent residuals exceed it in one of 700 curves.
 const BEYOND_CHANCE: f64 = 3.0;
-/// Noise of which nothing is said, as a part of the largest value.
+/// Noise below this fraction of the largest value is not reported as a trend.
 const NEGLIGIBLE: f64 = 1e-4;
-/// A share that is closer to an end of its range stands there: the search stays inside by a part of the way.
+/// Distance at which a value counts as at its bound, as a fraction of the range.
+///
+/// The search keeps its iterates strictly between the bounds.
 const AT_END: f64 = 1e-3;
 
 impl FitDefinition {
-    /// Finds the unknowns with which the curves of the model are closest to the measured ones, until `stop` is set; tells `work`
-    /// how far it is.
+    /// Fits the model curves to the measured ones.
+    ///
+    /// Stops early if `stop` is set, and reports progress to `work`.
     ///
     /// # Errors
-    /// If there are too few points, nothing is sought, no skin can be solved, or it was told to stop.
+    ///
+    /// If there are too few points or no unknowns, if no skin can be solved, or after `stop`.
     pub fn fit(&self, stop: &AtomicBool, work: &WorkMeter) -> Result<Fitted, FitError> {
         let points = self.curves.iter().map(|curve| curve.measured.points.len()).sum();
         let unknowns = self.unknowns.len();
@@ -127,21 +137,21 @@ impl FitDefinition {
         if points <= unknowns {
             return Err(FitError::TooFew { points, unknowns });
         }
-        // Curves alone are asked of it, and no measure.
+        // No measures: only curves are computed.
         let evaluator = Evaluator::new(&[]);
         let mut residuals = Residuals::new(self, &evaluator, (stop, work));
         let sizes = residuals.noise.clone();
         let mut shares = residuals.best()?;
         for _ in 0..ROUNDS {
-            // In turns: noise weighs the curves, and the unknowns that follow leave another noise.
+            // Alternate: the noise weights the curves, and new unknowns change the noise.
             let noise = residuals.noise_at(&shares, &sizes)?;
             let changed = noise
                 .iter()
                 .zip(&residuals.noise)
                 .any(|(new, old)| (new / old - 1.0).abs() > SETTLED);
-            // Also when it has settled: residuals of the answer are over the noise that is told.
+            // Store the converged noise, too: the covariance and the report use it.
             residuals.noise = noise;
-            // The noise of a single curve is a factor of all residuals, which moves no minimum.
+            // The noise of a single curve scales all residuals and does not move the minimum.
             if !changed || self.curves.len() == 1 {
                 break;
             }
@@ -151,7 +161,10 @@ impl FitDefinition {
     }
 }
 
-/// The singular values of the derivatives, the directions that belong to them as columns, and the shares of the points in them.
+/// Singular value decomposition of the Jacobian.
+///
+/// Contains the singular values, the directions in the space of unknowns (columns), and their
+/// components at the points.
 struct Directions {
     values: Vec<f64>,
     unknowns: DMatrix<f64>,
@@ -172,7 +185,10 @@ impl Residuals<'_> {
         })
     }
 
-    /// The noise of each curve: the mean square of its residuals, over its points less its part in the unknowns.
+    /// Estimates the noise of each curve from its residuals.
+    ///
+    /// The sum of squares is divided by the number of points minus the degrees of freedom that the
+    /// unknowns take from this curve.
     fn noise_at(&self, shares: &[f64], sizes: &[f64]) -> Result<Vec<f64>, FitError> {
         let directions = self.directions(shares)?;
         let model = self.solved(shares)?.ok_or(FitError::Unsolvable)?;
@@ -188,7 +204,7 @@ impl Residuals<'_> {
                 .map(|at| directions.points[at].powi(2))
                 .sum();
             let squares: f64 = residuals.iter().map(|r| r * r).sum();
-            // A short curve may be taken up whole by its own offset.
+            // At least 1: an offset may fit a short curve exactly.
             let freedom = (residuals.len() as f64 - taken).max(1.0);
             (squares / freedom).sqrt().max(LEAST_NOISE * size)
         });
@@ -199,13 +215,14 @@ impl Residuals<'_> {
         let definition = self.definition;
         let count = shares.len();
         let Directions { values: sizes, unknowns: directions, points } = self.directions(shares)?;
-        // Above 0: `fit` refuses curves of no more points than unknowns.
+        // Positive, because `fit` requires more points than unknowns.
         let freedom = (points.nrows() - count) as f64;
         let t = StudentsT::new(0.0, 1.0, freedom).map_or(f64::NAN, |t| t.inverse_cdf(0.975));
         let largest = sizes.iter().copied().fold(0.0, f64::max);
-        // A direction of round-off has an interval that is wide, and not infinite.
+        // A lower bound keeps the intervals of directions within round-off wide, but finite.
         let least = (ROUND_OFF * largest).max(ROUND_OFF);
-        // With `t` in it roots are halves of intervals at once; correlations do not mind.
+        // Includes `t`, so that square roots of variances are half-widths of intervals.
+        // Correlations do not change.
         let spread: Vec<_> = sizes.iter().map(|size| t / size.max(least)).collect();
         let covariance = |i: usize, j: usize| -> f64 {
             (0..count).map(|k| directions[(i, k)] * directions[(j, k)] * spread[k].powi(2)).sum()
@@ -214,7 +231,7 @@ impl Residuals<'_> {
             (0..count).filter(|&j| directions[(j, k)].abs() * spread[k] > AS_WIDE).collect()
         };
         let mut untold: Vec<Vec<usize>> = Vec::new();
-        // Several directions may mix the same unknowns.
+        // Several directions may contain the same unknowns.
         for group in (0..count).map(mixed) {
             if !group.is_empty() && !untold.contains(&group) {
                 untold.push(group);
@@ -274,7 +291,7 @@ impl Residuals<'_> {
     }
 }
 
-/// The correlation of residuals with the next ones, where there are enough and chance would hardly make it so large.
+/// Returns the correlation of neighbouring residuals, if it is significant.
 fn trend(points: &[[f64; 3]], noise: f64) -> Option<f64> {
     let residuals: Vec<_> = points.iter().map(|[_, measured, fitted]| measured - fitted).collect();
     let largest = points.iter().map(|point| point[1].abs()).fold(0.0, f64::max);
@@ -282,6 +299,6 @@ fn trend(points: &[[f64; 3]], noise: f64) -> Option<f64> {
     let products: f64 = residuals.windows(2).map(|r| r[0] * r[1]).sum();
     let correlation = products / squares;
     let chance = BEYOND_CHANCE / (points.len() as f64).sqrt();
-    // What the solver leaves of exact curves has a trend, too.
+    // Errors of the solver have a trend, too, if the curve has no noise.
     (noise > NEGLIGIBLE * largest && correlation > chance).then_some(correlation)
 }

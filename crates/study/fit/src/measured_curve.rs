@@ -1,4 +1,4 @@
-//! Measured curves: two columns of a CSV file, whose names say what they are and in which unit.
+//! Measured curves: two columns of a CSV file, named by quantity and unit.
 
 use std::path::Path;
 
@@ -6,7 +6,7 @@ use results::{Quantity, bending_units, puncture_units};
 use sweep::{Case, read_input};
 use text::reason;
 
-/// The test that a curve was measured in.
+/// Kind of test in which a curve was measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Test {
     /// Force over displacement of a needle.
@@ -15,8 +15,10 @@ pub enum Test {
     Bending,
 }
 
-/// A column that is understood: its name, its test, whether it is the first or the second axis, and what one of it is worth in mm, N,
-/// 1/mm or N mm; nothing, if it is in the units of the model (`u*`, `F*`, `κ*`, `M*`), as in the tables of `squama design`.
+/// A known column: its name, its test, its axis (0 or 1) and its unit.
+///
+/// The unit is in mm, N, 1/mm or N mm. `None` stands for the units of the model (`u*`, `F*`, `κ*`,
+/// `M*`), as in the tables of `squama design`.
 type Column = (&'static str, Test, usize, Option<f64>);
 
 const COLUMNS: [Column; 15] = [
@@ -38,7 +40,7 @@ const COLUMNS: [Column; 15] = [
 ];
 
 impl Test {
-    /// The name in a definition.
+    /// Returns the name used in definitions.
     pub fn name(self) -> &'static str {
         match self {
             Self::Puncture => "puncture",
@@ -46,7 +48,7 @@ impl Test {
         }
     }
 
-    /// What its two axes are, with their units.
+    /// Returns the quantities on the two axes, with their units.
     pub fn axes(self) -> [(&'static str, &'static str); 2] {
         match self {
             Self::Puncture => [("displacement", "mm"), ("force", "N")],
@@ -54,10 +56,11 @@ impl Test {
         }
     }
 
-    /// What the units of the model are worth in mm, N, 1/mm and N mm.
+    /// Returns the units of the model on both axes, in mm and N or in 1/mm and N mm.
     ///
     /// # Errors
-    /// The keys of the material that this takes, if one is missing.
+    ///
+    /// If material keys are missing; the error lists them.
     pub fn units(self, case: &Case) -> Result<[f64; 2], String> {
         let (units, load) = match self {
             Self::Puncture => (puncture_units(case), Quantity::Force),
@@ -71,24 +74,24 @@ impl Test {
 /// A measured curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredCurve {
-    /// The name of its file.
+    /// Name of the file.
     pub file: String,
-    /// The test.
+    /// Kind of test.
     pub test: Test,
-    /// Whether it is in mm, N, 1/mm and N mm, and not in the units of the model.
+    /// True for mm and N or 1/mm and N mm, false for units of the model.
     pub is_physical: bool,
-    /// What one of the unit of the file is worth on the first axis.
+    /// Unit of the first column of the file, in units of [`Self::points`].
     pub(crate) x_unit: f64,
-    /// Lines in which both cells are empty: gaps of the recording.
+    /// Number of lines with both cells empty, which are gaps in the recording.
     pub left_out: usize,
-    /// Its points, in the order of the file.
+    /// Displacement or curvature, then force or moment, in the order of the file.
     pub points: Vec<[f64; 2]>,
 }
 
 /// Largest file of a measured curve: a million points with ten columns.
 const MAX_BYTES: u64 = 1 << 28;
 
-/// A file of measurements that cannot be understood.
+/// Error in a file of measurements.
 #[derive(Debug, thiserror::Error)]
 #[error("{file}{}: {problem}", line.map(|line| format!(":{line}")).unwrap_or_default())]
 pub struct InvalidMeasured {
@@ -98,10 +101,13 @@ pub struct InvalidMeasured {
 }
 
 impl MeasuredCurve {
-    /// The curve in the file at `path`. `columns` name its first columns, where its first line does not.
+    /// Reads the curve in the file at `path`.
+    ///
+    /// `columns` names the first columns of the file. Without it, the header of the file does.
     ///
     /// # Errors
-    /// If the file cannot be read, has no two columns of one test, or not a number in each line of them.
+    ///
+    /// If the file cannot be read, no two columns belong to one test, or a cell is not a number.
     pub fn read(path: &Path, columns: Option<&[String]>) -> Result<Self, InvalidMeasured> {
         let file = path.display().to_string();
         match read_input(path, MAX_BYTES) {
@@ -113,10 +119,11 @@ impl MeasuredCurve {
         }
     }
 
-    /// The curve that the `text` of a `file` holds, as [`Self::read`].
+    /// Reads the curve from the `text` of `file`; see [`Self::read`].
     ///
     /// # Errors
-    /// As [`Self::read`].
+    ///
+    /// See [`Self::read`].
     pub fn parse(
         text: &str,
         file: &str,
@@ -132,7 +139,7 @@ impl MeasuredCurve {
         let (mut points, mut left_out) = (Vec::new(), 0);
         for row in &rows[lines..] {
             let line = row.position().map(csv::Position::line);
-            // A decimal comma between commas would make two cells of one number.
+            // A number with a decimal comma between commas would become two cells.
             let beyond = row.iter().skip(names.len());
             if !unnamed && beyond.clone().any(|cell| !cell.is_empty()) {
                 let (found, columns) = (row.len(), names.len());
@@ -163,20 +170,22 @@ impl MeasuredCurve {
     }
 }
 
-/// What the first lines of a file say of its columns.
+/// Column names of a file, and the end of its header.
 struct Header {
     names: Vec<String>,
-    /// Lines before the first one of numbers.
+    /// Number of lines before the first line of numbers.
     lines: usize,
-    /// Whether the names come from elsewhere, and perhaps not for all columns.
+    /// True if the names come from the definition. It may name only the first columns.
     unnamed: bool,
 }
 
-/// A header stands in one of so many lines: what a testing machine writes before is no longer.
+/// Number of lines searched for a header. Preambles of machines are shorter.
 const LONGEST_PREAMBLE: usize = 100;
 
 impl Header {
-    /// The names that were given, or those of the first line that names two columns of a test, with the units that the next one has.
+    /// Finds the header: the given names, or the first line with two columns of a test.
+    ///
+    /// Units in the line below are appended to the names.
     fn find(rows: &[csv::StringRecord], given: Option<&[String]>, separator: char) -> Self {
         let is_text = |row: &csv::StringRecord| row.iter().all(|c| number(c, separator).is_none());
         let texts = |from: usize| from + rows[from..].iter().take_while(|row| is_text(row)).count();
@@ -185,7 +194,7 @@ impl Header {
         }
         let candidates = (0..rows.len().min(LONGEST_PREAMBLE)).flat_map(|i| {
             let units = rows.get(i + 1).filter(|row| is_text(row));
-            // With units first: `Force` above `(N)` is in newtons, and alone it has no unit.
+            // Try with units first: `Force` above `(N)` is in newtons, but alone it has no unit.
             [units.map(|units| (i, Some(units))), Some((i, None))].into_iter().flatten()
         });
         let mut named = candidates.map(|(i, units)| {
@@ -194,7 +203,7 @@ impl Header {
             let names = cells.map(|(k, cell)| spelled(&format!("{cell} {}", unit(k)))).collect();
             Self { names, lines: texts(i), unnamed: false }
         });
-        // If no line names two columns, the first is what the refusal shows.
+        // If no line names two columns, the error message shows the first line.
         named.find(|header| pair(&header.names).is_ok()).unwrap_or_else(|| {
             let first = rows.first().filter(|row| is_text(row)).into_iter().flatten();
             Self { names: first.map(str::to_owned).collect(), lines: texts(0), unnamed: false }
@@ -202,7 +211,10 @@ impl Header {
     }
 }
 
-/// The name of a column as it is known: `Force [N]`, `force (N)` and `Force, N` are `force_N`, `Curvature (1/m)` is `curvature_per_m`.
+/// Normalises a column name.
+///
+/// `Force [N]`, `force (N)` and `Force, N` become `force_N`; `Curvature (1/m)` becomes
+/// `curvature_per_m`.
 fn spelled(name: &str) -> String {
     let name = name.replace("1/", "per ").replace(['µ', 'μ'], "u");
     let mut words = name.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
@@ -210,44 +222,48 @@ fn spelled(name: &str) -> String {
     words.fold(first, |name, word| format!("{name}_{word}"))
 }
 
-/// The rows of a CSV text, and the character between its cells.
+/// Returns the rows of a CSV text, and the separator of its cells.
 fn rows(text: &str) -> (Result<Vec<csv::StringRecord>, csv::Error>, char) {
     let text = text.trim_start_matches('\u{feff}');
-    // What a machine writes first may have any sign in its sentences; the last line holds numbers.
+    // Decide by the last line, which holds numbers: a preamble may contain any character.
     let is_row = |line: &&str| !line.starts_with('#') && !line.trim().is_empty();
     let last = text.lines().rfind(is_row).unwrap_or_default();
-    // Where the decimal sign is a comma, as on machines in much of Europe, a semicolon stands between cells.
+    // Machines that write decimal commas separate cells with semicolons.
     let separator = [';', '\t'].into_iter().find(|c| last.contains(*c)).unwrap_or(',');
     let reader = csv::ReaderBuilder::new()
         .delimiter(separator as u8)
         .comment(Some(b'#'))
         .has_headers(false)
-        // What stands before the header has as many cells as it likes.
+        // Lines of a preamble have any number of cells.
         .flexible(true)
         .trim(csv::Trim::All)
         .from_reader(text.as_bytes());
     (reader.into_records().collect(), separator)
 }
 
-/// The number that a cell holds.
+/// Returns the number in a cell.
 fn number(cell: &str, separator: char) -> Option<f64> {
-    // With a point in it a comma may separate thousands: such a cell is refused, not guessed.
+    // In a cell with a point, a comma may separate thousands. Such a cell is refused.
     let is_comma = separator != ',' && !cell.contains('.');
     let cell = if is_comma { cell.replace(',', ".") } else { cell.to_owned() };
     cell.parse().ok().filter(|number: &f64| number.is_finite())
 }
 
-/// The columns that are known, with their places, of the first axis or the second.
+/// Returns the known columns of an axis, with their indices.
 fn known(names: &[String], axis: usize) -> impl Iterator<Item = (usize, &'static Column)> {
     let of = move |name: &String| COLUMNS.iter().find(|c| c.0 == name && c.2 == axis);
     names.iter().enumerate().filter_map(move |(k, name)| Some((k, of(name)?)))
 }
 
-/// The places of the two columns of one test, in one system of units, and what is known of them; or why there are none.
+/// Returns the first two columns of one test in one system of units, with indices.
+///
+/// # Errors
+///
+/// If there is no such pair, or one of the names occurs twice.
 fn pair(names: &[String]) -> Result<[(usize, &'static Column); 2], String> {
     let mut pairs = known(names, 0).flat_map(|x| known(names, 1).map(move |y| [x, y]));
     let found = pairs.find(|[(_, x), (_, y)]| x.1 == y.1 && x.3.is_some() == y.3.is_some());
-    // Refused: the first would be taken, and the other may have been meant.
+    // Refuse repeated names: taking the first column might be wrong.
     let count = |column: &Column| names.iter().filter(|name| *name == column.0).count();
     let twice = found.and_then(|pair| pair.into_iter().find(|(_, column)| count(column) > 1));
     if let Some((_, column)) = twice {
@@ -276,7 +292,7 @@ mod tests {
     }
 
     #[test]
-    fn columns_are_found_by_name_and_come_in_mm_and_newtons() {
+    fn columns_are_found_by_name_and_converted_to_mm_and_newtons() {
         let curve = parsed("time_s,force_mN,displacement_um\n0,0,0\n1,20,500\n");
         assert_eq!((curve.test, curve.is_physical), (Test::Puncture, true));
         assert_eq!(curve.points, [[0.0, 0.0], [0.5, 0.02]]);
@@ -296,7 +312,7 @@ mod tests {
     }
 
     #[test]
-    fn columns_may_be_named_from_outside() {
+    fn the_definition_may_name_the_columns() {
         let names = ["displacement_mm", "force_N"].map(str::to_owned);
         for text in ["Weg,Kraft\n0.5,2\n", "0.5,2\n"] {
             let curve = MeasuredCurve::parse(text, "a.csv", Some(&names)).expect("a curve");
@@ -305,7 +321,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_read_is_named() {
+    fn errors_name_the_column_and_the_line() {
         let missing = refused("displacement_mm,moment_N_mm\n1,2\n");
         assert!(missing.starts_with("a.csv: its columns are displacement_mm moment_N_mm, expected two of one test: displacement_mm"), "{missing}");
         assert!(refused("displacement,force_N\n1,2\n").contains("expected two of one test"));

@@ -1,4 +1,4 @@
-//! The curves that a skin would have, with their derivatives with respect to what is sought.
+//! Curves of the model, with derivatives with respect to the unknowns.
 
 use rayon::prelude::*;
 use results::Outcome;
@@ -9,37 +9,39 @@ use sweep::{Case, Parameter, Scalar};
 use crate::definition::{FitDefinition, Source, TestCurve, Unknown};
 use crate::measured_curve::Test;
 
-/// A curve of the model at the places of a measured one.
+/// Model values at the points of a measured curve.
 #[derive(Clone, Debug)]
 pub(crate) struct ModelCurve {
     pub(crate) values: Vec<f64>,
-    /// For each unknown the derivatives of all values.
+    /// Derivatives of all values, for each unknown.
     pub(crate) rates: Vec<Vec<f64>>,
-    /// Points before the needle touches, where there is no force.
+    /// Number of points before the needle touches, where the force is zero.
     pub(crate) before: usize,
-    /// Points beyond the end of the path, which have its last value.
+    /// Number of points beyond the end of the path. They have its last value.
     pub(crate) beyond: usize,
-    /// Derivatives that are differences of whole solutions, since those along the path are not known.
+    /// Number of derivatives from finite differences, because the path provides none.
     pub(crate) differenced: usize,
 }
 
-/// Where a point of a measured curve stands on that of a skin.
+/// Position of a measured point on the model curve.
 enum Place {
-    /// Before the needle touches, where there is no force.
+    /// Before the needle touches, where the force is zero.
     Before,
-    /// At this place, in the units of the model.
+    /// Displacement or curvature in model units, and the point of the model there.
     On(f64, CurvePoint),
     Beyond,
 }
 
-/// Step of the differences of units, which are formulas, as a part of the range.
+/// Step of finite differences of units, as a fraction of the range. Units are smooth formulas.
 const STEP: f64 = 1e-6;
 
-/// Step of the differences of whole solutions, as a part of the range. Their error is that of an equilibrium, some `1e-9`.
+/// Step of finite differences of solutions, as a fraction of the range.
+///
+/// Equilibria are accurate to about `1e-9`, so differences are accurate to about `1e-5`.
 const SOLVED_STEP: f64 = 1e-4;
 
 impl FitDefinition {
-    /// The curves for some values of the unknowns.
+    /// Computes the model curves for given values of the unknowns.
     pub(crate) fn model(
         &self,
         evaluator: &Evaluator,
@@ -49,7 +51,7 @@ impl FitDefinition {
         curves.map(|(k, curve)| self.model_curve(evaluator, (k, curve), values)).collect()
     }
 
-    /// The skin that a curve is of, or that of the definition.
+    /// Returns the specimen of a curve, or the design of the definition for `None`.
     pub(crate) fn case(&self, curve: Option<&TestCurve>, values: &[f64]) -> Case {
         let mut case = curve.map_or_else(|| self.sweep.grid().case(0), |curve| curve.case);
         for (unknown, &value) in self.unknowns.iter().zip(values) {
@@ -76,7 +78,7 @@ impl FitDefinition {
         let sought: Vec<_> = self.unknowns.iter().filter_map(|u| u.of(Some(curve))).collect();
         let measured = curve.measured.points.iter();
         let wanted: Vec<f64> = measured.map(|point| (point[0] - zero[0]) / units[0]).collect();
-        // Those on the curve alone, in their order: each then takes the next that was found.
+        // Solve only for points on the curve; their order is kept for the loop below.
         let touching: Vec<f64> = wanted.iter().copied().filter(|place| *place > 0.0).collect();
         let found = solve(evaluator, curve.measured.test, &case, &sought, &touching)?;
         let last = last(&touching, &found);
@@ -90,7 +92,8 @@ impl FitDefinition {
         let value = |place: &Place| match place {
             Place::Before => zero[1],
             Place::On(_, point) => zero[1] + units[1] * point.value,
-            // Compared with its last value, and counted: the user is told to leave them out.
+            // Compare with the last value. The report counts these points and advises to exclude
+            // them.
             Place::Beyond => zero[1] + units[1] * last,
         };
         let mut model = ModelCurve {
@@ -108,14 +111,15 @@ impl FitDefinition {
                     on_curve(&places, |_, point| -units[1] * point.slope / units[0])
                 }
                 Source::Parameter(parameter) if !curve.own.contains(&parameter) => {
-                    // Points have rates only for what this curve follows, in the order of unknowns.
+                    // `point.rates` holds only the unknowns that change this curve, in the order of
+                    // unknowns.
                     known += 1;
                     let by = By { curve, case: &case, unknown, parameter, value };
                     let own =
                         by.own_rates(evaluator, &places, known - 1, &mut model.differenced)?;
                     by.with_units(units, &places, &own)
                 }
-                // Offsets of other curves, and what this specimen has a value of its own for.
+                // Offsets of other curves, and parameters that this specimen sets itself.
                 _ => vec![0.0; places.len()],
             };
             model.rates.push(rates);
@@ -124,13 +128,13 @@ impl FitDefinition {
     }
 }
 
-/// A function of the points on the curve, 0 elsewhere.
+/// Evaluates `f` at points on the curve, and returns 0 elsewhere.
 fn on_curve(places: &[Place], f: impl Fn(f64, &CurvePoint) -> f64) -> Vec<f64> {
     let of = |place: &Place| if let Place::On(at, point) = place { f(*at, point) } else { 0.0 };
     places.iter().map(of).collect()
 }
 
-/// A parameter that a curve is differentiated by.
+/// Derivative of a curve with respect to a parameter.
 struct By<'a> {
     curve: &'a TestCurve,
     case: &'a Case,
@@ -140,7 +144,9 @@ struct By<'a> {
 }
 
 impl By<'_> {
-    /// The derivatives in the units of the model, the `k`-th of the points; differences of whole solutions where they are not known.
+    /// Returns the derivatives in model units, with index `k` in `point.rates`.
+    ///
+    /// Missing derivatives are replaced with differences of two solutions.
     fn own_rates(
         &self,
         evaluator: &Evaluator,
@@ -158,7 +164,7 @@ impl By<'_> {
         let at: Vec<_> = unknown.iter().map(|&i| at[i]).collect();
         let step = SOLVED_STEP * (self.unknown.to - self.unknown.from);
         let ends = [self.value - step, self.value + step];
-        // From one side at an end of the range: a friction below 0 has no skin.
+        // One-sided at an end of the range, because values beyond it may be invalid (friction < 0).
         let ends = ends.map(|end| end.clamp(self.unknown.from, self.unknown.to));
         let [below, above] = ends.map(|end| {
             let moved = self.parameter.put(self.case, Scalar::Number(end));
@@ -166,13 +172,15 @@ impl By<'_> {
         });
         for ((i, below), above) in unknown.into_iter().zip(below?).zip(above?) {
             let rise = below.zip(above).map(|(below, above)| above.value - below.value);
-            // A point to which only one of the two paths comes tells nothing.
+            // If only one of the two paths reaches the point, the difference is undefined.
             rates[i] = rise.map_or(0.0, |rise| rise / (ends[1] - ends[0]));
         }
         Ok(rates)
     }
 
-    /// The derivatives in the units of the curve, which may depend on the parameter, too: with them the place on the curve moves.
+    /// Converts derivatives to the units of the curve.
+    ///
+    /// The units may depend on the parameter, too. The point then also moves along the curve.
     fn with_units(&self, units: [f64; 2], places: &[Place], own: &[f64]) -> Vec<f64> {
         let step = STEP * (self.unknown.to - self.unknown.from);
         let at = |by: f64| Some(self.curve.units(&self.parameter.moved(self.case, by)?));
@@ -186,7 +194,7 @@ impl By<'_> {
 }
 
 impl Unknown {
-    /// The parameter that is sought and that a curve does not have a value of its own for.
+    /// Returns the fitted parameter, unless the curve sets it itself.
     fn of(&self, curve: Option<&TestCurve>) -> Option<&'static Parameter> {
         match self.source {
             Source::Parameter(p) => Some(p).filter(|p| curve.is_none_or(|c| !c.own.contains(p))),
@@ -208,7 +216,7 @@ fn solve(
     }
 }
 
-/// The value of the farthest point that the path comes to.
+/// Returns the value at the farthest point that the path reaches.
 fn last(places: &[f64], points: &CurvePoints) -> f64 {
     let reached = places.iter().zip(points).filter_map(|(place, p)| Some((place, p.as_ref()?)));
     reached.max_by(|a, b| a.0.total_cmp(b.0)).map_or(0.0, |(_, point)| point.value)

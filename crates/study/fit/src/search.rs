@@ -1,4 +1,4 @@
-//! Least squares within bounds, by the method of Levenberg and Marquardt along exact derivatives.
+//! Bounded least squares by the Levenberg–Marquardt method, with exact derivatives.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -14,43 +14,51 @@ use crate::definition::FitDefinition;
 use crate::fit_result::FitError;
 use crate::model::ModelCurve;
 
-/// Points that are looked at for each unknown, and how many of them, the best, are improved.
+/// Number of starting points per unknown, and number of the best that are improved.
 const STARTS: usize = 8;
 const IMPROVED: usize = 4;
 
-/// Steps of one search, at most. One with noise takes five to ten.
+/// Maximum number of steps of a local search. With noise, a search takes five to ten.
 const MOST_STEPS: u64 = 60;
 
-/// Skins that an improvement solves, as is expected where the work is told.
+/// Expected number of solutions of a local search, to predict the remaining work.
 const EXPECTED: u64 = 12;
 
-/// A residual of a skin that cannot be solved at all: worse than any that can, and no infinity, which would end the search.
+/// Residual of a skin that cannot be solved.
+///
+/// It is larger than any other residual, but finite: the solver stops at infinite residuals.
 const UNSOLVABLE: f64 = 1e6;
 
-/// Largest gradient at which the search ends. Residuals are parts of the noise, so that the sum of their squares is that of its points.
+/// Gradient at convergence.
+///
+/// Residuals are divided by the noise, so the sum of their squares is about the number of points.
 const FLAT: f64 = 1e-7;
 
-/// Change of the sum of squares, as a part of it, at which the search ends: unknowns then move by some ten-thousandths of their intervals.
+/// Relative change of the sum of squares at convergence.
+///
+/// The unknowns then change by some `1e-4` of their confidence intervals.
 const CHANGED: f64 = 1e-9;
 
-/// Residuals of all curves, each over the noise of its curve, by shares of the ranges of the unknowns.
+/// Residuals of all curves, divided by the noise.
+///
+/// Unknowns are scaled to 0 … 1 between their bounds.
 pub(crate) struct Residuals<'a> {
     pub(crate) definition: &'a FitDefinition,
     pub(crate) evaluator: &'a Evaluator,
-    /// The noise of each curve.
+    /// Standard deviation of the noise of each curve.
     pub(crate) noise: Vec<f64>,
     pub(crate) stop: &'a AtomicBool,
     lower: Vec<f64>,
     upper: Vec<f64>,
-    /// The last that was solved, since its derivatives are asked for next.
+    /// Last solution. Its derivatives are usually requested next.
     last: RefCell<Option<(Vec<f64>, Solved)>>,
     solutions: RefCell<usize>,
     work: &'a WorkMeter,
-    /// The improvement in hand.
+    /// Progress of the current local search.
     piece: RefCell<Option<WorkPiece<'a>>>,
 }
 
-/// The curves of the model; `None` where it has none.
+/// Curves of the model; `None` if a path cannot be solved.
 type Solved = Option<Rc<Vec<ModelCurve>>>;
 
 impl<'a> Residuals<'a> {
@@ -60,10 +68,11 @@ impl<'a> Residuals<'a> {
         (stop, work): (&'a AtomicBool, &'a WorkMeter),
     ) -> Self {
         let count = definition.unknowns.len();
-        // Of several curves the noise is found in some three more improvements.
+        // With several curves, estimating the noise takes about three more searches.
         let improved = IMPROVED + if definition.curves.len() > 1 { 3 } else { 0 };
         work.begin((STARTS * count + 1) as u64 + EXPECTED * improved as u64);
-        // Until residuals tell the noise, each curve counts by its size: newtons beside newton mm.
+        // Weight curves by their size until their noise is known, because newtons and newton
+        // millimetres cannot be compared.
         let noise = definition.curves.iter().map(|curve| {
             let points = &curve.measured.points;
             let squares: f64 = points.iter().map(|point| point[1].powi(2)).sum();
@@ -83,12 +92,12 @@ impl<'a> Residuals<'a> {
         }
     }
 
-    /// Skins that were solved.
+    /// Returns the number of solved skins.
     pub(crate) fn solutions(&self) -> usize {
         *self.solutions.borrow()
     }
 
-    /// The values at some shares of the ranges.
+    /// Returns the values of scaled unknowns.
     pub(crate) fn values(&self, shares: &[f64]) -> Vec<f64> {
         let unknowns = self.definition.unknowns.iter().zip(shares);
         unknowns
@@ -96,7 +105,7 @@ impl<'a> Residuals<'a> {
             .collect()
     }
 
-    /// The curves of the model at some shares.
+    /// Computes the model curves at scaled unknowns.
     pub(crate) fn solved(&self, shares: &[f64]) -> Result<Solved, FitError> {
         if let Some((at, solved)) = &*self.last.borrow()
             && at == shares
@@ -116,7 +125,7 @@ impl<'a> Residuals<'a> {
         Ok(solved)
     }
 
-    /// The residuals of each curve, in its own unit.
+    /// Returns the residuals of each curve, in its own unit.
     pub(crate) fn of_curves(&self, model: &[ModelCurve]) -> Vec<Vec<f64>> {
         let residual = |(measured, value): (&[f64; 2], &f64)| value - measured[1];
         let curves = self.definition.curves.iter().zip(model);
@@ -126,9 +135,9 @@ impl<'a> Residuals<'a> {
         of.collect()
     }
 
-    /// All residuals over the noise of their curves.
+    /// Returns all residuals, divided by the noise of their curves.
     fn weighted(&self, shares: &[f64]) -> Result<Vec<f64>, FitError> {
-        // Where one curve has no solution, none counts: the skins of a fit stand together.
+        // If one curve has no solution, the whole set of unknowns is rejected.
         let Some(model) = self.solved(shares)? else {
             let points = self.definition.curves.iter().map(|curve| curve.measured.points.len());
             return Ok(vec![UNSOLVABLE; points.sum()]);
@@ -137,7 +146,7 @@ impl<'a> Residuals<'a> {
         Ok(curves.flat_map(|(of, noise)| of.into_iter().map(move |r| r / noise)).collect())
     }
 
-    /// The derivatives of all residuals, over the noise, with respect to the share of one unknown.
+    /// Returns one column of the Jacobian of the weighted residuals.
     pub(crate) fn column(&self, model: &[ModelCurve], unknown: usize) -> Vec<f64> {
         let Self { definition, noise, .. } = self;
         let range = definition.unknowns[unknown].to - definition.unknowns[unknown].from;
@@ -147,7 +156,7 @@ impl<'a> Residuals<'a> {
             .collect()
     }
 
-    /// The shares at which the sum of squares is the least that is found from `start`.
+    /// Searches for a local minimum from `start` and returns its scaled unknowns.
     pub(crate) fn minimise(&self, start: Vec<f64>) -> Result<Vec<f64>, FitError> {
         let solver = BoundedLevenbergMarquardt::new()
             .with_absolute_scaled_gradient_tolerance(FLAT)
@@ -159,13 +168,15 @@ impl<'a> Residuals<'a> {
         match found {
             Ok(found) => Ok(found.param().clone()),
             Err(ConstraintSolveError::Evaluation(stopped)) => Err(stopped),
-            // The bounds are 0 and 1.
+            // The bounds are always 0 and 1.
             Err(_) => unreachable!("bounds in order"),
         }
     }
 
-    /// The shares with the least sum of squares that is found from the best of those that fill the ranges. Where scales and needle come
-    /// to rub or touch otherwise the sum has kinks, and beside them minima of their own.
+    /// Returns the scaled unknowns at the best of several local minima.
+    ///
+    /// Local searches start at the best points of a space-filling sample. Several are needed: where
+    /// the contact state changes, the sum of squares has kinks, and local minima next to them.
     pub(crate) fn best(&self) -> Result<Vec<f64>, FitError> {
         let count = self.lower.len();
         let cost = |shares: &[f64]| -> Result<f64, FitError> {
@@ -183,7 +194,9 @@ impl<'a> Residuals<'a> {
     }
 }
 
-/// The `k`-th point of a sequence that fills the unit cube of so many dimensions (Roberts's R sequence), from its middle.
+/// Returns point `k` of Roberts's R sequence, which fills the unit cube.
+///
+/// Point 0 is the centre.
 fn filling(k: usize, count: usize) -> Vec<f64> {
     let root = (0..40).fold(1.5_f64, |x, _| (1.0 + x).powf(1.0 / (count as f64 + 1.0)));
     let share = |j: usize| (0.5 + k as f64 * root.powi(-(j as i32 + 1))).fract();
@@ -208,7 +221,8 @@ impl Jacobian for &Residuals<'_> {
         let count = shares.len();
         let columns: Vec<_> = match self.solved(shares)? {
             Some(model) => (0..count).map(|j| self.column(&model, j)).collect(),
-            // Flat, which ends the search: only a start is ever asked here, no step goes there.
+            // A zero gradient ends the search. Only starts can be unsolvable: the solver takes no
+            // step to a worse point.
             None => vec![vec![0.0; points]; count],
         };
         let rows = (0..points).flat_map(|i| columns.iter().map(move |column| column[i]));

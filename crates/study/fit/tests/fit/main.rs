@@ -1,4 +1,4 @@
-//! Skins that are known, found again behind curves that were made of them.
+//! Fits of curves from known skins.
 
 mod recovery;
 mod refusals;

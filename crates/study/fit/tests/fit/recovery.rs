@@ -1,4 +1,4 @@
-//! What was put into curves comes out of them, as surely as is said.
+//! Fits recover the parameters of synthetic curves, within the reported intervals.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -11,7 +11,7 @@ use rayon::prelude::*;
 
 use crate::synthetic_curves::{Place, SyntheticCurve};
 
-/// A skin, the same with what is to be found again, and the curves that it has, each with what its table says besides.
+/// A skin, its definition with unknowns, and its curves with keys for their tables.
 struct Trial {
     skin: String,
     sought: String,
@@ -29,7 +29,7 @@ const PUNCTURE: SyntheticCurve<'_> = SyntheticCurve {
     offsets: [0.0; 2],
 };
 
-/// A skin of printed scales on foam under a guided needle.
+/// Returns the definition of printed scales on foam under a guided needle.
 fn skin(gap: f64, length: f64, slant: f64) -> String {
     format!(
         "name = 'palm'\ndesigns.gap_over_t = {gap}\ndesigns.length_over_t = {length}\ndesigns.slant_deg = {slant}\n\
@@ -37,7 +37,7 @@ fn skin(gap: f64, length: f64, slant: f64) -> String {
     )
 }
 
-/// Modulus of the foam and friction of the needle, from one puncture.
+/// Fits the foam modulus and the needle friction to one puncture curve.
 fn modulus_and_needle_friction(random: &mut ChaCha12Rng) -> Trial {
     let (modulus, friction) = (random.random_range(0.2..1.0), random.random_range(0.15..0.5));
     let skin = skin(0.2, 0.8, 60.0);
@@ -53,7 +53,7 @@ fn modulus_and_needle_friction(random: &mut ChaCha12Rng) -> Trial {
     }
 }
 
-/// Both moduli and a displacement offset, from two specimens with other gaps and a bent strip.
+/// Fits both moduli and a displacement offset to two punctures and a bending test.
 fn both_moduli_and_an_offset(random: &mut ChaCha12Rng) -> Trial {
     let (modulus, membrane) = (random.random_range(0.2..1.0), random.random_range(2.0..8.0));
     let offset = random.random_range(-0.05..0.08);
@@ -80,7 +80,7 @@ fn both_moduli_and_an_offset(random: &mut ChaCha12Rng) -> Trial {
     }
 }
 
-/// Modulus and the place of a load that is free.
+/// Fits the modulus and the position of a free load.
 fn modulus_and_place(random: &mut ChaCha12Rng) -> Trial {
     let (modulus, place) = (random.random_range(0.2..1.0), random.random_range(0.7..0.95));
     let shared = "name = 'place'\ndesigns.gap_over_t = 0.3\ndesigns.length_over_t = 0.6\ndesigns.slant_deg = 30\n\
@@ -97,7 +97,7 @@ fn modulus_and_place(random: &mut ChaCha12Rng) -> Trial {
     }
 }
 
-/// Gap and force offset under a load that is free, and friction between scales, from a puncture.
+/// Fits gap, friction between scales and a force offset to a free puncture load.
 fn gap_and_friction(random: &mut ChaCha12Rng) -> Trial {
     let (gap, friction) = (random.random_range(0.15..0.3), random.random_range(0.05..0.4));
     let offset = random.random_range(-0.02..0.02);
@@ -114,7 +114,7 @@ fn gap_and_friction(random: &mut ChaCha12Rng) -> Trial {
     }
 }
 
-/// The specimen that a curve is of: the skin with the gap that the curve's table says.
+/// Returns the skin with the gap in the keys of a curve, if they contain one.
 fn specimen(skin: &str, keys: &str) -> String {
     let Some(own) = keys.lines().find(|line| line.starts_with("gap_over_t")) else {
         return skin.to_owned();
@@ -126,7 +126,7 @@ fn specimen(skin: &str, keys: &str) -> String {
 }
 
 impl Trial {
-    /// Makes the curves with noise, a part of the largest value, and finds the skin behind them.
+    /// Computes the curves with noise, a fraction of the largest value, and fits them.
     fn fitted(self, number: u64, noise: f64) -> Fitted {
         let place = Place::new();
         let mut text = self.sought;
@@ -148,17 +148,17 @@ fn trial(number: u64) -> Trial {
     KINDS[number as usize % KINDS.len()](&mut ChaCha12Rng::seed_from_u64(number))
 }
 
-/// What came of an unknown of a trial.
+/// Result for an unknown of a trial.
 enum Came {
-    /// It has an interval; whether that holds the truth.
+    /// The interval, and whether it contains the true value.
     Interval { holds: bool },
-    /// The curves do not tell it.
+    /// The curves do not determine the unknown.
     Untold,
-    /// It stands at an end of its range.
+    /// The estimate is at a bound.
     AtEnd,
 }
 
-/// What came of each unknown of a trial, by name.
+/// Fits a trial, and returns the result for each unknown by name.
 fn held(number: u64, noise: f64) -> Vec<(String, Came)> {
     let truth = trial(number).truth;
     let fitted = trial(number).fitted(number, noise);
@@ -174,7 +174,7 @@ fn held(number: u64, noise: f64) -> Vec<(String, Came)> {
 }
 
 #[test]
-fn curves_without_noise_give_back_what_they_were_made_of() {
+fn exact_curves_recover_the_parameters() {
     for number in 100..104 {
         let truth = trial(number).truth;
         let fitted = trial(number).fitted(number, 0.0);
@@ -188,8 +188,10 @@ fn curves_without_noise_give_back_what_they_were_made_of() {
     }
 }
 
-/// How many trials are made with each noise, and for how long they are begun: with `SQUAMA_CAMPAIGNS=endless` a thousand, with `long` those
-/// that can be begun in six seconds, else a few.
+/// Returns the number of trials for each noise, and the time to start them.
+///
+/// `SQUAMA_CAMPAIGNS=endless` runs a thousand trials, `long` those that start within six seconds,
+/// and otherwise a few run.
 fn campaign() -> (u64, Duration) {
     match std::env::var("SQUAMA_CAMPAIGNS").as_deref() {
         Ok("endless") => (1000, Duration::MAX),
@@ -198,14 +200,14 @@ fn campaign() -> (u64, Duration) {
     }
 }
 
-/// Trials that are always made.
+/// Minimum number of trials.
 const FEW: u64 = 4;
 
-/// Those of one trial hang together, so that chance makes more of them fail at once than of a coin.
+/// Factor on the binomial variance: intervals of one trial are correlated.
 const TOGETHER: f64 = 2.0;
 
 #[test]
-fn intervals_hold_the_truth_as_often_as_they_say() {
+fn confidence_intervals_have_their_nominal_coverage() {
     let (count, longest) = campaign();
     for noise in [0.01, 0.03, 0.1] {
         let begun = Instant::now();
@@ -238,9 +240,9 @@ fn intervals_hold_the_truth_as_often_as_they_say() {
     }
 }
 
-/// A modulus and a thickness of the membrane, which scale the moment together until scales touch.
+/// Before scales touch, the moment depends on E h³ of the membrane alone.
 #[test]
-fn what_cannot_be_told_apart_is_named() {
+fn unknowns_that_only_occur_as_a_product_are_undetermined_together() {
     let place = Place::new();
     let shared = "name = 'strip'\ndesigns.gap_over_t = 1\ndesigns.length_over_t = 0.5\ndesigns.slant_deg = 30\n\
                   material.thickness_mm = 2\n";
@@ -257,10 +259,10 @@ fn what_cannot_be_told_apart_is_named() {
     assert_eq!(fitted.untold, [vec![0, 1]]);
     assert!(fitted.estimates.iter().all(|estimate| estimate.interval.is_none()));
     assert!(fitted.correlations[0][1] < -0.999_999, "{:?}", fitted.correlations);
-    // Their product E h³ is what the curve tells.
+    // The curve determines the product E h³.
     let [modulus, thickness] = [0, 1].map(|j| fitted.estimates[j].value);
     assert!((modulus * thickness.powi(3) / (4.0 * 0.1_f64.powi(3)) - 1.0).abs() < 0.02);
-    // One of the two alone is told.
+    // If one of the two is known, the other is determined.
     let one = sought.replace(
         "membrane_thickness_over_t = { from = 0.05, to = 0.3 }\n",
         "[flexure]\nmembrane_thickness_over_t = 0.1\n",
@@ -270,9 +272,9 @@ fn what_cannot_be_told_apart_is_named() {
     assert!(fitted.untold.is_empty() && low > 3.9 && high < 4.1, "{low} {high}");
 }
 
-/// What a curve does not follow at all is said to be so, alone.
+/// An unknown without influence on any curve is undetermined on its own.
 #[test]
-fn what_no_curve_follows_is_named() {
+fn unknowns_without_influence_are_undetermined() {
     let Trial { skin, curves, .. } = trial(0);
     let sought = skin.clone()
         + "[variables]\nmembrane_modulus_MPa = { from = 1, to = 10 }\nfriction = { from = 0, to = 0.5 }\n";
@@ -280,9 +282,9 @@ fn what_no_curve_follows_is_named() {
     assert!(trial.fitted(0, 0.01).untold.contains(&vec![0]));
 }
 
-/// Thickness and modulus of tissue on bone, which a narrow and a wide gap tell apart.
+/// A narrow and a wide gap determine thickness and modulus of tissue on bone.
 #[test]
-fn tissue_is_found_behind_two_specimens() {
+fn two_specimens_determine_thickness_and_modulus_of_tissue() {
     let shared = skin(0.3, 0.6, 30.0) + "puncture.needle_friction = 0.3\n";
     let second = SyntheticCurve { file: "b.csv", to: 0.4, points: 10, seed: 2, ..PUNCTURE };
     let trial = Trial {
@@ -303,9 +305,9 @@ fn tissue_is_found_behind_two_specimens() {
     assert!((values[0] - 0.5).abs() < 1e-4 && (values[1] - 2.0).abs() < 1e-3, "{values:?}");
 }
 
-/// Strips that rub have no derivatives where a contact sticks: differences take their place, and are counted.
+/// Strips with friction have no derivatives while a contact sticks. Differences replace them.
 #[test]
-fn where_something_sticks_differences_are_taken() {
+fn differences_replace_derivatives_while_a_contact_sticks() {
     let shared = "name = 'rubs'\ndesigns.gap_over_t = 0.2\ndesigns.length_over_t = 1\ndesigns.slant_deg = 75\n\
                   material.thickness_mm = 2\nmaterial.membrane_modulus_MPa = 4\n";
     let strip = SyntheticCurve { bending: true, to: 0.03, ..PUNCTURE };

@@ -1,4 +1,4 @@
-//! What is wrong with a definition is said with its place, its key and what would be right.
+//! Errors in a definition name the line, the key and the expected value.
 
 use std::sync::atomic::AtomicBool;
 
@@ -36,7 +36,7 @@ fn keys_of_curves_are_checked() {
 }
 
 #[test]
-fn a_fit_that_is_told_to_stop_has_no_answer() {
+fn a_stopped_fit_returns_an_error() {
     let place = Place::new();
     place.write("a.csv", "displacement,force\n0.1,1\n0.2,2\n");
     let sought = "[variables]\nfriction = { from = 0, to = 1 }\n[[curve]]\nfile = 'a.csv'\nkind = 'puncture'\n";
@@ -47,7 +47,7 @@ fn a_fit_that_is_told_to_stop_has_no_answer() {
 }
 
 #[test]
-fn what_is_sought_is_checked() {
+fn unknowns_are_checked() {
     let curve = "[[curve]]\nfile = 'a.csv'\nkind = 'puncture'\n";
     let wrong = |keys: &str| refused(&format!("{keys}{curve}"));
     insta::assert_snapshot!(wrong("[variables]\nthickness_mm = { from = 1, to = 2 }\n"), @"test.toml:8: curve.file: a.csv is not accepted, expected material.thickness_mm and material.substrate_modulus_MPa beside a file in mm and N");

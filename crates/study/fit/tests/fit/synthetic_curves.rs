@@ -1,4 +1,4 @@
-//! Curves made of known skins, with noise.
+//! Synthetic curves: solutions of known skins, with noise.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -13,22 +13,22 @@ use run::{Evaluator, WorkMeter};
 use sweep::{Case, Sweep};
 use tempfile::TempDir;
 
-/// A place for a definition and its curves.
+/// Temporary folder for a definition and its curves.
 pub struct Place {
     folder: TempDir,
 }
 
-/// A curve to be made of a skin: in mm and N, or 1/mm and N mm.
+/// A synthetic curve, in mm and N or in 1/mm and N mm.
 pub struct SyntheticCurve<'a> {
     pub file: &'a str,
     pub bending: bool,
-    /// Where it ends, in mm or 1/mm, and how many points it has.
+    /// Last displacement in mm or curvature in 1/mm, and the number of points.
     pub to: f64,
     pub points: usize,
-    /// Noise as a part of the largest value.
+    /// Standard deviation of the noise, as a fraction of the largest value.
     pub noise: f64,
     pub seed: u64,
-    /// What is added to both columns.
+    /// Offsets added to both columns.
     pub offsets: [f64; 2],
 }
 
@@ -45,7 +45,7 @@ impl Place {
         fs::write(self.path(file), text).expect("writable");
     }
 
-    /// Writes the curve that the skin of a definition has.
+    /// Computes the curve of a skin and writes it.
     pub fn make(&self, skin: &str, curve: &SyntheticCurve) {
         let case = Sweep::parse(skin, "skin.toml", &[]).expect("a skin").grid().case(0);
         let values = exact(&case, curve);
@@ -73,7 +73,7 @@ impl Place {
         let definition = FitDefinition::read(&self.path("test.toml"), &[]);
         let work = WorkMeter::default();
         let fitted = definition.expect("a definition").fit(&AtomicBool::new(false), &work);
-        // The noise of several curves may settle sooner than is foreseen.
+        // Progress may end below 1, because the noise of several curves may converge early.
         assert!(fitted.is_err() || work.share() > 0.7, "{}", work.share());
         fitted
     }
@@ -90,7 +90,7 @@ fn place(curve: &SyntheticCurve, k: usize) -> f64 {
     curve.to * (k as f64 + 1.0) / curve.points as f64
 }
 
-/// The values of a curve, without noise: solved one by one, apart from what a fit does.
+/// Computes the curve without noise, independently of `FitDefinition`.
 fn exact(case: &Case, curve: &SyntheticCurve) -> Vec<f64> {
     use results::Quantity::{Force, Length, Moment, Radius};
     let unit = |quantity: results::Quantity| quantity.physical(1.0, case).expect("a material");
@@ -103,7 +103,7 @@ fn exact(case: &Case, curve: &SyntheticCurve) -> Vec<f64> {
         let places: Vec<_> = places.map(|place| place / unit(Length)).collect();
         (evaluator.force_curve(case, &[], &places), unit(Force))
     };
-    // A curve ends where its path does, as on the machine.
+    // The curve ends with the path, as on a testing machine.
     let reached = points.expect("a curve").into_iter().map_while(|point| point);
     let values: Vec<_> = reached.map(|point| unit * point.value).collect();
     assert!(values.len() > 8, "too short: {case:?}");
