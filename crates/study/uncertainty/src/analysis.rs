@@ -1,4 +1,4 @@
-//! The tolerances of the designs of a sweep.
+//! Tolerance analysis of the designs of a sweep.
 
 use std::sync::atomic::AtomicBool;
 
@@ -18,73 +18,73 @@ use crate::sampled_spread::SampledSpread;
 use crate::sampler::Sampler;
 use crate::yields::{RequirementYield, yields};
 
-/// The tolerances of the designs of a sweep.
+/// Tolerance analysis of the designs of a sweep.
 pub struct Analysis<'a> {
-    /// The sweep, with its deviations.
+    /// Sweep, with its deviations.
     pub sweep: &'a Sweep,
-    /// Bounds that samples must keep.
+    /// Requirements that determine the yield.
     pub requirements: &'a [Requirement],
-    /// Samples of each design; with 0, derivatives alone tell.
+    /// Number of samples per design; 0 for a prediction from derivatives only.
     pub samples: usize,
-    /// Set once the work is to stop.
+    /// Set to stop the analysis.
     pub stop: &'a AtomicBool,
     differentiating: Evaluator,
     sampler: Sampler,
     program: Program,
 }
 
-/// A design without deviations, with what its samples are looked at for.
+/// A solved nominal design, without deviations.
 struct Nominal {
     index: u64,
-    /// The case with the imperfection of its own, which the samples have too.
+    /// Case with the imperfection of the definition, which its samples have too.
     case: Case,
     row: DesignRow,
     measured: MeasuredColumns,
-    /// The places of the required columns among those that are measured.
+    /// Indices of the columns of the requirements in `measured`.
     required: Vec<usize>,
 }
 
-/// Everything that is known of a design with its deviations.
+/// Tolerances of a design.
 #[derive(Clone, Debug)]
 pub struct DesignTolerance {
-    /// The nominal design.
+    /// Nominal design.
     pub nominal: DesignRow,
-    /// The spread of its measures.
+    /// Spread of its measures.
     pub measures: Vec<MeasureTolerance>,
-    /// The yield of every requirement, and of all together behind them.
+    /// Yield of every requirement, then of all together.
     pub yields: Vec<RequirementYield>,
     /// Names of the values of a sample: the deviations, then the columns.
     pub columns: Vec<String>,
-    /// The samples.
+    /// Solved samples.
     pub samples: Vec<SolvedSample>,
 }
 
-/// A measure and its spread.
+/// Spread of a measure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasureTolerance {
-    /// Name of its column.
+    /// Column name.
     pub name: String,
-    /// Its unit.
+    /// Unit.
     pub unit: &'static str,
-    /// The value of the nominal design.
+    /// Value of the nominal design.
     pub value: Option<f64>,
-    /// The spread that the derivatives predict.
+    /// Spread predicted by derivatives.
     pub linear: Option<LinearSpread>,
-    /// The spread over solved samples.
+    /// Spread over solved samples.
     pub sampled: Option<SampledSpread>,
-    /// Samples without a value.
+    /// Number of samples without a value.
     pub failed: usize,
 }
 
 impl MeasureTolerance {
-    /// How far the linear prediction is off: its spread over that of the samples, less 1.
+    /// Returns the relative error of the linear prediction, compared to the samples.
     pub fn discrepancy(&self) -> Option<f64> {
-        // To samples that do not spread no prediction has a ratio.
+        // Undefined if the samples have no spread.
         let sampled = self.sampled.as_ref().filter(|sampled| sampled.spread > 0.0)?;
         Some(self.linear.as_ref()?.spread / sampled.spread - 1.0)
     }
 
-    /// Whether the prediction is off by more than the statistical error of the samples explains, two standard errors.
+    /// Returns true if the prediction is off by more than two standard errors.
     pub fn is_off(&self) -> bool {
         let error = |sampled: &SampledSpread| 2.0 * sampled.spread_error / sampled.spread;
         let error = self.sampled.as_ref().map(error);
@@ -93,7 +93,7 @@ impl MeasureTolerance {
 }
 
 impl<'a> Analysis<'a> {
-    /// The analysis of the designs of `sweep`, by `program`, until `stop` is set.
+    /// Creates the analysis of the designs of `sweep` with `program`.
     pub fn new(
         sweep: &'a Sweep,
         requirements: &'a [Requirement],
@@ -108,10 +108,14 @@ impl<'a> Analysis<'a> {
         Self { sweep, requirements, samples, stop, differentiating, sampler, program }
     }
 
-    /// The tolerances of design `index`, from 0. Its samples are taken from `store` as far as they are there, and kept there.
+    /// Analyses design `index`, counted from 0.
+    ///
+    /// Reads the samples found in `store`, and stores newly solved ones there.
     ///
     /// # Errors
-    /// If the work is to stop, a requirement is about no column, or the disk is at fault.
+    ///
+    /// After `stop`, if a requirement names an unknown column, or if files cannot be read or
+    /// written.
     pub fn design(
         &self,
         index: u64,
@@ -125,10 +129,10 @@ impl<'a> Analysis<'a> {
         Ok(DesignTolerance { nominal: nominal.row, measures, yields, columns, samples })
     }
 
-    /// Solves a design without deviations, and looks for the columns that are required.
+    /// Solves the design without deviations, and finds the required columns.
     fn nominal(&self, index: u64, store: &SampleStore) -> Result<Nominal, AnalysisError> {
         let (number, case) = (self.sweep.grid().number(index), self.sweep.grid().case(index));
-        // Imperfect samples of its own would be solved for nothing.
+        // Imperfections only matter for samples; the nominal design is solved without them.
         let straight = Case { imperfection: Imperfection::default(), ..case };
         let solve = || self.differentiating.row(number, &straight);
         let row = store.work().track(&format!("design {number}"), solve);
@@ -139,14 +143,14 @@ impl<'a> Analysis<'a> {
         Ok(Nominal { index, case, row, measured, required })
     }
 
-    /// The names of the values of a sample.
+    /// Returns the names of the values of a sample.
     fn columns(&self, measured: &MeasuredColumns) -> Vec<String> {
         let deviations = self.sweep.deviations().iter();
         let keys = deviations.map(|deviation| format!("{}_deviation", deviation.key()));
         keys.chain(measured.iter().map(|column| column.name.to_string())).collect()
     }
 
-    /// The samples of a design: those that are kept, and behind them those that are solved now.
+    /// Returns the samples of a design, and solves those that are not stored.
     fn samples(
         &self,
         nominal: &Nominal,
@@ -156,27 +160,28 @@ impl<'a> Analysis<'a> {
         let (design, case) = (nominal.row.number, &nominal.case);
         let solve = |sample: u64| match self.sampler.solve(design, case, sample) {
             Some(skin) => [skin.deviations, nominal.measured.values(&skin.row)].concat(),
-            // A sample for which no deviations are found is one that fails, with no values.
+            // A sample without valid deviations is a failed sample, without values.
             None => vec![None; columns.len()],
         };
         let number = nominal.row.number.to_string();
-        // Of this design alone: another design of the sweep makes no samples stale.
+        // The header contains this design only, so other designs of the sweep may change.
         let header = header(self.program, &self.sweep.only(nominal.index));
         store.samples((&number, header), columns, self.samples, self.stop, solve)
     }
 
-    /// The values of a column in all samples; deviations stand before the columns.
+    /// Returns the values of a column in all samples. Deviations precede the columns.
     fn values(&self, column: usize, samples: &[SolvedSample]) -> Vec<Option<f64>> {
         let place = self.sweep.deviations().len() + column;
         samples.iter().map(|sample| sample.values.get(place).copied().flatten()).collect()
     }
 
-    /// The spread of every measure that has derivatives or is required.
+    /// Returns the spread of every measure that has derivatives or a requirement.
     fn measures(&self, nominal: &Nominal, samples: &[SolvedSample]) -> Vec<MeasureTolerance> {
         let deviations = self.sweep.deviations();
         let mut scattered = DesignRow { case: nominal.case, ..nominal.row.clone() };
         draw::scatter(&mut scattered.case, deviations);
-        // Derivatives with respect to single scales cost a solve for each kind of scale.
+        // Skip this without scatter: derivatives for single scales cost a solution for each kind of
+        // scale.
         let scatters = !scattered.case.imperfection.is_none();
         let single =
             if scatters { self.differentiating.scatter(&nominal.case) } else { Vec::new() };
@@ -184,12 +189,12 @@ impl<'a> Analysis<'a> {
         let mut measures = Vec::new();
         for (place, column) in nominal.measured.iter().enumerate() {
             let has_derivatives = has_derivatives(&column.name, &nominal.row);
-            // Parameters and counts are columns, too: told only where a requirement names them.
+            // Columns of parameters and counts are only reported if a requirement names them.
             if !has_derivatives && !nominal.required.contains(&place) {
                 continue;
             }
             let value = column.cell(&nominal.row).number();
-            // A parameter, in its own unit or another, follows from the deviations without being solved for.
+            // Parameters, in any unit, follow from the deviations directly.
             let is_known = has_derivatives || parameter_of(&column.name).is_some();
             let is_predicted = is_known && value.is_some();
             let values = self.values(place, samples);
@@ -206,7 +211,7 @@ impl<'a> Analysis<'a> {
         measures
     }
 
-    /// The yield of every requirement, and of all together.
+    /// Returns the yield of every requirement, then of all together.
     fn yields(
         &self,
         nominal: &Nominal,
@@ -223,14 +228,16 @@ impl<'a> Analysis<'a> {
     }
 }
 
-/// Whether a column is about a measure with derivatives, or about the mass, which parameters alone make.
+/// Returns true for the columns of a measure with derivatives, and for the mass.
+///
+/// The mass has none, but is a function of the parameters.
 fn has_derivatives(name: &str, nominal: &DesignRow) -> bool {
     let measure = measure_name(name);
     let mut derivatives = nominal.result.sensitivity.iter();
     measure == name::AREAL_MASS || derivatives.any(|d| d.measure == measure)
 }
 
-/// The header of the journal of the samples of a sweep.
+/// Creates the journal header for the samples of a sweep.
 pub(crate) fn header(program: Program, sweep: &Sweep) -> JournalHeader {
     JournalHeader::new(sweep.to_toml(), Subset::default(), &program)
 }

@@ -1,28 +1,28 @@
-//! Why there is no analysis.
+//! Error of an analysis.
 
 use results::OutputError;
 use run::JournalError;
 
 use crate::measured_columns::NoSuchColumn;
 
-/// Why there is no analysis.
+/// Error of an analysis.
 #[derive(Debug, thiserror::Error)]
 pub enum AnalysisError {
-    /// The work was to stop. The samples so far are kept.
+    /// The analysis was stopped. Solved samples are stored.
     #[error("interrupted after {done} of {of} samples")]
     Stopped {
-        /// Samples that were solved.
+        /// Number of solved samples.
         done: usize,
-        /// Samples that were asked for.
+        /// Number of requested samples.
         of: usize,
     },
-    /// A requirement is about a column that does not exist.
+    /// A requirement names an unknown column.
     #[error(transparent)]
     NoSuchColumn(#[from] NoSuchColumn),
-    /// The samples that are kept cannot be used.
+    /// Stored samples cannot be used.
     #[error(transparent)]
     Journal(#[from] JournalError),
-    /// The disk does not take the samples.
+    /// Samples cannot be written.
     #[error(transparent)]
     Output(#[from] OutputError),
 }

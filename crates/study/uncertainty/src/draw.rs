@@ -1,4 +1,4 @@
-//! The random deviations of a sample.
+//! Draws the random deviations of a sample.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng as _;
@@ -6,14 +6,16 @@ use rand_distr::{Distribution as _, StandardNormal, StandardUniform};
 use sha2::{Digest as _, Sha256};
 use sweep::{BatchDeviation, Case, Deviation};
 
-/// Draws after which a deviation that leaves a parameter within its bounds is no longer looked for.
+/// Maximum number of draws to find a deviation within the bounds of its parameter.
 const DRAWS: usize = 1000;
 
-/// Sample `number` of a design: its case with the deviations that all scales share, and with the scatter from scale to scale as
-/// its imperfection; and the deviations themselves. `None` if no deviation leaves a parameter within its bounds.
+/// Draws sample `number` of a design. Returns its case and its batch deviations.
 ///
-/// A deviation depends on the seed of the case, the number and the key of its parameter alone: another deviation more or less, or
-/// another design, changes none.
+/// The scatter from scale to scale becomes the imperfection of the case. `None` if no deviation
+/// within the bounds of its parameter is found.
+///
+/// A deviation depends only on the seed of the case, the number of the sample and the key of the
+/// parameter. Adding a deviation, or choosing another design, changes no other deviation.
 pub(crate) fn sample(
     case: &Case,
     deviations: &[Deviation],
@@ -26,12 +28,12 @@ pub(crate) fn sample(
             continue;
         };
         let mut random = random(case, number, deviation.parameter().key);
-        // A deviation that leaves the bounds is drawn again, which cuts the distribution off there.
+        // Drawing again at a bound truncates the distribution there.
         let possible = |_| {
             let by = draw(batch, &mut random);
             Some((deviation.applied(&made, by)?, by))
         };
-        // From the case as made so far: whether a load can stand depends on what was drawn before.
+        // Apply to the case so far: whether a load position is valid depends on earlier deviations.
         let (moved, by) = (0..DRAWS).find_map(possible)?;
         made = moved;
         drawn.push(Some(by));
@@ -40,24 +42,25 @@ pub(crate) fn sample(
     Some((made, drawn))
 }
 
-/// Lets gaps and slants scatter from scale to scale as the deviations say, instead of as the definition does.
+/// Replaces the scatter of gaps and slants with the deviations of single scales.
 pub(crate) fn scatter(case: &mut Case, deviations: &[Deviation]) {
     for deviation in deviations {
         let Some(sd) = deviation.scale_sd(case) else { continue };
         match deviation.parameter().key {
-            // Relative to the gap of this sample, so that the scatter in mm does not depend on the batch.
+            // Relative to the gap of this sample, so that the scatter in mm is the same in every
+            // batch.
             "gap_over_t" => case.imperfection.gap_cv = sd / case.design.gap,
             _ => case.imperfection.slant_sd_deg = sd,
         }
     }
 }
 
-/// A number from 0 to 1, the same for every case with that seed.
+/// Draws a number from 0 to 1. It is the same for all cases with equal seeds.
 pub(crate) fn share(case: &Case, number: u64, key: &str) -> f64 {
     StandardUniform.sample(&mut random(case, number, key))
 }
 
-/// The random numbers of a sample that are for one key.
+/// Returns the random numbers of a sample for one key.
 fn random(case: &Case, number: u64, key: &str) -> ChaCha8Rng {
     let mut digest = Sha256::new();
     digest.update((case.samples.seed as u64).to_le_bytes());
@@ -103,13 +106,13 @@ mod tests {
         let both = drawn("length_over_t = { batch_sd = 0.1 }\ngap_over_t = { batch_sd = 0.01 }", 7);
         assert_eq!(one[0], both[1]);
         assert_ne!(one, drawn("gap_over_t = { batch_sd = 0.01 }", 8));
-        // Twice the deviation, the same normal number.
+        // Twice the standard deviation, same normal number.
         let twice = drawn("gap_over_t = { batch_sd = 0.02 }", 7);
         assert_eq!(twice[0], one[0].map(|by| 2.0 * by));
     }
 
     #[test]
-    fn deviations_have_their_moments_and_keep_to_the_bounds() {
+    fn deviations_have_their_moments_and_stay_within_bounds() {
         let normal = |n| drawn("length_over_t = { batch_sd = 0.1 }", n)[0].expect("a deviation");
         let uniform = |n| drawn("length_over_t = { batch_within = 0.1 }", n)[0].expect("one");
         let moments = |of: &dyn Fn(u64) -> f64| {
@@ -131,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn scatter_is_relative_to_the_gap_that_is_made() {
+    fn scatter_is_relative_to_the_gap_of_the_sample() {
         let sweep = sweep("gap_over_t = { batch_sd = 0.01, scale_sd = 0.02 }");
         let (made, _) = sample(&sweep.grid().case(0), sweep.deviations(), 3).expect("a sample");
         assert_ne!(made.design.gap, 0.1);

@@ -1,4 +1,4 @@
-//! Global sensitivity: the parts that the variables of a definition have in the variance of every measure.
+//! Global sensitivity: variance contributions of all variables to every measure.
 
 use std::sync::atomic::AtomicBool;
 
@@ -14,54 +14,57 @@ use crate::sample_store::{SampleStore, SolvedSample};
 use crate::sampled_spread::SampledSpread;
 use crate::sobol::{Evaluation, SobolIndices, sobol_indices};
 
-/// The label under which the samples are kept.
+/// File label of the samples.
 const LABEL: &str = "global";
 
-/// The global sensitivity of the design whose variables a sweep has.
+/// Global sensitivity analysis of the variables of a sweep.
 pub struct GlobalAnalysis<'a> {
-    /// The sweep, of one design but for its variables.
+    /// Sweep with one design, apart from its variables.
     pub sweep: &'a Sweep,
-    /// Samples; each is solved at as many points as there are variables, and two more.
+    /// Number of samples; each has two points more than there are variables.
     pub samples: usize,
-    /// Set once the work is to stop.
+    /// Set to stop the analysis.
     pub stop: &'a AtomicBool,
-    /// The program that does it.
+    /// Program that runs the analysis.
     pub program: Program,
 }
 
-/// The parts of the variables in every measure that they change.
+/// Sobol' indices of all measures that depend on the variables.
 #[derive(Clone, Debug)]
 pub struct GlobalSensitivity {
     /// Keys of the variables.
     pub variables: Vec<&'static str>,
-    /// The measures.
+    /// Indices of each measure.
     pub measures: Vec<MeasureIndices>,
 }
 
-/// The parts of the variables in one measure.
+/// Sobol' indices of one measure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasureIndices {
-    /// Name of its column.
+    /// Column name.
     pub name: String,
-    /// Standard deviation over the box.
+    /// Standard deviation over the box of variables.
     pub spread: f64,
-    /// The indices of each variable.
+    /// Indices of each variable.
     pub indices: Vec<SobolIndices>,
-    /// Samples that have all their values.
+    /// Number of samples with all values.
     pub samples: usize,
-    /// Samples that lack a value, which are left out.
+    /// Number of samples with a missing value, which are excluded.
     pub failed: usize,
 }
 
 impl GlobalAnalysis<'_> {
-    /// The indices of all measures. Samples are taken from `store` as far as they are there, and kept there.
+    /// Computes the indices of all measures.
+    ///
+    /// Reads the samples found in `store`, and stores newly solved ones there.
     ///
     /// # Errors
-    /// If the work is to stop, or the disk does not take the samples.
+    ///
+    /// After `stop`, or if samples cannot be read or written.
     pub fn solve(&self, store: &SampleStore) -> Result<GlobalSensitivity, AnalysisError> {
         let evaluator = Evaluator::new(self.sweep.measures());
         let (number, case) = (self.sweep.grid().number(0), self.sweep.grid().case(0));
-        // Tells which columns hold text; its values are not used.
+        // Only used to find columns with text.
         let middle = evaluator.row(number, &case);
         let measured = MeasuredColumns::of(self.sweep, &middle);
         let names: Vec<String> = measured.iter().map(|column| column.name.to_string()).collect();
@@ -86,20 +89,22 @@ impl GlobalAnalysis<'_> {
         Ok(GlobalSensitivity { variables, measures: measures.collect() })
     }
 
-    /// The points of a sample: `A`, `B`, and `A` with one variable of `B`, by its key.
+    /// Returns the names of the points of a sample.
+    ///
+    /// They are `A`, `B`, and `A` with the key of the variable taken from `B`.
     fn points(&self) -> Vec<String> {
         let mixed = self.sweep.variables().iter().map(|v| format!("A {}", v.parameter().key));
         ["A".to_owned(), "B".to_owned()].into_iter().chain(mixed).collect()
     }
 
-    /// The case at a point of a sample.
+    /// Returns the case at a point of a sample.
     fn case(&self, base: &Case, sample: u64, point: &str) -> Case {
         let mut case = *base;
         for variable in self.sweep.variables() {
             let key = variable.parameter().key;
             let from =
                 if point == "B" || point.strip_prefix("A ") == Some(key) { "B" } else { "A" };
-            // By point and key: one variable more changes the points of no other.
+            // Seeded by point and key: adding a variable does not change the values of the others.
             let share = draw::share(base, sample, &format!("{from} {key}"));
             variable.set(&mut case, variable.at(share));
         }
@@ -107,7 +112,9 @@ impl GlobalAnalysis<'_> {
     }
 }
 
-/// The indices of column `k` of `columns`; `None` if it is constant or has hardly any values.
+/// Computes the indices of column `k`.
+///
+/// `None` if it is constant or has too few values.
 fn indices(
     name: String,
     k: usize,
@@ -117,7 +124,7 @@ fn indices(
     let evaluation = |sample: &SolvedSample| {
         let values: Option<Vec<f64>> =
             sample.values.chunks(columns).map(|point| point[k]).collect();
-        // All points of a sample or none: indices compare them with each other.
+        // Exclude samples with a missing point: an index compares the points of a sample.
         let values = values?;
         let [first, second, mixed @ ..] = values.as_slice() else { return None };
         Some(Evaluation { first: *first, second: *second, mixed: mixed.to_vec() })

@@ -1,9 +1,10 @@
-//! The effect of manufacturing tolerances: the spread of every measure, and the yield.
+//! Effect of manufacturing tolerances: spread of every measure, and yield.
 //!
-//! All scales of a batch share a [`Deviation`](sweep::Deviation), or each scale has its own. The derivatives of a measure predict its
-//! spread: the variances that batch deviations `s` and single scales `i` cause add up (T1). Solving random samples gives the spread
-//! too, and the tables show both and their discrepancy. The random numbers of a sample depend on nothing but the seed, the number of
-//! the sample and the key of the parameter.
+//! A [`Deviation`](sweep::Deviation) is shared by all scales of a batch, or each scale has its own.
+//! The derivatives of a measure predict its spread: the variances caused by batch deviations `s`
+//! and by single scales `i` add up (T1). Random samples, once solved, also give the spread. The
+//! tables contain both and their discrepancy. The random numbers of a sample depend only on the
+//! seed, the number of the sample and the key of the parameter.
 //!
 //! ```text
 //! σ² = Σ_s σ_s² + Σ_i σ_i²
@@ -17,17 +18,21 @@
 //!
 //! | Type | Role |
 //! |---|---|
-//! | [`Analysis`], [`DesignTolerance`] | the tolerances of a design |
-//! | [`MeasureTolerance`], [`LinearSpread`], [`SampledSpread`] | the spread of a measure, predicted and solved |
-//! | [`SourceShare`], [`DeviationLevel`] | the part of a source in it; whether all scales of a batch share the deviation |
-//! | [`RequirementYield`], [`Proportion`] | the share of samples that meet a requirement, with its interval |
-//! | [`SampledQuantile`] | a quantile over samples, with its interval |
+//! | [`Analysis`], [`DesignTolerance`] | tolerance analysis of a design, and its result |
+//! | [`MeasureTolerance`] | spread of a measure, predicted and sampled |
+//! | [`LinearSpread`], [`SourceShare`] | predicted spread, and the contribution of each source |
+//! | [`DeviationLevel`] | whether all scales of a batch share a deviation |
+//! | [`SampledSpread`], [`SampledQuantile`] | spread and quantile over samples |
+//! | [`RequirementYield`], [`Proportion`] | fraction of samples that meet a requirement |
 //! | [`Sampler`], [`Sample`] | draws and solves samples of designs |
-//! | [`SolvedSample`], [`SampleStore`] | the solved samples, kept on disk so that none is solved twice |
-//! | [`GlobalAnalysis`], [`GlobalSensitivity`], [`MeasureIndices`] | global sensitivity: the share of every variable in the variance |
-//! | [`sobol_indices`], [`Evaluation`], [`SobolIndices`], [`IndexEstimate`] | the estimators, for any function |
-//! | [`TOLERANCE_COLUMNS`], [`SOURCE_COLUMNS`], [`YIELD_COLUMNS`], [`INDEX_COLUMNS`] | the tables |
-//! | [`AnalysisError`] | why an analysis fails |
+//! | [`SolvedSample`], [`SampleStore`] | solved samples, stored so that none is solved twice |
+//! | [`GlobalAnalysis`], [`GlobalSensitivity`] | global sensitivity analysis, and its result |
+//! | [`MeasureIndices`] | Sobol' indices of a measure for every variable |
+//! | [`sobol_indices`], [`Evaluation`] | estimator of the indices for any function, and its input |
+//! | [`SobolIndices`], [`IndexEstimate`] | estimated indices with their standard errors |
+//! | [`TOLERANCE_COLUMNS`], [`SOURCE_COLUMNS`] | columns of the tables of spreads |
+//! | [`YIELD_COLUMNS`], [`INDEX_COLUMNS`] | columns of the tables of yields and indices |
+//! | [`AnalysisError`] | error of an analysis |
 //!
 //! ```
 //! use std::sync::atomic::AtomicBool;
@@ -36,15 +41,17 @@
 //! use sweep::Sweep;
 //! use uncertainty::{Analysis, SampleStore};
 //!
-//! // Scales of 45° cover λ = 1 − d (Eq. G2), so the coverage spreads as the gap does.
-//! let text = "name = 'x'\nmeasures = 'coverage'\n[designs]\ngap_over_t = 0.5\nlength_over_t = 1\nslant_deg = 45\n\
+//! // Scales of 45° cover λ = 1 − d (Eq. G2), so coverage and gap have the same spread.
+//! let text = "name = 'x'\nmeasures = 'coverage'\n\
+//!             [designs]\ngap_over_t = 0.5\nlength_over_t = 1\nslant_deg = 45\n\
 //!             [tolerance]\ngap_over_t = { batch_sd = 0.01 }";
 //! let sweep = Sweep::parse(text, "x.toml", &[])?;
 //! let (folder, stop) = (tempfile::tempdir()?, AtomicBool::new(false));
 //! let program = Program { version: "1.0", revision: "none" };
 //! let analysis = Analysis::new(&sweep, &[], 50, program, &stop);
 //! let design = analysis.design(0, &SampleStore::new(folder.path()))?;
-//! let coverage = design.measures.iter().find(|measure| measure.name == "coverage").expect("it is measured");
+//! let mut measures = design.measures.iter();
+//! let coverage = measures.find(|measure| measure.name == "coverage").expect("it is measured");
 //! let predicted = coverage.linear.as_ref().expect("it has derivatives");
 //! assert!((predicted.spread - 0.01).abs() < 1e-6);
 //! assert_eq!(coverage.failed, 0);

@@ -1,4 +1,4 @@
-//! The spread of a measure as its derivatives predict it.
+//! Spread of a measure, predicted by its derivatives.
 
 use results::columns::measure_name;
 use results::{Column, DesignRow, ParameterDerivative, SlopeSide};
@@ -6,45 +6,45 @@ use sweep::{BatchDeviation, Case, Deviation, Parameter};
 
 use crate::moments;
 
-/// Part of a standard deviation over which slopes are taken.
+/// Step of finite differences, in standard deviations.
 const STEP: f64 = 1e-5;
 
-/// The scales that share a deviation.
+/// Scales that share a deviation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DeviationLevel {
-    /// All of a batch have the same.
+    /// All scales of a batch.
     Batch,
-    /// Each has its own.
+    /// Each scale has its own.
     Scale,
 }
 
-/// A source of deviations and its part in the spread of a measure.
+/// A source of deviations, and its contribution to the spread of a measure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SourceShare {
-    /// The key of the source in the definition.
+    /// Key of the source in the definition.
     pub source: String,
-    /// The scales that share a deviation.
+    /// Scales that share a deviation.
     pub level: DeviationLevel,
     /// Standard deviation of the source, in its own unit.
     pub deviation: f64,
-    /// Standard deviation of the measure, were this the only source.
+    /// Standard deviation of the measure if this were the only source.
     pub spread: f64,
-    /// Part of the variance of the measure.
+    /// Fraction of the variance of the measure.
     pub share: f64,
 }
 
-/// The spread of a measure as its derivatives predict it.
+/// Spread of a measure, predicted by its derivatives.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinearSpread {
     /// Standard deviation of the measure.
     pub spread: f64,
-    /// The sources, the one with the largest share first.
+    /// Sources, largest contribution first.
     pub sources: Vec<SourceShare>,
 }
 
-/// A design with its derivatives and deviations.
+/// Derivatives and deviations of a design.
 pub(crate) struct Gradients<'a> {
-    /// The nominal design, with its scatter from scale to scale and the derivatives with respect to its parameters.
+    /// Nominal design, with its scatter and the derivatives of its measures.
     pub(crate) design: &'a DesignRow,
     pub(crate) deviations: &'a [Deviation],
     /// Derivatives with respect to the gaps and slants of single scales.
@@ -52,11 +52,13 @@ pub(crate) struct Gradients<'a> {
 }
 
 impl Gradients<'_> {
-    /// The spread of a column. `None` where it has a kink without one of its sides.
+    /// Returns the spread of a column.
+    ///
+    /// `None` if a one-sided derivative is missing at a kink.
     pub(crate) fn spread(&self, column: &Column<DesignRow>) -> Option<LinearSpread> {
         let mut sources = Vec::new();
         for deviation in self.deviations {
-            // A deviation may be one from scale to scale alone, which stands below.
+            // Deviations from scale to scale only are handled below.
             let Some(batch) = deviation.batch() else { continue };
             let variance = moments::variance(self.slopes(column, deviation, batch)?, batch);
             let (source, deviation) = (deviation.key(), batch.standard_deviation());
@@ -69,7 +71,7 @@ impl Gradients<'_> {
         Some(LinearSpread::of(sources))
     }
 
-    /// The slopes of a column against a deviation.
+    /// Returns the slopes of a column for negative and positive deviations.
     fn slopes(
         &self,
         column: &Column<DesignRow>,
@@ -77,7 +79,8 @@ impl Gradients<'_> {
         batch: BatchDeviation,
     ) -> Option<[f64; 2]> {
         let case = &self.design.case;
-        // Derivatives are extrapolated, so the step needs to be small against the deviation and large against round-off only.
+        // Values are extrapolated linearly from the design. The step may therefore be tiny, as long
+        // as it exceeds round-off.
         let step = STEP * batch.standard_deviation();
         let value =
             |to: &Case| column.cell(&self.design.extrapolated(to, SlopeSide::Ahead)).number();
@@ -86,7 +89,7 @@ impl Gradients<'_> {
         Some([slope(-step)?, slope(step)?])
     }
 
-    /// The parameters that differ from scale to scale, with their standard deviations.
+    /// Returns the parameters with scatter, and their standard deviations.
     fn scattered(&self) -> Vec<(&'static Parameter, f64)> {
         let (imperfection, gap) = (self.design.case.imperfection, self.design.case.design.gap);
         let all =
@@ -95,15 +98,15 @@ impl Gradients<'_> {
         all.into_iter().filter_map(named).filter(|(_, sd)| *sd > 0.0).collect()
     }
 
-    /// The variance of a column under independent deviations of the gaps, or slants, of all scales.
+    /// Returns the variance of a column if all gaps, or slants, deviate independently.
     fn scatter(&self, column: &Column<DesignRow>, key: &str, sd: f64) -> Option<f64> {
         let measure = measure_name(&column.name);
         let mut derivatives = self.design.result.sensitivity.iter();
-        // Parameters and the mass are those of the design, which single scales leave as they are.
+        // Parameters and the mass have no such derivatives, and scatter does not change them.
         let Some(known) = derivatives.find(|d| d.measure == measure) else { return Some(0.0) };
         let at = |value: f64| column.cell(&self.design.with_value(measure, value)?).number();
         let step = STEP * known.value.abs().max(f64::MIN_POSITIVE);
-        // A column in physical units follows from the measure; a difference gives its slope without a formula for each.
+        // Columns in physical units are functions of the measure, so take their slope numerically.
         let factor = (at(known.value + step)? - at(known.value)?) / step;
         let single = self.single.iter();
         let of_measure = single.filter(|d| d.measure == measure && d.parameter == key);
@@ -114,7 +117,7 @@ impl Gradients<'_> {
         of_measure.map(variance).sum()
     }
 
-    /// The key of a parameter, or that of the deviation in mm in its place.
+    /// Returns the key of the deviation of a parameter, which may be in mm.
     fn key(&self, parameter: &'static Parameter) -> String {
         let mut same = self.deviations.iter().filter(|d| d.parameter() == parameter);
         same.next().map_or_else(|| parameter.key.to_owned(), Deviation::key)
@@ -130,14 +133,14 @@ impl LinearSpread {
             SourceShare { source, level, deviation, spread, share }
         };
         let mut sources: Vec<_> = sources.into_iter().map(source).collect();
-        // Stable, so that equal sources keep the order of the definition.
+        // Stable sort, so that equal sources keep the order of the definition.
         sources.sort_by(|one, other| other.share.total_cmp(&one.share));
         Self { spread: sum.sqrt(), sources }
     }
 
-    /// The sources that matter, as "`gap_mm` 83 %, `slant_deg` from scale to scale 12 %".
+    /// Lists the main sources: "`gap_mm` 83 %, `slant_deg` from scale to scale 12 %".
     pub fn in_words(&self) -> String {
-        // Less would be told as 0 %.
+        // Smaller fractions would appear as 0 %.
         let matters = self.sources.iter().filter(|source| source.share >= 0.005);
         let text = |source: &SourceShare| {
             let level =

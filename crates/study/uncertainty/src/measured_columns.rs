@@ -1,25 +1,25 @@
-//! The values of a design that deviations change.
+//! Numeric columns of the designs of a sweep.
 
 use results::columns::design_columns;
 use results::{Cell, Column, DesignRow};
 use sweep::{Measure, Sweep};
 use text::nearest;
 
-/// A column that no design has, or that holds no numbers.
+/// A column that does not exist, or that has no numbers.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("there is no column {found} of numbers, {hint}")]
 pub struct NoSuchColumn {
-    /// The name.
+    /// Name of the column.
     pub found: String,
-    /// The column that may be meant.
+    /// Suggested column.
     pub hint: String,
 }
 
-/// The columns of numbers of the designs of a sweep.
+/// Numeric columns of the designs of a sweep.
 pub(crate) struct MeasuredColumns(Vec<Column<DesignRow>>);
 
 impl MeasuredColumns {
-    /// The columns of `sweep` in which `row` holds no text.
+    /// Returns the columns of `sweep` without text in `row`.
     pub(crate) fn of(sweep: &Sweep, row: &DesignRow) -> Self {
         let holds_text = |column: &Column<_>| matches!(column.cell(row), Cell::Text(_));
         Self(design_columns(sweep).into_iter().filter(|column| !holds_text(column)).collect())
@@ -29,12 +29,16 @@ impl MeasuredColumns {
         self.0.iter()
     }
 
-    /// The values of a row, `None` where there is none.
+    /// Returns the values of a row; `None` for empty cells.
     pub(crate) fn values(&self, row: &DesignRow) -> Vec<Option<f64>> {
         self.0.iter().map(|column| column.cell(row).number()).collect()
     }
 
-    /// The index of the column of that name, in which `row` has a value unless it failed or all of it is solved.
+    /// Returns the index of the column `name` for a requirement.
+    ///
+    /// # Errors
+    ///
+    /// If there is no such column, or if it is empty because its measure is not computed.
     pub(crate) fn required(
         &self,
         name: &str,
@@ -45,7 +49,7 @@ impl MeasuredColumns {
         let index = index.ok_or_else(|| self.no_such_column(name))?;
         let is_whole = Measure::USUAL.iter().all(|measure| measures.contains(measure));
         let has_value = self.0[index].cell(row).number().is_some();
-        // A design that failed has no values, and the requirement is not at fault.
+        // A failed design has no values, but the requirement is valid.
         if has_value || is_whole || row.result.failed() {
             return Ok(index);
         }

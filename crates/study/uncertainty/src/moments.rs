@@ -1,9 +1,10 @@
-//! Moments of what a piecewise linear function makes of a random deviation.
+//! Variance of a piecewise linear function of a random deviation.
 
 use sweep::BatchDeviation;
 
-/// The variance of a measure under a `deviation` of mean 0 (T2), from its slopes where that is negative and where it is positive,
-/// which are equal but at a kink.
+/// Returns the variance of a measure under a `deviation` of mean 0 (T2).
+///
+/// The slopes for negative and for positive deviations differ at a kink.
 pub(crate) fn variance([left, right]: [f64; 2], deviation: BatchDeviation) -> f64 {
     let squares = left.powi(2) + right.powi(2);
     let difference = right - left;
@@ -13,7 +14,7 @@ pub(crate) fn variance([left, right]: [f64; 2], deviation: BatchDeviation) -> f6
         }
         BatchDeviation::Uniform(most) => (most * difference / 4.0, most * most * squares / 6.0),
     };
-    // Round-off may leave the variance of a constant just below zero.
+    // Round-off may make the variance of a constant slightly negative.
     (mean_square - mean * mean).max(0.0)
 }
 
@@ -22,7 +23,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_smooth_measure_spreads_by_slope_times_deviation() {
+    fn the_spread_of_a_smooth_measure_is_slope_times_deviation() {
         let slopes = [-3.0, -3.0];
         for deviation in [BatchDeviation::Normal(0.2), BatchDeviation::Uniform(0.2)] {
             let expected = 9.0 * deviation.standard_deviation().powi(2);
@@ -33,7 +34,7 @@ mod tests {
     #[test]
     fn a_kink_has_the_moments_of_the_folded_distribution() {
         let slopes = [-1.0, 1.0];
-        // |z|: 1 − 2/π, and w²/3 − w²/4.
+        // |z|: 1 − 2/π; |w|: w²/3 − w²/4.
         let normal = variance(slopes, BatchDeviation::Normal(1.0));
         assert!((normal - (1.0 - 2.0 / std::f64::consts::PI)).abs() < 1e-15);
         assert!((variance(slopes, BatchDeviation::Uniform(1.0)) - 1.0 / 12.0).abs() < 1e-15);

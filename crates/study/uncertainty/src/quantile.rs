@@ -1,23 +1,27 @@
-//! A quantile over samples, with the interval that they leave for that of the distribution.
+//! Quantile over samples, with its confidence interval.
 
 use results::quantile;
 use statrs::distribution::{Binomial, DiscreteCDF as _};
 
-/// A quantile over samples.
+/// Quantile over samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SampledQuantile {
-    /// The quantile of the samples; `None` where it is not finite.
+    /// Quantile of the samples; `None` if it is not finite.
     pub value: Option<f64>,
-    /// The 95 % interval of the quantile of the distribution; `None` for an end that so few samples leave open.
+    /// 95 % confidence interval of the true quantile.
+    ///
+    /// An end is `None` if there are too few samples to bound it.
     pub interval: [Option<f64>; 2],
 }
 
-/// The probability that an interval misses on one side.
+/// Probability that the true value lies beyond one end of the interval.
 const MISS: f64 = 0.025;
 
 impl SampledQuantile {
-    /// The quantile of `values` below which the `share` of them lies, with an interval that rests on no distribution, as the number of
-    /// values below the quantile is binomial (T8; David & Nagaraja 2003, *Order Statistics*, section 7.1).
+    /// Computes the quantile for the fraction `share`, and its confidence interval.
+    ///
+    /// The interval assumes no distribution, because the number of values below the true quantile
+    /// is binomial (T8; David & Nagaraja 2003, *Order Statistics*, section 7.1).
     pub fn of(mut values: Vec<f64>, share: f64) -> Self {
         values.sort_by(f64::total_cmp);
         let value = quantile(&values, share);
@@ -27,10 +31,11 @@ impl SampledQuantile {
     }
 }
 
-/// The places of the ends of the interval among values in their order, from 0.
+/// Returns the indices of the interval ends in the sorted values.
 fn places(count: usize, share: f64) -> [Option<usize>; 2] {
     let Ok(below) = Binomial::new(share, count as u64) else { return [None; 2] };
-    // Value `l`, from 1, is too high if fewer than `l` lie below the quantile, value `u` too low if `u` or more do.
+    // Value `l`, from 1, is too high if fewer than `l` values lie below the quantile. Value `u` is
+    // too low if `u` or more do.
     let low = (1..=count).take_while(|&l| below.cdf(l as u64 - 1) <= MISS).last();
     let high = (1..=count).find(|&u| below.sf(u as u64 - 1) <= MISS);
     [low, high].map(|place| place.map(|from_one| from_one - 1))
@@ -43,11 +48,12 @@ mod tests {
     use super::{SampledQuantile, places};
 
     #[test]
-    fn intervals_hold_the_quantile_as_often_as_they_say() {
+    fn intervals_cover_the_quantile_95_percent_of_the_time() {
         for (count, share) in [(200, 0.05), (1000, 0.05), (1000, 0.5), (1000, 0.95), (73, 0.5)] {
             let [low, high] = places(count, share).map(|place| place.expect("an end") as u64 + 1);
             let below = Binomial::new(share, count as u64).expect("a probability");
-            // The quantile lies between value `low` and value `high` if at least `low` and fewer than `high` are below it.
+            // The interval contains the quantile if at least `low` and fewer than `high` values lie
+            // below it.
             let covered: f64 = (low..high).map(|k| below.pmf(k)).sum();
             assert!((0.95..0.98).contains(&covered), "{count} {share}: {covered}");
         }
@@ -55,7 +61,7 @@ mod tests {
     }
 
     #[test]
-    fn samples_without_a_value_are_worse_than_any() {
+    fn failed_samples_rank_below_all_values() {
         let mut values: Vec<f64> = (1..=99).map(f64::from).collect();
         values.push(f64::NEG_INFINITY);
         let half = SampledQuantile::of(values.clone(), 0.5);

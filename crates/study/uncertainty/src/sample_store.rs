@@ -1,4 +1,4 @@
-//! Samples that were solved, kept so that none is solved twice.
+//! Storage of solved samples, so that none is solved twice.
 
 use std::collections::BTreeMap;
 use std::convert::Infallible;
@@ -16,8 +16,10 @@ use sweep::Subset;
 
 use crate::analysis_error::AnalysisError;
 
-/// Digits of a digest that tell the journals of one label apart: two of ten thousand definitions share them once in a hundred
-/// times, and are then refused.
+/// Number of digits of the digest in a file name.
+///
+/// Among ten thousand definitions with one label, two share these digits with a probability of 1 %.
+/// The second is then refused.
 const DIGITS: usize = 8;
 
 /// A solved sample.
@@ -26,19 +28,20 @@ const DIGITS: usize = 8;
 pub struct SolvedSample {
     /// Number of the sample, from 1.
     pub number: u64,
-    /// Its values, `None` where there is none.
+    /// Values; `None` for a failed measure.
     pub values: Vec<Option<f64>>,
 }
 
-/// A folder of samples: under each label a journal for each definition, to which every sample is added as it is solved, and its
-/// table.
+/// A folder of samples, with a journal and a table for each label and definition.
+///
+/// Every sample is appended to its journal as soon as it is solved.
 #[derive(Clone, Debug)]
 pub struct SampleStore {
     folder: ResultsFolder,
     work: Arc<WorkMeter>,
 }
 
-/// The samples of one definition that are kept, by their numbers.
+/// Stored samples of one definition, by number.
 struct KeptSamples {
     header: JournalHeader,
     values: BTreeMap<u64, Vec<Option<f64>>>,
@@ -70,21 +73,24 @@ impl Records for KeptSamples {
 }
 
 impl SampleStore {
-    /// The store in `folder`, which is made when there is something to keep.
+    /// Creates a store in `folder`. The folder is created when the first samples are solved.
     pub fn new(folder: &Path) -> Self {
         Self { folder: ResultsFolder::new(folder), work: Arc::default() }
     }
 
-    /// How far the work is, in samples; whoever asks for them says first how many there will be.
+    /// Returns the progress in samples. Callers set the expected number first.
     pub fn work(&self) -> &Arc<WorkMeter> {
         &self.work
     }
 
-    /// The first `count` samples under a label of what `header` describes: those that are kept, and those that `solve` makes of the
-    /// other numbers, in parallel until `stop` is set. Each is kept as soon as it is solved.
+    /// Returns samples 1 to `count` of the definition in `header`, under a label.
+    ///
+    /// Samples missing in the journal are solved in parallel and stored at once, until `stop` is
+    /// set.
     ///
     /// # Errors
-    /// If the work is to stop, or the samples cannot be kept.
+    ///
+    /// After `stop`, or if samples cannot be read or written.
     pub(crate) fn samples(
         &self,
         (label, header): (&str, JournalHeader),
@@ -97,18 +103,19 @@ impl SampleStore {
             return Ok(Vec::new());
         }
         self.folder.make()?;
-        // Another definition or program has files of its own: who comes back to the first finds its samples, and no table of one
-        // stands under the name of another.
+        // Each definition and program version has its own files. Samples remain available when a
+        // user returns to an earlier definition, and no table is overwritten by another definition.
         let name = format!("{label}-{}", &header.digest()[..DIGITS]);
         let path = self.folder.file(&format!("{name}.jsonl"));
         let journal = Mutex::new(Journal::<KeptSamples>::begin(&path, header, Start::Resume)?);
         let lock = || journal.lock().unwrap_or_else(PoisonError::into_inner);
         let columns = columns(names);
         let table = format!("{name}.csv");
-        // By itself: the lock would be held as long as the loop, which takes it again.
+        // A separate statement, because the loop acquires the lock again.
         let differing = self.differing(&table, &columns, &lock().records().values);
         for number in differing {
-            // Samples are drawn by their numbers: solved again, one tells which of the two was changed.
+            // Samples are reproducible, so solving again shows whether the journal or the table was
+            // edited.
             let kept = lock().records().values[&number].clone();
             if !stop.load(Ordering::Relaxed) && solve(number) != kept {
                 let (line, again) = (format!("sample {number}"), "by removing the journal");
@@ -119,7 +126,8 @@ impl SampleStore {
         missing.retain(|number| !lock().records().values.contains_key(number));
         self.work.leave_out((count - missing.len()) as u64);
         missing.into_par_iter().try_for_each(|number| {
-            // No error yet: samples in hand are kept first, and what is missing is counted behind.
+            // Return no error here: running samples are stored first, and missing ones are counted
+            // below.
             if stop.load(Ordering::Relaxed) {
                 return Ok(());
             }
@@ -129,19 +137,19 @@ impl SampleStore {
         })?;
         let mut journal = lock();
         journal.sync()?;
-        // An analysis of more samples may have been here before: its others are left alone.
+        // Ignore further samples of an earlier analysis with a larger count.
         let kept = journal.records().values.range(..=count as u64);
         let samples = kept.map(|(&number, values)| SolvedSample { number, values: values.clone() });
         let samples: Vec<SolvedSample> = samples.collect();
         if samples.len() < count {
             return Err(AnalysisError::Stopped { done: samples.len(), of: count });
         }
-        // Each time, from the journal: a table that somebody has changed does not stay.
+        // Always write the table from the journal, to replace edited tables.
         write_rows(&self.folder, &table, self.folder.csv_format(), &columns, &samples)?;
         Ok(samples)
     }
 
-    /// The numbers of the samples that the table `name` has with other values than those that are kept.
+    /// Returns the samples that differ between the table `name` and the journal.
     fn differing(
         &self,
         name: &str,
@@ -160,7 +168,7 @@ impl SampleStore {
     }
 }
 
-/// The columns of a table of samples.
+/// Returns the columns of a table of samples.
 fn columns(names: &[String]) -> Vec<Column<SolvedSample>> {
     let number = Column::new("sample", "-", "number of the sample", |sample: &SolvedSample| {
         Cell::Count(sample.number as i64)

@@ -1,25 +1,25 @@
-//! The spread of a measure over solved samples.
+//! Spread of a measure over solved samples.
 
 use results::Statistics;
 
-/// The spread of a measure over solved samples.
+/// Spread of a measure over solved samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SampledSpread {
-    /// Samples that have a value, at least two.
+    /// Number of samples with a value, at least two.
     pub count: usize,
     /// Mean and quantiles.
     pub statistics: Statistics,
     /// Standard deviation.
     pub spread: f64,
-    /// Standard error of that standard deviation (T4).
+    /// Standard error of the standard deviation (T4).
     pub spread_error: f64,
 }
 
-/// Part of the values up to which their spread is round-off, and counts as none.
+/// Spread, relative to the values, below which it is round-off.
 const ROUND_OFF: f64 = 1e-13;
 
 impl SampledSpread {
-    /// The spread of `values`; `None` if there are fewer than two.
+    /// Computes the spread of `values`; `None` if there are fewer than two.
     pub fn of(values: &[f64]) -> Option<Self> {
         let count = values.len();
         let statistics = Statistics::from_values(values.to_vec()).filter(|_| count > 1)?;
@@ -31,7 +31,7 @@ impl SampledSpread {
         let variance = moment(2) * n / (n - 1.0);
         let of_variance = (moment(4) - variance.powi(2) * (n - 3.0) / (n - 1.0)).max(0.0) / n;
         let size = values.iter().fold(0.0, |size: f64, value| size.max(value.abs()));
-        // A measure that no deviation touches differs by the round-off of its paths alone.
+        // A measure that depends on no deviation still differs by round-off along its path.
         let is_round_off = variance.sqrt() <= ROUND_OFF * size;
         let spread = if is_round_off { 0.0 } else { variance.sqrt() };
         let spread_error = if spread > 0.0 { of_variance.sqrt() / (2.0 * spread) } else { 0.0 };
@@ -44,8 +44,8 @@ mod tests {
     use super::SampledSpread;
 
     #[test]
-    fn the_error_of_a_spread_is_that_of_the_distribution() {
-        // Equally spaced values are as good as uniform ones: kurtosis 9/5, so the error is s √(0.8/4n).
+    fn the_error_of_a_spread_follows_from_the_kurtosis() {
+        // The kurtosis of a uniform distribution is 9/5, so the error is s √(0.8/4n).
         let values: Vec<f64> = (0..1001).map(f64::from).collect();
         let sampled = SampledSpread::of(&values).expect("values");
         assert!((sampled.spread - 1000.0 / 12.0_f64.sqrt()).abs() < 0.5);

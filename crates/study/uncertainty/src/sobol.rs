@@ -1,73 +1,78 @@
-//! Sobol' indices: the parts that variables have in the variance of a function.
+//! Sobol' indices: contributions of variables to the variance of a function.
 
-/// The values of a function at two independent points, and at the first of them with one coordinate of the second, each in turn.
+/// Values of a function at two independent points and at combinations of them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Evaluation {
-    /// The value at the first point, `A`.
+    /// Value at the first point, `A`.
     pub first: f64,
-    /// The value at the second point, `B`.
+    /// Value at the second point, `B`.
     pub second: f64,
-    /// The value at `A` with coordinate `i` of `B`, for every `i`.
+    /// Value at `A` with coordinate `i` of `B`, for every `i`.
     pub mixed: Vec<f64>,
 }
 
-/// The part of a variable in the variance of a function.
+/// Contribution of a variable to the variance of a function.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SobolIndices {
-    /// First-order index: the part that the variable has alone.
+    /// First-order index: contribution of the variable alone.
     pub first: IndexEstimate,
-    /// Total index: the part that it has alone and together with others.
+    /// Total index: contribution of the variable, alone and in interactions.
     pub total: IndexEstimate,
 }
 
 /// An estimate and its standard error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct IndexEstimate {
-    /// The estimate.
+    /// Estimate.
     pub value: f64,
-    /// The standard error.
+    /// Standard error.
     pub error: f64,
 }
 
-/// Standard errors to either side that 95 % of a normal distribution lie within.
+/// Half-width of the 95 % interval, in standard errors.
 const WITHIN: f64 = 1.959_964;
 
 impl IndexEstimate {
-    /// The 95 % interval.
+    /// Returns the 95 % confidence interval.
     pub fn interval(self) -> [f64; 2] {
         [-WITHIN, WITHIN].map(|errors| self.value + errors * self.error)
     }
 }
 
-/// The first-order and total index of every variable from independent evaluations, at least two; `None` if the function is constant.
+/// Returns the first-order and total index of every variable.
 ///
-/// With the mean `f₀` and the variance `V` over all points `A` and `B`, and `A⁽ⁱ⁾` the point `A` with coordinate `i` of `B`,
+/// `None` if there are fewer than two evaluations or the function is constant. The evaluations must
+/// be independent. With the mean `f₀` and the variance `V` over all points `A` and `B`, and `A⁽ⁱ⁾`
+/// the point `A` with coordinate `i` of `B`,
 ///
 /// ```text
 /// S_i = ⟨(f(B) − f₀)(f(A⁽ⁱ⁾) − f(A))⟩/V                                               (T6)
 /// T_i = ⟨(f(A) − f(A⁽ⁱ⁾))²⟩/2V                                                        (T7)
 /// ```
 ///
-/// (Saltelli et al. 2010, doi 10.1016/j.cpc.2009.09.018; Jansen 1999, doi 10.1016/S0010-4655(98)00154-4). Both are ratios of means
-/// over independent evaluations, so their errors are those of the mean of `(u − S v)/V`, `u` the terms above and `v` those of `V`.
+/// (Saltelli et al. 2010, doi 10.1016/j.cpc.2009.09.018; Jansen 1999, doi
+/// 10.1016/S0010-4655(98)00154-4). Both are ratios of means over independent evaluations. Their
+/// standard error is the standard error of the mean of `(u − S v)/V`, with the terms `u` in the
+/// brackets above and the terms `v` of the variance.
 pub fn sobol_indices(evaluations: &[Evaluation]) -> Option<Vec<SobolIndices>> {
     let n = evaluations.len() as f64;
     let mean = evaluations.iter().map(|e| e.first + e.second).sum::<f64>() / (2.0 * n);
-    // A mean that is large against the spread would drown the indices in errors.
+    // Subtract the mean: if it is large compared to the spread, it dominates the errors.
     let centred = |value: f64| value - mean;
     let squares: Vec<f64> = evaluations
         .iter()
         .map(|e| 0.5 * (centred(e.first).powi(2) + centred(e.second).powi(2)))
         .collect();
     let variance = squares.iter().sum::<f64>() / n;
-    // Asked so that a variance that is no number is refused, too.
+    // This form of the condition also refuses NaN.
     if evaluations.len() < 2 || !(variance > 0.0 && variance.is_finite()) {
         return None;
     }
     let ratio = |term: &dyn Fn(&Evaluation) -> f64| {
         let terms: Vec<f64> = evaluations.iter().map(term).collect();
         let value = terms.iter().sum::<f64>() / (n * variance);
-        // Numerator and variance come from the same samples, so each sample moves the ratio by both.
+        // Numerator and variance use the same samples, so each sample changes the ratio through
+        // both.
         let influences =
             terms.iter().zip(&squares).map(|(u, v)| ((u - value * v) / variance).powi(2));
         IndexEstimate { value, error: (influences.sum::<f64>() / (n * (n - 1.0))).sqrt() }
@@ -94,7 +99,7 @@ mod tests {
         x[0].sin() + 7.0 * x[1].sin().powi(2) + 0.1 * x[2].powi(4) * x[0].sin()
     }
 
-    /// The first-order and total indices of that function in closed form.
+    /// Returns the exact first-order and total indices of `ishigami`.
     fn exact() -> [[f64; 2]; 3] {
         let (a, b) = (7.0, 0.1);
         let alone = 0.5 * (1.0 + b * PI.powi(4) / 5.0_f64).powi(2);
@@ -132,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn the_ishigami_function_has_its_closed_form() {
+    fn indices_of_the_ishigami_function_match_the_closed_form() {
         for (found, exact) in indices(1, 200_000).into_iter().zip(exact()) {
             assert!((found.first.value - exact[0]).abs() < 0.012, "{found:?} {exact:?}");
             assert!((found.total.value - exact[1]).abs() < 0.012, "{found:?} {exact:?}");
@@ -140,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn intervals_hold_the_closed_form_as_often_as_they_say() {
+    fn intervals_cover_the_exact_indices_95_percent_of_the_time() {
         const REPEATS: u64 = 600;
         let mut held = [[0_u32; 2]; 3];
         for seed in 0..REPEATS {
@@ -151,7 +156,7 @@ mod tests {
                 }
             }
         }
-        // 95 %, of 600: 570, and three standard deviations are 16.
+        // Expected 570 of 600; three standard deviations are 16.
         assert!(held.iter().flatten().all(|held| (554..=590).contains(held)), "{held:?}");
     }
 

@@ -1,4 +1,4 @@
-//! The tables of tolerances.
+//! Columns and rows of the tables of an analysis.
 
 use results::{Column, columns};
 use sweep::DesignNumber;
@@ -12,13 +12,13 @@ use crate::sobol::SobolIndices;
 use crate::yields::RequirementYield;
 
 impl DesignTolerance {
-    /// The rows of `tolerance.csv`: a measure of a design and its spread.
+    /// Returns the rows of `tolerance.csv`: measures with their spread.
     pub fn measure_rows(&self) -> impl Iterator<Item = (DesignNumber, MeasureTolerance)> {
         let design = self.nominal.number;
         self.measures.iter().cloned().map(move |measure| (design, measure))
     }
 
-    /// The rows of `tolerance_sources.csv`: the share of a source in the spread of the measure of that name.
+    /// Returns the rows of `tolerance_sources.csv`: sources of each measure.
     pub fn source_rows(&self) -> impl Iterator<Item = (DesignNumber, String, SourceShare)> {
         let design = self.nominal.number;
         self.measures.iter().flat_map(move |measure| {
@@ -27,7 +27,7 @@ impl DesignTolerance {
         })
     }
 
-    /// The rows of `yield.csv`: how many samples of a design meet a requirement, or all of them.
+    /// Returns the rows of `yield.csv`: each requirement, then all together.
     pub fn yield_rows(&self) -> impl Iterator<Item = (DesignNumber, RequirementYield)> {
         let design = self.nominal.number;
         self.yields.iter().cloned().map(move |of| (design, of))
@@ -35,7 +35,7 @@ impl DesignTolerance {
 }
 
 impl MeasureIndices {
-    /// The rows of `sobol.csv`: the part of each of the `variables`, by their keys, in the measure.
+    /// Returns the rows of `sobol.csv`: indices of each variable, by its key.
     pub fn rows(
         &self,
         variables: &[&'static str],
@@ -48,7 +48,7 @@ const DESIGN: &str = "position of the design in the grid of its sweep";
 const MEASURE: &str = "column name of the measure";
 const SAME: &str = "as the measure";
 
-/// The columns of `tolerance.csv`.
+/// Columns of `tolerance.csv`.
 pub static TOLERANCE_COLUMNS: &[Column<(DesignNumber, MeasureTolerance)>] = &columns! {
     (DesignNumber, MeasureTolerance):
     "design", "-", |(design, _)| design.to_string(), DESIGN;
@@ -73,7 +73,7 @@ pub static TOLERANCE_COLUMNS: &[Column<(DesignNumber, MeasureTolerance)>] = &col
     "p95", SAME, |(_, m)| sampled(m, |s| s.statistics.quantiles[2]), "95 % quantile over the samples";
 };
 
-/// The columns of `tolerance_sources.csv`.
+/// Columns of `tolerance_sources.csv`.
 pub static SOURCE_COLUMNS: &[Column<(DesignNumber, String, SourceShare)>] = &columns! {
     (DesignNumber, String, SourceShare):
     "design", "-", |(design, ..)| design.to_string(), DESIGN;
@@ -91,7 +91,7 @@ pub static SOURCE_COLUMNS: &[Column<(DesignNumber, String, SourceShare)>] = &col
     "share", "-", |(.., s)| s.share, "part of the variance of the measure";
 };
 
-/// The columns of `yield.csv`.
+/// Columns of `yield.csv`.
 pub static YIELD_COLUMNS: &[Column<(DesignNumber, RequirementYield)>] = &columns! {
     (DesignNumber, RequirementYield):
     "design", "-", |(design, _)| design.to_string(), DESIGN;
@@ -108,7 +108,7 @@ pub static YIELD_COLUMNS: &[Column<(DesignNumber, RequirementYield)>] = &columns
     "linear_yield", "-", |(_, of)| of.linear, "yield that the linear spread predicts";
 };
 
-/// The columns of `sobol.csv`.
+/// Columns of `sobol.csv`.
 pub static INDEX_COLUMNS: &[Column<(MeasureIndices, &'static str, SobolIndices)>] = &columns! {
     (MeasureIndices, &'static str, SobolIndices):
     "measure", "-", |(m, ..)| m.name.clone(), MEASURE;

@@ -1,25 +1,27 @@
-//! The share of samples that meet what is required.
+//! Yield: fraction of samples that meet requirements.
 
 use ranking::{Relation, Requirement};
 use statrs::distribution::{ContinuousCDF as _, Normal};
 
 use crate::proportion::Proportion;
 
-/// The share of samples that meet a requirement, or all of them.
+/// Yield of a requirement, or of all requirements together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RequirementYield {
-    /// The requirement; `None` for all together.
+    /// Requirement; `None` for all together.
     pub requirement: Option<Requirement>,
-    /// Samples that meet it; `None` if none were solved. A sample without a value does not.
+    /// Fraction of samples that meet it; `None` without samples. Failed samples do not meet it.
     pub proportion: Option<Proportion>,
-    /// Samples without a value.
+    /// Number of samples without a value.
     pub failed: usize,
-    /// The yield that the linear spread predicts, of one requirement alone.
+    /// Yield predicted by the linear spread, for a single requirement.
     pub linear: Option<f64>,
 }
 
-/// The yields of the `requirements`, each with its values in all samples, and that of all together behind them. A requirement
-/// comes with its nominal value and its linear spread, if it has them.
+/// Returns the yield of every requirement, then of all together.
+///
+/// Arguments are the values of each requirement in all samples, and its nominal value and linear
+/// spread if known.
 pub(crate) fn yields(
     requirements: &[Requirement],
     values: &[Vec<Option<f64>>],
@@ -43,19 +45,19 @@ pub(crate) fn yields(
         requirement: None,
         proportion: of(&|n| every.clone().all(|k| meets(k, n))),
         failed: (0..count).filter(|&n| every.clone().any(|k| values[k][n].is_none())).count(),
-        // Columns of one sample go together: spreads one by one do not tell how often all are met.
+        // Columns of a sample are correlated, so single spreads do not predict this yield.
         linear: None,
     };
     every.clone().map(one).chain((!requirements.is_empty()).then_some(together)).collect()
 }
 
-/// The probability that a normal value meets a bound.
+/// Returns the probability that a normally distributed value meets a requirement.
 fn predicted(requirement: &Requirement, value: f64, spread: f64) -> Option<f64> {
     let normal = Normal::new(value, spread).ok()?;
     match requirement.relation {
         Relation::AtLeast | Relation::Above => Some(normal.sf(requirement.limit)),
         Relation::AtMost | Relation::Below => Some(normal.cdf(requirement.limit)),
-        // A value with a spread meets an equality with probability 0, which tells nothing.
+        // A continuous value meets an equality with probability 0.
         Relation::Equal => None,
     }
 }
@@ -65,7 +67,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_failed_does_not_meet_and_is_counted_apart() {
+    fn failed_samples_do_not_meet_requirements_and_are_counted() {
         let requirements = ["a >= 1", "b <= 2"].map(|text| text.parse().expect("a requirement"));
         let values = [
             vec![Some(1.0), None, Some(3.0), Some(0.5)],

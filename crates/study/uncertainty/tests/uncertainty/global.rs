@@ -1,4 +1,4 @@
-//! Global sensitivity of a measure in closed form.
+//! Global sensitivity of a measure with a closed form.
 
 use std::sync::atomic::AtomicBool;
 
@@ -7,9 +7,11 @@ use uncertainty::{GlobalAnalysis, SampleStore};
 
 use crate::PROGRAM;
 
-/// While a vertical line meets one neighbour only, in part, `λ = 1 − d cot α` (G2): a product of two independent factors.
+/// If a vertical line crosses one neighbour at most, `λ = 1 − d cot α` (G2).
+///
+/// This is a product of two independent factors.
 #[test]
-fn coverage_has_its_closed_form() {
+fn indices_of_coverage_match_the_closed_form() {
     let text = "name = 'x'\nmeasures = 'coverage'\n[variables]\ngap_over_t = { from = 0.1, to = 0.5 }\n\
                 length_over_t = [1, 1.5, 2]\nslant_deg = { from = 30, to = 45 }";
     let sweep = Sweep::parse(text, "x.toml", &[]).expect("a valid sweep");

@@ -1,4 +1,4 @@
-//! Samples that are kept: an interruption loses none but those in hand.
+//! Interrupted analyses resume from stored samples.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use uncertainty::AnalysisError;
 use crate::{QUICK, analysed, sweep};
 
 #[test]
-fn an_analysis_goes_on_where_it_was() {
+fn an_interrupted_analysis_resumes_from_stored_samples() {
     let place = tempfile::tempdir().expect("a folder");
     let (whole, parts) = (place.path().join("whole"), place.path().join("parts"));
     let sweep = sweep(
@@ -17,7 +17,7 @@ fn an_analysis_goes_on_where_it_was() {
         "[tolerance]\ngap_over_t = { batch_sd = 0.01, scale_sd = 0.01 }",
     );
     let at_once = analysed(&sweep, &[], 250, &whole, false).expect("tolerances");
-    // Told to stop before the first sample, then after 150, then not at all.
+    // Stop before the first sample, then after 150, then run to the end.
     let stopped = analysed(&sweep, &[], 250, &parts, true).expect_err("stopped");
     assert!(matches!(stopped, AnalysisError::Stopped { done: 0, of: 250 }));
     analysed(&sweep, &[], 150, &parts, false).expect("tolerances");
@@ -29,13 +29,13 @@ fn an_analysis_goes_on_where_it_was() {
     let file =
         |folder: &Path| fs::read(folder.join(table.file_name().expect("a name"))).expect("a table");
     assert_eq!(file(&whole), file(&parts));
-    // A table that was changed is not believed: the journal is.
+    // An edited table is replaced, because the journal differs from it.
     let damaged = String::from_utf8(file(&parts)).expect("text").replacen("0.2", "0.3", 1);
     fs::write(&table, damaged).expect("written");
     let again = analysed(&sweep, &[], 250, &parts, false).expect("tolerances");
     assert_eq!(again.samples, at_once.samples);
     assert_eq!(file(&whole), file(&parts));
-    // A damaged line before intact ones is refused, and nothing is thrown away.
+    // A damaged line before intact lines is an error, and the journal remains unchanged.
     let [journal] = files(&parts, "jsonl").try_into().expect("one journal");
     let sound = fs::read_to_string(&journal).expect("text");
     let third = sound.lines().nth(2).expect("a line");
@@ -44,13 +44,13 @@ fn an_analysis_goes_on_where_it_was() {
     let refused = analysed(&sweep, &[], 250, &parts, false).expect_err("damaged").to_string();
     assert!(refused.contains(".jsonl:3: damaged line"), "{refused}");
     assert_eq!(fs::read_to_string(&journal).expect("text"), damaged);
-    // What a kill has torn at the end is solved again.
+    // A torn line at the end is solved again.
     fs::write(&journal, &sound[..sound.len() - 20]).expect("written");
     let again = analysed(&sweep, &[], 250, &parts, false).expect("tolerances");
     assert_eq!(again.samples, at_once.samples);
 }
 
-/// The files in a folder of a certain extension.
+/// Returns the files in a folder with an extension.
 fn files(folder: &Path, extension: &str) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).expect("a folder");
     let paths = entries.map(|entry| entry.expect("an entry").path());
@@ -58,7 +58,7 @@ fn files(folder: &Path, extension: &str) -> Vec<PathBuf> {
 }
 
 #[test]
-fn other_deviations_are_other_samples() {
+fn each_definition_has_its_own_samples() {
     let place = tempfile::tempdir().expect("a folder");
     let sampled = |sd: &str| {
         let lines = format!("[tolerance]\ngap_over_t = {{ batch_sd = {sd} }}");
@@ -67,7 +67,7 @@ fn other_deviations_are_other_samples() {
     };
     let first = sampled("0.01");
     assert_ne!(first, sampled("0.02"));
-    // Whoever comes back to a definition finds its samples.
+    // Returning to the first definition reuses its samples.
     let kept = || -> Vec<Vec<u8>> {
         files(place.path(), "jsonl").iter().map(|path| fs::read(path).expect("bytes")).collect()
     };

@@ -1,4 +1,4 @@
-//! Predictions against solved samples, closed forms, and what an interruption leaves.
+//! Predicted and sampled spreads, closed forms, and interruptions.
 
 mod global;
 mod guide;
@@ -12,18 +12,18 @@ use run::Program;
 use sweep::Sweep;
 use uncertainty::{Analysis, AnalysisError, DesignTolerance, SampleStore};
 
-/// Measures that take little time.
+/// Measures that are fast to solve.
 const QUICK: &str = "'coverage', 'puncture'";
 
 const PROGRAM: Program = Program { version: "1.0", revision: "none" };
 
-/// The sweep of one design, solved for these measures, with these deviations.
+/// Returns a sweep of one design with these measures and deviations.
 fn sweep(measures: &str, design: &str, lines: &str) -> Sweep {
     let text = format!("name = 'x'\nmeasures = [{measures}]\n[designs]\n{design}\n{lines}");
     Sweep::parse(&text, "x.toml", &[]).expect("a valid sweep")
 }
 
-/// The tolerances of the first design of `sweep`, its samples kept in `folder`.
+/// Analyses the first design of `sweep`, and stores its samples in `folder`.
 fn analysed(
     sweep: &Sweep,
     require: &[&str],
@@ -37,7 +37,7 @@ fn analysed(
     analysis.design(0, &SampleStore::new(folder))
 }
 
-/// The tolerances of the first design of `sweep`, its samples in a folder of their own.
+/// Analyses the first design of `sweep` with samples in a temporary folder.
 fn tolerance(sweep: &Sweep, require: &[&str], samples: usize) -> DesignTolerance {
     let folder = tempfile::tempdir().expect("a folder");
     analysed(sweep, require, samples, folder.path(), false).expect("tolerances")

@@ -1,4 +1,4 @@
-//! Linear spreads, and those of solved samples.
+//! Linear and sampled spreads.
 
 use uncertainty::{DesignTolerance, MeasureTolerance};
 
@@ -12,7 +12,7 @@ fn measure<'d>(design: &'d DesignTolerance, name: &str) -> &'d MeasureTolerance 
     design.measures.iter().find(|measure| measure.name == name).expect("a measure")
 }
 
-/// The prediction and the samples agree within four standard errors and one per cent.
+/// Asserts agreement within four standard errors plus one per cent.
 fn assert_agree(measure: &MeasureTolerance) {
     let sampled = measure.sampled.as_ref().expect("samples");
     let allowed = 0.01 + 4.0 * sampled.spread_error / sampled.spread;
@@ -21,7 +21,7 @@ fn assert_agree(measure: &MeasureTolerance) {
 }
 
 #[test]
-fn small_deviations_of_a_batch_spread_as_the_derivatives_say() {
+fn batch_spreads_agree_with_the_linear_prediction() {
     let lines = "[puncture]\nscales = 21\n[material]\nthickness_mm = 8\nsubstrate_modulus_MPa = 0.31\n\
                  membrane_modulus_MPa = 4.5\nscale_density_kg_m3 = 1200\n[tolerance]\n\
                  gap_mm = { batch_sd = 0.002 }\nlength_over_t = { batch_within = 0.0005 }\n\
@@ -30,7 +30,7 @@ fn small_deviations_of_a_batch_spread_as_the_derivatives_say() {
                  scale_density_kg_m3 = { batch_sd = 1 }\nc1 = { batch_sd = 1e-3 }";
     let design = tolerance(&sweep(ALL, DESIGN, lines), &[], 300);
     let compared: Vec<_> = design.measures.iter().filter(|m| m.discrepancy().is_some()).collect();
-    // Dimensionless, in mm and newtons, and the mass.
+    // Dimensionless columns, columns in mm and N, and the mass.
     assert!(compared.len() > 25, "{}", compared.len());
     for measure in compared {
         assert_agree(measure);
@@ -39,7 +39,7 @@ fn small_deviations_of_a_batch_spread_as_the_derivatives_say() {
     assert_eq!(force.sources.len(), 8);
     let shares: f64 = force.sources.iter().map(|source| source.share).sum();
     assert!((shares - 1.0).abs() < 1e-12);
-    // Neither gap nor slant changes the mass, but for the length of a pitch.
+    // Slant and contact law do not change the mass.
     let mass = measure(&design, "areal_mass_kg_m2").linear.as_ref().expect("a spread");
     let share = |key: &str| mass.sources.iter().find(|s| s.source == key).expect("a source").share;
     assert_eq!((share("slant_deg"), share("c1")), (0.0, 0.0));
@@ -47,7 +47,7 @@ fn small_deviations_of_a_batch_spread_as_the_derivatives_say() {
 }
 
 #[test]
-fn small_deviations_from_scale_to_scale_spread_as_the_derivatives_say() {
+fn scatter_spreads_agree_with_the_linear_prediction() {
     for scales in ["\"auto\"", "9"] {
         let lines = format!(
             "[puncture]\nscales = {scales}\n[flexure]\ngaps = 8\nmax_end_rotation_deg = 1\n[tolerance]\n\
@@ -65,13 +65,13 @@ fn small_deviations_from_scale_to_scale_spread_as_the_derivatives_say() {
 }
 
 #[test]
-fn the_same_deviation_of_one_scale_is_less_than_of_all() {
+fn independent_deviations_of_gaps_partly_cancel() {
     let of = |level: &str| {
         let lines = format!("[tolerance]\ngap_over_t = {{ {level} = 0.001 }}");
         let design = tolerance(&sweep(ALL, DESIGN, &lines), &[], 0);
         measure(&design, "initial_compliance").linear.as_ref().expect("a spread").spread
     };
-    // 107 gaps of a strip of 100 t at a pitch of 0.93 t.
+    // The strip has 107 gaps: length 100 t, pitch 0.93 t.
     let ratio = of("batch_sd") / of("scale_sd");
     assert!((ratio - 108.0_f64.sqrt()).abs() < 0.06, "{ratio}");
 }
@@ -82,7 +82,7 @@ fn yields_count_the_samples_that_meet() {
     let design = tolerance(&sweep, &["coverage >= 0.62", "gap_over_t <= 0.23"], 400);
     let [coverage, gap, all] = design.yields.as_slice() else { panic!("three yields") };
     let shares = [coverage, gap, all].map(|of| of.proportion.expect("samples").share());
-    // Half of the gaps are narrower than drawn, and the coverage falls with the gap.
+    // Half of the gaps are narrower than nominal. Coverage decreases with the gap.
     let [low, high] = gap.proportion.expect("samples").interval();
     assert!(low < 0.5 && 0.5 < high, "{low} {high}");
     assert!(shares[2] <= shares[0].min(shares[1]) && shares[2] > 0.2, "{shares:?}");
