@@ -1,7 +1,7 @@
 //! Records the source revision in the program.
 //!
-//! A clean checkout is identified by its commit, any other build by a hash of its sources too. Different
-//! sources never have the same revision, so they do not continue each other's results.
+//! The commit identifies a clean checkout; other builds also have a hash of their sources.
+//! Different sources never have the same revision, so they do not continue each other's results.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -27,9 +27,9 @@ fn revision() -> String {
     }
 }
 
-/// The commit, and whether the sources are as it has them.
+/// Returns the commit, and true if the sources are unchanged since it.
 fn commit() -> Option<(String, bool)> {
-    // A copy of the source inside of another repository has no revision of its own.
+    // A copy of the source inside another repository has no revision of its own.
     git(&["ls-files", "--error-unmatch", "Cargo.toml"])?;
     let revision = git(&["rev-parse", "--short=12", "HEAD"])?;
     let changes = git(&["status", "--porcelain", "--untracked-files=no"])?;
@@ -50,7 +50,7 @@ fn sources() -> String {
     format!("{:016x}", hash.state)
 }
 
-/// The files below `folder`, but for tests and benches, which are no part of the program.
+/// Collects the files below `folder`, except tests and benches, which do not affect the program.
 fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let path = entry.path();
@@ -65,7 +65,7 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
     }
 }
 
-/// The hash FNV-1a of 64 bits (Fowler, Noll & Vo, draft-eastlake-fnv), which needs no other crate.
+/// The 64-bit hash FNV-1a (Fowler, Noll & Vo, draft-eastlake-fnv), which needs no other crate.
 struct Fnv {
     state: u64,
 }
@@ -77,7 +77,7 @@ impl Default for Fnv {
 }
 
 impl Fnv {
-    /// Adds `bytes` and their number.
+    /// Hashes `bytes` and their length.
     fn add(&mut self, bytes: &[u8]) {
         for byte in bytes.iter().chain(&(bytes.len() as u64).to_le_bytes()) {
             self.state = (self.state ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);

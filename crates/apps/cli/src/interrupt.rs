@@ -22,7 +22,8 @@ pub struct Interrupt {
 }
 
 impl Interrupt {
-    /// Installs the handlers. A file size limit becomes a write error instead of ending the process.
+    /// Installs the handlers. A file size limit becomes a write error instead of ending the
+    /// process.
     pub fn listen() -> io::Result<Self> {
         let interrupt = Self::default();
         system::listen(interrupt.clone())?;
@@ -57,12 +58,13 @@ mod system {
 
     use super::{Arc, BASE, Interrupt, Ordering, flag, io};
 
-    /// Signals within this time of the first are the same request: `timeout` sends one to the process and
-    /// one to its group.
+    /// Signals within this time of the first are the same request: `timeout` sends one to the
+    /// process and one to its group.
     const ONE_REQUEST: Duration = Duration::from_secs(1);
 
     pub fn listen(interrupt: Interrupt) -> io::Result<()> {
-        // With a handler, the signal does not end the process; the write fails with an error instead.
+        // With a handler, the signal does not end the process; the write fails with an error
+        // instead.
         flag::register(SIGXFSZ, Arc::default())?;
         // Ignored signals stay ignored, or `nohup` would have no effect.
         let asking = [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| !is_ignored(*signal));
@@ -70,7 +72,7 @@ mod system {
         let attend = move || {
             let mut asked: Option<Instant> = None;
             for signal in signals.forever() {
-                // A thread and not a signal handler, because it removes files.
+                // Files are removed by a thread, because a signal handler must not do so.
                 let is_request = interrupt.asks_first.load(Ordering::Relaxed)
                     && asked.is_none_or(|asked| asked.elapsed() < ONE_REQUEST);
                 if !is_request {
@@ -109,7 +111,8 @@ mod system {
 
     pub fn listen(interrupt: Interrupt) -> io::Result<()> {
         for signal in [SIGINT, SIGTERM] {
-            // The shutdown comes first, so that the first signal does not see its own flag.
+            // Set the shutdown action before the flag, so that the first signal does not see its
+            // own flag.
             let code = signal + i32::from(super::BASE);
             flag::register_conditional_shutdown(signal, code, Arc::clone(&interrupt.stop))?;
             let number = usize::try_from(signal).unwrap_or_default();

@@ -7,7 +7,8 @@ use results::VerifiedFolder;
 
 /// Prints `text` with control characters escaped.
 pub fn print(text: &str) -> io::Result<()> {
-    // Names of folders and foreign tables may contain control characters, which a terminal would execute.
+    // Names of folders and foreign tables may contain control characters, which a terminal would
+    // execute.
     print_raw(&text::visible(text))
 }
 

@@ -4,7 +4,8 @@ use ranking::Requirement;
 use results::columns::parameter_of;
 use run::{CoupledMeasure, CouplingChange};
 
-/// Relative changes below this are not reported; the paper's coupling is an approximation of this order.
+/// Relative changes below this are not reported; the paper's coupling is an approximation of this
+/// order.
 const SMALL: f64 = 0.02;
 
 /// Returns the `columns` that are measures and not parameters, without duplicates.

@@ -30,11 +30,13 @@ pub struct FigureOutput {
     #[arg(long)]
     pub no_title: bool,
 
-    /// Width of the figures on paper in mm, e.g. 85 for a column; text shrinks in proportion [default: 1 px for 1/96 inch]
+    /// Width of the figures on paper in mm, e.g. 85 for a column; text shrinks in proportion
+    /// [default: 1 px for 1/96 inch]
     #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = decimal)]
     pub width: Option<f64>,
 
-    /// Size of the smallest letters on paper in pt, e.g. 7; each figure becomes as wide as that takes
+    /// Size of the smallest letters on paper in pt, e.g. 7; each figure becomes as wide as that
+    /// takes
     #[arg(long, value_name = "PT", allow_hyphen_values = true, value_parser = decimal, conflicts_with = "width")]
     pub font_size: Option<f64>,
 
@@ -126,7 +128,8 @@ fn question_letters(name: &str, svg: &str, width: f64) {
 // File names have at most 255 bytes, including the kind of figure and the points on the path.
 const LONGEST: usize = 100;
 
-/// Joins `names` with hyphens for a file name; abbreviates long lists to `FIRST-to-LAST-COUNT-things`.
+/// Joins `names` with hyphens for a file name; abbreviates long lists to
+/// `FIRST-to-LAST-COUNT-things`.
 pub fn joined(names: &[String], things: &str) -> String {
     let all = names.join("-");
     match names {
@@ -204,7 +207,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn many_names_are_cut_short() {
+    fn long_lists_of_names_are_abbreviated() {
         let numbers = |count: u32| (1..=count).map(|n| format!("{n:04}")).collect::<Vec<_>>();
         assert_eq!(joined(&numbers(3), "designs"), "0001-0002-0003");
         assert_eq!(joined(&numbers(45), "designs"), "0001-to-0045-45-designs");

@@ -128,7 +128,7 @@ pub(super) static ESTIMATES: &[Column<Estimate>] = &columns! { Estimate:
     "to", AS_SOUGHT, |e| e.unknown.to, "largest value that was tried";
 };
 
-/// A row of `residuals.csv`: the file, and place, measured and fitted value.
+/// A row of `residuals.csv`: file, position, measured value and fitted value.
 pub(super) type Point = (String, [f64; 3]);
 
 const AS_CURVE: &str = "mm and N, 1/mm and N mm, or none, as the curve";

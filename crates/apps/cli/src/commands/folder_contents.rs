@@ -1,4 +1,4 @@
-//! A results folder, as figures and the page need it.
+//! The contents of a results folder that figures and the page need.
 
 use std::path::PathBuf;
 
@@ -30,7 +30,8 @@ impl FolderContents {
         self.results.verified_folder()
     }
 
-    /// Returns the name of the sweep, and the number of designs if it is incomplete or thinned out.
+    /// Returns the name of the sweep; adds the number of designs if it is incomplete or thinned
+    /// out.
     pub fn title(&self) -> String {
         let name = self.sweep.name();
         let held = self.verified().shortfall();

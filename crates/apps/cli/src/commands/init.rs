@@ -13,7 +13,7 @@ use super::figure_file::write_file;
 use super::source::require_folder_of;
 use crate::print::{counted, print};
 
-/// Names and texts of the templates; each name is also the name of its sweep.
+/// Names and texts of the templates; each name is also the default name of its sweep.
 // The first is the default.
 const TEMPLATES: [(&str, &str); 7] = [
     ("paper", include_str!("../../../../../sweeps/paper.toml")),

@@ -110,9 +110,9 @@ pub fn make(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> 
         note(&missing);
         list = format!("{list}\n{missing}\n");
     }
-    // Before writing, because this may fail.
+    // Analyse before writing, because the analysis may fail.
     list.push_str(&tolerances(design, out, interrupt)?);
-    // The list first: if it cannot be written, an earlier part stays as it was.
+    // Write the list first: if it fails, the previous part stays unchanged.
     write_file(&list_file, format!("{list}\nWritten by squama make.\n").as_bytes())?;
     write_file(out, &format.bytes(&patch, &sheet))?;
     print(&format!("{list}\n{} {}\n", out.display(), list_file.display()))?;

@@ -132,7 +132,8 @@ fn options<'i>(
 }
 
 fn exit_code(found: &Found) -> u8 {
-    // Fails only if the new samples clearly violate a bound; undecided cases are reported in the text.
+    // Fails only if the new samples clearly violate a bound; undecided cases are reported in the
+    // text.
     let is_met = match &found.answer {
         Answer::Optimum(best) => best
             .confirmation

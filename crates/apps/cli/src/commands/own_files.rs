@@ -1,7 +1,8 @@
 //! Protects files that squama did not write from being replaced.
 //!
-//! Every file that a command writes outside of the records of a results folder names squama: in a comment, a header or the
-//! properties of its format. A command replaces a file only if it finds that name.
+//! Every file that a command writes outside of the records of a results folder contains the name
+//! squama in a comment, a header or the properties of its format. A command replaces only files
+//! that contain this mark.
 
 use std::fs::{self, File};
 use std::io::{self, Read, Seek as _, SeekFrom};
@@ -16,15 +17,15 @@ const MARK: &[u8] = b"squama";
 /// Number of bytes at each end of a file that are searched for the mark.
 const SEARCHED: u64 = 8192;
 
-/// The entries of zip archives that name the program: of a workbook, and of a 3MF file.
+/// The entries of zip archives that contain the mark: in a workbook and in a 3MF file.
 const ZIP_ENTRIES: [&str; 2] = ["docProps/core.xml", "3D/3dmodel.model"];
 
-/// Refuses to replace the file at `path` if it was not written by squama.
+/// Rejects the file at `path` if it was not written by squama.
 ///
-/// A missing or empty file may be written. Links are not followed, and folders and devices are never replaced.
+/// A missing or empty file may be written. Links, folders and devices are never replaced.
 pub fn require_own(path: &Path) -> Result<(), OutputError> {
     let Ok(metadata) = fs::symlink_metadata(path) else { return Ok(()) };
-    // An image cannot hold the mark; it belongs to the drawing beside it.
+    // An image cannot hold the mark; the drawing beside it does.
     let marked = if path.extension().is_some_and(|extension| extension == "png") {
         path.with_extension("svg")
     } else {
@@ -66,7 +67,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_files_that_name_squama_are_replaced() {
+    fn only_files_with_the_mark_of_squama_are_replaced() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("x.svg");
         let image = path.with_extension("png");

@@ -259,7 +259,7 @@ fn measured(arguments: &CurvesArguments, cases: &[Case]) -> anyhow::Result<Optio
 fn solve(case: &Case, to: Option<f64>) -> anyhow::Result<(Puncture, Flexure)> {
     let substrate = substrate(case)?;
     let mut common = case.common;
-    // Close enough for a line.
+    // Steps that are short enough for a smooth line.
     common.solver.max_step = common.solver.max_step.min(CURVE_STEP);
     let parameters = case.punctured();
     let alone = PunctureParameters { places: None, ..parameters };
@@ -282,7 +282,8 @@ fn solve(case: &Case, to: Option<f64>) -> anyhow::Result<(Puncture, Flexure)> {
     Ok((puncture, flexure::solve(&case.design, &common, &case.flexure)?))
 }
 
-/// Returns the label of a design in a legend: its number, and values that differ besides the geometry.
+/// Returns the label of a design in a legend: its number, and values that differ besides the
+/// geometry.
 fn number(design: &SelectedDesign, cases: &[Case]) -> String {
     let number = design.number.map_or("off the grid".to_owned(), |number| number.to_string());
     let own = design.case();

@@ -63,14 +63,15 @@ pub struct Arguments {
     #[arg(long, value_name = "COLUMN", conflicts_with = "criteria")]
     pub minimize: Vec<String>,
 
-    /// Criteria instead of the paper's: max:COLUMN, min:COLUMN, or COLUMN alone, if it has a default direction
+    /// Criteria instead of the paper's: max:COLUMN, min:COLUMN, or COLUMN alone, if it has a
+    /// default direction
     #[arg(long, value_name = "CRITERION,…")]
     pub criteria: Option<String>,
 
     /// Weights of the criteria, in their order, --maximize before --minimize [default: equal]
     ///
-    /// Weights are non-negative, and normalised to a sum of 1. The order of the paper's criteria is coverage, critical
-    /// force, penetration resistance, flexural compliance.
+    /// Weights are non-negative, and normalised to a sum of 1. The order of the paper's criteria is
+    /// coverage, critical force, penetration resistance, flexural compliance.
     #[arg(long, value_name = "W,…", allow_hyphen_values = true)]
     pub weights: Option<String>,
 
@@ -80,7 +81,7 @@ pub struct Arguments {
 
     /// Rank by the largest force before the surface folds instead of the critical force
     ///
-    /// Beyond a fold two bases have passed each other, and the model is no longer valid.
+    /// Beyond a fold two bases cross each other, and the model is no longer valid.
     #[arg(long)]
     pub sound: bool,
 
@@ -169,7 +170,8 @@ fn preferences(arguments: &Arguments) -> anyhow::Result<Preferences> {
     }
 }
 
-/// Returns the requested criteria, or the paper's; `--sound` replaces the critical force by the valid force.
+/// Returns the requested criteria, or the paper's; `--sound` replaces the critical force by the
+/// valid force.
 fn criteria(arguments: &Arguments) -> anyhow::Result<Vec<Criterion>> {
     let goals = [(Goal::Maximize, &arguments.maximize), (Goal::Minimize, &arguments.minimize)];
     let of = |(goal, columns): (Goal, &Vec<String>)| -> Vec<Criterion> {

@@ -9,7 +9,8 @@ use crate::print::note;
 /// Requirements on columns.
 #[derive(Debug, Args)]
 pub struct RequirementArgs {
-    /// Requirement: >=, <=, >, < or == in any column of numbers, or a level of a standard, e.g. 'needle 2' (may be repeated: all must hold)
+    /// Requirement: >=, <=, >, < or == in any column of numbers, or a level of a standard, e.g.
+    /// 'needle 2' (may be repeated: all must hold)
     #[arg(long = "require", value_name = "REQUIREMENT")]
     pub texts: Vec<String>,
 }

@@ -46,7 +46,8 @@ pub struct Arguments {
     #[command(flatten)]
     pub definition: Definition,
 
-    /// Results folder; missing parent folders are created [default: results/NAME, or results/NAME/shards/i-of-N]
+    /// Results folder; missing parent folders are created [default: results/NAME, or
+    /// results/NAME/shards/i-of-N]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 
@@ -74,8 +75,8 @@ pub struct Arguments {
 
     /// Solve this fraction of the designs again by a second method, and show the differences
     ///
-    /// The second method takes steps a tenth as large, and solves a strip as a chain of all its gaps. A relative difference
-    /// above 1e-6, or a different status, gives exit code 1.
+    /// The second method takes steps a tenth as large, and solves a strip as a chain of all its
+    /// gaps. A relative difference above 1e-6, or a different status, gives exit code 1.
     #[arg(long, value_name = "SHARE", value_parser = share)]
     pub audit: Option<f64>,
 

@@ -19,7 +19,8 @@ pub struct Selection {
     #[arg(long = "design", value_name = "NUMBERS", value_delimiter = ',', conflicts_with_all = ["gap", "length", "slant"])]
     pub numbers: Vec<String>,
 
-    /// Gap d/t, or in mm if the definition has `gap_mm`: one value, several (0.1,0.2), or all values of the sweep in a range (0.1..0.3)
+    /// Gap d/t, or in mm if the definition has `gap_mm`: one value, several (0.1,0.2), or all
+    /// values of the sweep in a range (0.1..0.3)
     #[arg(long, value_name = "GAP", allow_hyphen_values = true)]
     pub gap: Option<String>,
 

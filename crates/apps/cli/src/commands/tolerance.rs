@@ -137,7 +137,9 @@ fn designs(arguments: &Arguments, sweep: &Sweep) -> anyhow::Result<Vec<u64>> {
     Ok(designs)
 }
 
-/// The tolerances of designs, one after the other; samples in parallel. Of several designs no samples are held.
+/// Analyses the tolerances of `designs` in parallel.
+///
+/// With several designs the samples are dropped to save memory.
 fn analysed(
     analysis: &Analysis<'_>,
     designs: &[u64],
@@ -145,13 +147,13 @@ fn analysed(
 ) -> Result<Vec<DesignTolerance>, AnalysisError> {
     let analyse = |&index: &u64| {
         let mut design = analysis.design(index, store)?;
-        // Only the figures of a single design need the samples, which would fill the memory.
+        // Only the figures of a single design need the samples.
         if designs.len() > 1 {
             design.samples = Vec::new();
         }
         Ok(design)
     };
-    // Designs and their samples share the threads, so that the last design leaves none idle.
+    // Designs and their samples share the threads, so that no thread idles during the last design.
     designs.par_iter().map(analyse).collect()
 }
 

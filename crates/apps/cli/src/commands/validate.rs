@@ -40,7 +40,7 @@ pub struct Arguments {
     pub search: Vec<PathBuf>,
 }
 
-/// Carries out the validation, prints its page and writes it down.
+/// Runs the validation, and prints and writes its page.
 pub fn validate(arguments: &Arguments) -> anyhow::Result<u8> {
     if !arguments.search.is_empty() {
         let sweeps = arguments.search.iter().map(|path| Sweep::read(path, &[]));
@@ -49,7 +49,7 @@ pub fn validate(arguments: &Arguments) -> anyhow::Result<u8> {
         return Ok(DONE);
     }
     let out = &arguments.out;
-    // Asked before half a minute of solving.
+    // Checked before solving, which takes half a minute.
     ensure!(
         out.file_name().is_some(),
         "--out {}: not accepted, expected the name of a file",
@@ -64,11 +64,11 @@ pub fn validate(arguments: &Arguments) -> anyhow::Result<u8> {
     for benchmark in &outside {
         print(&format!("outside its band: {}\n", benchmark.row()))?;
     }
-    // Claims are statements of the paper: squama may be right where one is not reproduced.
+    // Claims do not affect the exit code: squama may be right if it does not reproduce one.
     Ok(if outside.is_empty() { DONE } else { INCOMPLETE })
 }
 
-/// Works behind a bar on the terminal that names the part in hand.
+/// Runs `work` with a progress bar that names the current part.
 fn with_bar<T>(
     work: impl FnOnce(&mut dyn FnMut(PartProgress<'_>)) -> anyhow::Result<T>,
 ) -> anyhow::Result<T> {

@@ -1,7 +1,8 @@
-//! Whether two pages say the same: their words agree, and so do their numbers as far as they are known.
+//! Compares two pages: words must be equal, computed numbers equal up to round-off.
 //!
-//! A number that was computed is written with a point and three digits or more, or with a point and an exponent. The last
-//! digit of such a number may differ by one, because machines differ in how they round. All other numbers name something
+//! A computed number is written with a point and at least three digits, or with a point and an
+//! exponent. Its last digit may differ by one, because machines round differently. All other
+//! numbers (designs, settings, bands, years, counts) must be equal.
 //! (designs, settings, bands, years) or count something, and are equal.
 
 use std::iter::{from_fn, zip};
@@ -13,14 +14,14 @@ enum Piece<'t> {
     Number(Number<'t>),
 }
 
-/// A number as it is written.
+/// A number as written.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Number<'t> {
     text: &'t str,
     value: f64,
-    /// Digits behind the point.
+    /// Number of digits after the decimal point.
     decimals: usize,
-    /// Digits from the first that is not zero.
+    /// Number of significant digits.
     significant: usize,
     exponent: Option<i32>,
 }
@@ -45,7 +46,7 @@ impl<'t> Number<'t> {
         self.decimals > 0 && (self.exponent.is_some() || self.significant >= 3)
     }
 
-    /// One in the last digit.
+    /// Returns one unit in the last digit.
     fn unit(&self) -> f64 {
         10_f64.powi(self.exponent.unwrap_or(0) - self.decimals as i32)
     }
@@ -56,12 +57,12 @@ impl<'t> Number<'t> {
         }
         let alike = self.decimals == other.decimals || self.significant == other.significant;
         let apart = (self.value - other.value).abs();
-        // Half a unit more for the rounding of the difference of two decimal fractions.
+        // Half a unit more, for the rounding of the difference of two decimal fractions.
         alike && apart < 1.5 * self.unit().max(other.unit())
     }
 }
 
-/// Length of the number that `text` begins with, zero if it begins with none.
+/// Returns the length of the number at the start of `text`; 0 if there is none.
 fn number_length(text: &str) -> usize {
     let digits = |text: &str| text.bytes().take_while(u8::is_ascii_digit).count();
     let sign = usize::from(text.starts_with(['+', '-']));
@@ -106,7 +107,7 @@ fn lines_agree(ours: &str, theirs: &str) -> bool {
         })
 }
 
-/// The first line in which two pages disagree, of both of them.
+/// Returns the first pair of lines that disagree.
 pub fn disagreement<'t>(ours: &'t str, theirs: &'t str) -> Option<[&'t str; 2]> {
     let (mut one, mut other) = (ours.lines(), theirs.lines());
     loop {
@@ -119,7 +120,7 @@ pub fn disagreement<'t>(ours: &'t str, theirs: &'t str) -> Option<[&'t str; 2]> 
 }
 
 #[test]
-fn words_and_numbers_are_told_apart() {
+fn words_and_numbers_are_separated() {
     let texts: Vec<_> = pieces("| C08 | -3.4e-5 | (0.1, 45°), M = 16820. | 2L |")
         .map(|piece| match piece {
             Piece::Words(words) => words,
@@ -145,7 +146,7 @@ fn words_and_numbers_are_told_apart() {
 }
 
 #[test]
-fn the_last_digit_of_what_was_computed_may_differ_by_one() {
+fn the_last_digit_of_computed_numbers_may_differ_by_one() {
     for (one, other) in [
         ("| 2.30452 |", "| 2.30453 |"),
         ("| +2.5e-8 |", "| +2.4e-8 |"),
@@ -158,7 +159,7 @@ fn the_last_digit_of_what_was_computed_may_differ_by_one() {
 }
 
 #[test]
-fn all_else_is_a_disagreement() {
+fn other_differences_are_disagreements() {
     for (one, other) in [
         ("| 2.30452 |", "| 2.30454 |"),
         ("| 2.30452 |", "| 2.3045 |"),

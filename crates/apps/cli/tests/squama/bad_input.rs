@@ -3,7 +3,7 @@
 use crate::{FEW, Place};
 
 #[test]
-fn of_the_definition() {
+fn bad_definitions_are_reported_with_their_location() {
     let message = |lines: &str| {
         let place = Place::with(&format!("name = 'x'\n{lines}"));
         let message = place.refused("run x.toml");
@@ -25,7 +25,7 @@ fn of_the_definition() {
 }
 
 #[test]
-fn of_the_command_line() {
+fn bad_options_are_reported_with_the_expected_value() {
     let place = Place::with(FEW);
     place.prints("run x.toml --out r");
     let message = |arguments: &&str| place.refused(arguments);
@@ -69,7 +69,7 @@ fn of_the_command_line() {
 }
 
 #[test]
-fn all_errors_of_a_definition_are_told_at_once() {
+fn all_errors_of_a_definition_are_reported_at_once() {
     let place = Place::with("names = 'x'\n[designs]\ngap = 0.1\n[contact]\nc2 = 0\n");
     let assert = place.squama("run x.toml --set solver.max_step=0").assert().code(2).stdout("");
     let message = String::from_utf8(assert.get_output().stderr.clone()).expect("text");
@@ -83,7 +83,7 @@ fn all_errors_of_a_definition_are_told_at_once() {
 }
 
 #[test]
-fn tips_lead_somewhere() {
+fn errors_suggest_valid_input() {
     let place = Place::with(FEW);
     insta::assert_snapshot!(place.refused("draw x.toml --design 1 --at -1"), @"error: --at -1: out of range, expected a displacement u/t of at least 0");
     insta::assert_snapshot!(place.refused("draw x.toml --design 1 --force -1"), @"error: --force -1: out of range, expected a force F* of at least 0");
@@ -98,7 +98,7 @@ fn tips_lead_somewhere() {
 }
 
 #[test]
-fn a_mistyped_path_makes_no_folders() {
+fn mistyped_paths_create_no_folders() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --out r").assert().code(0);
     insta::assert_snapshot!(place.refused("export r --xlsx reslts/x.xlsx"), @"error: --xlsx reslts/x.xlsx: there is no folder reslts");
@@ -109,14 +109,14 @@ fn a_mistyped_path_makes_no_folders() {
 }
 
 #[test]
-fn a_file_that_is_no_text() {
+fn files_that_are_not_text_are_rejected() {
     let place = Place::new();
     std::fs::write(place.path("x.toml"), [0xff, 0xfe, 0x00]).expect("writable");
     insta::assert_snapshot!(place.refused("check x.toml"), @"error: x.toml: cannot be read (stream did not contain valid UTF-8), expected a sweep definition in TOML");
 }
 
 #[test]
-fn an_output_folder_that_cannot_be_written() {
+fn unwritable_output_folders_are_rejected() {
     let place = Place::with(FEW);
     insta::assert_snapshot!(place.refused("run x.toml --out x.toml/y"), @"error: x.toml/y: cannot be written (Not a directory), expected a folder that can be written, e.g. with --out DIR");
     insta::assert_snapshot!(place.refused("run x.toml --out x.toml"), @"error: x.toml: cannot be written (File exists), expected a folder that can be written, e.g. with --out DIR");

@@ -1,4 +1,4 @@
-//! Everything that a person needs who has nothing but the program: definitions, completions, manual pages, its version.
+//! First steps with the program alone: definitions, completions, manual pages, version.
 
 use crate::Place;
 
@@ -27,7 +27,7 @@ fn every_template_is_valid() {
 }
 
 #[test]
-fn nothing_is_overwritten_or_misplaced() {
+fn init_overwrites_and_misplaces_nothing() {
     let place = Place::new();
     place.prints("init");
     let before = place.read("paper.toml");
@@ -67,7 +67,7 @@ fn the_version_has_a_revision() {
     let text = Place::new().prints("--version");
     let revision = text.trim_end().rsplit_once(" (").expect("a revision").1;
     let revision = revision.trim_end_matches(')');
-    // Sources that were changed after the commit have a name of their own.
+    // Sources that differ from the commit have an additional hash.
     let (commit, changes) = revision.split_once("-dirty-").unwrap_or((revision, ""));
     let is_hash = |text: &str| text.chars().all(|c| c.is_ascii_hexdigit());
     let is_named = commit.len() == 12 && is_hash(commit) && is_hash(changes);

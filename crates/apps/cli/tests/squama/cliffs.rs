@@ -1,10 +1,10 @@
-//! Effects of a small change of a parameter: `squama rank` tells them of the best designs, `squama plot map` shows them.
+//! Effects of small changes of a parameter, in `squama rank` and `squama plot map`.
 
 use serde_json::Value;
 
 use crate::{FEW, Place};
 
-/// Designs of which (0.1, 0.2, 60°) loses half of its critical force where its gap is a tenth larger.
+/// Designs in which (0.1, 0.2, 60°) loses half of its critical force if its gap grows by a tenth.
 const STEEP: &str = "name = 'steep'\n[designs]\ngap_over_t = [0.1, 0.2, 0.4]\nlength_over_t = [0.1, 0.2]\nslant_deg = [45, 60, 75]\n";
 
 fn ranked(definition: &str, arguments: &str) -> (Place, String) {
@@ -53,7 +53,7 @@ fn sensitivity_to_the_gap_is_reported() {
 }
 
 #[test]
-fn the_best_design_is_solved_again_with_the_whole_tissue_coupled() {
+fn the_best_design_is_solved_again_with_full_coupling() {
     let (place, printed) = ranked(FEW, "--require penetration<0.2 --json");
     let ranking: Value = serde_json::from_str(&printed).expect("JSON");
     let [change] = ranking["full_coupling"].as_array().expect("changes").as_slice() else {
@@ -96,7 +96,7 @@ fn a_map_is_drawn_over_any_two_parameters() {
         place.prints("plot map x.toml --x gap_over_t --y slant_deg --of critical_force --out y");
     assert_eq!(printed, "y/map-of-critical-force-over-gap-over-t-and-slant-deg.svg\n");
     let map = place.read("y/map-of-critical-force-over-gap-over-t-and-slant-deg.svg");
-    // Two maps of nine designs, and the 60 steps of the scale of colours.
+    // Two maps of nine designs, and 60 cells of the colour bar.
     assert_eq!(map.matches("<g class=\"map\">").count(), 2);
     assert_eq!(map.matches("<rect").count(), 2 * 9 + 2 + 60 + 1, "{map}");
     assert!(map.contains("<g class=\"contours\""), "{map}");

@@ -1,14 +1,15 @@
-//! `squama slurm`: what it writes, and that the scripts do their part without a cluster. Slurm itself
-//! is put to the test by `scripts/check-slurm`.
+//! `squama slurm`: its files, and its scripts without a cluster.
+//!
+//! `scripts/check-slurm` tests them with Slurm.
 #![cfg(unix)]
 
 use crate::{FEW, Place};
 
-/// Stands for `sbatch`: notes its arguments and prints a number.
+/// A substitute for `sbatch` that records its arguments and prints a job number.
 const SBATCH: &str = "#!/bin/sh\necho \"$@\" >> sbatch.txt\nwc -l < sbatch.txt | tr -d ' '\n";
 
 impl Place {
-    /// Runs a script of the folder `r/slurm`, as element `element` of an array.
+    /// Runs a script in the folder `r/slurm` as element `element` of a job array.
     fn script(&self, name: &str, arguments: &str, element: u64) -> assert_cmd::Command {
         let path =
             format!("{}:{}", self.path("").display(), std::env::var("PATH").expect("a path"));
@@ -27,7 +28,7 @@ fn the_scripts_make_the_tables_of_a_run_without_shards() {
     assert_eq!(place.list("r/slurm"), "array.sh merge.sh submit.sh sweep.sh sweep.toml");
     place.script("array.sh", "r/slurm", 1).assert().code(0);
     place.script("array.sh", "r/slurm", 3).assert().code(0);
-    // A shard that was killed before it came to anything.
+    // A shard that was killed before it wrote anything.
     std::fs::create_dir(place.path("r/shards/2-of-3")).expect("writable");
     std::fs::write(place.path("r/shards/2-of-3/journal.jsonl"), "").expect("writable");
     let merged =
@@ -40,7 +41,7 @@ fn the_scripts_make_the_tables_of_a_run_without_shards() {
 }
 
 #[test]
-fn the_merger_waits_for_any_end_of_an_array_of_the_right_size() {
+fn the_merge_job_waits_for_the_whole_array() {
     let place = Place::with(FEW);
     place.prints("slurm x.toml --shards 3 --out r");
     std::fs::write(place.path("sbatch"), SBATCH).expect("writable");
@@ -56,7 +57,7 @@ fn the_merger_waits_for_any_end_of_an_array_of_the_right_size() {
 }
 
 #[test]
-fn a_per_cent_sign_in_a_path_stays_one() {
+fn per_cent_signs_in_paths_are_preserved() {
     let place = Place::with(FEW);
     place.prints("slurm x.toml --shards 3 --out r");
     std::fs::create_dir(place.path("50%a")).expect("a folder");
@@ -73,7 +74,7 @@ fn a_per_cent_sign_in_a_path_stays_one() {
 }
 
 #[test]
-fn shards_that_slurm_or_the_sweep_does_not_have_are_refused() {
+fn numbers_of_shards_out_of_range_are_rejected() {
     let place = Place::with(FEW);
     let refused = |shards: u32| place.refused(&format!("slurm x.toml --out r --shards {shards}"));
     insta::assert_snapshot!(refused(1001), @"error: --shards 1001: expected 1 to 1000, because Slurm's job arrays end there (MaxArraySize is 1001 by default); a shard may have any number of designs");

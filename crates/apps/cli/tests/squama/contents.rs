@@ -1,5 +1,4 @@
-//! What a run states of its folder: results that are not whole, or not as they were written, are noticed by whoever uses
-//! them, and one command mends them.
+//! Every reader detects incomplete or modified results, and one command repairs them.
 
 use std::fs;
 
@@ -14,7 +13,7 @@ const READERS: [&str; 5] = [
     "report r --out page.html",
 ];
 
-/// A place where `r` holds three of eight designs.
+/// Returns a place where `r` holds three of eight designs.
 fn incomplete() -> Place {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --shard 1/3 --out shard").assert().code(0);
@@ -48,7 +47,7 @@ fn an_incomplete_run_needs_the_option_partial() {
     }
     assert!(place.read("page.html").contains("few (3 of 8 designs)"));
     assert!(place.read("figures/coverage-maps-by-slant.svg").contains("few (3 of 8 designs)"));
-    // What was made before the others came is out of date once they have.
+    // After more designs are solved, earlier products are out of date.
     place.squama("run x.toml -q --resume --out r").assert().code(0);
     let status = place.prints("status r");
     for product in ["ranking", "workbook", "figures", "page"] {
@@ -98,17 +97,17 @@ fn a_changed_digit_is_detected_and_repaired() {
     place.squama("merge -q r --out r").assert().code(0);
     assert_eq!(place.read("r/designs.csv"), sound);
     place.prints("status r");
-    // A table that one command alone reads.
+    // A table that is read by one command only.
     change(&place, "r/penetration.csv", "0001", "0002");
     insta::assert_snapshot!(place.refused("export r --xlsx x.xlsx"), @"error: r/penetration.csv: was changed after squama wrote it; squama merge r --out r writes it again");
-    // One that is gone is no table that was never there.
+    // A deleted table must not pass as one that was never written.
     std::fs::remove_file(place.path("r/penetration.csv")).expect("a table");
     let message = place.refused("export r --xlsx x.xlsx");
     assert!(
         message.starts_with("error: r/penetration.csv: cannot be read (No such file"),
         "{message}"
     );
-    // The record of the run is a definition too.
+    // The record of the run also serves as a definition.
     place.squama("merge -q r --out r").assert().code(0);
     change(&place, "r/run.toml", "slant_deg = [0", "slant_deg = [1");
     for reader in ["design r/run.toml --design 1", "draw r/run.toml --design 1", "run r/run.toml"] {
@@ -118,13 +117,13 @@ fn a_changed_digit_is_detected_and_repaired() {
 }
 
 #[test]
-fn the_derivatives_belong_to_the_run_like_any_table() {
+fn derivatives_are_verified_like_any_table() {
     let place = Place::with(FEW);
     let with = FEW.replace("[designs]", "measures = ['coverage', 'sensitivity']\n[designs]");
     fs::write(place.path("with.toml"), with).expect("writable");
     place.squama("run with.toml -q --out r").assert().code(0);
     assert!(place.list("r").contains("sensitivity.csv"));
-    // A run that has no derivatives leaves none of an earlier one, and takes none that somebody puts there.
+    // A run without derivatives removes earlier ones, and does not accept a foreign table of them.
     place.squama("run x.toml -q --fresh --out r").assert().code(0);
     assert!(!place.list("r").contains("sensitivity.csv"));
     fs::write(place.path("r/sensitivity.csv"), "design\n0001\n").expect("writable");
@@ -133,7 +132,7 @@ fn the_derivatives_belong_to_the_run_like_any_table() {
         message.starts_with("error: r/sensitivity.csv: was changed after squama wrote it"),
         "{message}"
     );
-    // A stranger's is not written over.
+    // A foreign table is not overwritten.
     fs::create_dir(place.path("strange")).expect("a folder");
     fs::write(place.path("strange/sensitivity.csv"), "mine").expect("writable");
     let message = place.refused("run with.toml -q --out strange");
@@ -141,7 +140,7 @@ fn the_derivatives_belong_to_the_run_like_any_table() {
     assert_eq!(place.read("strange/sensitivity.csv"), "mine");
 }
 
-/// Changes the lines of a journal behind the first, which names its header by `key`, and seals them again.
+/// Changes the lines of a journal after its header (marked by `key`), and renews their checksums.
 fn reseal(place: &Place, journal: &str, key: &str, change: impl Fn(&mut serde_json::Value)) {
     let text = place.read(journal);
     let (first, rest) = text.split_once('\n').expect("lines");
@@ -163,9 +162,9 @@ fn a_forged_journal_is_rejected() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --out r").assert().code(0);
     let sound = place.read("r/journal.jsonl");
-    // Another coverage of the third design.
+    // Change the coverage of the third design.
     reseal(&place, "r/journal.jsonl", "journal", |line| {
-        // Sessions have lines, too.
+        // Some lines are sessions.
         if let Some(design) = line.get_mut("design").filter(|design| design["design"] == 3) {
             design["result"]["coverage"] = 0.875.into();
         }
@@ -177,7 +176,7 @@ fn a_forged_journal_is_rejected() {
     }
     fs::write(place.path("r/journal.jsonl"), &sound).expect("writable");
     place.prints("rank r");
-    // Lines that are swapped change no design.
+    // The order of the lines does not matter.
     let mut swapped: Vec<&str> = sound.lines().collect();
     swapped.swap(3, 5);
     fs::write(place.path("r/journal.jsonl"), swapped.join("\n") + "\n").expect("writable");
@@ -194,7 +193,8 @@ fn forged_evaluations_are_rejected() {
     let (journal, sound) = ("found/evaluations.jsonl", place.read("found/evaluations.jsonl"));
     let tables = ["history.csv", "optimum.csv"];
     let tables = tables.map(|file| (file, place.read(&format!("found/{file}"))));
-    // A column of the goal leads the search elsewhere; of another the best design alone tells.
+    // A change in a column of the goal redirects the search; a change in another column shows only
+    // in the best design.
     let better = |line: &mut serde_json::Value| {
         let coverage = &mut line["solved"]["result"]["coverage"];
         if coverage.as_f64().is_some_and(|coverage| coverage > 0.76) {
@@ -213,7 +213,7 @@ fn forged_evaluations_are_rejected() {
         assert_eq!(place.read(&format!("found/{file}")), *table);
         fs::write(place.path(journal), &sound).expect("writable");
     }
-    // Lost lines are solved again, in any order of the lines.
+    // Lost lines are solved again; the order of the others does not matter.
     let mut lines: Vec<&str> = sound.lines().collect();
     lines.swap(3, 5);
     fs::write(place.path(journal), lines[..lines.len() / 2].join("\n") + "\n").expect("writable");
@@ -244,7 +244,7 @@ fn forged_samples_are_rejected() {
     assert!(message.contains(&format!("sample 3 differs from {table}")), "{message}");
     assert_eq!(place.read(&format!("made/samples/{table}")), sound[1]);
     fs::write(place.path(&journal), &sound[0]).expect("writable");
-    // Where it is the table that was changed, the sample itself tells.
+    // If the table was changed instead, the recorded sample restores it.
     change(&place, &format!("made/samples/{table}"), "0.", "1.");
     place.prints(command);
     assert_eq!(place.read(&format!("made/samples/{table}")), sound[1]);
@@ -276,7 +276,7 @@ fn tables_older_than_the_journal_are_detected() {
     let before = tables.map(|table| place.read(&format!("r/{table}")));
     place.squama("rerun r -q --design 8 --set solver.max_points=3").assert().code(1);
     let after = place.read("r/critical_force.csv");
-    // As if the rerun had been killed before it wrote its first table, and after that.
+    // First as if the rerun had been killed before its first table, then as if after it.
     for (table, text) in tables.iter().zip(&before) {
         fs::write(place.path("r").join(table), text).expect("writable");
     }
@@ -293,7 +293,7 @@ fn tables_older_than_the_journal_are_detected() {
         "{message}"
     );
     place.squama("merge -q r --out r").assert().code(1);
-    // The ranking is of the tables before.
+    // The ranking belongs to the previous tables.
     insta::assert_snapshot!(place.refused("export r --xlsx x.xlsx"), @"error: r/ranking.csv: was made from other tables; squama rank r writes it again");
     place.prints("rank r");
     place.prints("export r --xlsx x.xlsx");
@@ -315,7 +315,7 @@ fn an_interrupted_ranking_is_not_exported() {
     insta::assert_snapshot!(place.refused("export r --xlsx x.xlsx"), @"error: r/ranking.csv: was changed after squama wrote it; squama rank r writes it again");
     place.prints("rank r");
     place.prints("export r --xlsx x.xlsx");
-    // Without a record nobody knows whose it is.
+    // Without its record, the origin of the ranking is unknown.
     fs::remove_file(place.path("r/derived/ranking.toml")).expect("a record");
     insta::assert_snapshot!(place.refused("export r --xlsx x.xlsx"), @"error: r/ranking.csv: no record in derived says that squama rank wrote it; move it out of the folder");
     place.refused("rank r");

@@ -1,4 +1,4 @@
-//! The substrate as the paper has it and closer to a half-space, in one sweep.
+//! Coupling and law of the substrate as axes of a sweep.
 
 use crate::Place;
 use crate::table::cells;
@@ -8,7 +8,7 @@ const BOTH: &str = "name = 'both'\nmeasures = ['coverage', 'puncture', 'flexure'
                     length_over_t = 1\n";
 
 #[test]
-fn the_coupling_is_an_axis_and_moves_the_puncture_alone() {
+fn the_coupling_is_an_axis_and_affects_only_punctures() {
     let place = Place::with(BOTH);
     let check = place.prints("check x.toml");
     assert!(check.contains("calibrations  2\n"), "{check}");
@@ -25,7 +25,7 @@ fn the_coupling_is_an_axis_and_moves_the_puncture_alone() {
         let cells = cells(&table, column);
         assert!(cells[0] != cells[2] && cells[1] != cells[3], "{column}");
     }
-    // What is not said is the paper.
+    // The paper's coupling is the default.
     place.squama("run x.toml -q --out paper --set designs.coupling=nearest").assert().code(0);
     let paper = place.read("paper/designs.csv");
     assert_eq!(cells(&paper, "critical_force"), cells(&table, "critical_force")[..2]);
@@ -33,7 +33,7 @@ fn the_coupling_is_an_axis_and_moves_the_puncture_alone() {
 }
 
 #[test]
-fn the_law_of_the_substrate_is_an_axis_and_moves_the_puncture_alone() {
+fn the_law_of_the_substrate_is_an_axis_and_affects_only_punctures() {
     let place = Place::with(
         &BOTH.replace("coupling = ['nearest', 'full']", "law = ['linear', 'neo-hookean']"),
     );

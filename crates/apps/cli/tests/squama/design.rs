@@ -1,4 +1,4 @@
-//! `squama design`: one design as in its sweep, and its files.
+//! `squama design`: agreement of one design with its sweep, and its files.
 
 use crate::table::{cell, columns};
 use crate::{FEW, Place};
@@ -8,7 +8,7 @@ const COURSE: &str = "derived design.toml events.csv flexure_events.csv flexure_
                       flexure_scales.csv flexure_steps.csv measures.csv path.csv scales.csv steps.csv";
 
 #[test]
-fn prints_what_the_sweep_writes() {
+fn design_prints_the_values_of_the_sweep() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q").assert().code(0);
     let text = place.prints("design x.toml --design 0006");
@@ -29,7 +29,7 @@ fn prints_what_the_sweep_writes() {
     }
     let longest = text.split_whitespace().filter(|word| word.parse::<f64>().is_ok()).map(str::len);
     assert!(longest.max() <= Some("-1.23457e-10".len()), "{text}");
-    // Every digit is in the table.
+    // The table has every digit.
     let measures = place.read("results/few/designs/0006/measures.csv");
     assert_eq!(measures.lines().next(), Some("measure,value,unit,meaning"));
     let rows = measures.lines().skip(1).map(|line| line.split(',').take(2).collect::<Vec<_>>());
@@ -38,7 +38,7 @@ fn prints_what_the_sweep_writes() {
 }
 
 #[test]
-fn takes_the_load_away_again() {
+fn design_follows_unloading_paths() {
     let place = Place::with(FEW);
     let design = "design x.toml --gap 0.1 --length 1 --slant 45 --set puncture.unload=true --set flexure.unbend=true";
     let values = |friction: &str| {
@@ -59,7 +59,7 @@ fn takes_the_load_away_again() {
     for value in values("0") {
         assert!(value.abs() < 1e-9, "{value}");
     }
-    // Curves show both ways of both tests.
+    // The curves contain loading and unloading in both tests.
     let curves = design.replace("design", "plot curves");
     place.prints(&format!("{curves} --set contact.friction=.3 --out c"));
     for figure in ["force-displacement", "moment-curvature"] {
@@ -70,7 +70,7 @@ fn takes_the_load_away_again() {
 
 /// Unloading that does not reach zero is reported with the reason.
 #[test]
-fn says_why_a_way_back_has_no_end() {
+fn incomplete_unloading_is_explained() {
     let place = Place::with("name = 'x'");
     let design = "design x.toml --design 0021 --set contact.friction=0.1 --set puncture.unload=true \
                   --set puncture.needle=guided --set puncture.needle_friction=0.3 --set puncture.load_inset_over_t=0.05";
@@ -84,9 +84,10 @@ fn says_why_a_way_back_has_no_end() {
     assert_eq!(told, ["complete", "none", "jumps"], "{text}");
 }
 
-/// A round tip between two scales presses on both: a column for each, whose parts along the load are the force.
+/// A round tip between two scales presses on both; the components along the load add up to the
+/// force.
 #[test]
-fn writes_the_forces_of_a_round_tip() {
+fn design_writes_the_forces_of_a_round_tip() {
     let place = Place::with(FEW);
     let design = "--gap 0.1 --length 1 --slant 45 --set puncture.needle=guided --set puncture.needle_radius_over_t=0.5 \
                   --set puncture.load_position=1.05";
@@ -102,7 +103,7 @@ fn writes_the_forces_of_a_round_tip() {
 }
 
 #[test]
-fn tries_places_of_the_load() {
+fn design_evaluates_load_positions() {
     let place = Place::with(FEW);
     let design = "--gap 0.1 --length 1 --slant 45 --set puncture.places=3";
     let text = place.prints(&format!("design x.toml {design}"));
@@ -118,7 +119,7 @@ fn tries_places_of_the_load() {
 }
 
 #[test]
-fn writes_its_course() {
+fn design_writes_its_paths() {
     let place = Place::with(FEW);
     place.squama("design x.toml --gap 0.1 --length 1 --slant 45").assert().code(0);
     let folder = "results/few/designs/0004";
@@ -144,7 +145,7 @@ fn writes_its_course() {
 }
 
 #[test]
-fn differentiates_its_measures() {
+fn design_differentiates_its_measures() {
     let place = Place::with(FEW);
     let design = "design x.toml --gap 0.1 --length 1 --slant 45 --sensitivity";
     let text = place.prints(design);
@@ -154,7 +155,7 @@ fn differentiates_its_measures() {
     let table = place.read(&format!("{folder}/sensitivity.csv"));
     let header = "design,measure,parameter,value,derivative,elasticity,left,right,kink";
     assert_eq!(table.lines().next(), Some(header));
-    // A gap of 0.1 between bases of 1: the coverage is 0.9, and a wider gap takes away what it is wider by.
+    // A gap of 0.1 between bases of 1 gives a coverage of 0.9; widening the gap reduces it equally.
     let coverage = table.lines().find(|line| line.starts_with("0004,coverage,gap_over_t"));
     let cells: Vec<_> = coverage.expect("a line").split(',').collect();
     let number = |cell: usize| cells[cell].parse::<f64>().expect("a number");
@@ -184,7 +185,7 @@ fn a_sweep_may_measure_sensitivities() {
 }
 
 #[test]
-fn may_be_none_of_the_sweep() {
+fn designs_off_the_grid_are_solved() {
     let place = Place::with(FEW);
     let text = place.prints("design x.toml --gap 0.15 --length 1 --slant 45");
     assert!(text.starts_with("few: a design off the grid, gap_over_t = 0.15, "), "{text}");
@@ -192,7 +193,7 @@ fn may_be_none_of_the_sweep() {
 }
 
 #[test]
-fn says_what_is_not_as_in_its_sweep() {
+fn differences_from_the_sweep_are_listed() {
     let place = Place::with(FEW);
     let text = place.prints("design x.toml --design 4 --set puncture.scales=11 --out y");
     assert!(text.contains("  with puncture.scales = 11 instead of 21\n"), "{text}");
@@ -210,7 +211,7 @@ fn further_axes_are_given_with_set() {
 }
 
 #[test]
-fn that_stops_early_has_an_exit_code() {
+fn a_path_that_stops_early_gives_exit_code_1() {
     let place = Place::with(FEW);
     let stopped =
         place.squama("design x.toml --design 1 --set solver.max_points=3").assert().code(1);
@@ -218,9 +219,9 @@ fn that_stops_early_has_an_exit_code() {
     assert!(text.contains("too many points"), "{text}");
 }
 
-/// One place without an answer does not hide the others.
+/// A load position without a force does not hide the others.
 #[test]
-fn the_weakest_of_the_places_that_have_a_force_is_told() {
+fn the_weakest_known_load_position_is_reported() {
     let place = Place::with(
         "name = 'x'\n[designs]\ngap_over_t = 0.1\nlength_over_t = 1\nslant_deg = 75\n[puncture]\nneedle = 'guided'\nplaces = 11\n",
     );

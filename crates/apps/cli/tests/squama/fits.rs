@@ -1,4 +1,4 @@
-//! Curves of testing machines: laid over solved ones, and fitted.
+//! Measured curves: overlaid on solved curves, and fitted.
 
 use std::fs;
 
@@ -10,7 +10,7 @@ const SKIN: &str = "name = 'palm'\n[designs]\ngap_over_t = 0.2\nlength_over_t = 
                     membrane_modulus_MPa = 4.5\n";
 
 #[test]
-fn a_measured_curve_lies_over_the_solved_one_in_its_units() {
+fn measured_curves_are_overlaid_in_their_units() {
     let place = Place::with(SKIN);
     fs::write(place.path("a_1.csv"), "displacement_mm,force_N\n0,0\n0.2,0.4\n").expect("writable");
     place.prints("plot curves x.toml --design 1 --measured a_1.csv --out o");
@@ -22,7 +22,7 @@ fn a_measured_curve_lies_over_the_solved_one_in_its_units() {
         figure.split("class=\"measured\"").nth(1).expect("points").matches("<circle").count(),
         3
     );
-    // What was measured without units has the other in those of the model, too.
+    // If one column is dimensionless, the other one is dimensionless, too.
     fs::write(place.path("c.csv"), "displacement,force\n0,0\n0.1,0.4\n").expect("writable");
     place.prints("plot curves x.toml --design 1 --measured c.csv --out o");
     assert!(place.read(name).contains("dimensionless"));
@@ -54,13 +54,13 @@ fn incompatible_measured_curves_are_rejected() {
     assert!(!place.path("o").exists());
 }
 
-/// The folder of the example.
+/// Returns the folder of the example.
 fn example() -> std::path::PathBuf {
     std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../sweeps/fit/palm.toml")
 }
 
 #[test]
-fn the_example_is_fitted_and_its_answer_is_a_definition() {
+fn the_fit_of_the_example_writes_a_valid_definition() {
     let place = Place::new();
     let text = place.prints(&format!("fit {} --out f", example().display()));
     for word in ["palm-test: 4 unknowns from 120 points of 3 curves", "95 % interval", "noise"] {
@@ -72,12 +72,13 @@ fn the_example_is_fitted_and_its_answer_is_a_definition() {
     for (row, truth) in table.lines().skip(1).zip(truth) {
         let numbers: Vec<f64> = row.split(',').filter_map(|cell| cell.parse().ok()).collect();
         let [value, low, high] = [numbers[0], numbers[1], numbers[2]];
-        // These curves are one throw of the dice: the truth is close, if not within each interval.
+        // The curves are one random sample: the true values are close, but not within every
+        // interval.
         assert!((value - truth).abs() < 1.5 * (high - low), "{row}");
     }
     assert_eq!(place.read("f/residuals.csv").lines().count(), 121);
     place.prints("design f/fitted.toml --design 1 --out d");
-    // The same command does it again; a file that somebody else has written is left alone.
+    // The same command may replace its own files, but not a foreign one.
     place.prints(&format!("fit {} --out f --json", example().display()));
     fs::create_dir(place.path("g")).expect("a folder");
     fs::write(place.path("g/fit.csv"), "mine").expect("writable");
@@ -87,7 +88,7 @@ fn the_example_is_fitted_and_its_answer_is_a_definition() {
 }
 
 #[test]
-fn what_the_curves_do_not_tell_gives_exit_code_1() {
+fn undetermined_parameters_give_exit_code_1() {
     let place = Place::with(&SKIN.replace("membrane_modulus_MPa = 4.5\n", "[variables]\nmembrane_modulus_MPa = { from = 1, to = 9 }\n[[curve]]\nfile = 'a.csv'\nkind = 'puncture'\n"));
     fs::write(place.path("a.csv"), "displacement_mm,force_N\n0.1,0.01\n0.2,0.03\n0.3,0.05\n")
         .expect("writable");

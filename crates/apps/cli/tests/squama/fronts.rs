@@ -1,4 +1,4 @@
-//! What a search has found, on the page of a sweep.
+//! Designs found by a search, on the page of a sweep.
 
 use crate::Place;
 use crate::table::cell;
@@ -24,7 +24,7 @@ fn grid() -> Place {
 }
 
 #[test]
-fn a_front_stands_over_the_designs_of_the_grid() {
+fn fronts_are_shown_over_the_designs_of_the_grid() {
     let html = page(&grid(), "maximize = ['coverage', 'gap_over_t']");
     let (_, found) = html.split_once("\"found\":{").expect("a front");
     let (found, _) = found.split_once("\"values\"").expect("its designs");
@@ -40,7 +40,7 @@ fn a_front_stands_over_the_designs_of_the_grid() {
 }
 
 #[test]
-fn a_design_of_a_front_is_chosen_by_its_number() {
+fn designs_of_a_front_are_selected_by_number() {
     let place = grid();
     page(&place, "maximize = ['coverage', 'gap_over_t']");
     let front = place.read("found/front.csv");
@@ -58,7 +58,7 @@ fn a_design_of_a_front_is_chosen_by_its_number() {
     );
     let drawing = place.read("found/drawings/design-0004-puncture-at-critical-tilt.svg");
     assert!(drawing.contains(" width=\"85mm\" height=\""));
-    // Letters on paper are in proportion to the width, so half the size takes half of it.
+    // Letters scale with the width, so half the letter size takes half the width.
     let width = |size: &str| -> f64 {
         place.prints(&format!("draw found --design 2 --font-size {size} --set puncture.scales=3"));
         let drawing = place.read("found/drawings/design-0002-puncture-at-critical-tilt.svg");
@@ -73,13 +73,13 @@ fn a_design_of_a_front_is_chosen_by_its_number() {
 }
 
 #[test]
-fn a_single_best_design_stands_beside_what_is_required() {
+fn a_single_optimum_is_shown_with_the_requirements() {
     let html = page(&grid(), "maximize = 'coverage'");
     assert!(html.contains("\"axes\":[\"coverage\",\"slant_deg\"]"));
 }
 
 #[test]
-fn a_folder_without_a_front_for_the_grid_is_refused() {
+fn folders_without_a_front_for_the_grid_are_rejected() {
     let place = grid();
     insta::assert_snapshot!(place.refused("report grid --front grid"), @"error: --front grid: holds neither front.csv nor optimum.csv, expected a results folder of squama optimise");
     let physical =

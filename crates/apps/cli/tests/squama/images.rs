@@ -1,4 +1,4 @@
-//! `--png`: images of drawings, which a squama can make or not, as it is built.
+//! `--png` writes images of drawings, if squama is built with that feature.
 
 use crate::{FEW, Place};
 
@@ -21,7 +21,7 @@ fn each_drawing_has_an_image() {
 
 #[cfg(not(feature = "png"))]
 #[test]
-fn who_is_built_without_images_says_how_to_have_them() {
+fn builds_without_images_explain_how_to_enable_them() {
     let place = Place::with(FEW);
     insta::assert_snapshot!(place.refused(DRAW), @"error: --png: this squama was built without images; build it with them: cargo run --release --features png -- followed by the same arguments");
     assert_eq!(place.list("y"), "", "nothing is written");

@@ -1,4 +1,4 @@
-//! Sweeps with imperfect samples: the same numbers however they are run.
+//! Sweeps with imperfect samples give the same values however they are run.
 
 use crate::Place;
 use crate::table::cell;
@@ -24,7 +24,7 @@ fn threads_shards_and_subsets_draw_the_same_samples() {
     let (all, some) = (place.read("one/designs.csv"), place.read("some/designs.csv"));
     assert_eq!(some.lines().count(), 4);
     assert!(some.lines().all(|row| all.lines().any(|other| other == row)));
-    // A sweep of one of these designs is another grid, and has the same samples.
+    // A sweep of one of these designs has another grid, but the same samples.
     place
         .squama("run x.toml -q --out alone --set designs.slant_deg=45 --set designs.gap_cv=0.1 --set designs.length_over_t=1")
         .assert()
@@ -39,7 +39,7 @@ fn threads_shards_and_subsets_draw_the_same_samples() {
 }
 
 #[test]
-fn the_perfect_values_stay_and_another_seed_gives_other_samples() {
+fn nominal_values_stay_and_another_seed_gives_other_samples() {
     let place = Place::with(UNEVEN);
     place.squama("run x.toml -q --out first").assert().code(0);
     place.squama("run x.toml -q --out second --set imperfection.seed=2").assert().code(0);

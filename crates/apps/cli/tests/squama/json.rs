@@ -1,4 +1,4 @@
-//! What is printed for programs.
+//! JSON output of commands.
 
 use serde_json::Value;
 
@@ -6,7 +6,7 @@ use crate::table::cell;
 use crate::{FEW, Place};
 
 impl Place {
-    /// The JSON that `squama` prints.
+    /// Returns the JSON that `squama` prints.
     fn json(&self, arguments: &str) -> Value {
         serde_json::from_str(&self.prints(arguments)).expect("JSON")
     }
@@ -35,7 +35,7 @@ fn a_design_has_all_its_values() {
 }
 
 #[test]
-fn what_people_do_not_see_is_in_a_text_for_programs() {
+fn json_contains_control_characters_that_text_escapes() {
     let place = Place::with(FEW);
     let folder = "a\u{200b}b";
     place.squama("run x.toml -q --out").arg(folder).assert().code(0);
@@ -55,7 +55,7 @@ fn the_definition_of_a_design_may_come_through_a_pipe() {
 }
 
 #[test]
-fn a_definition_is_told() {
+fn check_describes_a_definition_as_json() {
     let place = Place::with(FEW);
     let definition = place.json("check x.toml --json");
     assert_eq!((&definition["designs"], &definition["sweep"]), (&8.into(), &"few".into()));
@@ -69,7 +69,7 @@ fn a_definition_is_told() {
 }
 
 #[test]
-fn the_status_of_a_run_is_told() {
+fn status_describes_a_run_as_json() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --set solver.max_points=3").assert().code(1);
     let output = place.squama("status x.toml --json").assert().code(1).get_output().stdout.clone();
@@ -85,7 +85,7 @@ fn the_status_of_a_run_is_told() {
 }
 
 #[test]
-fn a_ranking_is_told() {
+fn rank_describes_a_ranking_as_json() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q").assert().code(0);
     let ranking = place.json("rank x.toml --json --top 1");

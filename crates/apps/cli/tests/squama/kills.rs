@@ -1,5 +1,6 @@
-//! Runs killed at random moments, some several times: each goes on to the tables of a run that nothing has happened
-//! to, with any number of threads and shards.
+//! Runs that are killed at random moments, some several times.
+//!
+//! Each resumes to the tables of an undisturbed run, for any number of threads and shards.
 
 use std::time::{Duration, Instant};
 
@@ -9,40 +10,40 @@ use rand_chacha::rand_core::SeedableRng as _;
 
 use crate::Place;
 
-/// Two hundred designs that take little time; the punctures of some stop early.
+/// Two hundred quick designs; the punctures of some stop early.
 const DESIGNS: &str = "name = 'x'\n[designs]\ngap_over_t = [0.1, 0.3, 0.5, 1]\n\
                        length_over_t = [0.1, 0.2, 0.3, 0.6, 1]\n\
                        slant_deg = { from = 0, to = 72, step = 8 }\n\
                        [puncture]\nscales = 5\n[solver]\nmax_points = 7\n";
 
-/// How often and when processes were killed.
+/// Counts of killed processes.
 #[derive(Debug, Default)]
 struct Kills {
-    /// Before they were done.
+    /// Killed before completion.
     all: usize,
-    /// With some designs in the journal, and others not.
+    /// Killed with some designs in the journal, but not all.
     midway: usize,
-    /// Runs with more than one of them.
+    /// Runs that were killed more than once.
     repeated: usize,
 }
 
 struct Campaign {
     place: Place,
     random: ChaCha8Rng,
-    /// The time of a run that is left alone.
+    /// Duration of an undisturbed run.
     whole: Duration,
     kills: Kills,
 }
 
 impl Campaign {
-    /// Kills `arguments`, which writes to `folder`, up to `times` times, then lets it end.
+    /// Kills `arguments`, which writes to `folder`, up to `times` times, then lets it complete.
     fn survive(&mut self, arguments: &str, folder: &str, times: usize, longest: Duration) {
         let before = self.kills.all;
         for _ in 0..times {
             let after = longest.mul_f64(self.random.random_range(0.0..1.0));
             let killed = self.place.kill(arguments, after);
             self.kills.all += usize::from(killed);
-            // A header, a session; then designs, and more sessions.
+            // The journal starts with a header and a session; designs and more sessions follow.
             let lines = self.place.lines(&format!("{folder}/journal.jsonl"));
             self.kills.midway += usize::from(killed && lines > 2);
         }
@@ -50,7 +51,7 @@ impl Campaign {
         self.place.squama(arguments).assert().code(1);
     }
 
-    /// One run in the folder `name`.
+    /// Performs one run in the folder `name`.
     fn run(&mut self, name: &str, threads: u32, shards: u32) {
         let run = format!("run x.toml -q --resume --threads {threads}");
         if shards == 1 {
@@ -58,7 +59,7 @@ impl Campaign {
             self.survive(&format!("{run} --out {name}"), name, times, self.whole);
             return;
         }
-        // Some time to begin, and a part of the time of the whole.
+        // Time to start, plus the shard's part of the total duration.
         let longest = self.whole / shards + Duration::from_millis(20);
         let mut folders = String::new();
         for shard in 1..=shards {
@@ -73,7 +74,8 @@ impl Campaign {
     }
 }
 
-/// Nine runs, one for each number of threads and shards; fifty in a long campaign.
+/// Returns the number of runs: one for each number of threads and shards, or fifty in a long
+/// campaign.
 fn runs() -> usize {
     if crate::long_campaigns() { 50 } else { 9 }
 }
@@ -95,7 +97,7 @@ fn runs_killed_at_random_moments_make_the_same_tables() {
     }
     let kills = campaign.kills;
     println!("{kills:?} in {:.0?}", begun.elapsed());
-    // Of fifty runs: fifty kills, twenty of them midway, and three runs with several.
+    // Of fifty runs at least fifty kills, twenty of them midway, and three runs with several kills.
     let least = |of_fifty: usize| of_fifty * runs() / 50;
     assert!(kills.all >= least(50), "{kills:?}");
     assert!(kills.midway >= least(20), "{kills:?}");

@@ -1,4 +1,4 @@
-//! The command as people and scripts use it: exit codes, messages, files.
+//! Tests of the command line: exit codes, messages, files.
 
 mod agreement;
 mod bad_input;
@@ -38,16 +38,16 @@ use std::path::{Path, PathBuf};
 use assert_cmd::Command;
 use tempfile::TempDir;
 
-/// A few designs, one of each kind: flat and slanted, with contact and without.
+/// A few designs of each kind: flat and slanted, with and without contact.
 const FEW: &str = "name = 'few'\n[designs]\ngap_over_t = [0.1, 0.5]\nlength_over_t = [0.2, 1]\n\
                    slant_deg = [0, 45]\n[puncture]\nscales = 21\n";
 
-/// Whether the long campaigns are asked for, as `scripts/check` does: `SQUAMA_CAMPAIGNS=long`.
+/// Returns true if long campaigns are requested by `SQUAMA_CAMPAIGNS=long`, as in `scripts/check`.
 fn long_campaigns() -> bool {
     std::env::var_os("SQUAMA_CAMPAIGNS").is_some_and(|value| value == "long")
 }
 
-/// An empty folder to work in.
+/// A temporary folder to work in, initially empty.
 struct Place {
     folder: TempDir,
 }
@@ -57,7 +57,7 @@ impl Place {
         Self { folder: TempDir::new().expect("a folder") }
     }
 
-    /// A place with the file `x.toml`.
+    /// Creates a place with the file `x.toml`.
     fn with(text: &str) -> Self {
         let place = Self::new();
         std::fs::write(place.path("x.toml"), text).expect("writable");
@@ -82,22 +82,24 @@ impl Place {
         names.join(" ")
     }
 
-    /// `squama` with `arguments` separated by spaces.
+    /// Returns `squama` with `arguments`, separated by spaces.
     fn squama(&self, arguments: &str) -> Command {
         let mut command = Command::new(assert_cmd::cargo::cargo_bin!("squama"));
         command.current_dir(self.folder.path()).args(arguments.split_whitespace());
         command
     }
 
-    /// `squama` with these arguments.
+    /// Returns `squama` with these arguments.
     fn squama_with(&self, arguments: &[String]) -> Command {
         let mut command = self.squama("");
         command.args(arguments);
         command
     }
 
-    /// The message of `squama` where no file may take more than so many blocks of 512 or 1024 bytes; it
-    /// must refuse.
+    /// Runs `squama` with a file size limit of `blocks` (512 or 1024 bytes each), and returns its
+    /// error.
+    ///
+    /// The command must fail.
     fn refused_on_a_full_disk(&self, blocks: u32, arguments: &str) -> String {
         let squama = assert_cmd::cargo::cargo_bin!("squama").display();
         let output = std::process::Command::new("sh")
@@ -110,7 +112,7 @@ impl Place {
         message
     }
 
-    /// The one line in which `squama` refuses `arguments`; it prints nothing else.
+    /// Returns the one-line error of `squama` for `arguments`; there must be no other output.
     fn refused(&self, arguments: &str) -> String {
         let assert = self.squama(arguments).assert().code(2).stdout("");
         let message = String::from_utf8(assert.get_output().stderr.clone()).expect("text");
@@ -118,7 +120,9 @@ impl Place {
         message
     }
 
-    /// The one line in which `squama optimise` refuses `goal` with `to` in place of `from`; it writes nothing.
+    /// Returns the one-line error of `squama optimise` for `goal` with `from` replaced by `to`.
+    ///
+    /// Nothing may be written.
     fn refused_goal(goal: &str, from: &str, to: &str) -> String {
         assert!(goal.contains(from), "{from}");
         let place = Self::with(&goal.replace(from, to));
@@ -127,7 +131,7 @@ impl Place {
         message
     }
 
-    /// The output of `squama` when it is done well.
+    /// Returns the output of `squama`, which must succeed.
     fn prints(&self, arguments: &str) -> String {
         let output = self.squama(arguments).assert().code(0).get_output().stdout.clone();
         String::from_utf8(output).expect("text")

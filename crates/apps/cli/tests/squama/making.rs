@@ -1,8 +1,8 @@
-//! `squama make`: files for makers.
+//! `squama make`: files for manufacturing.
 
 use crate::Place;
 
-/// One design, 2 mm thick, whose gap and slant deviate.
+/// One design, 2 mm thick, with deviations of gap and slant.
 const SKIN: &str = "name = 'skin'\nmeasures = ['coverage']\n[designs]\ngap_over_t = 0.3\nlength_over_t = 0.8\nslant_deg = 60\n\
                     [material]\nthickness_mm = 2\nscale_density_kg_m3 = 1100\n[tolerance]\ngap_mm = { batch_sd = 0.1 }\n";
 
@@ -33,7 +33,7 @@ fn the_list_has_sizes_counts_masses_and_deviations() {
 }
 
 #[test]
-fn a_search_is_made_from_its_folder() {
+fn make_uses_the_optimum_of_a_search() {
     let place = Place::with(SKIN);
     std::fs::create_dir(place.path("search")).expect("a folder");
     std::fs::rename(place.path("x.toml"), place.path("search/optimum.toml")).expect("moved");

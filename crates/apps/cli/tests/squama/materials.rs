@@ -1,4 +1,4 @@
-//! A material: columns in physical units, and nothing else.
+//! A material adds columns in physical units and changes nothing else.
 
 use crate::table::{cells, columns};
 use crate::{FEW, Place};
@@ -49,7 +49,7 @@ fn a_material_adds_columns_and_changes_none() {
 }
 
 #[test]
-fn what_is_not_given_has_no_columns() {
+fn missing_material_constants_add_no_columns() {
     let place = Place::with(FEW);
     let length = "run x.toml -q --out r --set material.thickness_mm=2 --set measures=coverage";
     place.squama(length).assert().code(0);
@@ -82,7 +82,7 @@ fn a_material_may_vary_and_is_shown() {
 }
 
 #[test]
-fn a_modulus_in_another_unit_is_questioned_and_that_of_the_scales_stands_for_its_ratios() {
+fn suspicious_units_of_a_modulus_are_noted_and_the_scale_modulus_sets_contact_ratios() {
     let place = Place::with(
         "name = 'x'\ndesigns = { gap_over_t = 0.2, length_over_t = 1, slant_deg = 45 }\n[material]\n\
          thickness_mm = 2\nsubstrate_modulus_MPa = 310000\nmembrane_modulus_MPa = 4.5\n",
@@ -90,7 +90,7 @@ fn a_modulus_in_another_unit_is_questioned_and_that_of_the_scales_stands_for_its
     let checked = place.squama("check x.toml").assert().code(0).get_output().stderr.clone();
     let question = "note: material.substrate_modulus_MPa is 310000 MPa, 310 GPa:";
     assert!(String::from_utf8_lossy(&checked).starts_with(question));
-    // Scales 100 times as stiff as the substrate.
+    // The scales are 100 times as stiff as the substrate.
     let known = "design x.toml --set material.substrate_modulus_MPa=0.31 --json";
     let force = |set: &str| {
         let json: serde_json::Value =

@@ -1,4 +1,4 @@
-//! `squama optimise`: goals, output, and bad goals.
+//! `squama optimise`: goals, output and invalid goals.
 
 use crate::Place;
 
@@ -8,7 +8,7 @@ const GOAL: &str = "name = 'light'\nmeasures = 'coverage'\n[variables]\ngap_over
     scale_density_kg_m3 = 1000\n[goal]\nminimize = 'areal_mass_kg_m2'\nrequire = 'coverage >= 0.5'\nsamples = 64\n";
 
 #[test]
-fn the_optimum_is_a_design_like_any_other() {
+fn the_optimum_is_a_valid_definition() {
     let place = Place::with(GOAL);
     let text = place.prints("optimise x.toml --threads 1");
     let (_, answer) = text.split_once("\n\n").expect("an answer");
@@ -27,7 +27,7 @@ fn the_optimum_is_a_design_like_any_other() {
     ");
     let design = place.prints("design results/light/optimum.toml --design 1");
     assert!(design.contains("0.866025"), "{design}");
-    // The goal that was kept is the goal.
+    // The stored copy of the goal defines the same search.
     place.squama("optimise results/light/goal.toml --out again").assert().code(0);
     for file in ["optimum.csv", "history.csv"] {
         assert_eq!(
@@ -89,7 +89,7 @@ fn json_output_contains_the_optimum() {
     let infeasible = &record["infeasible"];
     // The values beside the requirements belong to the reported design.
     assert_eq!(infeasible["requirements"][0]["nearest"], infeasible["nearest"]["gap_over_t"]);
-    // The design that comes nearest is a definition like that of the best.
+    // The nearest design is a valid definition, like the best one.
     place.squama("run y/nearest.toml -q --out z").assert().code(0);
 }
 
@@ -167,7 +167,7 @@ fn the_fitness_reports_its_criteria_and_their_bounds() {
     results/light: goal.toml history.csv optimum.csv optimum.toml history.svg
     ");
     assert!(place.read("results/light/optimum.csv").contains(",fitness,binding,"));
-    // With its ends written down, the goal says the same without the sample.
+    // With explicit bounds of the criteria the result is the same without samples.
     let ends = "--set goal.rescale={coverage=[0,0.9],areal_mass_kg_m2=[1,0.5]}";
     let record = place.prints(&format!("optimise x.toml --out ends --json {ends}"));
     let record: serde_json::Value = serde_json::from_str(&record).expect("JSON");
@@ -191,7 +191,9 @@ fn incomparable_measures_are_rejected_as_objectives() {
     }
 }
 
-/// At the smallest critical tilt for a force the requirement is active; its price follows from the derivative.
+/// At the smallest critical tilt for a required force, the requirement is active.
+///
+/// Its price follows from the derivative.
 #[test]
 fn the_least_critical_tilt_for_a_force_is_found() {
     let text = "name = 'x'\nmeasures = 'puncture'\n[variables]\ncritical_tilt_deg = { from = 5, to = 15 }\n[goal]\nminimize = 'critical_tilt_deg'\n\
@@ -213,7 +215,7 @@ fn a_search_does_not_touch_the_folder_of_a_run() {
     insta::assert_snapshot!(place.refused("optimise g.toml --out r --fresh"), @"error: r: holds the results of a run; choose another folder with --out DIR");
 }
 
-/// The force at one place is not the force of the skin.
+/// The force at one load position is not the smallest force of the skin.
 #[test]
 fn a_weaker_load_position_of_the_best_design_is_reported() {
     let goal = "name = 'pinned'\nmeasures = 'puncture'\n[variables]\nslant_deg = { from = 70, to = 75 }\n\
@@ -231,7 +233,7 @@ fn a_weaker_load_position_of_the_best_design_is_reported() {
     let force = line.split_once(", ").and_then(|(_, rest)| rest.split_once(" N ("));
     let printed: f64 = force.expect("a force").0.parse().expect("a number");
     assert!((printed / weakest - 1.0).abs() < 1e-4, "{line} {weakest}");
-    // A goal on the weakest place needs no note, and a dead load has one position.
+    // A goal on the weakest position needs no note, and a dead load has only one position.
     let weakest = goal.replace("critical_force", "weakest_force");
     let (text, _) =
         told(&weakest.replace("[puncture]\n", "[puncture]\nplaces = 11\n"), "weakest_force");

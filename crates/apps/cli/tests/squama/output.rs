@@ -1,4 +1,4 @@
-//! The texts that are printed for people.
+//! Text output of commands.
 
 use std::process::Stdio;
 
@@ -24,12 +24,13 @@ fn calibrate_prints_six_coefficients() {
     let close = |found: Vec<f64>, expected: [f64; 3]| {
         assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 2e-3), "{found:?}");
     };
-    // Three square bases a tenth of their side apart.
+    // Three square bases, separated by a tenth of their side.
     close(numbers("alpha"), [2.699, 3.376, 2.473]);
     close(numbers("beta"), [0.993, 1.082, -0.428]);
 }
 
-/// On tissue as thick as two scales, force along the row goes with rotation and with force across it.
+/// On a layer twice as thick as the scales, forces along the row couple with rotation and normal
+/// force.
 #[test]
 fn calibrate_prints_the_couplings_of_a_layer() {
     let place = Place::new();
@@ -39,7 +40,7 @@ fn calibrate_prints_the_couplings_of_a_layer() {
     assert!(text.contains("a quarter of the half-width"), "{text}");
 }
 
-/// A page has no springs of layers.
+/// The interactive page cannot solve layers.
 #[test]
 fn explore_rejects_a_layer_with_the_reason() {
     let place = Place::with("name = 'x'\nsubstrate.tissue_thickness_over_t = 2");
@@ -50,7 +51,7 @@ fn explore_rejects_a_layer_with_the_reason() {
     );
 }
 
-/// What many skins meet or not is no requirement of the one under the hand: it stood there in red, without a value.
+/// Requirements on samples do not apply to a single design, which has no value for them.
 #[test]
 fn explore_leaves_out_requirements_on_samples() {
     let place = Place::with("name = 'x'");
@@ -72,7 +73,7 @@ fn a_page_contains_its_settings() {
     assert!(place.read("explore.html").contains(&format!("\"source\":\"{source}\"")));
 }
 
-/// What a page of a goal copies is a command that takes the goal; without a design of its own there is none yet.
+/// A goal has no design of its own; the options on its page select one by value.
 #[test]
 fn designs_of_a_goal_are_selected_by_value() {
     let place = Place::with(

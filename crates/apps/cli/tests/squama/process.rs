@@ -1,5 +1,7 @@
-//! A process of `squama` that goes on while a test watches it. No wait is without an end: a process that dies too
-//! early, or does not do what is waited for, is an error.
+//! A running `squama` process, observed by a test.
+//!
+//! Every wait has a timeout. It is an error if the process ends too early or the expected event
+//! does not occur.
 
 #[cfg(unix)]
 use std::io::Read as _;
@@ -11,15 +13,17 @@ use std::time::{Duration, Instant};
 /// Timeout for an expected event, even on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(120);
 
-/// How often a test looks whether it has happened.
+/// Polling interval.
 const PAUSE: Duration = Duration::from_millis(2);
 
-/// A process that is killed, if it is still there, when the test is done with it.
+/// A running process; dropping it kills the process.
 pub struct Running {
     child: Child,
 }
 
-/// The command, with the signals listened to that whoever runs the tests may have it ignore, as a shell does in the background.
+/// Returns the command with default signal handling.
+///
+/// A shell may start the tests in the background with signals ignored, which children inherit.
 fn squama() -> Command {
     let program = assert_cmd::cargo::cargo_bin!("squama");
     let listening = "--default-signal=HUP,INT,TERM";
@@ -45,7 +49,7 @@ impl Running {
         Self { child: child.expect("the command") }
     }
 
-    /// Waits until something `happened` that the process does.
+    /// Waits until `happened` returns true.
     pub fn until(&mut self, happened: impl Fn() -> bool) {
         let begun = Instant::now();
         while !happened() {
@@ -56,7 +60,7 @@ impl Running {
         }
     }
 
-    /// Waits until the process says `word` on its standard error.
+    /// Waits until the process prints `word` on standard error.
     #[cfg(unix)]
     pub fn until_said(&mut self, word: &str) {
         let mut said = vec![0; word.len()];
@@ -64,7 +68,7 @@ impl Running {
         assert_eq!(String::from_utf8_lossy(&said), word);
     }
 
-    /// The exit status of the process, if it ends within `time`.
+    /// Returns the exit status if the process ends within `time`.
     pub fn end_within(&mut self, time: Duration) -> Option<ExitStatus> {
         let begun = Instant::now();
         loop {
@@ -77,12 +81,12 @@ impl Running {
         }
     }
 
-    /// The exit status of a process that ends by itself.
+    /// Returns the exit status of a process that ends by itself.
     pub fn end(&mut self) -> ExitStatus {
         self.end_within(PATIENCE).expect("the process ends")
     }
 
-    /// The exit status of a process that is sent a signal again and again until it ends.
+    /// Sends a signal repeatedly until the process ends; returns the exit status.
     #[cfg(unix)]
     pub fn end_by(&mut self, signal: i32) -> ExitStatus {
         let begun = Instant::now();
@@ -95,7 +99,7 @@ impl Running {
         }
     }
 
-    /// Kills the process; its exit status has no code unless it was done before.
+    /// Kills the process. The exit status has a code only if the process had ended before.
     pub fn kill(&mut self) -> ExitStatus {
         self.child.kill().expect("a process");
         self.child.wait().expect("an end")
@@ -112,7 +116,7 @@ impl Running {
 
 impl Drop for Running {
     fn drop(&mut self) {
-        // Both do nothing to a process that has been waited for.
+        // Both have no effect on a process that has ended.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }

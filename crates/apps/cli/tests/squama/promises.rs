@@ -1,4 +1,4 @@
-//! What is promised of results holds of searches, tolerances, sensitivities, rankings and comparisons too.
+//! The guarantees of results also hold for searches, analyses, rankings and comparisons.
 
 use std::fs;
 use std::time::Duration;
@@ -9,11 +9,11 @@ use crate::{FEW, Place};
 const COVERED: &str = "name = 'covered'\nmeasures = 'coverage'\n[designs]\ngap_over_t = [0.1, 0.3]\nlength_over_t = 1\n\
     slant_deg = [30, 45]\n[tolerance]\ngap_over_t = { batch_sd = 0.01 }\n";
 
-/// Its variables, and a goal.
+/// The same sweep with variables and a goal.
 const GOAL: &str = "name = 'goal'\nmeasures = 'coverage'\n[variables]\ngap_over_t = { from = 0.1, to = 1 }\n\
     slant_deg = { from = 0, to = 60 }\n[designs]\nlength_over_t = 1\n[goal]\nmaximize = 'coverage'\nsamples = 16\n";
 
-/// The commands that write tables into the folder `out`, each with a file that it makes.
+/// The commands that write tables to the folder `out`, each with one of its files.
 const WRITERS: [(&str, &str); 9] = [
     ("optimise my/goal.toml --out out", "goal.toml"),
     ("optimise my/goal.toml --out out --fresh", "optimum.csv"),
@@ -26,7 +26,7 @@ const WRITERS: [(&str, &str); 9] = [
     ("design x.toml --design 1 --out out", "measures.csv"),
 ];
 
-/// A place with a sweep, its results in `r`, and a goal.
+/// Returns a place with a sweep, its results in `r`, and a goal.
 fn place() -> Place {
     let place = Place::with(COVERED);
     fs::create_dir(place.path("my")).expect("a folder");
@@ -47,7 +47,7 @@ fn no_command_overwrites_a_foreign_file() {
         let message = place.refused(command);
         assert!(message.starts_with(&format!("error: {file}: cannot be written")), "{message}");
         assert_eq!(place.read(&file), "mine", "{command}");
-        // Its own it writes again.
+        // Its own file may be overwritten.
         fs::remove_file(place.path(&file)).expect("a file");
         for _ in 0..2 {
             let again = command.replace("--out out", "--out again").replace("--fresh", "");
@@ -121,7 +121,7 @@ fn a_changed_analysis_or_optimum_is_detected_and_repaired() {
         assert_eq!(place.read(file), sound);
         place.prints(reader);
     }
-    // A changed table that the next analysis does not write is not taken for one of that.
+    // A modified table is not accepted as a table of the next analysis, which does not write it.
     fs::write(place.path("made/yield.csv"), "mine").expect("writable");
     place.prints("tolerance x.toml --samples 4 --out made");
     let message = place.refused("export made --xlsx x.xlsx");
@@ -153,7 +153,7 @@ fn samples_of_each_definition_are_kept() {
         names.map(|name| place.read(&format!("out/samples/{name}"))).collect::<Vec<_>>()
     };
     let [first] = journals(&place).try_into().expect("one journal");
-    // A stranger's, or that of an earlier squama.
+    // A foreign file, or a file of an earlier version of squama.
     fs::write(place.path("out/samples/0001.csv"), "mine").expect("writable");
     place.prints(&format!("{tolerance} --set designs.length_over_t=2"));
     assert_eq!(journals(&place).len(), 2);
@@ -199,7 +199,7 @@ fn partial_files_of_a_killed_process_are_removed() {
     }
 }
 
-/// Commands that write files outside of the records of a results folder, each with these files.
+/// Commands that write files outside of the records of a results folder, with these files.
 const FILE_WRITERS: [(&str, &[&str]); 12] = [
     ("make m.toml --design 1 --out out/s.3mf", &["s.3mf", "s.parts.txt"]),
     ("make m.toml --design 1 --out out/s.stl", &["s.stl", "s.parts.txt"]),
@@ -244,7 +244,7 @@ fn files_that_squama_did_not_write_are_never_replaced() {
     }
 }
 
-/// The CSV files of a folder and of the folders below it.
+/// Returns the CSV files in a folder and its subfolders.
 fn tables_below(folder: &std::path::Path) -> Vec<std::path::PathBuf> {
     let mut tables = Vec::new();
     for entry in fs::read_dir(folder).expect("a folder").flatten() {
@@ -293,7 +293,7 @@ fn a_part_is_not_replaced_if_its_list_cannot_be_written() {
 
 #[cfg(unix)]
 #[test]
-fn inputs_without_end_are_refused() {
+fn endless_inputs_are_rejected() {
     let place = place();
     let made = std::process::Command::new("mkfifo").arg(place.path("p")).status();
     assert!(made.expect("mkfifo").success());

@@ -13,7 +13,7 @@ const TABLE: &str =
 0006,0.5,1,60,0.5,,,0.4,no convergence,complete
 ";
 
-/// A place with the results `a`.
+/// Returns a place with the results `a`.
 fn place() -> Place {
     let place = Place::new();
     put(&place, "a", TABLE);
@@ -37,7 +37,7 @@ fn the_best_designs_are_printed() {
     insta::assert_snapshot!(place.read("a/winners.csv"));
 }
 
-/// Designs of which the strongest has folded over long before.
+/// The strongest of these designs has a fold long before its critical force.
 const FOLDED: &str =
     "design,gap_over_t,length_over_t,slant_deg,coverage,critical_force,penetration,compliance,fold_force,sound_force
 0001,0.1,0.1,75,0.5,20,0.5,0.1,5,5
@@ -52,7 +52,7 @@ fn the_best_design_without_a_fold_is_listed_beside_a_folded_winner() {
     let printed = place.prints("rank a --weights 0,1,0,0");
     let (_, others) = printed.split_once("folds under the best design").expect("a fold");
     assert!(others.lines().nth(2).is_some_and(|best| best.contains("0002")), "{printed}");
-    // Wherever it is named, it is marked.
+    // It is marked wherever it is listed.
     let named = printed.lines().filter(|line| line.contains("0001"));
     assert!(
         named.clone().count() > 1 && named.clone().all(|line| line.contains("0001⚠")),
@@ -104,7 +104,7 @@ fn a_new_run_removes_an_earlier_ranking() {
 }
 
 #[test]
-fn wrong_weights_and_results_are_refused() {
+fn invalid_weights_and_results_are_rejected() {
     let place = place();
     let messages = [
         "rank a --weights 0,0,0,0",
@@ -181,17 +181,17 @@ fn a_run_with_another_base_is_compared_design_by_design() {
 }
 
 #[test]
-fn tables_that_a_spreadsheet_has_saved_are_ranked() {
+fn tables_saved_by_spreadsheets_are_ranked() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --out r").assert().code(0);
     let ranked = place.prints("rank r");
-    // A table alone has no definition by which designs could be solved again.
+    // A table alone has no definition, so designs cannot be solved again.
     let (before, gaps) = ranked.split_once("\nChange if the gap is").expect("gaps");
     let (_, after) = gaps.split_once("(substrate.coupling = \"full\")").expect("couplings");
     let (_, after) = after.split_once("\n\n").expect("more");
     let ranked = format!("{before}\n{after}");
     let table = place.read("r/designs.csv");
-    // In a folder of its own: beside its journal a table must be as the run has written it.
+    // In a separate folder: next to its journal, a table must be as written by the run.
     put(&place, "s", &format!("\u{feff}{table}"));
     assert_eq!(
         place.prints("rank s"),
@@ -207,7 +207,7 @@ fn tables_that_a_spreadsheet_has_saved_are_ranked() {
 }
 
 #[test]
-fn round_off_is_no_difference() {
+fn round_off_is_not_a_difference() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --out a").assert().code(0);
     let table = place.read("a/designs.csv");

@@ -1,12 +1,12 @@
-//! Failures as data, and solving designs again.
+//! Failed designs are results, and can be solved again.
 
 use crate::{FEW, Place};
 
-/// A few designs, all of which stop early, in puncture and in bending.
+/// A few designs that all stop early, in puncture and in bending.
 const STOPPED: &str = "run x.toml -q --out r --set solver.max_points=3";
 
 #[test]
-fn a_failure_says_where_and_how_to_see_it() {
+fn failures_report_their_location_and_a_command_to_reproduce_them() {
     let place = Place::with(FEW);
     place.squama(STOPPED).assert().code(1);
     let table = place.read("r/failures.csv");
@@ -24,7 +24,7 @@ fn a_failure_says_where_and_how_to_see_it() {
     assert_eq!(command, "squama design run.toml --design 0004 --out designs/0004");
     let mut design = place.squama(command.strip_prefix("squama ").expect("squama"));
     design.current_dir(place.path("r")).assert().code(1);
-    // The last equilibrium of its path is where the failure is said to be.
+    // The failure is reported at the last equilibrium of the path.
     let path = place.read("r/designs/0004/path.csv");
     let cells: Vec<_> = row.split(',').collect();
     let last = path.lines().last().expect("a point");
@@ -33,7 +33,7 @@ fn a_failure_says_where_and_how_to_see_it() {
 }
 
 #[test]
-fn failed_designs_are_solved_again_and_what_changed_is_told() {
+fn reruns_of_failed_designs_report_the_changes() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --out whole").assert().code(0);
     place.squama(STOPPED).assert().code(1);
@@ -54,7 +54,7 @@ fn failed_designs_are_solved_again_and_what_changed_is_told() {
 }
 
 #[test]
-fn a_list_that_was_set_is_one_setting_of_the_command() {
+fn a_list_is_a_single_setting_in_commands() {
     let place = Place::with(FEW);
     place.squama(STOPPED).assert().code(1);
     let again =
@@ -112,7 +112,7 @@ fn solving_again_with_the_same_settings_changes_nothing() {
 }
 
 #[test]
-fn status_tells_reasons_and_the_slowest() {
+fn status_lists_reasons_and_the_slowest_designs() {
     let place = Place::with(FEW);
     place.squama(STOPPED).assert().code(1);
     let output = place.squama("status r").assert().code(1).get_output().stdout.clone();
@@ -133,7 +133,7 @@ fn status_tells_reasons_and_the_slowest() {
 }
 
 #[test]
-fn tables_for_spreadsheets_with_decimal_commas() {
+fn tables_may_have_decimal_commas() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --out plain").assert().code(0);
     place.squama("run x.toml -q --out r --csv excel-eu").assert().code(0);
@@ -143,7 +143,7 @@ fn tables_for_spreadsheets_with_decimal_commas() {
     assert!(table.contains("\r\n0003;0,1;1;0;0,") || table.contains("\r\n0002;0,1;0,2;45;0,"));
     let plain = table.trim_start_matches('\u{feff}').replace(',', ".").replace(';', ",");
     assert_eq!(plain, place.read("plain/coverage.csv"));
-    // It stays as it was asked for, until something else is.
+    // The format stays as requested until another one is requested.
     place.squama("rerun r --design 1 -q").assert().code(0);
     assert_eq!(place.read("r/coverage.csv"), table);
     place.squama("run x.toml -q --resume --out r --csv plain").assert().code(0);

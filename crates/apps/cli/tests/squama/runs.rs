@@ -1,9 +1,9 @@
-//! `squama run`: its files, its exit code, and that threads do not matter.
+//! `squama run`: files, exit codes, and independence of the number of threads.
 
 use crate::table::cell;
 use crate::{FEW, Place};
 
-/// The files of a run that must not depend on when and with how many threads it ran.
+/// The files that must not depend on the time and the number of threads of a run.
 pub const TABLES: [&str; 6] = [
     "designs.csv",
     "coverage.csv",
@@ -14,7 +14,7 @@ pub const TABLES: [&str; 6] = [
 ];
 
 #[test]
-fn writes_its_tables_to_the_folder_of_its_name() {
+fn tables_are_written_to_the_folder_of_the_sweep() {
     let place = Place::with(FEW);
     place.squama("run x.toml --quiet").assert().code(0).stdout("").stderr("");
     assert_eq!(
@@ -49,7 +49,7 @@ fn any_number_of_threads_writes_the_same_bytes() {
 }
 
 #[test]
-fn its_record_repeats_it() {
+fn the_record_of_a_run_repeats_it() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --set contact.c1=0.7 --out a").assert().code(0);
     place.squama("run a/run.toml -q --out b").assert().code(0);
@@ -64,13 +64,13 @@ fn its_record_repeats_it() {
 }
 
 #[test]
-fn a_design_that_stops_early_is_a_row_and_an_exit_code() {
+fn designs_that_stop_early_have_a_row_and_give_exit_code_1() {
     let place = Place::with(FEW);
     place.squama("run x.toml --set solver.max_points=3").assert().code(1);
     let table = place.read("results/few/critical_force.csv");
     let row = table.lines().nth(1).expect("a row");
     assert!(row.starts_with("0001,0.1,0.2,0,,too many points,"), "{row}");
-    // The largest force that it bore stays, and the measures at the critical tilt are none.
+    // The largest force is kept, but measures at the critical tilt have no value.
     let none = ["critical_force", "critical_displacement", "secant_stiffness"];
     assert!(none.iter().all(|column| cell(&table, "0001", column).is_empty()), "{row}");
     assert!(!cell(&table, "0001", "peak_force").is_empty(), "{row}");
@@ -78,7 +78,7 @@ fn a_design_that_stops_early_is_a_row_and_an_exit_code() {
 }
 
 #[test]
-fn what_is_not_measured_is_empty_and_has_no_table() {
+fn omitted_measures_have_empty_cells_and_no_table() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q").assert().code(0);
     place.squama("run x.toml -q --set measures=coverage --fresh").assert().code(0);
@@ -96,7 +96,7 @@ fn what_is_not_measured_is_empty_and_has_no_table() {
 }
 
 #[test]
-fn another_axis_has_a_column() {
+fn further_axes_have_a_column() {
     let place = Place::with(FEW);
     place
         .squama("run x.toml -q --set designs.base=[\"L\",\"2L\"] --set designs.gap_over_t=1")

@@ -1,9 +1,9 @@
-//! Designs and results, however they are named: by definition or folder, by number, range or value.
+//! Selection of designs and results: by definition or folder, by number, range or value.
 
 use crate::{FEW, Place};
 
 #[test]
-fn a_folder_does_for_a_definition() {
+fn folders_are_accepted_as_definitions() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --out r").assert().code(0);
     let text = place.prints("design r --design 6");
@@ -19,7 +19,7 @@ fn a_folder_does_for_a_definition() {
 }
 
 #[test]
-fn a_definition_does_for_a_folder() {
+fn definitions_are_accepted_as_folders() {
     let place = Place::with(FEW);
     insta::assert_snapshot!(place.refused("rank x.toml"), @"error: x.toml: there are no results in results/few; squama run x.toml writes them");
     place.squama("run x.toml -q").assert().code(0);

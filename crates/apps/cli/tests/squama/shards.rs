@@ -1,10 +1,10 @@
-//! Shards of a sweep, each solved on its own, and put together.
+//! Shards of a sweep are solved separately and merged.
 
 use crate::survival::MANY;
 use crate::{FEW, Place};
 
 #[test]
-fn any_number_of_shards_makes_the_same_tables() {
+fn tables_do_not_depend_on_the_number_of_shards() {
     let place = Place::with(MANY);
     place.squama("run x.toml -q --out whole").assert().code(0);
     for count in [1, 3, 7] {
@@ -23,7 +23,7 @@ fn any_number_of_shards_makes_the_same_tables() {
 }
 
 #[test]
-fn what_is_missing_is_named_and_added_later() {
+fn missing_designs_are_listed_and_can_be_added_later() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --out whole").assert().code(0);
     place.squama("run x.toml -q --shard 1/3 --out 1").assert().code(0);
@@ -45,7 +45,7 @@ fn what_is_missing_is_named_and_added_later() {
 }
 
 #[test]
-fn shards_of_different_sweeps_are_refused() {
+fn shards_of_different_sweeps_are_rejected() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --shard 1/2 --out 1").assert().code(0);
     place.squama("run x.toml -q --shard 2/2 --out 2 --set contact.c1=2").assert().code(0);
@@ -54,7 +54,7 @@ fn shards_of_different_sweeps_are_refused() {
 }
 
 #[test]
-fn a_rerun_outlives_a_merger() {
+fn reruns_survive_a_merge() {
     let place = Place::with(FEW);
     for shard in [1, 2] {
         place.squama(&format!("run x.toml -q --shard {shard}/2 --out {shard}")).assert().code(0);

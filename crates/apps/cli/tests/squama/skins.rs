@@ -1,4 +1,4 @@
-//! `squama optimise` on statistics over samples: output and bad goals.
+//! `squama optimise` on statistics over samples: output and invalid goals.
 
 use crate::Place;
 
@@ -18,7 +18,7 @@ fn the_best_design_is_confirmed_on_new_samples() {
     assert!(
         header.ends_with(",binding,prices,yield,yield_low,yield_high,yield_seen,fresh_samples")
     );
-    // Designs that were not sampled are nominal alone.
+    // Designs without samples have only nominal values.
     let history = place.read("results/made/history.csv");
     for word in [",nominal,", ",short,", ",met,", ",tolerance,"] {
         assert!(history.contains(word), "{word}");
@@ -31,7 +31,7 @@ fn the_best_design_is_confirmed_on_new_samples() {
 }
 
 #[test]
-fn a_tolerance_puts_what_a_search_has_found_to_the_test() {
+fn tolerance_confirms_the_yield_of_a_search() {
     let place = Place::with(GOAL);
     let record = place.prints("optimise x.toml --json");
     let record: serde_json::Value = serde_json::from_str(&record).expect("JSON");
@@ -42,7 +42,8 @@ fn a_tolerance_puts_what_a_search_has_found_to_the_test() {
     let output = place.squama_with(&arguments).assert().code(0).get_output().stdout.clone();
     let told: serde_json::Value = serde_json::from_slice(&output).expect("JSON");
     let told = told["designs"][0]["yields"][0]["yield"].as_f64().expect("a yield");
-    // Two samples of 1,000 each, none of which the search has seen: three standard deviations of their difference.
+    // Two sets of 1000 samples, independent of the search: three standard deviations of their
+    // difference.
     assert!((told - others).abs() < 0.04 && told != others, "{told} {others}");
 }
 

@@ -1,5 +1,6 @@
-//! A run that is killed, ended, or meets a full disk loses nothing that was done, and its tables
-//! are those of a run that nothing has happened to.
+//! A run that is killed, interrupted, or meets a full disk loses no completed design.
+//!
+//! After resuming, its tables equal those of an undisturbed run.
 
 use std::time::Duration;
 
@@ -7,7 +8,7 @@ use crate::process::Running;
 use crate::runs::TABLES;
 use crate::{FEW, Place};
 
-/// Some designs that take a while.
+/// Designs that take some time.
 pub const MANY: &str = "name = 'many'\n[designs]\ngap_over_t = [0.1, 0.2, 0.4]\n\
                     length_over_t = [0.1, 0.3, 1]\nslant_deg = { from = 0, to = 75, step = 15 }\n\
                     [puncture]\nscales = 61\n";
@@ -17,7 +18,7 @@ impl Place {
         Running::spawn(&self.path(""), arguments)
     }
 
-    /// Runs `arguments` and kills the process after a while; false if it was done before.
+    /// Runs `arguments` and kills the process after a while; returns false if it had ended before.
     pub fn kill(&self, arguments: &str, after: Duration) -> bool {
         let mut run = self.spawn(arguments);
         run.end_within(after).is_none() && run.kill().code().is_none()
@@ -73,7 +74,7 @@ fn results_are_not_overwritten_unasked() {
 }
 
 #[test]
-fn what_is_a_strangers_is_not_touched() {
+fn foreign_files_are_not_touched() {
     let names = ["run.toml", "failures.csv", "penetration.csv", "reruns.csv", "contents.toml"];
     for name in names {
         let place = Place::with(FEW);
@@ -88,7 +89,7 @@ fn what_is_a_strangers_is_not_touched() {
         assert_eq!(place.list("r"), name);
         assert_eq!(place.read(&format!("r/{name}")), "a stranger's");
     }
-    // A journal that is not ours, and tables that nobody asked to be replaced.
+    // A foreign journal, and tables that the user did not ask to replace.
     let place = Place::with(FEW);
     std::fs::create_dir(place.path("r")).expect("a folder");
     std::fs::write(place.path("r/journal.jsonl"), "{\"a\": 1}").expect("writable");
@@ -97,14 +98,14 @@ fn what_is_a_strangers_is_not_touched() {
 }
 
 #[test]
-fn a_gigabyte_of_zeros_is_no_journal() {
+fn a_gigabyte_of_zeros_is_rejected_as_a_journal() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --out r").assert().code(0);
     let journal = place.read("r/journal.jsonl");
     let grow = |file: &str| {
         let file = std::fs::OpenOptions::new().append(true).create(true).open(place.path(file));
         let file = file.expect("writable");
-        // A hole: it takes no room on the disk.
+        // A sparse file takes no space on the disk.
         file.set_len(file.metadata().expect("a file").len() + (1 << 30)).expect("a hole");
     };
     std::fs::create_dir(place.path("zeros")).expect("a folder");
@@ -113,7 +114,7 @@ fn a_gigabyte_of_zeros_is_no_journal() {
         let message = place.refused(command);
         assert!(message.contains("not the first line of a journal"), "{message}");
     }
-    // Behind sound lines they are a damaged tail.
+    // After valid lines, zeros are a damaged tail.
     grow("r/journal.jsonl");
     let status = place.squama("status r").assert().code(1).get_output().stdout.clone();
     assert!(String::from_utf8_lossy(&status).contains("done        8\n"));
@@ -122,7 +123,7 @@ fn a_gigabyte_of_zeros_is_no_journal() {
 }
 
 #[test]
-fn a_journal_of_another_program_is_refused() {
+fn journals_of_other_programs_are_rejected() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q").assert().code(0);
     let journal = place.read("results/few/journal.jsonl");
@@ -136,7 +137,7 @@ fn a_journal_of_another_program_is_refused() {
 }
 
 #[test]
-fn the_second_run_on_a_folder_is_refused() {
+fn a_second_run_on_a_folder_is_rejected() {
     let place = Place::with(MANY);
     let slow = "run x.toml -q --threads 1 --resume --set solver.max_step=0.0005";
     let mut first = place.spawn(slow);
@@ -160,7 +161,7 @@ mod signals {
     use super::*;
 
     #[test]
-    fn the_first_finishes_what_is_in_hand() {
+    fn a_first_signal_lets_designs_in_progress_complete() {
         for (signal, code) in [(SIGINT, 130), (SIGTERM, 143), (SIGHUP, 129)] {
             let place = Place::with(MANY);
             let mut run =
@@ -178,14 +179,14 @@ mod signals {
     }
 
     #[test]
-    fn the_first_is_answered() {
+    fn a_first_signal_is_acknowledged() {
         let place = Place::with(ENDLESS);
         let mut run = place.spawn("run x.toml --threads 1");
         run.until(|| place.lines("results/endless/journal.jsonl") >= 3);
         run.send(SIGINT);
         let word = "ending after the designs in progress; a second signal ends at once; --resume continues\n";
         run.until_said(word);
-        // What comes within a second is the same request; a later one ends it.
+        // Signals within a second are the same request; a later signal ends the process.
         assert_eq!(run.end_by(SIGINT).code(), Some(130));
 
         let mut tolerance = place.spawn(
@@ -201,7 +202,7 @@ mod signals {
     }
 
     #[test]
-    fn a_design_that_takes_long_says_how_far_it_is() {
+    fn long_designs_report_their_progress() {
         let place = Place::with(&format!("{ENDLESS}[tolerance]\nslant_deg = {{ batch_sd = 1 }}\n"));
         let goal = ENDLESS.replace("slant_deg = 0\nscales = [1, 10001]", "scales = 10001");
         let more =
@@ -213,19 +214,21 @@ mod signals {
         search.until_said("a design of the search: ");
     }
 
-    /// Ten thousand steps of one scale, which take no time, and then of ten thousand scales, which take minutes: all of them are
-    /// solved for on a nonlinear substrate.
+    /// Ten thousand steps of one scale, which are quick, then of ten thousand scales, which take
+    /// minutes.
+    ///
+    /// On a nonlinear substrate all scales are part of the system.
     const ENDLESS: &str = "name = 'endless'\nmeasures = ['puncture']\n[designs]\ngap_over_t = 0.1\n\
                            length_over_t = 1\nslant_deg = 0\nscales = [1, 10001]\n\
                            [substrate]\nlaw = 'neo-hookean'\n[solver]\nmax_step = 1e-4\nfirst_step = 1e-4\n";
 
     #[test]
-    fn the_second_leaves_at_once() {
+    fn a_second_signal_ends_the_process_at_once() {
         let place = Place::with(ENDLESS);
         let mut run = place.spawn("run x.toml -q --threads 1");
-        // Once the journal has the first design, after its header and the session, the second is in hand.
+        // After the header, the session and the first design, the second design is in progress.
         run.until(|| place.lines("results/endless/journal.jsonl") >= 3);
-        // As `timeout` does: one to the process, one to its group.
+        // Like `timeout`: one signal to the process, one to its group.
         run.send(SIGINT);
         run.send(SIGINT);
         let ended = run.end_within(Duration::from_millis(1200));
@@ -236,7 +239,7 @@ mod signals {
     }
 
     #[test]
-    fn a_command_that_is_ended_leaves_no_half_of_a_file() {
+    fn terminated_commands_leave_no_partial_files() {
         let place = Place::with(
             "name = 'x'\nmeasures = ['coverage']\n[designs]\n\
                                  gap_over_t = { from = 0.1, to = 2, step = 0.005 }\n\
@@ -251,7 +254,7 @@ mod signals {
             assert_eq!(export.end().code(), Some(128 + signal));
             assert!(!partial(), "{}", place.list("r"));
         }
-        // What a kill leaves, the next run takes away.
+        // The next run removes partial files of a killed process.
         let mut export = place.spawn("export r --xlsx r/x.xlsx");
         export.until(partial);
         export.kill();
@@ -261,7 +264,7 @@ mod signals {
     }
 
     #[test]
-    fn a_pipe_is_no_journal() {
+    fn pipes_are_rejected_as_journals() {
         let place = Place::with(FEW);
         std::fs::create_dir(place.path("r")).expect("a folder");
         let journal = place.path("r/journal.jsonl");
@@ -278,10 +281,10 @@ mod signals {
     }
 
     #[test]
-    fn a_full_disk_is_an_error_that_a_run_goes_on_from() {
+    fn runs_can_be_resumed_after_a_full_disk() {
         let place = Place::with(MANY);
         place.squama("run x.toml -q --out whole").assert().code(0);
-        // In mid-journal whatever the size of a block; then in mid-table.
+        // In the middle of the journal for either block size, then in the middle of a table.
         for blocks in [5, 8, 15] {
             let out = format!("out{blocks}");
             let run = format!("run x.toml -q --out {out}");
@@ -296,12 +299,12 @@ mod signals {
 }
 
 #[test]
-fn a_run_ends_at_the_first_failure_if_asked_to() {
+fn fail_fast_ends_a_run_at_the_first_failure() {
     let place = Place::with(MANY);
     let run = "run x.toml -q --threads 1 --set solver.max_points=3";
     place.squama(&format!("{run} --fail-fast")).assert().code(1);
     let done = place.lines("results/many/designs.csv") - 1;
-    // Those that one thread has solved before the first of them was noted.
+    // The designs that one thread solved before the first failure was recorded.
     assert!((1..27).contains(&done), "{done}");
     place.squama(&format!("{run} --resume")).assert().code(1);
     assert_eq!(place.lines("results/many/failures.csv"), 1 + 2 * 54);

@@ -1,17 +1,17 @@
-//! The cells of tables without quotes, as strings.
+//! Access to the cells of tables without quotes, as strings.
 
-/// Names of the columns of a table.
+/// Returns the column names of a table.
 pub fn columns(table: &str) -> impl Iterator<Item = &str> {
     table.lines().next().expect("a header").split(',')
 }
 
-/// The cells of a column, from its first row to its last.
+/// Returns the cells of a column, from the first row to the last.
 pub fn cells<'t>(table: &'t str, column: &str) -> Vec<&'t str> {
     let place = columns(table).position(|name| name == column).expect("a column");
     table.lines().skip(1).map(|row| row.split(',').nth(place).expect("a cell")).collect()
 }
 
-/// The cell of a design in a column.
+/// Returns the cell of a design in a column.
 pub fn cell<'t>(table: &'t str, design: &str, column: &str) -> &'t str {
     let row = cells(table, "design").iter().position(|number| *number == design);
     cells(table, column)[row.expect("a design")]

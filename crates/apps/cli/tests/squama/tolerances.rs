@@ -1,4 +1,4 @@
-//! Tolerances and global sensitivity: the same tables however they are made, and bad input in one line.
+//! Tolerances and global sensitivity: reproducible tables, and one-line errors.
 
 use crate::Place;
 
@@ -17,7 +17,7 @@ fn tables_are_the_same_for_any_number_of_threads_and_after_an_interruption() {
     let command = "tolerance x.toml --require critical_force_N>=0.5 --require coverage>=0.8";
     place.prints(&format!("{command} --samples 120 --threads 1 --out one"));
     place.prints(&format!("{command} --samples 120 --threads 2 --out two"));
-    // Fewer samples before more, as after an interruption.
+    // First fewer samples, then more, as after an interruption.
     place.prints(&format!("{command} --samples 30 --out three"));
     place.prints(&format!("{command} --samples 120 --out three"));
     let samples = place.list("one/samples");
@@ -36,7 +36,7 @@ fn tables_are_the_same_for_any_number_of_threads_and_after_an_interruption() {
 }
 
 #[test]
-fn one_design_is_told_in_words_and_in_json() {
+fn a_single_design_is_reported_as_text_and_json() {
     let place = Place::with(DESIGNS);
     let command = "tolerance x.toml --design 2 --samples 50 --require critical_force_N>=0.1";
     let text = place.prints(command);
@@ -57,7 +57,7 @@ fn one_design_is_told_in_words_and_in_json() {
         let svg = place.read(&format!("results/skin/tolerance/{figure}"));
         assert!(svg.contains("<svg") && svg.contains("skin design 0002"), "{figure}");
     }
-    // Derivatives alone.
+    // The linear prediction alone.
     let text = place.prints("tolerance x.toml --samples 0 --out linear");
     assert!(text.contains("2 designs of 2"), "{text}");
     assert_eq!(place.list("linear"), "derived tolerance.csv tolerance_sources.csv");
@@ -76,7 +76,7 @@ fn global_sensitivity_is_the_same_for_any_number_of_threads() {
 }
 
 #[test]
-fn bad_input_is_one_line() {
+fn bad_input_gives_one_line_of_error() {
     let place = Place::with(DESIGNS);
     std::fs::write(place.path("box.toml"), BOX).expect("writable");
     let bare = BOX.replace("length_over_t = [0.5, 1]\n", "");

@@ -1,4 +1,4 @@
-//! The tutorial, command by command.
+//! Runs every command of the tutorial and compares its output.
 
 use std::fs;
 use std::path::Path;
@@ -7,7 +7,7 @@ use crate::Place;
 
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../..");
 
-/// The contents of the fenced blocks of a kind.
+/// Returns the contents of the fenced blocks of a kind.
 fn blocks(text: &str, kind: &str) -> Vec<String> {
     let fence = format!("```{kind}\n");
     let blocks = text.split(&fence).skip(1);
@@ -84,7 +84,7 @@ fn every_command_of_the_tutorial_prints_its_block() {
 }
 
 #[test]
-fn the_answer_of_the_readme_is_that_of_the_tables() {
+fn the_readme_quotes_values_of_the_tables() {
     let text = fs::read_to_string(Path::new(ROOT).join("README.md")).expect("a README");
     let place = Place::new();
     copy_sweeps(&place);

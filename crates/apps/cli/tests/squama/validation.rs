@@ -1,4 +1,4 @@
-//! The validation and its page.
+//! The validation command and its page.
 
 use crate::agreement::disagreement;
 use crate::{Place, long_campaigns};
@@ -6,7 +6,7 @@ use crate::{Place, long_campaigns};
 #[test]
 fn the_committed_page_matches_the_command() {
     let place = Place::new();
-    // Every benchmark lies in its band.
+    // Exit code 0 means that every benchmark lies in its band.
     let options = if long_campaigns() { "" } else { "--quick" };
     let printed = place.prints(&format!("validate {options} --out page.md"));
     let page = place.read("page.md");
@@ -15,7 +15,7 @@ fn the_committed_page_matches_the_command() {
     let committed = std::fs::read_to_string(committed).expect("a page");
     let (sweeps, searches) =
         committed.split_once("\n## Between the grid points").expect("a section");
-    // No grid has a better design than a search in its box finds.
+    // No grid contains a better design than the search over the same ranges.
     assert!(searches.contains("neither equals nor beats 0 of them."), "{searches}");
     let gains: Vec<&str> = searches.lines().filter(|line| line.ends_with(" % |")).collect();
     assert!(gains.len() == 5 && gains.iter().all(|row| row.contains("| +")), "{gains:?}");
@@ -24,7 +24,7 @@ fn the_committed_page_matches_the_command() {
 }
 
 #[test]
-fn a_page_without_a_name_is_refused() {
+fn pages_without_a_name_are_rejected() {
     let place = Place::new();
     insta::assert_snapshot!(place.refused("validate --out /"), @"error: --out /: not accepted, expected the name of a file");
 }

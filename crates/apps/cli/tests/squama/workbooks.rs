@@ -39,7 +39,7 @@ fn searches_and_tolerances_are_exported_and_rejected_elsewhere() {
       tolerance          1 row
       tolerance_sources  1 row
     ");
-    // Every column has its meaning, those of the tables alone, too.
+    // Every column is explained, including those of single tables.
     for book in ["f.xlsx", "t.xlsx"] {
         let mut book: calamine::Xlsx<_> =
             calamine::open_workbook(place.path(book)).expect("a workbook");
@@ -54,7 +54,7 @@ fn searches_and_tolerances_are_exported_and_rejected_elsewhere() {
 }
 
 #[test]
-fn a_folder_without_a_run_is_refused() {
+fn folders_without_a_run_are_rejected() {
     let place = Place::with(FEW);
     insta::assert_snapshot!(place.refused("export . --xlsx x.xlsx"), @"error: .: holds no designs.csv, expected the folder of a run, a search, a tolerance or a fit");
     insta::assert_snapshot!(place.refused("export . --xlsx x.csv"), @"error: x.csv: a workbook needs a name that ends in .xlsx");
@@ -73,7 +73,7 @@ fn a_full_disk_is_an_error_and_leaves_the_old_workbook() {
     // A real workbook, because a file that squama did not write is rejected before the export.
     place.prints("export r --xlsx r/x.xlsx");
     let old = std::fs::read(place.path("r/x.xlsx")).expect("a workbook");
-    // Full immediately, while rows are written to a temporary file, and at the very end.
+    // The disk is full at once, while rows go to a temporary file, or at the very end.
     for blocks in [1, 20, 60] {
         let message = place.refused_on_a_full_disk(blocks, "export r --xlsx r/x.xlsx");
         assert_eq!(

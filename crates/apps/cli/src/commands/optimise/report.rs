@@ -188,7 +188,7 @@ impl SearchReport<'_> {
         let mut rows = vec![header];
         rows.extend(designs.iter().map(|best| {
             let mut row: Vec<String> = named(best).into_iter().map(|[_, value]| value).collect();
-            // A floor is another objective, and its price says what that costs in this one.
+            // A floor bounds another objective; its price is the trade-off against this objective.
             let floors = best
                 .bindings
                 .iter()
@@ -208,7 +208,8 @@ impl SearchReport<'_> {
         let words = BindingText::new(self.goal);
         let requirements: Vec<Requirement> = words.requirements().into_iter().cloned().collect();
         let unmet = unmet(self.goal, self.found, &requirements, nearest);
-        // Requirements on columns also act within a yield, so designs without one were not evaluated.
+        // Requirements on columns also act within a yield, so designs without one were not
+        // evaluated.
         let obstacle = if self.goal.is_about_samples() {
             samples::shortfalls(&unmet)
         } else {
@@ -255,7 +256,8 @@ pub fn unmet(
     let values = |candidate: &Candidate| match &candidate.verdict {
         Judgement::Judged(worth) => worth.required.iter().copied().map(Some).collect(),
         Judgement::Nominal(worth) => {
-            // A design without samples has values only for the nominal requirements, in their order.
+            // A design without samples has values only for the nominal requirements, in their
+            // order.
             let mut drawn = worth.required.iter().copied();
             let value = |requirement: &Requirement| {
                 let is_drawn = goal.statistic(&requirement.column).is_none();

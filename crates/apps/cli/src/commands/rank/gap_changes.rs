@@ -11,7 +11,7 @@ use crate::print::aligned;
 /// Changes by this factor or its inverse are printed as factors.
 const LARGE: f64 = 2.0;
 
-/// Solves the best designs with other gaps: by the weights, without a fold, and by each criterion.
+/// Solves the best designs with other gaps: by weights, without a fold, by each criterion.
 ///
 /// Returns nothing if the results have no definition.
 pub fn gap_changes(results: &Results, ranking: &Ranking<'_>) -> Vec<GapChange> {
@@ -20,7 +20,8 @@ pub fn gap_changes(results: &Results, ranking: &Ranking<'_>) -> Vec<GapChange> {
     let columns = measured_columns(ranking.preferences());
     let alone = Weights::alone_among(criteria.len()).map(|weights| ranking.winner(weights));
     let best = [Some(ranking.winner(ranking.preferences().weights)), ranking.best_unfolded()];
-    // Without duplicates: one design is often the best by several criteria, and each is solved three times.
+    // Remove duplicates: one design is often the best by several criteria, and each is solved three
+    // times.
     let mut numbers: Vec<&str> = Vec::new();
     for number in best.iter().flatten().chain(&alone.collect::<Vec<_>>()).map(RankedDesign::design)
     {

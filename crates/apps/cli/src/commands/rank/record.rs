@@ -1,10 +1,10 @@
-//! The ranking of a run, for programs.
+//! JSON output of `squama rank`.
 
 use ranking::{RankedDesign, Ranking, Unmet, UnmetRequirement, Weights};
 use results::Results;
 use serde_json::{Map, Value, json};
 
-/// The ranking, with the `top` designs by fitness.
+/// Returns the ranking as JSON, with the `top` designs by fitness.
 pub fn ranking_record(results: &Results, ranking: &Ranking<'_>, top: usize) -> Value {
     let preferences = ranking.preferences();
     let criteria = &preferences.criteria;
@@ -39,7 +39,7 @@ pub fn ranking_record(results: &Results, ranking: &Ranking<'_>, top: usize) -> V
     })
 }
 
-/// A design with its standing and its criteria.
+/// Returns a design with its ranks and criteria.
 fn design(ranking: &Ranking<'_>, standing: &RankedDesign<'_>) -> Value {
     let criteria = ranking.preferences().criteria.iter().enumerate();
     let values = criteria.map(|(c, own)| (own.column.to_string(), standing.value(c).into()));
@@ -51,7 +51,7 @@ fn design(ranking: &Ranking<'_>, standing: &RankedDesign<'_>) -> Value {
     })
 }
 
-/// The requirements that no design meets, and the design that comes nearest.
+/// Returns the requirements that no design meets, with the nearest design.
 pub fn unmet_record(results: &Results, unmet: &Unmet) -> Value {
     let requirement = |unmet: &UnmetRequirement| {
         json!({

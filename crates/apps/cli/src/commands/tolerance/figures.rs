@@ -1,4 +1,4 @@
-//! The figures of the tolerances of one design.
+//! Figures of `squama tolerance` for a single design.
 
 use ranking::Requirement;
 use report::{Histogram, Shares, share_bars};
@@ -10,7 +10,9 @@ use super::report::is_shown;
 
 const SOURCES: &str = "sources.svg";
 
-/// Where the spread of the measures comes from, and a histogram of every measure that is required, each under the name of its file.
+/// Draws the sources of the spread, and a histogram of each required measure.
+///
+/// Each figure comes with its file name.
 pub fn figures(
     sweep: &Sweep,
     requirements: &[Requirement],
@@ -38,7 +40,7 @@ fn shares(measure: &MeasureTolerance) -> Option<Shares> {
     Some((measure.name.clone(), sources.collect()))
 }
 
-/// The histogram of a measure; `None` if no sample has a value.
+/// Draws the histogram of a measure; `None` if no sample has a value.
 fn histogram(
     name: &str,
     requirements: &[Requirement],
@@ -49,7 +51,7 @@ fn histogram(
     let values: Vec<f64> = design.samples.iter().filter_map(|s| s.values[place]).collect();
     let own = requirements.iter().filter(|requirement| requirement.column == measure.name);
     let bounds: Vec<_> = own.map(|r| (r.to_string(), r.limit)).collect();
-    // The name of a column in physical units ends in its unit.
+    // Column names in physical units already end in the unit.
     let has_unit = measure.unit == "-" || physical_source(&measure.name).is_some();
     let unit = if has_unit { String::new() } else { format!(", {}", measure.unit) };
     let label = format!("{}{unit}", measure.name);
