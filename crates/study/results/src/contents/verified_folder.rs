@@ -236,11 +236,15 @@ impl VerifiedFolder {
         if made.is_none() && !self.folder.file(ResultsFolder::EVALUATIONS).exists() {
             return Ok(None);
         }
-        let stated = made.and_then(|made| made.files.get(file.name).cloned());
-        // An empty digest means that the command was interrupted before it recorded the file.
+        let stated = made.as_ref().and_then(|made| made.files.get(file.name).cloned());
+        let problem = match (&made, &stated) {
+            // The record is complete, but the last command had no reason to write this file.
+            (Some(_), None) => "was not written by the last command",
+            // An empty digest means that the command was interrupted before it recorded the file.
+            _ => "its command was interrupted",
+        };
         let stated = stated.filter(|digest| !digest.is_empty());
-        let ended = "its command was interrupted";
-        stated.map(Some).ok_or_else(|| self.refusal(file.name, file.maker, ended))
+        stated.map(Some).ok_or_else(|| self.refusal(file.name, file.maker, problem))
     }
 
     /// Returns the error of a file, with the command that writes the file again.
