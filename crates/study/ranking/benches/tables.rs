@@ -1,4 +1,4 @@
-//! Ranking and comparison of the tables of a run of 100,000 designs; each takes less than two seconds.
+//! Ranking and comparison of 100,000 designs; each takes less than two seconds.
 
 #[path = "../../results/tests/samples/mod.rs"]
 mod samples;
@@ -10,7 +10,7 @@ use ranking::{Ranking, TetrahedralGrid, compare, write_ranking};
 use results::Results;
 use samples::{Criteria, write_results};
 
-/// Slants of a grid of 50 gaps and 50 lengths.
+/// Number of slants, combined with 50 gaps and 50 lengths.
 const SLANTS: u32 = 40;
 
 fn tables(c: &mut Criterion) {

@@ -1,4 +1,4 @@
-//! The comparison of two runs: where they differ, and by how much.
+//! Comparison of two runs: differences by column and by cell.
 
 mod columns;
 mod correlation;
@@ -21,7 +21,7 @@ pub use columns::{COMPARISON_COLUMNS, difference_columns};
 pub use correlation::rank_correlation;
 pub use matching::ParameterChange;
 
-/// Two runs, design by design.
+/// Comparison of two runs, design by design.
 #[derive(Clone, Debug)]
 pub struct Comparison<'r> {
     first: &'r Results,
@@ -29,87 +29,87 @@ pub struct Comparison<'r> {
     tolerance: f64,
     matching: Matching,
     places: Vec<ComparedColumn>,
-    /// The differences in each column that both runs have.
+    /// Differences in each column of both runs.
     pub columns: Vec<ColumnDifference>,
 }
 
 /// A column of both runs.
 #[derive(Clone, Copy, Debug)]
 struct ComparedColumn {
-    /// Its places in the one and in the other.
+    /// Indices of the column in the first and second run.
     places: [usize; 2],
-    /// The largest difference that rounding may make of a zero.
+    /// Largest difference of two values that count as zero because of round-off.
     noise: f64,
 }
 
-/// The share of the largest value of its column that rounding may make of a zero.
+/// Round-off of a zero, as a fraction of the largest value in its column.
 const ROUND_OFF: f64 = 1e-14;
 
-/// Runs that cannot be compared.
+/// Error of a comparison.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum InvalidComparison {
-    /// One of them cannot be read.
+    /// The results of a run cannot be read.
     #[error(transparent)]
     Results(#[from] InvalidResults),
-    /// Designs that only differ in something that the other run says nothing about.
+    /// Two designs differ only in a parameter that the other run does not record.
     #[error(
         "{file}: designs {first} and {second} differ only in something that one of the runs does not record; \
          each table needs its run.toml"
     )]
     Ambiguous {
-        /// The table.
+        /// File name of the table.
         file: String,
-        /// A design.
+        /// Number of a design.
         first: String,
-        /// Another one.
+        /// Number of another design.
         second: String,
     },
 }
 
-/// The differences between the values of one column.
+/// Differences between the values of one column.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ColumnDifference {
-    /// The column.
+    /// Column name.
     pub name: String,
-    /// Designs that have a value in both runs.
+    /// Number of designs with a value in both runs.
     pub compared: usize,
-    /// Designs whose values differ by more than the tolerance.
+    /// Number of designs with values that differ by more than the tolerance.
     pub differing: usize,
-    /// Designs that have a value in the first run alone.
+    /// Number of designs with a value in the first run only.
     pub only_first: usize,
-    /// Designs that have a value in the second run alone.
+    /// Number of designs with a value in the second run only.
     pub only_second: usize,
-    /// The largest relative difference.
+    /// Largest relative difference.
     pub relative: Option<Extreme>,
-    /// The largest absolute difference.
+    /// Largest absolute difference.
     pub absolute: Option<Extreme>,
-    /// Spearman's rank correlation of the numbers of the two runs.
+    /// Spearman's rank correlation of the numbers in both runs.
     pub correlation: Option<f64>,
-    /// Texts of the first run, those of the second in their place, and how often.
+    /// Texts in the first and second run, and number of designs with this change.
     pub changes: BTreeMap<(String, String), usize>,
 }
 
 impl ColumnDifference {
-    /// Whether the two runs agree.
+    /// Returns true if the two runs agree.
     pub fn is_none(&self) -> bool {
         self.differing + self.only_first + self.only_second == 0
     }
 }
 
-/// The largest difference of a column.
+/// Largest difference of a column.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extreme {
-    /// The size of the difference.
+    /// Size of the difference.
     pub difference: f64,
     /// Number of the design in the first run.
     pub design: String,
-    /// The value in the first run.
+    /// Value in the first run.
     pub first: f64,
-    /// The value in the second run.
+    /// Value in the second run.
     pub second: f64,
 }
 
-/// One cell that differs.
+/// A cell that differs.
 #[derive(Clone, Copy, Debug)]
 pub struct Difference<'a> {
     first: &'a Results,
@@ -119,33 +119,33 @@ pub struct Difference<'a> {
 }
 
 impl<'a> Difference<'a> {
-    /// The number of the design in the first run and in the second.
+    /// Returns the numbers of the design in the first and second run.
     pub fn designs(&self) -> [&'a str; 2] {
         [self.first.design(self.rows[0]), self.second.design(self.rows[1])]
     }
 
-    /// The value of a parameter in the first run.
+    /// Returns the value of a parameter in the first run.
     pub fn parameter(&self, parameter: &Parameter) -> Cow<'a, str> {
         self.first.parameter(self.rows[0], parameter)
     }
 
-    /// The column.
+    /// Returns the column name.
     pub fn column(&self) -> &'a str {
         self.first.header().get(self.columns[0]).map_or("", String::as_str)
     }
 
-    /// Each cell as the table that it is in, its row and its column.
+    /// Returns table, row and column of both cells.
     fn cells(&self) -> [(&'a Table, usize, usize); 2] {
         let ([row, other_row], [column, other_column]) = (self.rows, self.columns);
         [(self.first.table(), row, column), (self.second.table(), other_row, other_column)]
     }
 
-    /// The cells.
+    /// Returns the texts of both cells.
     pub fn texts(&self) -> [Cow<'a, str>; 2] {
         self.cells().map(|(table, row, column)| table.text(row, column))
     }
 
-    /// The cells as numbers, if both are.
+    /// Returns both cells as numbers, if both are numbers.
     pub fn numbers(&self) -> Option<[f64; 2]> {
         let [first, second] = self.cells().map(|(table, row, column)| table.number(row, column));
         Some([first?, second?])
@@ -153,7 +153,7 @@ impl<'a> Difference<'a> {
 
     fn is_within(&self, tolerance: f64, noise: f64) -> bool {
         let is_small = |pair| relative(pair) <= tolerance || absolute(pair) <= noise;
-        // As texts where they are no numbers: words are compared here too.
+        // Cells that are not numbers are compared as text.
         self.numbers().is_some_and(is_small) || {
             let [first, second] = self.texts();
             first == second
@@ -161,12 +161,12 @@ impl<'a> Difference<'a> {
     }
 }
 
-/// `|a − b|`.
+/// Returns `|a − b|`.
 pub(crate) fn absolute([first, second]: [f64; 2]) -> f64 {
     (first - second).abs()
 }
 
-/// `|a − b| / max(|a|, |b|)`, from 0 to 2.
+/// Returns `|a − b| / max(|a|, |b|)`, from 0 to 2.
 pub(crate) fn relative([first, second]: [f64; 2]) -> f64 {
     if first.to_bits() == second.to_bits() {
         return 0.0;
@@ -175,12 +175,15 @@ pub(crate) fn relative([first, second]: [f64; 2]) -> f64 {
     if size > 0.0 { absolute([first, second]) / size } else { 0.0 }
 }
 
-/// Compares two runs. Designs are the same if their parameters are, whatever their numbers; values
-/// are the same if they differ by at most `tolerance`, relative to the larger. Unless `tolerance` is 0,
-/// what is below 10⁻¹⁴ of the largest value of its column counts as zero.
+/// Compares two runs.
+///
+/// Designs are matched by their parameters; their numbers may differ. Values are equal if they
+/// differ by at most `tolerance`, relative to the larger. Unless `tolerance` is 0, values below
+/// 10⁻¹⁴ of the largest value of their column count as zero.
 ///
 /// # Errors
-/// If the designs of a run cannot be told apart by what the other one knows.
+///
+/// If designs of a run differ only in parameters that the other run does not record.
 pub fn compare<'r>(
     first: &'r Results,
     second: &'r Results,
@@ -189,13 +192,14 @@ pub fn compare<'r>(
     let matching = Matching::new(first, second)?;
     let place = |(column, name): (usize, &String)| {
         let other = second.column(name).ok()?;
-        // The first column is the number, which another grid gives to another design; parameters say which designs are the same.
+        // Skip the first column, the number of the design, and parameters, which identify the
+        // design.
         (column > 0 && parameter_of(name).is_none()).then_some([column, other])
     };
     let places: Vec<_> = first.header().iter().enumerate().filter_map(place).collect();
     let mut comparison =
         Comparison { first, second, tolerance, matching, places: Vec::new(), columns: Vec::new() };
-    // The matching comes first: the size of a column is that of the designs in both runs.
+    // Needs the matching: sizes of columns are computed from matched designs.
     comparison.places = places.iter().map(|&places| comparison.compared(places)).collect();
     let places = comparison.places.par_iter();
     comparison.columns = places.map(|&column| comparison.column(column)).collect();
@@ -203,17 +207,17 @@ pub fn compare<'r>(
 }
 
 impl Comparison<'_> {
-    /// The largest relative difference of values that count as the same.
+    /// Returns the largest relative difference of values that count as equal.
     pub fn tolerance(&self) -> f64 {
         self.tolerance
     }
 
-    /// Designs that both runs have.
+    /// Returns the number of designs in both runs.
     pub fn matched(&self) -> usize {
         self.matching.pairs.len()
     }
 
-    /// Numbers of the designs that only the first run has, and of those that only the second has.
+    /// Returns the numbers of designs in the first run only, and in the second only.
     pub fn unmatched(&self) -> [Vec<&str>; 2] {
         let [first, second] = &self.matching.alone;
         [
@@ -222,12 +226,12 @@ impl Comparison<'_> {
         ]
     }
 
-    /// Parameters that each run sets for all of its designs, but not to the same value.
+    /// Returns parameters that are constant in each run, but differ between the runs.
     pub fn parameters(&self) -> &[ParameterChange] {
         &self.matching.changes
     }
 
-    /// Whether the two runs have the same designs with the same values.
+    /// Returns true if both runs have the same designs with the same values.
     pub fn is_none(&self) -> bool {
         self.matching.alone.iter().all(Vec::is_empty)
             && self.columns.iter().all(ColumnDifference::is_none)
@@ -240,7 +244,7 @@ impl Comparison<'_> {
     fn compared(&self, places: [usize; 2]) -> ComparedColumn {
         let cells = self.matching.pairs.iter().map(|&rows| self.cell(rows, places));
         let sizes = cells.filter_map(|cell| cell.numbers()).flatten().map(f64::abs);
-        // Whoever asks for a tolerance of 0 wants every bit, zeros too.
+        // A tolerance of 0 requests exact equality, also of zeros.
         let largest = if self.tolerance > 0.0 { sizes.fold(0.0, f64::max) } else { 0.0 };
         ComparedColumn { places, noise: ROUND_OFF * largest }
     }
@@ -253,7 +257,7 @@ impl Comparison<'_> {
         for &rows in &self.matching.pairs {
             let cell = self.cell(rows, columns);
             match cell.cells().map(|(table, row, column)| table.is_empty(row, column)) {
-                // No value in both, as of a design that fails in both, is no difference.
+                // A missing value in both runs, as for a failed design, is not a difference.
                 [true, true] => {}
                 [false, true] => column.only_first += 1,
                 [true, false] => column.only_second += 1,
@@ -270,9 +274,9 @@ impl Comparison<'_> {
         column
     }
 
-    /// Every cell that differs.
+    /// Returns every cell that differs.
     fn differences(&self) -> impl Iterator<Item = Difference<'_>> {
-        // One after the other as they are written: two long runs may differ in every cell.
+        // Lazy, because two long runs may differ in every cell.
         let cells = move |rows: [usize; 2]| {
             let cell = move |column: &ComparedColumn| {
                 let cell = self.cell(rows, column.places);
@@ -283,11 +287,11 @@ impl Comparison<'_> {
         self.matching.pairs.iter().flat_map(move |&rows| cells(rows))
     }
 
-    /// Writes what differs to `folder`: column by column, and cell by cell. Returns the names of the
-    /// tables.
+    /// Writes the differences to `folder`, by column and by cell. Returns the file names.
     ///
     /// # Errors
-    /// If the folder or the disk does not take them.
+    ///
+    /// If the tables cannot be written.
     fn write(&self, folder: &Path) -> Result<[&'static str; 2], OutputError> {
         let folder = ResultsFolder::new(folder);
         let claim = Claim::take(&folder, Maker::Comparison)?;
@@ -303,7 +307,7 @@ impl Comparison<'_> {
 }
 
 impl ColumnDifference {
-    /// Takes a cell that both runs have into account.
+    /// Adds a cell with values in both runs.
     fn add(&mut self, cell: &Difference<'_>) {
         let Some(pair) = cell.numbers() else {
             let [first, second] = cell.texts().map(Cow::into_owned);
@@ -324,10 +328,11 @@ impl ColumnDifference {
     }
 }
 
-/// Writes a comparison to `folder`; returns the names of the tables.
+/// Writes a comparison to `folder`, and returns the file names.
 ///
 /// # Errors
-/// If the folder or the disk does not take them.
+///
+/// If the tables cannot be written.
 pub fn write_comparison(
     folder: &Path,
     comparison: &Comparison<'_>,

@@ -1,4 +1,4 @@
-//! A criterion: a column of the tables, and which of its values are good.
+//! Criterion: a column to be maximised or minimised.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -7,28 +7,25 @@ use std::str::FromStr;
 use results::columns::{Goal, name, plain_goal};
 use serde::{Serialize, Serializer};
 
-/// A criterion: a column of the tables, and which of its values are good.
+/// Criterion: a column to be maximised or minimised.
 ///
 /// ```
 /// use ranking::{Criterion, Goal};
 ///
 /// let criterion: Criterion = "min:areal_mass_kg_m2".parse()?;
 /// assert_eq!((criterion.column.as_ref(), criterion.goal), ("areal_mass_kg_m2", Goal::Minimize));
-/// // What is good needs no word where it is plain.
-/// assert_eq!("penetration".parse::<Criterion>()?.goal, Goal::Minimize);
-/// # Ok::<(), ranking::InvalidCriterion>(())
-/// ```
+/// // For some columns the direction is known.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Criterion {
-    /// The name of the criterion in words.
+    /// Name of the criterion, for messages.
     pub name: Cow<'static, str>,
-    /// The column that it is made from.
+    /// Column name.
     pub column: Cow<'static, str>,
-    /// Which of its values are good.
+    /// Direction: maximise or minimise.
     pub goal: Goal,
 }
 
-/// The criteria of the paper in the order of their weights `m, n, k, l`.
+/// Criteria of the paper, in the order of their weights `m, n, k, l`.
 pub static CRITERIA: [Criterion; 4] = [
     Criterion::known("coverage", name::COVERAGE, Goal::Maximize),
     Criterion::known("critical force", name::CRITICAL_FORCE, Goal::Maximize),
@@ -36,7 +33,7 @@ pub static CRITERIA: [Criterion; 4] = [
     Criterion::known("flexural compliance", name::COMPLIANCE, Goal::Maximize),
 ];
 
-/// A text that is no criterion.
+/// Text that is not a criterion.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{found} is not accepted, expected max:COLUMN or min:COLUMN, e.g. max:{}", column(found))]
 pub struct InvalidCriterion {
@@ -44,7 +41,7 @@ pub struct InvalidCriterion {
     pub found: String,
 }
 
-/// The part of a text that may be a column.
+/// Returns the part of a text that may be a column, to suggest it.
 fn column(found: &str) -> &str {
     let column = found.rsplit(':').next().unwrap_or_default();
     if column.is_empty() { name::COVERAGE } else { column }
@@ -55,9 +52,9 @@ impl Criterion {
         Self { name: Cow::Borrowed(name), column: Cow::Borrowed(column), goal }
     }
 
-    /// The criterion that a column is to be as large, or as small, as can be.
+    /// Creates the criterion to maximise or minimise a column.
     pub fn new(column: &str, goal: Goal) -> Self {
-        // One of the paper's has its name, too: `are_the_papers` compares whole criteria.
+        // Criteria of the paper keep their names, because `are_the_papers` compares whole criteria.
         let known = CRITERIA.iter().find(|known| known.column == column && known.goal == goal);
         let own = || Self {
             name: format!("{} {column}", ["largest", "least"][usize::from(goal == Goal::Minimize)])
@@ -68,7 +65,10 @@ impl Criterion {
         known.cloned().unwrap_or_else(own)
     }
 
-    /// The name of the criterion in the headers of tables. Resistance to penetration is another thing than penetration.
+    /// Returns the name of the criterion in headers of tables.
+    ///
+    /// It differs from the column for the resistance to penetration, the inverse of the
+    /// penetration.
     pub fn key(&self) -> &str {
         if *self == CRITERIA[2] { "penetration_resistance" } else { &self.column }
     }
@@ -93,7 +93,7 @@ impl FromStr for Criterion {
 }
 
 impl Serialize for Criterion {
-    /// As it is written.
+    /// Serializes the criterion as text.
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_str(self)
     }
@@ -110,7 +110,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn criteria_are_written_as_they_are_read() {
+    fn criteria_round_trip_through_text() {
         for criterion in &CRITERIA {
             assert_eq!(criterion.to_string().parse().as_ref(), Ok(criterion));
             assert_eq!(criterion.column.parse().as_ref(), Ok(criterion));
@@ -124,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_good_must_be_said_where_it_is_not_plain() {
+    fn columns_without_a_known_direction_need_max_or_min() {
         let message = |text: &str| text.parse::<Criterion>().expect_err("invalid").to_string();
         insta::assert_snapshot!(message("gap_over_t"), @"gap_over_t is not accepted, expected max:COLUMN or min:COLUMN, e.g. max:gap_over_t");
         insta::assert_snapshot!(message("best:sink"), @"best:sink is not accepted, expected max:COLUMN or min:COLUMN, e.g. max:sink");

@@ -1,8 +1,10 @@
-//! The fitness of a design (Eq. 7 of Shafiei et al. 2021) between ends that do not move with the designs: criteria, rescaled and weighted.
+//! Fitness of a design (Eq. 7 of Shafiei et al. 2021) between fixed ends.
+//!
+//! The criteria are rescaled and weighted. The ends do not depend on the other designs.
 //!
 //! ```text
-//! f = Π s_c^w_c,    s_c = (c − worst c)/(best c − worst c),    0 where an s_c is not above 0          (O3)
-//! ∂f/∂q = f Σ (w_c/s_c) ∂s_c/∂q                                                                      (O4)
+//! f = Π s_c^w_c,    s_c = (c − worst c)/(best c − worst c),    0 if an s_c is not positive    (O3)
+//! ∂f/∂q = f Σ (w_c/s_c) ∂s_c/∂q                                                              (O4)
 //! ```
 
 use results::columns::Goal;
@@ -11,29 +13,29 @@ use crate::criterion::Criterion;
 use crate::scale::Scale;
 use crate::weights::Weights;
 
-/// The criteria of a fitness with their weights, and the ends that the goal gives them.
+/// Criteria of a fitness with their weights and given ends.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FitnessGoal {
-    /// The criteria.
+    /// Criteria.
     pub criteria: Vec<Criterion>,
-    /// Their weights.
+    /// Weights of the criteria.
     pub weights: Weights,
-    /// The ends that the goal gives; what a search has looked at gives those of the other criteria.
+    /// Ends given in the goal; other criteria take the ends of all evaluated designs.
     pub ends: Vec<CriterionEnds>,
 }
 
-/// The values of a column between which a criterion is rescaled.
+/// Values of a column between which a criterion is rescaled.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CriterionEnds {
-    /// The column.
+    /// Column name.
     pub column: String,
-    /// The value of fitness 0.
+    /// Value with rescaled criterion 0.
     pub worst: f64,
-    /// The value of fitness 1, which a design may surpass.
+    /// Value with rescaled criterion 1. A design may exceed it.
     pub best: f64,
 }
 
-/// A criterion with its weight, and the criteria of the worst and of the best.
+/// A weighted criterion, with the criteria of its worst and best value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RescaledCriterion {
     goal: Goal,
@@ -42,10 +44,10 @@ pub struct RescaledCriterion {
 }
 
 impl CriterionEnds {
-    /// The worst and the best of values that make a criterion.
+    /// Returns the worst and the best of the values that have a criterion.
     pub fn of(criterion: &Criterion, values: impl Iterator<Item = f64>) -> Option<Self> {
         let exists = |value: &f64| Scale::Paper.criterion(criterion.goal, *value).is_some();
-        // A value without a criterion, as a penetration of 0, cannot be an end.
+        // A value without a criterion, such as a penetration of 0, cannot be an end.
         let (low, high) = values
             .filter(exists)
             .map(|value| (value, value))
@@ -57,13 +59,13 @@ impl CriterionEnds {
 }
 
 impl FitnessGoal {
-    /// The criteria that have a weight, rescaled between those of `ends`.
+    /// Returns the criteria with a positive weight, rescaled between `ends`.
     pub fn rescaled(
         &self,
         ends: &[CriterionEnds],
     ) -> impl Iterator<Item = (&Criterion, RescaledCriterion)> {
         let weighted = self.criteria.iter().zip(self.weights.values());
-        // Without weight a criterion is ignored (R3), also where it has no ends or no value.
+        // Criteria without weight are ignored (R3), even if they have no ends or no value.
         weighted.filter(|(_, weight)| **weight > 0.0).map(|(criterion, &weight)| {
             let goal = criterion.goal;
             let made = |value| Scale::Paper.criterion(goal, value);
@@ -75,29 +77,35 @@ impl FitnessGoal {
 }
 
 impl RescaledCriterion {
-    /// The criterion that a value makes, 0 at the worst and 1 at the best (R2); `None` without ends, or if it cannot be formed.
+    /// Returns the rescaled criterion: 0 at the worst end, 1 at the best (R2).
+    ///
+    /// `None` without ends, or if the criterion does not exist.
     fn of(&self, value: f64) -> Option<f64> {
         Some(rescaled(Scale::Paper.criterion(self.goal, value)?, self.ends?))
     }
 
-    /// Its part `w ln s` in the logarithm of the fitness.
+    /// Returns the term `w ln s` of the logarithm of the fitness.
     pub fn part(&self, value: f64) -> Option<f64> {
-        // Beyond the worst end as at it: −∞, so that the fitness is 0 and not undefined (O3).
+        // −∞ at and beyond the worst end, so that the fitness is 0 instead of undefined (O3).
         Some(self.weight * self.of(value)?.max(0.0).ln())
     }
 
-    /// The derivative of that part with respect to the value; 0 where all are equal, so that the criterion does not count.
+    /// Returns the derivative of [`Self::part`] with respect to the value.
+    ///
+    /// It is 0 if both ends are equal, because the criterion then does not count.
     pub fn rate(&self, value: f64) -> Option<f64> {
         let (worst, best) = self.ends?;
-        // Not 0: where it is, the fitness is flat, and nobody asks for a rate.
+        // Callers never differentiate at `rescaled` = 0, where the fitness is constant.
         let rescaled = self.of(value)?;
-        // Where small values are good, the criterion is the inverse (R1).
+        // Minimised criteria are inverses (R1).
         let made = if self.goal == Goal::Maximize { 1.0 } else { -value.powi(-2) };
         Some(if best > worst { self.weight * made / ((best - worst) * rescaled) } else { 0.0 })
     }
 }
 
-/// A value from 0 at the smallest to 1 at the largest (R2); 1 if all are equal, so that they do not count.
+/// Rescales a value from 0 at the smallest to 1 at the largest (R2).
+///
+/// Returns 1 if both are equal, so that the criterion does not count.
 pub(crate) fn rescaled(value: f64, (low, high): (f64, f64)) -> f64 {
     if high > low { (value - low) / (high - low) } else { 1.0 }
 }
@@ -107,7 +115,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ends_are_those_of_the_goal_and_what_is_beyond_them_counts() {
+    fn fitness_exceeds_one_beyond_the_best_end_and_is_zero_beyond_the_worst() {
         let criterion = Criterion::new("coverage", Goal::Maximize);
         let found = CriterionEnds::of(&criterion, [0.2, 0.7, 0.4].into_iter()).expect("ends");
         assert_eq!((found.worst, found.best), (0.2, 0.7));
@@ -121,7 +129,7 @@ mod tests {
         let fitness = |coverage: f64, gap: f64| {
             (parts[0].part(coverage).expect("a part") + parts[1].part(gap).expect("a part")).exp()
         };
-        // The inverse of the gap, 1.5, is in the middle between 1 and 2.
+        // The inverse of the gap, 1.5, is halfway between 1 and 2.
         let gap = 1.0 / 1.5;
         for (coverage, share) in [(0.7, 1.0_f64), (0.45, 0.5), (1.2, 2.0)] {
             let expected = share.powf(0.25) * 0.5_f64.powf(0.75);

@@ -1,26 +1,28 @@
-//! Designs that no other beats: those that remain whatever the weights.
+//! Pareto fronts: designs that no other design dominates.
 
 use std::cmp::Ordering;
 
 use results::round_off::same;
 
-/// A point of four coordinates, larger being better.
+/// Point with four coordinates; larger is better.
 type Quadruple = [f64; 4];
 
-/// Marks which of some points, each with `count` criteria one after the other, no other dominates.
+/// Marks the points on the Pareto front. Each point has `count` consecutive criteria.
 pub(crate) fn front_of(criteria: &[f64], count: usize) -> Vec<bool> {
     let points = criteria.chunks_exact(count);
-    // The sweep below has room for four coordinates.
+    // `pareto_front` is limited to four coordinates.
     if count > 4 {
         return sifted(&points.collect::<Vec<_>>());
     }
-    // Criteria beyond the last are 0 for all and tell nothing apart.
+    // Missing criteria are 0 for all points, which does not change dominance.
     let four = |point: &[f64]| std::array::from_fn(|c| point.get(c).copied().unwrap_or(0.0));
     pareto_front(&points.map(four).collect::<Vec<_>>())
 }
 
-/// Marks which of `points` no other dominates, whatever their dimension: each is compared with those before it, in
-/// the order in which they may dominate each other, that are on the front themselves.
+/// Marks the points on the Pareto front, in any dimension.
+///
+/// After sorting, a point can only be dominated by points before it, so it is compared with earlier
+/// points of the front only.
 fn sifted(points: &[&[f64]]) -> Vec<bool> {
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by(|&a, &b| compare(points[b], points[a]));
@@ -37,26 +39,13 @@ fn sifted(points: &[&[f64]]) -> Vec<bool> {
     on_front
 }
 
-/// Whether a point is at least as good as another in every coordinate, and better in one (R6).
+/// Returns true if `p` dominates `q`: nowhere worse, and better in one (R6).
 pub fn dominates(p: &[f64], q: &[f64]) -> bool {
     let pairs = || p.iter().zip(q);
     pairs().all(|(p, q)| p >= q || same(*p, *q)) && pairs().any(|(p, q)| p > q && !same(*p, *q))
 }
 
-/// Marks which of `points` no other dominates. Coordinates are finite, larger is better.
-///
-/// ```text
-/// p dominates q  ⇔  p_c ≥ q_c for every criterion c, and p_c > q_c for one          (R6)
-/// ```
-///
-/// Points that are equal in everything do not dominate each other: they stand on the front
-/// together or not at all.
-///
-/// In the order of the first coordinate (ties broken by the next ones) a point is dominated only
-/// by points before it. Halving that order, the question is which points of the later half have a
-/// point of the earlier half above them in the other three coordinates: a sweep along the second,
-/// with the best fourth for every third in a tree of prefix maxima. That takes `O(n log² n)`,
-/// however many points the front has (Kung, Luccio and Preparata 1975, doi 10.1145/321906.321910).
+/// Marks the points on the Pareto front. Coordinates are finite; larger is better.
 pub fn pareto_front(points: &[Quadruple]) -> Vec<bool> {
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by(|&a, &b| compare(&points[b], &points[a]));
@@ -77,13 +66,13 @@ pub fn pareto_front(points: &[Quadruple]) -> Vec<bool> {
     front
 }
 
-/// By the first coordinate that differs; zeros of either sign are equal.
+/// Compares lexicographically; zeros of either sign are equal.
 fn compare(a: &[f64], b: &[f64]) -> Ordering {
     let by_coordinate = a.iter().zip(b).map(|(a, b)| (a + 0.0).total_cmp(&(b + 0.0)));
     by_coordinate.fold(Ordering::Equal, Ordering::then)
 }
 
-/// The place of each value among the distinct ones, the largest first.
+/// Returns the rank of each value among the distinct ones, the largest first.
 fn descending_ranks(values: &[f64]) -> Vec<usize> {
     let mut distinct = values.to_vec();
     distinct.sort_by(|a, b| b.total_cmp(a));
@@ -91,7 +80,7 @@ fn descending_ranks(values: &[f64]) -> Vec<usize> {
     values.iter().map(|value| distinct.partition_point(|other| other > value)).collect()
 }
 
-/// Points that are equal in everything.
+/// A group of equal points.
 #[derive(Clone, Copy)]
 struct Point {
     group: usize,
@@ -102,37 +91,43 @@ struct Point {
     beaten: bool,
 }
 
-/// Finds which of `candidates`, in the order in which they may dominate each other, are beaten;
-/// leaves them in the order of the second coordinate, the largest first.
+/// Marks the dominated candidates.
+///
+/// Sorts all by the second coordinate, descending. On entry, candidates are sorted
+/// lexicographically, descending.
 fn divide(candidates: &mut [Point], best: &mut PrefixMaxima) {
     if candidates.len() < 2 {
         return;
     }
     let (earlier, later) = candidates.split_at_mut(candidates.len() / 2);
-    // Beaten points stay, and harm nothing: whom they beat, their victor beats as well.
+    // Dominated points may stay: any point they dominate is also dominated by their dominator.
     divide(earlier, best);
     divide(later, best);
     conquer(earlier, later, best);
-    // The sort finds the two runs that are in order already, and merges them.
+    // The stable sort detects two sorted runs and merges them.
     candidates.sort_by(|a, b| b.second.total_cmp(&a.second));
 }
 
-/// Marks what `earlier` beats of `later`, both in the order of the second coordinate.
+/// Marks points of `later` dominated by `earlier`.
+///
+/// Both are sorted by the second coordinate.
 fn conquer(earlier: &[Point], later: &mut [Point], best: &mut PrefixMaxima) {
     let mut above = 0;
     for candidate in later {
-        // Of equal seconds too: what stands earlier is at least as good in the first, and equal points are one candidate.
+        // Ties in the second coordinate count: an earlier point is at least as good in the first,
+        // and equal points form one candidate.
         while above < earlier.len() && earlier[above].second >= candidate.second {
             best.raise(earlier[above].third, earlier[above].fourth);
             above += 1;
         }
         candidate.beaten |= best.up_to(candidate.third) >= candidate.fourth;
     }
-    // Only what was raised is taken back: to clear the whole tree would cost as much as all points in every part.
+    // Clear only the raised nodes. Clearing the whole tree would cost as much as all points at
+    // every level of the recursion.
     earlier[..above].iter().for_each(|candidate| best.clear(candidate.third));
 }
 
-/// Maxima of the values at all places up to a given one: a Fenwick tree.
+/// Maxima of all values up to an index: a Fenwick tree.
 struct PrefixMaxima {
     values: Vec<f64>,
 }
@@ -176,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn small_fronts() {
+    fn fronts_of_few_points_ties_and_zeros() {
         assert_eq!(pareto_front(&[]), [] as [bool; 0]);
         assert_eq!(pareto_front(&[[1.0; 4]]), [true]);
         let equal = [[1.0, 2.0, 3.0, 4.0]; 3];
@@ -188,8 +183,8 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_front_is_the_one_of_the_definition(
-            // Few values, so that ties in some coordinates and equal points are common.
+        fn the_front_matches_the_definition_with_many_ties(
+            // Few distinct values, so that ties in some coordinates and equal points are common.
             points in prop::collection::vec(prop::array::uniform4(-1_i32..6), 0..120),
         ) {
             let points: Vec<Quadruple> = points.iter().map(|p| p.map(f64::from)).collect();
@@ -197,14 +192,14 @@ mod tests {
         }
 
         #[test]
-        fn of_points_in_general_position_too(
+        fn the_front_matches_the_definition_in_general_position(
             points in prop::collection::vec(prop::array::uniform4(-1.0_f64..1.0), 0..200),
         ) {
             prop_assert_eq!(pareto_front(&points), by_definition(&points));
         }
 
         #[test]
-        fn of_more_criteria_than_four_too(
+        fn the_front_matches_the_definition_beyond_four_criteria(
             points in prop::collection::vec(prop::array::uniform8(-1_i32..3), 0..60),
             count in 5_usize..9,
         ) {

@@ -1,4 +1,4 @@
-//! Designs whose values cannot be compared, because they are not measured alike.
+//! Criteria that were measured under different conditions and cannot be compared.
 
 use results::{InvalidResults, Results, measurement_conditions};
 use sweep::{PARAMETERS, Parameter, Role};
@@ -9,20 +9,20 @@ use crate::preferences::Preferences;
 use crate::ranking::InvalidRanking;
 use crate::requirement::{Relation, Requirement};
 
-/// Designs that are not measured alike, so that a criterion says nothing about which of them is better.
+/// A criterion that was measured under different conditions in different designs.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error(
     "{file}: {column} cannot be compared between designs of different {parameter} ({}), expected one of them, e.g. --require '{parameter} == {}', or other criteria{}",
     texts(values).join(", "), number::text(values[0]), remedy(parameter)
 )]
 pub struct Incomparable {
-    /// The table.
+    /// File name of the table.
     pub file: String,
-    /// The column of the criterion.
+    /// Column of the criterion.
     pub column: String,
-    /// The parameter in which designs differ.
+    /// Parameter that differs between designs and is a condition of the measurement.
     pub parameter: String,
-    /// Its values, at least two.
+    /// Values of the parameter, at least two.
     pub values: Vec<f64>,
 }
 
@@ -31,7 +31,7 @@ fn texts(values: &[f64]) -> Vec<String> {
 }
 
 fn remedy(parameter: &str) -> &'static str {
-    // In N mm² membranes of different thickness can be compared.
+    // Rigidity in N mm² can be compared between membranes of different thickness.
     if Parameter::named(parameter).is_some_and(|parameter| parameter.has(Role::UnitOfBending)) {
         ", e.g. --minimize flexural_rigidity_N_mm2 with a [material]"
     } else {
@@ -39,10 +39,13 @@ fn remedy(parameter: &str) -> &'static str {
     }
 }
 
-/// Checks that every criterion can be compared between the designs that meet the requirements.
+/// Checks that all criteria are comparable.
+///
+/// Only designs that meet the requirements count.
 ///
 /// # Errors
-/// If a column is missing or no column of numbers, or designs are not measured alike.
+///
+/// If a column is missing or not numeric, or if designs are incomparable.
 pub fn check_comparable(
     results: &Results,
     preferences: &Preferences,
@@ -53,11 +56,14 @@ pub fn check_comparable(
     }
 }
 
-/// The preferences for each group of designs that can be compared: those that are given, which hold a parameter that measures
-/// a criterion at one of its values besides. One group, as given, where all designs can be compared.
+/// Returns the preferences for each group of comparable designs.
+///
+/// A group adds a requirement that fixes a condition of the measurement at one of its values. If
+/// all designs are comparable, the only group has the given preferences.
 ///
 /// # Errors
-/// If a column is missing or no column of numbers.
+///
+/// If a column is missing or not numeric.
 ///
 /// ```
 /// use ranking::{Preferences, comparable_groups};
@@ -86,13 +92,13 @@ pub fn comparable_groups(
         let apart = |group: &Preferences| -> Vec<Preferences> {
             values.iter().map(|value| at(group, *value)).collect()
         };
-        // Every combination, also those that no design has: their rankings are empty.
+        // Includes combinations without designs; their rankings are empty.
         groups = groups.iter().flat_map(apart).collect();
     }
     Ok(groups)
 }
 
-/// The parameters that measure a criterion and in which designs that meet the requirements differ.
+/// Returns the conditions in which designs that meet the requirements differ.
 fn differing(
     results: &Results,
     preferences: &Preferences,
@@ -113,18 +119,20 @@ fn differing(
     Ok(found)
 }
 
-/// The different values of a parameter among the designs that meet the requirements, in the order of the table.
+/// Returns the distinct values of a parameter.
+///
+/// Only designs that meet the requirements count. The values are in the order of the table.
 fn values(
     results: &Results,
     preferences: &Preferences,
     parameter: &str,
 ) -> Result<Vec<f64>, InvalidResults> {
-    // A parameter without a column is the same for all designs.
+    // Without a column, all designs have the same value.
     let Ok(column) = results.column(parameter) else { return Ok(Vec::new()) };
     let filter = RequirementFilter::new(results, &preferences.requirements)?;
     let mut values: Vec<f64> = Vec::new();
     for row in 0..results.len() {
-        // A friction may be the word for none.
+        // Skip text such as `none` for a friction.
         let Ok(Some(value)) = results.number(row, column) else { continue };
         if !values.contains(&value) && filter.first_unmet(row)?.is_none() {
             values.push(value);

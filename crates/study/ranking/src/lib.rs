@@ -1,28 +1,30 @@
-//! Rankings: what is made of the results of a run.
+//! Ranking, Pareto front and comparison of the designs of runs.
 //!
-//! The designs that meet all requirements are ranked: criteria are rescaled, weighted and put together; the best design is
-//! found for one set of weights, for all of them, and without any. Two runs are compared design by design. On the paper's
-//! scale the fitness of a design is the weighted geometric mean of its rescaled criteria (Eq. 7 of Shafiei et al. 2021, doi
-//! 10.1016/j.jmps.2020.104176),
+//! Designs that meet all requirements are ranked by fitness: the criteria are rescaled, weighted
+//! and combined. A ranking contains the best design for one set of weights and for all weights on a
+//! grid, and the Pareto front, which needs no weights. Two runs are compared design by design. On
+//! the paper's scale the fitness of a design is the weighted geometric mean of its rescaled
+//! criteria (Eq. 7 of Shafiei et al. 2021, doi 10.1016/j.jmps.2020.104176),
 //!
 //! ```text
-//! f = s₁^m s₂^n s₃^k s₄^l,     s = (c − min c)/(max c − min c)                             (R3), (R2)
+//! f = s₁^m s₂^n s₃^k s₄^l,     s = (c − min c)/(max c − min c)                       (R3), (R2)
 //! ```
 //!
 //! | Type | Role |
 //! |---|---|
-//! | [`Preferences`] | what a ranking goes by, as `ranking.toml` has it |
-//! | [`Requirement`], [`Relation`] | a bound that a column must keep |
-//! | [`CRITERIA`], [`Criterion`], [`Goal`], [`Weights`], [`Scale`] | what is good, how much each counts, and how they are put together |
-//! | [`Ranking`], [`RankedDesign`] | the designs in the order of their fitness |
-//! | [`Unmet`] | the nearest design where none meets the requirements, and what stands in the way |
-//! | [`check_comparable`], [`comparable_groups`] | whether criteria can be compared between designs, and between which |
-//! | [`TetrahedralGrid`] | all ways to share a weight among the criteria |
-//! | [`Standard`] | levels of protection that requirements may name, such as `needle 2` |
+//! | [`Preferences`] | requirements, criteria, weights and scale, as stored in `ranking.toml` |
+//! | [`Requirement`], [`Relation`] | bound on a column |
+//! | [`CRITERIA`], [`Criterion`], [`Goal`] | columns to be maximised or minimised |
+//! | [`Weights`], [`Scale`] | weights of the criteria, and how they are rescaled and combined |
+//! | [`Ranking`], [`RankedDesign`] | designs in the order of their fitness |
+//! | [`Unmet`] | nearest design and binding requirements, if no design meets all requirements |
+//! | [`check_comparable`], [`comparable_groups`] | designs with comparable criteria |
+//! | [`TetrahedralGrid`] | all weights of four criteria, on a grid |
+//! | [`Standard`] | protection levels that requirements may name, such as `needle 2` |
 //! | [`Worth`], [`tightest`] | objectives of a design, and its margins to all requirements |
-//! | [`FitnessGoal`], [`CriterionEnds`], [`RescaledCriterion`] | the fitness between ends that do not move |
-//! | [`dominates`], [`pareto_front`] | designs that no other beats |
-//! | [`compare()`], [`Comparison`] | where two runs differ |
+//! | [`FitnessGoal`], [`CriterionEnds`], [`RescaledCriterion`] | fitness between fixed ends |
+//! | [`dominates`], [`pareto_front`] | Pareto dominance and front |
+//! | [`compare()`], [`Comparison`] | differences between two runs |
 //! | [`write_ranking`], [`write_comparison`] | write the tables of both |
 //!
 //! ```

@@ -1,4 +1,4 @@
-//! The preferences that a ranking goes by: requirements, criteria, their weights and their scale.
+//! Preferences of a ranking: requirements, criteria, weights and scale.
 
 use std::fmt::Write as _;
 
@@ -11,7 +11,7 @@ use crate::requirement::Requirement;
 use crate::scale::Scale;
 use crate::weights::{InvalidWeights, MOST_CRITERIA, Weights};
 
-/// The preferences that a ranking goes by. The file `ranking.toml` beside the tables holds it.
+/// Preferences of a ranking, stored in the file `ranking.toml` beside its tables.
 ///
 /// ```
 /// use ranking::Preferences;
@@ -24,48 +24,48 @@ use crate::weights::{InvalidWeights, MOST_CRITERIA, Weights};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Preferences {
-    /// Bounds that a design must keep to be ranked.
+    /// Requirements that a design must meet to be ranked.
     pub requirements: Vec<Requirement>,
-    /// The criteria, at least one.
+    /// Criteria, at least one.
     pub criteria: Vec<Criterion>,
-    /// The weights, one for each criterion.
+    /// Weights, one for each criterion.
     pub weights: Weights,
-    /// How criteria are rescaled.
+    /// Scale on which criteria are combined.
     pub scale: Scale,
 }
 
-/// Preferences that are none.
+/// Error in preferences.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum InvalidPreferences {
-    /// The number of weights is not that of the criteria.
+    /// The numbers of weights and of criteria differ.
     #[error(transparent)]
     Weights(#[from] InvalidWeights),
     /// There are no criteria, or too many.
     #[error("{0} criteria, expected 1 to {MOST_CRITERIA}")]
     Count(usize),
-    /// A criterion stands there twice.
+    /// Two criteria have the same column.
     #[error("{0} is a criterion twice")]
     Twice(String),
-    /// The file cannot be read, or is not as squama rank wrote it.
+    /// The file cannot be read, or was edited after `squama rank` wrote it.
     #[error(transparent)]
     File(#[from] InvalidFolder),
-    /// The file is no TOML.
+    /// The file is not valid TOML.
     #[error(transparent)]
     Syntax(#[from] SyntaxError),
-    /// A key of the file has a value that makes no sense.
+    /// A key of the file is unknown, or has an invalid value.
     #[error("{place}: {key}: {problem}")]
     Key {
-        /// The place of the key.
+        /// Position of the key.
         place: Place,
-        /// The key.
+        /// Name of the key.
         key: String,
-        /// The fault, and what would be right.
+        /// Problem and expected value.
         problem: String,
     },
 }
 
 impl Preferences {
-    /// The four criteria of the paper, all counting the same, and no requirements.
+    /// Returns the four criteria of the paper with equal weights, no requirements.
     pub fn paper() -> Self {
         Self {
             requirements: Vec::new(),
@@ -75,10 +75,12 @@ impl Preferences {
         }
     }
 
-    /// Preferences with these criteria; all count the same if there are no weights.
+    /// Creates preferences. Without `weights`, all criteria have the same weight.
     ///
     /// # Errors
-    /// If there are no criteria or more than [`MOST_CRITERIA`], one twice, or another number of weights.
+    ///
+    /// If there are no criteria or more than [`MOST_CRITERIA`], two criteria with the same column,
+    /// or another number of weights.
     pub fn new(
         requirements: Vec<Requirement>,
         criteria: Vec<Criterion>,
@@ -90,7 +92,7 @@ impl Preferences {
             return Err(InvalidPreferences::Count(found));
         }
         let is_twice = |(c, criterion): &(usize, &Criterion)| {
-            // By the column alone: one that is to be large and small at once says nothing.
+            // Compare columns only: maximising and minimising the same column is contradictory.
             criteria[..*c].iter().any(|other| other.column == criterion.column)
         };
         if let Some((_, twice)) = criteria.iter().enumerate().find(is_twice) {
@@ -105,22 +107,23 @@ impl Preferences {
         Ok(Self { requirements, criteria, weights, scale })
     }
 
-    /// Whether the criteria are those of the paper.
+    /// Returns true if the criteria are the four of the paper.
     pub fn are_the_papers(&self) -> bool {
         self.criteria == CRITERIA
     }
 
-    /// The weights in words.
+    /// Lists the criteria with their weights, for messages.
     pub fn in_words(&self) -> String {
         let parts = self.criteria.iter().zip(self.weights.values());
         let parts = parts.map(|(c, weight)| format!("{} {}", c.name, number::text(*weight)));
         parts.collect::<Vec<_>>().join(", ")
     }
 
-    /// The preferences in the file `ranking.toml` of `folder`; `None` if there is none.
+    /// Reads `ranking.toml` in `folder`; `None` if there is no such file.
     ///
     /// # Errors
-    /// If the file cannot be read, or is not as `squama rank` wrote it.
+    ///
+    /// If the file cannot be read, or was edited after `squama rank` wrote it.
     pub fn read(folder: &VerifiedFolder) -> Result<Option<Self>, InvalidPreferences> {
         if !folder.holds(ResultsFolder::PREFERENCES) {
             return Ok(None);
@@ -130,10 +133,13 @@ impl Preferences {
         Self::parse(&text, &name.display().to_string()).map(Some)
     }
 
-    /// The preferences that `text`, from the file `name`, says. What is left out is as in the paper.
+    /// Reads preferences from `text`, the content of the file `name`.
+    ///
+    /// Missing keys have the values of the paper.
     ///
     /// # Errors
-    /// If it is no TOML, or a key makes no sense.
+    ///
+    /// If the text is not valid TOML, or a key is unknown or has an invalid value.
     pub fn parse(text: &str, name: &str) -> Result<Self, InvalidPreferences> {
         let mut found = Self::paper();
         let (mut weights, mut place) = (None, Place::File { name: name.into(), line: None });
@@ -150,13 +156,13 @@ impl Preferences {
                 "weights" => {
                     let numbers: Vec<f64> = list(&entry.value).map_err(wrong)?;
                     let read = Weights::new(&numbers).map_err(|error| wrong(error.to_string()))?;
-                    // How many there must be is known at the end only: the criteria may stand behind them.
+                    // The number is checked below, because criteria may follow the weights.
                     (weights, place) = (Some(read), entry.place);
                 }
                 _ => return Err(unknown(&entry)),
             }
         }
-        // Not the paper's weights: other criteria without weights count the same, however many.
+        // Without weights, any number of criteria have equal weights, unlike in the paper.
         let Self { requirements, criteria, scale, .. } = found;
         Self::new(requirements, criteria, weights, scale).map_err(|error| InvalidPreferences::Key {
             place,
@@ -165,7 +171,7 @@ impl Preferences {
         })
     }
 
-    /// The preferences in TOML, which read back as the same.
+    /// Returns the preferences in TOML, which [`Self::parse`] reads back.
     pub fn to_toml(&self) -> String {
         let texts = |texts: Vec<String>| {
             texts.iter().map(|text| quoted(text)).collect::<Vec<_>>().join(", ")
@@ -190,7 +196,7 @@ fn unknown(entry: &KeyValue) -> InvalidPreferences {
     }
 }
 
-/// The value as a `T`.
+/// Parses a value as `T`.
 fn one<T: std::str::FromStr<Err: std::fmt::Display>>(value: &Value) -> Result<T, String> {
     match value {
         Value::Text(text) | Value::Number(text) => {
@@ -200,7 +206,7 @@ fn one<T: std::str::FromStr<Err: std::fmt::Display>>(value: &Value) -> Result<T,
     }
 }
 
-/// The value as a list of `T`.
+/// Parses a value as a list of `T`.
 fn list<T: std::str::FromStr<Err: std::fmt::Display>>(value: &Value) -> Result<Vec<T>, String> {
     match value {
         Value::List(items) => items.iter().map(one).collect(),
@@ -228,7 +234,7 @@ mod tests {
     }
 
     #[test]
-    fn what_makes_no_sense_is_refused_with_its_place() {
+    fn invalid_preferences_are_refused_with_line_and_key() {
         let message =
             |text: &str| Preferences::parse(text, "x.toml").expect_err("invalid").to_string();
         insta::assert_snapshot!(message("weights = [1, 1]"), @"x.toml:1: criteria: 2 weights, expected 4: coverage, critical force, penetration resistance, flexural compliance");

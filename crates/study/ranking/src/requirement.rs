@@ -1,4 +1,4 @@
-//! A requirement: a bound that a column must keep.
+//! Requirement: a bound on a column.
 
 use std::fmt;
 use std::str::FromStr;
@@ -9,7 +9,7 @@ use text::number;
 
 use crate::standard::Standard;
 
-/// How a value is to stand to the limit.
+/// Relation of a value to the limit of a requirement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Relation {
     /// `>=`
@@ -25,10 +25,10 @@ pub enum Relation {
 }
 
 impl Relation {
-    /// All relations; those of two characters first, because others begin alike.
+    /// All relations. Signs of two characters come first, because others are their prefixes.
     pub const ALL: [Self; 5] = [Self::AtLeast, Self::AtMost, Self::Equal, Self::Above, Self::Below];
 
-    /// The sign of the relation.
+    /// Returns the sign of the relation.
     pub fn sign(self) -> &'static str {
         match self {
             Self::AtLeast => ">=",
@@ -39,38 +39,35 @@ impl Relation {
         }
     }
 
-    /// 1 if values are to be above the limit, −1 if they are to be below.
+    /// Returns 1 if values must be above the limit, −1 if they must be below.
     fn direction(self) -> f64 {
         match self {
-            // No search asks for the direction of an equality, which goals refuse.
+            // The direction of an equality is never used, because goals refuse equalities.
             Self::AtLeast | Self::Above | Self::Equal => 1.0,
             Self::AtMost | Self::Below => -1.0,
         }
     }
 }
 
-/// A requirement: a bound that a column must keep.
+/// Requirement: a bound on a column.
 ///
 /// ```
 /// use ranking::Requirement;
 ///
 /// let requirement: Requirement = "coverage >= 0.6".parse()?;
 /// assert!(requirement.is_met(0.7) && !requirement.is_met(0.5));
-/// // Round-off breaks no requirement.
-/// assert!(requirement.is_met(0.6 - 1e-15));
-/// # Ok::<(), ranking::InvalidRequirement>(())
-/// ```
+/// // Round-off does not violate a requirement.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Requirement {
-    /// The column.
+    /// Column name.
     pub column: String,
-    /// How its values are to stand to the limit.
+    /// Relation of the value to the limit.
     pub relation: Relation,
-    /// The limit, in the unit of the column.
+    /// Limit, in the unit of the column.
     pub limit: f64,
 }
 
-/// A text that is no requirement.
+/// Text that is not a requirement.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "{found} is not accepted, expected COLUMN OP NUMBER, OP being >=, <=, >, < or ==, e.g. coverage >= 0.6, or a level of a standard: {}",
@@ -82,7 +79,9 @@ pub struct InvalidRequirement {
 }
 
 impl Requirement {
-    /// Whether a value meets the requirement. A value that is the limit but for round-off is the limit.
+    /// Returns true if `value` meets the requirement.
+    ///
+    /// A value that equals the limit up to round-off counts as equal.
     pub fn is_met(&self, value: f64) -> bool {
         let is_limit = same(value, self.limit);
         match self.relation {
@@ -94,46 +93,51 @@ impl Requirement {
         }
     }
 
-    /// 1 if values are to be above the limit, −1 if they are to be below.
+    /// Returns 1 if values must be above the limit, −1 if they must be below.
     pub fn direction(&self) -> f64 {
         self.relation.direction()
     }
 
-    /// The size that margins are relative to: the limit, or 1 if that is 0.
+    /// Returns the unit of margins: the absolute limit, or 1 if the limit is 0.
     pub fn size(&self) -> f64 {
         if self.limit == 0.0 { 1.0 } else { self.limit.abs() }
     }
 
-    /// How far a value is within the limit, relative to its size; below 0 beyond it.
+    /// Returns the distance of a value from the limit, relative to [`Self::size`].
+    ///
+    /// Negative if the requirement is not met.
     pub fn margin(&self, value: f64) -> f64 {
         let margin = self.direction() * (value - self.limit) / self.size();
         match self.relation {
-            // A search aims a little within a strict limit: what it reaches is the limit itself but for round-off.
+            // A search converges to the limit up to round-off. For a strict inequality it must aim
+            // slightly beyond.
             Relation::Above | Relation::Below => margin - 10.0 * ROUND_OFF,
-            // Either side of the one value that is asked for is beyond it.
+            // Both sides of the required value violate an equality.
             Relation::Equal => -margin.abs(),
             _ => margin,
         }
     }
 
-    /// How fast [`Self::margin`] grows with the value.
+    /// Returns the derivative of [`Self::margin`] with respect to the value.
     pub fn margin_rate(&self) -> f64 {
         self.direction() / self.size()
     }
 
-    /// The margin of a value, not below 0 if and only if the value meets the requirement: round-off breaks no limit. No value is as far
-    /// beyond it as can be.
+    /// Returns the margin of a value up to round-off.
+    ///
+    /// It is non-negative if and only if the value meets the requirement, which [`Self::margin`]
+    /// does not guarantee. A missing value has the margin −∞.
     pub fn counted_margin(&self, value: Option<f64>) -> f64 {
         let Some(value) = value else { return f64::NEG_INFINITY };
         let margin = self.margin(value);
         if self.is_met(value) { margin.max(0.0) } else { margin.min(-f64::MIN_POSITIVE) }
     }
 
-    /// How far a value is from meeting the requirement, relative to `size`; 0 if it does.
+    /// Returns the shortfall of a value, relative to `size`; 0 if it meets the limit.
     pub(crate) fn shortfall(&self, value: f64, size: f64) -> f64 {
-        // The distance, not the direction: an equality may be missed on either side.
+        // The absolute distance, because an equality may be missed on either side.
         let missing = (value - self.limit).abs();
-        // A strict bound that is met but for equality is missed by the least there is.
+        // If only strictness fails, the shortfall is the smallest positive number.
         if self.is_met(value) { 0.0 } else { (missing / size).max(f64::MIN_POSITIVE) }
     }
 }
@@ -145,10 +149,10 @@ impl FromStr for Requirement {
         let read = || {
             let cut = |relation: Relation| Some((text.split_once(relation.sign())?, relation));
             let ((column, limit), relation) = Relation::ALL.into_iter().find_map(cut)?;
-            // A bound of `inf` or `nan` would be met by all values or by none.
+            // Every value or no value would meet a bound of `inf` or `nan`.
             let limit = limit.trim().parse().ok().filter(|limit: &f64| limit.is_finite())?;
             let column = column.trim().to_owned();
-            // Of `coverage => 0.6` the sign `>` leaves a `=` behind in the name.
+            // In `coverage => 0.6` the sign `>` leaves a `=` in the name.
             let is_name = !column.is_empty() && !column.contains(['<', '>', '=']);
             is_name.then_some(Self { column, relation, limit })
         };
@@ -158,7 +162,7 @@ impl FromStr for Requirement {
 }
 
 impl Serialize for Requirement {
-    /// As it is written.
+    /// Serializes the requirement as text.
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_str(self)
     }
@@ -179,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn requirements_are_written_as_they_are_read() {
+    fn requirements_round_trip_through_text() {
         for text in ["a >= 1", "a <= -2.5", "a == 0", "a > 1e-7", "a < 3"] {
             assert_eq!(requirement(text).to_string(), text);
             assert_eq!(requirement(&text.replace(' ', "")), requirement(text));
@@ -190,7 +194,7 @@ mod tests {
     }
 
     #[test]
-    fn each_sign_means_what_it_means() {
+    fn each_relation_accepts_the_right_values() {
         let met = |text: &str| [1.0, 2.0, 3.0].map(|value| requirement(text).is_met(value));
         assert_eq!(met("a >= 2"), [false, true, true]);
         assert_eq!(met("a <= 2"), [true, true, false]);
@@ -200,7 +204,7 @@ mod tests {
     }
 
     #[test]
-    fn a_margin_is_below_zero_where_a_requirement_is_missed() {
+    fn margins_are_negative_for_missed_requirements() {
         let margins = |text: &str| [1.0, 2.0, 3.0].map(|value| requirement(text).margin(value));
         assert_eq!(margins("a >= 2"), [-0.5, 0.0, 0.5]);
         assert_eq!(margins("a <= 2"), [0.5, 0.0, -0.5]);
@@ -208,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn a_shortfall_is_relative_and_zero_where_all_is_well() {
+    fn shortfalls_are_relative_and_zero_if_the_requirement_is_met() {
         assert_eq!(requirement("a >= 2").shortfall(1.5, 2.0), 0.25);
         assert_eq!(requirement("a >= 2").shortfall(2.5, 2.0), 0.0);
         assert!(requirement("a > 2").shortfall(2.0, 2.0) > 0.0);

@@ -1,24 +1,26 @@
-//! How criteria are rescaled, and how they make a fitness.
+//! Scales on which criteria are rescaled and combined into a fitness.
 
 use std::fmt;
 use std::str::FromStr;
 
 use results::columns::Goal;
 
-/// How the values of a criterion are rescaled from 0, the worst, to 1, the best, and what the fitness is made of.
+/// Rescaling of criteria from 0, the worst, to 1, the best, and their combination.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Scale {
-    /// As in the paper: the criterion is the value, or its inverse where small values are good (R1); the fitness is the
-    /// weighted geometric mean (R3), so that whoever is worst in one criterion has none.
+    /// As in the paper. The criterion is the value, or its inverse if it is minimised (R1).
+    ///
+    /// The fitness is the weighted geometric mean (R3), so it is 0 for the worst design in any
+    /// criterion.
     #[default]
     Paper,
-    /// Even steps of the value count the same; the fitness is the weighted mean (R8).
+    /// Linear in the value; the fitness is the weighted mean (R8).
     Linear,
-    /// Even ratios of the value count the same; the fitness is the weighted mean (R8).
+    /// Linear in the logarithm of the value; the fitness is the weighted mean (R8).
     Log,
 }
 
-/// A text that names no scale.
+/// Text that is not the name of a scale.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0} is not accepted, expected paper, linear or log")]
 pub struct UnknownScale(pub String);
@@ -27,7 +29,7 @@ impl Scale {
     /// All scales.
     pub const ALL: [Self; 3] = [Self::Paper, Self::Linear, Self::Log];
 
-    /// The name of the scale on the command line.
+    /// Returns the name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Paper => "paper",
@@ -36,27 +38,29 @@ impl Scale {
         }
     }
 
-    /// The criterion that a value makes, larger being better; `None` if an inverse or a logarithm does not exist.
+    /// Returns the criterion of a value; larger is better.
+    ///
+    /// `None` if the inverse or logarithm does not exist.
     pub fn criterion(self, goal: Goal, value: f64) -> Option<f64> {
         let criterion = match (self, goal) {
-            // A value as it is may be zero or negative; only inverses and logarithms may not.
+            // Only inverses and logarithms require positive values.
             (Self::Paper | Self::Linear, Goal::Maximize) => return Some(value),
             (Self::Linear, Goal::Minimize) => return Some(-value),
             (Self::Paper, Goal::Minimize) => value.recip(),
             (Self::Log, Goal::Maximize) => value.ln(),
             (Self::Log, Goal::Minimize) => -value.ln(),
         };
-        // A number above 0 may have no inverse either: that of 1e-309 is infinite.
+        // The inverse of a small positive number may overflow, as for 1e-309.
         (value > 0.0 && criterion.is_finite()).then_some(criterion)
     }
 
-    /// The part that a rescaled criterion adds to the score of a design, once for each unit of weight.
+    /// Returns the term of a rescaled criterion in the score, without its weight.
     pub(crate) fn term(self, rescaled: f64) -> f64 {
-        // Of the worst −∞, so that no other criterion makes up for it: its fitness is 0.
+        // −∞ at the worst value: the fitness is then 0, regardless of the other criteria.
         if self == Self::Paper { rescaled.ln() } else { rescaled }
     }
 
-    /// The fitness of a design by its score: the sum of weighted terms, by which designs are ordered.
+    /// Returns the fitness of a design with this score (the sum of weighted terms).
     pub(crate) fn fitness(self, score: f64) -> f64 {
         if self == Self::Paper { score.exp() } else { score }
     }

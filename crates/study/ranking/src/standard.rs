@@ -1,20 +1,21 @@
-//! Levels of protection that buyers read, as requirements.
+//! Protection levels of standards for protective clothing, as requirements.
 
 use crate::requirement::{Relation, Requirement};
 
-/// A standard whose levels are forces.
+/// A standard that defines its levels by forces.
 #[derive(Debug)]
 pub struct Standard {
-    /// The word before a level, as in `needle 2`.
+    /// First word of a level, as in `needle 2`.
     pub name: &'static str,
-    /// The standard, and what it presses into the sample.
+    /// Name of the standard, and its indenter.
     pub source: &'static str,
-    /// Newtons of the levels, from 1 on.
+    /// Minimum force of each level in N, from level 1.
     pub newtons: &'static [f64],
 }
 
-/// The standards that requirements may name.
-// Levels as published: ANSI/ISEA 105-2016 with ASTM F2878 (needle, 500 mm/min), EN 388:2016 (probe, 100 mm/min).
+/// Standards that requirements may name.
+// Levels as published: ANSI/ISEA 105-2016 with ASTM F2878 (needle, 500 mm/min), EN 388:2016 (probe,
+// 100 mm/min).
 pub const STANDARDS: [Standard; 2] = [
     Standard {
         name: "needle",
@@ -28,22 +29,22 @@ pub const STANDARDS: [Standard; 2] = [
     },
 ];
 
-/// What a level does not say of a skin that meets it here.
+/// Warning: meeting the force of a level here does not prove the level.
 pub const TILTING_ONLY: &str = "the model tells at which force a scale tilts under a point, not whether a needle or probe goes \
     through: the tip's own radius, the strength of the scales and the way between them are left out; only a test gives the level";
 
 impl Standard {
-    /// The requirement of a level such as `needle 2`, and its standard.
+    /// Returns the standard and the requirement of a level such as `needle 2`.
     pub fn requirement(text: &str) -> Option<(&'static Self, Requirement)> {
         let (name, level) = text.trim().split_once(' ')?;
         let standard = STANDARDS.iter().find(|standard| standard.name == name)?;
         let index = level.trim().parse::<usize>().ok()?.checked_sub(1)?;
-        // The force at which a scale tilts stands for that of the test: see `TILTING_ONLY`.
+        // The critical force replaces the force of the test; see `TILTING_ONLY`.
         let (column, relation) = ("critical_force_N".to_owned(), Relation::AtLeast);
         Some((standard, Requirement { column, relation, limit: *standard.newtons.get(index)? }))
     }
 
-    /// All levels, in words.
+    /// Lists all levels, for messages.
     pub fn levels() -> String {
         let of =
             |standard: &Self| format!("'{} 1' to '{0} {}'", standard.name, standard.newtons.len());
@@ -56,7 +57,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_level_is_a_force() {
+    fn a_level_requires_a_critical_force() {
         let read =
             |text: &str| text.parse::<Requirement>().map(|requirement| requirement.to_string());
         assert_eq!(read("needle 2").as_deref(), Ok("critical_force_N >= 4"));

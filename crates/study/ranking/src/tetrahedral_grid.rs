@@ -1,7 +1,8 @@
-//! All ways to share a whole weight among four criteria, on a grid.
+//! All distributions of weight among four criteria, on a grid.
 
-/// The nodes of a regular grid in the tetrahedron of weights: `resolution` steps from each corner
-/// to the next.
+/// Nodes of a regular grid in the tetrahedron of weights.
+///
+/// The grid has `resolution` steps along each edge.
 ///
 /// ```text
 /// w = (i, j, k, l)/R,    i + j + k + l = R                                          (R4)
@@ -12,23 +13,23 @@ pub struct TetrahedralGrid {
 }
 
 impl Default for TetrahedralGrid {
-    /// Steps of a twentieth.
+    /// A step is 1/20.
     fn default() -> Self {
         Self { resolution: 20 }
     }
 }
 
-/// Steps of a node from the face opposite to each corner; they sum to the resolution.
+/// Weights of a node in steps; their sum is the resolution.
 pub type Steps = [u32; 4];
 
-/// A resolution that no grid has.
+/// Invalid resolution of a grid.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "{found} is not accepted, expected a whole number of steps from 1 to {}",
     TetrahedralGrid::FINEST
 )]
 pub struct InvalidResolution {
-    /// The text that was given.
+    /// The given text.
     pub found: String,
 }
 
@@ -43,15 +44,15 @@ impl std::str::FromStr for TetrahedralGrid {
 }
 
 impl TetrahedralGrid {
-    /// Most steps from corner to corner: some 1.4 million nodes.
+    /// Maximum number of steps along an edge, for about 1.4 million nodes.
     pub const FINEST: u32 = 200;
 
-    /// Steps from corner to corner.
+    /// Returns the number of steps along an edge.
     pub fn resolution(self) -> u32 {
         self.resolution
     }
 
-    /// Every node, the weight of the first criterion growing slowest.
+    /// Returns every node. The weight of the first criterion changes slowest.
     pub fn nodes(self) -> impl Iterator<Item = Steps> {
         let whole = self.resolution;
         (0..=whole).flat_map(move |i| {
@@ -60,19 +61,19 @@ impl TetrahedralGrid {
         })
     }
 
-    /// The weights of a node.
+    /// Returns the weights of a node.
     pub fn weights(self, steps: Steps) -> [f64; 4] {
         steps.map(|step| f64::from(step) / f64::from(self.resolution))
     }
 
-    /// The part of the tetrahedron that lies nearer to this node than to any other, in units of
-    /// [`Self::whole`].
+    /// Returns the volume closest to this node, in units of [`Self::whole`].
     ///
-    /// The nodes form a face-centred cubic lattice of as many cells as nodes. Half of the cell of
-    /// a node on a face lies inside; 7/36 of one on an edge, and 1/24 of one at a corner: the only
-    /// numbers with which the parts sum to the whole for every resolution.
+    /// The nodes form a face-centred cubic lattice, with one cell per node. The tetrahedron
+    /// contains half of the cell of a node on a face, 7/36 of a cell on an edge, and 1/24 of a cell
+    /// at a corner. These are the only fractions with which the volumes add up for every
+    /// resolution.
     pub fn cell(steps: Steps) -> u64 {
-        // In units of 1/72 of a cell all of these are whole, so that shares sum to 1 without round-off.
+        // The unit 1/72 of a cell makes all volumes integers, so that shares sum to 1 exactly.
         match steps.iter().filter(|step| **step == 0).count() {
             0 => 72,
             1 => 36,
@@ -81,9 +82,9 @@ impl TetrahedralGrid {
         }
     }
 
-    /// The whole tetrahedron: `R³/6` cells.
+    /// Returns the volume of the tetrahedron: `R³/6` cells.
     pub fn whole(self) -> u64 {
-        // `72 R³/6`, as cells count 72 each.
+        // `72 R³/6`, because a cell counts 72.
         12 * u64::from(self.resolution).pow(3)
     }
 }
@@ -105,7 +106,7 @@ mod tests {
     }
 
     #[test]
-    fn resolutions_are_whole_numbers() {
+    fn resolutions_are_positive_integers() {
         assert_eq!("20".parse(), Ok(TetrahedralGrid { resolution: 20 }));
         for wrong in ["0", "-1", "201", "2.5", ""] {
             assert!(wrong.parse::<TetrahedralGrid>().is_err());

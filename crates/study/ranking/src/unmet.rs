@@ -1,4 +1,4 @@
-//! Requirements that no design meets: which design comes nearest, and which requirement stands in the way.
+//! Requirements that no design meets: nearest design and binding requirements.
 
 use results::{InvalidResults, Results};
 
@@ -8,10 +8,12 @@ use crate::requirement::Requirement;
 /// Requirements that no design meets.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unmet {
-    /// Each requirement, and how far the designs are from it.
+    /// Requirements with the shortfalls of the nearest design.
     pub requirements: Vec<UnmetRequirement>,
-    /// The row of the design that comes nearest: its largest shortfall is the least, then their sum. `None` if
-    /// every design lacks a value that is required.
+    /// Row of the nearest design.
+    ///
+    /// Its largest shortfall is the smallest, then the sum of shortfalls. `None` if every design
+    /// lacks a required value.
     pub nearest: Option<usize>,
 }
 
@@ -20,25 +22,25 @@ pub struct Unmet {
 pub struct UnmetRequirement {
     /// The requirement.
     pub requirement: Requirement,
-    /// The number of designs that meet it.
+    /// Number of designs that meet it.
     pub met: usize,
-    /// The number of designs that meet all the others.
+    /// Number of designs that meet all others.
     pub met_without: usize,
-    /// The value of the nearest design in its column.
+    /// Value of the nearest design.
     pub nearest: Option<f64>,
-    /// How much of the limit the nearest design lacks.
+    /// Relative shortfall of the nearest design.
     pub shortfall: f64,
 }
 
 impl UnmetRequirement {
-    /// Whether it alone stands in the way: without it there are designs that meet all others.
+    /// Returns true if some designs meet all other requirements.
     pub fn binds(&self) -> bool {
         self.met_without > 0
     }
 }
 
 impl Unmet {
-    /// The obstacle to the requirements, none of which a design meets together.
+    /// Analyses requirements that no design in `results` meets together.
     pub(crate) fn of(
         results: &Results,
         requirements: &[Requirement],
@@ -50,14 +52,16 @@ impl Unmet {
         Ok(Self::by_sizes(&values, requirements, &sizes.collect::<Vec<_>>(), nearest))
     }
 
-    /// The obstacle to the requirements among designs with these `values` in their columns, none of which meets them together and of which
-    /// a search has found `nearest` to be that.
+    /// Analyses requirements that no evaluated design of a search meets together.
+    ///
+    /// `values` contains the required columns of each design, and `nearest` is the nearest design
+    /// according to the search.
     pub fn of_search(
         values: &[Vec<Option<f64>>],
         requirements: &[Requirement],
         nearest: Option<usize>,
     ) -> Self {
-        // The sizes that margins are relative to, by which the search went.
+        // Shortfalls relative to the same sizes as in the search.
         let sizes: Vec<f64> = requirements.iter().map(Requirement::size).collect();
         Self::by_sizes(values, requirements, &sizes, |_| nearest)
     }
@@ -70,7 +74,7 @@ impl Unmet {
     ) -> Self {
         let shortfalls = |row: &Vec<Option<f64>>| -> Vec<f64> {
             let one = |(k, value): (usize, &Option<f64>)| {
-                // What has no value in a required column is never the nearest.
+                // A design without a required value is never the nearest.
                 value.map_or(f64::INFINITY, |value| requirements[k].shortfall(value, sizes[k]))
             };
             row.iter().enumerate().map(one).collect()
@@ -79,7 +83,7 @@ impl Unmet {
         let nearest = nearest(&all);
         let report = |(k, requirement): (usize, &Requirement)| UnmetRequirement {
             requirement: requirement.clone(),
-            // Exactly 0: what misses a strict bound by nothing has the least number there is.
+            // Exactly 0: missing only the strictness of a bound is a positive shortfall.
             met: all.iter().filter(|row| row[k] == 0.0).count(),
             met_without: all.iter().filter(|row| meets_others(row, k)).count(),
             nearest: nearest.and_then(|row| values[row][k]),
@@ -90,21 +94,23 @@ impl Unmet {
     }
 }
 
-/// Whether a design meets every requirement but one.
+/// Returns true if a design meets every requirement except `one`.
 fn meets_others(shortfalls: &[f64], one: usize) -> bool {
     shortfalls.iter().enumerate().all(|(k, shortfall)| k == one || *shortfall == 0.0)
 }
 
-/// The size that shortfalls are relative to: the limit, or the largest value of the column if the limit is 0.
+/// Returns the unit of shortfalls: the limit, or the largest value if it is 0.
 fn size(values: &[Vec<Option<f64>>], k: usize, requirement: &Requirement) -> f64 {
     let found = values.iter().filter_map(|row| row[k]);
-    // A limit of 0 has no size, without which shortfalls in other units could not be compared.
+    // Shortfalls of different columns are only comparable relative to a size, which 0 cannot be.
     let largest = || found.fold(0.0, |largest: f64, value| largest.max(value.abs()));
     let size = if requirement.limit == 0.0 { largest() } else { requirement.limit.abs() };
     if size > 0.0 { size } else { 1.0 }
 }
 
-/// The row whose largest shortfall is the least, then the sum; of equal ones the first.
+/// Returns the row with the smallest largest shortfall, then the smallest sum.
+///
+/// The first of several equal rows counts.
 fn nearest(shortfalls: &[Vec<f64>]) -> Option<usize> {
     let distance = |row: &[f64]| (row.iter().copied().fold(0.0, f64::max), row.iter().sum::<f64>());
     let rows = shortfalls.iter().enumerate().map(|(k, row)| (distance(row), k));

@@ -7,62 +7,65 @@ use text::number;
 
 use crate::tetrahedral_grid::{Steps, TetrahedralGrid};
 
-/// Criteria that a ranking may have, at most.
+/// Maximum number of criteria of a ranking.
 pub const MOST_CRITERIA: usize = 8;
 
-/// Weights of the criteria: none negative, their sum 1.
+/// Weights of the criteria: non-negative, with sum 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weights {
     values: [f64; MOST_CRITERIA],
     count: usize,
 }
 
-/// Weights that sum to 1 but for this are taken as they are, because not every weight is a binary fraction.
+/// Weights with a sum within this distance of 1 are not divided by their sum.
+///
+/// Decimal weights such as 0.1 are not binary fractions, so their sum is rarely exactly 1.
 const SUM_TOLERANCE: f64 = 1e-9;
 
-/// Weights that cannot be shared out.
+/// Invalid weights.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum InvalidWeights {
-    /// One of them is no number.
+    /// A weight is not a number.
     #[error("\"{0}\" is not accepted, expected a number of at least 0")]
     NotANumber(String),
-    /// One of them is negative or not finite.
+    /// A weight is negative or not finite.
     #[error("{} is out of range, expected a number of at least 0", number::text(*.0))]
     OutOfRange(f64),
-    /// There are fewer or more than criteria.
+    /// The numbers of weights and criteria differ.
     #[error("{found} weights, expected {}: {criteria}", criteria.split(", ").count())]
     Count {
-        /// The number of weights.
+        /// Number of weights.
         found: usize,
-        /// The criteria, in words.
+        /// Names of the criteria.
         criteria: String,
     },
-    /// There are none, or more than criteria may be.
+    /// There are no weights, or more than the maximum.
     #[error("{0} weights, expected 1 to {MOST_CRITERIA}")]
     Most(usize),
-    /// All of them are 0.
+    /// All weights are 0.
     #[error("at least one weight must be positive")]
     Nothing,
 }
 
 impl Weights {
-    /// The four criteria of the paper count the same.
+    /// Equal weights of the four criteria of the paper.
     pub const BALANCED: Self =
         Self { values: [0.25, 0.25, 0.25, 0.25, 0.0, 0.0, 0.0, 0.0], count: 4 };
 
-    /// All of `count` criteria count the same.
+    /// Returns equal weights of `count` criteria.
     pub fn equal(count: usize) -> Self {
         let weight = (count.max(1) as f64).recip();
         Self { values: std::array::from_fn(|c| if c < count { weight } else { 0.0 }), count }
     }
 
-    /// The weights under which one criterion of the paper counts alone, in the order of
-    /// [`CRITERIA`](crate::CRITERIA).
+    /// Returns weights that select each criterion of the paper alone.
+    ///
+    /// They follow the order of [`CRITERIA`](crate::CRITERIA).
     pub fn alone() -> impl Iterator<Item = Self> {
         Self::alone_among(4)
     }
 
-    /// The weights under which one of `count` criteria counts alone.
+    /// Returns weights that select each of `count` criteria alone.
     pub fn alone_among(count: usize) -> impl Iterator<Item = Self> {
         (0..count).map(move |own| {
             let values = std::array::from_fn(|c| f64::from(u8::from(c == own)));
@@ -70,9 +73,10 @@ impl Weights {
         })
     }
 
-    /// The weights in proportion to `weights`, one for each criterion.
+    /// Creates weights in proportion to `weights`, one for each criterion.
     ///
     /// # Errors
+    ///
     /// If one is negative, all are 0, or there are more than [`MOST_CRITERIA`].
     pub fn new(weights: &[f64]) -> Result<Self, InvalidWeights> {
         let is_right = |weight: &f64| weight.is_finite() && *weight >= 0.0;
@@ -93,19 +97,21 @@ impl Weights {
         Ok(Self { values: std::array::from_fn(at), count })
     }
 
-    /// The weights at a node of a grid.
+    /// Returns the weights at a node of a grid.
     pub(crate) fn at(grid: TetrahedralGrid, steps: Steps) -> Self {
         let weights = grid.weights(steps);
         Self { values: std::array::from_fn(|c| weights.get(c).copied().unwrap_or(0.0)), count: 4 }
     }
 
-    /// The weights in the order of the criteria.
+    /// Returns the weights in the order of the criteria.
     pub fn values(&self) -> &[f64] {
         &self.values[..self.count]
     }
 
-    /// The score of a design, by which designs are ordered: the sum of weighted terms, where a criterion without weight is
-    /// ignored, even where it is as bad as can be.
+    /// Returns the sum of weighted terms of a design.
+    ///
+    /// Designs are ordered by this score. Criteria without weight are ignored, even if their term
+    /// is −∞.
     ///
     /// ```text
     /// ln f = Σ w_c ln s_c,   0⁰ = 1                                                    (R3)
@@ -113,7 +119,7 @@ impl Weights {
     pub(crate) fn score(&self, terms: &[f64]) -> f64 {
         let mut sum = 0.0;
         for (weight, term) in self.values().iter().zip(terms) {
-            // 0 times −∞ would be no number.
+            // 0 · (−∞) would be NaN.
             if *weight > 0.0 {
                 sum += weight * term;
             }
@@ -147,7 +153,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn weights_share_out_one() {
+    fn weights_are_normalised() {
         let weights = |text: &str| text.parse::<Weights>();
         assert_eq!(weights("0.25, 0.25,0.25,0.25"), Ok(Weights::BALANCED));
         assert_eq!(weights("3,3,3,3"), Ok(Weights::BALANCED));

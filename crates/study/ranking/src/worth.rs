@@ -1,35 +1,39 @@
-//! The worth of a design: its objectives, and how far it is within every requirement.
+//! Objectives of a design, and its margins to all requirements.
 
 use crate::requirement::Requirement;
 
-/// The worth of a design.
+/// Objectives of a design, and its margins to all requirements.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Worth {
-    /// The objectives in their units.
+    /// Objectives in their units.
     pub objectives: Vec<f64>,
-    /// The objectives as designs are compared by them: a yield, which is a staircase, with the part of its next step.
+    /// Objectives used to compare designs.
+    ///
+    /// A yield is a step function of the design, so it includes the fraction of its next step.
     pub compared: Vec<f64>,
-    /// The values of the columns that are required.
+    /// Values of the required columns.
     pub required: Vec<f64>,
-    /// How far it is within each requirement, relative to the limit; below 0 where it falls short.
+    /// Margin to each requirement, relative to the limit; negative if it is not met.
     pub margins: Vec<f64>,
-    /// Whether it meets every requirement.
+    /// True if the design meets every requirement.
     pub met: bool,
 }
 
 impl Worth {
-    /// The largest shortfall, relative to the limit; 0 where there is none.
+    /// Returns the largest shortfall, relative to the limit; 0 if there is none.
     pub fn shortfall(&self) -> f64 {
         self.margins.iter().fold(0.0, |shortfall, margin| shortfall.max(-margin))
     }
 }
 
-/// The requirement that a design with these values is least within, of equal ones the first, with its counted margin.
+/// Returns the index and the counted margin of the tightest requirement.
+///
+/// The first of several equal margins counts.
 pub fn tightest<'r>(
     bounds: impl Iterator<Item = (&'r Requirement, Option<f64>)>,
 ) -> Option<(usize, f64)> {
     let margins = bounds.map(|(requirement, value)| requirement.counted_margin(value));
-    // `min_by` keeps the first of equal ones.
+    // `min_by` returns the first of equal items.
     margins.enumerate().min_by(|(_, a), (_, b)| a.total_cmp(b))
 }
 
@@ -38,11 +42,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_tightest_requirement_is_the_one_that_a_design_is_least_within() {
+    fn the_tightest_requirement_has_the_smallest_margin() {
         let requirements = ["a >= 2", "b <= 4", "c > 0"].map(|text| text.parse().expect("valid"));
         let tightest_of = |values: [Option<f64>; 3]| tightest(requirements.iter().zip(values));
         assert_eq!(tightest_of([Some(3.0), Some(3.0), Some(9.0)]), Some((1, 0.25)));
-        // Round-off breaks no limit, and what has no value keeps none.
+        // Round-off does not violate a requirement, but a missing value does.
         assert_eq!(tightest_of([Some(2.0 - 1e-15), Some(3.0), Some(9.0)]), Some((0, 0.0)));
         assert_eq!(tightest_of([Some(3.0), None, Some(9.0)]), Some((1, f64::NEG_INFINITY)));
         assert!(

@@ -1,4 +1,4 @@
-//! The columns of the tables of a comparison.
+//! Columns of the tables of a comparison.
 
 use results::columns::number;
 use results::{Column, columns};
@@ -6,7 +6,7 @@ use sweep::Parameter;
 
 use super::{ColumnDifference, Difference, absolute, relative};
 
-/// The columns of `compare.csv`.
+/// Columns of `compare.csv`.
 pub static COMPARISON_COLUMNS: &[Column<ColumnDifference>] = &columns! { ColumnDifference:
     "column", "-", |c| c.name.clone(), "column of designs.csv";
     "compared", "-", |c| c.compared, "designs that have a value in both runs";
@@ -33,7 +33,7 @@ pub static COMPARISON_COLUMNS: &[Column<ColumnDifference>] = &columns! { ColumnD
         "Spearman's rank correlation of the two runs, 1 if both put the designs in the same order";
 };
 
-/// The columns of `differences.csv` for designs with these parameters.
+/// Returns the columns of `differences.csv`, with the columns of `parameters`.
 pub fn difference_columns<'a>(parameters: &[&'static Parameter]) -> Vec<Column<Difference<'a>>> {
     let parameter = |parameter: &&'static Parameter| {
         Column::parameter(parameter, |d: &Difference<'a>| {

@@ -1,10 +1,12 @@
 //! Spearman's rank correlation.
 
-/// Spearman's rank correlation of pairs: 1 if both put them in the same order, -1 if in the
-/// opposite one. `None` if one of them has no order, because its values are all equal.
+/// Returns Spearman's rank correlation of pairs.
+///
+/// It is 1 if both values have the same order, and −1 if the orders are opposite. `None` if all
+/// first or all second values are equal.
 pub fn rank_correlation(pairs: &[[f64; 2]]) -> Option<f64> {
     let [first, second] = [0, 1].map(|side| ranks(pairs.iter().map(|pair| pair[side])));
-    // Ranks sum to the same, whatever their ties.
+    // Ties do not change the mean rank.
     let mean = 0.5 * (pairs.len() as f64 + 1.0);
     let sum = |of: &dyn Fn(f64, f64) -> f64| -> f64 {
         first.iter().zip(&second).map(|(a, b)| of(a - mean, b - mean)).sum()
@@ -13,10 +15,10 @@ pub fn rank_correlation(pairs: &[[f64; 2]]) -> Option<f64> {
     (spread > 0.0).then(|| sum(&|a, b| a * b) / spread)
 }
 
-/// The rank of each value, from 1; equal ones share the mean of theirs.
+/// Returns the rank of each value, from 1. Equal values share their mean rank.
 fn ranks(values: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut sorted: Vec<(f64, usize)> = values.enumerate().map(|(i, value)| (value, i)).collect();
-    // Unstable will do: equal values get one rank, whatever their order.
+    // An unstable sort suffices, because equal values get the same rank.
     sorted.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
     let mut ranks = vec![0.0; sorted.len()];
     let mut before = 0;
@@ -40,25 +42,25 @@ mod tests {
     }
 
     #[test]
-    fn orders_correlate() {
+    fn the_correlation_measures_the_agreement_of_orders() {
         let close = |found: Option<f64>, expected: f64| {
             assert!(found.is_some_and(|found| (found - expected).abs() < 1e-15), "{found:?}");
         };
         close(correlation(&[1.0, 2.0, 30.0], &[-5.0, 0.1, 0.2]), 1.0);
         close(correlation(&[1.0, 2.0, 30.0], &[3.0, 2.0, 1.0]), -1.0);
-        // Ranks 1, 2.5, 2.5, 4 against 1, 2, 3, 4: 4.5/√(4.5·5).
+        // Ranks 1, 2.5, 2.5, 4 and 1, 2, 3, 4: 4.5/√(4.5·5).
         close(correlation(&[0.0, 1.0, 1.0, 2.0], &[0.0, 1.0, 2.0, 3.0]), 0.9_f64.sqrt());
     }
 
     #[test]
-    fn without_an_order_there_is_none() {
+    fn equal_values_have_no_correlation() {
         assert_eq!(correlation(&[], &[]), None);
         assert_eq!(correlation(&[1.0], &[2.0]), None);
         assert_eq!(correlation(&[1.0, 1.0], &[1.0, 2.0]), None);
     }
 
     #[test]
-    fn ranks_correlate_whatever_the_scale() {
+    fn the_correlation_depends_on_ranks_only() {
         let values: Vec<f64> = (0..20).map(f64::from).collect();
         let [up, down] =
             [1.0, -1.0].map(|sign| values.iter().map(|x| sign * x.exp()).collect::<Vec<_>>());

@@ -1,4 +1,4 @@
-//! The matching of the designs of two runs.
+//! Matches the designs of two runs.
 
 use std::collections::HashMap;
 
@@ -7,25 +7,25 @@ use sweep::{PARAMETERS, Parameter, Scalar};
 
 use super::InvalidComparison;
 
-/// A parameter with the value that each of two runs gives to all of its designs.
+/// A parameter with different values in two runs, constant within each of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ParameterChange {
     /// The parameter.
     pub parameter: &'static Parameter,
-    /// The value in the first run.
+    /// Value in the first run.
     pub first: Scalar,
-    /// The value in the second run.
+    /// Value in the second run.
     pub second: Scalar,
 }
 
-/// The designs of two runs, side by side.
+/// Matched designs of two runs.
 #[derive(Clone, Debug)]
 pub(super) struct Matching {
-    /// Rows of the same design in the first run and in the second.
+    /// Rows of the same design in both runs.
     pub pairs: Vec<[usize; 2]>,
-    /// Rows that have no partner, in the first run and in the second.
+    /// Rows of designs in the first run only, and in the second only.
     pub alone: [Vec<usize>; 2],
-    /// Parameters that differ for all designs alike.
+    /// Parameters that are constant within each run, but differ between the runs.
     pub changes: Vec<ParameterChange>,
 }
 
@@ -44,14 +44,14 @@ impl Matching {
     }
 }
 
-/// The value that a run gives to all of its designs, if it says so.
+/// Returns the value of a parameter that is known to be constant in a run.
 fn shared(run: &Results, parameter: &Parameter) -> Option<Scalar> {
     let definition = run.definition()?;
     let is_shared = definition.grid().axis(parameter.key).is_none();
     is_shared.then(|| parameter.get(definition.grid().base()))
 }
 
-/// Parameters that vary in a run, and that the other one knows.
+/// Returns the parameters that vary in a run and are known in the other.
 fn common(first: &Results, second: &Results) -> Vec<&'static Parameter> {
     let varies = |run: &Results, parameter: &&Parameter| run.parameters().any(|p| p == *parameter);
     let knows =
@@ -61,30 +61,30 @@ fn common(first: &Results, second: &Results) -> Vec<&'static Parameter> {
     vary.filter(|p| knows(first, p) && knows(second, p)).collect()
 }
 
-/// The key that tells the design of a row from others: its values of `parameters`.
+/// Returns a key made of the values of `parameters`, which identifies a design.
 fn key(run: &Results, parameters: &[&'static Parameter], row: usize) -> String {
-    // Texts, not numbers: every run writes a number with the same digits.
+    // Texts suffice, because all runs format numbers in the same way.
     let mut key = String::new();
     for parameter in parameters {
         match run.parameter(row, parameter).as_ref() {
-            // A table without that column: its run gives one value to all designs.
+            // Without a column, all designs of the run have the same value.
             "" => key.extend(shared(run, parameter).map(|value| value.to_string())),
             value => key.push_str(value),
         }
-        // Without a mark between them, 1 and 12 would be 11 and 2.
+        // A separator, or 1 and 12 would equal 11 and 2.
         key.push(',');
     }
     key
 }
 
-/// The row of each key.
+/// Returns the row of each key.
 fn keys(
     run: &Results,
     parameters: &[&'static Parameter],
 ) -> Result<HashMap<String, usize>, InvalidComparison> {
     let mut keys = HashMap::with_capacity(run.len());
     for row in 0..run.len() {
-        // Refused: of two designs with one key the second would hide the first.
+        // Refuse repeated keys, because the second design would replace the first.
         if let Some(other) = keys.insert(key(run, parameters, row), row) {
             let [first, second] = [other, row].map(|row| run.design(row).to_owned());
             return Err(InvalidComparison::Ambiguous { file: run.file(), first, second });

@@ -1,4 +1,4 @@
-//! The columns of the tables of a ranking.
+//! Columns of the tables of a ranking.
 
 use results::Column;
 use results::columns::{explain_value, number};
@@ -10,7 +10,7 @@ use crate::preferences::Preferences;
 
 type RankedColumns<'a> = Vec<Column<RankedDesign<'a>>>;
 
-/// The columns of `ranking.csv` for designs with these parameters.
+/// Returns the columns of `ranking.csv`; `parameters` have columns of their own.
 pub fn ranking_columns<'a>(
     parameters: &[&'static Parameter],
     preferences: &Preferences,
@@ -35,21 +35,21 @@ pub fn ranking_columns<'a>(
     columns
 }
 
-/// The columns of `pareto.csv`.
+/// Returns the columns of `pareto.csv`.
 pub fn pareto_columns<'a>(
     parameters: &[&'static Parameter],
     preferences: &Preferences,
 ) -> RankedColumns<'a> {
     let mut columns = design(parameters);
     columns.extend(criteria(preferences));
-    // Shares are parts of a tetrahedron, which other numbers of criteria do not have.
+    // Only four criteria have a tetrahedron of weights, and hence shares.
     if preferences.criteria.len() == FOUR {
         columns.push(share("part of all weights for which it is the best design"));
     }
     columns
 }
 
-/// The columns of `winners.csv`.
+/// Returns the columns of `winners.csv`.
 pub fn winner_columns<'a>(
     parameters: &[&'static Parameter],
     preferences: &Preferences,
@@ -64,7 +64,7 @@ pub fn winner_columns<'a>(
     columns
 }
 
-/// The columns of `quaternary.csv`.
+/// Returns the columns of `quaternary.csv`.
 pub fn quaternary_columns<'a>(
     parameters: &[&'static Parameter],
     preferences: &Preferences,
@@ -86,7 +86,7 @@ pub fn quaternary_columns<'a>(
     columns
 }
 
-/// Number and parameters.
+/// Returns the columns of the number and the parameters of a design.
 fn design<'a>(parameters: &[&'static Parameter]) -> RankedColumns<'a> {
     let mut columns = vec![number(|s: &RankedDesign<'a>| s.design().to_owned().into())];
     let parameter = |parameter: &&'static Parameter| {
@@ -106,7 +106,9 @@ fn share<'a>(meaning: &'static str) -> Column<RankedDesign<'a>> {
     Column::new("share", "-", meaning, |s| s.share().into())
 }
 
-/// The values that the criteria are made from, as in `designs.csv`. A parameter stands there already.
+/// Returns the columns of the criteria as in `designs.csv`, except parameters.
+///
+/// The columns of the design already contain the parameters.
 fn criteria<'a>(preferences: &Preferences) -> RankedColumns<'a> {
     let is_measured = |(_, criterion): &(usize, &Criterion)| {
         results::columns::parameter_of(&criterion.column).is_none()
@@ -121,7 +123,7 @@ fn criteria<'a>(preferences: &Preferences) -> RankedColumns<'a> {
 
 fn rescaled<'a>(preferences: &Preferences) -> RankedColumns<'a> {
     let column = |(c, criterion): (usize, &Criterion)| {
-        // By its key: where the penetration is the column, it is the resistance that is rescaled.
+        // Named by `key`: penetration is a column, but the resistance to it is rescaled.
         let name = format!("{}_rescaled", criterion.key());
         let meaning = "criterion from 0, the worst of all ranked designs, to 1, the best";
         Column::computed(name.into(), "-", meaning, move |s: &RankedDesign<'a>| {

@@ -1,4 +1,4 @@
-//! The designs that can be ranked, and why the others cannot.
+//! Selects the designs that can be ranked, and counts reasons to exclude others.
 
 use std::collections::BTreeMap;
 
@@ -12,45 +12,47 @@ use crate::front::front_of;
 use crate::preferences::Preferences;
 use crate::weights::MOST_CRITERIA;
 
-/// The designs that can be ranked. Of each is kept what every choice of weights needs: all that can be made from its row again
-/// would take 200 MB of a million designs.
+/// Designs that can be ranked.
+///
+/// Only data needed for every choice of weights are stored. Storing all values that can be computed
+/// from the rows would take 200 MB for a million designs.
 #[derive(Clone, Debug)]
 pub(super) struct Contenders {
-    /// The rows of the designs in the results.
+    /// Rows of the designs in the results.
     pub rows: Vec<usize>,
-    /// The columns of the criteria in the results.
+    /// Columns of the criteria in the results.
     pub columns: Vec<usize>,
-    /// Whether no other design beats it in every criterion.
+    /// True for designs on the Pareto front.
     pub on_front: Vec<bool>,
-    /// The lowest and the highest of each criterion; `None` where nothing but round-off tells designs apart.
+    /// Smallest and largest value of each criterion; `None` if equal up to round-off.
     pub spans: Vec<Option<Span>>,
-    /// The part that each criterion adds to the score, design after design.
+    /// Term of each criterion in the score, design after design.
     terms: Vec<f64>,
 }
 
-/// The lowest and the highest of some numbers.
+/// Smallest and largest of several numbers.
 pub(super) type Span = (f64, f64);
 
-/// The reason why a design is not ranked: the first of these that holds.
+/// Reason to exclude a design. If several apply, the first one counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum LeftOut {
-    /// The design does not meet a requirement, named by its place.
+    /// The design does not meet a requirement, given by index.
     Unmet(usize),
-    /// The design leaves the substrate exposed.
+    /// The coverage is 0, so the design leaves the substrate exposed.
     Exposed,
-    /// A criterion, named by its place, has no value.
+    /// A criterion, given by index, has no value.
     Missing(usize),
-    /// A criterion that is an inverse or a logarithm cannot be formed.
+    /// A criterion, given by index, does not exist: inverse or logarithm of 0.
     NotPositive(usize),
 }
 
 impl LeftOut {
-    /// Whether a requirement is the reason.
+    /// Returns true if the reason is a requirement.
     pub fn is_unmet(self) -> bool {
         matches!(self, Self::Unmet(_))
     }
 
-    /// The reason in words.
+    /// Describes the reason, for messages.
     pub fn in_words(self, preferences: &Preferences) -> String {
         let column = |c: usize| &preferences.criteria[c].column;
         match self {
@@ -62,10 +64,10 @@ impl LeftOut {
     }
 }
 
-/// The designs that can be ranked, and why the others cannot.
+/// Designs that can be ranked, and the number of excluded designs for each reason.
 type SortedOut = (Contenders, BTreeMap<LeftOut, usize>);
 
-/// Sorts out the rows that can be ranked, and compares them.
+/// Selects the rows that can be ranked, and compares them.
 pub(super) fn sort_out(
     results: &Results,
     preferences: &Preferences,
@@ -73,7 +75,7 @@ pub(super) fn sort_out(
     let filter = RequirementFilter::new(results, &preferences.requirements)?;
     let columns = preferences.criteria.iter().map(|criterion| results.column(&criterion.column));
     let columns: Vec<usize> = columns.collect::<Result<_, _>>()?;
-    // A tree, so that reasons are told in one order, whichever row is met first.
+    // A tree, so that the order of reasons does not depend on the order of rows.
     let (mut rows, mut values, mut left_out) = (Vec::new(), Vec::new(), BTreeMap::new());
     for row in 0..results.len() {
         let unmet = filter.first_unmet(row)?.map(LeftOut::Unmet);
@@ -93,10 +95,10 @@ pub(super) fn sort_out(
     Ok((Contenders::new(rows, columns, values, preferences), left_out))
 }
 
-/// The reason why a design with these values cannot be ranked, if there is one.
+/// Returns the reason to exclude a design with these values, if there is one.
 fn obstacle(values: &[Option<f64>; MOST_CRITERIA], preferences: &Preferences) -> Option<LeftOut> {
     let criteria = &preferences.criteria;
-    // Where coverage is no criterion, exposed designs are ranked like any other.
+    // Exposed designs are ranked if coverage is not a criterion.
     let coverage = criteria.iter().position(|criterion| criterion.column == name::COVERAGE);
     if coverage.and_then(|c| values[c]).is_some_and(|coverage| coverage <= 0.0) {
         return Some(LeftOut::Exposed);
@@ -111,7 +113,9 @@ fn obstacle(values: &[Option<f64>; MOST_CRITERIA], preferences: &Preferences) ->
 }
 
 impl Contenders {
-    /// The designs in `rows` with their `values` in `columns`, design after design.
+    /// Compares the designs in `rows` by their `values` in `columns`.
+    ///
+    /// Values are stored design after design.
     fn new(
         rows: Vec<usize>,
         columns: Vec<usize>,
@@ -119,9 +123,9 @@ impl Contenders {
         preferences: &Preferences,
     ) -> Self {
         let count = columns.len();
-        // Values tell whether anything but round-off tells designs apart: a logarithm may be near 0.
+        // Test values for ties, not criteria: the logarithm of values near 1 is near 0.
         let is_tie = spans(&values, count).map(|(low, high)| same(low, high));
-        // Digits of round-off must not decide on dominance.
+        // Round-off must not decide on dominance.
         let mut merged = values.clone();
         for (c, of) in preferences.criteria.iter().enumerate() {
             merge_equal(merged.iter_mut().skip(c).step_by(count), of.goal);
@@ -129,10 +133,10 @@ impl Contenders {
         for (place, value) in merged.iter_mut().enumerate() {
             *value = criterion(preferences, place % count, *value);
         }
-        // Of criteria as they are: who beats whom needs neither weights nor rescaling.
+        // Dominance depends neither on weights nor on rescaling.
         let on_front = front_of(&merged, count);
         drop(merged);
-        // Criteria, and then terms, take the places of the values, which the table has.
+        // Reuse the memory: values are in the table anyway.
         for (place, value) in values.iter_mut().enumerate() {
             *value = criterion(preferences, place % count, *value);
         }
@@ -146,26 +150,28 @@ impl Contenders {
         contenders
     }
 
-    /// The parts that the criteria of each design add to its score.
+    /// Returns the terms of the score of each design, one per criterion.
     pub fn terms(&self) -> impl ExactSizeIterator<Item = &[f64]> {
         self.terms.chunks_exact(self.columns.len())
     }
 
-    /// A criterion, named by its place, from 0, the worst, to 1, the best.
+    /// Rescales criterion `c` from 0, the worst, to 1, the best.
     pub fn rescaled(&self, c: usize, criterion: f64) -> f64 {
         self.spans[c].map_or(1.0, |span| rescaled(criterion, span))
     }
 }
 
-/// The criterion, named by its place, that a value makes (R1).
+/// Returns criterion `c` for a value of its column (R1).
 pub(super) fn criterion(preferences: &Preferences, c: usize, value: f64) -> f64 {
-    // Designs without one are not ranked.
+    // Ranked designs always have a criterion.
     preferences.scale.criterion(preferences.criteria[c].goal, value).unwrap_or(f64::NAN)
 }
 
-/// The sum of the criteria of each design of a front, each from 0, the worst of the front, to 1, the best (R9).
+/// Returns the sum of the rescaled criteria of each design of a front (R9).
+///
+/// Criteria are rescaled from 0, the worst on the front, to 1, the best.
 pub(super) fn sums_of_rescaled(criteria: &[f64], count: usize) -> Vec<f64> {
-    // Over the front alone: a design that is beaten would move the knee.
+    // Rescale on the front only: dominated designs must not move the knee.
     let spans = spans(criteria, count);
     let sum = |criteria: &[f64]| {
         criteria.iter().zip(spans).map(|(value, span)| rescaled(*value, span)).sum::<f64>()
@@ -173,7 +179,7 @@ pub(super) fn sums_of_rescaled(criteria: &[f64], count: usize) -> Vec<f64> {
     criteria.chunks_exact(count).map(sum).collect()
 }
 
-/// The lowest and the highest of each of `count` numbers, one design after the other.
+/// Returns the smallest and the largest of each of `count` numbers per design.
 fn spans(numbers: &[f64], count: usize) -> [Span; MOST_CRITERIA] {
     let mut spans = [(f64::INFINITY, f64::NEG_INFINITY); MOST_CRITERIA];
     for (place, number) in numbers.iter().enumerate() {

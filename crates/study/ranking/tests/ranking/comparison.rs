@@ -1,10 +1,10 @@
-//! Where two runs differ.
+//! Comparison of two runs.
 
 use ranking::{Comparison, compare, write_comparison};
 use results::Results;
 use tempfile::TempDir;
 
-/// The results of a run: a table, and what its record says of the definition.
+/// Writes a table and a record with the definition, and reads them as results.
 fn results(table: &str, definition: Option<&str>) -> Results {
     let folder = TempDir::new().expect("a folder");
     std::fs::write(folder.path().join("designs.csv"), table).expect("writable");
@@ -20,7 +20,7 @@ const FIRST: &str = "design,gap_over_t,length_over_t,slant_deg,coverage,complian
 0003,0.2,1,0,0,4,complete
 0004,0.2,1,45,0.25,,too many points";
 
-/// Another order of axes, another slant, other values.
+/// Other order of axes, one more slant, other values.
 const SECOND: &str = "design,gap_over_t,length_over_t,slant_deg,coverage,compliance,flexure_status
 0001,0.1,1,0,0,1,complete
 0002,0.2,1,0,0,5,complete
@@ -54,7 +54,7 @@ fn designs_are_matched_by_their_parameters() {
 }
 
 #[test]
-fn a_run_does_not_differ_from_itself() {
+fn a_run_equals_itself() {
     let first = results(FIRST, None);
     let comparison = compare(&first, &first, 0.0).expect("comparable");
     assert!(comparison.is_none());
@@ -73,7 +73,7 @@ fn small_differences_may_be_tolerated() {
 }
 
 #[test]
-fn what_all_designs_share_is_compared_too() {
+fn constant_parameters_are_compared() {
     let (first, second) = (
         results(FIRST, Some("name = 'x'")),
         results(FIRST, Some("name = 'y'\nscale.base = '2L'\ncontact.c1 = 2")),
@@ -97,7 +97,7 @@ fn an_axis_of_one_run_may_be_a_constant_of_the_other() {
     let comparison = compare(&wide, &known, 0.0).expect("comparable");
     assert_eq!(comparison.matched(), 1);
     assert_eq!(comparison.unmatched(), [vec!["0001"], vec![]]);
-    // Without a record nobody knows which of the two it is.
+    // Without a record, the value of c2 in the second run is unknown.
     let message = compare(&wide, &results(narrow, None), 0.0).expect_err("ambiguous").to_string();
     let message = message.replace(&wide.folder().display().to_string(), "x");
     insta::assert_snapshot!(message, @"x/designs.csv: designs 0001 and 0002 differ only in something that one of the runs does not record; each table needs its run.toml");

@@ -1,4 +1,4 @@
-//! The promises of rankings and comparisons.
+//! Behaviour of rankings and comparisons.
 
 mod comparison;
 mod ranking;

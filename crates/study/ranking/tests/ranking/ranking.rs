@@ -1,4 +1,4 @@
-//! The best designs of a run.
+//! Rankings of the designs of a run.
 
 use proptest::prelude::*;
 use ranking::{
@@ -13,7 +13,7 @@ use crate::samples::{Criteria, write_results};
 const HEADER: &str =
     "design,gap_over_t,length_over_t,slant_deg,coverage,critical_force,penetration,compliance";
 
-/// The results of a run with these values of the four criteria.
+/// Returns results with these values of the four criteria.
 fn results(rows: &[&str]) -> Results {
     let folder = TempDir::new().expect("a folder");
     let row = |(i, values): (usize, &&str)| format!("\n{:04},0.1,{},45,{values}", i + 1, i + 1);
@@ -49,13 +49,13 @@ fn fitness_is_the_product_of_rescaled_criteria() {
 }
 
 #[test]
-fn equal_designs_stand_in_the_order_of_their_numbers() {
+fn equal_designs_are_ordered_by_number() {
     let results = results(&["0.5,1,1,1", "0.9,3,1,1", "0.7,3,1,1", "0.9,2,1,1"]);
     let ranking = Ranking::new(&results, grid("1")).expect("a ranking");
-    // Equal coverage, no weight on anything else.
+    // Equal coverage, no weight on other criteria.
     assert_eq!(order(&ranking, "1,0,0,0"), "0002 0004 0003 0001");
     assert_eq!(order(&ranking, "0,1,0,0"), "0002 0003 0004 0001");
-    // Penetration and compliance tell nothing apart.
+    // Penetration and compliance are equal for all designs.
     assert_eq!(ranking.ties(), [2, 3]);
     assert_eq!(order(&ranking, "0,0,0.5,0.5"), "0001 0002 0003 0004");
 }
@@ -78,7 +78,7 @@ fn designs_without_coverage_or_without_a_value_are_left_out() {
 }
 
 #[test]
-fn one_design_alone_is_the_best() {
+fn a_single_design_is_the_best() {
     let results = results(&["0.5,1,1,1"]);
     let ranking = Ranking::new(&results, grid("2")).expect("a ranking");
     let best = ranking.winner(Weights::BALANCED);
@@ -90,7 +90,7 @@ fn one_design_alone_is_the_best() {
 }
 
 #[test]
-fn without_a_design_there_is_no_ranking() {
+fn rankings_without_designs_are_refused() {
     let message = |rows: &[&str]| {
         let results = results(rows);
         let message = Ranking::new(&results, grid("2")).expect_err("none").to_string();
@@ -101,7 +101,7 @@ fn without_a_design_there_is_no_ranking() {
 }
 
 #[test]
-fn results_that_are_none_say_why() {
+fn invalid_tables_are_refused_with_a_reason() {
     let folder = TempDir::new().expect("a folder");
     let message = |table: Option<&str>| {
         if let Some(table) = table {
@@ -129,7 +129,7 @@ fn the_tables_of_a_ranking() {
     let headers =
         headers.map(|file| format!("{file}: {}\n", table(file).lines().next().expect("a header")));
     insta::assert_snapshot!(headers.collect::<String>());
-    // Three of four slants have no coverage.
+    // The coverage is 0 for three of the four slants.
     assert_eq!(table("ranking.csv").lines().count(), 1 + 2500);
     assert_eq!(table("quaternary.csv").lines().count(), 1 + 56);
     assert_eq!(table("pareto.csv").lines().count(), 1 + ranking.front().len());
@@ -137,7 +137,7 @@ fn the_tables_of_a_ranking() {
 }
 
 #[test]
-fn whoever_wins_at_some_weights_is_first_in_the_ranking_by_them() {
+fn winners_of_nodes_are_first_in_the_ranking_with_their_weights() {
     let folder = TempDir::new().expect("a folder");
     write_results(folder.path(), 4, Criteria::Conflicting, 0);
     let results = Results::read(folder.path()).expect("results");
@@ -151,7 +151,7 @@ fn whoever_wins_at_some_weights_is_first_in_the_ranking_by_them() {
     }
 }
 
-/// The ranking of `results` by a file of preferences.
+/// Ranks `results` by preferences in TOML.
 fn by<'r>(results: &'r Results, text: &str) -> Result<Ranking<'r>, InvalidRanking> {
     let preferences = Preferences::parse(text, "x.toml").expect("preferences");
     Ranking::by(results, preferences, grid("2"))
@@ -165,16 +165,16 @@ fn only_designs_that_meet_every_requirement_are_ranked() {
     let order = ranking.by_fitness(Weights::BALANCED);
     assert_eq!(order.map(|design| design.design()).collect::<Vec<_>>(), ["0003"]);
     let left_out: Vec<_> = ranking.left_out().iter().map(|(why, n)| format!("{n} {why}")).collect();
-    // A value that does not exist meets nothing.
+    // A missing value meets no requirement.
     assert_eq!(left_out, ["1 not coverage >= 0.6", "2 not critical_force < 4"]);
 }
 
 #[test]
-fn where_no_design_meets_all_the_nearest_one_and_what_stands_in_the_way_are_told() {
+fn unmet_requirements_report_the_nearest_design_and_binding_requirements() {
     let results = results(&["0.5,1,1,1", "0.8,2,1,1", "0.9,1.5,1,1"]);
     let text = "requirements = ['coverage >= 0.9', 'critical_force >= 2']";
     let Err(InvalidRanking::Unmet(unmet)) = by(&results, text) else { panic!("none meets both") };
-    // 0002 lacks a ninth of the coverage, 0003 a quarter of the force.
+    // Shortfalls: 1/9 of the coverage for 0002, 1/4 of the force for 0003.
     assert_eq!(unmet.nearest, Some(1));
     let [coverage, force] = unmet.requirements.as_slice() else { panic!("two") };
     assert!((coverage.shortfall - 1.0 / 9.0).abs() < 1e-12 && force.shortfall == 0.0);
@@ -191,11 +191,12 @@ fn where_no_design_meets_all_the_nearest_one_and_what_stands_in_the_way_are_told
 }
 
 #[test]
-fn columns_of_ones_own_are_criteria() {
+fn any_column_can_be_a_criterion() {
     let results = results(&["0.2,1,0.5,10", "0.6,5,0.25,20", "1,3,0.2,40", "0,9,9,9"]);
     let text = "criteria = ['max:critical_force', 'min:length_over_t']\nweights = [3, 1]";
     let ranking = by(&results, text).expect("a ranking");
-    // The length of a design is its number, and exposed designs count where coverage is no criterion.
+    // The length of a design equals its number. Exposed designs are ranked, because coverage is not
+    // a criterion.
     assert_eq!(ranking.len(), 4);
     let winner = ranking.winner(ranking.preferences().weights);
     // Rescaled: (1 - 1)/8, 1; (5 - 1)/8, (1/2 - 1/4)/(1 - 1/4); ...
@@ -204,12 +205,12 @@ fn columns_of_ones_own_are_criteria() {
     assert!(ranking.winners().is_empty(), "two criteria fill no tetrahedron");
     let front: Vec<_> = ranking.front().iter().map(RankedDesign::design).collect();
     assert_eq!(front, ["0001", "0002", "0004"]);
-    // Over the front: 0 + 1, 0.5 + 1/3, 1 + 0: the ends are as good, the first of them counts.
+    // Sums on the front: 0 + 1, 0.5 + 1/3, 1 + 0. The ends tie, and the first counts.
     assert_eq!(ranking.knee().expect("a knee").design(), "0001");
 }
 
 #[test]
-fn the_knee_bulges_out_of_the_front() {
+fn the_knee_has_the_largest_sum_of_rescaled_criteria() {
     let rows = ["0.1,10,1,1", "0.9,9,1,1", "0.95,5,1,1", "1,1,1,1"];
     let results = results(&rows);
     let ranking = by(&results, "criteria = ['coverage', 'critical_force']").expect("a ranking");
@@ -218,7 +219,7 @@ fn the_knee_bulges_out_of_the_front() {
 }
 
 #[test]
-fn a_weighted_mean_ruins_nobody() {
+fn a_weighted_mean_compensates_the_worst_criterion() {
     let results = results(&["1,1,1,1", "0.9,100,1,10", "0.8,1000,1,100"]);
     let criteria = "criteria = ['coverage', 'critical_force']\nscale = ";
     let fitness = |scale: &str| {
@@ -235,7 +236,7 @@ fn a_weighted_mean_ruins_nobody() {
 }
 
 #[test]
-fn equal_designs_share_their_place_and_round_off_makes_none_better() {
+fn designs_equal_up_to_round_off_share_their_rank() {
     let results =
         results(&["0.5,1,1,0.7999999999", "0.5,1,1,0.8", "0.5,1,1,0.5", "0.5,1,1,0.80000000001"]);
     let ranking = by(&results, "criteria = ['compliance']").expect("a ranking");
@@ -250,7 +251,7 @@ fn equal_designs_share_their_place_and_round_off_makes_none_better() {
 }
 
 #[test]
-fn what_cannot_be_compared_is_refused() {
+fn incomparable_designs_are_refused() {
     let folder = TempDir::new().expect("a folder");
     let table = "design,gap_over_t,critical_tilt_deg,membrane_thickness_over_t,coverage,\
                  critical_force,penetration,compliance,flexural_rigidity_N_mm2\n\
@@ -276,7 +277,7 @@ fn what_cannot_be_compared_is_refused() {
 }
 
 #[test]
-fn what_cannot_be_compared_is_ranked_within_groups() {
+fn incomparable_designs_are_ranked_within_groups() {
     let folder = TempDir::new().expect("a folder");
     let table = "design;critical_tilt_deg;membrane_thickness_over_t;coverage;critical_force;penetration;compliance\n\
                  0001;5;0,1;1;1;1;1\n0002;8;0,1;1;2;1;1\n0003;8;0,2;1;3;1;1\n0004;8;0,1;1;4;1;1";
@@ -292,7 +293,7 @@ fn what_cannot_be_compared_is_ranked_within_groups() {
         ranking.ok().map(|ranking| ranking.winner(Weights::BALANCED).design().to_owned())
     };
     let best: Vec<_> = groups("").into_iter().map(best).collect();
-    // There is no design of a tilt of 5 degrees on a membrane of 0.2 t.
+    // No design has a tilt of 5° and a membrane of 0.2 t.
     assert_eq!(best, [Some("0001".into()), None, Some("0004".into()), Some("0003".into())]);
     assert_eq!(
         groups("criteria = ['coverage']"),
@@ -301,14 +302,14 @@ fn what_cannot_be_compared_is_ranked_within_groups() {
 }
 
 #[test]
-fn what_a_ranking_goes_by_stands_beside_its_tables() {
+fn preferences_are_written_beside_the_tables() {
     let folder = TempDir::new().expect("a folder");
     let results = results(&["0.2,1,0.5,10", "0.6,5,0.25,20"]);
     write_ranking(folder.path(), &by(&results, "").expect("a ranking")).expect("writable");
     let own = "criteria = ['min:critical_force']\nrequirements = ['coverage > 0.1']";
     let ranking = by(&results, own).expect("a ranking");
     let (files, lock) = write_ranking(folder.path(), &ranking).expect("writable");
-    // Whoever notes the files holds them: another ranking would remove them in between.
+    // The lock prevents another ranking from removing the files before they are read.
     let refused = write_ranking(folder.path(), &ranking).expect_err("held").to_string();
     assert!(refused.contains("another squama is writing there"), "{refused}");
     drop(lock);
@@ -335,9 +336,9 @@ proptest! {
     }
 }
 
-/// Fronts and ranks agree on which values are equal: differences at the last digit decide nothing.
+/// Fronts and ranks use the same tolerance, so the last digit does not matter.
 #[test]
-fn round_off_puts_no_design_on_the_front() {
+fn round_off_does_not_put_designs_on_the_front() {
     let folder = tempfile::tempdir().expect("a folder");
     let front = |table: &str, criteria: &[&str]| {
         std::fs::write(folder.path().join("designs.csv"), table).expect("writable");
@@ -348,7 +349,7 @@ fn round_off_puts_no_design_on_the_front() {
         let ranking = ranking.expect("a ranking");
         ranking.front().iter().map(|design| design.design().to_owned()).collect::<Vec<_>>()
     };
-    // Equal coverage but for the last digit, and the third has the largest force.
+    // Equal coverage up to the last digit; the third design has the largest force.
     let table = "design,coverage,critical_force\n0001,0.826794919243112,1\n\
                  0002,0.8267949192431123,2\n0003,0.8267949192431121,3\n";
     assert_eq!(front(table, &["coverage", "critical_force"]), ["0003"]);
