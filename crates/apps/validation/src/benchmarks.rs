@@ -8,25 +8,25 @@ mod skins;
 
 use anyhow::Context as _;
 
-/// A quantity with a known value, and the value that the program finds.
+/// A quantity with a known value, and its value computed by squama.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Benchmark {
-    /// The names of the problem and the quantity.
+    /// The names of problem and quantity.
     pub name: String,
     /// The source of the reference.
     pub source: &'static str,
-    /// The known value.
+    /// The reference value.
     pub reference: f64,
-    /// The value that the program finds.
+    /// The computed value.
     pub ours: f64,
-    /// The largest relative difference that is right: the known error of the reference where that is an approximation itself.
+    /// The accepted relative difference; for an approximate reference its known error.
     pub band: f64,
-    /// The observed order of convergence, where meshes are refined.
+    /// The observed order of convergence, if meshes are refined.
     pub order: Option<f64>,
 }
 
 impl Benchmark {
-    /// Creates a benchmark from the reference and our value, without an order of convergence.
+    /// Creates a benchmark without an order of convergence.
     fn new(
         name: impl Into<String>,
         source: &'static str,
@@ -36,12 +36,12 @@ impl Benchmark {
         Self { name: name.into(), source, reference, ours, band, order: None }
     }
 
-    /// Returns the relative difference.
+    /// Returns the relative difference between computed and reference value.
     pub fn difference(&self) -> f64 {
         self.ours / self.reference - 1.0
     }
 
-    /// Returns whether the difference lies within the band.
+    /// Returns true if the difference lies within the band.
     pub fn holds(&self) -> bool {
         self.difference().abs() <= self.band
     }
@@ -50,7 +50,7 @@ impl Benchmark {
 /// Solves all benchmarks.
 ///
 /// # Errors
-/// If one of them cannot be set up or has no solution.
+/// If a benchmark is invalid or has no solution.
 pub fn benchmarks() -> anyhow::Result<Vec<Benchmark>> {
     let all = [half_space::benchmarks, membranes::benchmarks, paths::benchmarks, skins::benchmarks];
     let solved = all.map(|of| of().context("benchmark")).into_iter();

@@ -3,7 +3,7 @@
 use crate::page::lines;
 use crate::{CheckedClaim, Finding};
 
-/// The claims whose verdict another model changes.
+/// The claims with another verdict in another model than the paper's.
 #[derive(Clone, Debug)]
 pub struct ChangedVerdicts {
     /// The statements with another verdict, as rows of their table.

@@ -22,10 +22,10 @@ pub use verdict::Verdict;
 
 use crate::study::{MeasuredDesign, Study};
 
-/// The claims and their places in the paper, as a table.
+/// The table of claims with their places in the paper.
 const CLAIMS: &str = include_str!("../claims.csv");
 
-/// The statements of the claims, what is measured of them, and their limits, as a table.
+/// The table of statements with the measured quantities and their limits.
 const STATEMENTS: &str = include_str!("../statements.csv");
 
 /// A checkable claim of Shafiei et al. (2021).
@@ -36,11 +36,11 @@ pub struct Claim {
     /// Section or figure.
     #[serde(rename = "where")]
     pub place: String,
-    /// The measure that the claim is about.
+    /// The measure to which the claim refers.
     pub about: String,
     /// The statement of the paper.
     pub claim: String,
-    /// The reason for what comes out, where it is known.
+    /// The reason for the result, if known.
     pub reason: String,
 }
 
@@ -49,26 +49,26 @@ pub struct Claim {
 pub struct CheckedClaim {
     /// The claim.
     pub claim: Claim,
-    /// The statements of the claim.
+    /// Its statements.
     pub statements: Vec<CheckedStatement>,
-    /// The verdicts on the claim, with a base of `L`, and of `2L`.
+    /// The verdicts with a base of `L` and of `2L`.
     pub verdicts: [Verdict; 2],
 }
 
-/// A single statement of a claim, checked against the two studies.
+/// A statement of a claim, checked against the two studies.
 #[derive(Clone, Debug)]
 pub struct CheckedStatement {
-    /// The statement in words; empty if the claim says just that.
+    /// The statement in words; empty if it is the claim itself.
     pub says: String,
     /// The measured quantity.
     pub measured: String,
-    /// The limits that it must keep to be reproduced, and to be reproduced in part.
+    /// The limits for reproduction in full and in part.
     pub limits: String,
-    /// The findings with a base of `L`, and of `2L`.
+    /// The findings with a base of `L` and of `2L`.
     pub found: [Finding; 2],
 }
 
-/// Returns the claims as the paper has them.
+/// Returns the claims of the paper.
 ///
 /// # Errors
 /// If the table of claims cannot be read.
@@ -80,7 +80,7 @@ pub fn claims() -> Result<Vec<Claim>, csv::Error> {
 fn statements() -> anyhow::Result<Vec<(Claim, Vec<Statement>)>> {
     let mut table = csv::Reader::from_reader(STATEMENTS.as_bytes());
     let all: Vec<Statement> = table.deserialize().collect::<Result<_, _>>()?;
-    // C18a and C18b belong to C18: numbers have two digits, so no number begins another.
+    // C18a and C18b belong to C18: numbers have two digits, so no number is the prefix of another.
     let of = |claim: &Claim| all.iter().filter(|s| s.id.starts_with(&claim.id)).cloned().collect();
     let with = |claim: Claim| {
         let statements = of(&claim);
@@ -89,7 +89,7 @@ fn statements() -> anyhow::Result<Vec<(Claim, Vec<Statement>)>> {
     Ok(claims()?.into_iter().map(with).collect())
 }
 
-/// Returns the numbers of the claims with the verdicts on a study.
+/// Returns the numbers of all claims with their verdicts in a study.
 ///
 /// # Errors
 /// If the tables of claims cannot be read.
@@ -106,7 +106,7 @@ fn verdict(statements: &[Statement], evidence: &Evidence) -> anyhow::Result<Verd
     Ok(Verdict::of_all(&verdicts.collect::<anyhow::Result<Vec<_>>>()?))
 }
 
-/// Checks every claim against two studies: with the base `L`, and with `2L`.
+/// Checks every claim against two studies, with the base `L` and with `2L`.
 pub(crate) fn check(studies: [&Study; 2]) -> anyhow::Result<Vec<CheckedClaim>> {
     judge(&studies.map(gather::gather))
 }
@@ -134,7 +134,7 @@ fn judge_claim(
     Ok(CheckedClaim { claim, statements, verdicts })
 }
 
-/// Writes a number with four significant digits.
+/// Formats a number with four significant digits.
 pub(crate) fn digits(number: f64) -> String {
     let size = number.abs();
     if size == 0.0 {
@@ -147,7 +147,7 @@ pub(crate) fn digits(number: f64) -> String {
     }
 }
 
-/// Writes the parameters of a design.
+/// Formats the parameters of a design.
 pub(crate) fn named(design: &MeasuredDesign) -> String {
     format!("({}, {}, {}°)", design.gap, design.length, design.slant)
 }

@@ -15,13 +15,15 @@ use crate::claims::{digits, named};
 use crate::page::lines;
 use crate::study::{MeasuredDesign, Study};
 
-/// The parameter box of the grid, with the settings of all searches. Designs with a fold are left out.
+/// The parameter ranges of the grid and the settings of all searches.
+///
+/// Designs with a fold are left out.
 const BOX: &str = "name = \"between\"\nmeasures = [\"coverage\", \"puncture\", \"flexure\"]\n\
     [variables]\ngap_over_t = { from = 0.1, to = 1 }\nlength_over_t = { from = 0.025, to = 1 }\nslant_deg = { from = 0, to = 75 }\n\
     [goal]\nsamples = 256\n";
 
-/// The front that is compared with the grid, and the requirement of its goal.
-// Four points are enough to reach every design of the grid.
+/// The objectives of the front that is compared with the grid, and their requirement.
+// Four points suffice to equal or dominate every design of the grid.
 const FRONT: &str = "maximize = [\"critical_force\", \"coverage\"]\nrequire = [\"compliance >= 0.2\"]\npoints = 4\n";
 const LEAST_COMPLIANCE: f64 = 0.2;
 
@@ -37,7 +39,7 @@ pub struct GridGapSearch {
     pub front: FrontOverGrid,
 }
 
-/// The fittest design by some weights, on the grid and between its points.
+/// The fittest design for some weights, on the grid and between its points.
 #[derive(Clone, Debug)]
 pub struct FittestDesign {
     /// The weights in words.
@@ -48,25 +50,25 @@ pub struct FittestDesign {
     pub grid_fitness: f64,
     /// The design found by the search.
     pub found: String,
-    /// Its fitness, in which the best of the grid is 1 in every criterion.
+    /// Its fitness, on the scale where the best grid value of each criterion is 1.
     pub found_fitness: f64,
 }
 
-/// A front over the designs of the grid.
+/// A front compared with the designs of the grid.
 #[derive(Clone, Debug)]
 pub struct FrontOverGrid {
     /// The number of its designs.
     pub designs: usize,
     /// The number of grid designs without a fold and with sufficient compliance.
     pub grid: usize,
-    /// The number of these that are not dominated by another grid design.
+    /// The number of these that no other grid design dominates.
     pub grid_front: usize,
     /// The number of grid designs that no design of the front equals or dominates.
     pub undominated: usize,
 }
 
 impl GridGapSearch {
-    /// Searches in the box of the grid of `study`.
+    /// Searches within the parameter ranges of the grid of `study`.
     ///
     /// # Errors
     /// If the grid cannot be ranked or the temporary folder cannot be written.
@@ -138,7 +140,7 @@ impl FrontOverGrid {
     }
 }
 
-/// The values of the objectives of a design.
+/// Returns the values of the objectives of a design.
 fn objectives(best: &BestDesign) -> Option<&[f64]> {
     match &best.candidate.verdict {
         Judgement::Judged(worth) => Some(&worth.objectives),
@@ -146,9 +148,9 @@ fn objectives(best: &BestDesign) -> Option<&[f64]> {
     }
 }
 
-/// Returns true if one is at least as good as the other in both objectives, up to round-off.
+/// Returns true if `one` is at least as good as `other` in both objectives, up to round-off.
 fn at_least(one: &[f64], other: &[f64]) -> bool {
-    // Equal designs of the grid and of a search differ by the round-off of their paths.
+    // Equal designs of grid and search differ by the round-off of their paths.
     one.iter().zip(other).all(|(a, b)| *a >= b * (1.0 - 1e-9))
 }
 
@@ -156,10 +158,10 @@ fn is_sound(design: &MeasuredDesign) -> bool {
     design.fold_force.is_none() && design.gap_stretch_min.is_none_or(|least| least > 0.0)
 }
 
-/// Formats the worst and best value of every criterion of a ranking for a goal.
+/// Formats the worst and best value of each criterion in a ranking as a key of a goal.
 fn ends(ranking: &Ranking<'_>) -> String {
     let designs: Vec<_> = ranking.by_fitness(Weights::BALANCED).collect();
-    // Values, not criteria, because the goal inverts the penetration itself.
+    // Values instead of criteria, because the goal itself inverts the penetration.
     let ends = CRITERIA.iter().enumerate().map(|(c, criterion)| {
         let better = |a: &&RankedDesign<'_>, b: &&RankedDesign<'_>| {
             a.criterion(c).total_cmp(&b.criterion(c))
@@ -183,7 +185,7 @@ fn fittest(
     let weighted = CRITERIA.iter().zip(weights.values());
     let weighted: Vec<_> =
         weighted.map(|(c, weight)| format!("{} = {}", c.column, number::text(*weight))).collect();
-    // The ranking of the grid leaves out designs without coverage, so the search requires it.
+    // Require coverage, because the ranking of the grid leaves out designs without it.
     let found = search(&format!(
         "{BOX}maximize = \"fitness\"\nrequire = \"coverage > 0\"\nweights = {{ {} }}\nrescale = {ends}\n",
         weighted.join(", ")
@@ -208,7 +210,7 @@ fn search(goal: &str) -> anyhow::Result<Found> {
     let threads = available_parallelism().map_or(1, usize::from);
     let meter = SearchProgress::default();
     let options = SearchOptions { threads, start: Start::New, stop: &stop, progress: &meter };
-    // No revision, because the folder is temporary.
+    // The revision is omitted because the folder is temporary.
     let program = Program { version: env!("CARGO_PKG_VERSION"), revision: "" };
     let found = optimisation::optimise(&goal, folder.path(), &options, &program)?;
     found.context(NO_OPTIMUM)

@@ -1,13 +1,14 @@
-//! The validation of squama: benchmarks with known answers, the claims of the paper, and the sensitivity to open choices.
+//! The validation of squama: benchmarks with known answers, the claims of the paper, and the
+//! sensitivity to open choices.
 //!
-//! A benchmark holds if the number of the program differs from the reference by no more than its band,
+//! A benchmark holds if the relative difference from its reference lies within its band:
 //!
 //! ```text
 //! |ours/reference − 1| ≤ band
 //! ```
 //!
-//! where the band is the error of the reference if that is an approximation. A claim of Shafiei et al. (2021,
-//! doi 10.1016/j.jmps.2020.104176) is reproduced, reproduced in part, or not; nothing is tuned.
+//! For an approximate reference the band is its known error. A claim of Shafiei et al. (2021, doi
+//! 10.1016/j.jmps.2020.104176) is reproduced, reproduced in part, or not; no parameter is tuned.
 //!
 //! | Item | Role |
 //! |---|---|
@@ -51,8 +52,7 @@ pub use strip_lengths::StripLength;
 use study::Study;
 pub use surface_folds::SurfaceFolds;
 
-/// The sweeps on which claims are checked: the paper's 720 designs with either meaning of the length.
-// The text of the paper says 2L, and the coverage and first contacts that it prints follow from L.
+/// The sweeps for the claims: the paper's 720 designs with both meanings of the length.
 const BASES: [(&str, &str); 2] = [
     ("base L", "name = \"paper\""),
     ("base 2L", "name = \"paper-as-written\"\nscale.base = \"2L\""),
@@ -63,7 +63,7 @@ const MODELS: [(&str, &str); 3] = [
     ("paper sweep", ""),
     ("neo-Hookean substrate", "substrate.law = \"neo-hookean\""),
     (
-        // The needle that docs/needle.md advises.
+        // The needle recommended in docs/needle.md.
         "guided needle",
         "puncture.needle = \"guided\"\npuncture.needle_friction = 0.3\npuncture.load_inset_over_t = 0.05",
     ),
@@ -78,21 +78,23 @@ pub struct Validation {
     pub claims: Vec<CheckedClaim>,
     /// Folds of the surface, and the claims on a substrate that cannot fold.
     pub soundness: SurfaceFolds,
-    /// The claims under a needle that is guided.
+    /// The claims under a guided needle.
     pub needle: ChangedVerdicts,
     /// The claims with friction between scales.
     pub friction: ChangedVerdicts,
     /// The best designs between the grid points, if searched.
     pub between: Option<GridGapSearch>,
-    /// The claims on the most compliant designs, for strips with the same number of gaps in every design.
+    /// The claims on the most compliant designs, for strips with equal numbers of gaps.
     pub gap_counts: Vec<StripLength>,
     /// The main results for each value of each open choice.
     pub sensitivity: Vec<Sensitivity>,
-    /// The effects on the measures of the paper's simplified coupling through the substrate, and of friction between scales.
+    /// The effects of full substrate coupling and of friction between scales.
     pub effects: ChoiceEffects,
 }
 
-/// Solves the sweeps of the claims with one of the models; `begin` is called with the name of each.
+/// Solves the sweeps of the claims with one of the models.
+///
+/// `begin` is called with the name of each sweep before it is solved.
 fn studies(
     (model, choice): (&str, &str),
     mut begin: impl FnMut(&str),
@@ -104,12 +106,12 @@ fn studies(
     Ok([paper?, as_written?])
 }
 
-/// The part of a validation that begins now.
+/// Progress of a validation, reported at the start of a part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PartProgress<'a> {
-    /// The number of parts that are done.
+    /// The number of completed parts.
     pub done: usize,
-    /// The number of all parts.
+    /// The total number of parts.
     pub parts: usize,
     /// The name of the part that begins.
     pub part: &'a str,
@@ -124,7 +126,8 @@ impl Validation {
     /// If a benchmark has no result or the temporary folder cannot be written.
     pub fn run(searches: bool, mut progress: impl FnMut(PartProgress<'_>)) -> anyhow::Result<Self> {
         let settings = sensitivity::settings()?;
-        // Benchmarks, claims, strips of equal gaps, searches, and a part for each sweep and for each setting.
+        // Benchmarks, claims, strips of equal gaps, searches, and one part per sweep and per
+        // setting.
         let sweeps = MODELS.len() * BASES.len();
         let parts = 3 + usize::from(searches) + sweeps + settings.len();
         let mut done = 0;
@@ -151,7 +154,7 @@ impl Validation {
         let gap_counts = StripLength::all()?;
         let (sensitivity, effects, rubbing) = sensitivity::sensitivity(settings, &paper, begin)?;
         let rubbing: Vec<_> = rubbing.iter().map(Vec::as_slice).collect();
-        // The sweep over friction has the base L alone.
+        // The sweep over friction has only the base L.
         let friction = ChangedVerdicts::compare(&claims, &rubbing, 1);
         Ok(Self {
             benchmarks,
@@ -166,7 +169,7 @@ impl Validation {
         })
     }
 
-    /// Returns whether every benchmark lies within its band.
+    /// Returns true if every benchmark lies within its band.
     pub fn holds(&self) -> bool {
         self.benchmarks.iter().all(Benchmark::holds)
     }

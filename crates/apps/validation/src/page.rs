@@ -7,14 +7,14 @@ use crate::{
     Sensitivity, StripLength, Validation, Verdict,
 };
 
-/// The page, with a name in braces for every table and number.
+/// The template of the page, with a placeholder in braces for every table and number.
 const PAGE: &str = include_str!("page.md");
 
-/// The heading of the only part that may be left out, the last.
+/// The heading of the last section, the only optional one.
 const BETWEEN: &str = "\n## Between the grid points";
 
 impl Validation {
-    /// Returns the page: all tables in Markdown.
+    /// Returns the page in Markdown.
     pub fn page(&self) -> String {
         let mut parts = vec![
             ("benchmarks", lines(&self.benchmarks, Benchmark::row)),
@@ -34,7 +34,7 @@ impl Validation {
         let mut page = PAGE.to_owned();
         match &self.between {
             Some(between) => parts.extend(between.parts()),
-            // Removes the section, or its placeholders would stay.
+            // Remove the section, which would otherwise show its placeholders.
             None => page.truncate(PAGE.find(BETWEEN).unwrap_or(PAGE.len())),
         }
         for (name, text) in parts {
@@ -43,7 +43,7 @@ impl Validation {
         page
     }
 
-    /// Counts the claims by verdict, for one of the two bases.
+    /// Counts the claims by verdict for one of the two bases.
     fn counts(&self, base: usize) -> String {
         let count = |verdict| self.claims.iter().filter(|c| c.verdicts[base] == verdict).count();
         let [yes, part, no] =
@@ -52,7 +52,7 @@ impl Validation {
     }
 }
 
-/// A line for each item.
+/// Joins one line per item.
 pub(crate) fn lines<T>(items: &[T], line: impl Fn(&T) -> String) -> String {
     items.iter().map(|item| line(item) + "\n").collect()
 }
@@ -61,7 +61,7 @@ impl ChoiceEffect {
     /// Returns the row of the table in Markdown.
     pub fn row(&self) -> String {
         let [low, median, high] = self.changes.map(|change| match 100.0 * change {
-            // Below the displayed digits the sign is round-off, and a test compares the page.
+            // Values below the displayed digits may have either sign, and a test compares the page.
             percent if percent.abs() < 0.05 => "0 %".to_owned(),
             percent => format!("{percent:+.1} %"),
         });
@@ -90,7 +90,7 @@ impl Benchmark {
     /// Returns the row of the table in Markdown.
     pub fn row(&self) -> String {
         let order = self.order.map_or_else(String::new, |order| format!("{order:.2}"));
-        // Differences at the level of round-off are not the same on every machine.
+        // Differences at the level of round-off vary between machines.
         let difference = match self.difference() {
             off if off.abs() < 1e-9 => "< 1e-9".to_owned(),
             off => format!("{off:+.1e}"),
@@ -103,10 +103,11 @@ impl Benchmark {
 }
 
 impl CheckedClaim {
-    /// Returns the rows of the table in Markdown: one for the claim, and one for each statement if there are several.
+    /// Returns the rows of the table in Markdown: the claim, and its statements if there are
+    /// several.
     pub(crate) fn rows(&self) -> String {
         let Claim { id, place, claim, reason, .. } = &self.claim;
-        // A claim of one statement says it all itself: a second row would repeat the first.
+        // The only statement of a claim would repeat the claim.
         if let [only] = self.statements.as_slice() {
             return format!("| {id} | {place} | {claim} | {} | {reason} |\n", only.cells());
         }
@@ -120,8 +121,10 @@ impl CheckedClaim {
         rows
     }
 
-    /// Returns the rows of the statements, beside what the `others` find, with the base `L` and, if there are two `bases`, with `2L`:
-    /// of those of which the findings with a base are to be `shown`.
+    /// Returns rows that compare the statements with the findings of `others`.
+    ///
+    /// The columns are the findings with the base `L`, and with `2L` if there are two `bases`. Only
+    /// rows with a finding for which `shown` returns true are included.
     pub(crate) fn rows_beside(
         &self,
         others: &[&Self],
@@ -150,7 +153,7 @@ impl CheckedStatement {
     }
 }
 
-/// A verdict, bold if the claim is reproduced.
+/// Formats a verdict, in bold if the claim is reproduced.
 pub(crate) fn marked(verdict: Verdict) -> String {
     match verdict {
         Verdict::Reproduced => format!("**{verdict}**"),

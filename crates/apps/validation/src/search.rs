@@ -1,4 +1,4 @@
-//! A search for the settings of the open choices that reproduce most claims at once.
+//! A search for the combination of open choices that reproduces most claims.
 
 use std::fmt::Write as _;
 
@@ -8,7 +8,7 @@ use sweep::Sweep;
 use crate::study::Study;
 use crate::{Headlines, PartProgress, Verdict, claims};
 
-/// A setting with the claims that it reproduces.
+/// A setting with its verdicts.
 #[derive(Clone, Debug)]
 pub struct ScoredSetting {
     /// The setting, as `key = value`.
@@ -22,19 +22,21 @@ pub struct ScoredSetting {
 /// Sweeps over combinations of open choices, on the designs of the paper.
 #[derive(Clone, Debug)]
 pub struct SettingSearch {
-    /// Every setting, the one that reproduces most first.
+    /// All settings, those that reproduce most claims first.
     pub settings: Vec<ScoredSetting>,
 }
 
 impl ScoredSetting {
-    /// Returns the claims with a verdict.
+    /// Returns the numbers of the claims with this verdict.
     fn with(&self, wanted: Verdict) -> impl Iterator<Item = &str> {
         self.verdicts.iter().filter(move |(_, found)| *found == wanted).map(|(id, _)| id.as_str())
     }
 }
 
 impl SettingSearch {
-    /// Solves the sweeps and checks every claim on each setting; `progress` is called when a sweep begins.
+    /// Solves the sweeps and checks every claim for each setting.
+    ///
+    /// `progress` is called at the start of each sweep.
     ///
     /// # Errors
     /// If the temporary folder cannot be written.
@@ -53,7 +55,7 @@ impl SettingSearch {
             let scored = study.settings().into_par_iter().map(score);
             settings.extend(scored.collect::<anyhow::Result<Vec<_>>>()?);
         }
-        // Stable: of equal ones the first in the sweep comes first.
+        // A stable sort keeps equal settings in the order of the sweep.
         settings.sort_by_key(|s| {
             std::cmp::Reverse([Verdict::Reproduced, Verdict::InPart].map(|v| s.with(v).count()))
         });
@@ -70,7 +72,7 @@ impl SettingSearch {
             let ScoredSetting { setting, headlines, .. } = scored;
             let [reproduced, in_part] =
                 [Verdict::Reproduced, Verdict::InPart].map(|verdict| scored.with(verdict).count());
-            // By their numbers: a claim that no setting reproduces stands in every row.
+            // List numbers only, because claims that no setting reproduces appear in every row.
             let missing: Vec<_> = scored.with(Verdict::NotReproduced).collect();
             let _ = writeln!(
                 text,

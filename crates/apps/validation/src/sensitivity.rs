@@ -7,7 +7,7 @@ use sweep::{Axis, Setting, Sweep};
 use crate::claims::{self, CheckedClaim, DesignValue, digits, named};
 use crate::study::{Study, is_geometry};
 
-/// Sweeps over one open choice each: the files of `sweeps/sensitivity/`.
+/// Sweeps over one open choice each, from `sweeps/sensitivity/`.
 const SWEEPS: [(&str, &str); 11] = [
     ("base", include_str!("../../../../sweeps/sensitivity/base.toml")),
     ("width", include_str!("../../../../sweeps/sensitivity/width.toml")),
@@ -28,8 +28,9 @@ const SWEEPS: [(&str, &str); 11] = [
     ("end-rotation", include_str!("../../../../sweeps/sensitivity/end-rotation.toml")),
 ];
 
-/// The sweeps over the coupling of the substrate, and over the friction between scales.
+/// The sweep over the substrate coupling, compared design by design.
 const COUPLING: &str = "coupling";
+/// The sweep over the friction between scales, compared design by design.
 const FRICTION: &str = "friction";
 
 /// The main results with one setting of an open choice.
@@ -43,40 +44,41 @@ pub struct Sensitivity {
     pub headlines: Headlines,
 }
 
-/// The results that a reader remembers, as text.
+/// The main results of a study, as text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Headlines {
     /// `F_c*` at the paper's best design.
     pub force: String,
     /// The best design with equal weights.
     pub balanced: String,
-    /// The best designs by coverage, critical force, penetration resistance and compliance alone.
+    /// The best designs by each single criterion: coverage, critical force, penetration resistance,
+    /// compliance.
     pub corners: [String; 4],
 }
 
-/// The change of a measure, design by design, from the first setting of an open choice to another.
+/// The change of a measure from the first setting of a choice to another, over all designs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChoiceEffect {
     /// The other setting, as `key = value`.
     pub setting: String,
     /// The measure.
     pub measure: &'static str,
-    /// The number of designs that have the measure with either setting.
+    /// The number of designs with the measure in both settings.
     pub designs: usize,
-    /// The number of designs that lack the measure with the other setting alone.
+    /// The number of designs without the measure in the other setting only.
     pub lost: usize,
-    /// The smallest, the median and the largest relative change.
+    /// The smallest, median and largest relative change.
     pub changes: [f64; 3],
-    /// How well the ranks of the designs by the measure agree (Spearman).
+    /// Rank correlation (Spearman) of the designs between both settings.
     pub ranks: Option<f64>,
 }
 
 /// The effects of the choices that are compared design by design.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ChoiceEffects {
-    /// Of the whole substrate coupled.
+    /// Effects of full substrate coupling.
     pub coupling: Vec<ChoiceEffect>,
-    /// Of scales that rub.
+    /// Effects of friction between scales.
     pub friction: Vec<ChoiceEffect>,
 }
 
@@ -87,10 +89,10 @@ pub(crate) struct OpenSetting {
     definition: Sweep,
 }
 
-/// Returns every setting of every sweep, as a sweep of its own over the geometry.
+/// Returns every setting of every sweep as a separate sweep over the geometry.
 ///
 /// # Errors
-/// If a definition is not valid.
+/// If a definition is invalid.
 pub(crate) fn settings() -> anyhow::Result<Vec<OpenSetting>> {
     let mut all = Vec::new();
     for (name, text) in SWEEPS {
@@ -111,10 +113,10 @@ pub(crate) fn settings() -> anyhow::Result<Vec<OpenSetting>> {
     Ok(all)
 }
 
-/// The value of each open parameter, by its key.
+/// The values of the open parameters, by key.
 type OpenValues = Vec<(&'static str, sweep::Scalar)>;
 
-/// Returns every combination of the values of the axes, the last axis fastest.
+/// Returns all combinations of the axis values; the last axis varies fastest.
 fn combinations(axes: &[&Axis]) -> Vec<OpenValues> {
     axes.iter().fold(vec![Vec::new()], |known, axis| {
         let longer = known.iter().flat_map(|values: &OpenValues| {
@@ -128,13 +130,14 @@ fn combinations(axes: &[&Axis]) -> Vec<OpenValues> {
     })
 }
 
-/// The claims with each friction between scales.
+/// The checked claims for each coefficient of friction between scales.
 type ClaimsByFriction = Vec<Vec<CheckedClaim>>;
 
-/// Compares the main results of all settings, and the measures of the choices that are compared design by design, and checks the claims
-/// with each friction between scales.
+/// Compares the main results for all settings of the open choices.
 ///
-/// Settings that are part of the studies `known` are not solved again. `begin` is called with the name of each setting.
+/// For substrate coupling and friction it also compares the measures design by design; for each
+/// friction it checks the claims. Settings contained in the `known` studies are not solved again.
+/// `begin` is called with the name of each setting.
 ///
 /// # Errors
 /// If the temporary folder cannot be written.
@@ -146,7 +149,7 @@ pub(crate) fn sensitivity(
     let (mut all, mut couplings, mut frictions) = (Vec::new(), Vec::new(), Vec::new());
     for OpenSetting { sweep, label, definition } in settings {
         begin(&label);
-        // The default setting is a part of the sweeps of the paper, and need not be solved again.
+        // The default setting is part of the paper sweeps, so it is not solved again.
         let part = known.iter().find_map(|study| study.part(&definition));
         let study = part.map_or_else(|| Study::run(definition), Ok)?;
         let setting = label.clone();
@@ -157,7 +160,7 @@ pub(crate) fn sensitivity(
             _ => {}
         }
     }
-    // The first has none, and the claims of the paper.
+    // The first setting has no friction and therefore the claims of the paper.
     let rubbing = frictions.iter().skip(1).map(|(_, study)| claims::check([study; 2]));
     let rubbing = rubbing.collect::<Result<_, _>>()?;
     let [coupling, friction] = [couplings, frictions].map(|studies| {
@@ -170,20 +173,20 @@ pub(crate) fn sensitivity(
 impl ChoiceEffect {
     fn of(first: &Study, (setting, other): &(String, Study)) -> Vec<Self> {
         let measures: [(&str, DesignValue); 4] = [
-            // From a coverage of 0 there is no relative change.
+            // A coverage of 0 has no relative change.
             (name::COVERAGE, |design| design.coverage.filter(|coverage| *coverage > 0.0)),
             ("critical force", |design| design.critical_force),
             (name::PENETRATION, |design| design.penetration),
             (name::COMPLIANCE, |design| design.compliance),
         ];
         let effect = |(measure, value): (&'static str, DesignValue)| {
-            // All settings of a sweep have the same geometries in the same order.
+            // All settings of a sweep have the same designs in the same order.
             let pairs = first.designs.iter().zip(&other.designs);
             let pairs: Vec<_> = pairs.map(|(a, b)| (value(a), value(b))).collect();
             let change = |pair: &(Option<f64>, Option<f64>)| Some(pair.1? / pair.0? - 1.0);
             let mut changes: Vec<f64> = pairs.iter().filter_map(change).collect();
             changes.sort_by(f64::total_cmp);
-            // Not those that only the other has: the page tells what a choice makes fail.
+            // Count only the losses, because the page reports failures caused by a choice.
             let lost = pairs.iter().filter(|(a, b)| a.is_some() && b.is_none()).count();
             let designs = changes.len();
             let at = |place: usize| changes.get(place).copied().unwrap_or(f64::NAN);
@@ -202,7 +205,7 @@ impl Headlines {
         let nothing = || "none".to_owned();
         let best = study.design(0.1, 0.1, 75.0);
         let force = best.and_then(|design| design.critical_force).map_or_else(nothing, digits);
-        // Where nothing can be ranked the row says so: a setting that fails is a result, too.
+        // A study without a ranking has a row that says so, because that is a result, too.
         let ranking = Ranking::new(&study.results, TetrahedralGrid::default()).ok();
         let winner = |weights| {
             let winner = ranking.as_ref().map(|ranking| ranking.winner(weights).row());

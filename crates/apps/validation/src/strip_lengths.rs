@@ -1,4 +1,4 @@
-//! The verdicts on the most compliant designs, for strips with the same number of gaps in every design.
+//! Verdicts on the most compliant designs, for strips with equal numbers of gaps.
 
 use sweep::Sweep;
 
@@ -6,20 +6,19 @@ use crate::claims;
 use crate::page::marked;
 use crate::study::Study;
 
-/// Strips of 40 to 45 gaps in every design, of either base. Punctures do not depend on them.
-// With 41 to 44 gaps the claims are reproduced; 40 and 45 are the first counts where they are not.
+/// Strips of 40 to 45 gaps in every design, for both bases. Punctures do not depend on them.
 const STRIPS: &str = "name = \"gaps\"\nmeasures = [\"coverage\", \"flexure\"]\n\
                       designs.gaps = [40, 41, 42, 43, 44, 45]\ndesigns.base = [\"L\", \"2L\"]";
 
-/// The claims that name the most compliant designs.
+/// The claims about the most compliant designs.
 const CLAIMS: [&str; 3] = ["C22", "C23", "C26"];
 
-/// Verdicts on the most compliant designs, for strips with one number of gaps.
+/// Verdicts on the most compliant designs for one number of gaps.
 #[derive(Clone, Debug)]
 pub struct StripLength {
     /// The setting, as `key = value`.
     pub setting: String,
-    /// Whether each claim is reproduced, or in part.
+    /// The verdict on each claim.
     pub verdicts: [String; CLAIMS.len()],
 }
 

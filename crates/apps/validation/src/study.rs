@@ -10,15 +10,15 @@ use results::{InvalidResults, Results};
 use run::{Options, Program, Start, WorkMeter};
 use sweep::{Axis, Case, Parameter, Subset, Sweep};
 
-/// Keys of the parameters of the geometry, over which every study varies.
+/// Keys of the geometry, which every study varies.
 const GEOMETRY: [&str; 3] = ["gap_over_t", "length_over_t", "slant_deg"];
 
-/// Returns whether a parameter is one of the geometry, and not an open choice.
+/// Returns true for parameters of the geometry, which are not open choices.
 pub(crate) fn is_geometry(parameter: &Parameter) -> bool {
     GEOMETRY.contains(&parameter.key)
 }
 
-/// The parameters and measures of a design; `None` where a value does not exist.
+/// The parameters and measures of a design; `None` for a missing value.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct MeasuredDesign {
     pub(crate) gap: f64,
@@ -45,9 +45,9 @@ impl MeasuredDesign {
         self.length >= 0.1
     }
 
-    /// Returns true if the design covers the substrate; section 5 leaves out the others.
+    /// Returns true if the design covers the substrate, as section 5 of the paper requires.
     pub(crate) fn is_covered(&self) -> bool {
-        // `None` is less than any value: a design without a coverage is left out, too.
+        // `None` is less than any value, so designs without a coverage are left out, too.
         self.coverage > Some(0.0)
     }
 }
@@ -55,7 +55,7 @@ impl MeasuredDesign {
 /// A sweep with its results, or a part of it.
 pub(crate) struct Study {
     sweep: Sweep,
-    /// The first design: its parameters besides the geometry are those of all.
+    /// The first design. All designs share its parameters, except the geometry.
     pub(crate) base: Case,
     pub(crate) results: Results,
     pub(crate) designs: Vec<MeasuredDesign>,
@@ -68,7 +68,7 @@ impl Study {
     /// If the temporary folder cannot be written.
     pub(crate) fn run(sweep: Sweep) -> anyhow::Result<Self> {
         let folder = tempfile::tempdir().context("no temporary folder")?;
-        // No revision, because the folder is temporary.
+        // The revision is omitted because the folder is temporary.
         let program = Program { version: env!("CARGO_PKG_VERSION"), revision: "" };
         let options = Options {
             threads: available_parallelism().map_or(1, usize::from),
@@ -85,9 +85,9 @@ impl Study {
         Ok(Self { base: sweep.grid().case(0), sweep, results, designs })
     }
 
-    /// Splits the study by setting: by the values of all axes except the geometry.
+    /// Splits the study by the values of all axes except the geometry.
     pub(crate) fn settings(&self) -> Vec<(String, Self)> {
-        // A list and not a map, so that settings keep the order of the sweep.
+        // A list instead of a map keeps the order of the sweep.
         let mut settings = Vec::<(String, Vec<usize>)>::new();
         for row in 0..self.results.len() {
             let setting = self.setting(row);
@@ -109,7 +109,7 @@ impl Study {
     }
 
     fn only(&self, rows: &[usize]) -> Self {
-        // All of these rows share their parameters, except the geometry.
+        // These rows differ only in geometry, so the first represents all of them.
         let first = rows.first().map_or(0, |&row| row as u64);
         Self {
             sweep: self.sweep.clone(),
@@ -119,10 +119,10 @@ impl Study {
         }
     }
 
-    /// Returns the designs of `sweep` as a study, if this study contains them all.
+    /// Returns the study of `sweep` if this study contains all its designs.
     pub(crate) fn part(&self, sweep: &Sweep) -> Option<Self> {
         let (ours, wanted) = (self.sweep.grid(), sweep.grid());
-        // The index in the grid is the row: a study solves all of its designs.
+        // The row equals the index in the grid, because a study solves all designs.
         let row = |index| {
             let case = wanted.case(index);
             let row = ours.find(&case)?;

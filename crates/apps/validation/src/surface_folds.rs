@@ -4,10 +4,10 @@ use crate::claims::{CheckedClaim, DesignValue, digits, named};
 use crate::page::lines;
 use crate::study::{MeasuredDesign, Study};
 
-/// Claims about the strongest and steepest designs.
+/// The claims about the strongest and most slanted designs.
 const CONCERNED: [&str; 6] = ["C12", "C13", "C15", "C18", "C27", "C28"];
 
-/// Designs with the largest critical force of which the folded ones are counted.
+/// Number of strongest designs among which folded ones are counted.
 const STRONGEST: usize = 60;
 
 /// The folds of both laws of the substrate, and the claims that they concern.
@@ -15,14 +15,15 @@ const STRONGEST: usize = 60;
 pub struct SurfaceFolds {
     /// Rows of the page: quantity, then linear and neo-Hookean for a base of `L` and of `2L`.
     rows: Vec<[String; 5]>,
-    /// The statements of the claims about strong and steep designs, as rows of their table.
+    /// Rows for the statements of the claims in [`CONCERNED`].
     claims: Vec<String>,
-    /// Other claims whose verdict the law changes.
+    /// Rows for other claims that change their verdict with the law.
     turned: Vec<String>,
 }
 
 impl SurfaceFolds {
-    /// Compares studies on a linear and a neo-Hookean substrate, each with a base of `L` and of `2L`.
+    /// Compares studies on a linear and a neo-Hookean substrate, each with a base of `L` and of
+    /// `2L`.
     ///
     /// `claims` are the checked claims on either substrate.
     pub(crate) fn compare(
@@ -92,7 +93,7 @@ fn rows(linear: &[Study; 2], neo_hookean: &[Study; 2]) -> Vec<[String; 5]> {
         let what = format!(
             "`F_c*` against linear springs, of designs {what} there: smallest, median, largest"
         );
-        // The columns of linear springs stay empty, because they are the reference.
+        // The columns of linear springs stay empty, because linear springs are the reference.
         rows.push([what, String::new(), paper, String::new(), as_written]);
     }
     rows
@@ -105,38 +106,39 @@ fn folds(design: &MeasuredDesign) -> bool {
 /// Returns the designs with the largest critical force.
 fn strongest(study: &Study) -> Vec<&MeasuredDesign> {
     let mut designs: Vec<_> = study.designs.iter().collect();
-    // A design without a critical force comes last, and is none of the strongest.
+    // Designs without a critical force sort last.
     let force = |design: &MeasuredDesign| design.critical_force.unwrap_or(f64::NEG_INFINITY);
     designs.sort_by(|a, b| force(b).total_cmp(&force(a)));
     designs.truncate(STRONGEST);
     designs
 }
 
-/// Formats the largest value of all designs, with the design that has it.
+/// Formats the largest value with its design.
 fn largest(study: &Study, value: DesignValue) -> String {
     let values = study.designs.iter().filter_map(|design| Some((value(design)?, design)));
     let best = values.max_by(|a, b| a.0.total_cmp(&b.0));
     best.map_or_else(String::new, |(value, design)| format!("{} {}", digits(value), named(design)))
 }
 
-/// Formats the change of the critical force between two studies, for designs with or without a fold.
+/// Formats the change of the critical force between two studies, for designs with or without a
+/// fold.
 fn changes(from: &Study, to: &Study, folded: bool) -> String {
-    // Both studies have the same designs in the same order: only the law differs.
+    // Both studies have the same designs in the same order.
     let pairs = from.designs.iter().zip(&to.designs).filter(|(a, _)| folds(a) == folded);
     let change = |(a, b): (&MeasuredDesign, &MeasuredDesign)| {
         Some(100.0 * (b.critical_force? / a.critical_force? - 1.0))
     };
-    // Adding 0 turns −0 into 0, which would be printed as -0.0 %.
+    // Adding 0 replaces −0 by 0, which would be printed as -0.0 %.
     spread(pairs.filter_map(change), |percent| format!("{:+.1} %", percent + 0.0))
 }
 
-/// Formats the smallest, the median and the largest of values; one value alone, or nothing.
+/// Formats smallest, median and largest value; a single value alone; nothing if empty.
 fn spread(values: impl IntoIterator<Item = f64>, format: impl Fn(f64) -> String) -> String {
     let mut values: Vec<f64> = values.into_iter().collect();
     values.sort_by(f64::total_cmp);
     let last = values.len().saturating_sub(1);
     let mut places = vec![0, values.len() / 2, last];
-    // For one or two values the median is an end, which is printed once.
+    // With one or two values the median equals an end, which is printed once.
     places.dedup();
     let shown = places.into_iter().filter_map(|place| values.get(place).copied().map(&format));
     shown.collect::<Vec<_>>().join(", ")

@@ -9,7 +9,7 @@ use solver::{
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FrameNode {
     pub(super) place: [f64; 2],
-    /// Whether `u_x`, `u_y` and `φ` are held.
+    /// True for fixed `u_x`, `u_y` and `φ`.
     pub(super) held: [bool; 3],
 }
 
@@ -19,7 +19,7 @@ impl FrameNode {
     }
 }
 
-/// The control parameter of a path of a frame, and its last value.
+/// The control parameter of a path, with its final value.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Drive {
     /// The downward displacement of the loaded node.
@@ -28,9 +28,10 @@ pub(super) enum Drive {
     Load(f64),
 }
 
-/// A chain of beams of bending stiffness 1 from node to node, with a dead load down on one of them.
+/// A chain of beams with unit bending stiffness and a vertical dead load on one node.
 ///
-/// The unknowns are the displacements and rotations of the nodes, and the load behind those of the loaded one.
+/// The unknowns are the displacements and rotations of the nodes. The load follows the unknowns of
+/// the loaded node.
 #[derive(Clone, Debug)]
 pub(super) struct PlaneFrame {
     nodes: Vec<FrameNode>,
@@ -41,7 +42,7 @@ pub(super) struct PlaneFrame {
 }
 
 impl PlaneFrame {
-    /// Creates a frame of beams of axial stiffness `axial`; `None` if one of them has no length.
+    /// Creates a frame of beams with axial stiffness `axial`; `None` if a beam has no length.
     pub(super) fn new(
         nodes: Vec<FrameNode>,
         axial: f64,
@@ -55,10 +56,10 @@ impl PlaneFrame {
         let beams = nodes.windows(2).map(beam).collect::<Option<Vec<_>>>()?;
         let control = |k: usize, scale| Control { index: 3 * loaded + k, scale };
         let stiffest = beams.iter().map(|beam| axial / beam.length()).fold(1.0, f64::max);
-        // Residuals are measured by the stiffest beam, held nodes like the others.
+        // Residuals are scaled by the stiffest beam, also at fixed nodes.
         let units = vec![stiffest; 3 * nodes.len() + 1];
         let controls = match drive {
-            // The negative scale turns the path round: `u_y` points up, and the node sinks.
+            // The negative scale starts the path downwards, because `u_y` points up.
             Drive::Depth(depth) => [control(1, -depth), control(0, depth), control(2, 1.0)],
             Drive::Load(load) => [control(3, load), control(1, -1.0), control(0, 1.0)],
         };
@@ -66,12 +67,13 @@ impl PlaneFrame {
     }
 
     fn unknown(&self, node: usize, k: usize) -> usize {
-        // The load stands behind its node and not at the end, so that the tangent stays a band.
+        // The load follows the unknowns of its node, which keeps the tangent banded.
         3 * node + k + usize::from(node > self.loaded)
     }
 
-    /// Returns the poses of the ends of a beam, and the indices of their unknowns. A rotation is counted from the
-    /// axis at rest.
+    /// Returns the poses of the ends of a beam, and the indices of their unknowns.
+    ///
+    /// Rotations are measured from the axis at rest.
     fn ends(&self, z: &[f64], beam: usize) -> (Ends, [usize; 6]) {
         let [from, to] = [self.nodes[beam].place, self.nodes[beam + 1].place];
         let direction = (to[1] - from[1]).atan2(to[0] - from[0]);
@@ -84,7 +86,7 @@ impl PlaneFrame {
         self.nodes[beam + end / 3].held[end % 3]
     }
 
-    /// Returns the path to the end of its drive; `None` if it stops before.
+    /// Returns the path to the final value of the control; `None` if it stops before.
     pub(super) fn path(self, max_step: f64) -> Option<Vec<solver::Equilibrium>> {
         let settings = Settings { first_step: max_step, max_step, ..Settings::default() };
         let rest = State::at_rest(&self);

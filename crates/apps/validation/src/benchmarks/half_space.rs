@@ -5,7 +5,7 @@ use substrate::{Footprint, Springs, calibrate, extrapolated};
 
 use super::Benchmark;
 
-/// A gap, over `a`, at which the coupling of rectangles is below the last digit of the references.
+/// A gap (over `a`) at which the coupling of rectangles is below the precision of the references.
 const ALONE: f64 = 1e5;
 
 /// Names of the six coefficients.
@@ -35,7 +35,7 @@ pub(super) fn benchmarks() -> anyhow::Result<Vec<Benchmark>> {
 }
 
 fn square() -> anyhow::Result<Vec<Benchmark>> {
-    // Of width `2a`, as long as the base: the rectangle is a square.
+    // A width of `2a` equals the length of the base.
     let [x, y, phi] = springs(ALONE, 2.0)?.direct;
     let square = |name, source, values| Benchmark::new(name, source, values, 1e-4);
     let known = "converged boundary elements";
@@ -45,7 +45,7 @@ fn square() -> anyhow::Result<Vec<Benchmark>> {
         square("square sheared, ν = 0.5: α_x", known, [exact.shear, x]),
         square("square tilted: α_φ", known, [exact.rocking, phi]),
     ];
-    // Known to three decimals.
+    // The reference has three decimals.
     let row = six(&springs(0.2, 2.0)?);
     let printed = [half_space::THREE_SQUARES_DIRECT, half_space::THREE_SQUARES_COUPLING];
     let printed = printed.iter().flat_map(half_space::Stiffnesses::values);
@@ -56,13 +56,14 @@ fn square() -> anyhow::Result<Vec<Benchmark>> {
     Ok(all)
 }
 
-/// Compares the coefficients that differ most from those of a much finer mesh.
+/// Compares the coefficient with the largest difference from a much finer mesh.
 fn converged() -> anyhow::Result<Vec<Benchmark>> {
     let corners = [(0.05, 0.25), (0.05, 80.0), (0.2, 2.0), (2.0, 20.0), (80.0, 0.25), (80.0, 80.0)];
     let worst = |(gap, width)| {
         let ours = six(&springs(gap, width)?);
         let fine = extrapolated(&footprint(gap, width)?, [16, 24])?;
-        // A coupling that has died out has no digits to compare.
+        // Relative to the direct coefficient, because a vanishing coupling has no significant
+        // digits.
         let off = |k: &usize| ((ours[*k] - fine[*k]) / fine[k % 3]).abs();
         let k = (0..6).max_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(0);
         let name = format!("d/a = {gap}, b/a = {width}: {} (the worst)", NAMES[k]);
@@ -71,7 +72,7 @@ fn converged() -> anyhow::Result<Vec<Benchmark>> {
     corners.into_iter().map(worst).collect()
 }
 
-/// Compares isolated rectangles with the formulas of soil dynamics.
+/// Compares isolated rectangles with formulas of soil dynamics.
 fn formulas(width: f64) -> anyhow::Result<Vec<Benchmark>> {
     let ours = springs(ALONE, width)?.direct;
     let pais_kausel = half_space::pais_kausel(width).values();

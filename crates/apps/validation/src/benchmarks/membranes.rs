@@ -7,16 +7,18 @@ use anyhow::Context as _;
 use super::Benchmark;
 use super::frame::{Drive, FrameNode, PlaneFrame};
 
-/// Loads `P L²/EI` of the benchmark: small, medium and large rotations.
+/// Loads `P L²/EI`, for small, medium and large rotations.
 const LOADS: [f64; 3] = [1.0, 5.0, 10.0];
-/// Half a unit of the last digit of the table.
+/// Half a unit of the last digit in the table.
 const DIGITS: f64 = 5e-6;
-/// Axial stiffness over the bending stiffness of a cantilever of length 1: a stretch of 1e-6 at the largest load.
+/// Axial stiffness of a cantilever with unit length and bending stiffness.
+///
+/// The stretch at the largest load is 1e-6.
 const AXIAL: f64 = 1e7;
-/// Elements of the three meshes: two that show the order of convergence, and the one that is compared.
+/// Numbers of elements: two meshes for the order of convergence, and the compared one.
 const MESHES: [usize; 3] = [8, 16, 64];
 
-/// Returns the displacement of the tip under a load; `None` if the path does not get there.
+/// Returns the displacement of the tip under a load; `None` if the path stops before.
 fn tip(elements: usize, load: f64) -> Option<Tip> {
     let place = |i: usize| FrameNode::free([i as f64 / elements as f64, 0.0]);
     let mut nodes: Vec<_> = (0..=elements).map(place).collect();
@@ -32,7 +34,7 @@ pub(super) fn benchmarks() -> anyhow::Result<Vec<Benchmark>> {
     Ok(rows.collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect())
 }
 
-/// Compares the three displacements of the tip under a load.
+/// Compares the displacements and rotation of the tip under a load.
 fn cantilever(load: f64, reference: &Tip) -> anyhow::Result<[Benchmark; 3]> {
     let missing = || format!("no equilibrium of the cantilever at {load}");
     let [coarse, medium, fine] = MESHES.map(|elements| tip(elements, load).with_context(missing));
@@ -44,7 +46,8 @@ fn cantilever(load: f64, reference: &Tip) -> anyhow::Result<[Benchmark; 3]> {
         squares.sum::<f64>().sqrt()
     };
     let order = (error(&coarse) / error(&medium)).log2();
-    // The error falls with the square of the element: the finest mesh has eight times the elements of the coarsest.
+    // The error is quadratic in the element length, and the finest mesh has 8 times the elements of
+    // the coarsest.
     let left = error(&coarse) / 64.0;
     let names = ["deflection", "shortening", "rotation"];
     Ok(std::array::from_fn(|k| {

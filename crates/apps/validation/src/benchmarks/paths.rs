@@ -1,4 +1,4 @@
-//! Benchmarks of the path follower: limit points of a toggle and of Lee's frame.
+//! Benchmarks of path following: limit points of a toggle frame and of Lee's frame.
 
 use analytical::frames::{LEES_FRAME, toggle_limit_load};
 
@@ -11,7 +11,7 @@ pub(super) fn benchmarks() -> anyhow::Result<Vec<Benchmark>> {
     Ok(vec![toggle()?, lees_frame()?])
 }
 
-/// Compares the limit load of half a toggle.
+/// Compares the limit load of half a toggle frame.
 fn toggle() -> anyhow::Result<Benchmark> {
     let (base, height, axial) = (1.0, 0.2, 1e3);
     let hinge = FrameNode { place: [0.0, 0.0], held: [true, true, false] };
@@ -23,7 +23,9 @@ fn toggle() -> anyhow::Result<Benchmark> {
     Ok(Benchmark::new("toggle that snaps through: limit load", "closed form", values, 1e-9))
 }
 
-/// Returns the limit load of Lee's frame, a hinged column that carries a hinged beam, loaded at a fifth of the beam.
+/// Returns the limit load of Lee's frame.
+///
+/// A hinged column carries a hinged beam, which is loaded at a fifth of its length.
 fn lee(elements: usize, axial: f64) -> Option<f64> {
     let column = (0..elements).map(|i| [0.0, i as f64 / elements as f64]);
     let beam = (0..=elements).map(|i| [i as f64 / elements as f64, 1.0]);
@@ -35,18 +37,18 @@ fn lee(elements: usize, axial: f64) -> Option<f64> {
     PlaneFrame::new(nodes, axial, loaded, Drive::Depth(0.6))?.limit_load(0.01)
 }
 
-/// Compares the limit load of Lee's frame, with its order of convergence.
+/// Compares the limit load of Lee's frame, and determines the order of convergence.
 fn lees_frame() -> anyhow::Result<Benchmark> {
-    // EA L²/EI = 12 (L/h)² for a thickness h of a sixtieth of the length.
+    // EA L²/EI = 12 (L/h)² for a thickness h of L/60.
     let axial = 43_200.0;
-    // Multiples of five, so that a node stands at a fifth of the beam, under the load.
+    // Multiples of five place a node under the load, at a fifth of the beam.
     let loads = [10, 20, 40].map(|elements| lee(elements, axial));
     let [Some(coarse), Some(medium), Some(fine)] = loads else {
         bail!("Lee's frame has no limit load")
     };
     let order = ((coarse - medium) / (medium - fine)).abs().log2();
     let name = "Lee's frame: first limit load P L²/EI";
-    // The reference does not stretch and our frame does: no mesh makes them equal.
+    // The reference is inextensible and our frame is not, so a difference remains on all meshes.
     let source = "Lee, Manuel & Rossow 1968, inextensible";
     Ok(Benchmark { order: Some(order), ..Benchmark::new(name, source, [LEES_FRAME, fine], 5e-3) })
 }

@@ -52,7 +52,7 @@ fn bending() -> anyhow::Result<Vec<Benchmark>> {
     let missing = "upright blocks do not meet";
     let bent = |elements_per_gap| {
         let parameters = flexure::FlexureParameters {
-            // On the 100 t of the sweeps upright blocks with this gap never meet.
+            // On the 100 t of the sweeps, upright blocks with this gap never touch.
             membrane_length: 10.0,
             elements_per_gap,
             ..flexure::FlexureParameters::default()

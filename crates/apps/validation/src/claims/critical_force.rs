@@ -22,14 +22,14 @@ pub(super) fn shares(
     among: fn(&MeasuredDesign) -> bool,
     value: DesignValue,
 ) -> Option<Measured> {
-    // Of the logarithm: values span powers of ten, and the largest alone would decide.
+    // Variance of the logarithm, because the largest of values over decades would dominate.
     let valued = |d| Some((d, value(d)?.ln()));
     let designs: Vec<_> = evidence.designs.iter().filter(|d| among(d)).filter_map(valued).collect();
     if designs.is_empty() {
         return None;
     }
     let [gap, length, slant] = [GAP, LENGTH, SLANT].map(|p| 100.0 * explained(&designs, p));
-    // Over the larger of the others: from 1 on none matters more than the slant.
+    // Relative to the larger of the others: the slant matters most if the ratio is at least 1.
     let value = slant / gap.max(length);
     let shown = format!("{}: d/t {gap:.0} %, L/t {length:.0} %, slant {slant:.0} %", digits(value));
     Some(Measured { value, shown })

@@ -1,4 +1,4 @@
-//! The evidence on which claims are judged: numbers alone, so that a verdict can be tested on constructed ones.
+//! The evidence for the verdicts: only numbers, so that tests can construct it.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -7,37 +7,38 @@ use super::statistics::{DesignParameter, DesignValue};
 use super::{digits, named};
 use crate::study::MeasuredDesign;
 
-/// Two values are equal if they differ by less than this part of the larger one, as values do that are the same but for
-/// the round-off of their paths.
+/// Relative difference below which two values are equal.
+///
+/// Equivalent values differ by the round-off of their paths.
 const EQUAL: f64 = 1e-6;
 
-/// The number of equal designs that are listed by name.
+/// Maximum number of equal designs that are listed.
 const LISTED: usize = 3;
 
-/// The evidence on which claims are judged.
+/// The evidence for the verdicts on all claims.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Evidence {
     /// Every design of the study.
     pub(crate) designs: Vec<MeasuredDesign>,
-    /// The punctures of Fig. 6b, of designs with `L/t = 1` and `d/t = 0.1`, by slant.
+    /// The punctures of Fig. 6b by slant, with `L/t = 1` and `d/t = 0.1`.
     pub(crate) by_slant: Vec<PunctureCurve>,
-    /// The punctures of Fig. 6d, of designs with `d/t = 0.1` and 45°, by length.
+    /// The punctures of Fig. 6d by length, with `d/t = 0.1` and 45°.
     pub(crate) by_length: Vec<PunctureCurve>,
-    /// The punctures of Fig. 6f, of designs with `L/t = 0.5` and 45°, by gap.
+    /// The punctures of Fig. 6f by gap, with `L/t = 0.5` and 45°.
     pub(crate) by_gap: Vec<PunctureCurve>,
-    /// The rows of Fig. 9 with no slant and with 75°, under the same force.
+    /// The rows of Fig. 9 with slants of 0° and 75°, under the same force.
     pub(crate) loaded: Option<[LoadedRow; 2]>,
-    /// Stiffness of two blocks just after they touch, over that just before.
+    /// Stiffness of two blocks just after first contact, relative to just before.
     pub(crate) kink: Option<f64>,
-    /// The strips of Figs. 10c and 11b, of designs with `L/t = 1` and `d/t = 0.1`, by slant.
+    /// The strips of Figs. 10c and 11b by slant, with `L/t = 1` and `d/t = 0.1`.
     pub(crate) strips: Vec<BentStrip>,
-    /// A strip without slant as above, of ten thicknesses.
+    /// The strip without slant, with a length of ten thicknesses.
     pub(crate) short_strip: Option<BentStrip>,
-    /// The choice by equal weights.
+    /// The best design for equal weights.
     pub(crate) balanced: Option<Balanced>,
 }
 
-/// A puncture as far as Fig. 6 shows it.
+/// A puncture up to the end of the curves in Fig. 6.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct PunctureCurve {
     pub(crate) design: MeasuredDesign,
@@ -47,11 +48,12 @@ pub(crate) struct PunctureCurve {
     pub(crate) contact: Option<[f64; 2]>,
     /// The end of the curve.
     pub(crate) end: Option<CurveEnd>,
-    /// Largest angle between the strongest contact force and the horizontal on the way to the end, degrees.
+    /// Largest angle between the strongest contact force and the horizontal along the curve,
+    /// degrees.
     pub(crate) contact_angle_deg: Option<f64>,
 }
 
-/// A row at the end of a curve.
+/// The state at the end of a curve.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct CurveEnd {
     /// `u*`.
@@ -78,41 +80,41 @@ impl PunctureCurve {
     }
 }
 
-/// A row of scales under a given force.
+/// The state of a row under a given force.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct LoadedRow {
     /// `F*`.
     pub(crate) force: f64,
     /// `u*`.
     pub(crate) displacement: f64,
-    /// Scales that carry at least a twentieth of the force.
+    /// Number of scales that carry at least a twentieth of the force.
     pub(crate) carrying: usize,
-    /// Scales that touch a neighbour.
+    /// Number of scales in contact with a neighbour.
     pub(crate) touching: usize,
 }
 
-/// A strip that was bent to the largest rotation of its ends.
+/// A strip at the end of its bending path.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct BentStrip {
     pub(crate) slant: f64,
-    /// Largest axial over bending energy of the membrane before contact.
+    /// Largest ratio of axial to bending energy of the membrane before contact.
     pub(crate) axial_before: f64,
-    /// Axial over bending energy of the membrane at the end.
+    /// Ratio of axial to bending energy of the membrane at the end.
     pub(crate) axial_at_end: f64,
-    /// `dM*/dκ*` at the end, over the largest one after contact.
+    /// `dM*/dκ*` at the end, relative to its maximum after contact.
     pub(crate) softening: Option<f64>,
 }
 
-/// The choice by equal weights.
+/// The best design for equal weights.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Balanced {
     /// The best design.
     pub(crate) best: MeasuredDesign,
     /// The fitness of the best design.
     pub(crate) fitness: f64,
-    /// The part of the weights that it wins, in percent.
+    /// Percentage of the weightings that it wins.
     pub(crate) share: f64,
-    /// The part of the weights that the printed optimum wins, in percent.
+    /// Percentage of the weightings that the printed optimum wins.
     pub(crate) share_of_printed: f64,
 }
 
@@ -122,7 +124,7 @@ impl From<Balanced> for BestDesigns {
     }
 }
 
-/// The designs of which a value is largest: several if they are equal.
+/// The designs with the largest value; several if they are equal.
 #[derive(Clone, Debug)]
 pub(crate) struct BestDesigns {
     pub(crate) designs: Vec<MeasuredDesign>,
@@ -143,11 +145,11 @@ impl fmt::Display for BestDesigns {
 impl Evidence {
     /// Returns the design with these parameters.
     pub(crate) fn design(&self, gap: f64, length: f64, slant: f64) -> Option<&MeasuredDesign> {
-        // Exactly: tables have the numbers of the grid with all their digits.
+        // Exact comparison, because tables hold the numbers of the grid with all digits.
         self.designs.iter().find(|d| (d.gap, d.length, d.slant) == (gap, length, slant))
     }
 
-    /// Returns the designs of which a value is largest, among those that have it.
+    /// Returns the designs with the largest value among those that have one.
     pub(crate) fn best(
         &self,
         among: impl Fn(&MeasuredDesign) -> bool,
@@ -160,7 +162,9 @@ impl Evidence {
         Some(BestDesigns { designs: equal.map(|(design, _)| design).collect(), value: largest })
     }
 
-    /// Returns the values along each line of designs of the figures that differ in one parameter, ordered by it.
+    /// Returns values along lines of designs that differ in one parameter, sorted by it.
+    ///
+    /// Only designs of the figures are included.
     pub(crate) fn lines(
         &self,
         along: DesignParameter,
@@ -169,7 +173,7 @@ impl Evidence {
     ) -> Vec<Vec<Option<f64>>> {
         let mut lines = BTreeMap::<[u64; 2], Vec<(f64, Option<f64>)>>::new();
         for design in self.designs.iter().filter(|design| design.is_in_figures()) {
-            // Parameters are positive, so their bits are in their order.
+            // The bits of positive numbers have the same order as the numbers.
             let key = fixed.map(|parameter| parameter(design).to_bits());
             lines.entry(key).or_default().push((along(design), value(design)));
         }

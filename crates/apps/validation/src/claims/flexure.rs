@@ -5,7 +5,7 @@ use super::evidence::{BentStrip, BestDesigns, Evidence};
 use super::statement::Measured;
 use crate::study::MeasuredDesign;
 
-/// A slope that falls to less than this part of its largest value softens.
+/// A strip softens if its slope falls below this fraction of its maximum.
 const SOFTENS: f64 = 0.9;
 
 pub(super) fn strip(evidence: &Evidence, slant: f64) -> Option<&BentStrip> {
@@ -14,7 +14,7 @@ pub(super) fn strip(evidence: &Evidence, slant: f64) -> Option<&BentStrip> {
 
 pub(super) fn slanted_scales_soften(evidence: &Evidence) -> Option<Measured> {
     let slanted: Vec<_> = evidence.strips.iter().filter(|strip| strip.slant > 0.0).collect();
-    // A path that stops early has no slope at its end, and does not count as one that softens.
+    // A path that stops early has no final slope, and does not count as softening.
     let softens = slanted.iter().filter(|s| s.softening.is_some_and(|ratio| ratio < SOFTENS));
     let value = 100.0 * softens.count() as f64 / slanted.len() as f64;
     let ratio = |strip: &&BentStrip| {
@@ -31,7 +31,7 @@ pub(super) fn touching(evidence: &Evidence, slant: f64) -> Option<BestDesigns> {
 
 pub(super) fn axial_before_contact(evidence: &Evidence) -> Option<Measured> {
     let before = strip(evidence, 0.0)?.axial_before;
-    // Without contact it is round-off, which has no digits.
+    // Without contact it is pure round-off.
     let shown = if before < 1e-12 { "below 1e-12".to_owned() } else { digits(before) };
     Some(Measured { value: before, shown })
 }

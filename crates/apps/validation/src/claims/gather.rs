@@ -1,4 +1,4 @@
-//! The evidence of a study; results that are not in its tables are solved here.
+//! Gathers the evidence of a study, and solves the results that its tables lack.
 
 use ranking::{Ranking, TetrahedralGrid, Weights};
 use rayon::prelude::*;
@@ -13,7 +13,7 @@ use super::evidence::{Balanced, BentStrip, CurveEnd, Evidence, LoadedRow, Punctu
 use super::statistics::{DesignParameter, GAP, LENGTH, SLANT};
 use crate::study::{MeasuredDesign, Study};
 
-/// `u/t` of the rows in Fig. 6, and so the end of its curves.
+/// Displacement `u/t` at the end of the curves, as for the rows in Fig. 6.
 const DEPTH: f64 = 0.7;
 
 /// The number of depths at which contact forces are evaluated.
@@ -22,13 +22,13 @@ const DEPTHS: usize = 14;
 /// Minimum fraction of the load for a scale to count as loaded.
 const CARRIES: f64 = 0.05;
 
-/// Largest step of the paths on which slopes are compared.
+/// Largest step of paths from which slopes are taken.
 const FINE: f64 = 2e-3;
 
-/// Length over `t` of a strip that bends further than those of the paper.
+/// Length (over `t`) of a strip that bends further than the strips of the paper.
 const SHORT: f64 = 10.0;
 
-/// A strip is halved at most so many times until its scales touch.
+/// Maximum number of halvings of a strip until its scales touch.
 const HALVINGS: i32 = 10;
 
 /// Gathers the evidence of a study.
@@ -47,7 +47,7 @@ pub(super) fn gather(study: &Study) -> Evidence {
     }
 }
 
-/// Returns a design of the study with all that it is solved with.
+/// Returns the case of a design in the study.
 fn case(study: &Study, gap: f64, length: f64, slant: f64) -> Case {
     let mut case = study.base;
     case.design = skin::Design { gap, length, slant_deg: slant, ..case.design };
@@ -62,7 +62,7 @@ fn snapshots(case: &Case, at: &[At]) -> Option<Snapshots> {
     puncture::snapshots(&case.design, &substrate(case)?, &case.common, &case.punctured(), at).ok()
 }
 
-/// Solves the curves of some designs of the study, in the order of a parameter.
+/// Solves the curves of some designs of the study, sorted by a parameter.
 fn curves(
     study: &Study,
     among: fn(&MeasuredDesign) -> bool,
@@ -117,7 +117,9 @@ fn contact_angle_deg(snapshot: &RowSnapshot) -> Option<f64> {
     Some(strongest[1].abs().atan2(strongest[0].abs()).to_degrees())
 }
 
-/// Solves the rows of Fig. 9: of the design of Fig. 6a, under the largest force that both bear on their curves.
+/// Solves the rows of Fig. 9 under the largest force that both reach on their curves.
+///
+/// The designs are the ones in Fig. 6a.
 fn loaded(study: &Study) -> Option<[LoadedRow; 2]> {
     let cases = [0.0, 75.0].map(|slant| case(study, 0.1, 1.0, slant));
     let forces =
@@ -147,12 +149,12 @@ fn loaded_row(snapshot: &RowSnapshot) -> LoadedRow {
 fn two_blocks(study: &Study) -> Option<Puncture> {
     let mut case = case(study, 0.1, 1.0, 0.0);
     case.puncture.scales = RowLength::Scales(2);
-    // Steps that are small and equal, so that their mean slopes tell those at the contact.
+    // Small, equal steps, so that mean slopes approximate the slopes at the contact.
     case.common.solver = Settings { first_step: 1e-3, max_step: 1e-3, ..Settings::default() };
     puncture::solve(&case.design, &substrate(&case)?, &case.common, &case.punctured()).ok()
 }
 
-/// Returns the mean stiffness of the step behind the first contact over that of the step before it.
+/// Returns the ratio of the mean stiffnesses in the steps after and before the first contact.
 fn kink(puncture: &Puncture) -> Option<f64> {
     let first = puncture.path.iter().position(|point| point.contacts > 0)?;
     let stiffness = |at: usize| {
@@ -162,7 +164,9 @@ fn kink(puncture: &Puncture) -> Option<f64> {
     Some(stiffness(first)? / stiffness(first.checked_sub(1)?)?)
 }
 
-/// Bends the strips of Fig. 11b, as long as that of the study, or halved until upright scales touch.
+/// Bends the strips of Fig. 11b.
+///
+/// The length of the study is halved until upright scales touch.
 fn strips(study: &Study) -> Option<Vec<BentStrip>> {
     let whole = study.base.flexure.membrane_length;
     let lengths = (0..HALVINGS).map(|halvings| whole * 0.5_f64.powi(halvings));
@@ -187,7 +191,7 @@ fn bent_strip(slant: f64, bent: &Flexure) -> BentStrip {
     let slopes: Vec<f64> =
         bent.path.iter().filter(|point| point.contacts > 0).map(|point| point.stiffness).collect();
     let steepest = slopes.iter().copied().reduce(f64::max);
-    // A path that stops before the end has no slope there.
+    // A path that stops early has no slope at its end.
     let last = slopes.last().filter(|_| bent.status == Status::Complete);
     BentStrip {
         slant,
@@ -207,7 +211,7 @@ fn balanced(study: &Study) -> Option<Balanced> {
         best: design(best.row())?,
         fitness: best.fitness,
         share: 100.0 * best.share(),
-        // A design that is not among the winners wins 0 % of the weights.
+        // A design without a win has 0 % of the weightings.
         share_of_printed: printed.map_or(0.0, |winner| 100.0 * winner.share()),
     })
 }

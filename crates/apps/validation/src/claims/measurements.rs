@@ -10,10 +10,10 @@ use super::statistics::{GAP, LENGTH, SLANT, TrendSteps};
 use super::{critical_force, digits, flexure, named, puncture};
 use crate::study::MeasuredDesign;
 
-/// Returns the measurement of a statement, by its number.
+/// Returns the measurement for the statement with this number.
 pub(super) fn measurement(id: &str) -> Option<Measurement> {
     Some(match id {
-        // Of the largest coverage: if that is 0, so are all the others.
+        // If the largest coverage is 0, all coverages are.
         "C01" => Number(|e| Some(e.best(|d| d.slant == 0.0, |d| d.coverage)?.value.into())),
         "C02a" => Best(|e| e.best(|_| true, |d| d.coverage)),
         "C02b" => Number(smallest_gap_largest_length),
@@ -44,7 +44,7 @@ pub(super) fn measurement(id: &str) -> Option<Measurement> {
         }),
         "C12" => Best(|e| e.best(MeasuredDesign::is_in_figures, FORCE)),
         "C13" => Number(|e| Some(FORCE(e.design(0.1, 0.1, 75.0)?)?.into())),
-        // The paper does not say which stiffness it means: "initial" and "post-contact" are both called puncture stiffness.
+        // The paper calls both the initial and the post-contact stiffness puncture stiffness.
         "C14a" => Number(|e| critical_force::correlation(e, LARGEST_STIFFNESS)),
         "C14b" => Number(|e| critical_force::correlation(e, INITIAL_STIFFNESS)),
         "C15a" => Best(|e| e.best(MeasuredDesign::is_in_figures, LARGEST_STIFFNESS)),
@@ -84,16 +84,16 @@ pub(super) fn measurement(id: &str) -> Option<Measurement> {
     })
 }
 
-/// The coverage that the smallest gap and the largest length give, over the largest of all.
+/// Returns the coverage of smallest gap and largest length, relative to the maximum.
 fn smallest_gap_largest_length(evidence: &Evidence) -> Option<Measured> {
     let there = evidence.design(0.1, 1.0, 45.0)?;
     let best = evidence.best(|_| true, |d| d.coverage)?;
-    // One among equals has the largest, too.
+    // One of several equal designs has the maximum, too.
     let equal = best.designs.iter().any(|design| named(design) == named(there));
     Some(if equal { 1.0 } else { there.coverage? / best.value }.into())
 }
 
-/// How many scales of a row of Fig. 9 bear a part of the load.
+/// Counts the scales of a row in Fig. 9 that `count` selects.
 fn loaded(evidence: &Evidence, which: usize, count: fn(&LoadedRow) -> usize) -> Option<Measured> {
     let row = evidence.loaded.as_ref()?.get(which)?;
     let count = count(row);

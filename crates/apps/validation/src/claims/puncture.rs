@@ -16,7 +16,7 @@ pub(super) fn first_contact(evidence: &Evidence, slant: f64) -> Option<f64> {
 pub(super) fn steep_scales_touch_first(evidence: &Evidence) -> Option<Measured> {
     let [flat, slanted, steep] = [0.0, 45.0, 75.0].map(|slant| first_contact(evidence, slant));
     let (flat, slanted, steep) = (flat?, slanted?, steep?);
-    // Earlier than both: the earlier of the two is the one to beat.
+    // Relative to the earlier of the two others.
     let value = steep / flat.min(slanted);
     let [of, others] = [steep, flat.min(slanted)].map(digits);
     Some(Measured { value, shown: format!("{}: {of} against {others}", digits(value)) })
@@ -27,7 +27,7 @@ fn listed(values: &[Option<f64>]) -> String {
     shown.collect::<Vec<_>>().join(", ")
 }
 
-/// Counts the steps along a line of curves that go the right way.
+/// Counts the steps along a line of curves in the expected direction.
 pub(super) fn trend(
     curves: &[PunctureCurve],
     value: impl Fn(&PunctureCurve) -> Option<f64>,
@@ -39,7 +39,7 @@ pub(super) fn trend(
     Some(Measured { value: steps.percent()?, shown: format!("{steps}: {shown}") })
 }
 
-/// Returns the largest of the values that exist, over the smallest.
+/// Returns the ratio of the largest to the smallest existing value.
 pub(super) fn spread(
     curves: &[PunctureCurve],
     value: impl Fn(&PunctureCurve) -> Option<f64>,
@@ -52,11 +52,11 @@ pub(super) fn spread(
     Some(Measured { value, shown: format!("{ratio}: {low} to {high}") })
 }
 
-/// Counts the steps at which contact comes later. Rows that do not touch on the way touch later than those that do.
+/// Counts the steps with later contact; rows without contact count as latest.
 pub(super) fn contact_is_delayed(evidence: &Evidence) -> Option<Measured> {
     let contacts: Vec<_> = evidence.by_gap.iter().map(|curve| Some(curve.contact?[0])).collect();
     let touching = contacts.iter().rposition(Option::is_some)?;
-    // The step from the last that touches to the first that does not counts as well.
+    // The step from the last row with contact to the first without is one of them.
     let later = |i: usize| (i > touching).then_some(f64::INFINITY);
     let line = contacts.iter().take(touching + 2).enumerate();
     let steps = TrendSteps::rising(&[line.map(|(i, contact)| contact.or(later(i))).collect()]);

@@ -9,36 +9,36 @@ use super::measurements::measurement;
 use super::statistics::TrendSteps;
 use super::verdict::{Limits, Optimum, Verdict};
 
-/// A single statement of a claim, as the table has it.
+/// A statement of a claim, as in the table.
 #[derive(Clone, Debug, Deserialize)]
 pub(crate) struct Statement {
     /// The number of the claim, with a letter if it has several statements.
     pub(crate) id: String,
-    /// The statement in words; empty if the claim says just that.
+    /// The statement in words; empty if it is the claim itself.
     pub(crate) says: String,
     /// The measured quantity.
     pub(crate) measured: String,
-    /// The limits that it must keep to be reproduced, and to be reproduced in part.
+    /// The limits for reproduction in full and in part.
     pub(crate) limits: String,
 }
 
-/// How a statement is measured: `None` where there is nothing to measure.
+/// The measurement that decides a statement.
 #[derive(Clone, Copy)]
 pub(crate) enum Measurement {
-    /// A number must keep its limits.
+    /// A number that must lie within limits.
     Number(fn(&Evidence) -> Option<Measured>),
-    /// The designs of which something is largest must be those of the paper.
+    /// The designs with a largest value, which must be the paper's.
     Best(fn(&Evidence) -> Option<BestDesigns>),
 }
 
-/// A number that was measured, with its text on the page.
+/// A measured number, with its text for the page.
 pub(crate) struct Measured {
     pub(crate) value: f64,
     pub(crate) shown: String,
 }
 
 impl Measured {
-    /// Returns the steps that go the right way, in percent.
+    /// Returns the percentage of steps in the expected direction.
     pub(crate) fn steps(steps: TrendSteps) -> Option<Self> {
         let value = steps.percent()?;
         Some(Self { value, shown: format!("{} %: {steps}", digits(value)) })
@@ -51,23 +51,23 @@ impl From<f64> for Measured {
     }
 }
 
-/// The verdict on a statement, and the result that it rests on.
+/// The verdict on a statement, with the result behind it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
     /// The verdict.
     pub verdict: Verdict,
-    /// The number or the designs that were found, as text.
+    /// The result (a number or designs) as text.
     pub ours: String,
 }
 
 impl Statement {
-    /// Judges the statement. A statement about a value that does not exist does not hold.
+    /// Judges the statement; a missing value counts as not reproduced.
     ///
     /// # Errors
-    /// If nothing is measured for the statement, or its limits cannot be read.
+    /// If the statement has no measurement, or its limits cannot be parsed.
     pub(crate) fn find(&self, evidence: &Evidence) -> anyhow::Result<Finding> {
         let unchecked = || format!("claim {} has no check", self.id);
-        // A statement without a measurement, or with limits that cannot be read, is a mistake in the table.
+        // A statement without a measurement or with invalid limits is an error in the table.
         let found = match measurement(&self.id).with_context(unchecked)? {
             Measurement::Number(measure) => {
                 let limits = Limits::read(&self.limits).with_context(unchecked)?;

@@ -14,23 +14,23 @@ pub(crate) const GAP: DesignParameter = |design| design.gap;
 pub(crate) const LENGTH: DesignParameter = |design| design.length;
 pub(crate) const SLANT: DesignParameter = |design| design.slant;
 
-/// The steps between neighbours on lines, counted by their direction.
+/// Steps between neighbours along lines, counted by direction.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct TrendSteps {
-    /// Steps in the direction that is asked for.
+    /// Steps in the expected direction.
     pub(crate) right: usize,
-    /// Steps that lack a value at one of their ends; which have no direction.
+    /// Steps without a value at one end, hence without direction.
     pub(crate) missing: usize,
     pub(crate) all: usize,
 }
 
 impl TrendSteps {
-    /// Counts the steps at which values fall.
+    /// Counts the steps with falling values.
     pub(crate) fn falling(lines: &[Vec<Option<f64>>]) -> Self {
         Self::of(lines, |from, to| to < from)
     }
 
-    /// Counts the steps at which values rise.
+    /// Counts the steps with rising values.
     pub(crate) fn rising(lines: &[Vec<Option<f64>>]) -> Self {
         Self::of(lines, |from, to| to > from)
     }
@@ -47,7 +47,7 @@ impl TrendSteps {
         steps
     }
 
-    /// Returns the part of the steps in the right direction, in percent, if there are any.
+    /// Returns the percentage of steps in the expected direction; `None` without steps.
     pub(crate) fn percent(&self) -> Option<f64> {
         (self.all > 0).then(|| 100.0 * self.right as f64 / self.all as f64)
     }
@@ -63,11 +63,13 @@ impl fmt::Display for TrendSteps {
     }
 }
 
-/// Returns the part of the variance of `value` that a parameter alone explains: the variance of the means over
-/// all designs that share a value of it (the first-order effect, Sobol 1993).
+/// Returns the fraction of the variance of a value that a parameter explains alone.
+///
+/// It is the variance of the means over designs with equal values of the parameter (first-order
+/// effect, Sobol 1993).
 pub(crate) fn explained(designs: &[(&MeasuredDesign, f64)], parameter: DesignParameter) -> f64 {
     let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
-    // By the bits of a number: values of a grid are equal to the last one, or different.
+    // Keys are the bits of the numbers: equal grid values have equal bits.
     let mut groups = BTreeMap::<u64, Vec<f64>>::new();
     for (design, value) in designs {
         groups.entry(parameter(design).to_bits()).or_default().push(*value);

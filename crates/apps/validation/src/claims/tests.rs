@@ -67,7 +67,7 @@ fn without_evidence_nothing_is_reproduced() {
 }
 
 #[test]
-fn a_claim_is_as_good_as_all_its_statements() {
+fn claims_combine_the_verdicts_of_their_statements() {
     assert_eq!(Verdict::of_all(&[Reproduced, Reproduced]), Reproduced);
     assert_eq!(Verdict::of_all(&[Reproduced, NotReproduced]), InPart);
     assert_eq!(Verdict::of_all(&[NotReproduced, InPart]), InPart);
@@ -96,7 +96,7 @@ fn limits_include_their_ends() {
 }
 
 #[test]
-fn one_among_equals_is_best_in_part_only() {
+fn one_of_several_equal_designs_counts_in_part() {
     let optimum = Optimum::read("(0.1, 0.1, 60°); in part (any, 0 to 0.2, any) or among equals");
     let optimum = optimum.expect("designs");
     let (printed, other) = (design(0.1, 0.1, 60.0), design(0.1, 1.0, 75.0));
@@ -122,7 +122,7 @@ fn the_best_coverage_may_be_shared_with_a_shorter_scale_but_not_with_another_sla
     assert_eq!(on("C02", &designs(steeper_is_better)), NotReproduced);
 }
 
-/// A curve that touches at `contact` and goes on with `slope`.
+/// Returns a curve with first contact at `contact`, continued with `slope`.
 fn curve(design: MeasuredDesign, contact: [f64; 2], slope: f64) -> PunctureCurve {
     let [displacement, force] = contact;
     let force = force + slope * (0.7 - displacement);
@@ -156,7 +156,7 @@ fn stiffness_must_rise_with_the_slant_and_significantly() {
 }
 
 #[test]
-fn less_tilt_is_asked_for_besides_stiffness() {
+fn stiffening_claims_also_require_less_tilt() {
     let by_length = |tilts: [f64; 3]| Evidence {
         by_length: [0.1, 0.5, 1.0]
             .iter()
@@ -175,7 +175,7 @@ fn less_tilt_is_asked_for_besides_stiffness() {
 }
 
 #[test]
-fn gaps_delay_contact_and_those_that_never_touch_come_last() {
+fn gaps_delay_contact_and_rows_without_contact_come_last() {
     let by_gap = |stiffest: f64, contacts: [Option<f64>; 4]| Evidence {
         by_gap: [0.1, 0.2, 0.3, 0.4]
             .iter()
@@ -197,7 +197,7 @@ fn gaps_delay_contact_and_those_that_never_touch_come_last() {
 }
 
 #[test]
-fn a_step_without_a_value_does_not_hold() {
+fn steps_without_a_value_do_not_count() {
     let line = |values: [Option<f64>; 5]| {
         let gaps = [0.1, 0.2, 0.3, 0.4, 0.5];
         let along = gaps.iter().zip(values);
@@ -213,7 +213,7 @@ fn a_step_without_a_value_does_not_hold() {
     assert_eq!(on("C11", &line([one, two, three, four, five])), NotReproduced);
 }
 
-/// Designs with two gaps, lengths from 0.025 and two slants, of which `value` makes the measures.
+/// Returns designs with two gaps, lengths from 0.025 and two slants; `value` sets their measures.
 fn grid(value: impl Fn(&mut MeasuredDesign)) -> Evidence {
     let gaps = [0.1, 0.2].into_iter();
     let all = gaps.flat_map(|gap| [0.025, 0.05, 0.1, 0.2].map(move |length| (gap, length)));
@@ -225,7 +225,7 @@ fn grid(value: impl Fn(&mut MeasuredDesign)) -> Evidence {
 }
 
 #[test]
-fn both_readings_of_stiffness_are_asked_for() {
+fn both_definitions_of_stiffness_are_checked() {
     let force = |d: &MeasuredDesign| d.slant + 1.0 - d.gap - d.length;
     let both = grid(|d| {
         d.critical_force = Some(force(d));
@@ -259,7 +259,7 @@ fn the_slant_must_matter_most_among_all_designs_too() {
 }
 
 #[test]
-fn about_eight_scales() {
+fn claims_of_about_eight_scales_have_tolerances() {
     let domino = |carrying, touching| {
         let row = LoadedRow { carrying, touching, ..LoadedRow::default() };
         Evidence { loaded: Some([row; 2]), ..Evidence::default() }
@@ -293,7 +293,7 @@ fn slanted_scales_soften_and_unslanted_ones_do_not() {
 }
 
 #[test]
-fn three_orders_of_magnitude() {
+fn ranges_of_three_orders_of_magnitude_are_checked() {
     let loss = |loss: f64| {
         let touching = MeasuredDesign {
             initial_compliance: Some(0.5),
@@ -301,7 +301,7 @@ fn three_orders_of_magnitude() {
             bends_to_contact: true,
             ..design(0.1, 1.0, 75.0)
         };
-        // Not of the figure.
+        // This length is not part of the figure.
         let shorter = MeasuredDesign { length: 0.05, compliance: Some(1e-9), ..touching };
         designs([touching, shorter])
     };
@@ -317,7 +317,7 @@ fn three_orders_of_magnitude() {
 }
 
 #[test]
-fn the_most_compliant_of_those_that_touch() {
+fn the_most_compliant_design_with_contact_is_checked() {
     let compliant = |gap, slant, compliance, bends_to_contact| MeasuredDesign {
         compliance: Some(compliance),
         bends_to_contact,
@@ -342,7 +342,7 @@ fn the_most_flexible_slant_is_60_only_if_75_is_not_as_good() {
     let exposed = MeasuredDesign { coverage: Some(0.0), ..flexible(0.0, 2.0) };
     let with = |other| designs([flexible(60.0, 0.9), flexible(75.0, other), exposed]);
     assert_eq!(on("C26", &with(0.8)), Reproduced);
-    // Equal but for round-off, on either side.
+    // Equal up to round-off, on either side.
     assert_eq!(on("C26", &with(0.9 - 1e-10)), InPart);
     assert_eq!(on("C26", &with(0.9 + 1e-10)), InPart);
     assert_eq!(on("C26", &designs([flexible(45.0, 0.9), flexible(60.0, 0.8)])), NotReproduced);

@@ -1,4 +1,4 @@
-//! Verdicts, and the limits that they follow from.
+//! Verdicts, and the limits that decide them.
 
 use std::fmt;
 
@@ -24,8 +24,9 @@ impl Verdict {
         }
     }
 
-    /// Returns the verdict on a claim from those on its statements: reproduced if all are, not reproduced if none is, not even
-    /// in part.
+    /// Returns the verdict on a claim from the verdicts on its statements.
+    ///
+    /// It is reproduced if all are, and not reproduced if none is, not even in part.
     pub(crate) fn of_all(statements: &[Self]) -> Self {
         let all = |verdict| statements.iter().all(|found| *found == verdict);
         Self::graded(all(Self::Reproduced), !all(Self::NotReproduced))
@@ -49,7 +50,7 @@ fn within(range: Interval, number: f64) -> bool {
     range[0] <= number && number <= range[1]
 }
 
-/// Reads a range: `≥ 1`, `≤ 1`, `1 to 2`, `1` or `any`. Degrees may have their sign.
+/// Parses a range: `≥ 1`, `≤ 1`, `1 to 2`, `1` or `any`. Degrees may have their sign.
 fn interval(text: &str) -> Option<Interval> {
     let number = |text: &str| text.trim_end_matches('°').parse::<f64>().ok();
     if text == "any" {
@@ -64,8 +65,9 @@ fn interval(text: &str) -> Option<Interval> {
     }
 }
 
-/// The range in which a number must lie for a statement to be reproduced, and the wider one in which it is reproduced
-/// in part.
+/// The ranges of a number for reproduction in full and in part.
+///
+/// The second range contains the first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Limits {
     holds: Interval,
@@ -73,7 +75,7 @@ pub(crate) struct Limits {
 }
 
 impl Limits {
-    /// Reads limits, e.g. `≥ 100; in part ≥ 75`; a single range leaves no part.
+    /// Parses limits such as `≥ 100; in part ≥ 75`; with a single range no part is possible.
     pub(crate) fn read(text: &str) -> Option<Self> {
         let (holds, in_part) = text.split_once("; in part ").unwrap_or((text, text));
         Some(Self { holds: interval(holds)?, in_part: interval(in_part)? })
@@ -84,12 +86,12 @@ impl Limits {
     }
 }
 
-/// Ranges of the gap, the length and the slant of a design.
+/// Ranges of gap, length and slant of a design.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct DesignRange([Interval; 3]);
 
 impl DesignRange {
-    /// Reads ranges, e.g. `(0.1 to 0.3, any, 45°)`.
+    /// Parses ranges such as `(0.1 to 0.3, any, 45°)`.
     fn read(text: &str) -> Option<Self> {
         let ranges = text.strip_prefix('(')?.strip_suffix(')')?.split(", ").map(interval);
         let ranges: Vec<_> = ranges.collect::<Option<_>>()?;
@@ -102,26 +104,30 @@ impl DesignRange {
     }
 }
 
-/// The designs that must be best for a statement to be reproduced, and for it to be reproduced in part.
+/// The designs that must be the best for reproduction in full and in part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Optimum {
     /// The designs with the printed numbers.
     printed: DesignRange,
-    /// The designs that fit the printed words.
+    /// The designs that agree with the printed words.
     words: DesignRange,
 }
 
 impl Optimum {
-    /// Reads the designs, e.g. `(0.1, 0.1, 75°); in part (0.1 to 0.3, any, 60° to 75°) or among equals`; without ranges behind
-    /// `in part` the words are those that are printed.
+    /// Parses designs such as `(0.1, 0.1, 75°); in part (0.1 to 0.3, any, 60° to 75°) or among
+    /// equals`.
+    ///
+    /// Without ranges after `in part`, the words mean the printed designs.
     pub(crate) fn read(text: &str) -> Option<Self> {
-        // Every best design may be one among equals: limits that do not say so are a mistake.
+        // Best designs may always be equal, so limits without `among equals` are invalid.
         let (printed, in_part) = text.split_once("; in part ")?;
         let words = in_part.strip_suffix(" or among equals").unwrap_or(printed);
         Some(Self { printed: DesignRange::read(printed)?, words: DesignRange::read(words)? })
     }
 
-    /// Returns the verdict on the best designs, of which there are several if they are equal: one among equals is not the best.
+    /// Returns the verdict on the best designs; there are several if they are equal.
+    ///
+    /// If only some of them are the printed design, the claim is reproduced in part.
     pub(crate) fn verdict(&self, best: &[MeasuredDesign]) -> Verdict {
         let all =
             |region: &DesignRange| !best.is_empty() && best.iter().all(|d| region.contains(d));
