@@ -1,4 +1,4 @@
-//! Answers requests, a line each, from standard input: what `scripts/check-wasm` compares the module of the pages with.
+//! Answers requests from standard input, one per line, for comparison by `scripts/check-wasm`.
 
 use std::io::{self, BufRead as _};
 

@@ -1,4 +1,4 @@
-//! The answer to a request.
+//! The response to a request.
 
 pub(crate) mod written;
 
@@ -14,7 +14,7 @@ use crate::path::{BentStrip, PuncturedRow};
 /// A solved design.
 #[derive(Clone, Debug, Serialize)]
 pub struct Answer {
-    /// The number of the request.
+    /// The identifier of the request.
     pub id: u64,
     /// True for a complete answer, false for a fast one during a drag.
     pub fine: bool,
@@ -24,21 +24,21 @@ pub struct Answer {
     pub requirements: Vec<Required>,
     /// Warnings about the validity of the results.
     pub warnings: Vec<String>,
-    /// A length of 1, a force of 1, a moment of 1 in mm, N and N mm, as far as the material tells.
+    /// Physical units of the drawn quantities, as far as the material is known.
     pub units: Units,
-    /// The puncture, if it could begin.
+    /// The puncture; `None` if it could not be started.
     pub puncture: Option<PuncturedRow>,
-    /// The bending, if it could begin.
+    /// The bending; `None` if it could not be started.
     pub flexure: Option<BentStrip>,
     /// The derivatives of the measures, in a complete answer.
     pub slopes: Vec<Slope>,
-    /// The design of the sweep that is closest.
+    /// The nearest design on the grid of the sweep.
     pub closest: Option<Closest>,
-    /// The options with which `squama design` solves this design of the definition.
+    /// Command-line options with which `squama design` solves this design.
     pub settings: Vec<String>,
-    /// A definition of this design alone.
+    /// A definition of only this design.
     pub toml: String,
-    /// The end of a walk along a parameter, if requested.
+    /// The result of following a parameter, if requested.
     pub follow: Option<Followed>,
 }
 
@@ -49,11 +49,11 @@ pub struct Value {
     pub name: String,
     /// Unit, `-` if it has none.
     pub unit: &'static str,
-    /// The meaning, in half a sentence.
+    /// The meaning, as a short phrase.
     pub meaning: &'static str,
-    /// The number, if it is one.
+    /// The number, if the cell is numeric.
     pub value: Option<f64>,
-    /// The text as tables have it.
+    /// The text, as in the tables.
     pub text: String,
 }
 
@@ -66,33 +66,33 @@ pub struct Required {
     pub value: Option<f64>,
     /// True if the value meets it; false without a value.
     pub met: bool,
-    /// True for the tightest requirement.
+    /// True for the requirement that is closest to its limit.
     pub limits: bool,
 }
 
-/// A length of 1, a force of 1 and a moment of 1, in physical units.
+/// Physical values of a unit length, unit force and unit moment.
 #[derive(Clone, Debug, Serialize)]
 pub struct Units {
-    /// mm.
+    /// Length of 1, mm.
     pub length: Option<f64>,
-    /// N.
+    /// Force of 1, N.
     pub force: Option<f64>,
-    /// N mm.
+    /// Moment of 1, N mm.
     pub moment: Option<f64>,
 }
 
-/// The direction of a parameter that improves a measure.
+/// The direction in which a parameter improves a measure.
 #[derive(Clone, Debug, Serialize)]
 pub struct Slope {
-    /// The measure, as its column.
+    /// The column of the measure.
     pub measure: &'static str,
     /// The key of the parameter.
     pub parameter: &'static str,
-    /// 1 for larger, −1 for smaller, 0 if neither improves the measure.
+    /// 1 if an increase improves the measure, −1 for a decrease, 0 for neither.
     pub better: i8,
-    /// Per cent of the measure for one per cent of the parameter that way.
+    /// Improvement of the measure in per cent for a change of the parameter by one per cent.
     pub gain: Option<f64>,
-    /// What changes at a kink, if there is one.
+    /// The event at a kink, if there is one.
     pub kink: Option<String>,
 }
 
@@ -101,12 +101,12 @@ pub struct Slope {
 pub struct Closest {
     /// Its number.
     pub design: String,
-    /// Its numbers on the axes, by their keys.
+    /// Its values on the axes, by key.
     pub values: Vec<(&'static str, f64)>,
 }
 
 impl Value {
-    /// A cell with a value.
+    /// Creates the value of a column; `None` for an empty cell.
     pub(crate) fn new(column: &Column<DesignRow>, cell: &Cell) -> Option<Self> {
         let (name, text) = (column.name.clone().into_owned(), cell.to_string());
         let value =
@@ -114,7 +114,7 @@ impl Value {
         (*cell != Cell::Empty).then_some(value)
     }
 
-    /// The number of a column.
+    /// Returns the number in a column.
     pub(crate) fn number(values: &[Self], column: &str) -> Option<f64> {
         values.iter().find(|value| value.name == column)?.value
     }

@@ -1,18 +1,19 @@
-//! The names that a module of WebAssembly exports.
+//! The functions exported by the WebAssembly module.
 //!
-//! A page writes a request as UTF-8 to the address that [`squama_room`] returns, calls [`squama_answer`]
-//! with its length, and reads the returned number of bytes from the new address of [`squama_room`].
+//! A page writes a request as UTF-8 to the address that [`squama_room`] returns, calls
+//! [`squama_answer`] with its length, and reads the returned number of bytes from the new address
+//! of [`squama_room`].
 #![allow(unsafe_code)]
 
 use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};
 
 use crate::Solver;
 
-/// The solver of the module, and the bytes that go in and out.
+/// The solver and the buffer for requests and answers.
 static MODULE: LazyLock<Mutex<(Solver, Vec<u8>)>> = LazyLock::new(Mutex::default);
 
 fn module() -> MutexGuard<'static, (Solver, Vec<u8>)> {
-    // A module has one thread; a request that failed leaves its own bytes and complete springs.
+    // A poisoned lock is harmless: a failed request leaves only its buffer and complete springs.
     MODULE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
@@ -26,7 +27,8 @@ pub extern "C" fn squama_room(length: usize) -> *const u8 {
     module.1.as_ptr()
 }
 
-/// Answers the request in the first `length` bytes of the buffer; returns the length of the answer in it.
+/// Answers the request in the first `length` bytes of the buffer; returns the length of the answer
+/// in it.
 #[unsafe(no_mangle)]
 pub extern "C" fn squama_answer(length: usize) -> usize {
     let mut module = module();

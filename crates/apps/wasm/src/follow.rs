@@ -1,4 +1,4 @@
-//! A walk along one parameter that improves a measure, up to the first limit.
+//! Follows one parameter in the direction that improves a measure, up to the first limit.
 
 use ranking::Requirement;
 use results::columns::{Goal, name, plain_goal};
@@ -12,10 +12,11 @@ use crate::solver::values;
 
 /// Number of steps over the whole range; features narrower than a step may be missed.
 const STEPS: u32 = 24;
-/// Number of bisections of the last step: to a thousandth of the step, below the resolution of a slider.
+/// Number of bisections of the last step: to a thousandth of the step, below the resolution of a
+/// slider.
 const HALVINGS: u32 = 10;
 
-/// The end of a walk.
+/// The end of following a parameter.
 #[derive(Clone, Debug, Serialize)]
 pub struct Followed {
     /// The key of the parameter.
@@ -26,18 +27,20 @@ pub struct Followed {
     pub reason: String,
 }
 
-/// The evaluation of a design.
+/// An evaluated design.
 struct Look {
-    /// The measure, negative where less is better.
+    /// The measure, negated if it is to be minimised.
     worth: Option<f64>,
     folds: bool,
     required: Vec<Required>,
 }
 
-/// Walks from `case` while the measure improves, met requirements stay met, and no fold begins.
+/// Changes a parameter of `case` until a limit.
+///
+/// Limits are: the measure no longer improves, a requirement becomes violated, or a fold appears.
 ///
 /// # Errors
-/// If there is no such parameter, or a value on the way is refused.
+/// If there is no such parameter, or one of its values is rejected.
 pub(crate) fn follow(
     sweep: &Sweep,
     case: &Case,
@@ -100,7 +103,7 @@ fn limit(here: &Look, ahead: &Look, walk: &Follow) -> Option<String> {
         (Some(here), Some(ahead)) if ahead < here => {
             Some(format!("{} is best here", walk.measure.replace('_', " ")))
         }
-        // Where neither has a value the walk goes on, perhaps to where there is one.
+        // If neither has a value, continue: a later design may have one.
         _ => None,
     }
 }

@@ -1,8 +1,8 @@
 //! The solver for interactive pages: JSON requests and answers.
 //!
-//! A page has no file system and no threads. This crate takes a definition as text and the values of
-//! the sliders, solves one design with the evaluator of runs, and returns the columns of its tables, its
-//! paths, and the states to draw.
+//! A page has no file system and no threads. This crate takes a definition as text and the values
+//! of the sliders, and solves one design with the evaluator of runs. It returns the columns of the
+//! tables, the paths, and the states to draw.
 //!
 //! ```text
 //! {"definition": "name = 'x' …", "set": {"gap_over_t": 0.2}, "drawn": [1, 0.5]}
@@ -13,11 +13,11 @@
 //!
 //! | Item | Role |
 //! |---|---|
-//! | [`Solver`] | answers requests; the springs of one footprint are solved for once |
-//! | [`Request`], [`Setting`], [`Follow`] | what is to be solved |
-//! | [`Answer`], [`Value`], [`Required`], [`Units`], [`Slope`], [`Closest`], [`Followed`] | what came out |
-//! | [`PuncturedRow`], [`BentStrip`] | paths, and the states that are drawn |
-//! | [`exports`] | the names under which a module of WebAssembly has it |
+//! | [`Solver`] | answers requests; keeps the springs of each footprint |
+//! | [`Request`], [`Setting`], [`Follow`] | requests |
+//! | [`Answer`], [`Value`], [`Required`], [`Units`], [`Slope`], [`Closest`], [`Followed`] | answers |
+//! | [`PuncturedRow`], [`BentStrip`] | paths, and the drawn states |
+//! | [`exports`] | functions exported by the WebAssembly module |
 //!
 //! ```
 //! let request = r#"{"definition": "name = 'x'\ndesigns.gap_over_t = 1\ndesigns.length_over_t = 1\ndesigns.slant_deg = 45", "set": {"gap_over_t": 0.1}}"#;

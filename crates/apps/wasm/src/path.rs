@@ -1,4 +1,6 @@
-//! Paths and drawings of a design. Lengths over `t`, angles in degrees, forces and moments as in the tables.
+//! Paths and drawn states of a design.
+//!
+//! Lengths over `t`, angles in degrees, forces and moments as in the tables.
 
 use geometry::OutOfRange;
 use serde::Serialize;
@@ -7,47 +9,49 @@ use skin::flexure::{Flexure, FlexurePoint, StripSnapshot};
 use skin::puncture::{At, Puncture, PuncturePoint, RowSnapshot, Snapshots};
 use sweep::Case;
 
-/// Scales on either side of the middle one that are drawn of a strip.
+/// Number of scales drawn on each side of the middle scale of a strip.
 const BESIDE: usize = 6;
 
-/// Place of a contact, and whether it slips (nothing is known of that without friction).
+/// Position of a contact, and true if it slips; `None` without friction.
 type PlacedContact = (f64, f64, Option<bool>);
 
-/// A row of scales on its way to the critical tilt.
+/// The puncture of a row: path, events and one state.
 #[derive(Clone, Debug, Serialize)]
 pub struct PuncturedRow {
-    /// `u*`, `F*` and the share of the way of every equilibrium.
+    /// `u*`, `F*` and the completed fraction of the path for every equilibrium.
     pub path: Vec<[f64; 3]>,
-    /// `u*` and `F*` where a contact closes, opens or passes a corner.
+    /// `u*` and `F*` of the contact events.
     pub events: Vec<[f64; 2]>,
-    /// `u*` and `F*` where the surface of the substrate first folds over.
+    /// `u*` and `F*` at the first fold of the surface.
     pub fold: Option<[f64; 2]>,
-    /// `u*` and `F*` of the state that is drawn.
+    /// `u*` and `F*` of the drawn state.
     pub at: Option<[f64; 2]>,
-    /// Number, displacement and rotation (counter-clockwise) of every scale of that state.
+    /// Number, displacement and rotation (counter-clockwise) of every scale in the drawn state.
     pub scales: Vec<[f64; 4]>,
-    /// Every closed contact of that state, from the punctured scale at rest.
+    /// Closed contacts of the drawn state, with the origin at the punctured scale at rest.
     pub contacts: Vec<PlacedContact>,
-    /// Place of the load on the top of the punctured scale: 0 the left corner, 1 the right one.
+    /// Load position on the top of the punctured scale: 0 left corner, 1 right corner.
     pub load_position: f64,
-    /// Lowest point of the tip of a guided needle in that state, from the node of the punctured scale at rest, and the radius of the tip.
+    /// Lowest point and radius of the tip of a guided needle in the drawn state.
+    ///
+    /// The origin is the node of the punctured scale at rest.
     pub tip: Option<[f64; 3]>,
 }
 
-/// A strip on its way to the largest end rotation.
+/// The bending of a strip: path, events and one state.
 #[derive(Clone, Debug, Serialize)]
 pub struct BentStrip {
-    /// `κ*`, `M*` and the share of the way of every equilibrium.
+    /// `κ*`, `M*` and the completed fraction of the path for every equilibrium.
     pub path: Vec<[f64; 3]>,
-    /// `κ*` and `M*` where a contact closes, opens or passes a corner.
+    /// `κ*` and `M*` of the contact events.
     pub events: Vec<[f64; 2]>,
-    /// `κ*` and `M*` of the state that is drawn.
+    /// `κ*` and `M*` of the drawn state.
     pub at: Option<[f64; 2]>,
-    /// Place and rotation (counter-clockwise) of the scales about the middle of that state, as the middle one sees them.
+    /// Position and rotation (counter-clockwise) of the drawn scales, relative to the middle one.
     pub scales: Vec<[f64; 3]>,
-    /// The axis of the membrane in the gaps between them.
+    /// Axis of the membrane in the gaps between the drawn scales.
     pub membrane: Vec<Vec<[f64; 2]>>,
-    /// The closed contacts between them.
+    /// Closed contacts between the drawn scales.
     pub contacts: Vec<PlacedContact>,
 }
 
@@ -61,7 +65,8 @@ impl PuncturedRow {
         drawn: f64,
         solve: impl Fn(&[At]) -> Result<Snapshots, OutOfRange>,
     ) -> Option<Self> {
-        // Depth controls a guided needle; a free needle may move up again while the tilt increases.
+        // A guided needle is controlled by depth, because a free one may rise while the tilt
+        // increases.
         let is_guided = case.puncture.needle.is_guided();
         let along =
             |point: &PuncturePoint| if is_guided { point.displacement } else { point.tilt_deg };
@@ -70,9 +75,9 @@ impl PuncturedRow {
         let place = if is_guided { At::Displacement(place) } else { At::Tilt(place) };
         let is_between = drawn > 0.0 && drawn < 1.0;
         let solved = solve(if is_between { std::slice::from_ref(&place) } else { &[] }).ok()?;
-        // Different steps change the last digits, so the end is not found by its value.
+        // Different steps change the last digits, so the end cannot be identified by its value.
         let state = solved.at.into_iter().flatten().next().unwrap_or(solved.end);
-        // At rest nothing is drawn but the path.
+        // At rest only the path is drawn.
         let state = (drawn > 0.0).then_some(state);
         let Puncture { path, events, folds, .. } = solved.puncture;
         let place = |point: &PuncturePoint| [point.displacement, point.force];
@@ -93,7 +98,7 @@ impl PuncturedRow {
     }
 }
 
-/// The scales of a row.
+/// Returns the scales of a row.
 fn scales(state: &RowSnapshot) -> impl Iterator<Item = [f64; 4]> {
     state.scales.iter().map(|scale| {
         let [x, y] = scale.displacement;
@@ -101,7 +106,9 @@ fn scales(state: &RowSnapshot) -> impl Iterator<Item = [f64; 4]> {
     })
 }
 
-/// The contacts of a row: the solver counts lengths from the first scale that it solves for, a drawing from the punctured one.
+/// Returns the contacts of a row, with the origin at the punctured scale.
+///
+/// The solver measures from its first scale.
 fn contacts(case: &Case, state: &RowSnapshot) -> Vec<PlacedContact> {
     let first = state.scales.first().map_or(0.0, |scale| scale.scale as f64);
     let pitch = case.design.row().map_or(0.0, |row| row.pitch());
@@ -113,7 +120,9 @@ fn contacts(case: &Case, state: &RowSnapshot) -> Vec<PlacedContact> {
 }
 
 impl BentStrip {
-    /// The strip of a path with the state at the share `drawn` of its way, which `solve` finds at an end rotation.
+    /// Creates the strip with the state at the fraction `drawn` of its path.
+    ///
+    /// `solve` returns the state at an end rotation.
     pub(crate) fn new(
         case: &Case,
         path: &Flexure,
@@ -122,7 +131,7 @@ impl BentStrip {
     ) -> Self {
         let rotation = |point: &FlexurePoint| point.end_rotation_deg.abs();
         let way = path.path.iter().map(rotation).fold(0.0, f64::max);
-        // Bending the other way has negative rotations.
+        // Bending to the other side has negative rotations.
         let side = path.path.last().map_or(1.0, |point| point.end_rotation_deg.signum());
         let state = if drawn > 0.0 && way > 0.0 { solve(side * drawn * way) } else { None };
         let place = |point: &FlexurePoint| [point.curvature, point.moment];
@@ -142,8 +151,9 @@ impl BentStrip {
         state.map_or(strip.clone(), |state| strip.with_middle(&state, pitch))
     }
 
-    /// With the scales about the middle of a state, as the middle one sees them: all gaps bend alike, and a whole strip is too long
-    /// for its scales to be seen.
+    /// Adds the scales around the middle of a state, relative to the middle scale.
+    ///
+    /// All gaps bend alike, and the scales of a whole strip would be too small to see.
     fn with_middle(self, state: &StripSnapshot, pitch: f64) -> Self {
         let scales = &state.scales;
         let middle = scales.len() / 2;
@@ -182,7 +192,7 @@ fn share(value: f64, whole: f64) -> f64 {
     if whole > 0.0 { value / whole } else { 0.0 }
 }
 
-/// A number as a drawing needs it: with all digits of all its numbers a strip would be an answer of megabytes.
+/// Rounds a number for drawings, because all digits of a strip take megabytes.
 fn rounded(number: f64) -> f64 {
     (number * 1e5).round() / 1e5
 }

@@ -1,4 +1,4 @@
-//! The request of a page.
+//! The request from a page.
 
 use std::collections::BTreeMap;
 
@@ -7,16 +7,16 @@ use sweep::{Case, Measure, Parameter};
 use text::number;
 use text::toml_source::Value;
 
-/// A design that is to be solved.
+/// A request to solve a design.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Request {
-    /// A number that the answer repeats, so that a page knows which request it answers.
+    /// An identifier that is repeated in the answer.
     #[serde(default)]
     pub id: u64,
     /// The definition of a sweep, in TOML.
     pub definition: String,
-    /// Parameters that differ from those of the first design of the sweep, by their keys.
+    /// Parameters that differ from the first design of the sweep, by key.
     #[serde(default)]
     pub set: BTreeMap<String, Setting>,
     /// Requirements, as in `coverage >= 0.6`.
@@ -25,10 +25,10 @@ pub struct Request {
     /// True for a complete answer, with derivatives, smooth curves and neighbouring gaps.
     #[serde(default)]
     pub fine: bool,
-    /// Position on the paths of puncture and bending to draw: 0 at rest, 1 at the end.
+    /// Fractions of the paths of puncture and bending to draw: 0 at rest, 1 at the end.
     #[serde(default)]
     pub drawn: Option<[f64; 2]>,
-    /// A parameter that is to be followed to the next limit.
+    /// A parameter to follow to its next limit.
     #[serde(default)]
     pub follow: Option<Follow>,
 }
@@ -39,24 +39,24 @@ pub struct Request {
 pub enum Setting {
     /// A number.
     Number(f64),
-    /// One of a few words.
+    /// A word.
     Word(String),
 }
 
-/// A walk along one parameter.
+/// A request to follow one parameter.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Follow {
     /// The key of the parameter.
     pub key: String,
-    /// The value at which the walk ends without a limit.
+    /// The value at which following stops without a limit.
     pub to: f64,
     /// The column to improve.
     pub measure: String,
 }
 
 impl Request {
-    /// What is measured.
+    /// Returns the measures to compute.
     pub(crate) fn measures(&self) -> Vec<Measure> {
         let all = [Measure::Coverage, Measure::Puncture, Measure::Flexure, Measure::Sensitivity];
         all[..if self.fine { 4 } else { 3 }].to_vec()
@@ -65,7 +65,7 @@ impl Request {
     /// Applies the parameters of the request to `case`.
     ///
     /// # Errors
-    /// If there is no such parameter, or a value is refused: with the text that commands have for it.
+    /// If there is no such parameter, or a value is rejected, with the message of the commands.
     pub(crate) fn case(&self, case: &Case) -> Result<Case, String> {
         self.set.iter().try_fold(*case, |case, (key, value)| put(&case, key, value))
     }
@@ -74,7 +74,7 @@ impl Request {
 /// Sets the parameter `key` of `case`.
 pub(crate) fn put(case: &Case, key: &str, value: &Setting) -> Result<Case, String> {
     let parameter = Parameter::named(key).ok_or_else(|| format!("{key}: no such parameter"))?;
-    // As text, so that bounds and refusals are those of a definition.
+    // Convert to text, so that bounds and errors are the same as in definitions.
     let written = match value {
         Setting::Number(value) => Value::Number(number::text(*value)),
         Setting::Word(word) => Value::Text(word.clone()),

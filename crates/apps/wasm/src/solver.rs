@@ -1,4 +1,4 @@
-//! The solver of requests.
+//! The solver that answers requests.
 
 use ranking::Requirement;
 use results::DesignRow;
@@ -18,7 +18,7 @@ use crate::warnings::warnings;
 /// Largest step along the curves of a complete answer, as a fraction of the path.
 const CURVE_STEP: f64 = 0.02;
 
-/// Answers requests one after the other.
+/// Answers requests, and keeps the definition and springs between them.
 #[derive(Debug, Default)]
 pub struct Solver {
     /// The definition of the last request.
@@ -28,7 +28,7 @@ pub struct Solver {
 }
 
 impl Solver {
-    /// Answers `request`, both JSON. Errors are answers too: `{"id": …, "error": "…"}`.
+    /// Answers a request in JSON with JSON; errors become `{"id": …, "error": "…"}`.
     pub fn answer(&mut self, request: &str) -> String {
         let request = match serde_json::from_str::<Request>(request) {
             Ok(request) => request,
@@ -44,10 +44,11 @@ impl Solver {
     /// Solves the design of a request.
     ///
     /// # Errors
-    /// If the definition, a parameter or a requirement is refused: with the text that commands have for it.
+    /// If the definition, a parameter or a requirement is rejected, with the message of the
+    /// commands.
     pub fn solve(&mut self, request: &Request) -> Result<Answer, String> {
         let sweep = self.sweep(&request.definition)?;
-        // Without samples of imperfect rows, which take hundreds of times as long.
+        // Omit imperfect samples, which take hundreds of times as long.
         let base = Case { imperfection: Imperfection::default(), ..sweep.grid().case(0) };
         let case = request.case(&base)?;
         if case.tissue_thickness.is_some() {
@@ -64,8 +65,8 @@ impl Solver {
         let evaluator = self.evaluator(request.measures());
         let solved = evaluator.solve(own.grid().number(0), &case);
         let drawn = request.drawn.unwrap_or_default();
-        // Measures come from the steps of the definition, as the command has them; finer steps are
-        // for curves alone.
+        // Measures use the steps of the definition, like the command; finer steps are only for
+        // curves.
         let mut smooth = case;
         if request.fine {
             smooth.common.solver.max_step = case.common.solver.max_step.min(CURVE_STEP);
@@ -113,9 +114,9 @@ impl Solver {
         })
     }
 
-    /// The sweep that `definition` defines.
+    /// Returns the sweep of a definition.
     fn sweep(&mut self, definition: &str) -> Result<Sweep, String> {
-        // All requests of one drag have the same definition, which is parsed once.
+        // Requests of one drag have the same definition, so the last one is kept.
         if let Some((text, sweep)) = &self.sweep
             && text == definition
         {
@@ -128,7 +129,7 @@ impl Solver {
     }
 
     fn evaluator(&mut self, measures: Vec<Measure>) -> &Evaluator {
-        // At most two: for fast and for complete answers.
+        // There are at most two, for fast and for complete answers.
         let known = self.evaluators.iter().position(|(others, _)| *others == measures);
         let place = known.unwrap_or_else(|| {
             let evaluator = Evaluator::new(&measures);
@@ -139,7 +140,7 @@ impl Solver {
     }
 }
 
-/// The strip of a case, on a curve of small steps if it `is_fine`.
+/// Bends the strip of a case, with small steps if `is_fine`.
 fn bent(case: &Case, is_fine: bool, path: &Flexure, drawn: f64) -> BentStrip {
     let Case { design, common, flexure: parameters, .. } = case;
     let fine = is_fine.then(|| flexure::solve(design, common, parameters).ok()).flatten();
@@ -148,7 +149,7 @@ fn bent(case: &Case, is_fine: bool, path: &Flexure, drawn: f64) -> BentStrip {
     })
 }
 
-/// The columns of the tables of a design that have a value.
+/// Returns the columns of a design that have a value.
 pub(crate) fn values(sweep: &Sweep, row: &DesignRow) -> Vec<Value> {
     design_columns(sweep)
         .iter()

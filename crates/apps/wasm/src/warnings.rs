@@ -7,7 +7,7 @@ use sweep::Case;
 
 use crate::answer::Value;
 
-/// Strain of the membrane beyond which its law of small strains does not hold.
+/// Strain limit of the small-strain law of the membrane.
 const LARGE_STRAIN: f64 = 0.2;
 
 pub(crate) fn warnings(
@@ -27,7 +27,7 @@ pub(crate) fn warnings(
             sentences.push(format!("The path of the {load} ends early: {outcome}."));
         }
     }
-    // A path that has ended early has no critical force, and a sentence of its own above.
+    // A path that ended early has no critical force, and has its own warning above.
     if let (Some(fold), Some(force)) = (number(name::FOLD_FORCE), number(name::CRITICAL_FORCE)) {
         let share = 100.0 * fold / force;
         sentences.push(format!("Beyond {share:.0} % of the critical force, the modelled surface folds, which is physically impossible: results beyond it are not valid."));
@@ -38,7 +38,8 @@ pub(crate) fn warnings(
                 .to_owned(),
         );
     }
-    // A round tip touches the next scale soon, and still stands on the first: nothing to warn of.
+    // A round tip soon touches the next scale while it still rests on the first, which needs no
+    // warning.
     let is_sharp = case.punctured().needle_radius.is_none_or(|radius| radius == 0.0);
     if let Some(tilt) = number(name::PASSING_TILT).filter(|_| is_sharp) {
         sentences.push(format!(

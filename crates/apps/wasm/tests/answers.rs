@@ -1,4 +1,4 @@
-//! What a page is told, as it asks.
+//! Answers to the requests of pages.
 
 use serde_json::{Value, json};
 use wasm::Solver;
@@ -19,7 +19,7 @@ fn number(answer: &Value, column: &str) -> f64 {
 }
 
 #[test]
-fn what_is_wrong_is_answered_with_its_reason() {
+fn errors_are_answered_with_their_reason() {
     let refused = |set: Value, require: &[&str]| {
         ask(&json!({ "id": 7, "definition": DEFINITION, "set": set, "require": require }))
     };
@@ -42,7 +42,7 @@ fn what_is_wrong_is_answered_with_its_reason() {
 }
 
 #[test]
-fn requirements_are_judged_and_the_tightest_limits() {
+fn requirements_are_checked_and_the_tightest_one_is_marked() {
     let require = ["coverage >= 0.1", "penetration_mm <= 0.001", "critical_force_N >= 0.001"];
     let answer =
         ask(&json!({ "definition": DEFINITION, "set": { "slant_deg": 50 }, "require": require }));
@@ -53,7 +53,7 @@ fn requirements_are_judged_and_the_tightest_limits() {
 }
 
 #[test]
-fn the_state_that_is_drawn_lies_on_the_path() {
+fn drawn_states_lie_on_the_path() {
     let answer = ask(&json!({ "definition": DEFINITION, "drawn": [0.5, 1.0] }));
     let row = &answer["puncture"];
     let punctured = row["scales"].as_array().expect("scales").iter().find(|scale| scale[0] == 0.0);
@@ -71,9 +71,11 @@ fn the_state_that_is_drawn_lies_on_the_path() {
 const GUIDED: &str =
     "[puncture]\nneedle = 'guided'\nneedle_friction = 0.3\nload_inset_over_t = 0.05";
 
-/// Finer steps come to the end with another last digit: where the curve was then thought too short, it went on to twice the tilt.
+/// The curve must end at the critical point, although finer steps change its last digits.
+///
+/// An end compared by value would be missed, and the curve would continue to twice the tilt.
 #[test]
-fn the_curve_under_a_guided_needle_ends_where_it_is_critical() {
+fn curves_of_guided_needles_end_at_the_critical_point() {
     let definition = DEFINITION.replace("[puncture]", GUIDED);
     for slant in [25.0, 30.0, 40.0, 46.5, 55.0] {
         let set = json!({ "slant_deg": slant, "length_over_t": 0.6 });
@@ -90,9 +92,11 @@ fn the_curve_under_a_guided_needle_ends_where_it_is_critical() {
     }
 }
 
-/// A sharp tip that comes to the corner goes on from there; a round one touches the next scale at once, and stands where it was.
+/// A sharp tip that reaches the corner continues from there.
+///
+/// A round tip touches the next scale at once, and stays in place.
 #[test]
-fn a_needle_that_passes_is_told_of_if_it_is_sharp() {
+fn passing_needles_are_reported_if_they_are_sharp() {
     let set = json!({ "gap_over_t": 0.1, "length_over_t": 1, "slant_deg": 75 });
     let warned = |more: &str| {
         let guided = "[puncture]\nneedle = 'guided'\n";
@@ -104,7 +108,9 @@ fn a_needle_that_passes_is_told_of_if_it_is_sharp() {
     assert!(warned("") && !warned("needle_radius_over_t = 0.5"));
 }
 
-/// A needle that stands inside the corner is drawn there, and with the forces that the measures tell: it was solved once more at the corner.
+/// With a load inset the path is solved again at the corner.
+///
+/// The drawing must show the inset position and the force of the measures.
 #[test]
 fn a_needle_inside_the_corner_is_drawn_with_its_own_force() {
     let definition = DEFINITION.replace(
@@ -117,13 +123,13 @@ fn a_needle_inside_the_corner_is_drawn_with_its_own_force() {
     assert!((drawn / force - 1.0).abs() < 1e-6, "{drawn}, and {force} among the measures");
     let [x, y, radius] = [0, 1, 2].map(|k| row["tip"][k].as_f64().expect("a place"));
     let depth = row["at"][0].as_f64().expect("a depth");
-    // A tenth of the thickness inside the corner of a top that is half as long as the scale is thick.
+    // An inset of 0.1 t on a top of length 0.5 t is 0.2 from the corner.
     assert!((row["load_position"].as_f64().expect("a place") - 0.8).abs() < 1e-12);
     assert!(radius == 0.3 && y < 1.0 && depth > 0.0, "{x} {y} {depth}");
 }
 
 #[test]
-fn the_closest_design_and_the_command_of_one_between() {
+fn designs_between_grid_points_have_a_closest_design_and_a_command() {
     let set = json!({ "gap_over_t": 0.17, "slant_deg": 50, "width_over_t": 2 });
     let answer = ask(&json!({ "definition": DEFINITION, "set": set }));
     assert_eq!(answer["closest"]["design"], "0004");
@@ -139,13 +145,13 @@ fn the_closest_design_and_the_command_of_one_between() {
 }
 
 #[test]
-fn a_parameter_is_followed_to_what_limits_it() {
+fn parameters_are_followed_to_their_limit() {
     let follow = |to: f64, require: &[&str]| {
         let follow = json!({ "key": "gap_over_t", "to": to, "measure": "compliance" });
         ask(&json!({ "definition": DEFINITION, "require": require, "follow": follow }))["follow"]
             .clone()
     };
-    // Wider gaps bend more easily, and cover less: a gap of 0.32 leaves 1 − 0.32/0.82 of coverage at most.
+    // Wider gaps bend more easily and cover less: a gap of 0.32 has a coverage of 1 − 0.32/0.82.
     let covered = follow(0.4, &["coverage >= 0.61"]);
     assert_eq!(covered["reason"], "limited by coverage >= 0.61");
     let request = json!({ "definition": DEFINITION, "set": { "gap_over_t": covered["value"] } });
@@ -155,7 +161,7 @@ fn a_parameter_is_followed_to_what_limits_it() {
 }
 
 #[test]
-fn slopes_say_which_way_is_better() {
+fn slopes_report_the_improving_direction() {
     let answer =
         ask(&json!({ "definition": DEFINITION, "set": { "slant_deg": 50 }, "fine": true }));
     let better = |measure: &str, parameter: &str| {

@@ -4,11 +4,11 @@ use sweep::{Axis, Case, PARAMETERS, Parameter, Scalar, Setting, Sweep};
 
 use super::Closest;
 
-/// The three axes that `squama design` has options for.
+/// The axes with an option of `squama design`.
 const OPTIONS: [(&str, &str); 3] =
     [("gap_over_t", "--gap"), ("length_over_t", "--length"), ("slant_deg", "--slant")];
 
-/// The options with which `squama design` solves `case`, where the definition alone has `base`.
+/// Returns the options with which `squama design` solves `case` instead of `base`.
 pub(crate) fn settings(sweep: &Sweep, base: &Case, case: &Case) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
     let by_option = OPTIONS.map(|(key, _)| sweep.grid().axis_saying(key).map(Axis::parameter));
@@ -22,10 +22,10 @@ pub(crate) fn settings(sweep: &Sweep, base: &Case, case: &Case) -> Vec<String> {
     words
 }
 
-/// The sweep of `case` alone.
+/// Returns a sweep of only `case`.
 ///
 /// # Errors
-/// If it is refused: with the text that commands have for it.
+/// If the definition is rejected, with the message of the commands.
 pub(crate) fn alone(sweep: &Sweep, base: &Case, case: &Case) -> Result<Sweep, String> {
     let settings: Result<Vec<_>, _> =
         others(sweep, base, case).map(|text| Setting::parse(&text)).collect();
@@ -39,7 +39,7 @@ pub(crate) fn alone(sweep: &Sweep, base: &Case, case: &Case) -> Result<Sweep, St
 
 /// Returns the settings that differ from the definition, except axes.
 fn others(sweep: &Sweep, base: &Case, case: &Case) -> impl Iterator<Item = String> {
-    // What follows from another parameter is left out: a definition with both is refused.
+    // Omit derived parameters, because a definition with both is rejected.
     let differs = |one: &&Parameter| {
         let is_axis =
             sweep.grid().axis(one.key).is_some() || OPTIONS.iter().any(|(key, _)| one.key == *key);
@@ -48,7 +48,7 @@ fn others(sweep: &Sweep, base: &Case, case: &Case) -> impl Iterator<Item = Strin
     PARAMETERS.iter().filter(differs).map(|one| format!("{}={}", one.path(), one.get(case)))
 }
 
-/// The design of `sweep` whose value on every axis is closest to that of `case`; none of a definition of one design.
+/// Returns the grid design nearest to `case` on every axis; `None` for a single design.
 pub(crate) fn closest(sweep: &Sweep, case: &Case) -> Option<Closest> {
     let grid = sweep.grid();
     let on_grid = grid
