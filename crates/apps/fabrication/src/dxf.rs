@@ -1,4 +1,4 @@
-//! DXF of outlines: closed polylines in millimetres, in the form of the year 2000 (`AC1015`), the first that knows them.
+//! DXF of outlines: closed polylines in millimetres, in format version 2000 (`AC1015`).
 
 use std::fmt::Write as _;
 
@@ -7,10 +7,10 @@ use crate::Sheet;
 /// Colour numbers of the layers: red, blue, grey.
 const COLORS: [u8; 3] = [1, 5, 8];
 
-/// Lines of a DXF: a code of its kind and a value each.
+/// Lines of a DXF: pairs of a group code and a value.
 struct Groups {
     text: String,
-    /// The last handle that was given.
+    /// The last assigned handle.
     handle: u32,
 }
 
@@ -19,7 +19,7 @@ const MODEL: &str = "1F";
 const PAPER: &str = "1B";
 
 pub(crate) fn write(sheet: &Sheet) -> String {
-    // Handles below belong to blocks and the root of objects.
+    // Smaller handles belong to blocks and the root of objects.
     let mut groups = Groups { text: String::new(), handle: 0xFF };
     groups.tables();
     groups.section("BLOCKS", |groups| {
@@ -42,7 +42,7 @@ pub(crate) fn write(sheet: &Sheet) -> String {
         groups.add(&[(281, "1"), (3, "ACAD_GROUP"), (350, "D")]);
         groups.add(&[(0, "DICTIONARY"), (5, "D"), (330, "C"), (100, "AcDbDictionary"), (281, "1")]);
     });
-    // Written last, though it comes first: it names the next free handle.
+    // Written last but placed first, because it contains the next free handle.
     let mut header = Groups { text: String::new(), handle: 0 };
     // 999 is a comment.
     header.add(&[(999, "squama")]);
@@ -50,7 +50,7 @@ pub(crate) fn write(sheet: &Sheet) -> String {
     header.section("HEADER", |header| {
         header.add(&[(9, "$ACADVER"), (1, "AC1015")]);
         header.add(&[(9, "$HANDSEED"), (5, &format!("{:X}", groups.handle + 1))]);
-        // 4: millimetres, in a drawing that is measured in the metric way.
+        // Unit 4 is millimetres, with metric measurement.
         header.add(&[(9, "$INSUNITS"), (70, "4"), (9, "$MEASUREMENT"), (70, "1")]);
         header.add(&[(9, "$EXTMIN"), (10, &low[0]), (20, &low[1]), (30, "0")]);
         header.add(&[(9, "$EXTMAX"), (10, &high[0]), (20, &high[1]), (30, "0")]);

@@ -1,7 +1,9 @@
-//! Files for makers: a patch of skin in millimetres, for printers (3MF, STL), CAD programs (STEP) and laser cutters (DXF, SVG).
+//! Files for manufacturing a patch of skin, in millimetres.
 //!
-//! All solids are [prisms](Prism): a scale is a parallelogram, the membrane a rectangle, extruded across
-//! the rows. The formats are written without libraries, because each writer takes a page.
+//! Formats are 3MF and STL for 3D printers, STEP for CAD programs, DXF and SVG for laser cutters.
+//!
+//! All solids are [prisms](Prism): a scale is a parallelogram, the membrane a rectangle, extruded
+//! across the rows. The formats are written without libraries, because each writer takes a page.
 
 mod dxf;
 mod mesh;
@@ -15,10 +17,10 @@ mod three_mf;
 pub use patch::{NoPatch, Patch, Prism};
 pub use sheet::{NoSheet, Outline, Sheet};
 
-/// A kind of file that a patch can be written as.
+/// A file format for a patch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
-    /// 3MF: a mesh that names its unit, scales and membrane as two parts.
+    /// 3MF: a mesh with units; scales and membrane are separate parts.
     ThreeMf,
     /// Binary STL: one mesh of all solids, without a unit.
     Stl,

@@ -2,12 +2,12 @@
 
 use crate::Prism;
 
-/// The triangles of a prism, by its corners; seen from outside they turn counter-clockwise.
+/// Returns the triangles of a prism as corner indices, counter-clockwise seen from outside.
 pub(crate) fn triangles() -> impl Iterator<Item = [usize; 3]> {
     Prism::FACES.into_iter().flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]])
 }
 
-/// Six times the volume that the triangles enclose.
+/// Returns six times the volume enclosed by the triangles.
 #[cfg(test)]
 pub(crate) fn volume(corners: &[[f64; 3]], triangles: impl Iterator<Item = [usize; 3]>) -> f64 {
     let of = |[a, b, c]: [[f64; 3]; 3]| {
@@ -24,10 +24,10 @@ mod tests {
     use crate::patch::tests::patch;
 
     #[test]
-    fn a_prism_is_closed_and_turned_outwards() {
+    fn prisms_are_closed_and_oriented_outwards() {
         let edges: Vec<_> = triangles().flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
         for [from, to] in &edges {
-            // Each edge is run through once in each direction: no open and no double edge.
+            // Each edge occurs once in each direction, so the surface is closed.
             assert_eq!(edges.iter().filter(|edge| **edge == [*from, *to]).count(), 1);
             assert_eq!(edges.iter().filter(|edge| **edge == [*to, *from]).count(), 1);
         }

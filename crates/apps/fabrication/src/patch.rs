@@ -2,13 +2,14 @@
 
 use geometry::Row;
 
-/// The largest number of scales of a patch: files grow to some 100 MB.
+/// Maximum number of scales, at which files reach some 100 MB.
 const MOST_SCALES: usize = 20_000;
 
 /// A patch of skin: equal scales in rows on a membrane. All lengths are in millimetres.
 ///
-/// `x` runs along a row, `y` across the rows, `z` upwards; the lowest corner of the membrane is the origin. The bases of the
-/// scales stand on the upper face of the membrane, which reaches a gap beyond them on every side.
+/// `x` runs along a row, `y` across the rows, `z` upwards. The origin is the lowest corner of the
+/// membrane. The bases of the scales stand on its upper face, which extends a gap beyond them on
+/// every side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Patch {
     row: Row,
@@ -30,17 +31,20 @@ pub enum NoPatch {
     Scales(usize, usize),
 }
 
-/// A solid between two parallel faces: an outline in `x` and `z`, counter-clockwise seen along `y`, and its places in `y`, mm.
+/// A solid between two parallel faces.
+///
+/// The outline lies in the x–z plane and is extruded along `y`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prism {
-    /// Corners of the outline, `[x, z]`.
+    /// Corners of the outline, `[x, z]`, mm, counter-clockwise seen along `y`.
     pub outline: [[f64; 2]; 4],
-    /// Where it begins and ends in `y`.
+    /// Start and end of the extrusion in `y`, mm.
     pub across: [f64; 2],
 }
 
 impl Patch {
-    /// Creates a patch from rows like `row` (lengths over `thickness`), with `scales` along and across.
+    /// Creates a patch from rows like `row` (lengths over `thickness`), with `scales` along and
+    /// across.
     ///
     /// # Errors
     /// If a length is not positive, or the number of scales is out of range.
@@ -62,7 +66,7 @@ impl Patch {
             }
         }
         let [along, across] = scales;
-        // Unchecked, two large counts could overflow to a small product.
+        // Checked, because two large counts could overflow to a small product.
         match along.checked_mul(across) {
             Some(1..=MOST_SCALES) => {}
             _ => return Err(NoPatch::Scales(along, across)),
@@ -70,78 +74,80 @@ impl Patch {
         Ok(Self { row, thickness, width, membrane, scales, gap_across })
     }
 
-    /// Number of scales along and across.
+    /// Returns the number of scales along and across.
     pub fn scales(&self) -> [usize; 2] {
         self.scales
     }
 
-    /// Length of a scale's base along the row.
+    /// Returns the length of a scale's base along the row.
     pub fn base(&self) -> f64 {
         2.0 * self.row.scale().half_base() * self.thickness
     }
 
-    /// Thickness of the scales.
+    /// Returns the thickness of the scales.
     pub fn thickness(&self) -> f64 {
         self.thickness
     }
 
-    /// Width of the scales across the row.
+    /// Returns the width of the scales across the row.
     pub fn width(&self) -> f64 {
         self.width
     }
 
-    /// Slant of the scales from the vertical, degrees.
+    /// Returns the slant of the scales from the vertical, degrees.
     pub fn slant_deg(&self) -> f64 {
         self.row.scale().slant().to_degrees()
     }
 
-    /// Horizontal shift of the top of a scale against its base.
+    /// Returns the horizontal shift of the top of a scale relative to its base.
     pub fn shift(&self) -> f64 {
         self.row.scale().shift() * self.thickness
     }
 
-    /// Gaps between bases, along and across.
+    /// Returns the gaps between bases, along and across.
     pub fn gaps(&self) -> [f64; 2] {
         [self.row.gap() * self.thickness, self.gap_across]
     }
 
-    /// Distances of equal points of neighbouring scales, along and across.
+    /// Returns the pitches of the scales, along and across.
     pub fn pitches(&self) -> [f64; 2] {
         let [along, across] = self.gaps();
         [self.base() + along, self.width + across]
     }
 
-    /// Length, width and thickness of the membrane.
+    /// Returns length, width and thickness of the membrane.
     pub fn membrane_size(&self) -> [f64; 3] {
         let ([along, across], [nx, ny]) = (self.gaps(), self.scales.map(|n| n as f64));
         let [px, py] = self.pitches();
         [nx * px + along, ny * py + across, self.membrane]
     }
 
-    /// Volume of one scale, mm³.
+    /// Returns the volume of one scale, mm³.
     pub fn scale_volume(&self) -> f64 {
         self.base() * self.thickness * self.width
     }
 
-    /// The outline of a scale from the side, `[x, z]`, its base from the origin to the right, counter-clockwise.
+    /// Returns the profile of a scale, `[x, z]`, counter-clockwise.
+    ///
+    /// The base begins at the origin and extends to the right.
     pub fn profile(&self) -> [[f64; 2]; 4] {
         let (base, shift, t) = (self.base(), self.shift(), self.thickness);
         [[0.0, 0.0], [base, 0.0], [base + shift, t], [shift, t]]
     }
 
-    /// The sheet of membrane.
+    /// Returns the membrane.
     pub fn membrane(&self) -> Prism {
         let [length, width, h] = self.membrane_size();
         Prism { outline: [[0.0, 0.0], [length, 0.0], [length, h], [0.0, h]], across: [0.0, width] }
     }
 
-    /// Lower left corners of the bases in `x` and `y`, row by row.
+    /// Returns the lower left corners of the bases (`x`, `y`), row by row.
     pub fn places(&self) -> impl Iterator<Item = [f64; 2]> {
         let ([gx, gy], [px, py], [nx, ny]) = (self.gaps(), self.pitches(), self.scales);
         (0..ny).flat_map(move |j| (0..nx).map(move |i| [gx + i as f64 * px, gy + j as f64 * py]))
     }
 
-    /// The scales, row by row.
+    /// Returns the scales, row by row.
     pub fn scale_prisms(&self) -> impl Iterator<Item = Prism> {
         let (profile, h, width) = (self.profile(), self.membrane, self.width);
         self.places().map(move |[x, y]| Prism {
@@ -152,7 +158,7 @@ impl Patch {
 }
 
 impl Prism {
-    /// The corners: the outline in front (at the smaller `y`), then behind.
+    /// Returns the corners: first the face at the smaller `y`, then the opposite face.
     pub fn corners(&self) -> [[f64; 3]; 8] {
         std::array::from_fn(|k| {
             let [x, z] = self.outline[k % 4];
@@ -160,7 +166,7 @@ impl Prism {
         })
     }
 
-    /// The faces, each by its corners, counter-clockwise seen from outside.
+    /// The faces as corner indices, counter-clockwise seen from outside.
     pub const FACES: [[usize; 4]; 6] =
         [[0, 1, 2, 3], [7, 6, 5, 4], [0, 4, 5, 1], [1, 5, 6, 2], [2, 6, 7, 3], [3, 7, 4, 0]];
 }
@@ -193,7 +199,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn what_cannot_be_made_is_refused() {
+    fn impossible_patches_are_refused() {
         let row = patch().row;
         let refused = |lengths, scales| Patch::new(row, 2.0, lengths, scales).unwrap_err();
         assert_eq!(

@@ -1,4 +1,4 @@
-//! Outlines for laser cutters: profiles of the scales, and a template that holds them for gluing.
+//! Outlines for laser cutters: profiles of the scales, and a template for gluing them.
 
 use crate::Patch;
 
@@ -8,16 +8,16 @@ const SPACING: f64 = 2.0;
 /// Rim of the template around its holes, mm.
 const RIM: f64 = 10.0;
 
-/// The least web between two holes of a template, mm: thinner ones burn away.
+/// Minimum web between two holes of a template, mm; thinner webs burn away.
 const LEAST_WEB: f64 = 0.2;
 
-/// Side of the square to check the units after import, mm.
+/// Side of the square for checking units after import, mm.
 const CHECK: f64 = 100.0;
 
 /// A closed outline on a layer; the last corner is joined to the first.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outline {
-    /// Name of the layer, by purpose.
+    /// Name of the layer, which states its purpose.
     pub layer: &'static str,
     /// Corners, counter-clockwise, mm.
     pub corners: Vec<[f64; 2]>,
@@ -33,7 +33,7 @@ pub struct Sheet {
 /// Errors of a sheet.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum NoSheet {
-    /// A length below zero, or none.
+    /// A length is negative or not a number.
     #[error("{0} is {1} mm, expected a length of at least 0")]
     Length(&'static str, f64),
     /// The beam is as wide as a hole.
@@ -45,10 +45,12 @@ impl Sheet {
     /// The layers in the order of cutting: holes before their parts.
     pub const LAYERS: [&'static str; 3] = ["PROFILES", "GLUE_TEMPLATE", "CHECK_100_MM"];
 
-    /// The outlines of a patch, for a beam that burns a line as wide as `kerf`, and a template from a sheet as thick as `template`.
+    /// Creates the outlines of a patch.
+    ///
+    /// The laser removes a line of width `kerf`; `template` is the thickness of the template sheet.
     ///
     /// # Errors
-    /// If a length is below zero, or the kerf is as wide as a hole.
+    /// If a length is negative, or the kerf is as wide as a hole.
     pub fn new(patch: &Patch, kerf: f64, template: f64) -> Result<Self, NoSheet> {
         for (name, length) in [("the kerf", kerf), ("the thickness of the template", template)] {
             if !(length >= 0.0 && length.is_finite()) {
@@ -63,7 +65,7 @@ impl Sheet {
             return Err(NoSheet::Kerf(kerf, smallest));
         }
         let [along, across] = patch.gaps();
-        // Holes that are longer than their bases leave less of the gap between them.
+        // Longer holes leave narrower webs along the row.
         let mut sheet = Self { outlines: Vec::new(), web: (along - lean).min(across) };
         let top = sheet.profiles(patch, kerf);
         let top = if sheet.has_template() { sheet.template(patch, hole, kerf, top) } else { top };
@@ -72,12 +74,12 @@ impl Sheet {
         Ok(sheet)
     }
 
-    /// The outlines.
+    /// Returns the outlines.
     pub fn outlines(&self) -> &[Outline] {
         &self.outlines
     }
 
-    /// The narrowest web between holes of the template, mm; below zero the holes would run into each other.
+    /// Returns the narrowest web of the template, mm; negative if holes overlap.
     pub fn web(&self) -> f64 {
         self.web
     }
@@ -87,7 +89,7 @@ impl Sheet {
         self.web >= LEAST_WEB
     }
 
-    /// Corners of the smallest upright rectangle around all outlines, the lowest and the highest.
+    /// Returns the lowest and highest corner of the bounding box of all outlines.
     pub fn bounds(&self) -> [[f64; 2]; 2] {
         let corners = self.outlines.iter().flat_map(|outline| &outline.corners);
         corners.fold([[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]], |[low, high], at| {
@@ -100,9 +102,9 @@ impl Sheet {
         self.outlines.push(Outline { layer, corners: corners.to_vec() });
     }
 
-    /// One profile for each scale, in as many rows as the patch has; returns where they end.
+    /// Adds a profile for each scale, in the rows of the patch; returns their upper end.
     fn profiles(&mut self, patch: &Patch, kerf: f64) -> f64 {
-        // The beam burns half of its width on the inside of the line, which belongs to the part.
+        // Half of the kerf lies inside the line, where it removes material of the part.
         let profile = grown(patch.profile(), kerf / 2.0);
         // Parts have equal slants, so only the distance perpendicular to their sides matters.
         let slant = (patch.shift() / patch.thickness()).atan();
@@ -121,7 +123,7 @@ impl Sheet {
         let [length, width, _] = patch.membrane_size();
         let size = [length + 2.0 * RIM, width + 2.0 * RIM];
         let origin = [0.0, top + SPACING];
-        // Holes come before the rim, because a part that is cut out may shift.
+        // Cut holes before the rim, because a part may shift once it is cut out.
         for [x, y] in patch.places() {
             let place = [origin[0] + RIM + x, origin[1] + RIM + y];
             self.add(Self::LAYERS[1], rectangle(place, hole, -kerf / 2.0));
@@ -131,7 +133,7 @@ impl Sheet {
     }
 }
 
-/// A rectangle from its lower left corner, grown by `by` on every side.
+/// Returns a rectangle from its lower left corner, offset outwards by `by`.
 fn rectangle([x, y]: [f64; 2], [length, width]: [f64; 2], by: f64) -> [[f64; 2]; 4] {
     grown([[x, y], [x + length, y], [x + length, y + width], [x, y + width]], by)
 }
@@ -144,7 +146,7 @@ fn grown(corners: [[f64; 2]; 4], by: f64) -> [[f64; 2]; 4] {
         [u / u.hypot(v), v / u.hypot(v)]
     };
     std::array::from_fn(|k| {
-        // The corner moves by the same distance from both of its sides.
+        // Each corner moves by the same distance from both adjacent sides.
         let (before, after) = (side((k + 3) % 4), side(k));
         let sine = before[0] * after[1] - before[1] * after[0];
         std::array::from_fn(|axis| corners[k][axis] + by * (before[axis] - after[axis]) / sine)
@@ -168,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_beam_leaves_is_the_nominal_part() {
+    fn parts_have_nominal_size_after_the_kerf() {
         let (patch, kerf) = (patch(), 0.15);
         let sheet = Sheet::new(&patch, kerf, 0.1).expect("a sheet");
         let [profiles, template] = [of(&sheet, 0), of(&sheet, 1)];
@@ -190,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_lie_apart_by_more_than_the_kerf() {
+    fn parts_are_separated_by_more_than_the_kerf() {
         let sheet = Sheet::new(&patch(), 0.15, 0.1).expect("a sheet");
         let profiles = of(&sheet, 0);
         let [first, second] = [profiles[0], profiles[1]].map(|outline| outline.corners.clone());
@@ -204,14 +206,14 @@ mod tests {
     }
 
     #[test]
-    fn holes_that_would_run_into_each_other_are_left_out() {
+    fn overlapping_holes_are_left_out() {
         let sheet = Sheet::new(&patch(), 0.15, 0.5).expect("a sheet");
         assert!(!sheet.has_template() && of(&sheet, 1).is_empty(), "{}", sheet.web());
         assert!((sheet.web() - (0.6 - 0.5 * 60.0_f64.to_radians().tan())).abs() < 1e-12);
     }
 
     #[test]
-    fn a_kerf_that_burns_all_is_refused() {
+    fn kerfs_as_wide_as_a_hole_are_rejected() {
         let refused = |kerf| Sheet::new(&patch(), kerf, 0.0).unwrap_err();
         assert_eq!(refused(1.6), NoSheet::Kerf(1.6, 1.6));
         assert_eq!(refused(-0.1), NoSheet::Length("the kerf", -0.1));

@@ -6,7 +6,8 @@ use nalgebra::Vector3;
 
 use crate::{Patch, Prism};
 
-/// The header: a product in millimetres with an accuracy of 1e-7 mm. Its representation (#20) follows the solids.
+/// The header: a product in millimetres with an accuracy of 1e-7 mm. Its representation (#20)
+/// follows the solids.
 // The date is fixed, so that equal designs give equal files.
 const PRODUCT: &str = "ISO-10303-21;
 HEADER;
@@ -52,7 +53,7 @@ pub(crate) fn write(patch: &Patch) -> String {
     entities.text + &representation + "ENDSEC;\nEND-ISO-10303-21;\n"
 }
 
-/// The entities that are written, numbered in their order.
+/// The entities of the file, numbered in order.
 struct Entities {
     text: String,
     last: usize,
@@ -70,7 +71,7 @@ impl Entities {
     }
 
     fn direction(&mut self, to: Vector3<f64>) -> usize {
-        // Adding zero turns −0 into 0.
+        // Adding zero replaces −0 by 0.
         self.add(&format!("DIRECTION('',{})", triple(to.add_scalar(0.0))))
     }
 
@@ -78,7 +79,7 @@ impl Entities {
         let corners = prism.corners().map(Vector3::from);
         let points = corners.map(|corner| self.point(corner));
         let vertices = points.map(|point| self.add(&format!("VERTEX_POINT('',#{point})")));
-        // An edge is shared by two faces, which run through it in opposite directions.
+        // Two faces share each edge, and traverse it in opposite directions.
         let mut edges: Vec<([usize; 2], usize)> = Vec::new();
         let mut faces = Vec::new();
         for face in Prism::FACES {
@@ -140,9 +141,9 @@ fn triple(values: Vector3<f64>) -> String {
     format!("({})", <[f64; 3]>::from(values).map(real).join(","))
 }
 
-/// A number as STEP writes it: with a point always, and a capital E.
+/// Formats a number for STEP: always with a point, and a capital E.
 fn real(value: f64) -> String {
-    // The debug format, because the display format omits the point of whole numbers.
+    // The debug format keeps the point of whole numbers, unlike the display format.
     let text = format!("{value:?}");
     match text.split_once('e') {
         Some((digits, exponent)) if digits.contains('.') => format!("{digits}E{exponent}"),
@@ -166,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_have_a_point() {
+    fn step_numbers_have_a_decimal_point() {
         assert_eq!([2.0, 1e-7, 1.5e20, -0.25].map(real), ["2.0", "1.E-7", "1.5E20", "-0.25"]);
     }
 }

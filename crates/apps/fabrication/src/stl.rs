@@ -14,7 +14,7 @@ pub(crate) fn write(patch: &Patch) -> Vec<u8> {
     let mut facets = Vec::new();
     let mut count: u32 = 0;
     for prism in patch.scale_prisms().chain([patch.membrane()]) {
-        // Rounded before normals are taken: equal corners stay equal, so the mesh stays closed.
+        // Round before computing normals, so that equal corners stay equal and the mesh closed.
         let corners = prism.corners().map(|corner| Vector3::from(corner).map(|at| at as f32));
         for triangle in triangles() {
             let [a, b, c] = triangle.map(|k| corners[k]);
@@ -23,7 +23,7 @@ pub(crate) fn write(patch: &Patch) -> Vec<u8> {
             for value in [normal, a, b, c].iter().flatten() {
                 facets.extend(value.to_le_bytes());
             }
-            // The format ends each facet with two bytes of attributes, of which none are defined.
+            // Each facet ends with two attribute bytes, which are unused.
             facets.extend([0, 0]);
             count += 1;
         }

@@ -7,7 +7,7 @@ use crate::Sheet;
 /// Distance of the outlines from the edge of the page, mm.
 const MARGIN: f64 = 5.0;
 
-/// A colour for each layer: laser cutters tell operations apart by it.
+/// A colour for each layer; laser cutters assign operations by colour.
 const COLORS: [&str; 3] = ["#ff0000", "#0000ff", "#808080"];
 
 pub(crate) fn write(sheet: &Sheet) -> String {
@@ -24,7 +24,7 @@ pub(crate) fn write(sheet: &Sheet) -> String {
             "<g id=\"{layer}\" fill=\"none\" stroke=\"{color}\" stroke-width=\"0.1\">"
         );
         for outline in sheet.outlines().iter().filter(|outline| outline.layer == layer) {
-            // Heights count downwards in SVG.
+            // The y axis of SVG points down.
             let corner =
                 |[x, y]: &[f64; 2]| format!("{},{}", x - low[0] + MARGIN, high[1] - y + MARGIN);
             let corners: Vec<_> = outline.corners.iter().map(corner).collect();

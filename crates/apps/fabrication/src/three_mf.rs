@@ -1,4 +1,4 @@
-//! 3MF: a zip of XML that names its unit, so that no slicer guesses the scale.
+//! 3MF: zipped XML with units, so that slicers need not guess the scale.
 
 use std::fmt::Write as _;
 use std::io::{Cursor, Write as _};
@@ -39,7 +39,9 @@ pub(crate) fn write(patch: &Patch) -> Vec<u8> {
     zip.finish().expect("memory takes what is written").into_inner()
 }
 
-/// Scales and membrane are two parts of one object, because slicers give each part its own material and keep them in place.
+/// Writes scales and membrane as two parts of one object.
+///
+/// Slicers assign a material to each part and keep their relative positions.
 fn model(patch: &Patch) -> String {
     let scales = object(1, "scales", patch.scale_prisms());
     let membrane = object(2, "membrane", [patch.membrane()].into_iter());
@@ -64,7 +66,7 @@ fn object(id: u32, name: &str, prisms: impl Iterator<Item = Prism>) -> String {
         for [x, y, z] in prism.corners() {
             let _ = writeln!(vertices, r#"    <vertex x="{x}" y="{y}" z="{z}"/>"#);
         }
-        // Each prism has eight corners of its own, and so is a closed mesh by itself.
+        // Each prism has its own eight corners, so it is a closed mesh.
         for [a, b, c] in triangles().map(|triangle| triangle.map(|k| 8 * n + k)) {
             let _ = writeln!(faces, r#"    <triangle v1="{a}" v2="{b}" v3="{c}"/>"#);
         }
@@ -90,7 +92,7 @@ mod tests {
     }
 
     #[test]
-    fn the_same_patch_gives_the_same_bytes() {
+    fn three_mf_files_are_reproducible() {
         assert_eq!(write(&patch()), write(&patch()));
     }
 }
