@@ -1,4 +1,4 @@
-//! Errors as exceptions of the package, which are written in Python so that they pickle.
+//! Errors as exceptions of the package, which are defined in Python so that they pickle.
 
 use std::fmt::Display;
 
@@ -6,13 +6,13 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use sweep::{InvalidDefinition, Problem, WrongValue};
 
-/// The exception `name` with such arguments.
+/// Creates the exception `name` with the given arguments.
 fn exception<'py>(
     py: Python<'py>,
     name: &str,
     arguments: impl pyo3::call::PyCallArgs<'py>,
 ) -> PyErr {
-    // Where the class cannot be had, the reason for that is the exception.
+    // If the class cannot be imported, return the import error.
     let class = py.import("squama._errors").and_then(|module| module.getattr(name));
     class.and_then(|class| class.call1(arguments)).map_or_else(|error| error, PyErr::from_value)
 }
@@ -27,17 +27,17 @@ pub fn invalid_parameter(
     exception(py, "InvalidParameter", (key, value, expected))
 }
 
-/// Creates the exception for a definition that cannot be used, for the reason in `message`.
+/// Creates the exception for an unusable definition; `message` is the reason.
 pub fn refused_definition(py: Python<'_>, message: &str) -> PyErr {
     exception(py, "InvalidDefinition", (message,))
 }
 
-/// Creates the exception for failed work.
+/// Creates the exception for a failed operation.
 pub fn failed(what: &str, reason: &str) -> PyErr {
     Python::attach(|py| exception(py, "Failed", (what, reason)))
 }
 
-/// Errors of the crates as exceptions.
+/// Conversion of errors of the crates to exceptions.
 pub trait OrFailed<T> {
     /// Returns the value, or an exception that names the failed operation.
     fn or_failed(self, what: &str) -> PyResult<T>;
@@ -45,7 +45,7 @@ pub trait OrFailed<T> {
 
 impl<T, E: Display> OrFailed<T> for Result<T, E> {
     fn or_failed(self, what: &str) -> PyResult<T> {
-        // Messages name flags of commands; functions have keywords instead.
+        // Messages name options of commands; functions have keywords instead.
         let spoken = |text: String| {
             let text = text.replace("squama run --resume", "squama.run(..., resume=True)");
             text.replace("--resume", "resume=True").replace("--fresh", "fresh=True")
@@ -54,7 +54,7 @@ impl<T, E: Display> OrFailed<T> for Result<T, E> {
     }
 }
 
-/// Creates the exception for an invalid definition; `given` are the values from Python.
+/// Creates the exception for an invalid definition; `given` has the values from Python.
 pub fn invalid_definition(
     py: Python<'_>,
     error: &InvalidDefinition,
@@ -63,20 +63,20 @@ pub fn invalid_definition(
     match error {
         InvalidDefinition::Several(errors) if !errors.is_empty() => {
             let error_of = invalid_definition(py, &errors[0], given);
-            // The first problem is the exception; the others are attached to it.
+            // The first problem becomes the exception; the others are attached to it.
             for other in &errors[1..] {
                 let _ = error_of.value(py).call_method1("add", (other.to_string(),));
             }
             error_of
         }
         InvalidDefinition::Refused { key, problem, .. } => {
-            // Keywords of Python have no sections.
+            // Python keywords have no sections.
             let key = key.rsplit('.').next().unwrap_or(key);
             let value = given.and_then(|given| given.get_item(key).ok().flatten());
             let (found, expected) = explained(problem);
             let found = || found.map(|found| pyo3::types::PyString::new(py, &found).into_any());
             let value = value.or_else(found);
-            // Without a value it is missing, or something else than a value is wrong.
+            // Without a value the key is missing, or the problem is not a value.
             if value.is_none() && !matches!(**problem, Problem::Missing(_)) {
                 return exception(py, "InvalidDefinition", (error.to_string(),));
             }
@@ -86,7 +86,7 @@ pub fn invalid_definition(
     }
 }
 
-/// Returns the value in question, and a description of valid values.
+/// Returns the invalid value and a description of valid values.
 fn explained(problem: &Problem) -> (Option<String>, String) {
     match problem {
         Problem::Value(

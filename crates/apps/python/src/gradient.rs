@@ -12,16 +12,17 @@ use crate::error;
 use crate::skin::{Skin, evaluator, unknown};
 use crate::solved::reason;
 
-/// Step of the differences along rows that are extrapolated on straight lines: they have the rounding of a formula alone.
+/// Step of finite differences along extrapolated rows, which have only the round-off of a formula.
 const STEP: f64 = 1e-6;
 
 /// Left and right derivative, and the event at a kink.
 type Slopes = (Option<f64>, Option<f64>, Option<String>);
 
-/// The value of a measure, and its derivatives by every key.
+/// The value of a measure and its derivatives with respect to every key.
 type Gradient = (f64, Vec<Slopes>);
 
-/// Returns `measures` with their derivatives with respect to `keys`, and the force at the first fold.
+/// Returns `measures` with their derivatives with respect to `keys`, and the force at the first
+/// fold.
 ///
 /// The force is `None` if nothing folds, or if no measure depends on the path beyond the fold.
 #[pyfunction]
@@ -54,7 +55,7 @@ pub fn gradients(
     Ok((gradients.collect::<PyResult<_>>()?, fold))
 }
 
-/// The parameter of a key, which has to be continuous.
+/// Returns the parameter of a key, which must be continuous.
 fn parameter(skin: &Bound<'_, Skin>, key: &str) -> PyResult<&'static Parameter> {
     let (py, case) = (skin.py(), skin.get().case());
     let parameter = Parameter::named(key).ok_or_else(|| unknown(py, key))?;
@@ -67,7 +68,7 @@ fn parameter(skin: &Bound<'_, Skin>, key: &str) -> PyResult<&'static Parameter> 
     Ok(parameter)
 }
 
-/// The value of a column, and its derivatives.
+/// Returns the value of a column and its derivatives.
 fn gradient(
     py: Python<'_>,
     column: &Column<DesignRow>,
@@ -87,16 +88,16 @@ fn gradient(
     Ok((value, by.iter().map(|parameter| slopes(column, row, parameter)).collect()))
 }
 
-/// The derivatives of a column by a parameter.
+/// Returns the derivatives of a column with respect to a parameter.
 fn slopes(column: &Column<DesignRow>, row: &DesignRow, parameter: &Parameter) -> Slopes {
     let source = measure_name(&column.name);
     let mut known = row.result.sensitivity.iter();
-    // Measures have their derivatives by lengths over the thickness.
+    // Sensitivities are stored for lengths over the thickness.
     let of = parameter.over_t().unwrap_or(parameter);
     let known = known.find(|d| d.measure == source && d.parameter == of.key);
     let kink = known.and_then(|derivative| derivative.kink.clone());
     if column.name == source && measure_of(source).is_some() && !parameter.is_in_mm() {
-        // Of what a measure does not depend on it has no derivative.
+        // A missing entry means that the measure does not depend on the parameter.
         return known.map_or((Some(0.0), Some(0.0), None), |d| (d.left, d.right, kink));
     }
     let on = |side| {
@@ -104,7 +105,7 @@ fn slopes(column: &Column<DesignRow>, row: &DesignRow, parameter: &Parameter) ->
         let at = |by| column.cell(&row.extrapolated_by(parameter, by, side)?).number();
         Some((at(step)? - at(-step)?) / (2.0 * step))
     };
-    // Away from a kink the sides differ by rounding alone.
+    // Away from a kink both sides agree up to round-off.
     let left = on(SlopeSide::Left);
     (left, if kink.is_some() { on(SlopeSide::Right) } else { left }, kink)
 }

@@ -1,4 +1,4 @@
-//! The part of the Python package squama that needs the solver. The rest of the package is Python, in `python/squama/`.
+//! The extension module of the Python package squama; the Python part is in `python/squama/`.
 //!
 //! | Module | Role |
 //! |---|---|
@@ -26,7 +26,9 @@ use pyo3::prelude::*;
 use results::columns::{design_columns, name};
 use sweep::{PARAMETERS, Parameter, Role, Sweep};
 
-/// Key, section, unit, meaning, values that it takes, and the default as text; geometry has none.
+/// Documentation of a parameter.
+///
+/// Key, section, unit, meaning, valid values, and the default as text (geometry has none).
 type Explained = (&'static str, &'static str, &'static str, &'static str, String, Option<String>);
 
 /// Returns the documentation of all parameters.
@@ -40,11 +42,11 @@ fn parameters() -> Vec<Explained> {
     PARAMETERS.iter().map(explained).collect()
 }
 
-/// The keys of `[material]`, in the order in which messages name them.
+/// The keys of `[material]`, in the order of messages.
 const MATERIAL: [&str; 4] =
     ["thickness_mm", "substrate_modulus_MPa", "membrane_modulus_MPa", "scale_density_kg_m3"];
 
-/// Name, unit and meaning of every column of a skin with this material.
+/// Returns name, unit and meaning of every column for a skin with this material.
 fn columns_with(material: &[&str]) -> PyResult<Vec<(String, &'static str, &'static str)>> {
     let material: Vec<_> = material.iter().map(|key| format!("{key} = 1")).collect();
     let text = format!(
@@ -58,13 +60,13 @@ fn columns_with(material: &[&str]) -> PyResult<Vec<(String, &'static str, &'stat
     Ok(columns.map(|column| (column.name.into_owned(), column.unit, column.meaning)).collect())
 }
 
-/// Name, unit and meaning of every column, for the documentation; includes those of a material.
+/// Returns name, unit and meaning of every column, including columns that need a material.
 #[pyfunction]
 fn columns() -> PyResult<Vec<(String, &'static str, &'static str)>> {
     columns_with(&MATERIAL)
 }
 
-/// The keys of `[material]` that the column `name` needs.
+/// Returns the keys of `[material]` that the column `name` needs.
 #[pyfunction]
 fn needs(name: &str) -> PyResult<Vec<&'static str>> {
     let mut needed = Vec::new();

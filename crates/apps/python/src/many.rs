@@ -1,4 +1,4 @@
-//! Many skins, on all cores.
+//! Solves many skins on all cores.
 
 use std::slice;
 use std::sync::atomic::Ordering;
@@ -14,10 +14,10 @@ use crate::skin::{Skin, evaluator, measures as measures_of};
 use crate::value::{NamedCells, table};
 use crate::work::{Watch, interrupted, pool, watched};
 
-/// Skins of which the whole results are held, before their cells are taken.
+/// Number of skins with complete results in memory before their cells are extracted.
 const BATCH: usize = 4096;
 
-/// Solves skins, and gives the columns of `designs.csv`, with those of the parameters in which they differ.
+/// Solves skins, and returns the columns of `designs.csv` and of the differing parameters.
 #[pyfunction]
 #[pyo3(signature = (skins, measures=None, threads=None, progress=None))]
 pub fn solve_many(
@@ -35,7 +35,7 @@ pub fn solve_many(
     solved.ok_or_else(interrupted)
 }
 
-/// The rows of skins, numbered from `first`, in their order; `None` if the work was told to stop.
+/// Solves skins, numbered from `first`, in their order; `None` if the work was stopped.
 fn solve(
     skins: &[Py<Skin>],
     first: usize,
@@ -53,12 +53,12 @@ fn solve(
     skins.par_iter().enumerate().map(solve).collect()
 }
 
-/// The columns of skins that need not be alike, which are solved batch by batch.
+/// Solves skins batch by batch and returns their columns; skins may have different columns.
 fn columns(
     skins: &[Py<Skin>],
     mut solve: impl FnMut(usize, &[Py<Skin>]) -> Option<Vec<DesignRow>>,
 ) -> Option<Vec<NamedCells>> {
-    // Skins of one kind have the same columns, which are made once.
+    // Skins of the same kind share their columns, which are created once.
     let mut kinds: Vec<(Kind, Vec<Column<DesignRow>>)> = Vec::new();
     let mut kind_of = Vec::with_capacity(skins.len());
     for skin in skins {
@@ -72,7 +72,7 @@ fn columns(
     let mut all: Vec<NamedCells> = Vec::new();
     for column in kinds.iter().flat_map(|(_, columns)| columns) {
         if !all.iter().any(|(name, ..)| *name == column.name) {
-            // Name, unit and meaning alone: cells come batch by batch.
+            // Start with name, unit and meaning; cells are added batch by batch.
             all.extend(table(slice::from_ref(column), []));
         }
     }
@@ -99,11 +99,11 @@ fn columns(
     Some(all)
 }
 
-/// The parameters in which skins differ, but for the geometry, which every table has.
+/// Returns the parameters that differ between skins, except geometry, which every table has.
 fn differing(skins: &[Py<Skin>]) -> impl Iterator<Item = &'static Parameter> {
     let all = || PARAMETERS.iter().filter(|parameter| !parameter.has(Role::Geometry));
     let mut same: Vec<_> = all().collect();
-    // What no two neighbours differ in is the same for all.
+    // A parameter is equal for all skins if it is equal for all neighbours.
     for pair in skins.windows(2) {
         let (one, next) = (pair[0].get().case(), pair[1].get().case());
         same.retain(|parameter| parameter.get(&one) == parameter.get(&next));
@@ -113,12 +113,13 @@ fn differing(skins: &[Py<Skin>]) -> impl Iterator<Item = &'static Parameter> {
 
 /// The properties of a skin that determine its columns.
 ///
-/// Guided needle, random gaps, given and non-default parameters, and lists with values in column names.
+/// Guided needle, random gaps, given and non-default parameters, and lists with values in column
+/// names.
 type Kind = ([bool; 2], Vec<[bool; 2]>, [Option<Scalar>; 2]);
 
 fn kind(skin: &Skin) -> Kind {
     let (sweep, case) = (&skin.sweep, skin.case());
-    // Of a single tilt no column has the value in its name.
+    // Only lists of tilts have values in column names.
     let list = |scalar: Scalar| matches!(scalar, Scalar::List(_)).then_some(scalar);
     let lists = [key::CRITICAL_TILT, key::NEEDLE_FRICTION]
         .map(|key| list(Parameter::named(key)?.get(&case)));

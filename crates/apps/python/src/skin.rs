@@ -26,19 +26,19 @@ use crate::solved::Solved;
 use crate::value::{place, text, value};
 use crate::work::watched;
 
-/// Largest number of skins in a list: each takes about a kilobyte.
+/// Maximum number of skins in a list; each takes about a kilobyte.
 const MAX_SKINS: u64 = 1_000_000;
 
 /// The name of the sweep of a single skin.
 const NAME: &str = "skin";
 
-/// A skin. Its documentation is made from the list of parameters when the package is imported.
+/// A skin. Its Python documentation is generated from the list of parameters on import.
 #[pyclass(frozen, module = "squama")]
 pub struct Skin {
     pub(crate) sweep: Sweep,
 }
 
-/// The exception for a key that no parameter has.
+/// Creates the exception for an unknown key.
 pub fn unknown(py: Python<'_>, key: &str) -> PyErr {
     let known: Vec<_> = PARAMETERS.iter().map(|parameter| parameter.key).collect();
     let near = nearest(key, &known).map(|near| format!("did you mean {near}?"));
@@ -47,7 +47,7 @@ pub fn unknown(py: Python<'_>, key: &str) -> PyErr {
     error::invalid_parameter(py, key, Some(name), &format!("the name of a parameter; {near}"))
 }
 
-/// The sweep of one skin with these parameters; those that are `None` are left at their defaults.
+/// Creates the sweep of one skin; parameters that are `None` keep their defaults.
 fn sweep_of(given: &Bound<'_, PyDict>) -> PyResult<Sweep> {
     let py = given.py();
     let entry = |key: &str, value| KeyValue { key: key.to_owned(), value, place: place() };
@@ -56,16 +56,16 @@ fn sweep_of(given: &Bound<'_, PyDict>) -> PyResult<Sweep> {
     for (name, of) in given.iter().filter(|(_, of)| !of.is_none()) {
         let name = text(&name)?;
         let parameter = Parameter::named(&name).ok_or_else(|| unknown(py, &name))?;
-        // A pitch says the gap or the length, whichever is not given.
+        // A pitch determines the gap or the length, whichever is not given.
         keys.extend([parameter.key, parameter.over_t().map_or("", |of| of.key)]);
         let of = entry(parameter.key, value(&of)?);
-        // Geometry stands among the axes of a definition, each with one value.
+        // Geometry parameters are axes of a definition, each with one value.
         match sections.iter_mut().find(|section| section.key == parameter.section) {
             Some(KeyValue { value: Value::Table(entries), .. }) => entries.push(of),
             _ => sections.push(entry(parameter.section, Value::Table(vec![of]))),
         }
     }
-    // Once by a gap and once by a pitch, which stands for one.
+    // Both gap and pitch are given, so the pitch determines the length.
     let says_length = keys.iter().filter(|key| **key == key::GAP).count() > 1;
     let is_missing = |p: &&Parameter| {
         let follows = p.key == key::LENGTH && says_length && keys.contains(&key::PITCH);
@@ -83,12 +83,12 @@ fn sweep_of(given: &Bound<'_, PyDict>) -> PyResult<Sweep> {
     Err(error::invalid_parameter(py, several.key, found, &expected))
 }
 
-/// A value as Python has it.
+/// Converts a value to Python.
 fn python(py: Python<'_>, scalar: Scalar) -> PyResult<Bound<'_, PyAny>> {
     Ok(match scalar {
         Scalar::Number(number) => number.into_pyobject(py)?.into_any(),
         Scalar::Count(count) => count.into_pyobject(py)?.into_any(),
-        // A parameter that says whether has the words of booleans, as definitions write them.
+        // Boolean parameters are words in definitions.
         Scalar::Word(word) => match word.parse::<bool>() {
             Ok(whether) => whether.into_pyobject(py)?.to_owned().into_any(),
             Err(_) => word.into_pyobject(py)?.into_any(),
@@ -111,13 +111,13 @@ pub fn measures(of: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<Measure>> {
         }
     };
     let mut measures = names.iter().map(known).collect::<PyResult<Vec<_>>>()?.concat();
-    // Sorted and each once, because evaluators are kept by this list.
+    // Sorted and without duplicates, because evaluators are cached by this list.
     measures.sort();
     measures.dedup();
     Ok(measures)
 }
 
-/// The evaluator of such measures, which keeps the springs that it has found.
+/// Returns the cached evaluator for these measures, which keeps its springs.
 pub fn evaluator(measures: &[Measure]) -> Arc<Evaluator> {
     static KNOWN: Mutex<BTreeMap<Vec<Measure>, Arc<Evaluator>>> = Mutex::new(BTreeMap::new());
     let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
@@ -126,17 +126,19 @@ pub fn evaluator(measures: &[Measure]) -> Arc<Evaluator> {
 }
 
 impl Skin {
-    /// The skins of a sweep.
+    /// Returns the skin at an index of a sweep.
     fn new(sweep: &Sweep, index: u64) -> Self {
         Self { sweep: sweep.only(index) }
     }
 
-    /// The case of the one design. It is not kept: a list of a million skins would hold it twice.
+    /// Returns the case of the design. It is not stored, to halve the memory of long lists.
     pub(crate) fn case(&self) -> Case {
         self.sweep.grid().case(0)
     }
 
-    /// Whether it is solved in some milliseconds. Everything else is watched from outside, which costs a thread.
+    /// Returns true for skins that solve within milliseconds.
+    ///
+    /// All others are solved in a separate thread, which can be interrupted.
     fn is_quick(&self) -> bool {
         let Case { imperfection, coupling, flexure, common, puncture, .. } = self.case();
         imperfection.is_none()
@@ -146,7 +148,7 @@ impl Skin {
             && common.solver == Case::default().common.solver
     }
 
-    /// The parameters that are not at their defaults, and the geometry.
+    /// Returns the geometry and the parameters that are not at their defaults.
     fn given(&self) -> impl Iterator<Item = (&'static Parameter, Scalar)> {
         let case = self.case();
         let is_given = move |p: &Parameter| p.has(Role::Geometry) || p.get(&case) != p.default();
@@ -155,7 +157,7 @@ impl Skin {
         axes.chain(self.sweep.shared()).filter(move |(parameter, _)| is_given(parameter))
     }
 
-    /// The sweep that a text in TOML, or the file of that name, defines.
+    /// Returns the sweep of a definition, given as TOML text or as a file name.
     pub(crate) fn definition(
         py: Python<'_>,
         definition: &Bound<'_, PyAny>,
@@ -165,7 +167,7 @@ impl Skin {
             Ok(skin) => skin.get().sweep.to_toml(),
             Err(_) => text(definition)?,
         };
-        // Every definition has a name, and no path has an equals sign in a line of several.
+        // TOML text starts with a name and contains an equals sign, which no path does.
         let starts = text.trim_start().starts_with("name") && text.contains('=');
         let sweep = if starts || text.contains('\n') {
             Sweep::parse(&text, "definition", settings)
@@ -212,12 +214,12 @@ impl Skin {
         Ok((count, skins))
     }
 
-    /// The skin as a complete definition, which `squama run` and `Skin.from_toml` read.
+    /// Returns a complete definition of the skin, for `squama run` and `Skin.from_toml`.
     fn to_toml(&self) -> String {
         self.sweep.to_toml()
     }
 
-    /// The parameters that are not at their defaults, and the geometry.
+    /// Returns the geometry and the parameters that are not at their defaults.
     #[getter]
     fn parameters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let given = self.given().map(|(parameter, of)| Ok((parameter.key, python(py, of)?)));
@@ -228,7 +230,7 @@ impl Skin {
         let no_such = || PyAttributeError::new_err(format!("a Skin has no {name}"));
         let parameter = Parameter::named(name).ok_or_else(no_such)?;
         let case = self.case();
-        // A length has millimetres in whichever unit it was given.
+        // A length has a value in millimetres, whichever unit was given.
         if parameter.is_in_mm() {
             return Ok(parameter.millimetres(&case).into_pyobject(py)?.into_any());
         }
@@ -282,7 +284,7 @@ impl Skin {
 
     fn __hash__(&self) -> u64 {
         let mut hasher = DefaultHasher::new();
-        // Equal skins may have been given their parameters in another order.
+        // Sorted, because equal skins may have been given their parameters in another order.
         let given = self.given().map(|(of, value)| (of.key, value.to_toml()));
         given.collect::<BTreeMap<_, _>>().hash(&mut hasher);
         hasher.finish()

@@ -9,7 +9,7 @@ use results::{Column, DesignRow, PathTable, SolvedDesign, path_tables};
 use crate::skin::Skin;
 use crate::value::{NamedCells, PythonCell, table};
 
-/// Name, unit, meaning, the value, and the reason why there is none.
+/// Name, unit, meaning, value, and the reason for a missing value.
 type Value = (String, &'static str, &'static str, PythonCell, Option<&'static str>);
 
 /// A solved skin with its paths.
@@ -28,7 +28,7 @@ pub fn reason(row: &DesignRow, column: &str) -> Option<&'static str> {
 
 #[pymethods]
 impl Solved {
-    /// Every value of `designs.csv`.
+    /// Returns every value of `designs.csv`.
     fn values(&self) -> Vec<Value> {
         let row = &self.design.row;
         let value = |column: &Column<DesignRow>| {
@@ -38,7 +38,7 @@ impl Solved {
         design_columns(&self.skin.get().sweep).iter().skip(1).map(value).collect()
     }
 
-    /// The tables of the paths, by their names; none of what was not solved.
+    /// Returns the tables of the solved paths, by name.
     fn tables(&self) -> HashMap<&'static str, Vec<NamedCells>> {
         let named =
             |of: PathTable| (of.file.trim_end_matches(".csv"), table(&of.columns, 0..of.rows));

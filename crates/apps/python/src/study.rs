@@ -28,21 +28,21 @@ use crate::skin::Skin;
 use crate::value::{Cells, NamedCells, table, text, value};
 use crate::work::{interrupted, pool, threads as threads_of, watched, whole};
 
-/// This program, which a run notes in its folder.
+/// This program, recorded in results folders.
 const PROGRAM: Program =
     Program { version: env!("CARGO_PKG_VERSION"), revision: env!("SQUAMA_REVISION") };
 
-/// The numbers of samples that `squama tolerance` accepts, too.
+/// The accepted numbers of samples, as for `squama tolerance`.
 const SAMPLES: RangeInclusive<usize> = 0..=1_000_000;
 
-/// How often the tables are written while a run goes on.
+/// Interval between updates of the tables during a run.
 const TABLES_EVERY: Duration = Duration::from_secs(30);
 
-/// The keywords that studies share.
+/// Keywords shared by the functions of studies.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub struct Keywords<'py> {
-    /// The folder.
+    /// The results folder.
     out: Option<PathBuf>,
     /// Settings that override the definition: dotted keys and values.
     set: Option<Bound<'py, PyDict>>,
@@ -64,7 +64,7 @@ impl Keywords<'_> {
         self.set.iter().flatten().map(setting).collect()
     }
 
-    /// The folder, for the command and for this program the same.
+    /// Returns the results folder, with the same default as the command.
     fn folder(&self, sweep: &Sweep) -> PathBuf {
         self.out.clone().unwrap_or_else(|| Path::new("results").join(sweep.name()))
     }
@@ -101,17 +101,17 @@ pub fn run(
         let told = |progress| watch.tell(progress);
         ::run::run(&sweep, Subset::default(), &place, start, &options, &PROGRAM, told)
     })?;
-    // Designs that fail are results, too: missing are only those that an interrupt has left.
+    // Failed designs are results; only an interrupt leaves designs missing.
     if finished.or_failed("run")?.missing > 0 { Err(interrupted()) } else { Ok(folder) }
 }
 
-/// The results in a folder, once they are checked.
+/// Reads and verifies the results in a folder.
 fn results(folder: &Path, file: &'static str) -> PyResult<Results> {
     let verified = VerifiedFolder::open(folder, Completeness::Whole).or_failed("read")?;
     Results::of_file(&verified, file).or_failed("read")
 }
 
-/// The table of designs in a folder: names and cells of its columns.
+/// Returns names and cells of the columns in the table of designs of a folder.
 #[pyfunction]
 pub fn read(py: Python<'_>, folder: PathBuf) -> PyResult<Vec<(String, Py<PyAny>)>> {
     let columns = watched(py, None, move |watch| {
@@ -135,13 +135,13 @@ pub fn read(py: Python<'_>, folder: PathBuf) -> PyResult<Vec<(String, Py<PyAny>)
     let mut converted = Vec::with_capacity(columns.len());
     for (name, cells) in columns {
         converted.push((name, cells.into_pyobject(py)?.unbind()));
-        // A table of a million designs takes seconds: other threads of Python run in between.
+        // Release the interpreter lock now and then: a table of a million designs takes seconds.
         py.detach(thread::yield_now);
     }
     Ok(converted)
 }
 
-/// The designs of a run that meet requirements, by fitness.
+/// Ranks the designs of a run that meet requirements, by fitness.
 #[pyfunction]
 #[pyo3(signature = (folder, require, maximize, minimize, weights))]
 pub fn rank(
@@ -174,7 +174,9 @@ fn requirements(texts: &[String]) -> PyResult<Vec<Requirement>> {
     texts.iter().map(|text| text.parse().or_failed(text)).collect()
 }
 
-/// Searches for the best designs of a goal, and returns the folder and, of one objective, the definition of the best.
+/// Searches for the best designs of a goal.
+///
+/// Returns the folder and, for a single objective, the definition of the best design.
 #[pyfunction]
 pub fn optimise(
     py: Python<'_>,
@@ -199,8 +201,10 @@ pub fn optimise(
     }
 }
 
-/// Predicts and samples the effect of the deviations of a definition on its designs: the columns of the spread of every
-/// measure, of its sources, and of the yields. Samples are kept in the folder.
+/// Predicts and samples the effect of the deviations in a definition.
+///
+/// Returns the columns of the spread of every measure, of its sources, and of the yields. Samples
+/// are stored in the folder.
 #[pyfunction]
 pub fn tolerance(
     py: Python<'_>,

@@ -19,7 +19,7 @@ use crate::error::OrFailed as _;
 /// A column for Python: name, unit, meaning, and its cells.
 pub type NamedCells = (String, &'static str, &'static str, Cells);
 
-/// The place of everything that comes from Python, for messages.
+/// The location of values from Python in messages.
 pub fn place() -> Place {
     Place::Argument("squama".into())
 }
@@ -29,13 +29,14 @@ pub fn text(of: &Bound<'_, PyAny>) -> PyResult<String> {
     of.str()?.extract()
 }
 
-/// Largest depth of lists and tables in a value. No key of a definition needs more than three levels; without a limit a
-/// list that contains itself would overflow the stack.
+/// Maximum depth of nested lists and tables; definitions need at most three levels.
+///
+/// Without a limit, a list that contains itself would overflow the stack.
 const MAX_DEPTH: usize = 8;
 
 /// Converts a value to its form in a definition.
 ///
-/// Values that no definition can hold are kept as text, so that the parser refuses them by the name of their key.
+/// Unsupported values become text, so that the parser rejects them with their key.
 pub fn value(object: &Bound<'_, PyAny>) -> PyResult<Value> {
     nested_value(object, MAX_DEPTH)
 }
@@ -44,7 +45,7 @@ fn nested_value(object: &Bound<'_, PyAny>, depth: usize) -> PyResult<Value> {
     if depth == 0 {
         return Ok(Value::Other(format!("a value of more than {MAX_DEPTH} levels")));
     }
-    // Asked first, since in Python a boolean is a whole number, too.
+    // Check booleans first, because they are integers in Python.
     if object.is_instance_of::<PyBool>() {
         return Ok(Value::Other(text(object)?.to_lowercase()));
     }
@@ -52,7 +53,7 @@ fn nested_value(object: &Bound<'_, PyAny>, depth: usize) -> PyResult<Value> {
         return Ok(Value::Text(text(object)?));
     }
     if object.is_instance_of::<PyInt>() {
-        // As text: whole numbers of Python have no bounds.
+        // Pass integers as text, because Python integers are unbounded.
         return Ok(Value::Number(text(object)?));
     }
     if object.is_instance_of::<PyFloat>() {
@@ -66,11 +67,11 @@ fn nested_value(object: &Bound<'_, PyAny>, depth: usize) -> PyResult<Value> {
         }
         return Ok(Value::Table(table));
     }
-    // Scalars and arrays of numpy become plain numbers and lists.
+    // Scalars and arrays of numpy become numbers and lists.
     if object.hasattr("tolist")? {
         return nested_value(&object.call_method0("tolist")?, depth - 1);
     }
-    // Other iterables are refused: sets have no order, and generators need not end.
+    // Reject other iterables: sets have no order, and generators may be endless.
     if object.is_instance_of::<PyList>() || object.is_instance_of::<PyTuple>() {
         let items = object.try_iter()?.map(|item| nested_value(&item?, depth - 1));
         return items.collect::<PyResult<_>>().map(Value::List);
@@ -78,7 +79,7 @@ fn nested_value(object: &Bound<'_, PyAny>, depth: usize) -> PyResult<Value> {
     Ok(Value::Other(format!("a value of type {}", object.get_type().name()?)))
 }
 
-/// The cell of a table: a number, a text, or `None`.
+/// A table cell: a number, a text, or `None`.
 #[derive(IntoPyObject)]
 pub enum PythonCell {
     Empty(Option<()>),
@@ -98,7 +99,9 @@ impl From<Cell> for PythonCell {
     }
 }
 
-/// The cells of a column: the bytes of numbers, of which one that does not exist is NaN, unless one of them is a text.
+/// The cells of a column: numbers as bytes (NaN if missing), or texts.
+///
+/// A single text makes the whole column text.
 #[derive(IntoPyObject)]
 pub enum Cells {
     Numbers(Vec<u8>),
@@ -106,7 +109,7 @@ pub enum Cells {
 }
 
 impl Extend<Cell> for Cells {
-    /// Adds cells. The first text makes all of them texts.
+    /// Appends cells; the first text converts the whole column to text.
     fn extend<T: IntoIterator<Item = Cell>>(&mut self, cells: T) {
         let cells: Vec<Cell> = cells.into_iter().collect();
         let is_text = |cell: &Cell| matches!(cell, Cell::Text(text) if !text.is_empty());
@@ -114,7 +117,7 @@ impl Extend<Cell> for Cells {
             && cells.iter().any(is_text)
         {
             let (known, _) = known.as_chunks();
-            // NaN stood for a cell that does not exist, and becomes one again.
+            // NaN stands for a missing cell.
             let known = known.iter().map(|of| Cell::from(f64::from_ne_bytes(*of)).number());
             *self = Self::Texts(known.map(|number| Cell::from(number).into()).collect());
         }
@@ -129,7 +132,7 @@ impl Extend<Cell> for Cells {
 }
 
 impl Cells {
-    /// The cells of a column that is stored as text: numbers if every cell is a number or empty.
+    /// Creates the cells of a column of strings: numbers if every cell is a number or empty.
     pub fn of_texts(cells: Vec<String>) -> Self {
         let number =
             |cell: &String| if cell.is_empty() { Some(f64::NAN) } else { cell.parse::<f64>().ok() };
@@ -141,14 +144,14 @@ impl Cells {
         }
     }
 
-    /// The cells of a column of words, such as the numbers of designs, which have leading zeros.
+    /// Creates the cells of a text column, such as design numbers with leading zeros.
     pub fn words(cells: Vec<String>) -> Self {
         let cell = |text: String| PythonCell::from(Cell::Text(text.into()));
         Self::Texts(cells.into_iter().map(cell).collect())
     }
 }
 
-/// The cells of every column in some rows.
+/// Returns the cells of every column for some rows.
 pub fn table<R>(columns: &[Column<R>], rows: impl IntoIterator<Item = R>) -> Vec<NamedCells> {
     let rows: Vec<R> = rows.into_iter().collect();
     let named = |column: &Column<R>| {
@@ -159,10 +162,10 @@ pub fn table<R>(columns: &[Column<R>], rows: impl IntoIterator<Item = R>) -> Vec
     columns.iter().map(named).collect()
 }
 
-/// The columns of a table as a stream of Arrow, of one batch, in the capsule by which libraries hand over such streams.
+/// Returns a table as an Arrow stream of one batch, in a `PyCapsule`.
 #[pyfunction]
 pub fn arrow(py: Python<'_>, columns: Vec<(String, ArrowCells)>) -> PyResult<Bound<'_, PyCapsule>> {
-    // A batch of no columns, which `try_from_iter` does not make.
+    // An empty batch, because `try_from_iter` rejects tables without columns.
     let mut batch = RecordBatch::from(StructArray::new_empty_fields(0, None));
     if !columns.is_empty() {
         let arrays = columns.into_iter().map(|(name, cells)| (name, cells.array(), true));
@@ -173,7 +176,7 @@ pub fn arrow(py: Python<'_>, columns: Vec<(String, ArrowCells)>) -> PyResult<Bou
     PyCapsule::new_with_value(py, stream, c"arrow_array_stream")
 }
 
-/// The cells of a column as a table in Python has them.
+/// The cells of a column in a Python table.
 #[derive(FromPyObject)]
 pub enum ArrowCells {
     Numbers(PyBackedBytes),

@@ -22,23 +22,23 @@ const PAUSE: Duration = Duration::from_millis(50);
 /// Time that an interrupted call waits for designs in progress, so that Ctrl-C responds.
 const GRACE: Duration = Duration::from_millis(600);
 
-/// Work that is watched while it is done.
+/// The progress of running work.
 #[derive(Debug, Default)]
 pub struct Watch {
-    /// Set once the work is to stop.
+    /// Set to request the end of the work.
     pub stop: AtomicBool,
-    /// Designs that are done.
+    /// Number of completed designs.
     pub done: AtomicUsize,
-    /// All designs.
+    /// Number of all designs.
     pub all: AtomicUsize,
-    /// How far a run is.
+    /// Progress of a run.
     pub run: WorkMeter,
-    /// How far a search is.
+    /// Progress of a search.
     pub search: SearchProgress,
 }
 
 impl Watch {
-    /// Takes the progress of a run into account.
+    /// Updates the counters from the progress of a run.
     pub fn tell(&self, progress: Progress) {
         match progress {
             Progress::Begun { designs, done } => {
@@ -64,7 +64,7 @@ impl Watch {
     }
 }
 
-/// The numbers of threads that the command accepts, too.
+/// The accepted numbers of threads, as for the command.
 const THREADS: RangeInclusive<usize> = 1..=1024;
 
 /// Returns the whole number `value`, or raises `InvalidParameter` if it is outside of `range`.
@@ -89,7 +89,7 @@ pub fn interrupted() -> PyErr {
     PyKeyboardInterrupt::new_err(())
 }
 
-/// The threads of work that has none of its own.
+/// Creates the thread pool for work without its own threads.
 pub fn pool(given: Option<&Bound<'_, PyAny>>) -> PyResult<ThreadPool> {
     ThreadPoolBuilder::new().num_threads(threads(given)?).build().or_failed("threads")
 }
@@ -106,14 +106,14 @@ pub fn watched<T: Send + 'static>(
     let (sender, mut receiver) = sync_channel(1);
     let watched = Arc::clone(&watch);
     thread::Builder::new().spawn(move || {
-        // Nobody listens any more to work that was interrupted.
+        // The receiver is gone if the call was interrupted.
         let _ = sender.send(work(&watched));
     })?;
     loop {
         let waiting = &mut receiver;
         match py.detach(move || waiting.recv_timeout(PAUSE)) {
             Ok(done) => return Ok(done),
-            // The thread has ended without an answer: it panicked.
+            // The thread ended without a result, so it panicked.
             Err(RecvTimeoutError::Disconnected) => {
                 return Err(PyRuntimeError::new_err("squama is at fault; please report the call"));
             }

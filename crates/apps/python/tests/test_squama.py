@@ -1,4 +1,4 @@
-"""The package against the command's recorded tables, finite differences, and everything that interrupts or copies it."""
+"""Tests of the package: recorded tables, finite differences, interrupts, pickling and threads."""
 
 import copy
 import csv
@@ -28,7 +28,7 @@ SKIN = squama.Skin(gap_over_t=0.1, length_over_t=0.3, slant_deg=60)
 
 
 def same(one, other):
-    """Whether two tables have the same bits."""
+    """Returns True if two tables have equal bits."""
     assert list(one) == list(other)
     for name in one:
         if one[name].dtype == float:
@@ -42,7 +42,7 @@ def designs(folder):
         return list(csv.DictReader(file))
 
 
-def test_the_digits_are_those_of_the_command(tmp_path):
+def test_values_equal_the_output_of_the_command(tmp_path):
     if not os.environ.get("SQUAMA"):
         pytest.skip("SQUAMA names no command to compare with")
     guided = 'puncture.needle="guided"'
@@ -61,8 +61,8 @@ def test_the_digits_are_those_of_the_command(tmp_path):
                     assert value == (text if isinstance(value, str) else float(text)), column
 
 
-def test_the_paper_is_that_of_the_recorded_tables():
-    # They were recorded by an earlier program, so that the last bit may differ.
+def test_the_paper_sweep_equals_the_recorded_tables():
+    # The last bit may differ, because an earlier version recorded the tables.
     rows = designs(ROOT / "results/reference/paper")
     skins = squama.Skin.all_from_toml(ROOT / "sweeps/paper.toml")
     assert len(rows) == len(skins) == 720
@@ -73,7 +73,7 @@ def test_the_paper_is_that_of_the_recorded_tables():
             assert value == text if isinstance(value, str) else value == pytest.approx(float(text), rel=1e-9)
 
 
-def test_a_run_a_table_and_single_solutions_are_the_same(tmp_path):
+def test_runs_tables_and_single_solutions_agree(tmp_path):
     run = squama.run(SMOKE, tmp_path / "smoke")
     skins = squama.Skin.all_from_toml(SMOKE)
     table = squama.solve_many(skins)
@@ -93,7 +93,7 @@ def test_a_run_a_table_and_single_solutions_are_the_same(tmp_path):
     assert run.units["critical_force"] == "E_s L t/(1-nu^2)" and run.units["slant_deg"] == "deg"
 
 
-def test_any_number_of_threads_gives_the_same():
+def test_results_do_not_depend_on_the_number_of_threads():
     skins = [SKIN.replace(slant_deg=slant, c2=c2) for slant in (0, 30, 60) for c2 in (0.23, 0.5)] * 5
     one = squama.solve_many(skins, threads=1)
     same(one, squama.solve_many(skins, threads=4))
@@ -109,7 +109,7 @@ def test_skins_of_different_kinds_share_a_table():
     assert list(squama.solve_many([])) == []
 
 
-def test_a_skin_is_a_value():
+def test_skins_are_immutable_values():
     other = squama.Skin(**SKIN.parameters)
     assert other == SKIN and hash(other) == hash(SKIN) and other is not SKIN and len({other, SKIN}) == 1
     assert SKIN.replace(slant_deg=59) != SKIN and SKIN != "skin"
@@ -136,7 +136,7 @@ def test_a_skin_in_mm():
     value, gradient = skin.value_and_gradient("critical_force_N", ["gap_mm"])
     assert value == skin.solve()["critical_force_N"]
     _, over_t = skin.value_and_gradient("critical_force_N", ["gap_over_t"])
-    # The force in N is followed along the straight line of the force, by a difference.
+    # Derivatives of the force in N are differences along the linearised dimensionless force.
     assert gradient[0] == pytest.approx(over_t[0] / 2.5, rel=1e-9)
 
 
@@ -164,7 +164,7 @@ def test_definitions_of_several_designs():
         ({"gap_over_t": None}, "gap_over_t", None, "a length"),
     ],
 )
-def test_what_is_refused_says_what_is_right(given, key, value, expected):
+def test_errors_state_valid_values(given, key, value, expected):
     with pytest.raises(squama.InvalidParameter) as caught:
         SKIN.replace(**given)
     error = caught.value
@@ -172,14 +172,14 @@ def test_what_is_refused_says_what_is_right(given, key, value, expected):
     assert value is None or error.value == value
 
 
-def test_everything_that_is_wrong_is_told_at_once():
+def test_all_problems_are_reported_at_once():
     with pytest.raises(squama.InvalidParameter) as caught:
         SKIN.replace(c2=0, gap_over_t=-1)
     assert "c2" in str(caught.value) and "gap_over_t" in str(caught.value)
     assert str(pickle.loads(pickle.dumps(caught.value))) == str(caught.value)
 
 
-def test_errors_speak_of_keywords_and_say_what_is_missing(tmp_path):
+def test_errors_name_keywords_and_missing_values(tmp_path):
     with pytest.raises(squama.InvalidParameter, match="^slant_deg: is missing, expected an angle"):
         squama.Skin(gap_over_t=0.1, length_over_t=1)
     with pytest.raises(squama.InvalidParameter, match="^gap: 'gap' is not accepted, expected the name of a parameter; did you"):
@@ -208,7 +208,7 @@ def test_errors_and_results_pickle():
     same(pickle.loads(pickle.dumps(squama.solve_many([SKIN]))), squama.solve_many([SKIN]))
 
 
-def test_ways_back_and_places_are_tables():
+def test_unloading_paths_and_load_positions_are_tables():
     result = SKIN.replace(friction=0.1, unload="true", unbend="true", places=3).solve()
     for back, path, load, left in (
         ("way_back", "path", "force", result["remaining_displacement"]),
@@ -223,11 +223,11 @@ def test_ways_back_and_places_are_tables():
 
 
 def stopped():
-    """A skin whose path stops early."""
+    """Returns a skin with a path that stops early."""
     return SKIN.replace(max_points=2)
 
 
-def test_a_failure_is_an_error_where_it_is_used():
+def test_failures_raise_when_a_value_is_used():
     result = stopped().solve()
     assert result.status == "too many points" and "puncture" in result.warnings[0]
     assert result["coverage"] == SKIN.solve()["coverage"] and np.isnan(result.get("critical_force"))
@@ -247,12 +247,12 @@ def test_a_failure_is_an_error_where_it_is_used():
         table["gap_mm"]
 
 
-def test_a_value_may_be_asked_for_by_its_name():
+def test_values_are_accessed_by_name():
     only = SKIN.solve("penetration")
     assert only["penetration"] == SKIN.solve()["penetration"] and np.isnan(only["compliance"])
 
 
-def test_errors_come_back_from_processes():
+def test_errors_are_passed_between_processes():
     with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
         results = list(pool.map(squama.Skin.solve, [SKIN, SKIN.replace(slant_deg=30)]))
         assert results[0].values == SKIN.solve().values
@@ -261,7 +261,7 @@ def test_errors_come_back_from_processes():
 
 
 @pytest.mark.parametrize("measure", ["coverage", "critical_force", "penetration", "compliance", "areal_mass_kg_m2"])
-def test_gradients_are_those_of_finite_differences(measure):
+def test_gradients_agree_with_finite_differences(measure):
     keys, x = ["gap_over_t", "length_over_t", "slant_deg"], np.array([0.21, 0.93, 41.0])
     skin = squama.Skin(gap_over_t=1, length_over_t=1, slant_deg=1, thickness_mm=2, scale_density_kg_m3=1200)
     f, jac = squama.function(skin, keys, measure)
@@ -297,8 +297,8 @@ def test_slsqp_finds_the_optimum_with_exact_gradients():
     assert found.success and -found.fun >= f([0.1, 60.0]) and cover(found.x) >= 0.6 - 1e-9
 
 
-def test_a_kink_tells_both_sides_and_can_be_an_error():
-    # Narrower, the line that measures the coverage leads through one scale more.
+def test_kinks_report_both_sides_and_can_be_errors():
+    # For smaller gaps the coverage line crosses one more scale.
     skin = squama.Skin(gap_over_t=0.1, length_over_t=0.025, slant_deg=45)
     with pytest.warns(squama.KinkWarning) as caught:
         _, gradient = skin.value_and_gradient("coverage", ["gap_over_t"])
@@ -337,7 +337,7 @@ LONG = {
 def test_ctrl_c_ends_a_call_within_a_second(call, tmp_path):
     code = f"""
 import signal, sys, squama
-# A shell that starts the tests in the background has them ignore the signal, which their children inherit.
+# A shell that runs the tests in the background ignores the signal, and children inherit this.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 skin = squama.Skin(gap_over_t=0.1, length_over_t=0.3, slant_deg=60)
 skins = [skin.replace(slant_deg=k / 10) for k in range(600)] * 100
@@ -360,7 +360,7 @@ except KeyboardInterrupt:
     assert time.monotonic() - asked < 1.0
 
 
-def test_an_interrupted_run_goes_on(tmp_path):
+def test_interrupted_runs_can_be_resumed(tmp_path):
     seen = []
 
     def stop(share, words):
@@ -380,15 +380,15 @@ def test_an_interrupted_run_goes_on(tmp_path):
             run = squama.run(definition, tmp_path / "x", resume=True, set={"measures": ["coverage", "puncture", "flexure"]})
             break
         except squama.Failed:
-            # The designs in hand are finished by the thread that was left.
+            # The abandoned thread completes the designs in progress.
             assert time.monotonic() < deadline
             time.sleep(0.1)
     assert run.rows == 1610 and "designs" in seen[0][1]
 
 
 def ended_early(begin, ending):
-    """Whether a command was begun and interrupted before its end."""
-    # A shell that starts the tests in the background has them ignore the signal, which their children inherit.
+    """Returns True if a command was interrupted after its start and before its end."""
+    # A shell that runs the tests in the background ignores the signal, and children inherit this.
     heed = lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)  # noqa: E731
     process = subprocess.Popen(begin, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, preexec_fn=heed)
     while process.poll() is None and not ending.exists():
@@ -399,7 +399,7 @@ def ended_early(begin, ending):
 
 
 @pytest.mark.skipif(not os.environ.get("SQUAMA") or os.name == "nt", reason="SQUAMA names no command to go on with")
-def test_command_and_package_go_on_with_each_others_runs(tmp_path):
+def test_command_and_package_resume_each_others_runs(tmp_path):
     command, part, other = os.environ["SQUAMA"], tmp_path / "part", tmp_path / "other"
     definition = tmp_path / "long.toml"
     definition.write_text(SMOKE.read_text().replace("smoke", "long") + "\n")
@@ -416,7 +416,7 @@ def test_command_and_package_go_on_with_each_others_runs(tmp_path):
     with pytest.raises(KeyboardInterrupt):
         squama.run(definition, other, set=whole, progress=stop)
     deadline = time.monotonic() + 20
-    # The designs in hand are finished by the thread that was left, which holds the folder till then.
+    # The abandoned thread completes the designs in progress, and locks the folder until then.
     while subprocess.run([command, "run", definition, "--quiet", "--resume", "--out", other, *settings]).returncode == 2:
         assert time.monotonic() < deadline
         time.sleep(0.1)
@@ -448,7 +448,7 @@ def test_searches_and_tolerances(tmp_path):
         squama.tolerance(skin)
 
 
-def test_a_load_is_taken_away_again():
+def test_unloading_paths_are_followed():
     skin = squama.Skin(gap_over_t=0.1, length_over_t=1, slant_deg=45, friction=0.2)
     assert skin.unload is False
     loop = skin.replace(unload=True, unbend=True)
@@ -456,7 +456,7 @@ def test_a_load_is_taken_away_again():
     assert loop.solve("puncture")["loop_work"] > 1e-3
 
 
-def test_help_is_the_manual_and_the_stub_is_up_to_date():
+def test_help_and_stub_are_up_to_date():
     manual = squama.Skin.__doc__
     for key, _, _, meaning, expected, _ in squama._squama.parameters():
         assert key in manual and meaning in manual and expected in manual
@@ -469,24 +469,24 @@ def test_help_is_the_manual_and_the_stub_is_up_to_date():
     assert "gap_over_t" in str(_manual.signature())
 
 
-def test_the_example_of_the_package_is_true():
+def test_the_example_of_the_package_runs():
     assert doctest.testmod(squama) == (0, 4)
 
 
-def test_what_a_notebook_shows():
+def test_representations_in_notebooks():
     assert "critical_force" in SKIN.solve()._repr_html_() and repr(SKIN.solve()).count("\n") == 0
     table = squama.solve_many([SKIN] * 12)
     assert "12 rows" in table._repr_html_() and "12 rows" in repr(table) and table.row(3)["slant_deg"] == 60
 
 
-def test_pandas_and_matplotlib_if_they_are_there():
+def test_pandas_and_matplotlib_if_installed():
     frame = pytest.importorskip("pandas") and squama.solve_many([SKIN] * 2).to_pandas()
     assert frame["coverage"].tolist() == [SKIN.solve()["coverage"]] * 2
     pytest.importorskip("matplotlib").use("Agg")
     assert len(SKIN.solve().plot()) == 2
 
 
-def test_arrow_if_it_is_there():
+def test_arrow_if_installed():
     arrow = pytest.importorskip("pyarrow")
     table = squama.solve_many([SKIN, stopped()])
     read = arrow.table(table)
@@ -494,7 +494,7 @@ def test_arrow_if_it_is_there():
     assert read.column("critical_force").to_pylist() == [table["critical_force"][0], None]
     assert read.column("puncture_status").to_pylist() == ["complete", "too many points"]
     assert arrow.table(squama.solve_many([])).num_columns == 0
-    # A stream that nobody takes frees what it holds.
+    # A stream that is not consumed releases its memory.
     table.__arrow_c_stream__()
     frame = pytest.importorskip("polars").from_arrow(table).struct.unnest()
     assert frame["critical_force"].to_list() == read.column("critical_force").to_pylist()
@@ -504,7 +504,7 @@ def test_arrow_if_it_is_there():
 def test_the_examples_run(file, tmp_path):
     module = {"scipy_slsqp": "scipy", "openmdao_component": "openmdao", "pymoo_front": "pymoo", "jax_function": "jax"}
     pytest.importorskip(module[file.stem])
-    # Some write reports where they are run.
+    # Some examples write reports to the working directory.
     subprocess.run([sys.executable, file], check=True, capture_output=True, cwd=tmp_path)
 
 
@@ -535,7 +535,7 @@ def test_only_lists_tuples_and_arrays_are_lists(value):
         squama.Skin(gap_over_t=value, length_over_t=0.3, slant_deg=60)
 
 
-def test_a_list_of_too_many_skins_is_refused():
+def test_lists_of_too_many_skins_are_rejected():
     definition = """name = "b"
     [designs]
     gap_over_t = { from = 0.001, to = 1, step = 0.001 }
@@ -558,7 +558,7 @@ def test_numbers_of_threads_out_of_range_are_refused(threads, tmp_path):
     assert not (tmp_path / "out").exists()
 
 
-def test_a_function_refuses_points_of_another_length():
+def test_functions_reject_points_of_another_length():
     f, jac = squama.function(SKIN, ["gap_over_t", "slant_deg"], "coverage")
     for point in ([], [0.2], [0.2, 60, 99], [[0.2, 60]]):
         for call in (f, jac):
@@ -584,7 +584,7 @@ def test_other_threads_run_while_definitions_and_results_are_read(tmp_path):
     with ThreadPoolExecutor(1) as executor:
         ticking = executor.submit(tick)
         try:
-            # One call of the extension each: other threads can only run if it releases the lock.
+            # A single call of the extension each: other threads run only if it releases the lock.
             for call, argument in ((squama._squama.read, tmp_path / "big"), (lambda text: squama.Skin._designs(text, None), definition)):
                 before = len(ticks)
                 call(argument)
@@ -612,7 +612,7 @@ def test_gradients_of_folded_designs_warn_once():
         folded.value_and_gradient("coverage", ["length_over_t"], "mean")
 
 
-def test_a_missing_material_is_named_by_the_keys_that_are_missing():
+def test_missing_materials_are_reported_by_their_keys():
     with_thickness = squama.Skin(gap_over_t=0.1, length_over_t=0.3, slant_deg=60, thickness_mm=2)
     with pytest.raises(KeyError, match="needs substrate_modulus_MPa'"):
         with_thickness.solve()["critical_force_N"]
