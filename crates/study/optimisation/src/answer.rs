@@ -21,7 +21,9 @@ pub enum Answer {
     Infeasible(Option<usize>),
 }
 
-/// Searches for the answer to a goal from the known designs; a front gets `points` points.
+/// Searches for the answer to a goal from the known designs.
+///
+/// A front gets `points` points.
 pub(crate) fn answer(
     search: &Search<'_>,
     history: &mut Vec<Candidate>,

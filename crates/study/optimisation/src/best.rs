@@ -33,7 +33,7 @@ pub struct BestDesign {
     pub bindings: Vec<Binding>,
     /// Check with independent samples, if the goal is about samples.
     pub confirmation: Option<Confirmation>,
-    /// The agreement of the searches for it, unless it is a point of a front.
+    /// Agreement of the searches for it; `None` for a point of a front.
     pub agreement: Option<Agreement>,
 }
 
@@ -50,8 +50,9 @@ pub(crate) fn best_design(
     Ok(BestDesign { candidate: best, row, target, bindings, confirmation: None, agreement: None })
 }
 
-/// A region of the space that a local search does not leave: choices, coverage peak, contact in
-/// bending.
+/// Region of the space that a local search does not leave.
+///
+/// It consists of the choices, the coverage peak, and contact or no contact in bending.
 pub(crate) type Region = (Vec<usize>, Option<u32>, Option<bool>);
 
 /// Returns the region of a design, as far as regions matter for the goal.
@@ -64,7 +65,9 @@ pub(crate) fn region(search: &Search<'_>, candidate: &Candidate) -> Region {
     (candidate.point.chosen.clone(), peak, contact)
 }
 
-/// Selects starts of local searches: the best design of each region, then others that are apart.
+/// Selects starts of local searches.
+///
+/// They are the best designs of each region, then other designs at a distance.
 pub(crate) fn starts<'c>(
     search: &Search<'_>,
     history: impl IntoIterator<Item = &'c Candidate>,

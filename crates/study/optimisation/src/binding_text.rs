@@ -12,7 +12,7 @@ use crate::price::{Binding, Limit};
 use crate::space::Interval;
 use crate::statistic::Statistic;
 
-/// Fraction of its width at rest by which each gap stays open in the price of an unfolded surface.
+/// Gap width, over the width at rest, for which the price of a gap is stated.
 const OPEN: f64 = 0.1;
 
 /// Describes binding limits and their multipliers.
@@ -64,8 +64,9 @@ impl<'a> BindingText<'a> {
         }
     }
 
-    /// Describes the multiplier of a limit, e.g. `0.01 more coverage costs 0.12 of critical_force`;
-    /// `None` if unknown.
+    /// Describes a multiplier, e.g. `0.01 more coverage costs 0.12 of critical_force`.
+    ///
+    /// `None` if the multiplier is unknown.
     pub fn price(&self, binding: &Binding, target: &Target) -> Option<String> {
         if matches!(binding.limit, Limit::Requirement(k) if self.judge.is_yield(StatisticUse::Requirement(k)))
         {
@@ -107,8 +108,9 @@ impl<'a> BindingText<'a> {
         })
     }
 
-    /// Describes the multiplier of requirement `k` for an unfolded surface, as the cost of wider
-    /// open gaps.
+    /// Describes the multiplier of requirement `k` for an unfolded surface.
+    ///
+    /// It is the cost of keeping gaps open wider.
     fn openness(&self, k: usize, price: f64, objective: &Criterion) -> String {
         let of = if self.judge.is_statistic(StatisticUse::Requirement(k)) {
             "the gaps of these samples"
@@ -181,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn prices_say_what_more_costs() {
+    fn prices_state_the_cost_of_a_tighter_limit() {
         let text = "name = 'x'\n[variables]\ngap_over_t = { from = 0.1, to = 1 }\n[designs]\nlength_over_t = 1\n\
                     slant_deg = 75\n[material]\nthickness_mm = 1\nsubstrate_modulus_MPa = 1\nscale_density_kg_m3 = 1000\n\
                     [goal]\nminimize = 'areal_mass_kg_m2'\nrequire = ['critical_force_N >= 2', 'penetration <= 0.4']";

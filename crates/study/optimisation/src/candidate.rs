@@ -49,9 +49,9 @@ pub struct Candidate {
     pub verdict: Judgement,
 }
 
-/// Target of a search: one objective to maximise, with lower bounds on the others (ε-constraint).
+/// Target of a search: an objective to maximise, with bounds on the others.
 ///
-/// Objectives to be minimised change sign.
+/// This is the ε-constraint method. Objectives to be minimised change sign.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Target {
     /// Index of the objective.
@@ -105,7 +105,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn who_meets_everything_is_better_than_who_does_not() {
+    fn feasible_designs_are_better_than_infeasible_ones() {
         let merits = [Merit::None, Merit::Short(0.1), Merit::Short(0.2), Merit::Met(-5.0)];
         let best_of = |merits: &[Merit]| best(merits.iter().copied());
         assert_eq!(best_of(&merits), Some(3));

@@ -1,4 +1,4 @@
-//! Columns of nominal designs named by a goal: those of `designs.csv`, and the fitness.
+//! Columns that a goal may name: the columns of `designs.csv`, and the fitness.
 
 use ranking::{CriterionEnds, FitnessGoal, RescaledCriterion};
 use results::columns::design_columns;
@@ -24,7 +24,9 @@ impl NumberColumn {
         known(sweep, name).map(Self::Known)
     }
 
-    /// Creates the fitness with these ends; without ends for every weighted criterion it has no value.
+    /// Creates the fitness with these ends.
+    ///
+    /// It has no value if a weighted criterion has no ends.
     pub fn fitness(goal: &FitnessGoal, sweep: &Sweep, ends: &[CriterionEnds]) -> Self {
         let parts = goal.rescaled(ends);
         let parts = parts.filter_map(|(of, part)| Some((known(sweep, &of.column)?, part)));
@@ -74,14 +76,17 @@ fn known(sweep: &Sweep, name: &str) -> Option<Column<DesignRow>> {
     design_columns(sweep).into_iter().find(|column| column.name == name)
 }
 
-/// Differentiates a column numerically, from rows extrapolated by the derivatives of measures.
+/// Differentiates a column numerically.
+///
+/// The rows are extrapolated by the derivatives of measures.
 fn slopes(column: &Column<DesignRow>, row: &DesignRow, parameter: &Parameter) -> Slopes {
     let at = |by, side| column.cell(&row.extrapolated_by(parameter, by, side)?).number();
     Slopes::between(parameter.size(&row.case), at)
 }
 
-/// Returns the ends of every criterion: given by the goal, or the worst and best of the `rows` with
-/// coverage.
+/// Returns the ends of every criterion.
+///
+/// They are given by the goal, or are the worst and best value of the `rows` with coverage.
 pub(crate) fn ends_over(
     goal: &FitnessGoal,
     sweep: &Sweep,

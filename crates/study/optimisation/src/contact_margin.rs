@@ -11,10 +11,10 @@ const AMPLE: f64 = 1.0;
 /// Step of the finite differences, relative to the size of the parameter.
 const STEP: f64 = 1e-5;
 
-/// Returns the slack before contact: the logarithm of the contact curvature over the final
-/// curvature.
+/// Returns the slack before contact.
 ///
-/// The contact curvature is in closed form (F5). A negative slack means contact in bending.
+/// It is the logarithm of the contact curvature over the final curvature. The contact curvature is
+/// in closed form (F5). A negative slack means contact in bending.
 pub(crate) fn contact_margin(case: &Case) -> f64 {
     finite_contact_margin(case).unwrap_or(AMPLE)
 }

@@ -1,4 +1,6 @@
-//! Start points on coverage peaks, ordered by the shortfall that closed forms predict.
+//! Start points on coverage peaks, ordered by predicted shortfall.
+//!
+//! Closed forms predict the shortfall.
 
 use std::collections::BTreeMap;
 
@@ -21,14 +23,15 @@ const EACH: usize = 6;
 /// Predicted shortfall above which a point is not evaluated.
 const HOPELESS: f64 = 0.25;
 
-/// Minimum distance between evaluated points on a peak, as a fraction of the intervals.
+/// Minimum distance of points on a peak, as a fraction of the intervals.
 const APART: f64 = 0.05;
 
-/// Bisections to locate a peak on an interval, far below the tolerance of a branch border.
+/// Number of bisections to locate a peak.
+///
+/// The error is far below the tolerance of a branch border.
 const BISECTIONS: usize = 40;
 
-/// Returns points on every coverage peak of the space, those with the least predicted shortfall
-/// first.
+/// Returns points on every coverage peak, the least predicted shortfall first.
 pub(crate) fn points_on_peaks(space: &DesignSpace, judge: &Judge, seed: u64) -> Vec<SpacePoint> {
     let number = space.sweep().grid().number(0);
     // An ordered map gives the same points in the same order in every session.

@@ -4,7 +4,7 @@
 //! each peak `k` and falls behind it,
 //!
 //! ```text
-//! λ = 1 − k d/S,   (k − 1) p + d ≤ S ≤ k p;        λ = k (p − d)/S,   k p ≤ S ≤ k p + d                 (O8)
+//! λ = 1 − k d/S,   (k − 1) p + d ≤ S ≤ k p;     λ = k (p − d)/S,   k p ≤ S ≤ k p + d     (O8)
 //! ```
 //!
 //! so `λ ≤ 1 − d/p`, with equality at the peaks alone. A requirement on coverage splits the space
@@ -17,12 +17,14 @@ use sweep::{Case, Parameter};
 
 use crate::slopes::Slopes;
 
-/// Tolerance within which a point on a border belongs to both branches: round-off of a step that
-/// ends there.
+/// Tolerance within which a point on a border belongs to both branches.
+///
+/// It exceeds the round-off of a step that ends on the border.
 const BORDER: f64 = 1e-7;
 
-/// Columns with the upper bound `d/p`: a bent strip is never less stiff than at rest, where the
-/// gaps alone bend.
+/// Columns with the upper bound `d/p`.
+///
+/// A bent strip is never less stiff than at rest, where only the gaps bend.
 pub(crate) const COMPLIANCES: [&str; 2] = [name::COMPLIANCE, name::INITIAL_COMPLIANCE];
 
 /// A coverage branch: one side of a coverage peak.
@@ -30,7 +32,7 @@ pub(crate) const COMPLIANCES: [&str; 2] = [name::COMPLIANCE, name::INITIAL_COMPL
 pub(crate) struct CoveragePiece {
     /// Number `k` of the peak.
     pub peak: u32,
-    /// Whether the coverage increases with the slant.
+    /// True if the coverage increases with the slant.
     rising: bool,
 }
 
@@ -95,24 +97,26 @@ impl CoveragePiece {
         Some(if self.rising { 1.0 - peak * gap / reach } else { peak * (pitch - gap) / reach })
     }
 
-    /// Continues the coverage of a row and its derivatives smoothly beyond the borders.
+    /// Continues the coverage of a row and its derivatives beyond the borders.
     pub fn continue_coverage(self, row: &mut DesignRow) {
         row.result.coverage = self.coverage(&row.case);
         differentiate(row, name::COVERAGE, |case| self.coverage(case));
     }
 }
 
-/// Returns the position `S/p` of a design among the coverage peaks; an integer on each.
+/// Returns the position `S/p` of a design, which is an integer at each peak.
 pub(crate) fn place(case: &Case) -> Option<f64> {
     Lengths::of(case).map(Lengths::place)
 }
 
-/// Returns the fraction `d/p` of the pitch taken by the gap; `None` for an impossible row.
+/// Returns the fraction `d/p` of the pitch taken by the gap.
+///
+/// `None` for an impossible row.
 pub(crate) fn open_share(case: &Case) -> Option<f64> {
     Lengths::of(case).map(|lengths| lengths.gap / lengths.pitch)
 }
 
-/// Continues the compliance `d/p` of strips without contact beyond the point of contact.
+/// Continues the compliance `d/p` of strips without contact beyond contact.
 pub(crate) fn continue_compliance(row: &mut DesignRow) {
     if let Some(flexure) = &mut row.result.flexure {
         flexure.measures.compliance = open_share(&row.case);
@@ -120,7 +124,7 @@ pub(crate) fn continue_compliance(row: &mut DesignRow) {
     differentiate(row, name::COMPLIANCE, open_share);
 }
 
-/// Replaces the derivatives of a measure by those of a smooth function of the case.
+/// Replaces the derivatives of a measure with derivatives of a smooth function.
 fn differentiate(row: &mut DesignRow, measure: &str, value: impl Fn(&Case) -> Option<f64>) {
     let Some(here) = value(&row.case) else { return };
     for of in row.result.sensitivity.iter_mut().filter(|of| of.measure == measure) {
@@ -144,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn a_piece_has_the_coverage_of_its_designs() {
+    fn branches_reproduce_the_coverage() {
         let mut peaks = Vec::new();
         for slant in 1..75 {
             let case = case(0.13, 0.31, f64::from(slant));
@@ -160,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn a_peak_belongs_to_both_of_its_sides() {
+    fn a_peak_belongs_to_both_adjacent_branches() {
         let slant = 0.88_f64.atan().to_degrees();
         let sides = CoveragePiece::beside(&case(0.13, 0.31, slant));
         assert_eq!(sides.iter().map(|side| side.peak).collect::<Vec<_>>(), [2, 2]);

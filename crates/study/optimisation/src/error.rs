@@ -15,17 +15,17 @@ pub enum OptimisationError {
     /// No design has a value in a column of the goal.
     #[error("{column}: none of the {designs} designs has a number in this column")]
     NoValue {
-        /// The column.
+        /// Column name.
         column: String,
-        /// The number of designs that were solved.
+        /// Number of solved designs.
         designs: usize,
     },
     /// The threads cannot be started.
     #[error("{count} threads cannot be started ({reason}), expected fewer")]
     Threads {
-        /// The number of threads that were asked for.
+        /// Requested number of threads.
         count: usize,
-        /// The message of the system.
+        /// Error message of the system.
         reason: String,
     },
 }

@@ -35,7 +35,9 @@ pub(crate) enum Halt {
     Stalled,
 }
 
-/// Solves points of a space once each; results of earlier sessions come from the journal.
+/// Solves each point of a space once, and stores the results in a journal.
+///
+/// Results of earlier sessions are read from it.
 pub(crate) struct Evaluations<'a> {
     space: &'a DesignSpace,
     plain: Evaluator,
@@ -69,7 +71,7 @@ impl<'a> Evaluations<'a> {
         })
     }
 
-    /// Returns the intervals of parameters that only scale columns in physical units, not measures.
+    /// Returns the intervals that only scale columns in physical units, not measures.
     pub fn scaling_intervals(&self) -> Vec<usize> {
         let measures = self.space.sweep().measures();
         let is_measured = |section: &str| measures.iter().any(|m| m.sections().contains(&section));
@@ -82,8 +84,9 @@ impl<'a> Evaluations<'a> {
         scaling.map(|(j, _)| j).collect()
     }
 
-    /// Returns the common representative of points that differ by scaling alone and share one
-    /// result.
+    /// Returns the common representative of points that differ by scaling only.
+    ///
+    /// These points share one result.
     fn unscaled(&self, point: &SpacePoint) -> SpacePoint {
         let mut unscaled = point.clone();
         for j in self.scaling_intervals() {
@@ -106,7 +109,7 @@ impl<'a> Evaluations<'a> {
     /// Solves the design at `point`, or returns its known result.
     ///
     /// # Errors
-    /// If the process is asked to end, or the journal cannot be written.
+    /// If a stop was requested, or the journal cannot be written.
     pub fn solve(
         &self,
         point: &SpacePoint,
@@ -117,8 +120,9 @@ impl<'a> Evaluations<'a> {
         self.known_or(&point, differentiated, None, &self.space.case(&point), evaluator)
     }
 
-    /// As [`Self::solve`] with derivatives, for a sample without scatter between scales; `None` if
-    /// the sample does not exist.
+    /// Solves a sample with derivatives, without scatter between scales.
+    ///
+    /// `None` if the sample does not exist. See [`Self::solve`].
     pub fn even_sample(
         &self,
         point: &SpacePoint,
@@ -135,7 +139,7 @@ impl<'a> Evaluations<'a> {
         self.sampler.even_case(nominal, BEFORE + sample)
     }
 
-    /// Returns the result of a case, solving it if unknown.
+    /// Returns the result of a case, and solves it if it is unknown.
     fn known_or(
         &self,
         point: &SpacePoint,
@@ -172,11 +176,13 @@ impl<'a> Evaluations<'a> {
         Ok(Arc::clone(&journal.records().solved[&key]))
     }
 
-    /// Returns the values of `count` samples of the design at `point`, from number `first`, solved
-    /// in parallel.
+    /// Returns the values of samples of the design at `point`.
+    ///
+    /// `count` samples from number `first` are solved in parallel.
     ///
     /// # Errors
-    /// As [`Self::solve`].
+    ///
+    /// See [`Self::solve`].
     pub fn samples(
         &self,
         point: &SpacePoint,
@@ -184,7 +190,7 @@ impl<'a> Evaluations<'a> {
         count: usize,
         judge: &SampleJudge,
     ) -> Result<Arc<Samples>, Halt> {
-        // Not unscaled: samples of a scaled design differ.
+        // Samples of a scaled design differ, so do not use `unscaled`.
         let key = (PointKey::of(point), first, count);
         if let Some(known) = self.journal().records().sampled.get(&key) {
             return Ok(Arc::clone(known));
@@ -209,7 +215,7 @@ impl<'a> Evaluations<'a> {
         if self.stop.load(Ordering::Relaxed) { Err(Halt::Interrupted) } else { Ok(()) }
     }
 
-    /// Forces the journal to the disk.
+    /// Writes the journal to disk.
     pub fn sync(&self) -> Result<(), OutputError> {
         self.journal().sync()
     }
@@ -222,8 +228,9 @@ impl<'a> Evaluations<'a> {
         known.solved.len() + samples
     }
 
-    /// Locks the journal; a poisoned lock is safe, because no operation under it leaves partial
-    /// state.
+    /// Locks the journal.
+    ///
+    /// A poisoned lock is safe, because no operation under it leaves partial state.
     fn journal(&self) -> MutexGuard<'_, Journal<Known>> {
         self.journal.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -16,15 +16,19 @@ use crate::progress::SearchPart;
 /// Maximum rounds that add points in the widest gaps.
 const REFILLS: usize = 3;
 
-/// Margin, as a fraction of a gap, by which a lower bound must lie inside it: a design exceeds its
-/// own bound slightly.
+/// Minimum distance of a new lower bound from the start of its gap.
+///
+/// It is a fraction of the gap. A design exceeds its own lower bound slightly.
 const INSIDE: f64 = 1e-3;
 
-/// Relative difference up to which designs are one point of the front; tables show six digits.
+/// Relative difference up to which designs are the same point of the front.
+///
+/// Tables show six digits.
 const SAME: f64 = 1e-6;
 
-/// Fraction of the front by which the first end targets lie inside: the exact optimum of one
-/// objective may be a set of zero width, in which no search can step.
+/// Distance of the first end targets from the ends, as a fraction of the front.
+///
+/// The exact optimum of one objective may be a set of zero width, in which no search can step.
 const BESIDE: f64 = 1e-6;
 
 /// Fraction of the front below which a gap needs no further point.
@@ -47,14 +51,15 @@ pub struct Front {
 }
 
 impl Front {
-    /// Returns the number of requested points that were not searched: no gap was wide enough, or no
-    /// known design far enough.
+    /// Returns the number of requested points that were not searched.
+    ///
+    /// Either no gap was wide enough, or no known design was far enough from the others.
     pub fn left_out(&self, points: usize) -> usize {
         points.saturating_sub(self.designs.len() + self.same + self.beaten + self.empty)
     }
 }
 
-/// Searches points between the ends of the front, then adds points where gaps are widest.
+/// Searches points between the ends of a front, then points in the widest gaps.
 pub(crate) fn search(
     search: &Search<'_>,
     history: &mut Vec<Candidate>,
@@ -84,8 +89,10 @@ pub(crate) fn search(
     Ok(front)
 }
 
-/// Returns targets for the exact ends: each objective is maximised while the other keeps its value,
-/// within the smallest visible difference.
+/// Returns targets for the exact ends of the front.
+///
+/// Each objective is maximised while the other keeps its value, within the smallest visible
+/// difference.
 fn ends(search: &Search<'_>, designs: &[BestDesign]) -> Option<[Target; 2]> {
     let values = |design: &BestDesign| turned(search, &design.candidate);
     let (first, last) = (values(designs.first()?)?, values(designs.last()?)?);
@@ -95,8 +102,9 @@ fn ends(search: &Search<'_>, designs: &[BestDesign]) -> Option<[Target; 2]> {
     (first.len() == 2 && designs.len() > 1).then(|| [end(0, floors[0]), end(1, floors[1])])
 }
 
-/// Returns targets for missing points: in the widest gaps of a curve, or at known designs far from
-/// all points of a surface.
+/// Returns targets for missing points.
+///
+/// They are in the widest gaps of a curve, or at known designs far from all points of a surface.
 fn more_targets(
     search: &Search<'_>,
     history: &[Candidate],
@@ -116,8 +124,11 @@ fn more_targets(
     floors.filter(|target| !targets.contains(target)).collect()
 }
 
-/// Targets in the widest gaps of a front of two objectives, at most so many. Of a gap in which a floor led to its far end, the front has a
-/// step there, only the part before that floor is left; narrow ones need no point.
+/// Returns targets in the widest gaps of a front of two objectives.
+///
+/// There are at most `count` targets. If a lower bound inside a gap led to the far end of the gap,
+/// the front has a step there, and only the part before this bound remains. Narrow gaps are
+/// skipped.
 fn between(front: &[Vec<f64>], targets: &[Target], count: usize) -> Vec<Target> {
     let (Some(first), Some(last)) = (front.first(), front.last()) else { return Vec::new() };
     let scales = [0, 1].map(|k| Spacing::between(first[k], last[k]));
@@ -136,8 +147,10 @@ fn between(front: &[Vec<f64>], targets: &[Target], count: usize) -> Vec<Target> 
     gaps.into_iter().map(|(_, floor)| target(vec![floor])).collect()
 }
 
-/// Spacing of values between two ends: equal ratios if they span a power of ten, otherwise equal
-/// differences.
+/// Spacing of values between two ends.
+///
+/// Ratios are equal if the ends differ by a factor of at least ten, otherwise differences are
+/// equal.
 #[derive(Clone, Copy)]
 struct Spacing {
     ends: [f64; 2],
@@ -269,7 +282,7 @@ fn target(floors: Vec<f64>) -> Target {
     }
 }
 
-/// Returns targets for the ends of a front of two objectives, and for lower bounds between them.
+/// Returns targets for a front of two objectives: its ends and points between.
 fn curve(values: &[Vec<f64>], points: usize) -> Vec<Target> {
     let end = |k: usize| values.iter().max_by(|a, b| a[k].total_cmp(&b[k]));
     let Some((first, last)) = end(0).zip(end(1)) else { return Vec::new() };
@@ -282,8 +295,9 @@ fn curve(values: &[Vec<f64>], points: usize) -> Vec<Target> {
     [first_end].into_iter().chain(inner).chain([last_end]).collect()
 }
 
-/// Returns lower bounds at non-dominated designs that are farthest from each other and from
-/// `taken`.
+/// Returns lower bounds at non-dominated designs with the largest distances.
+///
+/// Distances are measured to each other and to `taken`.
 fn spread(values: &[Vec<f64>], taken: &[Vec<f64>], count: usize) -> Vec<Vec<f64>> {
     let is_beaten = |value: &Vec<f64>| values.iter().any(|other| dominates(other, value));
     let front: Vec<&Vec<f64>> = values.iter().filter(|value| !is_beaten(value)).collect();
@@ -322,7 +336,7 @@ mod tests {
     use super::{dominates, is_same};
 
     #[test]
-    fn of_points_alike_but_for_round_off_in_one_objective_the_better_stays() {
+    fn dominance_tolerates_round_off_in_one_objective() {
         // Such points occur if coverage and compliance both bind.
         let (poor, good) = ([0.800_000_000_004_8, 0.06], [0.799_999_999_999_9, 0.6]);
         assert!(dominates(&good, &poor) && !dominates(&poor, &good));

@@ -1,4 +1,4 @@
-//! The goal of an optimisation as it is written: variables, objectives, requirements.
+//! Goal of an optimisation: variables, objectives and requirements.
 
 mod bounds;
 mod fitness_section;
@@ -12,70 +12,78 @@ use ranking::{Criterion, FitnessGoal, Requirement, Standard, Worth};
 use crate::space::DesignSpace;
 use crate::statistic::Statistic;
 
-/// Times as many samples as of any design are taken of those near the best.
+/// Ratio of the number of samples near the best design to the number elsewhere.
 const MORE: usize = 5;
 
-/// The goal of an optimisation: the space in which designs are searched, and what is good there.
+/// Goal of an optimisation: design space, objectives and requirements.
 #[derive(Clone, Debug)]
 pub struct DesignGoal {
-    /// The variables, and what all designs share.
+    /// Variables, and the values shared by all designs.
     pub space: DesignSpace,
-    /// The columns that are to be large or small: one gives an optimum, two to four a front.
+    /// Columns to maximise or minimise.
+    ///
+    /// One objective gives an optimum, two to four give a front.
     pub objectives: Vec<Criterion>,
-    /// The bounds that columns must keep.
+    /// Bounds on columns.
     pub requirements: Vec<Requirement>,
-    /// The standards of which requirements are levels.
+    /// Standards named by requirements such as `needle 2`.
     pub standards: Vec<&'static Standard>,
-    /// The criteria of the fitness, if the goal names it.
+    /// Criteria of the fitness, if it is an objective or requirement.
     pub fitness: Option<FitnessGoal>,
-    /// Whether only designs count whose surface has not folded.
+    /// True if designs with a folded surface are excluded.
     pub sound: bool,
-    /// The number of points that fill the space before any is improved.
+    /// Number of space-filling points.
     pub samples: usize,
-    /// The number of points of a front.
+    /// Number of points of a front.
     pub points: usize,
-    /// The number of samples of each design, `skins` in the file, if the goal is about them.
+    /// Number of samples of each design, if the goal is about samples.
+    ///
+    /// The key in the file is `skins`.
     pub realisations: usize,
-    /// The seed of the points that fill the space.
+    /// Seed of the space-filling points.
     pub seed: u64,
     text: String,
 }
 
 impl DesignGoal {
-    /// The name of the goal, which is also that of the folder of its results.
+    /// Returns the name of the goal, which is also the name of its results folder.
     pub fn name(&self) -> &str {
         self.space.sweep().name()
     }
 
-    /// The goal in TOML, which reads back as the same.
+    /// Returns the goal in TOML, including overrides.
     pub fn to_toml(&self) -> &str {
         &self.text
     }
 
-    /// The columns of the objectives, then of the requirements, each with the value of a design.
+    /// Returns the columns of objectives and requirements with the values of a design.
     pub fn values<'a>(&'a self, worth: &'a Worth) -> impl Iterator<Item = (&'a str, f64)> {
         let objectives = self.objectives.iter().map(|objective| objective.column.as_ref());
         let columns = objectives.chain(self.requirements.iter().map(|r| r.column.as_str()));
         columns.zip(worth.objectives.iter().chain(&worth.required).copied())
     }
 
-    /// The statistic over samples that a column of this goal stands for; `None` of a column of `designs.csv` or the fitness.
+    /// Returns the statistic over samples that a column stands for.
+    ///
+    /// `None` for columns of `designs.csv` and the fitness.
     pub fn statistic(&self, column: &str) -> Option<Statistic> {
         let sweep = self.space.sweep();
-        // With imperfections such names are columns of tables, about the random rows of a design.
+        // With imperfections, such names are columns of tables, for the random rows of a design.
         let has_samples = !sweep.deviations().is_empty() && !sweep.is_imperfect();
         Statistic::named(column).filter(|_| has_samples)
     }
 
-    /// Whether the goal is about samples, not only about nominal designs.
+    /// Returns true if an objective or requirement is a statistic over samples.
     pub fn is_about_samples(&self) -> bool {
         let objectives = self.objectives.iter().map(|objective| objective.column.as_ref());
         let required = self.requirements.iter().map(|requirement| requirement.column.as_str());
         objectives.chain(required).any(|column| self.statistic(column).is_some())
     }
 
-    /// The goal for nominal designs, that the search begins with: quantiles are those columns themselves, a yield as an objective is left
-    /// for the margin, and a yield that is required for nothing.
+    /// Returns the goal for nominal designs, with which a search begins.
+    ///
+    /// Quantiles become the columns themselves. A yield becomes the margin if it is an objective,
+    /// and is dropped if it is a requirement.
     #[must_use]
     pub fn nominal(&self) -> Self {
         let mut goal = self.clone();
@@ -95,7 +103,7 @@ impl DesignGoal {
         goal
     }
 
-    /// The goal with more samples of each design.
+    /// Returns the goal with more samples of each design.
     #[must_use]
     pub(crate) fn finer(&self) -> Self {
         Self { realisations: MORE * self.realisations, ..self.clone() }

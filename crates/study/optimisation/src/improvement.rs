@@ -1,4 +1,6 @@
-//! Improves known designs: short searches in many regions, full searches from the best.
+//! Improves known designs by local searches.
+//!
+//! Short searches start in many regions, full searches from the best designs.
 
 use rayon::iter::{IntoParallelRefIterator as _, ParallelIterator as _};
 
@@ -28,14 +30,16 @@ impl Plan {
     /// Plan for sampled designs.
     pub const SAMPLED: Self = Self { regions: 6, starts: 6, finalists: 3 };
 
-    /// Returns the plan for a point of a front: its ends are known, so few regions are near the
-    /// best.
+    /// Returns the plan for a point of a front.
+    ///
+    /// The ends of the front are known, so few regions are near the best.
     pub fn of_a_point(self) -> Self {
         Self { finalists: 2, ..self }
     }
 
-    /// Returns the plan for a point between others; their searches have left good designs in every
-    /// region.
+    /// Returns the plan for a point between others.
+    ///
+    /// Searches for the others have left good designs in every region.
     pub fn between_points(self) -> Self {
         Self { regions: 0, finalists: 1, ..self }
     }
@@ -50,8 +54,9 @@ impl Plan {
 pub(crate) struct Improved {
     /// All evaluated designs, in the order of the searches.
     pub evaluated: Vec<Candidate>,
-    /// Objectives, to be maximised, of the full searches and of the searches that they continue, as
-    /// far as these are feasible.
+    /// Objectives of the last searches and of their starts, to be maximised.
+    ///
+    /// Infeasible ends are omitted.
     pub ends: Vec<f64>,
 }
 
@@ -70,7 +75,7 @@ pub(crate) fn improved(
         (plan.finalists, Effort::WHOLE),
     ];
     for (count, effort) in stages {
-        // Each search knows its own start alone, so results are independent of the order of
+        // Each search depends on its start only, so results are independent of the order of
         // completion.
         let starts = starts(search, history.iter().chain(&evaluated), target, count);
         let walks = starts.par_iter().map(|start| {

@@ -74,7 +74,7 @@ impl Judge {
         self.uses().any(|(other, q)| other == of && self.samples.statistics[q].is_yield())
     }
 
-    /// Returns the requirements of the goal, then the requirement of an unfolded surface.
+    /// Returns the requirements of the goal, then an unfolded surface if required.
     pub fn requirements(&self) -> impl Iterator<Item = &Requirement> {
         self.requirements.iter().map(|required| &required.requirement)
     }
@@ -94,8 +94,9 @@ impl Judge {
         self.measures.contains(&measure)
     }
 
-    /// Returns true if coverage peaks separate regions: contacts in bending and puncture depend on
-    /// the same lengths.
+    /// Returns true if coverage peaks separate regions.
+    ///
+    /// They matter for any measure: contacts in bending and puncture depend on the same lengths.
     pub(crate) fn has_regions(&self) -> bool {
         !self.measures.is_empty()
     }
@@ -163,7 +164,7 @@ impl Judge {
         Judgement::Nominal(NominalWorth { shortfall: (-margin).max(0.0), required })
     }
 
-    /// Whether a design is complete, and its surface open all the way if that is wanted.
+    /// Returns true if a design is complete, and never folded if this is required.
     pub(crate) fn is_whole(&self, row: &DesignRow) -> bool {
         let bounds = &self.samples.bounds;
         let is_open = bounds.soundness.is_none_or(|k| {
@@ -244,8 +245,9 @@ impl Judge {
         self.slopes(StatisticUse::Objective(k), row, parameter).scaled(self.sign(k))
     }
 
-    /// Returns the derivative of objective `k` for a nominal design; `None` at a kink, without
-    /// derivatives, or for a statistic.
+    /// Returns the derivative of objective `k` for a nominal design.
+    ///
+    /// `None` at a kink, without derivatives, or for a statistic.
     pub fn objective_slope(&self, k: usize, row: &DesignRow, parameter: &Parameter) -> Option<f64> {
         let row = EvaluatedRow { nominal: row.clone(), statistics: Vec::new() };
         self.slopes(StatisticUse::Objective(k), &row, parameter).smooth()

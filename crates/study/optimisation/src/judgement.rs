@@ -14,7 +14,7 @@ pub enum Judgement {
     Folded,
     /// A measure has no value.
     Failed(Outcome),
-    /// The design is complete, but has no value in this column of an objective or requirement.
+    /// The design is complete, but has no value in a column of the goal, named here.
     Missing(String),
 }
 
@@ -23,6 +23,6 @@ pub enum Judgement {
 pub struct NominalWorth {
     /// Values in the required columns, without statistics.
     pub required: Vec<f64>,
-    /// The largest shortfall, relative to the limit; 0 where every requirement is met.
+    /// Largest shortfall, relative to the limit; 0 if every requirement is met.
     pub shortfall: f64,
 }

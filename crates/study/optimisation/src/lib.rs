@@ -1,34 +1,38 @@
-//! Optimisation: the best designs between the points of a grid.
+//! Optimisation: finds the best designs between the points of a grid.
 //!
-//! A goal names variables, objectives and requirements. Points that fill the space of the variables are solved first; the best of
-//! them are improved along the exact derivatives of every measure, and, where those end at kinks, by a bundle method that converges
-//! there. Several objectives give a front. What binds at a best design, and what it costs, comes from the multipliers of
-//! the limits `g_k ≥ l_k` that balance the objective `o` (O1):
+//! A goal defines variables, objectives and requirements. A search solves space-filling points
+//! first and improves the best of them along the exact derivatives of the measures. Gradient
+//! searches stop at kinks, so a bundle method continues there. Several objectives give a Pareto
+//! front. The binding limits `g_k ≥ l_k` of a best design have multipliers `μ_k`, which balance the
+//! gradient of the objective `o` and state the cost of each limit (O1):
 //!
 //! ```text
 //! ∇o + Σ μ_k ∇g_k = 0,   μ_k ≥ 0;      do/dl_k = −μ_k
 //! ```
 //!
 //! ```text
-//! DesignGoal ─► DesignSpace ─► sample ─► climb ⇄ ridge, polish ─► Found: optimum or front, bindings, history
-//!                                └─ Evaluations: each point once, kept in a journal ─┘
+//! DesignGoal ─► DesignSpace ─► sample ─► climb ⇄ ridge, polish ─► Found: best designs, history
+//!                                └─ Evaluations: each point once, stored in a journal ─┘
 //! ```
 //!
 //! | Type | Role |
 //! |---|---|
-//! | [`DesignGoal`] | variables, objectives, requirements, as they are written |
-//! | [`DesignSpace`], [`Interval`], [`Choice`], [`SpacePoint`] | the space of the variables, and the cases of its points |
-//! | [`Judge`], [`Judgement`], [`NominalWorth`] | what a design is worth by the goal |
-//! | [`Statistic`], [`Confirmation`], [`Estimate`] | a quantile or yield over samples, and its test with other samples |
-//! | [`optimise`], [`SearchOptions`] | the search |
-//! | [`SearchProgress`], [`SearchPart`] | how far it is |
-//! | [`Found`], [`Answer`], [`BestDesign`], [`Front`], [`LeftOutDesigns`] | what it found |
-//! | [`Candidate`], [`SearchStage`], [`Target`] | a design that was looked at, in which stage, and what for |
-//! | [`write_found`] | writes the tables of what was found |
-//! | [`BindingText`] | what binds and what it costs, in words |
-//! | [`Agreement`] | how many searches agree on a best design |
-//! | [`Binding`], [`Limit`] | what keeps a design from being better, and its price |
-//! | [`OptimisationError`] | why there was no search |
+//! | [`DesignGoal`] | variables, objectives and requirements, as in the file |
+//! | [`DesignSpace`], [`SpacePoint`] | space of the variables, and its points |
+//! | [`Interval`], [`Choice`] | continuous and discrete variable |
+//! | [`Judge`], [`Judgement`], [`NominalWorth`] | judgement of a design by the goal |
+//! | [`Statistic`] | quantile or yield over samples |
+//! | [`Confirmation`], [`Estimate`] | check of statistics with independent samples |
+//! | [`optimise`], [`SearchOptions`] | runs a search |
+//! | [`SearchProgress`], [`SearchPart`] | progress of a search |
+//! | [`Found`], [`Answer`], [`BestDesign`], [`Front`] | results of a search |
+//! | [`LeftOutDesigns`] | numbers of designs without a valid judgement |
+//! | [`Candidate`], [`SearchStage`], [`Target`] | evaluated design, stage and target of its search |
+//! | [`write_found`] | writes the tables of a search |
+//! | [`BindingText`] | describes binding limits and their cost |
+//! | [`Agreement`] | number of searches that agree on a best design |
+//! | [`Binding`], [`Limit`] | binding limit with its multiplier |
+//! | [`OptimisationError`] | error of a search |
 //!
 //! ```
 //! use std::sync::atomic::AtomicBool;
@@ -37,8 +41,10 @@
 //! use run::{Program, Start};
 //!
 //! // Scales of 45° cover more, the narrower their gaps: λ = 1 − d (Eq. G2).
-//! let text = "name = 'covered'\nmeasures = 'coverage'\n[variables]\ngap_over_t = { from = 0.1, to = 1 }\n\
-//!             [designs]\nlength_over_t = 1\nslant_deg = 45\n[goal]\nmaximize = 'coverage'\nsamples = 8";
+//! let text = "name = 'covered'\nmeasures = 'coverage'\n\
+//!             [variables]\ngap_over_t = { from = 0.1, to = 1 }\n\
+//!             [designs]\nlength_over_t = 1\nslant_deg = 45\n\
+//!             [goal]\nmaximize = 'coverage'\nsamples = 8";
 //! let goal = DesignGoal::parse(text, "covered.toml", &[])?;
 //! let (folder, stop) = (tempfile::tempdir()?, AtomicBool::new(false));
 //! let progress = SearchProgress::default();

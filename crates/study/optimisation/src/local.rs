@@ -1,7 +1,7 @@
-//! Local search: gradient steps, bundle steps along ridges, and derivative-free steps.
+//! Local search: gradient steps, bundle steps and derivative-free steps.
 //!
-//! The bundle method takes over where the gradient search ends at kinks; the derivative-free search
-//! handles jumps.
+//! The bundle method follows ridges, where the gradient search stops at kinks. The derivative-free
+//! search handles jumps.
 
 mod bundle;
 mod gradient_search;
@@ -45,8 +45,9 @@ struct Fineness {
 impl Fineness {
     /// Tolerances for nominal designs.
     const NOMINAL: Self = Self { gain: 1e-8, step: 1e-7 };
-    /// Tolerances for sampled designs: a finite number of samples leaves quantiles and yields
-    /// uncertain by some per cent.
+    /// Tolerances for sampled designs.
+    ///
+    /// A finite number of samples leaves quantiles and yields uncertain by some per cent.
     const SAMPLED: Self = Self { gain: 1e-3, step: 1e-4 };
 }
 
@@ -87,8 +88,9 @@ impl Effort {
     pub const WHOLE: Self =
         Self { rounds: ROUNDS, reach: 0.06, ridge: 20, polish: 8, ..Self::CLIMB };
 
-    /// Returns a smaller budget for sampled designs: each costs as many solutions as it has
-    /// samples.
+    /// Returns a smaller budget for sampled designs.
+    ///
+    /// Each evaluation costs as many solutions as there are samples.
     fn on_samples(self) -> Self {
         Self {
             looks: self.looks.min(8),
@@ -131,8 +133,9 @@ impl Search<'_> {
         self.merit_within(candidate, target, 0.0)
     }
 
-    /// Returns the merit with requirements and lower bounds relaxed by `slack`, relative to the
-    /// limits.
+    /// Returns the merit with requirements and lower bounds relaxed by `slack`.
+    ///
+    /// The slack is relative to the limits.
     pub fn merit_within(&self, candidate: &Candidate, target: &Target, slack: f64) -> Merit {
         let Judgement::Judged(worth) = &candidate.verdict else { return Merit::None };
         let turned = |k: usize| self.judge.sign(k) * worth.objectives[k];
@@ -148,10 +151,10 @@ impl Search<'_> {
         Merit::Short(worth.shortfall().max(floors).max(f64::MIN_POSITIVE))
     }
 
-    /// Searches the scaling intervals one after the other, and returns the best design for a
-    /// target.
+    /// Searches the scaling intervals one after the other.
     ///
-    /// Scaling intervals change physical units alone, so all these designs share one solution.
+    /// Returns the best design for a target. Scaling intervals only change physical units, so all
+    /// these designs share one solution.
     pub fn scaled(
         &self,
         target: &Target,
@@ -259,7 +262,7 @@ struct LocalSearch<'a> {
 }
 
 impl LocalSearch<'_> {
-    /// Evaluates the design at `shares` of the intervals, with the choices of the start.
+    /// Evaluates the design at `shares`, with the choices of the start.
     fn at(
         &self,
         stage: SearchStage,

@@ -61,7 +61,7 @@ pub(crate) fn bindings(
     target: &Target,
 ) -> Result<Vec<Binding>, Halt> {
     let limits = binding_limits(search, best, target);
-    // Evaluated again with derivatives: a polish or a scaling evaluates its best design without them.
+    // A polish or a scaling evaluates the best design without derivatives, so evaluate it again.
     let (evaluated, row) = search.evaluate(SearchStage::Gradient, &best.point, true)?;
     let is_whole = matches!(evaluated.verdict, Judgement::Judged(_));
     let prices = if is_whole { prices(search, &row, target, &limits) } else { None };
@@ -81,7 +81,7 @@ fn binding_limits(search: &Search<'_>, best: &Candidate, target: &Target) -> Vec
     near_limits(search, best, target, NEAR)
 }
 
-/// Returns the limits whose relative margin at `best` is below `nearness`.
+/// Returns the limits with a relative margin below `nearness` at `best`.
 pub(crate) fn near_limits(
     search: &Search<'_>,
     best: &Candidate,
@@ -114,8 +114,9 @@ pub(crate) fn near_limits(
     limits
 }
 
-/// Computes the multipliers, in units of the objective per unit of the limit; `None` if they do not
-/// balance the gradient.
+/// Computes the multipliers, in units of the objective per unit of the limit.
+///
+/// `None` if they do not balance the gradient.
 fn prices(
     search: &Search<'_>,
     row: &EvaluatedRow,
@@ -158,7 +159,7 @@ fn unit(count: usize, j: usize, sign: f64) -> DVector<f64> {
     unit
 }
 
-/// Computes non-negative multipliers with which `columns` balance `objective`, by least squares.
+/// Computes non-negative multipliers that balance `objective`, by least squares.
 ///
 /// Limits with a negative multiplier are dropped. Returns `None` if the residual is too large.
 fn multipliers(columns: &[DVector<f64>], objective: &DVector<f64>) -> Option<Vec<f64>> {
@@ -197,14 +198,14 @@ mod tests {
 
     #[test]
     fn multipliers_balance_the_gradient() {
-        // Largest x + 2 y with x ≤ 1 and x + y ≤ 1.5: at (1, 0.5) y alone pays, at (0, 1.5) the second limit and x ≥ 0.
+        // Maximise x + 2 y with x ≤ 1 and x + y ≤ 1.5. At (1, 0.5), both limits bind.
         let columns = [vector([-1.0, -1.0]), vector([1.0, 0.0])];
         let found = multipliers(&columns, &vector([1.0, 2.0])).expect("balanced");
         assert!((found[0] - 2.0).abs() < 1e-12 && (found[1] - 1.0).abs() < 1e-12, "{found:?}");
     }
 
     #[test]
-    fn limits_that_would_pull_do_not_count_and_what_is_left_is_told() {
+    fn limits_with_negative_multipliers_are_dropped() {
         let away = [vector([1.0, 0.0]), vector([0.0, -1.0])];
         assert_eq!(multipliers(&away, &vector([1.0, 0.0])), None);
         let found = multipliers(&away, &vector([0.0, 3.0])).expect("balanced");

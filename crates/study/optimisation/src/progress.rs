@@ -66,7 +66,7 @@ impl SearchProgress {
         (part, self.done.load(Ordering::Relaxed).min(parts.tasks), parts.tasks)
     }
 
-    /// Returns the completed fraction of the whole search, from 0 to 1, by expected work.
+    /// Returns the completed fraction of the search, from 0 to 1, by expected work.
     pub fn share(&self) -> f64 {
         let (_, done, tasks) = self.progress();
         let parts = self.parts();
@@ -109,7 +109,9 @@ impl SearchProgress {
         *self.parts() = Parts { expected, ..Parts::default() };
     }
 
-    /// Starts the next part of this kind with `tasks` tasks, skipping parts in between.
+    /// Starts the next part of this kind, skipping parts in between.
+    ///
+    /// The part has `tasks` tasks.
     pub(crate) fn begin(&self, part: SearchPart, tasks: usize) {
         let mut parts = self.parts();
         let is_next = |(k, of): (usize, &(SearchPart, f64))| k > parts.at && of.0 == part;
@@ -138,7 +140,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn tasks_are_counted_part_by_part_and_the_share_over_all() {
+    fn tasks_are_counted_per_part_and_the_fraction_over_all_parts() {
         let progress = SearchProgress::default();
         assert_eq!(progress.share(), 0.0);
         progress.expect(vec![

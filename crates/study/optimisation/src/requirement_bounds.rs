@@ -21,8 +21,9 @@ pub(crate) struct Bounds {
     pub soundness: Option<usize>,
 }
 
-/// Returns the requirement of an unfolded surface, if `sweep` measures puncture: no gap has closed
-/// at the critical tilt.
+/// Returns the requirement of an unfolded surface, if `sweep` measures puncture.
+///
+/// No gap may be closed at the critical tilt.
 pub(crate) fn soundness(sweep: &Sweep) -> Option<Requirement> {
     sweep.measures().contains(&Measure::Puncture).then(|| Requirement {
         column: name::GAP_STRETCH_MIN.to_owned(),
@@ -57,10 +58,10 @@ impl Bounds {
         self.tightest(values).map_or(f64::INFINITY, |(_, margin)| margin)
     }
 
-    /// Returns true if the surface folded along the path and is open again at the end, and this
-    /// matters.
+    /// Returns true if the surface folded along the path and is open again at the end.
     ///
-    /// If the surface is folded at the end, the margin of the bound measures it.
+    /// False if folds are allowed. If the surface is folded at the end, the margin of the bound
+    /// measures it.
     pub fn has_reopened(&self, row: &DesignRow) -> bool {
         let is_open = |k: usize| {
             let Bound { requirement, column } = &self.all[k];

@@ -1,10 +1,12 @@
-//! Restarts of a search whose local searches disagree.
+//! Restarts of a search if its local searches disagree.
 //!
-//! A measure such as `max_stiffness` is an extremum over a path. It jumps where the path gains or loses a contact, so over the
-//! variables it is a staircase: its derivatives describe one stair, and a local search along them ends on any of many stairs. If the
-//! searches of a target end at different values, restarts sample a box round the best design, centre it on the best sample and shrink
-//! it. Differences over the width of the box describe the whole staircase. Samples are moved onto the limits that bind at the centre:
-//! off them the objective loses more than from stair to stair.
+//! A measure such as `max_stiffness` is an extremum over a path. It jumps where the path gains or
+//! loses a contact, so it is a step function of the variables with sloping steps. Derivatives
+//! describe a single step, and local searches end on any of many steps. If the searches of a target
+//! end at different values, restarts sample a box around the best design, centre it on the best
+//! sample and shrink it. Differences over the width of the box describe the overall trend. Samples
+//! are moved onto the limits that bind at the centre, because away from them the objective changes
+//! more than from step to step.
 
 use nalgebra::{DMatrix, DVector};
 use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
@@ -20,48 +22,50 @@ use crate::slopes::Slopes;
 use crate::space::SpacePoint;
 use crate::space_filling::Sequence;
 
-/// Searches agree if their objectives differ by at most this part.
+/// Relative difference of objectives up to which searches agree.
 pub(crate) const AGREED: f64 = 1e-3;
 
-/// Restarts end once the best two searches differ by at most this part.
+/// Relative difference of the best two searches at which restarts end.
 const SETTLED: f64 = 1e-4;
 
-/// The relative gain of a round below which the box shrinks.
+/// Relative gain of a round below which the box shrinks.
 const GAIN: f64 = 1e-4;
 
-/// Restarts, at most.
+/// Maximum number of restarts.
 const RESTARTS: usize = 6;
 
-/// Samples in a round for each variable.
+/// Number of samples in a round, per variable.
 const EACH: usize = 5;
 
-/// The half-width of the first box, as a fraction of the intervals, and the half-width at which a restart ends.
+/// Half-widths of the first and the smallest box, as fractions of the intervals.
 const WIDTHS: [f64; 2] = [0.1, 1e-5];
 
-/// The factor from one half-width to the next.
+/// Ratio of successive half-widths.
 const SHRUNK: f64 = 0.5;
 
-/// Rounds of a restart, at most.
+/// Maximum number of rounds of a restart.
 const ROUNDS: usize = 40;
 
-/// A limit binds at the centre of a box if its relative margin is at most this.
+/// Relative margin at the centre of a box up to which a limit binds.
 const NEAR: f64 = 1e-3;
 
-/// The margin at which samples are placed inside the limits that bind, so that round-off breaks none.
+/// Margin by which samples satisfy binding limits, despite round-off.
 const INSIDE: f64 = 1e-6;
 
-/// Steps onto limits that need a solution, at most.
+/// Maximum number of steps onto limits that require a solution.
 const SOLVED_STEPS: usize = 3;
 
-/// Steps onto limits in closed form, at most.
+/// Maximum number of steps onto limits in closed form.
 const FREE_STEPS: usize = 30;
 
-/// Agreement of the local searches for a target, a measure of confidence in its best design.
+/// Agreement of the local searches for a target.
+///
+/// It is a measure of confidence in the best design.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Agreement {
     /// Number of feasible local searches: the full ones, and those that they continue.
     pub searches: usize,
-    /// Number of searches whose objective is within 0.1 % of the best.
+    /// Number of searches with an objective within 0.1 % of the best.
     pub agreeing: usize,
     /// Relative difference between the best two; `None` for fewer than two searches.
     pub spread: Option<f64>,
@@ -101,7 +105,7 @@ pub(crate) fn met(search: &Search<'_>, candidate: &Candidate, target: &Target) -
 
 /// Restarts near the best design of `history` until the best two searches agree.
 ///
-/// `ends` holds the objectives of the searches so far; those of the restarts are appended. Returns
+/// `ends` contains the objectives of earlier searches; objectives of restarts are appended. Returns
 /// all evaluated designs.
 pub(crate) fn restarted(
     search: &Search<'_>,
@@ -111,7 +115,8 @@ pub(crate) fn restarted(
 ) -> Result<Vec<Candidate>, Halt> {
     let mut evaluated: Vec<Candidate> = Vec::new();
     let best = search.best(history.iter(), target);
-    // Samples of a design cost too much for rounds of them, and their quantiles are uncertain by more than stairs.
+    // Sampled designs are too expensive for many rounds, and the uncertainty of their quantiles
+    // exceeds the steps.
     let Some(best) = best.filter(|best| {
         met(search, best, target).is_some()
             && !best.point.shares.is_empty()
@@ -135,7 +140,7 @@ struct Restart<'a> {
     search: &'a Search<'a>,
     target: &'a Target,
     best: &'a Candidate,
-    /// The number of the restart: each has samples of its own.
+    /// Number of the restart. Each restart draws other samples.
     number: u64,
 }
 
@@ -164,7 +169,8 @@ impl Restart<'_> {
             let is_first = drawn == count;
             let Some(top) = search.best(evaluated.iter(), target).cloned() else { break };
             let gain = match [&centre, &top].map(|design| met(search, design, target)) {
-                // The restart begins at a sample, not at the best design: to end there again is evidence.
+                // Count the first round as a gain. The restart begins at a sample instead of the
+                // best design, so reaching the best design again is evidence.
                 _ if is_first => f64::INFINITY,
                 [Some(before), Some(after)] if after > before => difference(before, after),
                 [None, Some(_)] => f64::INFINITY,
@@ -185,18 +191,19 @@ impl Restart<'_> {
     }
 }
 
-/// The surface on which the binding limits of a design bind, linearised at the design.
+/// Surface of the binding limits of a design, linearised at the design.
 struct BindingSurface {
     limits: Vec<Limit>,
-    /// Pseudo-inverse of the gradients of the margins; `None` without limits, or with as many as
-    /// variables.
+    /// Pseudo-inverse of the gradients of the margins.
+    ///
+    /// `None` without limits, or with as many limits as variables.
     step: Option<DMatrix<f64>>,
 }
 
 impl BindingSurface {
     fn at(search: &Search<'_>, centre: &Candidate, target: &Target) -> Result<Self, Halt> {
         let mut limits = near_limits(search, centre, target, NEAR);
-        // Samples are clamped to the intervals, so many of them are on an end at which the centre is.
+        // Clamping the samples to the intervals handles their ends.
         limits.retain(|limit| matches!(limit, Limit::Requirement(_) | Limit::Touch));
         if limits.is_empty() {
             return Ok(Self { limits, step: None });
@@ -222,7 +229,7 @@ impl BindingSurface {
         Ok(Self { limits, step })
     }
 
-    /// Moves a point onto the surface, and evaluates it.
+    /// Moves a point onto the surface and evaluates it.
     fn evaluate(&self, search: &Search<'_>, mut point: SpacePoint) -> Result<Candidate, Halt> {
         let evaluate = |point: &SpacePoint| search.evaluate(SearchStage::Polish, point, false);
         let Some(step) = &self.step else { return Ok(evaluate(&point)?.0) };
@@ -237,7 +244,7 @@ impl BindingSurface {
                 _ => Some(contact_margin(&search.space.case(&point))),
             };
             let margins: Option<Vec<f64>> = self.limits.iter().map(margin).collect();
-            // A design without margins cannot be moved: it is judged as it is.
+            // A design without margins cannot be moved, so evaluate it where it is.
             let Some(margins) = margins else { break };
             let missing = DVector::from_iterator(margins.len(), margins.iter().map(|m| INSIDE - m));
             if missing.amax() < 0.9 * INSIDE {

@@ -1,4 +1,4 @@
-//! Judges samples: the margin of each within the bounds, and statistics over all of them.
+//! Judges samples: their margins to the bounds, and statistics over them.
 
 use ranking::{Relation, Requirement};
 use results::{DesignRow, QUANTILES, quantile_places};
@@ -19,9 +19,9 @@ pub(crate) struct Samples(pub Vec<Vec<Option<f64>>>);
 pub(crate) struct UsedStatistic {
     pub name: String,
     pub statistic: Statistic,
-    /// The column of a quantile.
+    /// Column of a quantile.
     pub column: Option<NumberColumn>,
-    /// Whether large values are good; a sample without a value counts as the worst.
+    /// True if large values are good. A sample without a value counts as the worst.
     pub large: bool,
 }
 
@@ -30,7 +30,7 @@ pub(crate) struct SampleJudge {
     /// Bounds on each sample.
     pub bounds: Bounds,
     pub statistics: Vec<UsedStatistic>,
-    /// The number of samples of each design.
+    /// Number of samples of each design.
     pub count: usize,
 }
 
@@ -47,8 +47,9 @@ impl UsedStatistic {
         self.statistic == Statistic::Yield
     }
 
-    /// Returns the quantile of the fold margin that matches the outermost quantile among `others`;
-    /// `None` without quantiles.
+    /// Returns the quantile of the fold margin required by a goal with quantiles.
+    ///
+    /// It is as far out as the outermost quantile among `others`; `None` without quantiles.
     pub fn of_soundness(column: &str, others: &[Self]) -> Option<(String, Statistic)> {
         let share = |used: &Self| match used.statistic {
             Statistic::Quantile { share, .. } => Some(share.min(1.0 - share)),
@@ -63,7 +64,9 @@ impl UsedStatistic {
 }
 
 impl SampleJudge {
-    /// Returns the values of a sample; all `None` if its surface folded and is open again.
+    /// Returns the values of a sample.
+    ///
+    /// All are `None` if its surface folded and is open again.
     pub fn values(&self, row: &DesignRow) -> Vec<Option<f64>> {
         if self.bounds.has_reopened(row) {
             return self.no_values();
@@ -77,8 +80,9 @@ impl SampleJudge {
         vec![None; self.bounds.all.len() + self.statistics.len()]
     }
 
-    /// Returns true if a nominal design meets the bounds of its samples, so that sampling is
-    /// worthwhile.
+    /// Returns true if a nominal design meets the bounds of its samples.
+    ///
+    /// Otherwise sampling is not worthwhile.
     pub fn admits(&self, row: &DesignRow) -> bool {
         row.result.failures.is_empty() && self.margin(&self.values(row)) >= 0.0
     }
@@ -88,7 +92,9 @@ impl SampleJudge {
         self.bounds.margin(values.iter().copied())
     }
 
-    /// Returns the sort key of a sample for statistic `q`: its value, or its margin for a yield.
+    /// Returns the sort key of a sample for statistic `q`.
+    ///
+    /// It is the value or, for a yield, the margin.
     fn key(&self, q: usize, values: &[Option<f64>]) -> f64 {
         let used = &self.statistics[q];
         // A sample without a value counts as the worst, so that it cannot improve a quantile.
@@ -136,8 +142,9 @@ impl SampleJudge {
         Some((met as f64 + part) / sorted.len() as f64)
     }
 
-    /// Returns the relative margin of statistic `q` in a requirement; for a yield, the margin of
-    /// the deciding sample (O6).
+    /// Returns the relative margin of statistic `q` in a requirement.
+    ///
+    /// For a yield, it is the margin of the deciding sample (O6).
     pub fn requirement_margin(
         &self,
         q: usize,
@@ -176,7 +183,7 @@ impl SampleJudge {
         }
     }
 
-    /// Returns the column and factor that give the derivatives of statistic `q` on a sample.
+    /// Returns the column and factor for the derivatives of statistic `q` on a sample.
     pub fn moving(&self, q: usize, values: &[Option<f64>]) -> Option<(&NumberColumn, f64)> {
         if let Some(column) = &self.statistics[q].column {
             return Some((column, 1.0));
@@ -191,7 +198,9 @@ fn met(margins: &[f64]) -> usize {
     margins.iter().filter(|margin| **margin >= 0.0).count()
 }
 
-/// Returns the index, among `count` sorted margins, of the sample that decides a required yield.
+/// Returns the index of the sample that decides a required yield.
+///
+/// The `count` samples are sorted by margin.
 fn needed(requirement: &Requirement, count: usize) -> usize {
     let wanted = requirement.limit * count as f64;
     // The product may miss an integer by round-off.

@@ -43,15 +43,16 @@ pub struct SearchOptions<'a> {
 /// The outcome of a search.
 #[derive(Clone, Debug)]
 pub struct Found {
-    /// Every evaluated design, in an order that is independent of the number of threads.
+    /// Every evaluated design, in an order independent of the number of threads.
     pub history: Vec<Candidate>,
     /// The answer.
     pub answer: Answer,
     /// Numbers of designs without a valid judgement.
     pub left_out: LeftOutDesigns,
-    /// The number of local searches.
+    /// Number of local searches.
     pub starts: usize,
     /// Number of regions with at least one evaluated design.
+    ///
     /// A region is a combination of choices, coverage peak, and contact or no contact in bending.
     pub regions: usize,
     /// Number of evaluations, with and without derivatives.
@@ -101,7 +102,7 @@ pub fn optimise(
             check_columns(&found)?;
             Ok(Some(found))
         }
-        // `LocalSearch` handles stalled gradient searches, so `Stalled` does not get here.
+        // `LocalSearch` handles stalled gradient searches, so `Stalled` is not returned here.
         Err(Halt::Interrupted | Halt::Stalled) => Ok(None),
         Err(Halt::Output(error)) => Err(error.into()),
     }
@@ -196,7 +197,7 @@ fn sample_rows(
     points.par_iter().map(row).collect()
 }
 
-/// Determines the ends used to rescale the criteria; they fix the fitness function.
+/// Determines the ends used to rescale the criteria, which define the fitness.
 fn ends(goal: &DesignGoal, mut rows: Vec<DesignRow>) -> Vec<CriterionEnds> {
     let Some(fitness) = &goal.fitness else { return Vec::new() };
     let judge = Judge::rescaling(&goal.nominal(), &fitness.ends);

@@ -2,7 +2,7 @@
 
 use results::SlopeSide;
 
-/// Step of the differences along extrapolated rows, relative to the size of the parameter.
+/// Step of the differences of extrapolated rows, relative to the parameter.
 const STEP: f64 = 1e-6;
 
 /// The derivatives of a value on both sides of a parameter.
@@ -19,7 +19,9 @@ impl Slopes {
     /// Derivatives of a constant.
     pub const FLAT: Self = Self { left: Some(0.0), right: Some(0.0) };
 
-    /// Computes one-sided derivatives by finite differences of `at`, for a parameter of this size.
+    /// Computes one-sided derivatives by finite differences of `at`.
+    ///
+    /// `size` is the size of the parameter.
     pub fn between(size: Option<f64>, at: impl Fn(f64, SlopeSide) -> Option<f64>) -> Self {
         // Rows are extrapolated linearly, so a central difference only has the rounding of a
         // column's formula.
@@ -41,9 +43,10 @@ impl Slopes {
         Self { left: sum(self.left, other.left), right: sum(self.right, other.right) }
     }
 
-    /// Returns the slope of the side with the steepest ascent; 0 if the value falls on both sides.
+    /// Returns the slope on the side with the steepest ascent.
     ///
-    /// If one side is unknown, it counts as equal to the other; `None` if both are.
+    /// It is 0 if the value falls on both sides. If one side is unknown, it counts as equal to the
+    /// other; `None` if both are.
     pub fn uphill(self) -> Option<f64> {
         let (left, right) = (self.left.or(self.right)?, self.right.or(self.left)?);
         let (gain_left, gain_right) = (-left, right);
@@ -71,7 +74,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn at_a_kink_the_way_up_counts() {
+    fn uphill_chooses_the_side_of_steepest_ascent() {
         let slopes = |left, right| Slopes { left, right };
         assert_eq!(slopes(Some(2.0), Some(2.0)).uphill(), Some(2.0));
         assert_eq!(slopes(Some(1.0), Some(-3.0)).uphill(), Some(0.0));

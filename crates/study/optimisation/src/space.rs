@@ -5,28 +5,29 @@ use sweep::{Case, Parameter, Scalar, Sweep, VariableValues};
 /// A parameter that varies between two numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval {
-    /// The parameter.
+    /// Parameter.
     pub parameter: &'static Parameter,
-    /// The smallest value.
+    /// Smallest value.
     pub from: f64,
-    /// The largest value.
+    /// Largest value.
     pub to: f64,
 }
 
 /// A parameter that takes one of a few values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Choice {
-    /// The parameter.
+    /// Parameter.
     pub parameter: &'static Parameter,
-    /// The values, at least one.
+    /// Values, at least one.
     pub values: Vec<Scalar>,
 }
 
-/// Point of the space: a share of each interval, from 0 (lower end) to 1, and an index for each
-/// choice.
+/// Point of the space.
+///
+/// It has a fraction of each interval, from 0 (lower end) to 1, and an index for each choice.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpacePoint {
-    /// Shares of the intervals.
+    /// Fractions of the intervals.
     pub shares: Vec<f64>,
     /// Indices of the choices.
     pub chosen: Vec<usize>,
@@ -41,7 +42,7 @@ pub struct DesignSpace {
 }
 
 impl Interval {
-    /// Returns the value at a share of the interval; exactly its ends at 0 and 1.
+    /// Returns the value at a fraction of the interval; exactly its ends at 0 and 1.
     pub fn value(&self, share: f64) -> f64 {
         let value = self.from + share * (self.to - self.from);
         // Round-off could show as 59.99999999999999 instead of 60 in tables.
@@ -67,7 +68,9 @@ impl SpacePoint {
 }
 
 impl DesignSpace {
-    /// Creates the space of the variables of `sweep`; its other axes have one value each.
+    /// Creates the space of the variables of `sweep`.
+    ///
+    /// Its other axes have one value each.
     pub(crate) fn new(sweep: Sweep) -> Self {
         let (mut intervals, mut choices) = (Vec::new(), Vec::new());
         for variable in sweep.variables() {
@@ -84,33 +87,33 @@ impl DesignSpace {
         Self { sweep, intervals, choices }
     }
 
-    /// The sweep that has the variables.
+    /// Returns the sweep with the variables.
     pub fn sweep(&self) -> &Sweep {
         &self.sweep
     }
 
-    /// The parameters that vary between two numbers.
+    /// Returns the continuous variables.
     pub fn intervals(&self) -> &[Interval] {
         &self.intervals
     }
 
-    /// The parameters that take one of a few values.
+    /// Returns the discrete variables.
     pub fn choices(&self) -> &[Choice] {
         &self.choices
     }
 
-    /// The parameters that vary.
+    /// Returns the parameters of all variables.
     pub fn parameters(&self) -> impl Iterator<Item = &'static Parameter> {
         let intervals = self.intervals.iter().map(|interval| interval.parameter);
         intervals.chain(self.choices.iter().map(|choice| choice.parameter))
     }
 
-    /// The number of combinations of choices, at least one.
+    /// Returns the number of combinations of choices, at least one.
     pub(crate) fn combinations(&self) -> usize {
         self.choices.iter().map(|choice| choice.values.len()).fold(1, usize::saturating_mul)
     }
 
-    /// The choices of the combination `index`.
+    /// Returns the choices of the combination `index`.
     pub(crate) fn combination(&self, mut index: usize) -> Vec<usize> {
         let digit = |choice: &Choice| {
             let digit = index % choice.values.len();

@@ -10,8 +10,9 @@ const CORNERED: usize = 6;
 /// The corners of the box are included if they take at most half of the points; a sequence shifted
 /// by `seed` supplies the others.
 ///
-/// The sequence is Roberts's: the coordinate `j` of the point `k` is the fractional part of `s_j + k φ^−(j+1)`, where `φ` is the root
-/// of `φ^(n+1) = φ + 1`, the golden ratio for `n = 1` (M. Roberts, *The unreasonable effectiveness of quasirandom sequences*, 2018).
+/// The sequence is Roberts's: coordinate `j` of point `k` is the fractional part of `s_j + k
+/// φ^−(j+1)`, with the root `φ` of `φ^(n+1) = φ + 1`. For `n = 1` this is the golden ratio (M.
+/// Roberts, *The unreasonable effectiveness of quasirandom sequences*, 2018).
 pub(crate) fn points(space: &DesignSpace, count: usize, seed: u64) -> Vec<SpacePoint> {
     let combinations = space.combinations();
     if space.intervals().is_empty() && combinations <= count {
@@ -26,7 +27,9 @@ pub(crate) fn points(space: &DesignSpace, count: usize, seed: u64) -> Vec<SpaceP
     points
 }
 
-/// Returns the corners of the box for every combination of choices, or none if they exceed `most`.
+/// Returns the corners of the box for every combination of choices.
+///
+/// Empty if there are more than `most`.
 fn corners(space: &DesignSpace, most: usize) -> Vec<SpacePoint> {
     let (intervals, combinations) = (space.intervals().len(), space.combinations());
     if intervals > CORNERED || combinations.saturating_mul(1 << intervals) > most {
@@ -46,7 +49,7 @@ fn corners(space: &DesignSpace, most: usize) -> Vec<SpacePoint> {
 /// Maps coordinates from 0 to 1 to a point of the space.
 fn split(space: &DesignSpace, unit: &[f64]) -> SpacePoint {
     let (shares, rest) = unit.split_at(space.intervals().len());
-    // A share just below 1 may round up to the count.
+    // A fraction just below 1 may round up to the count.
     let index = |(share, count): (&f64, usize)| ((share * count as f64) as usize).min(count - 1);
     let counts = space.choices().iter().map(|choice| choice.values.len());
     SpacePoint { shares: shares.to_vec(), chosen: rest.iter().zip(counts).map(index).collect() }

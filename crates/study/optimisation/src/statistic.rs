@@ -5,23 +5,24 @@ use results::QUANTILES;
 /// Statistic over the samples of a design.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Statistic {
-    /// Quantile: the value of a column below which this fraction of samples lies.
+    /// Quantile: the value of a column below which a fraction of the samples lies.
     Quantile {
-        /// The column.
+        /// Column name.
         column: String,
-        /// The share.
+        /// Fraction of samples below the quantile.
         share: f64,
     },
-    /// Yield: the fraction of samples that meet every requirement on columns of `designs.csv`, and
-    /// have an unfolded surface if required.
+    /// Yield: the fraction of samples that meet all requirements.
+    ///
+    /// Only requirements on columns of `designs.csv` count, and an unfolded surface if required.
     Yield,
 }
 
 impl Statistic {
-    /// The name of the yield.
+    /// Name of the yield.
     pub const YIELD: &'static str = "yield";
 
-    /// Name of the nominal substitute for a yield: the least margin within the requirements.
+    /// Name of the nominal substitute for a yield: the least margin.
     pub const MARGIN: &'static str = "yield_margin";
 
     /// Parses a name, e.g. `yield` or `critical_force_p05`; `None` for other names.
@@ -47,7 +48,7 @@ impl Statistic {
     }
 }
 
-/// Splits the name of a quantile into column and share.
+/// Splits the name of a quantile into column and fraction.
 fn split(name: &str) -> Option<(&str, f64)> {
     let cut = |(ending, share)| Some((name.strip_suffix(ending)?.strip_suffix('_')?, share));
     QUANTILES.into_iter().find_map(cut)

@@ -36,8 +36,9 @@ const FITNESS_MEANING: &str = "weighted geometric mean of the rescaled criteria 
 /// A row of cells.
 type Cells = Vec<Cell>;
 
-/// Returns the columns of `optimum.csv` and `front.csv`: those of `designs.csv`, the fitness if
-/// used, then limits and prices.
+/// Returns the columns of `optimum.csv` and `front.csv`.
+///
+/// They are the columns of `designs.csv`, the fitness if used, then limits and prices.
 pub fn optimum_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
     let known = design_columns(goal.space.sweep()).into_iter();
     let known = known.map(|column| (column.name.to_string(), column.unit, column.meaning));
@@ -58,7 +59,9 @@ pub fn optimum_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
     cells(known.chain(own).chain(statistic_columns(goal)))
 }
 
-/// Returns the columns of the check with independent samples, if the goal is about samples.
+/// Returns the columns of the check with independent samples.
+///
+/// Empty if the goal is not about samples.
 fn statistic_columns(goal: &DesignGoal) -> Vec<(String, &'static str, &'static str)> {
     let known = design_columns(goal.space.sweep());
     let mut columns = Vec::new();
@@ -151,12 +154,10 @@ fn cells(
     columns.enumerate().map(column).collect()
 }
 
-/// Writes the results into `folder`: goal, history, optimum or front, and `figures` by name.
+/// Writes the results into `folder`.
 ///
-/// Returns the names of the files.
-///
-/// # Errors
-/// If tables of the same journal were edited, or the folder cannot be written.
+/// The files are the goal, the history, the optimum or front, and `figures` by name. Returns the
+/// names of the files.
 pub fn write_found(
     folder: &ResultsFolder,
     goal: &DesignGoal,
@@ -215,10 +216,7 @@ fn found_tables(goal: &DesignGoal, found: &Found) -> Vec<FoundTable> {
     vec![history, FoundTable { name, columns, rows }]
 }
 
-/// Returns an error if intact earlier tables of this journal differ from the new ones.
-///
-/// A repeated search with an intact journal gives the same tables, so a difference means an edited
-/// journal.
+/// Returns an error if intact earlier tables of this journal have other values.
 fn refuse_edited(folder: &ResultsFolder, tables: &[FoundTable]) -> Result<(), JournalError> {
     let Some(stated) = Claim::stated(folder, Maker::Search) else { return Ok(()) };
     for FoundTable { name, columns, rows } in tables {
@@ -248,7 +246,7 @@ fn best_rows(goal: &DesignGoal, designs: &[BestDesign]) -> Vec<Cells> {
     let sweep = goal.space.sweep();
     let (words, known) = (BindingText::new(goal), design_columns(sweep));
     let row = |(index, best): (usize, &BestDesign)| {
-        // By its place in the front: `--design 3` chooses a design of the folder by this number.
+        // Numbered by position in the front, so that `--design 3` selects a design of the folder.
         let row = DesignRow { number: sweep.grid().number(index as u64), ..best.row.clone() };
         let mut cells: Cells = known.iter().map(|column| column.cell(&row)).collect();
         cells.extend(
@@ -262,7 +260,7 @@ fn best_rows(goal: &DesignGoal, designs: &[BestDesign]) -> Vec<Cells> {
     designs.iter().enumerate().map(row).collect()
 }
 
-/// The rows of `history.csv`.
+/// Returns the rows of `history.csv`.
 fn history<'a>(goal: &'a DesignGoal, found: &'a Found) -> impl Iterator<Item = Cells> + 'a {
     let known = design_columns(goal.space.sweep());
     let sign = if goal.objectives[0].goal == ranking::Goal::Maximize { 1.0 } else { -1.0 };
@@ -288,7 +286,7 @@ fn history<'a>(goal: &'a DesignGoal, found: &'a Found) -> impl Iterator<Item = C
     })
 }
 
-/// The value that a design is judged by in a column of the goal.
+/// Returns the value of a design in a column of the goal.
 fn value(goal: &DesignGoal, candidate: &Candidate, column: &str) -> Cell {
     let Judgement::Judged(worth) = &candidate.verdict else { return Cell::Empty };
     goal.values(worth).find(|(name, _)| *name == column).map(|(_, value)| value).into()
@@ -300,7 +298,7 @@ fn row(goal: &DesignGoal, candidate: &Candidate) -> DesignRow {
     DesignRow { number, case, result: candidate.result.as_ref().clone() }
 }
 
-/// Shortfall and verdict of a design.
+/// Returns the shortfall and the verdict of a design.
 fn verdict(candidate: &Candidate, row: &DesignRow) -> [Cell; 2] {
     match &candidate.verdict {
         Judgement::Judged(worth) => {
@@ -309,7 +307,7 @@ fn verdict(candidate: &Candidate, row: &DesignRow) -> [Cell; 2] {
                 (false, true) => "folded",
                 (false, false) => "short",
             };
-            // A shortfall without end is that of samples that fail.
+            // The shortfall is infinite if samples fail.
             [finite(if worth.met { 0.0 } else { worth.shortfall() }).into(), word.into()]
         }
         Judgement::Nominal(worth) => {

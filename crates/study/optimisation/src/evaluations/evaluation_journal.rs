@@ -1,7 +1,7 @@
-//! The journal of an optimisation: every point that was solved, a line each.
+//! Journal of a search, with one line for each solved point or set of samples.
 //!
-//! The search itself is not written down: it does the same again, and finds what it asks for in the journal until it comes to
-//! points that nobody has solved yet.
+//! The state of the search is not stored. A resumed search repeats its decisions, and reads results
+//! from the journal until it reaches points that have not been solved.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -18,7 +18,7 @@ use crate::error::OptimisationError;
 use crate::sample::Samples;
 use crate::space::SpacePoint;
 
-/// A line of the journal behind the first.
+/// A line of the journal after the header.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum JournalLine {
@@ -26,65 +26,67 @@ pub(super) enum JournalLine {
     Samples(SamplesLine),
 }
 
-/// A point that was solved.
+/// A solved point.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SolvedLine {
-    /// Whether its measures have derivatives.
+    /// True if the result includes derivatives.
     pub differentiated: bool,
-    /// The number of the sample of its design, with the deviations of the batch; none of the nominal design.
+    /// Number of the sample; `None` for the nominal design.
+    ///
+    /// The sample has the batch deviations only, without scatter between scales.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sample: Option<u64>,
-    /// Shares of the intervals.
+    /// Fractions of the intervals.
     pub shares: Vec<f64>,
     /// Indices of the choices.
     pub chosen: Vec<usize>,
-    /// The result.
+    /// Result of the design.
     pub result: DesignResult,
 }
 
-/// Samples of the design of a point.
+/// Samples of the design at a point.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SamplesLine {
-    /// The number of the first sample.
+    /// Number of the first sample.
     pub first: u64,
-    /// Shares of the intervals.
+    /// Fractions of the intervals.
     pub shares: Vec<f64>,
     /// Indices of the choices.
     pub chosen: Vec<usize>,
-    /// The values of each sample in the columns that it is judged by.
+    /// Values of each sample in the columns by which it is judged.
     pub values: Samples,
 }
 
-/// Whether a point is solved with the derivatives of its measures, and which point it is, to the last bit.
+/// Identifies a solved point.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) struct EvaluationKey {
     pub differentiated: bool,
-    /// The number of the sample whose batch it is; `None` of the nominal design.
+    /// Number of the sample; `None` for the nominal design.
     pub sample: Option<u64>,
     pub point: PointKey,
 }
 
-/// A point, to the last bit.
+/// Identifies a point by the bits of its fractions.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) struct PointKey {
     shares: Vec<u64>,
     chosen: Vec<usize>,
 }
 
-/// A point, and the first and the count of its samples.
+/// A point, the number of its first sample and the count.
 type SamplesKey = (PointKey, u64, usize);
 
 impl PointKey {
     pub fn of(point: &SpacePoint) -> Self {
-        // No tolerance: a search that is done again asks for the very same points.
+        // Exact, because a repeated search requests exactly the same points.
         let shares = point.shares.iter().map(|share| share.to_bits()).collect();
         Self { shares, chosen: point.chosen.clone() }
     }
 }
 
-/// What was solved.
+/// Results in the journal.
 pub(super) struct Known {
     header: JournalHeader,
     pub solved: HashMap<EvaluationKey, Arc<DesignResult>>,
@@ -127,7 +129,7 @@ impl Records for Known {
     }
 }
 
-/// The journal in `folder` of the search for `goal`.
+/// Opens the journal in `folder` for the search of `goal`.
 pub(super) fn begin(
     folder: &Path,
     goal: &str,
@@ -136,12 +138,13 @@ pub(super) fn begin(
 ) -> Result<Journal<Known>, OptimisationError> {
     let folder = ResultsFolder::new(folder);
     folder.require_own(Maker::Search, start)?;
-    // A file of our names that no search has written here may be the very goal that is searched for.
+    // Refuse files of ours that were not written by a search: one of them may be the goal itself.
     Claim::check(&folder, Maker::Search)?;
     folder.make()?;
     let path = folder.file(ResultsFolder::EVALUATIONS);
     if start == Start::Fresh {
-        // Before the old journal goes: a kill in between would leave the optimum of one goal beside the journal of another.
+        // Remove the tables before the journal. Otherwise a kill in between would leave the optimum
+        // of one goal beside the journal of another.
         let _alone = lock_journal(&path)?;
         Claim::release(&folder, Maker::Search);
     }

@@ -1,6 +1,7 @@
-//! Requirements that no design of a space can meet, by bounds that are known without solving any.
+//! Refuses requirements that exceed bounds known in closed form.
 //!
-//! Scales take the part `1 − d/p` of the pitch and bending has the rest: coverage is at most `1 − d/p`, compliance at most `d/p` (O8).
+//! Scales take the fraction `1 − d/p` of the pitch, and only the rest bends. The coverage is at
+//! most `1 − d/p` and the compliance at most `d/p` (O8).
 
 use ranking::Requirement;
 use results::columns::name;
@@ -12,10 +13,10 @@ use super::section::GoalSection;
 use crate::coverage_piece::{COMPLIANCES, open_share};
 use crate::space::{DesignSpace, SpacePoint};
 
-/// Intervals whose corners are all looked at, at most.
+/// Maximum number of intervals for which all corners are evaluated.
 const CORNERED: usize = 12;
 
-/// Why requirements on coverage and compliance cannot be met.
+/// Returns errors for requirements on coverage and compliance that cannot be met.
 pub(super) fn out_of_bounds(goal: &GoalSection, space: &DesignSpace) -> Vec<InvalidDefinition> {
     let Some((least, most)) = open_shares(space) else { return Vec::new() };
     let mut refused = Vec::new();
@@ -53,12 +54,14 @@ pub(super) fn out_of_bounds(goal: &GoalSection, space: &DesignSpace) -> Vec<Inva
     refused
 }
 
-/// A difference of limits as a person writes it.
+/// Removes the round-off of a difference of limits.
 fn rounded(value: f64) -> f64 {
     (value * 1e12).round() * 1e-12
 }
 
-/// The least and the largest `d/p` of the space: at corners, since gap and length move it one way each. `None` if they are too many.
+/// Returns the smallest and largest `d/p` of the space.
+///
+/// They are at corners, because `d/p` is monotonic in gap and length. `None` for too many corners.
 fn open_shares(space: &DesignSpace) -> Option<(f64, f64)> {
     let intervals = space.intervals().len();
     if intervals > CORNERED || space.combinations() > 1 << CORNERED {

@@ -1,4 +1,4 @@
-//! The keys of the fitness in `[goal]`: the weights of its criteria, and the ends between which they are rescaled.
+//! Keys of the fitness in `[goal]`: weights and ends of its criteria.
 
 use ranking::{CRITERIA, Criterion, CriterionEnds, FitnessGoal, Goal, Scale, Weights};
 use sweep::InvalidDefinition;
@@ -9,7 +9,7 @@ use super::refusal::{no_effect, not_accepted};
 const WEIGHTS: &str = "weights of which none is negative and one is more than 0, of columns of which it is plain what is good, e.g. { coverage = 1, critical_force = 2 }";
 const RESCALE: &str = "the worst and the best value of columns, e.g. { coverage = [0, 0.9] }";
 
-/// The fitness as it is understood so far.
+/// Values of the keys read so far.
 #[derive(Default)]
 pub(super) struct FitnessSection {
     weights: Option<(Vec<Criterion>, Weights, Place)>,
@@ -17,7 +17,7 @@ pub(super) struct FitnessSection {
 }
 
 impl FitnessSection {
-    /// Understands `weights`.
+    /// Reads the key `weights`.
     pub fn weights(&mut self, entry: &KeyValue) -> Result<(), InvalidDefinition> {
         let wrong = |value: &Value| not_accepted(&entry.place, "goal.weights", value, WEIGHTS);
         let weight = |inner: &KeyValue| match &inner.value {
@@ -35,7 +35,7 @@ impl FitnessSection {
         Ok(())
     }
 
-    /// Understands `rescale`.
+    /// Reads the key `rescale`.
     pub fn rescale(&mut self, entry: &KeyValue) -> Result<(), InvalidDefinition> {
         let number = |value: &Value| match value {
             Value::Number(text) => text.parse::<f64>().ok().filter(|number| number.is_finite()),
@@ -61,7 +61,7 @@ impl FitnessSection {
         Ok(())
     }
 
-    /// The fitness, if the goal names it.
+    /// Returns the fitness, if the goal names it.
     pub fn goal(&self, is_named: bool) -> Result<Option<FitnessGoal>, InvalidDefinition> {
         if !is_named {
             return self.unused().map_or(Ok(None), Err);
@@ -77,7 +77,7 @@ impl FitnessSection {
         Ok(Some(FitnessGoal { criteria, weights, ends }))
     }
 
-    /// What to say of keys that do nothing without a fitness.
+    /// Returns the error for keys without effect because the goal has no fitness.
     fn unused(&self) -> Option<InvalidDefinition> {
         let of_weights = self.weights.iter().map(|(.., place)| ("goal.weights", place));
         let of_ends = self.ends.iter().map(|(_, place)| ("goal.rescale", place));
@@ -93,7 +93,7 @@ fn table(value: &Value) -> Option<&KeyValues> {
     }
 }
 
-/// Refuses ends of what is no criterion, or that stand the wrong way round.
+/// Refuses ends of columns that are not criteria, and ends in the wrong order.
 fn check(
     ends: &CriterionEnds,
     criteria: &[Criterion],

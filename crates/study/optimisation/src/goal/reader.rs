@@ -1,4 +1,4 @@
-//! From keys and values to a goal.
+//! Reads a goal from keys and values.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -22,18 +22,20 @@ use crate::space::DesignSpace;
 use crate::statistic::Statistic;
 
 impl DesignGoal {
-    /// The goal in the file at `path` once `settings` are put in its place.
+    /// Reads the goal in the file at `path` and applies `settings`.
     ///
     /// # Errors
-    /// If the file cannot be read or holds no goal; all that is wrong with it is told at once.
+    ///
+    /// If the file cannot be read or is not a goal. The error lists all problems.
     pub fn read(path: &Path, settings: &[Setting]) -> Result<Self, InvalidDefinition> {
         Self::read_with(path, settings, &[])
     }
 
-    /// As [`Self::read`], with further requirements.
+    /// Reads a goal with further requirements; see [`Self::read`].
     ///
     /// # Errors
-    /// As [`Self::read`].
+    ///
+    /// See [`Self::read`].
     pub fn read_with(
         path: &Path,
         settings: &[Setting],
@@ -46,23 +48,27 @@ impl DesignGoal {
         Self::of_section(&entries, &path.display().to_string(), required)
     }
 
-    /// The goal that `text`, from the file `name`, holds once `settings` are put in its place.
+    /// Reads the goal in `text` and applies `settings`; `name` is the file name.
     ///
     /// # Errors
-    /// If the text holds no goal.
+    ///
+    /// If the text is not a goal.
     pub fn parse(text: &str, name: &str, settings: &[Setting]) -> Result<Self, InvalidDefinition> {
         Self::of_entries(&entries(text, name, settings)?, name)
     }
 
-    /// The goal that `entries` of the file `name` hold.
+    /// Creates the goal from `entries` of the file `name`.
     ///
     /// # Errors
-    /// If they hold no goal.
+    ///
+    /// If they are not a goal.
     pub fn of_entries(entries: &KeyValues, name: &str) -> Result<Self, InvalidDefinition> {
         Self::of_section(entries, name, &[])
     }
 
-    /// As [`Self::of_entries`], of which the command, and not the file, has said what is `required`.
+    /// Creates the goal from `entries`; see [`Self::of_entries`].
+    ///
+    /// The requirements in `required` come from the command line.
     fn of_section(
         entries: &KeyValues,
         name: &str,
@@ -73,7 +79,7 @@ impl DesignGoal {
         let mut refused = Vec::new();
         let mut section = goal_section(entries, &file, &mut refused);
         for (requirement, place) in &mut section.requirements {
-            // Its key may stand in the file: a bound of the command would be blamed on that line.
+            // Errors in requirements of the command line must not name a line of the file.
             if required.contains(requirement) {
                 *place = argument(requirement);
             }
@@ -128,16 +134,16 @@ impl DesignGoal {
     }
 }
 
-/// The place of a requirement that a command names.
+/// Returns the position of a requirement on the command line.
 fn argument(requirement: &Requirement) -> Place {
     Place::Argument(format!("--require '{requirement}'").into())
 }
 
-/// Adds a requirement to those that a goal has.
+/// Adds a requirement to the goal in `entries`.
 fn require(entries: &mut KeyValues, requirement: &Requirement) {
     let (name, text, place) = ("require", requirement.to_string(), argument(requirement));
     let goal = entries.iter_mut().find(|entry| entry.key == "goal");
-    // A definition without a goal is refused later, by what it lacks.
+    // A definition without a goal is refused later.
     let Some(KeyValue { value: Value::Table(goal), .. }) = goal else { return };
     let own = goal.iter_mut().find(|entry| entry.key == name).map(|entry| &mut entry.value);
     match own {
@@ -147,7 +153,7 @@ fn require(entries: &mut KeyValues, requirement: &Requirement) {
     }
 }
 
-/// The keys and values of a section.
+/// Returns the entries of a section.
 fn section<'e>(entries: &'e KeyValues, name: &str) -> &'e [KeyValue] {
     match entries.iter().find(|entry| entry.key == name).map(|entry| &entry.value) {
         Some(Value::Table(inner)) => inner,
@@ -171,8 +177,10 @@ fn goal_section(
     goal
 }
 
-/// Reasons why a space cannot be searched: no variables, a range of a number that does not describe the skin, parameters that
-/// are neither variables nor have one value.
+/// Returns the reasons why a space cannot be searched.
+///
+/// Reasons are missing variables, intervals of parameters that are not continuous, and parameters
+/// that have several values but are not variables.
 fn unsearchable(entries: &KeyValues, sweep: &Sweep, file: &Place) -> Vec<InvalidDefinition> {
     if sweep.variables().is_empty() {
         let expected =
@@ -203,8 +211,9 @@ fn unsearchable(entries: &KeyValues, sweep: &Sweep, file: &Place) -> Vec<Invalid
     vague.chain(open).collect()
 }
 
-/// Lines of a goal that can have no meaning: columns that designs do not have, objectives that cannot be compared, requirements that
-/// exclude each other.
+/// Returns errors for meaningless keys of a goal.
+///
+/// They are unknown columns, incomparable objectives and contradictory requirements.
 fn senseless(
     goal: &GoalSection,
     fitness: Option<&FitnessGoal>,
@@ -218,7 +227,7 @@ fn senseless(
         let is_nominal = Statistic::named(named.column).is_none() || known.contains(&named.column);
         unavailable.or_else(|| missing_column(named, &known, sweep).filter(|_| is_nominal))
     });
-    // A requirement compares no designs: the least tilt under a given force is a goal.
+    // Requirements compare no designs, so the least tilt under a given force is a valid goal.
     let objectives = named.iter().filter(|named| named.key != "goal.require");
     let incomparable = objectives.flat_map(|Written { column, key, place }| {
         let fails = |v: &&Variable| {
@@ -233,7 +242,7 @@ fn senseless(
     found.chain(out_of_reach(goal, sweep)).chain(statistics::senseless(goal)).collect()
 }
 
-/// The columns that a goal is about, in place of the fitness those of its criteria.
+/// Returns the columns of a goal, with the criteria in place of the fitness.
 fn named<'a>(goal: &'a GoalSection, fitness: Option<&'a FitnessGoal>) -> Vec<Written<'a>> {
     let (of_fitness, mut named): (Vec<_>, Vec<_>) =
         goal.columns().partition(|named| named.column == NumberColumn::FITNESS);
@@ -266,7 +275,7 @@ fn missing_column(named: &Written, known: &[&str], sweep: &Sweep) -> Option<Inva
     Some(not_accepted(place, key, column, expected))
 }
 
-/// Requirements of one column that no value meets.
+/// Returns errors for pairs of requirements that exclude each other.
 fn contradictions(goal: &GoalSection) -> Vec<InvalidDefinition> {
     let mut found = Vec::new();
     for (k, (upper, place)) in goal.requirements.iter().enumerate() {
@@ -279,7 +288,7 @@ fn contradictions(goal: &GoalSection) -> Vec<InvalidDefinition> {
     found
 }
 
-/// Whether a lower bound stands above an upper one of the same column.
+/// Returns true if a lower bound exceeds an upper bound of the same column.
 fn exclude(lower: &Requirement, upper: &Requirement) -> bool {
     let is_lower = matches!(lower.relation, Relation::AtLeast | Relation::Above);
     let is_upper = matches!(upper.relation, Relation::AtMost | Relation::Below);
@@ -288,7 +297,7 @@ fn exclude(lower: &Requirement, upper: &Requirement) -> bool {
     same && (lower.limit > upper.limit || (strict && lower.limit >= upper.limit))
 }
 
-/// Requirements of a variable that no value between its bounds meets.
+/// Returns errors for requirements on variables that no value can meet.
 fn out_of_reach<'a>(
     goal: &'a GoalSection,
     sweep: &'a Sweep,
@@ -304,9 +313,9 @@ fn out_of_reach<'a>(
     })
 }
 
-/// Keys and values as TOML again.
+/// Formats keys and values as TOML.
 fn to_toml(entries: &KeyValues) -> String {
-    // Values first: behind the header of a table TOML would count them as part of it.
+    // Values precede tables, because TOML would count later ones as part of a table.
     let (tables, values): (Vec<_>, Vec<_>) =
         entries.iter().partition(|entry| matches!(entry.value, Value::Table(_)));
     let mut text = String::new();

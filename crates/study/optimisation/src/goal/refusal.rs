@@ -1,4 +1,4 @@
-//! What is refused of a goal, with the place where it is written.
+//! Creates errors in a goal, with their position in the file.
 
 use std::fmt::Display;
 

@@ -1,4 +1,4 @@
-//! The section `[goal]`: objectives, requirements, and how much is searched.
+//! Section `[goal]`: objectives, requirements, and the size of the search.
 
 use std::str::FromStr;
 
@@ -10,7 +10,7 @@ use text::toml_source::{KeyValue, Place, Value};
 use super::fitness_section::FitnessSection;
 use super::refusal::not_accepted;
 
-/// Objectives of a goal, at most.
+/// Maximum number of objectives.
 const MOST_OBJECTIVES: usize = 4;
 
 /// Keys of the section.
@@ -19,14 +19,14 @@ const KEYS: [&str; 11] = [
     "points", "skins", "seed",
 ];
 
-/// A column, and the key and the place where it is written.
+/// A column, with the key and the position in the file.
 pub(super) struct Written<'a> {
     pub column: &'a str,
     pub key: &'static str,
     pub place: &'a Place,
 }
 
-/// The section as it is understood so far; what is written somewhere stands with its place.
+/// Values of the section read so far, with their positions in the file.
 pub(super) struct GoalSection {
     pub objectives: Vec<(Criterion, Place)>,
     pub requirements: Vec<(Requirement, Place)>,
@@ -58,7 +58,7 @@ impl Default for GoalSection {
 }
 
 impl GoalSection {
-    /// Understands one key.
+    /// Reads one key.
     pub fn entry(&mut self, entry: &KeyValue) -> Result<(), InvalidDefinition> {
         match entry.key.as_str() {
             "maximize" => self.objectives(entry, Goal::Maximize)?,
@@ -87,7 +87,7 @@ impl GoalSection {
         Ok(())
     }
 
-    /// The columns of objectives and requirements.
+    /// Returns the columns of objectives and requirements.
     pub fn columns(&self) -> impl Iterator<Item = Written<'_>> {
         let objectives = self.objectives.iter().map(|(criterion, place)| Written {
             column: &criterion.column,
@@ -118,7 +118,7 @@ impl GoalSection {
         Ok(())
     }
 
-    /// Levels of standards, which are requirements by name.
+    /// Reads levels of standards, which are requirements.
     fn levels(&mut self, entry: &KeyValue) -> Result<(), InvalidDefinition> {
         let expected = format!("a level of a standard: {}", Standard::levels());
         for text in texts(entry, &expected)? {
@@ -144,7 +144,7 @@ impl GoalSection {
     }
 }
 
-/// What to say of a value of `entry` that is not accepted.
+/// Returns the error for a value of `entry`.
 fn wrong(
     entry: &KeyValue,
     found: impl std::fmt::Display,
@@ -153,7 +153,7 @@ fn wrong(
     not_accepted(&entry.place, &format!("goal.{}", entry.key), found, expected)
 }
 
-/// The texts of a list, or the one text.
+/// Returns the texts of a list, or a single text.
 fn texts<'v>(entry: &'v KeyValue, what: &str) -> Result<Vec<&'v str>, InvalidDefinition> {
     let items = match &entry.value {
         Value::List(items) => items.as_slice(),

@@ -1,4 +1,6 @@
-//! What a goal may say of samples: quantiles and yields, which need deviations.
+//! Checks statistics over samples in a goal: quantiles and yields.
+//!
+//! Both need deviations.
 
 use ranking::{Goal, Relation};
 use results::columns::{Cell, design_columns, measure_of, name};
@@ -13,7 +15,9 @@ const DEVIATIONS: &str = "it beside a [tolerance], e.g. gap_over_t = { batch_sd 
 const ONE_SCATTER: &str =
     "scatter from scale to scale as scale_sd in [tolerance], without [imperfection]";
 
-/// Why a statistic cannot be had from a sweep; `None` if it can, or the column is none.
+/// Returns the reason why a sweep has no such statistic.
+///
+/// `None` if it has, or if the column is not a statistic.
 pub(super) fn unavailable(named: &Written, sweep: &Sweep) -> Option<InvalidDefinition> {
     let Written { column, key, place } = *named;
     let statistic = Statistic::named(column)?;
@@ -28,7 +32,9 @@ pub(super) fn unavailable(named: &Written, sweep: &Sweep) -> Option<InvalidDefin
     Some(not_accepted(place, key, column, expected))
 }
 
-/// What is expected in place of a quantile of `column`; `None` if it is one of numbers.
+/// Returns the expected text in place of a quantile of `column`.
+///
+/// `None` if the column is numeric.
 fn not_of_numbers(column: &str, sweep: &Sweep) -> Option<String> {
     let columns = design_columns(sweep);
     let Some(known) = columns.iter().find(|known| known.name == column) else {
@@ -48,12 +54,12 @@ fn not_of_numbers(column: &str, sweep: &Sweep) -> Option<String> {
     })
 }
 
-/// The quantiles of a column, by their names.
+/// Lists the quantiles of a column.
 fn quantiles(column: &str) -> String {
     QUANTILES.map(|(ending, _)| format!("{column}_{ending}")).join(", ")
 }
 
-/// Whether a column is one of texts, by what it has to say of a design without a path.
+/// Returns true if a column contains text for a design without a path.
 fn holds_text(column: &Column<DesignRow>, sweep: &Sweep) -> bool {
     let (number, case) = (sweep.grid().number(0), sweep.grid().case(0));
     let result = DesignResult {
@@ -64,14 +70,14 @@ fn holds_text(column: &Column<DesignRow>, sweep: &Sweep) -> bool {
     matches!(column.cell(&DesignRow { number, case, result }), Cell::Text(_))
 }
 
-/// What would be right in place of a name that is nearly that of a quantile, as `critical_force_p5`.
+/// Suggests quantiles for a name such as `critical_force_p5`.
 pub(super) fn nearly(column: &str, known: &[&str]) -> Option<String> {
     let (base, ending) = column.rsplit_once("_p")?;
     let is_nearly = known.contains(&base) && ending.starts_with(|c: char| c.is_ascii_digit());
     is_nearly.then(|| format!("one of the quantiles {}", quantiles(base)))
 }
 
-/// Lines about yields that can have no meaning, and a count of samples that none asks for.
+/// Returns errors for meaningless yields and for an unused number of samples.
 pub(super) fn senseless(goal: &GoalSection) -> Vec<InvalidDefinition> {
     let is_yield = |column: &str| column == Statistic::YIELD;
     let mut refused = Vec::new();

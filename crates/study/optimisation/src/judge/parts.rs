@@ -1,4 +1,4 @@
-//! What a judge is made of.
+//! Builds a judge from a goal.
 
 use ranking::{CriterionEnds, Goal, Requirement};
 use results::columns::measure_of;
@@ -12,18 +12,18 @@ use crate::sample::{SampleJudge, UsedStatistic};
 use crate::statistic::Statistic;
 
 impl Judge {
-    /// A judge by `goal`, in whose fitness those criteria are rescaled that have their ends there.
+    /// Creates a judge by `goal`, with the ends of criteria that the goal states.
     pub fn new(goal: &DesignGoal) -> Self {
         Self::rescaling(goal, goal.fitness.as_ref().map_or(&[], |fitness| &fitness.ends))
     }
 
-    /// A judge by `goal`, in whose fitness the criteria are rescaled between these ends.
+    /// Creates a judge by `goal`, with these ends of the criteria of its fitness.
     pub fn rescaling(goal: &DesignGoal, ends: &[CriterionEnds]) -> Self {
         JudgeParts { goal, ends }.judge()
     }
 }
 
-/// A goal, and the ends between which the criteria of its fitness are rescaled.
+/// A goal with the ends of the criteria of its fitness.
 struct JudgeParts<'a> {
     goal: &'a DesignGoal,
     ends: &'a [CriterionEnds],
@@ -58,7 +58,7 @@ impl JudgeParts<'_> {
         Judge { objectives, requirements, soundness, measures: self.measures(), samples }
     }
 
-    /// The column of that name of a nominal design.
+    /// Returns the nominal column `name`.
     fn column(&self, name: &str) -> Option<NumberColumn> {
         let sweep = self.goal.space.sweep();
         match &self.goal.fitness {
@@ -69,7 +69,7 @@ impl JudgeParts<'_> {
         }
     }
 
-    /// The requirements of columns, then that the surface has not folded if that is wanted.
+    /// Returns the requirements on columns, then an unfolded surface if required.
     fn bounds(&self) -> Bounds {
         let plain = self.goal.requirements.iter();
         let plain = plain.filter(|requirement| self.goal.statistic(&requirement.column).is_none());
@@ -88,8 +88,10 @@ impl JudgeParts<'_> {
         soundness(self.goal.space.sweep()).filter(|_| self.goal.sound)
     }
 
-    /// The requirement that the surface has not folded, if that is wanted: of a quantile of it, where the goal names quantiles, which
-    /// then is one more statistic.
+    /// Returns the requirement of an unfolded surface, if the goal has it.
+    ///
+    /// If the goal contains quantiles, it applies to a quantile of the samples, which becomes
+    /// another statistic.
     fn open(&self, statistics: &mut Vec<UsedStatistic>) -> Option<Bound<Source>> {
         let requirement = self.soundness()?;
         let column = match UsedStatistic::of_soundness(&requirement.column, statistics) {
@@ -102,7 +104,7 @@ impl JudgeParts<'_> {
         Some(Bound { requirement, column })
     }
 
-    /// The statistics that the goal names, and the yield if there is something to meet.
+    /// Returns the statistics of the goal, and the yield if there are bounds.
     fn statistics(&self) -> Vec<UsedStatistic> {
         let goal = self.goal;
         let objectives = goal.objectives.iter();
@@ -115,7 +117,7 @@ impl JudgeParts<'_> {
         let mut used: Vec<UsedStatistic> = used.collect();
         let is_plain = |r: &Requirement| goal.statistic(&r.column).is_none();
         let has_bounds = goal.requirements.iter().any(is_plain);
-        // Told besides: the samples are solved anyway, and say how many meet every bound.
+        // The yield is reported in addition, because the samples are solved anyway.
         if !used.is_empty() && has_bounds && !used.iter().any(UsedStatistic::is_yield) {
             used.push(self.used(Statistic::YIELD, Statistic::Yield, true));
         }
@@ -130,7 +132,7 @@ impl JudgeParts<'_> {
         UsedStatistic { name: name.to_owned(), statistic, column, large }
     }
 
-    /// The measures of the columns that the goal names.
+    /// Returns the measures that the columns of the goal depend on.
     fn measures(&self) -> Vec<Measure> {
         let criteria = self.goal.fitness.iter().flat_map(|fitness| &fitness.criteria);
         let criteria = self.goal.objectives.iter().chain(criteria).map(|c| c.column.as_ref());

@@ -6,7 +6,8 @@
 //! step `d` is optimal for all of them:
 //!
 //! ```text
-//! min s    subject to    f(x_i) + ∇f(x_i)·(x + d − x_i) ≤ s,    c_k(x_i) + ∇c_k(x_i)·(x + d − x_i) ≤ 0,    |d| ≤ r          (O5)
+//! min s    subject to    f(x_i) + ∇f(x_i)·(x + d − x_i) ≤ s,                             (O5)
+//!                        c_k(x_i) + ∇c_k(x_i)·(x + d − x_i) ≤ 0,    |d| ≤ r
 //! ```
 //!
 //! A step is accepted if it achieves enough of the predicted gain; a rejected step adds a tangent.
@@ -76,7 +77,9 @@ pub(super) struct BundleOptions {
     pub places: usize,
 }
 
-/// Minimises the cost of `problem` from `start`; the problem logs the evaluations itself.
+/// Minimises the cost of `problem` from `start`.
+///
+/// The problem logs the evaluations itself.
 pub(super) fn descend<P: PiecewiseSmooth>(
     problem: &P,
     start: &[f64],
@@ -116,7 +119,7 @@ struct Bundle<'p, P> {
     left: usize,
     /// Rejected steps since the last accepted step or change of radius.
     misses: usize,
-    /// Whether the ball has been filled since the last accepted step or change of radius.
+    /// True if the ball was filled since the last accepted step or change of radius.
     filled: bool,
     sequence: Sequence,
     drawn: usize,
@@ -254,7 +257,9 @@ impl Pieces {
     }
 }
 
-/// Returns the gain of one merit over another; infinite if only the first is feasible.
+/// Returns the gain of one merit over another.
+///
+/// Infinite if only the first is feasible.
 fn better((met, value): (bool, f64), (other_met, other): (bool, f64)) -> f64 {
     match (met, other_met) {
         // Feasibility comes first: a step to the first feasible point is always accepted.

@@ -38,8 +38,9 @@ impl LocalSearch<'_> {
         Ok(())
     }
 
-    /// Runs gradient searches in successive coverage branches, while the best design is on a
-    /// border.
+    /// Runs gradient searches in successive coverage branches.
+    ///
+    /// Continues while the best design is on a border of another branch.
     fn climb_for(&self, effort: Effort, is_elastic: bool) -> Result<(), Halt> {
         let mut climbed: Vec<Option<CoveragePiece>> = Vec::new();
         while climbed.len() < effort.pieces {
@@ -54,7 +55,9 @@ impl LocalSearch<'_> {
         Ok(())
     }
 
-    /// Returns the coverage branches of the best design; one `None` if coverage does not matter.
+    /// Returns the coverage branches of the best design.
+    ///
+    /// A single `None` if coverage does not matter.
     fn pieces(&self) -> Vec<Option<CoveragePiece>> {
         let judge = self.search.judge;
         // The samples of one design lie in several branches.
@@ -102,7 +105,7 @@ impl CostFunction for LocalProblem<'_> {
 
     fn cost(&self, shares: &Vec<f64>) -> Result<f64, Halt> {
         let evaluated = self.evaluate(shares)?;
-        // What cannot be judged is worse than anything that can.
+        // A design without a valid judgement is worse than any other.
         Ok(evaluated.map_or(f64::INFINITY, |evaluated| match self.missed(shares) {
             Some(missed) => missed,
             None => self.cost_of(&evaluated.worth),
@@ -147,7 +150,7 @@ impl NonlinearInequalityValues for LocalProblem<'_> {
         &self,
         shares: &Vec<f64>,
     ) -> Result<Vec<f64>, ConstraintSolveError<Halt>> {
-        // Like the cost: a design that cannot be judged violates every limit.
+        // A design without a valid judgement violates every limit.
         let none = || vec![f64::INFINITY; self.limit_count()];
         let mut limits =
             self.evaluate(shares)?.map_or_else(none, |evaluated| self.limits(&evaluated));

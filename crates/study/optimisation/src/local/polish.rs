@@ -1,6 +1,6 @@
-//! Derivative-free polish: a few steps of mesh adaptive direct search (`OrthoMADS`).
+//! Derivative-free polish by mesh adaptive direct search (`OrthoMADS`).
 //!
-//! Direct search can step across jumps.
+//! A few of its steps can cross jumps.
 
 use basin::{
     BoxBounds, ConstraintDescription, ConstraintSet, ConstraintSolveError, Constraints,
@@ -12,10 +12,10 @@ use crate::candidate::{Merit, SearchStage};
 use crate::evaluations::Halt;
 
 impl LocalSearch<'_> {
-    /// Polishes the best design with steps of at most `reach` and at most `most` evaluations.
+    /// Polishes the best design with at most `most` evaluations.
     ///
-    /// While no design is feasible, it minimises the largest shortfall; afterwards infeasible
-    /// designs are rejected.
+    /// The first steps are at most `reach` long. While no design is feasible, the largest shortfall
+    /// is minimised; afterwards infeasible designs are rejected.
     pub(super) fn polish(&self, reach: f64, most: usize) -> Result<(), Halt> {
         loop {
             let start = self.best_shares();
@@ -49,7 +49,9 @@ impl LocalSearch<'_> {
     }
 }
 
-/// Problem with an extreme barrier: infeasible designs cost infinity once a feasible one is known.
+/// Problem with an extreme barrier.
+///
+/// Infeasible designs have infinite cost once a feasible one is known.
 struct Barrier<'a> {
     walk: &'a LocalSearch<'a>,
     only_short: bool,

@@ -1,6 +1,7 @@
-//! Problem of a gradient or ridge search: cost and limits over shares of the intervals.
+//! Problem of a gradient or ridge search: cost and limits over the intervals.
 //!
-//! Cost (to be minimised) and limits are scaled to about 1.
+//! Variables are fractions of the intervals. Cost (to be minimised) and limits are scaled to about
+//! 1.
 
 use std::cell::RefCell;
 use std::iter;
@@ -39,7 +40,7 @@ enum CostScale {
 }
 
 impl CostScale {
-    /// Returns the cost of a value and its derivative, for an objective to be minimised.
+    /// Returns the cost and its derivative, for an objective to be minimised.
     fn cost(self, value: f64) -> (f64, f64) {
         match self {
             Self::Logarithm if value > 0.0 => (value.ln(), value.recip()),
@@ -62,14 +63,17 @@ pub(super) struct LocalProblem<'a> {
     walk: &'a LocalSearch<'a>,
     stage: SearchStage,
     scale: CostScale,
-    /// Whether the search is restricted to designs without contact in bending: compliance jumps at
-    /// contact, which no derivative shows.
+    /// True if the search is restricted to designs without contact in bending.
+    ///
+    /// The compliance jumps at contact, which derivatives do not show.
     stays_open: bool,
     /// Coverage branch to which the search is restricted.
     piece: Option<CoveragePiece>,
-    /// Whether the last variable is a slack on requirements and lower bounds, and the cost (O9).
+    /// True if the last variable is the cost, a slack on the limits (O9).
+    ///
+    /// The slack applies to requirements and lower bounds.
     pub is_elastic: bool,
-    /// Last evaluated shares, and the number of successive stalled steps.
+    /// Last evaluated fractions, and the number of successive stalled steps.
     still: RefCell<(Vec<f64>, usize)>,
     pub lower: Vec<f64>,
     pub upper: Vec<f64>,
@@ -79,14 +83,15 @@ pub(super) struct LocalProblem<'a> {
 pub(super) struct EvaluatedPoint {
     pub worth: Worth,
     pub row: EvaluatedRow,
-    /// Whether it is feasible.
+    /// True if the design is feasible.
     pub met: bool,
 }
 
 impl<'a> LocalProblem<'a> {
-    /// Builds the problem at the best design of `walk`; `None` if it has no valid judgement.
+    /// Builds the problem at the best design of `walk`.
     ///
-    /// With `missed`, the problem is elastic and its slack starts at this shortfall.
+    /// `None` if this design has no valid judgement. With `missed`, the problem is elastic and its
+    /// slack starts at this shortfall.
     pub fn new(
         walk: &'a LocalSearch<'a>,
         stage: SearchStage,
@@ -166,12 +171,16 @@ impl<'a> LocalProblem<'a> {
         shares.last().copied().filter(|_| self.is_elastic)
     }
 
-    /// Returns the number of requirements and lower bounds, which come first among the limits.
+    /// Returns the number of requirements and lower bounds.
+    ///
+    /// They come first among the limits.
     pub fn asked_count(&self) -> usize {
         self.walk.search.judge.requirements().count() + self.walk.target.floors.len()
     }
 
-    /// Returns the number of limits: requirements, lower bounds, branch borders and bending slack.
+    /// Returns the number of limits.
+    ///
+    /// Limits are requirements, lower bounds, branch borders and the slack before contact.
     pub fn limit_count(&self) -> usize {
         let borders = self.piece.map_or(0, |_| CoveragePiece::BORDERS);
         self.asked_count() + borders + usize::from(self.stays_open)
@@ -204,7 +213,7 @@ impl<'a> LocalProblem<'a> {
             .flat_map(|piece| (0..CoveragePiece::BORDERS).map(move |k| (piece, k)))
     }
 
-    /// Computes the gradient of the cost, with `pick` choosing between one-sided slopes.
+    /// Computes the gradient of the cost; `pick` selects one-sided slopes.
     pub fn cost_gradient(
         &self,
         shares: &[f64],
@@ -218,7 +227,7 @@ impl<'a> LocalProblem<'a> {
         self.falling(shares, slopes, pick)
     }
 
-    /// Computes the gradient of limit `k`, with `pick` choosing between one-sided slopes.
+    /// Computes the gradient of limit `k`; `pick` selects one-sided slopes.
     pub fn limit_gradient(
         &self,
         k: usize,
@@ -251,9 +260,9 @@ impl<'a> LocalProblem<'a> {
         }
     }
 
-    /// Computes the gradient, over shares, of the negative of the quantity with these slopes.
+    /// Computes the negative gradient of a quantity over fractions of the intervals.
     ///
-    /// At an end of an interval, the inward one-sided slope is used.
+    /// `slopes` are its one-sided derivatives. At an end of an interval, the inward one is used.
     fn falling(
         &self,
         shares: &[f64],

@@ -8,7 +8,9 @@ use crate::evaluated_row::StatisticUse;
 use crate::evaluations::Halt;
 use crate::slopes::Slopes;
 
-/// Smallest radius, as a fraction of the intervals; kinks are resolved at larger distances.
+/// Smallest radius, as a fraction of the intervals.
+///
+/// Kinks are resolved at larger distances.
 const SMALLEST: f64 = 1e-6;
 
 impl LocalSearch<'_> {

@@ -14,7 +14,9 @@ use crate::statistic::Statistic;
 /// Number of independent samples for each check.
 const FRESH: usize = 1000;
 
-/// Statistics of a best design, by the samples of the search and by independent samples.
+/// Statistics of a best design, by seen and by independent samples.
+///
+/// Seen samples are the samples of the search.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Confirmation {
     /// Number of samples per design in the search.
@@ -30,14 +32,14 @@ pub struct Confirmation {
 /// Statistic over the samples of a best design.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Estimate {
-    /// The name of the statistic.
+    /// Name of the statistic.
     #[serde(rename = "quantity")]
     pub name: String,
     /// Value by the samples of the search.
     pub seen: Option<f64>,
     /// Value by the independent samples.
     pub value: Option<f64>,
-    /// Its 95 % interval.
+    /// 95 % confidence interval.
     pub interval: [Option<f64>; 2],
 }
 
@@ -47,7 +49,7 @@ impl Confirmation {
         self.estimates.iter().find(|estimate| estimate.name == name)
     }
 
-    /// Returns true if the 95 % interval does not exclude that a violated requirement is met.
+    /// Returns true if the 95 % interval reaches values that meet the requirement.
     pub fn is_open(&self, requirement: &Requirement) -> bool {
         let estimate = self.estimate(&requirement.column);
         let mut ends = estimate.into_iter().flat_map(|of| of.interval).flatten();
@@ -55,7 +57,9 @@ impl Confirmation {
     }
 }
 
-/// Checks the design at `point` with independent samples; `None` if the goal is not about samples.
+/// Checks the design at `point` with independent samples.
+///
+/// `None` if the goal is not about samples.
 pub(super) fn confirm(
     search: &Search<'_>,
     point: &SpacePoint,

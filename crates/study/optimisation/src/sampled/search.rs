@@ -24,7 +24,7 @@ pub(crate) const SEEDS: usize = 16;
 /// Number of designs refined with more samples, in different regions if possible.
 const REFINED: usize = 2;
 
-/// Searches of nominal designs, of sampled designs, and near their best with more samples.
+/// Searches of nominal designs, of sampled designs, and with more samples.
 #[derive(Clone, Copy)]
 pub(crate) struct Searches<'s> {
     pub nominal: &'s Search<'s>,
@@ -33,7 +33,9 @@ pub(crate) struct Searches<'s> {
 }
 
 impl Searches<'_> {
-    /// Searches for the answer to a goal about samples; the history includes nominal designs.
+    /// Searches for the answer to a goal about samples.
+    ///
+    /// The history includes nominal designs.
     pub fn answer(&self, goal: &DesignGoal, history: &mut Vec<Candidate>) -> Result<Answer, Halt> {
         let Self { nominal, sampled, finer } = self;
         // A nominal design costs one solution, a sampled one as many as it has samples, so nominal
@@ -64,8 +66,7 @@ impl Searches<'_> {
             Answer::Optimum(best) => {
                 let is_refined = refine(self, best, history)?;
                 check(
-                    // Fresh samples have numbers after all seen ones, and the finer search saw
-                    // more.
+                    // Independent samples follow all seen samples, and the finer search saw more.
                     if is_refined { finer } else { sampled },
                     std::slice::from_mut(best.as_mut()),
                 )?;
@@ -77,9 +78,9 @@ impl Searches<'_> {
     }
 }
 
-/// Refines the best designs with more samples: selection by few samples overestimates them.
+/// Refines the best designs with more samples.
 ///
-/// Returns whether a refined design is feasible.
+/// Selection by few samples overestimates them. Returns true if a refined design is feasible.
 fn refine(
     searches: &Searches<'_>,
     best: &mut BestDesign,
@@ -100,7 +101,7 @@ fn refine(
     let is_met = |candidate| matches!(finer.merit(candidate, &best.target), Merit::Met(_));
     let is_refined = evaluated.iter().any(is_met);
     if is_refined {
-        // Only these designs are judged by more samples.
+        // Among `evaluated` only, because all of these designs have more samples.
         let refined = best_design(finer, &evaluated, best.target.clone())?;
         *best = BestDesign { agreement: best.agreement, ..refined };
     }
@@ -118,7 +119,9 @@ fn check(search: &Search<'_>, best: &mut [BestDesign]) -> Result<(), Halt> {
     })
 }
 
-/// Selects the designs to be sampled first: the best nominal ones, then others that are apart.
+/// Selects the designs to be sampled first.
+///
+/// They are the best nominal designs, then others at a distance.
 fn seeds(nominal: &Search<'_>, history: &[Candidate], answer: &Answer) -> Vec<SpacePoint> {
     let best = match answer {
         Answer::Optimum(best) => std::slice::from_ref(best.as_ref()),

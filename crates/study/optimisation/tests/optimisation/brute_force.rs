@@ -1,5 +1,7 @@
-//! The optimum of the reference goal against grids so fine that nothing is missed. In a long campaign alone: tens of thousands of
-//! designs are looked at, a million with `SQUAMA_GRID=100`.
+//! Optima compared with fine grids and dense sequences.
+//!
+//! Runs in long campaigns only: tens of thousands of designs are evaluated, a million with
+//! `SQUAMA_GRID=100`.
 
 use std::path::Path;
 
@@ -13,13 +15,15 @@ use sweep::Measure;
 
 use crate::searches::{found_in, objectives, optimum};
 
-/// Points along each axis of a grid; `SQUAMA_GRID` says otherwise for that over the whole box.
+/// Points along each axis of a grid.
+///
+/// `SQUAMA_GRID` overrides it for the grid over the whole box.
 const POINTS: usize = 12;
 
-/// The half-width of the grid round the optimum, a share of the intervals.
+/// Half-width of the grid around the optimum, as a fraction of the intervals.
 const NEAR: f64 = 0.001;
 
-/// The best of the points of a grid, and how many of them meet every requirement.
+/// Best point of a grid, and the number of feasible points.
 #[derive(Clone, Debug)]
 struct GridBest {
     objective: f64,
@@ -37,13 +41,15 @@ impl GridBest {
     }
 }
 
-/// The best point of the grid with `points` values from the first to the second share of each of three intervals.
+/// Returns the best point of a grid over `ranges` of three intervals.
+///
+/// Each range has `points` values.
 fn best_of_grid(goal: &DesignGoal, ranges: &[[f64; 2]], points: usize) -> GridBest {
     let share = |j: usize, k: usize| {
         let [from, to] = ranges[j];
         from + (to - from) * k as f64 / (points - 1) as f64
     };
-    // Designs of one gap and length share their springs, which an evaluator keeps.
+    // Designs with equal gap and length share springs, which an evaluator caches.
     let of_gap = |gap: usize| {
         let solver = GoalSolver::new(goal);
         let pairs = (0..points).flat_map(|length| (0..points).map(move |slant| [length, slant]));
@@ -55,7 +61,7 @@ fn best_of_grid(goal: &DesignGoal, ranges: &[[f64; 2]], points: usize) -> GridBe
     (0..points).into_par_iter().map(of_gap).reduce(|| GridBest::NONE, GridBest::or)
 }
 
-/// The best of `count` points between the first and the second share of each of three intervals, by the golden ratios of a sequence.
+/// Returns the best of `count` points of a low-discrepancy sequence in `ranges`.
 fn best_of_sequence(goal: &DesignGoal, ranges: &[[f64; 2]], count: usize) -> GridBest {
     const RATIO: f64 = 1.220_744_084_605_759_5;
     let share = |j: usize, k: usize| {
@@ -67,13 +73,15 @@ fn best_of_sequence(goal: &DesignGoal, ranges: &[[f64; 2]], count: usize) -> Gri
     (0..count).into_par_iter().map(best).reduce(|| GridBest::NONE, GridBest::or)
 }
 
-/// Measures with the requirements that they decide.
+/// Measures, with the requirements that depend on them alone.
 struct Stage {
     evaluator: Evaluator,
     bounds: Vec<(Requirement, Column<DesignRow>)>,
 }
 
-/// Solves points: the puncture, which takes the longest, of those alone that cover and bend well enough.
+/// Evaluates points, the fastest measures first.
+///
+/// Puncture takes longest, so it is only solved for designs with enough coverage and compliance.
 struct GoalSolver<'g> {
     goal: &'g DesignGoal,
     judge: Judge,
@@ -150,7 +158,7 @@ fn no_grid_has_a_better_design_than_the_optimum() {
     }
 }
 
-/// Goals over the paper's box that no search was tuned on, with the values of their optima that are known.
+/// Objectives and requirements over the paper's box that no search was tuned on.
 const GOALS: [(&str, &str); 12] = [
     ("maximize = 'critical_force_N'", "'coverage >= 0.5', 'compliance >= 0.35'"),
     ("maximize = 'critical_force_N'", "'coverage >= 0.62', 'areal_mass_kg_m2 <= 0.8'"),
@@ -169,9 +177,12 @@ const GOALS: [(&str, &str); 12] = [
     ),
 ];
 
-/// With `SQUAMA_CAMPAIGNS=endless` 50,000 designs of the box and 20,000 near the optimum, with `long` one of 25 for every other goal.
+/// No random design is better than the optima of the twelve goals.
+///
+/// `SQUAMA_CAMPAIGNS=endless` evaluates 50,000 designs of the box and 20,000 near the optimum of
+/// each goal, `long` evaluates 4 % of them for every other goal.
 #[test]
-fn no_design_of_twelve_goals_is_better_than_what_their_searches_find() {
+fn no_design_beats_the_optima_of_twelve_goals() {
     let (part, each) = match std::env::var("SQUAMA_CAMPAIGNS").as_deref() {
         Ok("endless") => (1, 1),
         Ok("long") => (25, 2),

@@ -1,4 +1,4 @@
-//! Columns of extrapolated rows have the derivatives of the columns.
+//! Derivatives of columns by extrapolated rows, compared with solved designs.
 
 use results::columns::{Cell, design_columns};
 use results::{Column, DesignRow, SlopeSide};
@@ -20,14 +20,14 @@ fn value(column: &Column<DesignRow>, row: &DesignRow) -> Option<f64> {
 }
 
 #[test]
-fn whatever_a_column_makes_of_measures_and_parameters() {
+fn columns_have_the_derivatives_of_solved_designs_by_each_parameter() {
     let keys = ["gap_over_t", "length_over_t", "slant_deg", "poisson_ratio", "thickness_mm"];
     columns_have_the_derivatives_of_solved_designs(TEXT, &keys);
 }
 
-/// By the chain rule: a thickness moves all lengths that are given in mm, and a pitch what it says.
+/// Lengths in mm depend on the thickness, and the length also on a pitch in mm.
 #[test]
-fn lengths_in_mm_too() {
+fn columns_have_derivatives_by_lengths_in_mm() {
     let text = "name = 'x'\ndesigns = { gap_mm = 0.48, pitch_mm = 1.53, slant_deg = 41 }\n\
         scale.width_mm = 1.5\nflexure.membrane_thickness_mm = 0.2\n\
         [material]\nthickness_mm = 1.3\nsubstrate_modulus_MPa = 0.4\nmembrane_modulus_MPa = 2\nscale_density_kg_m3 = 1100\n";
@@ -35,9 +35,11 @@ fn lengths_in_mm_too() {
     columns_have_the_derivatives_of_solved_designs(text, &keys);
 }
 
-/// Soft scales, whose contact gives way: each modulus moves a ratio, and that of the scales both.
+/// The modulus of soft scales changes both ratios of moduli.
+///
+/// Their contact is compliant.
 #[test]
-fn moduli_beside_that_of_the_scales_too() {
+fn columns_have_derivatives_by_moduli_of_soft_scales() {
     let text = format!("{TEXT}scale_modulus_MPa = 8\n");
     let keys = ["substrate_modulus_MPa", "membrane_modulus_MPa", "scale_modulus_MPa"];
     columns_have_the_derivatives_of_solved_designs(&text, &keys);
@@ -81,7 +83,7 @@ fn columns_have_the_derivatives_of_solved_designs(text: &str, keys: &[&str]) {
 }
 
 #[test]
-fn a_value_without_a_derivative_does_not_exist_beside_the_design() {
+fn values_without_derivatives_are_not_extrapolated() {
     let sweep = Sweep::parse(TEXT, "x.toml", &[]).expect("a sweep");
     let case = sweep.grid().case(0);
     let row = solved(&Evaluator::new(&Measure::USUAL), &sweep, &case);
@@ -92,7 +94,8 @@ fn a_value_without_a_derivative_does_not_exist_beside_the_design() {
     let force = |row: &DesignRow| row.result.puncture.expect("measured").measures.critical_force;
     let compliance = |row: &DesignRow| row.result.flexure.expect("measured").measures.compliance;
     assert_eq!((force(&moved("gap_over_t")), compliance(&moved("gap_over_t"))), (None, None));
-    // The Poisson ratio of the substrate does nothing to bending, the thickness in mm nothing to either.
+    // Poisson's ratio of the substrate does not affect bending, and the thickness in mm neither
+    // measure.
     assert_eq!(compliance(&moved("poisson_ratio")), compliance(&row));
     assert_eq!(force(&moved("thickness_mm")), force(&row));
 }

@@ -11,12 +11,12 @@ const FITNESS: &str = "maximize = 'fitness'\nweights = { coverage = 1, areal_mas
     rescale = { coverage = [0.1, 0.9], areal_mass_kg_m2 = [1, 0.5] }";
 
 #[test]
-fn the_fittest_design_is_that_of_the_closed_form() {
+fn the_fittest_design_matches_the_closed_form() {
     let goal = goal(FITNESS);
     let folder = tempfile::tempdir().expect("a folder");
     let found = found_in(folder.path(), &goal, 1, Start::New);
     let best = optimum(&found);
-    // At 60° λ = (S − d)/S, and m = 1/(1 + d), of which 1/m = 1 + d is rescaled from 1 to 2.
+    // At 60°, λ = (S − d)/S and m = 1/(1 + d); its inverse 1 + d is rescaled from 1 to 2.
     let reach = 60_f64.to_radians().tan();
     let fitness = |d: f64| (((reach - d) / reach - 0.1) / 0.8).powf(0.25) * d.powf(0.75);
     let fittest = (100..=1000).map(|k| fitness(f64::from(k) * 1e-3)).fold(0.0, f64::max);
@@ -25,13 +25,14 @@ fn the_fittest_design_is_that_of_the_closed_form() {
 }
 
 #[test]
-fn the_sample_gives_the_ends_that_the_goal_does_not() {
+fn missing_ends_are_taken_from_the_samples() {
     let (first, _) = FITNESS.rsplit_once('\n').expect("lines");
     let goal = goal(first);
     let folder = tempfile::tempdir().expect("a folder");
     let found = found_in(folder.path(), &goal, 1, Start::New);
     let ends: Vec<(f64, f64)> = found.rescaled.iter().map(|e| (e.worst, e.best)).collect();
-    // Corners are among the sample: the coverage of 0.1 is larger at 60° than that at any other, the mass lies between its ends.
+    // The sample includes corners. At a gap of 0.1, the coverage is largest at 60°, and the mass
+    // lies between the values at its ends.
     let reach = 60_f64.to_radians().tan();
     assert!(ends[0].0 > 0.0 && ends[0].1 >= (reach - 0.1) / reach - 0.1, "{ends:?}");
     assert_eq!(ends[1], (1.0 / 1.1, 0.5));
@@ -39,7 +40,7 @@ fn the_sample_gives_the_ends_that_the_goal_does_not() {
 }
 
 #[test]
-fn derivatives_of_the_fitness_are_those_of_differences() {
+fn derivatives_of_the_fitness_match_finite_differences() {
     let text = "name = 'x'\n[variables]\ngap_over_t = { from = 0.2, to = 0.6 }\nlength_over_t = { from = 0.3, to = 1 }\n\
         slant_deg = { from = 35, to = 75 }\n[goal]\nmaximize = 'fitness'\n\
         rescale = { coverage = [0, 0.9], critical_force = [0, 3], penetration = [1, 0.01], compliance = [0, 0.9] }";

@@ -1,4 +1,4 @@
-//! Searches with known answers, and what they rest on.
+//! Searches with known optima, and checks of their components.
 
 mod brute_force;
 mod columns;

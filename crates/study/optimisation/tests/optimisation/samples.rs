@@ -1,11 +1,11 @@
-//! Goals about samples, whose answers are known in closed form.
+//! Goals about samples with optima in closed form.
 
 use optimisation::{Answer, BestDesign, DesignGoal, Estimate, Found, Limit};
 use run::Start;
 
 use crate::searches::{found_in, objectives, optimum};
 
-/// As upright to slanted scales of one length cover, gaps of 0.02 deviation.
+/// Returns a goal with gap and slant as variables; gaps have a deviation of 0.02.
 fn goal(text: &str) -> DesignGoal {
     let text = format!(
         "name = 'made'\nmeasures = 'coverage'\n[variables]\ngap_over_t = {{ from = 0.1, to = 1 }}\n\
@@ -24,7 +24,7 @@ fn estimate<'b>(best: &'b BestDesign, name: &str) -> &'b Estimate {
     best.confirmation.as_ref().and_then(|made| made.estimate(name)).expect("an estimate")
 }
 
-/// The reach `S` of scales of 60°, whose coverage is `(S − d)/S`.
+/// Returns the reach `S` of scales of 60°, which have the coverage `(S − d)/S`.
 fn reach() -> f64 {
     60_f64.to_radians().tan()
 }
@@ -33,27 +33,30 @@ fn reach() -> f64 {
 const Z05: f64 = 1.644_853_626_951_472_2;
 const Z10: f64 = 1.281_551_565_544_600_4;
 
-/// The standard error of the quantile of `n` normal numbers, in standard deviations: √(p (1 − p)/n)/φ(z).
+/// Returns the standard error of a quantile of `n` normal numbers.
+///
+/// In standard deviations it is √(p (1 − p)/n)/φ(z).
 fn quantile_error(share: f64, z: f64, n: f64) -> f64 {
     let density = (-0.5 * z * z).exp() / std::f64::consts::TAU.sqrt();
     (share * (1.0 - share) / n).sqrt() / density
 }
 
 #[test]
-fn a_yield_keeps_the_design_away_from_the_cliff() {
+fn a_required_yield_moves_the_gap_by_its_quantile() {
     let goal = goal(
         "minimize = 'areal_mass_kg_m2'\nrequire = ['coverage >= 0.5', 'yield >= 0.9']\nskins = 2000",
     );
     let found = found(&goal);
     let best = optimum(&found);
-    // As drawn the gap could be as wide as S/2; nine of ten gaps stay below that if it is 1.28 standard deviations narrower.
+    // The nominal gap could be S/2. If it is 1.28 standard deviations narrower, nine of ten gaps
+    // are below S/2.
     let gap = best.row.case.design.gap;
     let error = quantile_error(0.1, Z10, 2000.0);
     let shift = (0.5 * reach() - gap) / 0.02;
     assert!((shift - Z10).abs() < 3.0 * error, "{shift}");
     assert!(best.bindings.iter().any(|binding| binding.limit == Limit::Requirement(1)));
     let of = estimate(best, "yield");
-    // The share that the search saw is the least that is allowed, to a skin.
+    // The yield seen by the search is the required one, up to one sample.
     assert!(of.seen.is_some_and(|seen| (0.9..0.9 + 2.0 / 2000.0).contains(&seen)), "{of:?}");
     let [low, high] = of.interval.map(|end| end.expect("an end"));
     assert!(low < high && (low..=high).contains(&of.value.expect("a yield")));
@@ -61,7 +64,7 @@ fn a_yield_keeps_the_design_away_from_the_cliff() {
 }
 
 #[test]
-fn a_quantile_is_a_requirement_with_a_price() {
+fn a_required_quantile_binds_with_the_exact_multiplier() {
     let goal = goal("minimize = 'areal_mass_kg_m2'\nrequire = 'coverage_p05 >= 0.5'\nskins = 2000");
     let found = found(&goal);
     let best = optimum(&found);
@@ -70,7 +73,7 @@ fn a_quantile_is_a_requirement_with_a_price() {
     assert!((shift - Z05).abs() < 3.0 * quantile_error(0.05, Z05, 2000.0), "{shift}");
     let binding = best.bindings.iter().find(|binding| binding.limit == Limit::Requirement(0));
     let price = binding.and_then(|binding| binding.price).expect("a price");
-    // dm/dλ = S/(1 + d)², as of the coverage itself: the deviation adds to the gap.
+    // dm/dλ = S/(1 + d)², as for the nominal coverage, because the deviation adds to the gap.
     assert!((price - reach() / (1.0 + gap).powi(2)).abs() < 1e-4, "{price}");
     let of = estimate(best, "coverage_p05");
     assert!((of.seen.expect("a quantile") - 0.5).abs() < 1e-6);
@@ -80,11 +83,11 @@ fn a_quantile_is_a_requirement_with_a_price() {
 }
 
 #[test]
-fn the_quantile_of_the_best_is_that_of_its_distribution() {
+fn the_quantile_of_the_best_design_matches_its_distribution() {
     let text = "maximize = 'coverage_p05'\nrequire = ['gap_over_t >= 0.3', 'slant_deg <= 45']";
     let found = found(&goal(text));
     let best = optimum(&found);
-    // Scales of 45° reach S = 1, less than the pitch, and cover (S − d)/S.
+    // Scales of 45° reach S = 1, less than the pitch, so their coverage is (S − d)/S.
     let design = best.row.case.design;
     assert!((design.gap - 0.3).abs() < 1e-4 && (design.slant_deg - 45.0).abs() < 1e-2);
     let of = estimate(best, "coverage_p05");
@@ -93,17 +96,18 @@ fn the_quantile_of_the_best_is_that_of_its_distribution() {
     for value in [of.seen, of.value] {
         assert!((value.expect("a quantile") - exact).abs() < 3.5 * error, "{of:?} {exact}");
     }
-    // The 95 % interval is as wide as the error of the quantile says.
+    // The width of the 95 % interval matches the standard error of the quantile.
     let [low, high] = of.interval.map(|end| end.expect("an end"));
     assert!((0.7..1.4).contains(&((high - low) / (2.0 * 1.96 * error))), "{low} {high} {error}");
-    // The yield is told besides: half of the gaps come out narrower than required.
+    // The yield is reported in addition: half of the gaps are narrower than required.
     let half = estimate(best, "yield").value.expect("a yield");
     assert!((half - 0.5).abs() < 3.5 * (0.25_f64 / 1000.0).sqrt(), "{half}");
 }
 
 #[test]
 fn the_largest_yield_is_in_the_middle_between_two_bounds() {
-    // At 60°, coverage ≥ 0.5 keeps gaps below S/2, mass ≤ 0.55 above 1/0.55 − 1: 2.4 standard deviations apart.
+    // At 60°, coverage ≥ 0.5 requires gaps below S/2, and mass ≤ 0.55 gaps above 1/0.55 − 1. The
+    // bounds are 2.4 standard deviations apart.
     let text = "maximize = 'yield'\nrequire = ['coverage >= 0.5', 'areal_mass_kg_m2 <= 0.55']";
     let found = found(&goal(text));
     let best = optimum(&found);
@@ -118,7 +122,9 @@ fn the_largest_yield_is_in_the_middle_between_two_bounds() {
     assert!((gap - 0.5 * (low + high)).abs() < 0.012, "{gap} between {low} and {high}");
 }
 
-/// The standard normal distribution function (Abramowitz & Stegun 7.1.26, to 2e-7).
+/// Returns the standard normal distribution function to 2e-7.
+///
+/// Abramowitz & Stegun 7.1.26.
 fn normal_share(z: f64) -> f64 {
     let t = 1.0 / (1.0 + 0.327_591_1 * z.abs() / 2_f64.sqrt());
     let series = [0.254_829_592, -0.284_496_736, 1.421_413_741, -1.453_152_027, 1.061_405_429];
@@ -135,7 +141,7 @@ fn a_front_may_have_a_quantile() {
     assert_eq!(front.designs.len(), 5);
     for best in &front.designs {
         let [covered, mass] = objectives(best) else { panic!("two objectives") };
-        // No skin of a front of designs as they are drawn covers more for its mass.
+        // No design on the front of nominal designs covers more for its mass.
         let gap = (reach() * (1.0 - covered)).min(1.0 + 0.02 * Z05) - 0.02 * Z05;
         assert!(*mass >= (1.0 / (1.0 + gap)).min(1.0) - 0.01, "{covered} {mass}");
         assert!(best.confirmation.is_some());
@@ -171,7 +177,7 @@ fn samples_do_not_depend_on_threads_or_interruptions() {
 }
 
 #[test]
-fn where_no_samples_are_good_enough_the_nearest_design_is_told() {
+fn infeasible_yields_report_the_nearest_sampled_design() {
     let text = "maximize = 'gap_over_t'\nrequire = ['coverage >= 0.5', 'areal_mass_kg_m2 <= 0.54', 'yield >= 0.99']";
     let Answer::Infeasible(Some(nearest)) = found(&goal(text)).answer else { panic!("no design") };
     assert!(
@@ -181,15 +187,15 @@ fn where_no_samples_are_good_enough_the_nearest_design_is_told() {
 }
 
 #[test]
-fn a_yield_is_kept_where_thickness_and_single_scales_deviate() {
-    // In mm: the gap and the thickness of 1 mm deviate, all lengths but the thickness stay as they are drawn.
+fn a_required_yield_includes_deviations_of_thickness() {
+    // Lengths are in mm: when the thickness of 1 mm deviates, all other lengths are unchanged.
     let text = "name = 'made'\nmeasures = 'coverage'\n[variables]\ngap_over_t = { from = 0.1, to = 1 }\n\
         slant_deg = { from = 40, to = 45 }\n[designs]\nlength_over_t = 1\n[material]\nthickness_mm = 1\n\
         [tolerance]\ngap_mm = { batch_sd = 0.02, scale_sd = 0.01 }\nthickness_mm = { batch_sd = 0.03 }\n\
         [goal]\nmaximize = 'gap_over_t'\nrequire = ['coverage >= 0.5', 'yield >= 0.95']\nsamples = 64\nskins = 2000";
     let found = found(&DesignGoal::parse(text, "x.toml", &[]).expect("a goal"));
     let gap = optimum(&found).row.case.design.gap;
-    // λ = 1 − d/t ≥ 1/2 where (d + x) ≤ (1 + y)/2, so d = 1/2 − z √(0.02² + (0.03/2)²).
+    // λ = 1 − d/t ≥ 1/2 requires d + x ≤ (1 + y)/2, so d = 1/2 − z √(0.02² + (0.03/2)²).
     let spread = 0.02_f64.hypot(0.015);
     let shift = (0.5 - gap) / spread;
     assert!((shift - Z05).abs() < 3.0 * quantile_error(0.05, Z05, 2000.0), "{shift}");

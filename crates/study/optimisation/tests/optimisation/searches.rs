@@ -1,4 +1,4 @@
-//! Searches whose answers are known in closed form.
+//! Searches with optima in closed form.
 
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -13,7 +13,7 @@ use run::{Program, Start};
 
 const PROGRAM: Program = Program { version: "1.0", revision: "none" };
 
-/// Upright to strongly slanted scales of one length, of which only the coverage is measured.
+/// Goal with gap and slant of scales as variables; only the coverage is measured.
 const COVERED: &str = "name = 'covered'\nmeasures = 'coverage'\n[variables]\n\
     gap_over_t = { from = 0.1, to = 1 }\nslant_deg = { from = 0, to = 60 }\n[designs]\nlength_over_t = 1\n\
     [material]\nthickness_mm = 1\nscale_density_kg_m3 = 1000\n";
@@ -29,9 +29,9 @@ pub(crate) fn goal(text: &str) -> DesignGoal {
         .expect("a goal")
 }
 
-/// A level of a standard is a requirement like any other, with the standard named beside it.
+/// A level of a standard is a requirement; the goal also records the standard.
 #[test]
-fn a_goal_may_protect_to_a_level() {
+fn goals_accept_levels_of_standards() {
     let text = "name = 'x'\nmeasures = 'puncture'\n[variables]\ngap_over_t = { from = 0.1, to = 1 }\n\
                 [designs]\nlength_over_t = 1\nslant_deg = 45\n\
                 [material]\nthickness_mm = 1\nsubstrate_modulus_MPa = 1\n[goal]\nmaximize = 'gap_over_t'\n";
@@ -65,11 +65,11 @@ pub(crate) fn objectives(best: &BestDesign) -> &[f64] {
 }
 
 #[test]
-fn a_requirement_binds_and_has_its_price() {
+fn binding_limits_have_the_exact_multipliers() {
     let goal = goal("minimize = 'areal_mass_kg_m2'\nrequire = 'coverage >= 0.5'");
     let found = found(&goal);
     let best = optimum(&found);
-    // The gap is as wide as coverage λ = (S − d)/S lets it be, and so the mass 1/(1 + d) small.
+    // The gap is as wide as the coverage λ = (S − d)/S allows, to minimise the mass 1/(1 + d).
     let reach = 60_f64.to_radians().tan();
     let gap = 0.5 * reach;
     assert!((objectives(best)[0] - 1.0 / (1.0 + gap)).abs() < 1e-9, "{:?}", objectives(best));
@@ -77,7 +77,7 @@ fn a_requirement_binds_and_has_its_price() {
         let binding = best.bindings.iter().find(|binding| binding.limit == limit);
         binding.and_then(|binding| binding.price).expect("a price")
     };
-    // dm/dλ = S/(1 + d)², and a degree more would widen the gap by dS/dα (1 − λ).
+    // dm/dλ = S/(1 + d)². One degree more slant would widen the gap by (1 − λ) dS/dα.
     let price = reach / (1.0 + gap).powi(2);
     assert!((binding(Limit::Requirement(0)) - price).abs() < 1e-6);
     let rate = (1.0 + reach * reach) * 1_f64.to_radians();
@@ -85,11 +85,11 @@ fn a_requirement_binds_and_has_its_price() {
 }
 
 #[test]
-fn an_optimum_on_a_kink_is_found_and_has_no_price() {
+fn an_optimum_on_a_kink_is_found_without_multipliers() {
     let text = "maximize = 'coverage'\nrequire = 'gap_over_t >= 0.3'";
     let found = found(&goal(text));
     let best = optimum(&found);
-    // Where S = p, the line down from a corner meets one scale whole: λ = 1/(1 + d), and falls to both sides.
+    // At S = p, the coverage λ = 1/(1 + d) has a peak and falls on both sides.
     assert!((objectives(best)[0] - 1.0 / 1.3).abs() < 1e-6, "{:?}", objectives(best));
     assert!(best.bindings.iter().all(|binding| binding.price.is_none()));
     assert!(found.history.iter().any(|candidate| candidate.stage == SearchStage::Ridge));
@@ -97,7 +97,7 @@ fn an_optimum_on_a_kink_is_found_and_has_no_price() {
 
 #[test]
 fn an_optimum_at_the_end_of_a_ridge_is_found() {
-    // The longer the scales along S = p, the more they cover, until the surface folds, or the interval ends.
+    // Along S = p, longer scales cover more, until the surface folds or the interval ends.
     let text = "name = 'ridge'\nmeasures = ['coverage', 'puncture']\npuncture.scales = 9\n[variables]\n\
         length_over_t = { from = 0.5, to = 1 }\nslant_deg = { from = 30, to = 55 }\n[designs]\ngap_over_t = 0.1\n\
         [goal]\nmaximize = 'coverage'\nsamples = 16\n";
@@ -117,7 +117,7 @@ fn an_optimum_at_the_end_of_a_ridge_is_found() {
 }
 
 #[test]
-fn seeds_agree() {
+fn different_seeds_find_the_same_optimum() {
     let of = |seed: &str| {
         let text =
             format!("minimize = 'areal_mass_kg_m2'\nrequire = 'coverage >= 0.5'\nseed = {seed}");
@@ -126,8 +126,9 @@ fn seeds_agree() {
     assert!((of("1") / of("2") - 1.0).abs() < 1e-9);
 }
 
-/// The largest stiffness jumps where a path gains a contact: searches along derivatives end on any of many stairs (4.464, 4.349, 3.854
-/// and 4.320 with these seeds).
+/// The largest stiffness jumps where a path gains a contact.
+///
+/// Gradient searches end on any of many steps (4.464, 4.349, 3.854 and 4.320 with these seeds).
 #[test]
 fn seeds_agree_on_an_objective_that_jumps() {
     let text = "name = 'stiff'\nmeasures = ['coverage', 'puncture', 'flexure']\n[variables]\n\
@@ -141,7 +142,7 @@ fn seeds_agree_on_an_objective_that_jumps() {
         let folder = tempfile::tempdir().expect("a folder");
         let found = found_in(folder.path(), &goal, 2, Start::New);
         let best = optimum(&found);
-        // The best of twenty seeds is 4.4879.
+        // The best of twenty seeds reached 4.4879.
         assert!(objectives(best)[0] > 4.4879 * 0.999, "{seed}: {:?}", objectives(best));
         let agreement = best.agreement.expect("of one objective");
         assert!(agreement.agreeing >= 2 && agreement.searches > 3, "{seed}: {agreement:?}");
@@ -153,12 +154,12 @@ fn searches_that_agree_need_no_restart() {
     let found = found(&goal("minimize = 'areal_mass_kg_m2'\nrequire = 'coverage >= 0.5'"));
     let agreement = optimum(&found).agreement.expect("of one objective");
     assert!(agreement.spread.expect("several searches") < 1e-8, "{agreement:?}");
-    // The searches of the plan: 24 short ones, six climbs, three to the end.
+    // Searches of the plan: 24 short ones, six gradient searches, three full ones.
     assert!(agreement.agreeing >= 2 && found.starts == 33, "{agreement:?}");
 }
 
 #[test]
-fn choices_are_gone_through() {
+fn all_choices_are_searched() {
     let text = COVERED
         .replace("length_over_t = 1\n", "")
         .replace("slant_deg = {", "length_over_t = [0.5, 1, 2]\nslant_deg = {");
@@ -167,19 +168,19 @@ fn choices_are_gone_through() {
     let goal = DesignGoal::parse(&text, "x.toml", &[]).expect("a goal");
     let found = found(&goal);
     let best = optimum(&found);
-    // Short scales are light: 2a = 0.5 over the pitch.
+    // Short scales are light: the mass is 0.5 over the pitch.
     assert_eq!(best.row.case.design.length, 0.5);
     let gap = best.row.case.design.gap;
     assert!((objectives(best)[0] - 0.5 / (0.5 + gap)).abs() < 1e-12);
 }
 
 #[test]
-fn a_front_goes_from_one_end_to_the_other() {
+fn points_of_a_front_match_the_closed_form() {
     let text = "maximize = 'coverage'\nminimize = 'areal_mass_kg_m2'\npoints = 9";
     let goal = goal(text);
     let found = found(&goal);
     let Answer::Front(front) = &found.answer else { panic!("a front") };
-    // Where a point comes to the design of another, another point takes its place.
+    // If a point has the design of another one, a further point replaces it.
     assert_eq!(front.designs.len(), 9, "{} {}", front.same, front.beaten);
     let pairs: Vec<[f64; 2]> =
         front.designs.iter().map(|best| [objectives(best)[0], objectives(best)[1]]).collect();
@@ -188,7 +189,8 @@ fn a_front_goes_from_one_end_to_the_other() {
     let best_coverage = 1.0 / 1.1;
     assert!((pairs[0][0] - best_coverage).abs() < 1e-6, "{pairs:?}");
     for [coverage, mass] in pairs {
-        // Of a steep slant the coverage (S − d)/S, of a gentle one at the kink the mass itself.
+        // For steep slants the coverage is (S − d)/S; for gentle slants at the kink it equals the
+        // mass.
         let reach = 60_f64.to_radians().tan();
         let gap = (reach * (1.0 - coverage)).min(1.0);
         let least = (1.0 / (1.0 + gap)).max(coverage);
@@ -197,8 +199,9 @@ fn a_front_goes_from_one_end_to_the_other() {
 }
 
 #[test]
-fn the_end_of_a_front_is_the_best_of_many_that_are_as_good_in_one_objective() {
-    // Where d/p = 0.2 and coverage is on a peak, both limits bind: the longest of these scales have the widest gap. Seeds came to 0.10 to 0.17.
+fn ends_of_a_front_are_optimal_in_the_second_objective_too() {
+    // Where d/p = 0.2 and the coverage is at a peak, both limits bind. The longest of these scales
+    // have the widest gap. Different seeds once reached gaps of 0.10 to 0.17.
     let text = "name = 'x'\nmeasures = ['coverage', 'flexure']\n[variables]\ngap_over_t = { from = 0.1, to = 1 }\n\
                 length_over_t = { from = 0.025, to = 1 }\nslant_deg = { from = 0, to = 75 }\n[goal]\n\
                 maximize = ['coverage', 'gap_over_t']\nrequire = 'compliance >= 0.2'\nsamples = 64\npoints = 5";
@@ -209,14 +212,14 @@ fn the_end_of_a_front_is_the_best_of_many_that_are_as_good_in_one_objective() {
 }
 
 #[test]
-fn a_front_of_three_objectives_has_as_many_points_as_were_asked_for() {
+fn a_front_of_three_objectives_has_the_requested_number_of_points() {
     let text = "maximize = ['coverage', 'gap_over_t']\nminimize = 'slant_deg'\npoints = 24";
     let found = found(&goal(text));
     let Answer::Front(front) = &found.answer else { panic!("a front") };
     assert_eq!(front.designs.len(), 24, "{} {}", front.same, front.beaten);
     for best in &front.designs {
         let [coverage, gap, slant] = *objectives(best) else { panic!("three") };
-        // On the first peak of coverage, or before it, where scales hide no more than (S − d)/S.
+        // On the first coverage peak or before it, where the coverage is at most (S − d)/S.
         let reach = slant.to_radians().tan();
         let most = (1.0 - gap / reach).max(0.0).min(1.0 / (1.0 + gap));
         assert!((coverage - most).abs() < 1e-6, "{coverage} of {most} at {gap} {slant}");
@@ -224,20 +227,23 @@ fn a_front_of_three_objectives_has_as_many_points_as_were_asked_for() {
 }
 
 #[test]
-fn where_nothing_meets_the_requirements_the_nearest_is_told() {
+fn infeasible_goals_report_the_nearest_design() {
     for seed in [0, 1] {
         let found = found(&goal(&format!(
             "maximize = 'gap_over_t'\nrequire = ['coverage >= 0.9', 'areal_mass_kg_m2 <= 0.8']\nseed = {seed}",
         )));
         let Answer::Infeasible(Some(nearest)) = found.answer else { panic!("no design") };
         let Judgement::Judged(worth) = &found.history[nearest].verdict else { panic!("judged") };
-        // Coverage is at most the mass here, so both fall short alike: 0.9 (1 − s) = 0.8 (1 + s).
+        // The coverage is at most the mass here, so both shortfalls are equal: 0.9 (1 − s) = 0.8 (1
+        // + s).
         let shortfall = 0.1 / 1.7;
         assert!((worth.shortfall() - shortfall).abs() < 1e-9, "{}", worth.shortfall());
     }
 }
 
-/// The best critical force in the paper's box with these requirements, as far as a search of fewer than `most` designs finds it.
+/// Returns the best critical force in the paper's box under these requirements.
+///
+/// Checks that the search evaluates fewer than `most` designs.
 fn strongest(required: &str, seed: usize, most: usize) -> f64 {
     let text = format!(
         "name = 'x'\nmeasures = ['coverage', 'puncture', 'flexure']\n[variables]\ngap_over_t = {{ from = 0.1, to = 1 }}\n\
@@ -250,20 +256,22 @@ fn strongest(required: &str, seed: usize, most: usize) -> f64 {
 }
 
 #[test]
-fn a_design_that_only_a_peak_of_coverage_allows_is_found() {
-    // Coverage is at most 1 − d/p and compliance d/p: both bind, at the peaks alone. A search that climbs one of a few found 0.493.
+fn a_design_that_is_feasible_on_coverage_peaks_only_is_found() {
+    // The coverage is at most 1 − d/p and the compliance at most d/p, so both bind at peaks only. A
+    // search of only a few strips reached 0.493.
     assert!(strongest("'coverage >= 0.7', 'compliance >= 0.3'", 0, 600) >= 1.538);
 }
 
 #[test]
-fn the_best_of_all_slivers_of_coverage_is_found() {
-    // Beside the seventh peak; a search that climbs one of a few found 1.816, beside the sixth.
+fn the_best_of_all_coverage_strips_is_found() {
+    // Near the seventh peak. A search of only a few strips reached 1.816, near the sixth.
     assert!(strongest("'coverage >= 0.65', 'compliance >= 0.3'", 0, 600) >= 1.982);
 }
 
 #[test]
-fn limits_that_leave_each_other_no_room_are_searched() {
-    // Coverage and compliance both bind, at one length on each peak: half of the seeds came to 1.448, on the eighth, and not on the ninth.
+fn limits_without_a_feasible_interior_are_searched() {
+    // Coverage and compliance both bind, at one length on each peak. Half of the seeds once reached
+    // 1.448 on the eighth peak, and missed the ninth.
     for seed in [2, 3] {
         let found = strongest("'coverage >= 0.6', 'compliance >= 0.4'", seed, 700);
         assert!(found >= 1.702, "{seed}: {found}");
@@ -281,7 +289,7 @@ fn requirements_that_no_design_can_meet_are_refused() {
     insta::assert_snapshot!(refused("'coverage >= 0.95'"), @"x.toml:13: goal.require: coverage >= 0.95 is not accepted, expected at most 0.9090909090909091 between these ends of the variables: coverage is at most 1 - d/p, the part of the pitch that scales take");
     insta::assert_snapshot!(refused("'compliance >= 0.6'"), @"x.toml:13: goal.require: compliance >= 0.6 is not accepted, expected at most 0.5 between these ends of the variables: compliance is at most d/p, the part of the pitch that gaps take");
     insta::assert_snapshot!(refused("'coverage >= 0.7', 'initial_compliance >= 0.4'"), @"x.toml:13: goal.require: coverage >= 0.7 is not accepted, expected at most 0.6 beside initial_compliance >= 0.4: scales take 1 - d/p of the pitch, which bounds coverage, and gaps d/p, which bounds compliance");
-    // Just possible, but for round-off.
+    // Feasible up to round-off.
     assert_eq!(refused("'coverage >= 0.7', 'compliance >= 0.3'"), "");
     assert_eq!(refused("'coverage >= 0.9090909090909'"), "");
 }
@@ -299,18 +307,18 @@ fn points_of_a_front_over_decades_have_equal_ratios() {
     assert_eq!(front.designs.len(), 9);
     for pair in front.designs.windows(2) {
         let [one, other] = [&pair[0], &pair[1]].map(objectives);
-        // The widest gap makes the least mass, ρ t/(1 + d), and the ends are a factor of 100 apart.
+        // The widest gap gives the least mass, ρ t/(1 + d). The ends differ by a factor of 100.
         assert!((other[0] / (0.5 * other[1]) - 1.0).abs() < 1e-6, "{other:?}");
         let ratio = (other[1] / one[1]).abs();
         assert!((1.3..2.5).contains(&ratio), "{one:?} {other:?}");
     }
-    // What differs in thickness alone is solved once, with derivatives and without.
+    // Designs that only differ in thickness are solved once, with and without derivatives.
     let evaluated = found.history.len();
     assert!(found.evaluations * 3 < evaluated * 2, "{} of {evaluated}", found.evaluations);
 }
 
 #[test]
-fn threads_and_interruptions_change_nothing() {
+fn results_do_not_depend_on_threads_or_interruptions() {
     let goal = goal("maximize = 'coverage'\nminimize = 'areal_mass_kg_m2'\npoints = 4");
     let places = |found: &Found| {
         let place = |c: &optimisation::Candidate| (c.stage.word(), c.point.clone());
@@ -330,7 +338,7 @@ fn threads_and_interruptions_change_nothing() {
     assert!(refused(folder.path(), &goal, Start::New).contains("--resume"));
 }
 
-/// The message of a search that does not begin.
+/// Returns the error of a search that does not start.
 fn refused(folder: &Path, goal: &DesignGoal, start: Start) -> String {
     let (stop, progress) = (AtomicBool::new(false), SearchProgress::default());
     let options = SearchOptions { threads: 1, start, stop: &stop, progress: &progress };
@@ -338,7 +346,7 @@ fn refused(folder: &Path, goal: &DesignGoal, start: Start) -> String {
 }
 
 #[test]
-fn a_damaged_line_costs_nothing_of_a_search() {
+fn damaged_journals_are_refused_and_kept() {
     let goal = goal("maximize = 'coverage'\nminimize = 'areal_mass_kg_m2'\npoints = 2");
     let folder = tempfile::tempdir().expect("a folder");
     found_in(folder.path(), &goal, 1, Start::New);
@@ -351,7 +359,8 @@ fn a_damaged_line_costs_nothing_of_a_search() {
         lines[line] = &damaged;
         lines.concat()
     };
-    // Neither the first line nor one in the middle throws the others away, whatever is asked for but a fresh start.
+    // Neither a damaged header nor a damaged line discards the others, unless a fresh start is
+    // requested.
     for (line, what) in [(0, ":1: not the first line"), (lines.len() / 2, ": damaged line")] {
         let damaged = damage(line);
         assert_ne!(damaged, sound);
@@ -362,7 +371,7 @@ fn a_damaged_line_costs_nothing_of_a_search() {
             assert_eq!(std::fs::read_to_string(&journal).expect("text"), damaged);
         }
     }
-    // Format 1 is refused by the name of the program that reads it.
+    // The error for format 1 names the program that can read it.
     let old = Seal::default().seal(&serde_json::json!({
         "optimisation": 1, "program": "0.1.0 (abc)", "goal_sha256": "0"
     }));
@@ -375,7 +384,7 @@ fn a_damaged_line_costs_nothing_of_a_search() {
 }
 
 #[test]
-fn an_old_optimum_does_not_outlive_its_search() {
+fn a_fresh_search_removes_the_tables_of_the_last_one() {
     let (old, new) = (goal("maximize = 'coverage'"), goal("minimize = 'areal_mass_kg_m2'"));
     let place = tempfile::tempdir().expect("a folder");
     let folder = results::ResultsFolder::new(place.path());
@@ -383,7 +392,7 @@ fn an_old_optimum_does_not_outlive_its_search() {
     let figures = [("history.svg".to_owned(), "<svg/>".to_owned())];
     write_found(&folder, &old, &found, &figures, CsvFormat::Plain).expect("writable");
     assert!(folder.holds("optimum.csv") && folder.holds("history.svg"));
-    // Another search begins afresh, and is ended before it has found anything.
+    // Another search starts afresh and is stopped before it finds anything.
     let (stop, progress) = (AtomicBool::new(true), SearchProgress::default());
     let options =
         SearchOptions { threads: 1, start: Start::Fresh, stop: &stop, progress: &progress };
@@ -396,7 +405,7 @@ fn an_old_optimum_does_not_outlive_its_search() {
 
 #[cfg(unix)]
 #[test]
-fn what_is_no_journal_is_left_alone() {
+fn links_in_place_of_the_journal_are_refused() {
     let goal = goal("maximize = 'coverage'\nminimize = 'areal_mass_kg_m2'\npoints = 2");
     let folder = tempfile::tempdir().expect("a folder");
     let journal = folder.path().join(results::ResultsFolder::EVALUATIONS);
@@ -427,15 +436,17 @@ fn the_nearest_design_does_not_depend_on_the_seed() {
         worth.shortfall()
     };
     let [one, other] = [0, 1].map(shortfall);
-    // Force, soundness and the end of an interval meet there: steps without derivatives came to within 5e-11 of it,
-    // and with the rows that designs of this size need to within 3 %.
+    // Critical force, soundness and the end of an interval meet at this design. Derivative-free
+    // steps reached it within 5e-11, and within 3 % with the long rows that designs of this size
+    // need.
     assert!((one / other - 1.0).abs() < 1e-13, "{one} {other}");
 }
 
-/// The strongest of the 720 designs of the reference study that meets the requirements of a goal is not as good as what a search
-/// between them finds. In a long campaign alone: it solves two thousand designs.
+/// A search finds a better design than all 720 designs of the reference study.
+///
+/// Runs in long campaigns only, because it solves two thousand designs.
 #[test]
-fn between_the_points_of_the_grid_there_is_a_better_design() {
+fn a_search_beats_the_reference_grid() {
     if std::env::var_os("SQUAMA_CAMPAIGNS").is_none_or(|campaigns| campaigns != "long") {
         return;
     }

@@ -13,7 +13,7 @@ use super::Piece;
 /// Weight of the linear cost against the quadratic term with which SLSQP starts.
 const WEIGHT: f64 = 1e3;
 
-/// Margin that steps keep to limits, so that residual curvature does not violate them.
+/// Margin of steps to limits, so that residual curvature does not violate them.
 const MARGIN: f64 = 1e-10;
 
 /// Maximum iterations for the linear program.
@@ -42,7 +42,9 @@ impl<'c> Model<'c> {
         Self { centre, radius, worst, cuts: Vec::new() }
     }
 
-    /// Adds the tangent of a function at `place`, limited to its value `here` at the centre.
+    /// Adds the tangent of a function at `place`.
+    ///
+    /// It is limited to the value `here` of the function at the centre.
     pub fn add(&mut self, cut: Cut, piece: &Piece, here: f64, place: &[f64]) {
         let Some(gradient) = &piece.gradient else { return };
         let along =

@@ -1,5 +1,7 @@
-//! Textbook problems of nonsmooth optimisation, whose minima are in the literature: Mäkelä & Neittaanmäki, *Nonsmooth optimization*
-//! (1992), and Lewis & Overton 2013 (doi 10.1007/s10107-012-0514-2) for the nonsmooth valley of Rosenbrock.
+//! Textbook problems of nonsmooth optimisation with known minima.
+//!
+//! Sources: Mäkelä & Neittaanmäki, *Nonsmooth optimization* (1992), and Lewis & Overton 2013 (doi
+//! 10.1007/s10107-012-0514-2) for Rosenbrock's nonsmooth valley.
 
 use std::cell::RefCell;
 use std::convert::Infallible;
@@ -9,7 +11,7 @@ use super::{BundleOptions, Piece, Pieces, PiecewiseSmooth, descend};
 /// A smooth function with its gradient.
 type Smooth = fn(&[f64]) -> (f64, Vec<f64>);
 
-/// The largest of smooth functions over a box, under limits that are such functions too.
+/// Maximum of smooth functions over a box, with limits of the same kind.
 struct Textbook {
     from: f64,
     to: f64,
@@ -18,7 +20,7 @@ struct Textbook {
     best: RefCell<Best>,
 }
 
-/// What the places that were looked at came to.
+/// Best evaluated point.
 #[derive(Clone, Debug)]
 struct Best {
     cost: f64,
@@ -43,7 +45,7 @@ impl Textbook {
         Piece { value: *value, gradient }
     }
 
-    /// The best of so many places from `start` on.
+    /// Returns the best of `places` evaluated points, starting at `start`.
     fn minimum(&self, start: &[f64], places: usize) -> Best {
         let share = |x: &f64| (x - self.from) / (self.to - self.from);
         let start: Vec<f64> = start.iter().map(share).collect();
@@ -52,11 +54,11 @@ impl Textbook {
         self.best.borrow().clone()
     }
 
-    /// Checks the minimum that so many places lead to.
+    /// Checks the minimum found with `places` evaluations.
     fn check(&self, name: &str, start: &[f64], places: usize, known: (f64, &[f64])) {
         let Best { cost, x, .. } = self.minimum(start, places);
         let off = cost - known.0;
-        // Limits are kept to 1e-9, and the cost may be as much better.
+        // Limits are satisfied to 1e-9, and the cost may be below the minimum accordingly.
         assert!(off > -1e-7 && off < 1e-6, "{name}: {off:.2e} above {} at {x:?}", known.0);
         let apart = x.iter().zip(known.1).map(|(x, known)| (x - known).abs()).fold(0.0, f64::max);
         assert!(apart < 3e-3, "{name}: {x:?} instead of {:?}", known.1);
@@ -83,7 +85,7 @@ impl PiecewiseSmooth for Textbook {
 }
 
 #[test]
-fn along_the_nonsmooth_valley_of_rosenbrock() {
+fn the_search_follows_rosenbrocks_nonsmooth_valley() {
     // 8|x² − y| + (1 − x)²
     let pieces: [Smooth; 2] = [
         |x| (8.0 * (x[0] * x[0] - x[1]) + (1.0 - x[0]).powi(2), vec![18.0 * x[0] - 2.0, -8.0]),
@@ -94,7 +96,7 @@ fn along_the_nonsmooth_valley_of_rosenbrock() {
 }
 
 #[test]
-fn crescent() {
+fn the_crescent_problem_is_solved() {
     let pieces: [Smooth; 2] = [
         |x| (x[0].powi(2) + (x[1] - 1.0).powi(2) + x[1] - 1.0, vec![2.0 * x[0], 2.0 * x[1] - 1.0]),
         |x| (1.0 + x[1] - x[0].powi(2) - (x[1] - 1.0).powi(2), vec![-2.0 * x[0], 3.0 - 2.0 * x[1]]),
@@ -116,14 +118,14 @@ const CB2: [Smooth; 3] = [
 ];
 
 #[test]
-fn charalambous_and_conn() {
+fn the_problem_of_charalambous_and_conn_is_solved() {
     let problem = Textbook::new([-2.0, 3.0], &CB2, &[]);
     let known = (1.952_224_493_9, &[1.139_04, 0.899_56][..]);
     problem.check("CB2", &[1.0, -0.1], 100, known);
 }
 
 #[test]
-fn the_largest_of_squares() {
+fn a_maximum_of_squares_is_minimised() {
     let pieces: [Smooth; 5] = [
         |x| square::<0>(x),
         |x| square::<1>(x),
@@ -141,8 +143,8 @@ fn square<const K: usize>(x: &[f64]) -> (f64, Vec<f64>) {
 }
 
 #[test]
-fn limits_with_kinks_are_kept() {
-    // The problem QL: x² + y² where the larger of two lines is not above 0. It begins where it is.
+fn limits_with_kinks_are_satisfied() {
+    // Problem QL: x² + y², with the larger of two lines at most 0. The start is as published.
     let cost: Smooth = |x| (x[0] * x[0] + x[1] * x[1], vec![2.0 * x[0], 2.0 * x[1]]);
     let lines: [Smooth; 2] = [
         |x| (4.0 - 4.0 * x[0] - x[1], vec![-4.0, -1.0]),
@@ -153,8 +155,8 @@ fn limits_with_kinks_are_kept() {
 }
 
 #[test]
-fn limits_with_curvature_are_kept() {
-    // The problem LQ, with its circle as a limit.
+fn limits_with_curvature_are_satisfied() {
+    // Problem LQ, with its circle as a limit.
     let cost: Smooth = |x| (-x[0] - x[1], vec![-1.0, -1.0]);
     let circle: Smooth = |x| (x[0] * x[0] + x[1] * x[1] - 1.0, vec![2.0 * x[0], 2.0 * x[1]]);
     let problem = Textbook::new([-2.0, 2.0], &[cost], &[&[circle]]);
@@ -163,7 +165,7 @@ fn limits_with_curvature_are_kept() {
 }
 
 #[test]
-fn where_limits_contradict_each_other_the_least_excess_is_found() {
+fn contradictory_limits_lead_to_the_least_excess() {
     let cost: Smooth = |x| (x[0], vec![1.0, 0.0]);
     let [low, high]: [Smooth; 2] =
         [|x| (x[0] + x[1].powi(2), vec![1.0, 2.0 * x[1]]), |x| (1.0 - x[0], vec![-1.0, 0.0])];
