@@ -42,50 +42,56 @@ pub enum SecondWay {
     Chain,
 }
 
-/// The largest difference in one column.
+/// Largest difference in one column.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LargestDifference {
-    /// The column of `designs.csv`.
+    /// Column of `designs.csv`.
     pub column: String,
-    /// The second way.
+    /// Second method.
     pub way: SecondWay,
-    /// The difference, relative to the larger value.
+    /// Difference relative to the larger value.
     pub relative: f64,
-    /// The design that has it.
+    /// Design with this difference.
     pub design: DesignNumber,
-    /// The value of the run (or of the unit cell) and the value of the second method.
+    /// Value of the run (or of the unit cell), and value of the second method.
     pub values: [f64; 2],
 }
 
-/// The findings of an audit.
+/// Result of an audit.
 #[derive(Clone, Debug, Default)]
 pub struct Audit {
-    /// The number of designs that were solved again.
+    /// Number of designs that were solved again.
     pub designs: u64,
-    /// The largest difference of each column and way, the largest first.
+    /// Largest difference of each column and method, the largest first.
     pub differences: Vec<LargestDifference>,
-    /// Cells with different texts, or present in one method only: column, design and both texts.
+    /// Cells with different texts, or without a value in one method only.
+    ///
+    /// Each item has the column, the design and both texts.
     pub contradictions: Vec<(String, DesignNumber, [String; 2])>,
 }
 
 /// A design that was solved again.
 struct Audited {
     index: u64,
-    /// Rows of which the two of a pair are to be equal. The first of the first pair is in the journal.
+    /// Row with smaller steps, to be compared with the row in the journal.
     finer: DesignRow,
     chain: Option<[DesignRow; 2]>,
 }
 
 impl Audit {
-    /// Solves a `share`, from 0 to 1, of the designs in the run in `folder` again and compares.
+    /// Solves a fraction of the designs of the run in `folder` again, and compares.
+    ///
+    /// `share` is the fraction, from 0 to 1.
     ///
     /// # Errors
-    /// If the journal cannot be read or threads cannot be started.
+    ///
+    /// If the journal cannot be read, or the threads cannot be started.
     pub fn solve(folder: &Path, share: f64, options: &Options<'_>) -> Result<Self, RunError> {
         let archive = Archive::open(&ResultsFolder::new(folder))?;
         let sweep = archive.sweep();
         let columns = design_columns(sweep);
-        // The designs are known before the threads begin: groups must see neighbours, of which a share is far apart.
+        // Select all designs first, because selected designs are far apart in the grid, and groups
+        // compare neighbours.
         let chosen: Vec<_> = every(share, archive.held()).collect();
         let mut entries = archive.entries()?;
         let mut audit = Self::default();
@@ -114,18 +120,18 @@ impl Audit {
         Ok(audit)
     }
 
-    /// Takes the differences between two rows of one design into account.
+    /// Adds the differences between two rows of one design.
     fn compare(&mut self, columns: &[Column<DesignRow>], rows: [&DesignRow; 2], way: SecondWay) {
         for column in columns.iter().filter(|column| is_physical(&column.name)) {
             let design = rows[0].number;
             match rows.map(|row| column.cell(row)) {
                 [Cell::Number(first), Cell::Number(second)] => {
-                    // Both are numbers: how far apart they are is told, whatever they are of.
+                    // Both are numbers, so their relative difference is recorded.
                     let relative = relative(first, second);
                     let (column, values) = (column.name.to_string(), [first, second]);
                     self.note(LargestDifference { column, way, relative, design, values });
                 }
-                // A status or a reason that differs has no size: it is told as it is.
+                // Different texts, such as statuses, have no size, so both are recorded.
                 cells if cells[0] != cells[1] => {
                     let texts = cells.map(|cell| cell.to_string());
                     self.contradictions.push((column.name.to_string(), design, texts));
@@ -135,9 +141,9 @@ impl Audit {
         }
     }
 
-    /// Keeps a difference if it is the largest of its column and way.
+    /// Stores a difference if it is the largest of its column and method.
     fn note(&mut self, new: LargestDifference) {
-        // Some twenty columns and two ways: a list is searched faster than a map is built.
+        // With some twenty columns and two methods, a list is faster than a map.
         let same = |old: &&mut LargestDifference| old.column == new.column && old.way == new.way;
         match self.differences.iter_mut().find(same) {
             Some(old) if new.relative > old.relative => *old = new,
@@ -176,7 +182,7 @@ fn finer(mut case: Case) -> Case {
     solver.first_step /= SMALLER;
     solver.max_step /= SMALLER;
     solver.min_step /= SMALLER;
-    // Without this a path of smaller steps would end at the limit and differ by its status.
+    // Otherwise paths with smaller steps would stop at the limit, with another status.
     solver.max_points = solver.max_points.saturating_mul(SMALLER as usize);
     case
 }
@@ -184,7 +190,7 @@ fn finer(mut case: Case) -> Case {
 /// Returns the case with a whole number of gaps, as a unit cell and as a chain.
 fn whole(mut case: Case) -> Option<[Case; 2]> {
     let gaps = flexure::whole_gaps(&case.design.row().ok()?, &case.flexure);
-    // The unit cell knows no unequal gaps, so only the perfect strip is one problem in two ways.
+    // The unit cell cannot represent unequal gaps, so compare perfect strips only.
     case.imperfection = skin::Imperfection::default();
     case.flexure.gaps = Some(gaps);
     let by = |method| {
@@ -203,14 +209,14 @@ fn every(share: f64, designs: impl Iterator<Item = u64>) -> impl Iterator<Item =
     designs.enumerate().filter(chosen).map(|(_, design)| design)
 }
 
-/// Returns true if a column holds a property of the design instead of the solution method.
+/// Returns true if a column does not depend on the solution method.
 fn is_physical(column: &str) -> bool {
     // The second method changes the numbers of steps and iterations.
     let of_the_way = ["_points", "_iterations", "_error"];
     !of_the_way.iter().any(|end| column.ends_with(end)) && column != "scales"
 }
 
-/// Returns the difference of two numbers relative to the larger, or `None` if both vanish.
+/// Returns the difference of two numbers relative to the larger; 0 if both vanish.
 fn relative(first: f64, second: f64) -> f64 {
     let larger = first.abs().max(second.abs());
     if larger < NOTHING { 0.0 } else { (first - second).abs() / larger }
@@ -221,12 +227,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_share_is_spread_evenly() {
+    fn selected_designs_are_spread_evenly() {
         let chosen = |share| every(share, 0..720).collect::<Vec<_>>();
         let tenth = chosen(0.1);
         assert!(tenth.len().abs_diff(72) <= 1, "{}", tenth.len());
         assert_eq!((chosen(1.0).len(), chosen(0.0).len()), (720, 0));
-        // Every slant of a grid of six is among them: 12 times on the average, none a third more or less often.
+        // The selection contains every slant of six 12 times on average, and 8 to 16 times.
         for slant in 0..6 {
             let count = tenth.iter().filter(|index| **index % 6 == slant).count();
             assert!((8..=16).contains(&count), "{count} of slant {slant}");

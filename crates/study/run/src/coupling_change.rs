@@ -7,33 +7,36 @@ use sweep::Sweep;
 
 use crate::gap_change::again;
 
-/// The measures of a design with coupling to nearest neighbours (Eq. 1 of the paper), and with full
-/// coupling of the substrate.
+/// Measures of a design with nearest-neighbour and with full coupling.
+///
+/// Nearest-neighbour coupling is Eq. 1 of the paper.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CouplingChange {
-    /// The number of the design.
+    /// Number of the design.
     pub design: String,
-    /// The measures, in the order of the columns that were asked for.
+    /// Measures, in the order of the requested columns.
     pub measures: Vec<CoupledMeasure>,
-    /// Whether the surface of the substrate folds over with the whole of it coupled, and does not otherwise.
+    /// True if the surface folds with full coupling only.
     pub folds: bool,
 }
 
-/// One measure of a design with each coupling.
+/// A measure of a design with both couplings.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CoupledMeasure {
-    /// The column of the measure.
+    /// Column name.
     pub column: String,
-    /// The measure with the nearest neighbours coupled.
+    /// Measure with nearest-neighbour coupling.
     pub nearest: f64,
-    /// The measure with the whole substrate coupled; `None` where it has no value.
+    /// Measure with full coupling; `None` if there is no value.
     pub full: Option<f64>,
 }
 
 impl CouplingChange {
-    /// The measures in `columns` of design `number` of `sweep`; columns without a number are left out. `None` if there is no such
-    /// design, if it has the whole substrate coupled already, if nothing moves, or if solving it again would take long. Samples of imperfect rows
-    /// are not solved.
+    /// Solves design `number` of `sweep` with both couplings.
+    ///
+    /// `columns` are the measures; columns without a number are omitted. Returns `None` if there is
+    /// no such design, if its coupling is already full, if no measure changes, or if it is slow to
+    /// solve. Samples of imperfect rows are not solved.
     pub fn solve(sweep: &Sweep, number: &str, columns: &[&str]) -> Option<Self> {
         let couplings = [Coupling::Nearest, Coupling::Full];
         let (case, solved) = again(sweep, number, couplings, |case, own| case.coupling = own)?;
@@ -49,7 +52,7 @@ impl CouplingChange {
         };
         let folds = matches!(values(name::FOLD_FORCE), Some([None, Some(_)]));
         let measures: Vec<_> = columns.iter().filter_map(measure).collect();
-        // Coverage, and bending before scales touch, do not depend on the tissue.
+        // Coverage, and bending without contact, do not depend on the substrate.
         let moves = folds || measures.iter().any(|measure| measure.full != Some(measure.nearest));
         moves.then(|| Self { design: number.to_owned(), measures, folds })
     }

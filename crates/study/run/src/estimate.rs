@@ -10,12 +10,12 @@ use sweep::Sweep;
 use crate::run_journal::{JournalEntry, Line};
 use crate::solve::evaluator::Evaluator;
 
-/// Number of positions in the grid, and number of neighbouring designs solved at each.
+/// Number of positions in the grid, and of neighbouring designs at each.
 // Several positions, because the cost varies over the grid; neighbours, because they share springs.
 const PLACES: u64 = 8;
 const NEIGHBOURS: u64 = 6;
 
-/// The order of the positions; every prefix of it is spread over the grid.
+/// Order of the positions; every prefix of it is spread over the grid.
 const ORDER: [u64; PLACES as usize] = [0, 4, 2, 6, 1, 5, 3, 7];
 
 /// Maximum time of an estimate, plus the design in progress.
@@ -24,7 +24,7 @@ const PATIENCE: Duration = Duration::from_secs(2);
 /// Estimated time and disk space of a sweep.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
-    /// The number of designs that were solved for it.
+    /// Number of designs solved for the estimate.
     pub solved: u64,
     /// Seconds on one thread.
     pub seconds: f64,
@@ -33,7 +33,7 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// Solves a few designs of `sweep`, evenly spread, and judges all by them.
+    /// Solves a few designs of `sweep`, evenly spread, and extrapolates.
     pub fn solve(sweep: &Sweep) -> Self {
         let (evaluator, grid) = (Evaluator::new(sweep.measures()), sweep.grid());
         let (begun, mut solved, mut bytes) = (Instant::now(), 0, 0);
@@ -62,12 +62,12 @@ fn spread(designs: u64) -> impl Iterator<Item = u64> {
 /// Returns the bytes of a design in journal and tables.
 fn room(sweep: &Sweep, row: &DesignRow) -> usize {
     let (design, result) = (row.number.index() + 1, row.result.clone());
-    // Times of six digits, as most have.
+    // Times of six digits are typical.
     let entry = JournalEntry { design, rerun: 0, at: 0.123_456, seconds: 0.123_456, result };
     let journal = Seal::default().seal(&Line::Design(Box::new(entry))).len();
     let layouts = tables(sweep);
     let columns = layouts.iter().flat_map(|layout| &layout.columns);
-    // Every cell and the comma or line end behind it.
+    // Each cell with the comma or line end after it.
     journal + columns.map(|column| column.cell(row).to_string().len() + 1).sum::<usize>()
 }
 
@@ -87,7 +87,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sweep_twice_as_large_takes_twice_the_room() {
+    fn twice_as_many_designs_need_twice_the_space() {
         let bytes = |values: u32| {
             let text = format!(
                 "name = 'x'\nmeasures = 'coverage'\n[designs]\ngap_over_t = {{ from = 1, to = {values}, step = 1 }}"

@@ -10,14 +10,14 @@ use text::nearest;
 
 use crate::run_journal::{Archive, JournalEntry};
 
-/// A filter for the designs of a run. A design passes if it meets all conditions that are set.
+/// A filter for the designs of a run. A design passes if it meets all conditions.
 #[derive(Clone, Debug, Default)]
 pub struct Filter {
-    /// Only designs that lack a value.
+    /// True to select designs that lack a value.
     pub failed: bool,
-    /// Only designs with these numbers, each one design or some in a row, as `1-12`.
+    /// Numbers of designs, or ranges such as `1-12`.
     pub numbers: Option<Vec<String>>,
-    /// Only designs whose rows in `designs.csv` have these values.
+    /// Required values in `designs.csv`.
     pub columns: Vec<ColumnFilter>,
 }
 
@@ -36,18 +36,18 @@ pub struct InvalidColumnFilter(String);
 /// A filter that does not fit the run.
 #[derive(Debug, thiserror::Error)]
 pub enum InvalidFilter {
-    /// A number that is no design of the sweep.
+    /// There is no design with this number.
     #[error("--design: {0}")]
     Number(NoSuchDesign),
-    /// A design that is not done.
+    /// The design is not solved.
     #[error("--design {0}: the design is not solved yet; squama run --resume solves it")]
     NotDone(String),
-    /// A column that does not exist.
+    /// The column does not exist.
     #[error("--where {column}: there is no such column in designs.csv, {suggestion}")]
     Column {
-        /// The column.
+        /// Column name.
         column: String,
-        /// The column that may be meant.
+        /// Suggested column.
         suggestion: String,
     },
     /// The journal cannot be read.
@@ -67,7 +67,7 @@ impl FromStr for ColumnFilter {
 }
 
 impl ColumnFilter {
-    /// The column among `columns`.
+    /// Returns the column among `columns`.
     fn find<'c>(
         &self,
         columns: &'c [Column<DesignRow>],
@@ -75,7 +75,7 @@ impl ColumnFilter {
         let found = columns.iter().find(|column| column.name == self.column);
         found.ok_or_else(|| {
             let known: Vec<_> = columns.iter().map(|column| column.name.as_ref()).collect();
-            // A near name is a slip of the pen; with none near, all that there are help more.
+            // Without a similar name, list all columns.
             let suggestion = match nearest(&self.column, &known) {
                 Some(near) => format!("did you mean {near}?"),
                 None => format!("expected one of {}", known.join(", ")),
@@ -84,19 +84,20 @@ impl ColumnFilter {
         })
     }
 
-    /// Whether `cell` has the value: as text, or as a number.
+    /// Returns true if `cell` has the value, as text or as a number.
     fn passes(&self, cell: &Cell) -> bool {
         let cell = cell.to_string();
         let number = |text: &str| text.parse::<f64>().ok();
-        // As text first: `0010` is a number of a design, and not the tenth value.
+        // Compare texts first: `0010` is the number of a design, not the value 10.
         cell == self.value || number(&cell).is_some_and(|cell| Some(cell) == number(&self.value))
     }
 }
 
 impl Filter {
-    /// The designs of `archive` that pass, as indices of its grid, in order.
+    /// Returns the designs of `archive` that pass, as indices of the grid, in order.
     ///
     /// # Errors
+    ///
     /// If a number or a column does not exist, or the journal cannot be read.
     pub fn designs(&self, archive: &Archive) -> Result<Vec<u64>, InvalidFilter> {
         let columns = design_columns(archive.sweep());
@@ -112,7 +113,7 @@ impl Filter {
             designs.extend(passes(&row).then(|| row.number.index()));
         };
         match &self.numbers {
-            // A few numbered designs are read where they stand, without a look at all others.
+            // Read numbered designs at their offsets, without reading all others.
             Some(numbers) => numbered(archive, numbers)?.into_iter().for_each(visit),
             None => archive.entries()?.in_order().try_for_each(|entry| entry.map(&mut visit))?,
         }
@@ -120,13 +121,13 @@ impl Filter {
     }
 }
 
-/// Returns the entries of the designs with these numbers, sorted and without duplicates.
+/// Returns the entries of designs by number, sorted and without duplicates.
 fn numbered(archive: &Archive, numbers: &[String]) -> Result<Vec<JournalEntry>, InvalidFilter> {
     let grid = archive.sweep().grid();
     let range = |text: &String| grid.parse_numbers(text.trim()).map_err(InvalidFilter::Number);
     let ranges = numbers.iter().map(range).collect::<Result<Vec<_>, _>>()?;
     let mut indices: Vec<_> = ranges.into_iter().flatten().collect();
-    // In the order of the designs, whatever the order on the command line: reruns are told in it.
+    // Reruns report designs in order, regardless of their order on the command line.
     indices.sort_unstable();
     indices.dedup();
     let mut entries = archive.entries()?;

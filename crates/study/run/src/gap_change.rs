@@ -13,45 +13,48 @@ use crate::solve::work::work_of;
 // Both directions, because a cliff may be on either side.
 const PARTS: [f64; 2] = [0.9, 1.1];
 
-/// Change of a measure, as a factor or its inverse, that counts as a cliff if the gap changes by 10 %.
+/// Ratio of a measure that counts as a cliff if the gap changes by 10 %.
+///
+/// The inverse ratio counts too.
 const CLIFF: f64 = 1.5;
 
 /// Maximum number of paths per design, so that users do not have to wait.
 const MOST_WORK: u64 = 500;
 
-/// The measures of a design with a gap 10 % smaller and 10 % larger.
+/// Measures of a design with a gap 10 % smaller and 10 % larger.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GapChange {
-    /// The number of the design.
+    /// Number of the design.
     pub design: String,
-    /// The gap over the thickness that was meant.
+    /// Nominal gap over the thickness.
     #[serde(rename = "gap_over_t")]
     pub gap: f64,
-    /// The measures, in the order of the columns that were asked for.
+    /// Measures, in the order of the requested columns.
     pub measures: Vec<MeasureChange>,
 }
 
-/// One measure of a design with a gap 10 % smaller and 10 % larger.
+/// A measure of a design with a gap 10 % smaller and 10 % larger.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MeasureChange {
-    /// The column of the measure.
+    /// Column name.
     pub column: String,
-    /// The measure of the design as it is meant.
+    /// Measure of the nominal design.
     pub value: f64,
-    /// The measure with the smaller and with the larger gap; `None` where it has no value.
+    /// Measures with the smaller and the larger gap; `None` if there is no value.
     #[serde(flatten, serialize_with = "by_side")]
     pub changed: [Option<f64>; 2],
 }
 
-/// The names of both sides.
+/// Serializes the two values with their names.
 fn by_side<S: Serializer>(changed: &[Option<f64>; 2], serializer: S) -> Result<S::Ok, S::Error> {
     let names = ["gap_10_percent_smaller", "gap_10_percent_larger"];
     serializer.collect_map(names.into_iter().zip(changed))
 }
 
 impl MeasureChange {
-    /// Whether the gap that comes out smaller, and the larger one, are beyond a cliff. A measure that is zero, or changes its sign,
-    /// has no factor and no cliff.
+    /// Returns whether the smaller and the larger gap are beyond a cliff.
+    ///
+    /// A measure that is zero or changes its sign has no ratio, and hence no cliff.
     pub fn cliffs(&self) -> [bool; 2] {
         self.changed.map(|changed| {
             let ratio = changed.map_or(1.0, |changed| changed / self.value);
@@ -61,8 +64,10 @@ impl MeasureChange {
 }
 
 impl GapChange {
-    /// The changes of the measures in `columns` of design `number` of `sweep`; columns without a number are left out. `None` if
-    /// there is no such design, or solving it again would take long. Samples of imperfect rows are not solved.
+    /// Solves design `number` of `sweep` with both gaps.
+    ///
+    /// `columns` are the measures; columns without a number are omitted. Returns `None` if there is
+    /// no such design, or if it is slow to solve. Samples of imperfect rows are not solved.
     pub fn solve(sweep: &Sweep, number: &str, columns: &[&str]) -> Option<Self> {
         let gaps = [1.0, PARTS[0], PARTS[1]];
         let (case, solved) = again(sweep, number, gaps, |case, part| case.design.gap *= part)?;
@@ -96,9 +101,9 @@ pub(crate) fn again<T: Copy, const N: usize>(
     let grid = sweep.grid();
     let index = grid.parse_number(number).ok()?;
     let mut case = grid.case(index);
-    // Random samples take hundreds of paths, and hide the cliff of the design itself.
+    // Random samples take hundreds of paths, and hide cliffs of the nominal design.
     case.imperfection = Imperfection::default();
-    // A ranking asks this of its best designs while somebody waits.
+    // Users wait for this when they rank designs.
     is_quick(sweep, &case).then_some(())?;
     let evaluator = Evaluator::new(&sweep.plain_measures());
     let solved = changes.map(|own| {
@@ -109,7 +114,9 @@ pub(crate) fn again<T: Copy, const N: usize>(
     Some((case, solved))
 }
 
-/// Returns true if a design takes milliseconds; boundary elements of a layer take longer.
+/// Returns true if a design takes milliseconds.
+///
+/// Boundary elements of a layer take longer.
 fn is_quick(sweep: &Sweep, case: &Case) -> bool {
     case.tissue_thickness.is_none() && work_of(case, sweep.measures()) <= MOST_WORK
 }

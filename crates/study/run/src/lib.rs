@@ -1,9 +1,9 @@
 //! Runs: solves the designs of a sweep and writes their results into a folder.
 //!
-//! Designs are solved in parallel, each by one thread, and appended to a journal as they finish. The
-//! tables are written from the journal, in the order of the designs, one row at a time. They are
-//! therefore identical for any number of threads, shards and interruptions, and memory hardly grows
-//! with the grid.
+//! Designs are solved in parallel, each by one thread, and appended to a journal as they finish.
+//! The tables are written from the journal, in the order of the designs, one row at a time. They
+//! are therefore identical for any number of threads, shards and interruptions, and memory hardly
+//! grows with the grid.
 //!
 //! ```text
 //! Sweep ─► Groups ─► workers ─► Evaluator ─► JournalEntry ─► Journal ─► TableWriter ─► tables
@@ -12,7 +12,8 @@
 //! | Type | Role |
 //! |---|---|
 //! | [`run()`] | solves the designs of a sweep and writes the tables |
-//! | [`Options`], [`Program`], [`Progress`], [`Finished`] | options, program, progress and result of a run |
+//! | [`Options`], [`Program`] | options of a run, and the program that runs it |
+//! | [`Progress`], [`Finished`] | progress and result of a run |
 //! | [`Evaluator`] | solves one design, or its curve at given points |
 //! | [`CurvePoints`] | a curve at given points, with its derivatives |
 //! | [`WorkMeter`] | the completed fraction of the work, also within designs |
@@ -22,7 +23,7 @@
 //! | [`RunStatus`] | numbers of finished, failed and missing designs |
 //! | [`merge()`] | merges shards |
 //! | [`Estimate`] | estimated time and disk space of a sweep |
-//! | [`Audit`], [`LargestDifference`], [`SecondWay`] | a fraction of the designs solved again by a second method |
+//! | [`Audit`], [`LargestDifference`], [`SecondWay`] | some designs solved again by a second method |
 //! | [`Summary`], [`Best`] | counts and best values |
 //! | [`GapChange`], [`MeasureChange`] | the measures of a design with a gap 10 % smaller and larger |
 //! | [`CouplingChange`], [`CoupledMeasure`] | the measures of a design with full coupling |

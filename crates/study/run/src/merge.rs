@@ -37,32 +37,33 @@ pub enum MergeError {
     Conflict {
         /// Number of the design.
         design: u64,
-        /// A folder that has it.
+        /// A folder with this design.
         first: PathBuf,
-        /// Another folder that has it.
+        /// Another folder with it.
         second: PathBuf,
     },
 }
 
-/// The result of a merge.
+/// Result of a merge.
 #[derive(Clone, Debug)]
 pub struct Merged {
-    /// The results after the merger.
+    /// Results after the merge.
     pub finished: Finished,
-    /// The number of designs that the merger brought.
+    /// Number of designs added by the merge.
     pub added: u64,
-    /// The designs that are in none of the shards.
+    /// Designs that are in none of the shards.
     pub missing: Vec<std::ops::RangeInclusive<u64>>,
     /// The sweep.
     pub sweep: Sweep,
 }
 
-/// Merges the shards in `folders` into `out` and writes the tables of the whole sweep.
+/// Merges the shards in `folders` into `out`, and writes the tables of the sweep.
 ///
-/// Existing results stay, so merging twice has the same effect as merging once. If `out` is the only
-/// folder, its tables are written again from its journal.
+/// Existing results stay, so merging twice has the same effect as merging once. If `out` is the
+/// only folder, its tables are written again from its journal.
 ///
 /// # Errors
+///
 /// If the folders hold results of different definitions or programs, one is in use, or the results
 /// cannot be written.
 pub fn merge(
@@ -81,10 +82,10 @@ pub fn merge(
             written_again(out, format, program)
         };
     }
-    // All sources are of one sweep, so any of them names it.
+    // All sources belong to one sweep, so the header of any of them will do.
     let header = sources[0].archive.header_of_all_shards();
     out.make().map_err(RunError::from)?;
-    // Resumed, not new: merging twice is merging once, and a merger that was killed goes on.
+    // Resume, so that repeated merges have the same effect as one, and killed merges continue.
     let mut journal = run_journal::begin(&out, header, Start::Resume)?;
     // The requested format, else the format of the folder, else the format of the shards.
     let formats = [journal.records(), &sources[0].archive].map(Archive::format);
@@ -138,18 +139,18 @@ struct ShardResults {
 /// Opens the folders other than `out`, and requires that they belong to one sweep.
 fn open(folders: &[PathBuf], out: &ResultsFolder) -> Result<Vec<ShardResults>, MergeError> {
     let same = |folder: &&PathBuf| match (folder.canonicalize(), out.path().canonicalize()) {
-        // By their real paths, as `results/x` and `./results/x/` are one folder.
+        // Compare canonical paths: `results/x` and `./results/x/` are the same folder.
         (Ok(folder), Ok(out)) => folder == out,
         _ => false,
     };
     let mut sources: Vec<ShardResults> = Vec::new();
     for folder in folders.iter().filter(|folder| !same(folder)).map(ResultsFolder::new) {
-        // A shard that is still being solved would be merged short of its last designs, and nobody would notice.
+        // A shard in progress would be merged without its last designs, unnoticed.
         if journal::in_use(&folder.journal()) {
             return Err(JournalError::InUse(folder.path().to_owned()).into());
         }
         let archive = Archive::open(&folder)?;
-        // A copy that was cut short looks like a shard with less to do.
+        // A truncated copy looks like a smaller shard.
         archive.require_all_lines(&folder)?;
         if let Some(first) = sources.first() {
             let wanted = first.archive.header_of_all_shards();
@@ -179,11 +180,11 @@ fn gather(
     let mut there = before.entries()?;
     let mut added = 0;
     for (design, holders) in Held::by(sources.iter().map(|source| source.archive.held())) {
-        // A shard of the whole grid may hold designs that a sample leaves out.
+        // A shard may contain designs that a sample of the grid excludes.
         let Some(position) = designs.position(design) else { continue };
         let known = there.last(position)?;
         let best = choose(design, known, &mut readers, &holders, out)?;
-        // A merger that brings nothing leaves no trace in the journal.
+        // A merge without new designs does not change the journal.
         if added == 0 && !best.is_empty() {
             let session = Line::Session(SessionStart::now(1, format));
             journal.append(session).map_err(RunError::from)?;
@@ -196,10 +197,12 @@ fn gather(
     Ok(added)
 }
 
-/// Lists the designs of several sources in order, each with the indices of the sources that hold it.
+/// Iterates over the designs of several sources, in order.
+///
+/// Yields each design with the indices of the sources that contain it.
 struct Held<I> {
     sources: Vec<I>,
-    /// The next design of each source, and the place of the source; the smallest first.
+    /// Next design of each source, with the index of the source; smallest first.
     next: BinaryHeap<Reverse<(u64, usize)>>,
 }
 
@@ -236,7 +239,9 @@ impl<I: Iterator<Item = u64>> Iterator for Held<I> {
     }
 }
 
-/// Returns the entries of design `index` in the readers `holders` that the journal lacks.
+/// Returns the entries of design `index` that the journal lacks.
+///
+/// `holders` are indices of the readers that contain the design.
 fn choose(
     index: u64,
     there: Option<JournalEntry>,
@@ -252,25 +257,25 @@ fn choose(
         let Some(position) = source.archive.designs().position(index) else { continue };
         let Some(entry) = entries.last(position)? else { continue };
         match &best {
-            // Equal reruns of one program must agree to the last bit: if they do not, neither is to be believed.
+            // Equal reruns by one program must agree exactly. Otherwise, neither is reliable.
             Some((other, first)) if other.rerun == entry.rerun && other.result != entry.result => {
                 let (first, second) = (first.to_path_buf(), source.folder.path().to_owned());
                 return Err(MergeError::Conflict { design: entry.design, first, second });
             }
             Some((other, _)) if other.rerun >= entry.rerun => {}
             _ => {
-                // With all its reruns, so that `reruns.csv` tells of them after the merger too.
+                // Include all reruns, so that `reruns.csv` contains them after the merge.
                 added = entries.history(position)?;
                 best = Some((entry, source.folder.path()));
             }
         }
     }
-    // Designs of the folder are not written again.
+    // Omit entries that the journal already contains.
     added.retain(|entry| known.is_none_or(|known| entry.rerun > known));
     Ok(added)
 }
 
-/// Returns the numbers of the designs at some positions.
+/// Returns the numbers of the designs at these positions, as ranges.
 fn numbers(
     designs: &SubsetDesigns,
     positions: &[std::ops::Range<u64>],
@@ -285,7 +290,9 @@ fn numbers(
     numbers
 }
 
-/// Returns the numbers of the designs at consecutive positions, as a range if they are consecutive.
+/// Returns the numbers of the designs at consecutive positions, as ranges.
+///
+/// A single range suffices if the designs are consecutive, too.
 fn consecutive(
     designs: &SubsetDesigns,
     positions: &std::ops::Range<u64>,
@@ -293,7 +300,7 @@ fn consecutive(
     let number = |position| designs.design(position) + 1;
     let Some(last) = positions.clone().next_back() else { return Vec::new() };
     let (first, last) = (number(positions.start), number(last));
-    // The whole range at once: a grid may have 10⁹ designs, and a list of them takes all memory.
+    // As one range: a grid may have 10⁹ designs, and a list of them would not fit into memory.
     if last - first == positions.end - positions.start - 1 {
         return vec![first..=last];
     }
@@ -305,14 +312,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn designs_come_in_order_with_those_that_hold_them() {
+    fn designs_are_ordered_and_list_the_sources_that_contain_them() {
         let sources: [&[u64]; 3] = [&[1, 4, 9], &[4, 5], &[]];
         let held: Vec<_> = Held::by(sources.iter().map(|source| source.iter().copied())).collect();
         assert_eq!(held, [(1, vec![0]), (4, vec![0, 1]), (5, vec![1]), (9, vec![0])]);
     }
 
     #[test]
-    fn ranges_of_a_billion_designs_are_named_at_once() {
+    fn missing_designs_are_reported_as_ranges() {
         let designs = SubsetDesigns::new(1_000_000_000, sweep::Subset::default()).expect("designs");
         let named = numbers(&designs, &[0..5, 6..999_999_999]);
         assert_eq!(named, [1..=5, 7..=999_999_999]);

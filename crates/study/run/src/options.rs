@@ -1,4 +1,4 @@
-//! The options of a run.
+//! Options of a run.
 
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
@@ -7,19 +7,19 @@ use results::CsvFormat;
 
 use crate::solve::work::WorkMeter;
 
-/// The options of a run.
+/// Options of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct Options<'a> {
-    /// The number of designs that are solved at a time.
+    /// Number of designs solved at the same time.
     pub threads: usize,
-    /// The format of the tables; `None` keeps the format that they have.
+    /// Format of the tables; `None` keeps their format.
     pub format: Option<CsvFormat>,
-    /// Whether the first failure ends the run.
+    /// True to stop at the first failure.
     pub fail_fast: bool,
-    /// The interval at which the tables are written while the run goes on.
+    /// Interval at which the tables are written during the run.
     pub tables_every: Duration,
-    /// Set to request a stop; designs already started are finished and the tables written.
+    /// Set to request a stop. Started designs are finished and tables are written.
     pub stop: &'a AtomicBool,
-    /// Told of the work that the run has and has done.
+    /// Receives the total and the completed work.
     pub work: &'a WorkMeter,
 }

@@ -1,4 +1,4 @@
-//! The progress and the result of a run.
+//! Progress and result of a run.
 
 use std::time::Duration;
 
@@ -19,27 +19,27 @@ pub enum RunError {
     /// The subset is larger than the grid.
     #[error(transparent)]
     Sample(#[from] SampleTooLarge),
-    /// The settings of a rerun are not right.
+    /// The settings of a rerun are not valid.
     #[error(transparent)]
     Definition(#[from] InvalidDefinition),
     /// The threads cannot be started.
     #[error("{count} threads cannot be started ({reason}), expected fewer")]
     Threads {
-        /// The number of threads that were asked for.
+        /// Requested number of threads.
         count: usize,
-        /// The message of the system.
+        /// Error message of the system.
         reason: String,
     },
 }
 
-/// The result of a run.
+/// Result of a run.
 #[derive(Clone, Debug)]
 pub struct Finished {
     /// Counts and best values.
     pub summary: Summary,
-    /// The number of designs that are not done.
+    /// Number of designs that are not done.
     pub missing: u64,
-    /// The duration.
+    /// Duration.
     pub duration: Duration,
     /// Names of the tables.
     pub tables: Vec<String>,
@@ -47,19 +47,19 @@ pub struct Finished {
     pub notes: Vec<String>,
 }
 
-/// The progress of a run.
+/// Progress of a run.
 #[derive(Clone, Copy, Debug)]
 pub enum Progress {
     /// The run begins.
     Begun {
-        /// The number of designs.
+        /// Number of designs.
         designs: u64,
-        /// The number of designs that are done.
+        /// Number of designs that are done.
         done: u64,
     },
     /// A design is done.
     Done {
-        /// Whether it lacks a value.
+        /// True if it lacks a value.
         failed: bool,
     },
 }

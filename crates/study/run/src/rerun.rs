@@ -30,35 +30,37 @@ pub enum InvalidRerun {
     /// The journal cannot be used.
     #[error(transparent)]
     Journal(#[from] JournalError),
-    /// The designs that are meant do not exist.
+    /// The designs do not exist or are not solved.
     #[error(transparent)]
     Filter(#[from] InvalidFilter),
-    /// The settings are not right.
+    /// The settings are not valid.
     #[error(transparent)]
     Definition(#[from] sweep::InvalidDefinition),
-    /// A setting that would make another design of it.
+    /// The setting would change an axis of the sweep.
     #[error(
         "{0}: cannot be set for single designs, because they keep their numbers in the grid; set another key, e.g. solver.max_step=0.01"
     )]
     Axis(String),
-    /// Settings that would give the tables other columns.
+    /// The settings would change the columns of the tables.
     #[error(
         "imperfections are {before} in the run and {after} in the settings; they must be the same, because a run keeps its columns"
     )]
     Imperfection {
-        /// Whether the run has them: on or off.
+        /// State of imperfections in the run: on or off.
         before: &'static str,
-        /// Whether the settings have them.
+        /// State of imperfections with the settings: on or off.
         after: &'static str,
     },
 }
 
 impl Rerun {
-    /// Plans to solve the designs of the run in `folder` that pass `filter` again, with `settings`
-    /// applied to the sweep.
+    /// Plans to solve designs of the run in `folder` again, with other settings.
+    ///
+    /// Selects the designs that pass `filter`, and applies `settings` to the sweep.
     ///
     /// # Errors
-    /// If there is no such run, another program has solved it, or filter or settings make no sense.
+    ///
+    /// If there is no such run, another program has solved it, or filter or settings are invalid.
     pub fn plan(
         folder: &Path,
         filter: &Filter,
@@ -67,28 +69,32 @@ impl Rerun {
     ) -> Result<Self, InvalidRerun> {
         let folder = ResultsFolder::new(folder);
         let archive = Archive::open(&folder)?;
-        // Two programs in one table would differ for reasons that no setting explains.
+        // Results of two programs in one table would differ for reasons that no setting explains.
         require_program(&archive, &folder, program)?;
         let (sweep, settings) = changed(archive.sweep(), settings)?;
         let designs = filter.designs(&archive)?;
         Ok(Self { folder, sweep, settings, designs })
     }
 
-    /// The settings that differ from the sweep, as `key=value` separated by spaces.
+    /// Returns the settings that differ from the sweep.
+    ///
+    /// They are written as `key=value`, separated by spaces.
     pub fn settings(&self) -> &str {
         &self.settings
     }
 
-    /// The designs that are solved again.
+    /// Returns the designs to be solved again.
     pub fn designs(&self) -> impl ExactSizeIterator<Item = DesignNumber> {
         self.designs.iter().map(|index| self.sweep.grid().number(*index))
     }
 
-    /// Solves the designs, replaces their rows in every table and lists the changes in `reruns.csv`.
-    /// Reports `progress` as soon as a design is done, in any order.
+    /// Solves the designs again, and replaces their rows in every table.
+    ///
+    /// Lists the changes in `reruns.csv`. Calls `progress` when a design is done, in any order.
     ///
     /// # Errors
-    /// If the folder is in use or the disk does not take the results.
+    ///
+    /// If the folder is in use, or the results cannot be written.
     pub fn run(
         &self,
         options: &Options<'_>,
@@ -102,7 +108,7 @@ impl Rerun {
         require_program(journal.records(), &folder, program)?;
         folder.make()?;
         progress(Progress::Begun { designs: self.designs.len() as u64, done: 0 });
-        // One number for all designs of this rerun, so that the table of changes tells which belong together.
+        // All designs of this rerun share one number, which groups them in the table of changes.
         let rerun = journal.records().reruns() + 1;
         let settings = self.settings.clone();
         let task = Task::new(&self.sweep, settings, rerun, clock, options.work);
@@ -127,7 +133,7 @@ fn changed(sweep: &Sweep, settings: &[Setting]) -> Result<(Sweep, String), Inval
     let changed = Sweep::parse(&sweep.to_toml(), "definition", settings)?;
     for setting in settings {
         let is_shared = |parameter: &sweep::Parameter| {
-            // An axis that is set would give every design another place in the grid.
+            // A changed axis would change the position of every design in the grid.
             sweep.grid().axis(parameter.key).is_none()
                 && changed.grid().axis(parameter.key).is_none()
         };
@@ -136,7 +142,7 @@ fn changed(sweep: &Sweep, settings: &[Setting]) -> Result<(Sweep, String), Inval
         }
     }
     let on_or_off = |sweep: &Sweep| if sweep.is_imperfect() { "on" } else { "off" };
-    // Imperfections bring columns of their own, and a table has one header.
+    // Imperfections add columns, but a table has a single header.
     let (before, after) = (on_or_off(sweep), on_or_off(&changed));
     if before != after {
         return Err(InvalidRerun::Imperfection { before, after });
@@ -144,7 +150,7 @@ fn changed(sweep: &Sweep, settings: &[Setting]) -> Result<(Sweep, String), Inval
     let (old, new) = (sweep.grid().base(), changed.grid().base());
     // A setting equal to the value of the sweep is not recorded.
     let different = PARAMETERS.iter().filter(|p| p.get(old) != p.get(new));
-    // A list is written without its spaces, which separate settings.
+    // Spaces separate settings, so lists are written without spaces.
     let text = |p: &sweep::Parameter| format!("{}={}", p.path(), p.get(new)).replace(SEPARATOR, "");
     let texts: Vec<_> = different.map(text).collect();
     Ok((changed, texts.join(&SEPARATOR.to_string())))

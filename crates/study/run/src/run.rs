@@ -1,4 +1,4 @@
-//! Runs a sweep: solves its designs, keeps them in the journal and writes the tables.
+//! Runs a sweep: solves its designs and writes the journal and the tables.
 
 use std::path::Path;
 use std::sync::atomic::Ordering;
@@ -17,12 +17,13 @@ use crate::solve::workers;
 use crate::tables::run_info::RunInfo;
 use crate::tables::table_writer::TableWriter;
 
-/// Solves the missing designs of `subset` of `sweep` and writes the tables to `folder`.
+/// Solves missing designs of `subset` of `sweep` and writes tables to `folder`.
 ///
-/// Calls `progress` when a design is done, in any order. The tables are identical, byte by byte, for
-/// any number of threads and interruptions.
+/// Calls `progress` when a design is done, in any order. The tables are identical, byte by byte,
+/// for any number of threads and interruptions.
 ///
 /// # Errors
+///
 /// If the results cannot be written, results exist and `start` is `New`, or the threads cannot be
 /// started. A design that fails is a row, not an error.
 pub fn run(
@@ -35,7 +36,7 @@ pub fn run(
     mut progress: impl FnMut(Progress),
 ) -> Result<Finished, RunError> {
     let clock = Instant::now();
-    // A subset that does not exist leaves no folder behind.
+    // Checked first, so that an invalid subset does not create a folder.
     SubsetDesigns::new(sweep.grid().len(), subset)?;
     let folder = ResultsFolder::new(folder);
     folder.make()?;
@@ -44,7 +45,7 @@ pub fn run(
     let archive = journal.records();
     let (subset, missing) = (archive.designs().clone(), archive.missing());
     progress(Progress::Begun { designs: subset.len(), done: archive.done() });
-    // Tables of an earlier run must not stand beside a journal that knows nothing of them.
+    // Tables of an earlier run must not remain beside an empty journal.
     if archive.done() == 0 {
         folder.remove_results();
     }
@@ -60,7 +61,7 @@ pub fn run(
     Ok(finished)
 }
 
-/// Returns the message about files that were made from earlier results.
+/// Returns the message about removed files that were derived from earlier results.
 fn removal(files: &[String]) -> Option<String> {
     let files = files.join(" ");
     (!files.is_empty()).then(|| format!("removed, because made from the earlier results: {files}"))
@@ -75,20 +76,20 @@ pub(crate) struct Run<'a> {
 }
 
 impl<'a> Run<'a> {
-    /// A run that has solved nothing yet, and leaves no trace in `journal`, which is in `folder`.
+    /// Creates a run of the journal in `folder`, without writing to it.
     pub fn new(
         journal: Journal,
         folder: ResultsFolder,
         options: &'a Options<'a>,
         info: RunInfo<'a>,
     ) -> Self {
-        // A run that goes on keeps the format of its tables, unless it is told another one.
+        // A resumed run keeps the format of its tables by default.
         let format = options.format.or(journal.records().format()).unwrap_or_default();
         let tables = TableWriter::new(folder, format, options, info);
         Self { journal, options, format, tables }
     }
 
-    /// Solves `designs`, notes each in the journal, and then reports `progress`.
+    /// Solves `designs`, appends each to the journal, and calls `progress`.
     pub fn solve(
         &mut self,
         task: &Task<'_>,
@@ -106,7 +107,8 @@ impl<'a> Run<'a> {
             |design| {
                 let entry = task.solve(design);
                 if fail_fast && entry.result.failed() {
-                    // By the thread that sees it: the one that notes designs may be far behind. Designs in hand are finished, as after a signal.
+                    // Set by the worker that sees the failure, because the thread with the journal
+                    // may be far behind. Started designs are finished, as after a signal.
                     stop.store(true, Ordering::Relaxed);
                 }
                 entry
@@ -115,7 +117,7 @@ impl<'a> Run<'a> {
         )
     }
 
-    /// Takes a design that is done.
+    /// Appends a finished design.
     fn take(
         &mut self,
         entry: JournalEntry,

@@ -1,8 +1,9 @@
-//! The journal of a run: one line per finished design, from which the tables are written.
+//! Journal of a run: one line per finished design.
 //!
-//! The first line is the header, every session starts with a line of its own, and the other lines are
-//! designs in the order of completion. A design that was solved again has several lines with the number
-//! of their rerun; the largest number counts. The crate `journal` documents the guarantees.
+//! The tables are written from it. The first line is the header, every session starts with a line
+//! of its own, and the other lines are designs in the order of completion. A design that was solved
+//! again has several lines with the number of their rerun; the largest number counts. The crate
+//! `journal` documents the guarantees.
 
 mod archive;
 mod edited;
@@ -28,9 +29,10 @@ pub(crate) fn header(sweep: &Sweep, subset: Subset, program: &Program) -> Journa
     JournalHeader::new(sweep.to_toml(), subset, program)
 }
 
-/// Creates or continues the journal in `folder` for the run that `header` describes.
+/// Creates or continues the journal in `folder` for the run in `header`.
 ///
 /// # Errors
+///
 /// If the journal is in use, damaged or of another run, or exists and `start` is `New`.
 pub(crate) fn begin(
     folder: &ResultsFolder,
@@ -39,19 +41,22 @@ pub(crate) fn begin(
 ) -> Result<Journal, JournalError> {
     folder.require_own(Maker::Run, start)?;
     let journal = Journal::begin(&folder.journal(), header, start)?;
-    // Whoever starts afresh has thrown the lines away.
+    // A fresh start has discarded the lines.
     if start == Start::Fresh { Ok(journal) } else { checked(journal, folder) }
 }
 
-/// Continues the existing journal in `folder`, whatever its definition.
+/// Continues the existing journal in `folder` with any definition.
 ///
 /// # Errors
+///
 /// If there is no journal, or it is in use or damaged.
 pub(crate) fn resume(folder: &ResultsFolder) -> Result<Journal, JournalError> {
     checked(Journal::resume(&folder.journal())?, folder)
 }
 
-/// Checks the journal against the tables in `folder`, and adds a message about lost lines.
+/// Checks the journal against the tables in `folder`.
+///
+/// Adds a message about lost lines.
 fn checked(mut journal: Journal, folder: &ResultsFolder) -> Result<Journal, JournalError> {
     edited::refuse(journal.records(), folder)?;
     if let Some(lost) = journal.records().lost_lines(folder) {

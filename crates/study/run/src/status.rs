@@ -1,4 +1,4 @@
-//! The status of a run: done, failed, missing.
+//! Status of a run: numbers of finished, failed and missing designs.
 
 use std::cmp::{Ordering, Reverse};
 use std::collections::{BTreeMap, BinaryHeap};
@@ -10,44 +10,46 @@ use sweep::DesignNumber;
 
 use crate::run_journal::{Archive, JournalEntry};
 
-/// The number of slowest designs that are listed.
+/// Number of slowest designs listed.
 const SLOWEST: usize = 5;
 
-/// The status of a run.
+/// Status of a run.
 #[derive(Debug)]
 pub struct RunStatus {
-    /// The journal.
+    /// Journal of the run.
     pub archive: Archive,
-    /// Whether a process is writing it.
+    /// True if a process is writing to the journal.
     pub in_use: bool,
-    /// Designs that lack a value.
+    /// Number of designs that lack a value.
     pub failed: u64,
-    /// The number of designs that failed, by measure and reason.
+    /// Number of failed designs, by measure and reason.
     pub reasons: BTreeMap<(&'static str, &'static str), u64>,
-    /// The slowest designs, the slowest first: their seconds and their numbers.
+    /// Slowest designs with their seconds, the slowest first.
     pub slowest: Vec<(f64, DesignNumber)>,
-    /// Designs that were solved again.
+    /// Number of designs that were solved again.
     pub solved_again: u64,
-    /// The faults of the tables or the journal, each in one line.
+    /// Problems with tables or journal, one line each.
     pub problems: Vec<String>,
-    /// The products of the tables that are out of date.
+    /// Derived files that are outdated.
     pub outdated: Vec<Derivation>,
 }
 
-/// A design and its time, ordered so that the fastest is the greatest.
+/// A design with its time, ordered so that the fastest is the greatest.
 struct Timed {
     seconds: f64,
     index: u64,
 }
 
 impl RunStatus {
-    /// The status of the run in `folder`, which may be going on.
+    /// Reads the status of the run in `folder`, which may be in progress.
     ///
     /// # Errors
+    ///
     /// If there is no run, or its journal is damaged.
     pub fn read(folder: &Path) -> Result<Self, JournalError> {
         let folder = ResultsFolder::new(folder);
-        // Asked before the journal is read: a run that ends in between is told as going on, and not as short of designs.
+        // Query the lock before reading. If the run ends in between, it is reported as in progress,
+        // not as incomplete.
         let in_use = journal::in_use(&folder.journal());
         let archive = Archive::open(&folder)?;
         let mut status = Self {
@@ -65,9 +67,9 @@ impl RunStatus {
         Ok(status)
     }
 
-    /// Checks the tables against `contents.toml`, unless another process is writing them.
+    /// Checks the tables against `contents.toml`, unless they are being written.
     fn check(&mut self, folder: &ResultsFolder) {
-        // Tables lag behind the journal while a run goes on; that is no fault.
+        // During a run the tables lag behind the journal, which is not a problem.
         if self.in_use {
             return;
         }
@@ -91,7 +93,7 @@ impl RunStatus {
                 let reason = (failure.measure.key(), failure.outcome.text());
                 *self.reasons.entry(reason).or_default() += 1;
             }
-            // The quickest of six goes: memory stays the same for any number of designs.
+            // Drop the fastest of six, so that memory does not grow with the number of designs.
             slowest.extend(Timed::new(&entry));
             if slowest.len() > SLOWEST {
                 slowest.pop();
@@ -103,14 +105,14 @@ impl RunStatus {
         Ok(())
     }
 
-    /// Designs that are being solved: at most one for each thread of a run that goes on.
+    /// Returns the number of designs in progress, at most one for each thread.
     pub fn running(&self) -> u64 {
-        // How many designs are in hand is not written anywhere; no thread has more than one.
+        // The journal does not record started designs, and each thread solves one at a time.
         let threads = self.archive.sessions().last().map_or(1, |session| session.threads as u64);
         if self.in_use { threads.min(self.not_done()) } else { 0 }
     }
 
-    /// Designs that are neither done nor being solved.
+    /// Returns the number of designs that are neither done nor in progress.
     pub fn missing(&self) -> u64 {
         self.not_done() - self.running()
     }
@@ -119,7 +121,7 @@ impl RunStatus {
         self.archive.designs().len() - self.archive.done()
     }
 
-    /// Designs per second of the last session.
+    /// Returns the designs per second of the last session.
     pub fn rate(&self) -> Option<f64> {
         let latest = self.archive.latest();
         (latest.seconds > 0.0).then(|| latest.designs as f64 / latest.seconds)

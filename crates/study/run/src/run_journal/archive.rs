@@ -24,22 +24,22 @@ pub struct Archive {
     designs: SubsetDesigns,
     index: Index,
     sessions: Vec<SessionStart>,
-    /// The number of reruns.
+    /// Number of reruns.
     reruns: u64,
-    /// The rate of the latest session.
+    /// Rate of the latest session.
     latest: LatestSession,
-    /// Bytes that are intact.
+    /// Number of intact bytes.
     length: u64,
-    /// Lines that are intact.
+    /// Number of intact lines.
     lines: u64,
 }
 
-/// The rate of the latest session.
+/// Rate of the latest session.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LatestSession {
-    /// The number of designs that the session has finished.
+    /// Number of designs finished in the session.
     pub designs: u64,
-    /// Seconds from its beginning to the last of them.
+    /// Seconds from its start to the last finished design.
     pub seconds: f64,
 }
 
@@ -100,13 +100,14 @@ impl Records for Archive {
 }
 
 impl Archive {
-    /// Reads the journal in `folder` without a claim to it: a run may be writing it.
+    /// Reads the journal in `folder` without a lock; a run may be writing to it.
     ///
     /// # Errors
+    ///
     /// If there is none, or it is damaged.
     pub fn open(folder: &ResultsFolder) -> Result<Self, JournalError> {
         let path = folder.journal();
-        // Also if the first line is torn: nothing was solved then.
+        // Also missing if the first line is torn, because no design was solved then.
         let missing = || JournalError::Missing(folder.path().to_owned());
         if !path.exists() {
             return Err(missing());
@@ -114,10 +115,12 @@ impl Archive {
         journal::read(&path)?.ok_or_else(missing)
     }
 
-    /// Reads a journal from any source of bytes, said to be the file `path`; `None` if not even its first
-    /// line is complete.
+    /// Reads a journal from `source`; `path` is used in messages.
+    ///
+    /// Returns `None` if the first line is incomplete.
     ///
     /// # Errors
+    ///
     /// If it cannot be read or is damaged.
     pub fn read_from(source: impl BufRead, path: &Path) -> Result<Option<Self>, JournalError> {
         journal::read_from(source, path)
@@ -127,7 +130,7 @@ impl Archive {
         self.designs.position(entry.index()?)
     }
 
-    /// The header.
+    /// Returns the header.
     pub fn header(&self) -> &JournalHeader {
         &self.header
     }
@@ -138,19 +141,21 @@ impl Archive {
         self.header.clone().with_subset(subset)
     }
 
-    /// The sweep that it is of.
+    /// Returns the sweep.
     pub fn sweep(&self) -> &Sweep {
         &self.sweep
     }
 
-    /// The designs that it is to hold when it is complete.
+    /// Returns all designs of the run, finished or not.
     pub fn designs(&self) -> &SubsetDesigns {
         &self.designs
     }
 
-    /// The message if the journal has fewer lines than it had when the tables in `folder` were written.
+    /// Describes missing lines, compared to the tables in `folder`.
+    ///
+    /// `None` if the journal has all lines that it had when these tables were written.
     pub(crate) fn lost_lines(&self, folder: &ResultsFolder) -> Option<String> {
-        // Only whole lines are counted: a torn one was never stated.
+        // Tables state the number of whole lines; torn lines do not count.
         let stated = Contents::stated_in(folder)?.journal.lines;
         let lost = stated.checked_sub(self.lines).filter(|lost| *lost > 0)?;
         Some(format!(
@@ -158,71 +163,72 @@ impl Archive {
         ))
     }
 
-    /// Whether the line that counts for the design at `position` stands among the first `bytes` bytes.
+    /// Returns true if the valid line of a design is in the first `bytes` bytes.
     pub(crate) fn stands_before(&self, position: u64, bytes: u64) -> bool {
         self.index.offset(position).is_some_and(|offset| offset < bytes)
     }
 
-    /// Refuses it if it has lost lines.
+    /// Returns an error if lines are missing.
     pub(crate) fn require_all_lines(&self, folder: &ResultsFolder) -> Result<(), JournalError> {
         let path = self.path.clone();
         self.lost_lines(folder).map_or(Ok(()), |lost| Err(JournalError::LinesLost { path, lost }))
     }
 
-    /// How far it has come.
+    /// Returns the extent of the journal.
     ///
     /// # Errors
+    ///
     /// If the file cannot be read.
     pub fn extent(&self) -> Result<JournalExtent, JournalError> {
         let extent = JournalExtent::read(&self.path, self.length, self.lines);
         extent.map_err(|error| self.unreadable(&error))
     }
 
-    /// The number of designs that are done.
+    /// Returns the number of finished designs.
     pub fn done(&self) -> u64 {
         self.index.done()
     }
 
-    /// The designs that are done, as indices of the grid, in order.
+    /// Returns the finished designs in order, as indices of the grid.
     pub(crate) fn held(&self) -> impl Iterator<Item = u64> {
         self.index.lines_that_count().map(|(position, _)| self.designs.design(position))
     }
 
-    /// Positions of the designs that are not done.
+    /// Returns the positions of designs that are not finished.
     pub fn missing(&self) -> Vec<Range<u64>> {
         self.index.missing(self.designs.len())
     }
 
-    /// The sessions so far.
+    /// Returns all sessions.
     pub fn sessions(&self) -> &[SessionStart] {
         &self.sessions
     }
 
-    /// The format that the last session gave to the tables.
+    /// Returns the format of the tables in the last session.
     pub fn format(&self) -> Option<CsvFormat> {
         self.sessions.last().map(|session| session.csv)
     }
 
-    /// The number of reruns.
+    /// Returns the number of reruns.
     pub fn reruns(&self) -> u64 {
         self.reruns
     }
 
-    /// The rate of the latest session.
+    /// Returns the rate of the latest session.
     pub fn latest(&self) -> LatestSession {
         self.latest
     }
 
-    /// A reader of its entries.
+    /// Creates a reader of the entries.
     pub(crate) fn entries(&self) -> Result<Entries<'_>, JournalError> {
         let file = File::open(&self.path);
         let file = file.map_err(|error| self.unreadable(&error))?;
         Ok(Entries { archive: self, lines: Windows::new(file) })
     }
 
-    /// The row that an entry gives in the tables.
+    /// Returns the row of an entry.
     pub fn row(&self, entry: JournalEntry) -> DesignRow {
-        // An index that was read lies in the grid.
+        // Entries were checked to be in the grid when the journal was read.
         let index = entry.index().unwrap_or_default();
         let grid = self.sweep.grid();
         DesignRow { number: grid.number(index), case: grid.case(index), result: entry.result }
@@ -240,13 +246,13 @@ pub(crate) struct Entries<'a> {
 }
 
 impl Entries<'_> {
-    /// The last entry of each design that is done, in the order of the designs.
+    /// Returns the latest entry of each finished design, in order.
     pub fn in_order(mut self) -> impl Iterator<Item = Result<JournalEntry, JournalError>> {
         let offsets = self.archive.index.lines_that_count();
         offsets.map(move |(_, offset)| self.at(offset))
     }
 
-    /// Entries that replaced an earlier one, after that.
+    /// Returns pairs of entries: an earlier one and its replacement.
     pub fn replaced(
         mut self,
     ) -> impl Iterator<Item = Result<(JournalEntry, JournalEntry), JournalError>> {
@@ -254,13 +260,13 @@ impl Entries<'_> {
         replaced.into_iter().map(move |line| Ok((self.at(line.old)?, self.at(line.new)?)))
     }
 
-    /// Every entry of the design at `position`, the first one first.
+    /// Returns every entry of the design at `position`, the first one first.
     pub fn history(&mut self, position: u64) -> Result<Vec<JournalEntry>, JournalError> {
         let offsets = self.archive.index.history(position);
         offsets.into_iter().map(|offset| self.at(offset)).collect()
     }
 
-    /// The last entry of the design at `position`.
+    /// Returns the latest entry of the design at `position`.
     pub fn last(&mut self, position: u64) -> Result<Option<JournalEntry>, JournalError> {
         self.archive.index.offset(position).map(|offset| self.at(offset)).transpose()
     }

@@ -6,10 +6,10 @@ use results::{Contents, JournalExtent, ResultsFolder, WrittenTable};
 
 use super::archive::Archive;
 
-/// Refuses the journal in `folder` if one of its designs differs from the table that was written from it.
+/// Refuses the journal in `folder` if a design differs from the table of designs.
 ///
-/// Designs are compared only if the start of the journal has changed. Removed, duplicated or reordered
-/// lines change no design.
+/// Designs are compared only if the start of the journal has changed. Removed, duplicated or
+/// reordered lines change no design.
 pub(super) fn refuse(archive: &Archive, folder: &ResultsFolder) -> Result<(), JournalError> {
     let Some(contents) = Contents::stated_in(folder) else { return Ok(()) };
     let stated = &contents.journal;
@@ -26,11 +26,12 @@ pub(super) fn refuse(archive: &Archive, folder: &ResultsFolder) -> Result<(), Jo
     let changed = table.changed(&columns, |record| {
         let index = record.get(0).and_then(|number| grid.parse_number(number).ok());
         let position = index.and_then(|index| archive.designs().position(index));
-        // Lines after the extent that the tables state may be reruns, which the tables do not contain.
+        // Lines after the stated extent may be reruns that the tables do not contain.
         let old = position.filter(|position| archive.stands_before(*position, stated.bytes));
         let entry = old.map(|position| entries.last(position)).transpose()?.flatten();
         let row = entry.map(|entry| archive.row(entry));
-        // A rerun that was lost with the end of the journal has left the result before it, with the settings of that.
+        // If a rerun was lost with the end of the journal, the earlier result remains. Its settings
+        // differ from the table, so skip it.
         Ok::<_, JournalError>(row.filter(|row| {
             is_whole || settings.is_none_or(|place| record.get(place) == Some(&row.result.settings))
         }))

@@ -1,4 +1,4 @@
-//! The contents of the lines of a journal.
+//! Contents of the lines of a journal.
 
 use std::time::SystemTime;
 
@@ -19,17 +19,18 @@ pub enum Line {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct JournalEntry {
-    /// The 1-based position of the design in the grid.
+    /// Number of the design in the grid, from 1.
     pub design: u64,
-    /// The number of the rerun: 0 for the first solution, then counting up. The largest counts,
-    /// wherever its line stands.
+    /// Number of the rerun: 0 for the first solution, then counting up.
+    ///
+    /// The entry with the largest number is valid, wherever its line is.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub rerun: u64,
-    /// Seconds since its session began.
+    /// Seconds since the start of its session.
     pub at: f64,
-    /// Seconds that it took.
+    /// Seconds taken to solve it.
     pub seconds: f64,
-    /// The result of the design.
+    /// Result of the design.
     pub result: DesignResult,
 }
 
@@ -39,26 +40,26 @@ fn is_zero(number: &u64) -> bool {
 }
 
 impl JournalEntry {
-    /// The index of the design in the grid, from 0.
+    /// Returns the index of the design in the grid, from 0.
     pub(crate) fn index(&self) -> Option<u64> {
         self.design.checked_sub(1)
     }
 }
 
-/// The start of a run, continuation, rerun or merge.
+/// Start of a run, continuation, rerun or merge.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SessionStart {
-    /// The moment at which it began, in UTC.
+    /// Time of the start, in UTC.
     pub started: String,
-    /// The number of threads.
+    /// Number of threads.
     pub threads: usize,
-    /// The format of the tables.
+    /// Format of the tables.
     pub csv: CsvFormat,
 }
 
 impl SessionStart {
-    /// A session that begins now.
+    /// Creates a session that starts now.
     pub(crate) fn now(threads: usize, csv: CsvFormat) -> Self {
         let started = humantime::format_rfc3339_seconds(SystemTime::now()).to_string();
         Self { started, threads, csv }
@@ -90,7 +91,7 @@ mod tests {
     }
 
     proptest! {
-        /// Every number of a result comes back with all its bits.
+        /// Every number of a result is read back exactly.
         #[test]
         fn numbers_are_read_back_bit_by_bit(number in any::<f64>().prop_filter("finite", |x| x.is_finite())) {
             let result = DesignResult { coverage: Some(number), ..DesignResult::default() };

@@ -1,4 +1,4 @@
-//! The index of a journal: the offsets of the lines of the designs.
+//! Index of a journal: offsets of the lines of the designs.
 
 use std::collections::BTreeMap;
 use std::num::NonZeroU64;
@@ -8,20 +8,20 @@ use std::ops::Range;
 // Pages of 4 kB: sparse designs cost at most one page each, a full grid eight bytes per design.
 const PAGE: u64 = 512;
 
-/// The offset of the valid line of each design.
+/// Offset of the valid line of each design.
 ///
-/// Takes eight bytes per design; pages without designs are not allocated. Of several lines of one
-/// design, the line of the latest rerun is valid, wherever it is in the file.
+/// Takes eight bytes per design; pages without designs are not allocated. If a design has several
+/// lines, the line of the latest rerun is valid, wherever it is in the file.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Index {
-    /// By page and place. The first line is no design, so none has offset 0.
+    /// Offsets by page and index. Offset 0 is the header, so it never occurs.
     pages: BTreeMap<u64, Vec<Option<NonZeroU64>>>,
     done: u64,
-    /// The offsets of all lines of the designs that were solved again, by position and rerun.
+    /// Offsets of all lines of designs with reruns, by position and rerun.
     reruns: BTreeMap<(u64, u64), u64>,
 }
 
-/// The offsets of two lines of one design; the second replaces the first.
+/// Offsets of two lines of one design; the second replaces the first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Replaced {
     /// Offset of the earlier line.
@@ -31,19 +31,19 @@ pub(crate) struct Replaced {
 }
 
 impl Index {
-    /// Notes the line of the design at `position` that holds its solution `rerun`.
+    /// Records the line of solution `rerun` of the design at `position`.
     pub fn insert(&mut self, position: u64, rerun: u64, offset: u64) {
         match self.offset(position) {
             None => self.done += 1,
-            // A line that is not listed yet is the first solution.
-            // Nearly all designs are solved once, and take no room in the list of reruns.
+            // The first repeated line of a design adds the known line to the list of reruns. Most
+            // designs are solved once and need no space there.
             Some(known) if self.lines(position).next().is_none() => {
                 self.reruns.insert((position, 0), known);
             }
             Some(_) => {}
         }
         if rerun > 0 || self.offset(position).is_some() {
-            // A line that was doubled is the same line.
+            // A duplicated line keeps its first offset.
             self.reruns.entry((position, rerun)).or_insert(offset);
         }
         let newest = self.lines(position).last().unwrap_or(offset);
@@ -51,18 +51,18 @@ impl Index {
         page[(position % PAGE) as usize] = NonZeroU64::new(newest);
     }
 
-    /// The offsets of the lines of a design that was solved again, the first solution first.
+    /// Returns the offsets of all lines of a design with reruns, in order.
     fn lines(&self, position: u64) -> impl DoubleEndedIterator<Item = u64> {
         self.reruns.range((position, 0)..=(position, u64::MAX)).map(|(_, offset)| *offset)
     }
 
-    /// The offset of the line that counts for the design at `position`.
+    /// Returns the offset of the valid line of the design at `position`.
     pub fn offset(&self, position: u64) -> Option<u64> {
         let page = self.pages.get(&(position / PAGE))?;
         page[(position % PAGE) as usize].map(NonZeroU64::get)
     }
 
-    /// The positions of the designs that are done, in order, each with the offset of the line that counts.
+    /// Returns the positions of finished designs with the offset of the valid line.
     pub fn lines_that_count(&self) -> impl Iterator<Item = (u64, u64)> {
         self.pages.iter().flat_map(|(page, places)| {
             let positions = page * PAGE..;
@@ -72,13 +72,13 @@ impl Index {
         })
     }
 
-    /// The offsets of all lines of the design at `position`, the first solution first.
+    /// Returns the offsets of all lines of the design at `position`, in order.
     pub fn history(&self, position: u64) -> Vec<u64> {
         let lines: Vec<_> = self.lines(position).collect();
         if lines.is_empty() { self.offset(position).into_iter().collect() } else { lines }
     }
 
-    /// Lines that replace an earlier one, in the order of the designs and then of their reruns.
+    /// Returns the replaced lines, ordered by design and rerun.
     pub fn replaced(&self) -> Vec<Replaced> {
         let lines = self.reruns.iter();
         let pairs = lines.clone().zip(lines.skip(1));
@@ -86,12 +86,12 @@ impl Index {
         same.map(|((_, old), (_, new))| Replaced { old: *old, new: *new }).collect()
     }
 
-    /// The number of designs that are done.
+    /// Returns the number of finished designs.
     pub fn done(&self) -> u64 {
         self.done
     }
 
-    /// The positions below `count` that are not done.
+    /// Returns the positions below `count` that are not finished.
     pub fn missing(&self, count: u64) -> Vec<Range<u64>> {
         let mut missing = Vec::new();
         let mut next = 0;
@@ -109,7 +109,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_missing_and_what_is_replaced() {
+    fn missing_and_replaced_designs_are_listed() {
         let mut index = Index::default();
         assert_eq!(index.missing(3), vec![0..3; 1]);
         for (position, rerun, offset) in [(4, 0, 10), (1, 0, 20), (2, 0, 30), (1, 1, 40)] {
@@ -124,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn a_few_designs_of_a_billion_take_little_room() {
+    fn sparse_designs_need_few_pages() {
         let mut index = Index::default();
         for position in [999_999_999, 3, 500_000_000] {
             index.insert(position, 0, position + 1);
@@ -136,11 +136,11 @@ mod tests {
     }
 
     #[test]
-    fn the_latest_rerun_counts_in_any_order_of_lines() {
+    fn the_latest_rerun_is_valid_in_any_order_of_lines() {
         let lines = [(0, 10), (1, 20), (2, 30)];
         for order in [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]] {
             let mut index = Index::default();
-            // Each line stands there twice.
+            // Insert each line twice.
             for (rerun, offset) in order.into_iter().map(|line| lines[line]) {
                 index.insert(5, rerun, offset);
                 index.insert(5, rerun, offset + 100);

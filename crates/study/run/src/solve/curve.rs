@@ -11,10 +11,13 @@ use results::Outcome;
 pub type CurvePoints = Vec<Option<CurvePoint>>;
 
 impl Evaluator {
-    /// The force `F*` of a puncture at each of the displacements `u*`, with its derivatives with respect to `parameters`.
+    /// Returns the puncture force `F*` at each of the displacements `u*`.
+    ///
+    /// The points have derivatives with respect to `parameters`.
     ///
     /// # Errors
-    /// If the springs are not found, or the case has no mechanical meaning.
+    ///
+    /// If the springs cannot be computed, or the case has no mechanical meaning.
     pub fn force_curve(
         &self,
         case: &Case,
@@ -31,9 +34,12 @@ impl Evaluator {
         Ok(in_place(curve, &exists))
     }
 
-    /// The moment `M*` of bending at each of the curvatures `κ*`, with its derivatives with respect to `parameters`.
+    /// Returns the bending moment `M*` at each of the curvatures `κ*`.
+    ///
+    /// The points have derivatives with respect to `parameters`.
     ///
     /// # Errors
+    ///
     /// If the case has no mechanical meaning.
     pub fn moment_curve(
         &self,
@@ -49,7 +55,7 @@ impl Evaluator {
     }
 }
 
-/// Returns for each variation whether it exists, and the existing ones.
+/// Returns whether each variation exists, and the existing ones.
 fn existing<P>(
     variations: impl Iterator<Item = Option<Neighbours<P>>>,
 ) -> (Vec<bool>, Vec<Neighbours<P>>) {
@@ -57,7 +63,9 @@ fn existing<P>(
     (all.iter().map(Option::is_some).collect(), all.into_iter().flatten().collect())
 }
 
-/// Expands the rates of each point to all parameters, with `None` where no variation exists.
+/// Expands the rates of each point to all parameters.
+///
+/// They are `None` for parameters without a variation.
 fn in_place(mut curve: CurvePoints, exists: &[bool]) -> CurvePoints {
     for point in curve.iter_mut().flatten() {
         let mut rates = std::mem::take(&mut point.rates).into_iter();

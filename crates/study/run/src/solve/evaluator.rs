@@ -20,7 +20,9 @@ use super::{samples, scatter, sensitivity};
 /// Maximum number of gaps of a chain, because longer paths do not fit into memory.
 const LONGEST_CHAIN: usize = 100_000;
 
-/// Solves designs on any number of threads; designs with equal footprints share one calibration.
+/// Solves designs on any number of threads.
+///
+/// Designs with equal footprints share one calibration.
 #[derive(Debug)]
 pub struct Evaluator {
     measures: Vec<Measure>,
@@ -31,7 +33,7 @@ pub struct Evaluator {
 type Evaluated<R, P> = Option<Result<(R, P), Outcome>>;
 
 impl Evaluator {
-    /// An evaluator of `measures`.
+    /// Creates an evaluator of `measures`.
     pub fn new(measures: &[Measure]) -> Self {
         Self { measures: measures.to_vec(), calibrations: Calibrations::default() }
     }
@@ -40,17 +42,19 @@ impl Evaluator {
         self.measures.contains(&measure)
     }
 
-    /// Solves `case`. Nothing that goes wrong inside ends more than this design.
+    /// Solves `case`. A failure or panic affects this design only.
     pub fn solve(&self, number: DesignNumber, case: &Case) -> SolvedDesign {
         self.solved(number, case, &WorkMeter::default())
     }
 
-    /// Solves a design like [`Self::solve`], but faster: without the data for tables and drawings of paths.
+    /// Solves a design faster than [`Self::solve`], for one row of the tables.
+    ///
+    /// Data for tables and drawings of paths are omitted.
     pub fn row(&self, number: DesignNumber, case: &Case) -> DesignRow {
         self.row_metered(number, case, &WorkMeter::default())
     }
 
-    /// As [`Self::row`], and tells `meter` of the work as it is done.
+    /// Solves a design like [`Self::row`], and reports its work to `meter`.
     pub(crate) fn row_metered(
         &self,
         number: DesignNumber,
@@ -74,7 +78,7 @@ impl Evaluator {
         let (flexure, flexure_path) = taken_apart(bent, FlexureResult::without_path);
         let (samples, settings) = (self.samples(case, &work), String::new());
         let failures = Vec::new();
-        // Values at further tilts come from the same path, which is not followed twice.
+        // Values at further tilts are read from the same path.
         let at_tilts = puncture_path.as_ref().map(|path| path.at_tilts.clone());
         let at_tilts = at_tilts.unwrap_or_default();
         let result = DesignResult {
@@ -94,7 +98,7 @@ impl Evaluator {
         solved
     }
 
-    /// Solves imperfect row `sample` of `case`, or the design itself if nothing scatters.
+    /// Solves imperfect row `sample` of `case`, or the design itself without scatter.
     ///
     /// Rows with the same number use the same random numbers in all designs. The coverage is the
     /// coverage of the design. Imperfect rows have no derivatives.
@@ -122,10 +126,10 @@ impl Evaluator {
         guarded(punctured)?.ok_or(Outcome::Internal)
     }
 
-    /// Returns the derivatives of the measures of `case` with respect to gaps and slants of single scales.
+    /// Returns the derivatives of measures for deviations of single scales.
     ///
-    /// In puncture there is one derivative per scale, in bending one for all scales. Failed measures have
-    /// no derivatives.
+    /// They are with respect to gaps and slants. In puncture there is one derivative per scale, in
+    /// bending one for all scales. Failed measures have no derivatives.
     pub fn scatter(&self, case: &Case) -> Vec<ParameterDerivative> {
         let mut derivatives = Vec::new();
         if self.measures(Measure::Puncture)
@@ -144,7 +148,9 @@ impl Evaluator {
         self.measures(Measure::Sensitivity)
     }
 
-    /// Punctures the design of `case`; its derivatives, if they are asked for, are added to `sensitivity`.
+    /// Punctures the design of `case`.
+    ///
+    /// Derivatives, if requested, are appended to `sensitivity`.
     fn puncture(
         &self,
         case: &Case,
@@ -164,7 +170,9 @@ impl Evaluator {
         Ok((PunctureResult::new(&puncture, substrate.estimated_error()), puncture))
     }
 
-    /// Bends the design of `case`; its derivatives, if they are asked for, are added to `sensitivity`.
+    /// Bends the design of `case`.
+    ///
+    /// Derivatives, if requested, are appended to `sensitivity`.
     fn flexure(
         &self,
         case: &Case,
@@ -183,7 +191,9 @@ impl Evaluator {
         Ok((FlexureResult::new(&flexure), flexure))
     }
 
-    /// Solves the imperfect samples of `case`. If they cannot be solved at all, every sample failed.
+    /// Solves the imperfect samples of `case`.
+    ///
+    /// If they cannot be solved at all, every sample counts as failed.
     fn samples(&self, case: &Case, work: &DesignWork<'_>) -> SampleStatistics {
         let mut statistics = SampleStatistics::default();
         if case.imperfection.is_none() {
@@ -193,7 +203,7 @@ impl Evaluator {
             let punctured = guarded(|| self.substrate(case)).flatten().and_then(|substrate| {
                 guarded(|| samples::puncture(case, &substrate, &mut statistics, work))
             });
-            // Every sample failed for one reason, and the statistics say how many there were.
+            // All samples failed for one reason; the statistics state their number.
             if punctured.is_err() {
                 statistics.puncture_failed = Some(case.samples.count);
             }
@@ -211,15 +221,16 @@ impl Evaluator {
     }
 
     pub(super) fn slopes(&self, case: &Case) -> Result<Arc<StiffnessSlopes>, Outcome> {
-        // A footprint that cannot be meshed is the fault of no path.
+        // A footprint that cannot be meshed is a failure of the calibration, not of a path.
         let footprint = case.footprint().map_err(|_| Outcome::Calibration)?;
         self.calibrations.slopes(&footprint, case.coupling).map_err(|_| Outcome::Calibration)
     }
 
-    /// The substrate under a row of `case`.
+    /// Returns the substrate under a row of `case`.
     ///
     /// # Errors
-    /// If its springs cannot be found.
+    ///
+    /// If its springs cannot be computed.
     pub fn substrate(&self, case: &Case) -> Result<Arc<RowStiffness>, Outcome> {
         let footprint = case.footprint().map_err(|_| Outcome::Calibration)?;
         self.calibrations.row(&footprint, case.coupling).map_err(|_| Outcome::Calibration)
@@ -250,7 +261,9 @@ fn bent_sample(case: &Case, sample: u64) -> Result<FlexureResult, Outcome> {
     Ok(FlexureResult::of_sample(&bent))
 }
 
-/// Splits an evaluated measure into result and path; the path exists only if it was solved.
+/// Splits an evaluated measure into result and path.
+///
+/// The path is `None` if the measure was not solved.
 fn taken_apart<R, P>(
     evaluated: Evaluated<R, P>,
     without_path: fn(Outcome) -> R,
@@ -268,14 +281,15 @@ fn failure(measure: Measure, solved: &SolvedDesign) -> Option<Failure> {
     let is_missing = |outcome: &Outcome| *outcome != Outcome::Complete;
     let (outcome, end) = match measure {
         Measure::Coverage if result.coverage.is_some() => return None,
-        // A formula fails only if the program does.
+        // A closed form only fails through an error in the program.
         Measure::Coverage => (Outcome::Internal, None),
-        // Derivatives exist where the measures do.
+        // Derivatives exist if their measures do.
         Measure::Sensitivity => return None,
         Measure::Puncture => {
             let puncture = result.puncture?;
             match [puncture.weakest, puncture.way_back].into_iter().flatten().find(is_missing) {
-                // The missing value belongs to another load position, of which no path is kept, or to unloading.
+                // The missing value belongs to unloading, or to another load position without a
+                // stored path.
                 Some(other) if puncture.outcome == Outcome::Complete => (other, None),
                 _ => (puncture.outcome, solved.puncture.as_ref().map(PathEnd::of_puncture)),
             }
@@ -309,7 +323,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_panic_ends_one_design_alone() {
+    fn a_panic_ends_a_single_design() {
         assert_eq!(guarded(|| 1), Ok(1));
         assert_eq!(guarded(|| -> u32 { panic!("on purpose") }), Err(Outcome::Internal));
     }

@@ -20,14 +20,14 @@ pub(crate) struct Groups<'g, I: Iterator<Item = u64>> {
 }
 
 impl<'g, I: Iterator<Item = u64>> Groups<'g, I> {
-    /// The groups of `designs`, which are indices of `grid`.
+    /// Groups `designs`, which are indices of `grid`.
     pub fn new(grid: &'g Grid, designs: I) -> Self {
         Self { grid, designs: designs.peekable() }
     }
 
     fn springs(&self, index: u64) -> (Option<Footprint>, Coupling) {
         let case = self.grid.case(index);
-        // A design without a footprint fails later, with its reason; here it is a group of its own kind.
+        // A design without a footprint fails later, with a reason. Here it forms its own group.
         (case.footprint().ok(), case.coupling)
     }
 }
@@ -56,7 +56,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn slants_of_one_geometry_are_a_group() {
+    fn designs_that_differ_in_slant_form_a_group() {
         let text = "name = 'x'\n[designs]\ngap_over_t = [0.1, 0.2]\nlength_over_t = 1\n\
                     slant_deg = { from = 0, to = 80, step = 1 }\ncoupling = ['nearest', 'full']";
         let sweep = Sweep::parse(text, "x.toml", &[]).expect("a valid sweep");

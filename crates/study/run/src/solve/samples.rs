@@ -10,7 +10,9 @@ use sweep::Case;
 use super::evaluator::without_path;
 use super::work::DesignWork;
 
-/// Punctures the samples of `case` on `substrate`, adds their results to `statistics` and reports to `work`.
+/// Punctures the samples of `case` on `substrate`.
+///
+/// Adds their results to `statistics`, and reports to `work`.
 pub(super) fn puncture(
     case: &Case,
     substrate: &RowStiffness,
@@ -19,7 +21,8 @@ pub(super) fn puncture(
 ) {
     let (mut force, mut penetration) = (Vec::new(), Vec::new());
     for number in 1..=case.samples.count as u64 {
-        // A sample with overlapping scales counts as failed; drawing again would distort the distribution.
+        // A sample with overlapping scales counts as failed. Drawing again would distort the
+        // distribution.
         let punctured =
             imperfect_row(case, number).and_then(|row| punctured(case, substrate, &row));
         let measures = punctured.map(|result| result.measures);
@@ -32,7 +35,9 @@ pub(super) fn puncture(
     statistics.penetration = Statistics::from_values(penetration);
 }
 
-/// Bends the samples of `case`, adds their results to `statistics` and reports to `work`.
+/// Bends the samples of `case`.
+///
+/// Adds their results to `statistics`, and reports to `work`.
 pub(super) fn flexure(case: &Case, statistics: &mut SampleStatistics, work: &DesignWork<'_>) {
     let (mut compliance, mut closing_range) = (Vec::new(), Vec::new());
     for number in 1..=case.samples.count as u64 {
@@ -41,7 +46,7 @@ pub(super) fn flexure(case: &Case, statistics: &mut SampleStatistics, work: &Des
         let Some(flexure) = flexure else { continue };
         if let Some(value) = FlexureResult::of_sample(&flexure).measures.compliance {
             compliance.push(value);
-            // The closing range is told of those samples alone that have a compliance, so both are of one batch.
+            // Only samples with a compliance, so that both statistics are about the same samples.
             closing_range.extend(flexure.closing_range);
         }
     }
@@ -50,17 +55,17 @@ pub(super) fn flexure(case: &Case, statistics: &mut SampleStatistics, work: &Des
     statistics.compliance = Statistics::from_values(compliance);
 }
 
-/// Returns imperfect row `number` of the design of `case`, or `None` if no such row exists.
+/// Returns imperfect row `number` of `case`, or `None` if it does not exist.
 fn imperfect_row(case: &Case, number: u64) -> Option<Sample> {
     case.imperfection.sample(&case.design, case.samples.seed as u64, number).ok()
 }
 
-/// Returns the imperfect row of this number; the random numbers are the same for all designs.
+/// Returns imperfect row `number`, with random numbers common to all designs.
 pub(super) fn common(case: &Case, number: u64) -> Option<Sample> {
     case.imperfection.common_sample(&case.design, case.samples.seed as u64, number).ok()
 }
 
-/// Punctures an imperfect row of `case`; returns `None` if scales would overlap at rest.
+/// Punctures an imperfect row of `case`; `None` if scales overlap at rest.
 pub(super) fn punctured(
     case: &Case,
     substrate: &RowStiffness,
@@ -72,7 +77,7 @@ pub(super) fn punctured(
     Some(PunctureResult::new(&puncture, substrate.estimated_error()))
 }
 
-/// Bends an imperfect strip of `case`; returns `None` if scales would overlap at rest.
+/// Bends an imperfect strip of `case`; `None` if scales overlap at rest.
 pub(super) fn bent(case: &Case, row: &Sample) -> Option<BentSample> {
     flexure::bend_sample(&case.design, &case.common, &case.flexure, row).ok()
 }

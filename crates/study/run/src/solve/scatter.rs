@@ -11,25 +11,27 @@ use sweep::{Case, Parameter};
 
 use super::sensitivity::{self, STEP, named};
 
-/// Maximum number of varied scales on each side of the punctured one; farther scales hardly matter.
+/// Maximum number of varied scales on each side of the punctured one.
+///
+/// The influence of farther scales is negligible.
 const FARTHEST: usize = 60;
 
-/// The parameters that differ from scale to scale.
+/// Parameters that differ from scale to scale.
 const SCATTERED: [&str; 2] = ["gap_over_t", "slant_deg"];
 
 /// Measures of bending that depend on a single gap.
 const OF_FIRST_GAP: [&str; 2] = [name::FIRST_CONTACT_CURVATURE, name::CONTACT_CURVATURE];
 
-/// Returns the nonzero derivatives of puncture measures with respect to gap and slant of every scale
-/// near the punctured one.
+/// Returns the nonzero derivatives of puncture measures for single scales.
 ///
-/// The substrate stays fixed, as for imperfect rows.
+/// They are with respect to gap and slant of each scale near the punctured one. The substrate stays
+/// fixed, as for imperfect rows.
 pub(super) fn puncture(
     case: &Case,
     stiffness: &RowStiffness,
 ) -> Result<Vec<ParameterDerivative>, OutOfRange> {
     let input = sensitivity::punctured(case, stiffness.clone());
-    // Without variations first: how many scales the puncture reaches is known only once it is solved.
+    // Solve without variations first, to find out how many scales the contact reaches.
     let (straight, _) = puncture::differentiate(&input, &[])?;
     let farthest = straight.measures.scales.min(FARTHEST) as i32;
     let (mut parameters, mut variations) = (Vec::new(), Vec::new());
@@ -41,12 +43,12 @@ pub(super) fn puncture(
     }
     let (_, derivatives) = puncture::differentiate(&input, &variations)?;
     let mut derivatives = named(case, &parameters, derivatives);
-    // Scales that nothing reaches would fill the journal with zeros.
+    // Drop scales without influence; otherwise zeros would fill the journal.
     derivatives.retain(|derivative| derivative.left != Some(0.0) || derivative.kink.is_some());
     Ok(derivatives)
 }
 
-/// Returns the variation of a row in which only the scale at `place` changes its gap or slant.
+/// Returns the variation of the gap or slant of the scale at `place` only.
 fn one_scale(
     case: &Case,
     input: &PunctureInput,
@@ -63,15 +65,15 @@ fn one_scale(
     Some(Neighbours { below, above, step })
 }
 
-/// Returns the derivatives of bending measures with respect to gaps and slants, one for all scales.
+/// Returns the derivatives of bending measures for single gaps and slants.
 ///
-/// In pure bending each of the `n` gaps contributes the same, so independent deviations add up to
-/// `1/√n` of a common deviation. The number of gaps stays fixed. Measures that depend on the first gap
-/// to close have a kink if all gaps are equal.
+/// There is one derivative for all scales. In pure bending each of the `n` gaps contributes the
+/// same, so independent deviations add up to `1/√n` of a common deviation. The number of gaps stays
+/// fixed. Measures that depend on the first gap to close have a kink if all gaps are equal.
 pub(super) fn flexure(case: &Case) -> Result<Vec<ParameterDerivative>, OutOfRange> {
     let gaps = whole_gaps(&case.design.row()?, &case.flexure);
     let mut fixed = *case;
-    // Another gap would change how many gaps fit the strip, which is a jump and no derivative.
+    // Another gap would change the number of gaps in the strip, which is a jump.
     fixed.flexure.gaps = Some(gaps);
     let (_, mut derivatives) = sensitivity::flexure(&fixed)?;
     derivatives.retain(|derivative| SCATTERED.contains(&derivative.parameter));

@@ -1,4 +1,4 @@
-//! Derivatives of all measures of a design with respect to all continuous parameters.
+//! Derivatives of all measures with respect to all continuous parameters.
 
 use geometry::{OutOfRange, RowChange};
 use results::ParameterDerivative;
@@ -14,20 +14,20 @@ use sweep::{Case, Measure, PARAMETERS, Parameter, Role};
 // avoids nearby kinks.
 pub(super) const STEP: f64 = 2e-6;
 
-/// Returns the continuous parameters that a measure of `case` depends on.
+/// Returns the continuous parameters on which a measure of `case` depends.
 fn parameters(case: &Case, of: Measure) -> Vec<&'static Parameter> {
     let belongs = |p: &&Parameter| p.has(Role::Continuous) && of.sections().contains(&p.section);
     PARAMETERS.iter().filter(belongs).filter(|p| p.size(case).is_some()).collect()
 }
 
-/// The prefactor of the contact law, and the moduli that are multiplied by it.
+/// Prefactor of the contact law, and the moduli that are multiplied by it.
 const PREFACTOR: &str = "c1";
 const MODULI: [&str; 2] = ["contact_modulus_over_substrate", "contact_modulus_over_membrane"];
 
 /// Returns the parameters of a path's derivatives, each with its variation.
 ///
-/// The prefactor of the contact law is not among them: only its product with the modulus enters the
-/// forces, so [`with_prefactor`] computes its derivatives from those of the modulus.
+/// The prefactor of the contact law is omitted: forces depend on its product with the modulus only,
+/// so [`with_prefactor`] computes its derivatives from the derivatives for the modulus.
 fn variations<P>(
     case: &Case,
     of: Measure,
@@ -37,8 +37,9 @@ fn variations<P>(
     solved.filter_map(|parameter| Some((parameter, variation(parameter)?))).unzip()
 }
 
-/// Appends the derivatives with respect to the prefactor of the contact law, and sorts the
-/// derivatives of each measure in the order of the list of parameters.
+/// Appends derivatives with respect to the prefactor of the contact law.
+///
+/// Sorts the derivatives of each measure in the order of the list of parameters.
 fn with_prefactor(case: &Case, solved: &[ParameterDerivative]) -> Vec<ParameterDerivative> {
     let c1 = case.common.law.c1;
     let by_prefactor = |by_modulus: &ParameterDerivative| {
@@ -94,7 +95,8 @@ pub(super) fn coverage(case: &Case) -> Vec<ParameterDerivative> {
         let RowChange { gap, half_base, shift } = change;
         let back = RowChange { gap: -gap, half_base: -half_base, shift: -shift };
         let [left, right] = [-row.coverage_rate(&back), row.coverage_rate(&change)];
-        // Rounding alone makes the rates of both sides differ by some 1e-15; a scale that enters or leaves, by far more.
+        // Round-off makes the rates on both sides differ by some 1e-15. A scale that enters or
+        // leaves the line changes them by much more.
         let smooth = (left - right).abs() <= 1e-9;
         Derivative {
             measure: name::COVERAGE,
@@ -123,7 +125,7 @@ pub(super) fn named(
     derivatives.into_iter().filter_map(named).collect()
 }
 
-/// Punctures `case` on a substrate with this stiffness.
+/// Returns the puncture problem of `case` on a substrate with this stiffness.
 pub(super) fn punctured(case: &Case, stiffness: RowStiffness) -> PunctureInput {
     let Case { design, common, .. } = *case;
     let parameters = case.punctured();
@@ -159,9 +161,10 @@ impl Varied<'_> {
         Some(bent(&self.parameter.moved(self.case, by)?))
     }
 
-    /// The stiffness of a case close by, on the straight lines of its derivatives.
+    /// Returns the stiffness of a nearby case, by linear extrapolation.
     fn stiffness(&self, moved: &Case) -> Option<RowStiffness> {
-        // From the bases that have moved, not from the parameter's name: a length in mm moves them, and so may a thickness in mm.
+        // Determined from the changed bases, because several parameters change them: lengths, also
+        // in mm, and possibly a thickness in mm.
         Some(self.slopes?.moved(&self.case.bases(), &moved.bases()))
     }
 }

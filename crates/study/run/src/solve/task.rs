@@ -12,7 +12,7 @@ use crate::run_journal::JournalEntry;
 pub(crate) struct Task<'a> {
     sweep: &'a Sweep,
     evaluator: Evaluator,
-    /// The settings that differ from the run.
+    /// Settings that differ from the run.
     settings: String,
     rerun: u64,
     clock: Instant,
@@ -34,19 +34,19 @@ impl<'a> Task<'a> {
         Self { sweep, evaluator, settings, rerun, clock, work }
     }
 
-    /// Tells how much work `designs` are.
+    /// Reports the total work of `designs`.
     pub fn measure(&self, designs: impl Iterator<Item = u64>) {
         let work = |index| work_of(&self.grid().case(index), self.sweep.measures());
-        // Saturating: 10⁹ designs of many samples are more than 2⁶⁴ paths only on paper.
+        // Saturating: 10⁹ designs with many samples may exceed 2⁶⁴ paths.
         self.work.begin(designs.map(work).fold(0, u64::saturating_add));
     }
 
-    /// The designs of the sweep.
+    /// Returns the grid of the sweep.
     pub fn grid(&self) -> &'a Grid {
         self.sweep.grid()
     }
 
-    /// The entry of design `index`.
+    /// Solves design `index` and returns its journal entry.
     pub fn solve(&self, index: u64) -> JournalEntry {
         let begun = self.clock.elapsed();
         let grid = self.grid();
@@ -68,6 +68,6 @@ impl<'a> Task<'a> {
 
 /// Rounds seconds to microseconds.
 fn seconds(duration: Duration) -> f64 {
-    // Digits beyond are noise, and a tenth of the length of a line.
+    // Further digits are noise, and would take a tenth of the length of a line.
     (duration.as_secs_f64() * 1e6).round() / 1e6
 }

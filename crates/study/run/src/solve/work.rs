@@ -14,7 +14,9 @@ use sweep::{Case, Measure};
 /// Time after which the progress within a design is reported.
 const PATIENCE: Duration = Duration::from_secs(5);
 
-/// Total and completed work of a run, in paths of one row or one gap; shared by all threads.
+/// Total and completed work of a run, shared by all threads.
+///
+/// The unit is the path of one row or one gap.
 #[derive(Debug, Default)]
 pub struct WorkMeter {
     all: AtomicU64,
@@ -22,7 +24,7 @@ pub struct WorkMeter {
     slow: Arc<Mutex<Vec<String>>>,
 }
 
-/// Does the work of the design named `design` and reports progress if it takes over five seconds.
+/// Runs `work` for a design, and reports progress if it takes over five seconds.
 pub fn report_slow<T>(
     design: &str,
     tell: impl Fn(String) + 'static,
@@ -39,7 +41,7 @@ fn report_after<T>(
 ) -> T {
     let design = design.to_owned();
     let words = move |far: PathProgress| {
-        // Rest may be a negative zero.
+        // The fraction at rest may be negative zero.
         let (seconds, share) = (far.elapsed.as_secs_f64(), 100.0 * far.share + 0.0);
         let PathProgress { points, .. } = far;
         tell(format!(
@@ -50,36 +52,38 @@ fn report_after<T>(
 }
 
 impl WorkMeter {
-    /// Receives messages about designs that take long.
+    /// Returns and clears the messages about slow designs.
     pub fn take_slow(&self) -> Vec<String> {
         std::mem::take(&mut *self.slow.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// Does the work of one design and stores its progress for [`Self::take_slow`] if it is slow.
+    /// Runs `work` for a design, and stores its progress if it is slow.
+    ///
+    /// [`Self::take_slow`] returns the messages.
     pub fn track<T>(&self, design: &str, work: impl FnOnce() -> T) -> T {
         let slow = Arc::clone(&self.slow);
         let tell = move |text| slow.lock().unwrap_or_else(PoisonError::into_inner).push(text);
         report_slow(design, tell, work)
     }
 
-    /// The share of the work that is done, from 0 to 1.
+    /// Returns the completed fraction of the work, from 0 to 1.
     pub fn share(&self) -> f64 {
         let [done, all] = [&self.done, &self.all].map(|units| units.load(Ordering::Relaxed));
         if all > 0 { (done as f64 / all as f64).min(1.0) } else { 0.0 }
     }
 
-    /// Begins to count `all` units.
+    /// Starts to count `all` units.
     pub fn begin(&self, all: u64) {
         self.done.store(0, Ordering::Relaxed);
         self.all.store(all, Ordering::Relaxed);
     }
 
-    /// Leaves out some units that need no work, so that they do not count as done quickly.
+    /// Excludes units that need no work, so that they do not distort the rate.
     pub fn leave_out(&self, units: u64) {
         self.all.fetch_sub(units.min(self.all.load(Ordering::Relaxed)), Ordering::Relaxed);
     }
 
-    /// Counts units that are done.
+    /// Counts completed units.
     pub fn count(&self, units: u64) {
         self.done.fetch_add(units, Ordering::Relaxed);
     }
@@ -94,14 +98,14 @@ pub struct WorkPiece<'m> {
 }
 
 impl<'m> WorkPiece<'m> {
-    /// A piece, none of it done.
+    /// Creates a piece with this expected number of units.
     pub fn new(meter: &'m WorkMeter, units: u64) -> Self {
         Self { meter, left: Cell::new(units) }
     }
 
-    /// Counts units that are done.
+    /// Counts completed units.
     pub fn count(&self, units: u64) {
-        // No more than was promised, so that the share of the work never passes 1.
+        // At most the expected number, so that the fraction never exceeds 1.
         let units = units.min(self.left.get());
         self.left.set(self.left.get() - units);
         self.meter.count(units);
@@ -114,10 +118,10 @@ impl Drop for WorkPiece<'_> {
     }
 }
 
-/// The expected work of the parts of a design.
+/// Expected work of the parts of a design.
 #[derive(Clone, Copy, Debug)]
 struct Parts {
-    /// All but the samples.
+    /// Everything except samples.
     ideal: u64,
     /// One imperfect row.
     row: u64,
@@ -135,7 +139,7 @@ impl Parts {
         let samples = if case.imperfection.is_none() { 0 } else { case.samples.count as u64 };
         let row = case.design.row().ok().filter(|_| bends > 0 && (is_chain || samples > 0));
         let gaps = row.map_or(1, |row| whole_gaps(&row, &case.flexure) as u64);
-        // A path of a row or of one gap is the unit: the meter needs shares, not seconds.
+        // Paths are the unit, because the meter needs fractions instead of seconds.
         let ideal = 1 + punctures + bends * if is_chain { gaps } else { 1 };
         Self { ideal, row: punctures, strip: bends * gaps, samples }
     }
@@ -145,30 +149,30 @@ impl Parts {
     }
 }
 
-/// Returns the expected work of a design that is solved for `measures`.
+/// Returns the expected work of a design solved for `measures`.
 pub(crate) fn work_of(case: &Case, measures: &[Measure]) -> u64 {
     Parts::count(case, measures).sum()
 }
 
-/// The progress of one design.
+/// Progress of one design.
 pub(crate) struct DesignWork<'m> {
     piece: WorkPiece<'m>,
     parts: Parts,
 }
 
 impl<'m> DesignWork<'m> {
-    /// The work of `case`, none of it done.
+    /// Creates the progress of `case`.
     pub fn new(meter: &'m WorkMeter, case: &Case, measures: &[Measure]) -> Self {
         let parts = Parts::count(case, measures);
         Self { piece: WorkPiece::new(meter, parts.sum()), parts }
     }
 
-    /// An imperfect row is done.
+    /// Counts an imperfect row.
     pub fn row_done(&self) {
         self.piece.count(self.parts.row);
     }
 
-    /// An imperfect strip is done.
+    /// Counts an imperfect strip.
     pub fn strip_done(&self) {
         self.piece.count(self.parts.strip);
     }
@@ -186,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn imperfect_designs_are_more_work() {
+    fn imperfect_designs_count_as_more_work() {
         let perfect = case("slant_deg = 0");
         let uneven =
             case("slant_deg = 0\ngap_cv = 0.1\n[imperfection]\nsamples = 7\n[flexure]\ngaps = 50");
@@ -199,7 +203,7 @@ mod tests {
     }
 
     #[test]
-    fn a_design_that_takes_long_tells_how_far_it_is() {
+    fn slow_designs_report_their_progress() {
         let text = "name = 'x'\n[designs]\ngap_over_t = 0.1\nlength_over_t = 0.9\nslant_deg = 60";
         let sweep = Sweep::parse(text, "x.toml", &[]).expect("a valid sweep");
         let (case, number) = (sweep.grid().case(0), sweep.grid().number(0));
@@ -213,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn work_goes_on_within_a_design_and_ends_with_it() {
+    fn work_is_counted_within_a_design_and_completed_at_its_end() {
         let uneven = case("slant_deg = 0\ngap_cv = 0.1\n[imperfection]\nsamples = 4");
         let meter = WorkMeter::default();
         assert_eq!(meter.share(), 0.0);

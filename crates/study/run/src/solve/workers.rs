@@ -12,13 +12,15 @@ use crate::progress::RunError;
 // Threads then do not wait for the disk, and memory stays at a few megabytes.
 const WAITING: usize = 1024;
 
-/// Solves the designs of `groups` on `threads` threads and passes each result to `sink`.
+/// Solves `groups` on `threads` threads, and passes each result to `sink`.
 ///
-/// Results arrive in any order. The first error of `sink` ends the work. After `stop` is set, started
-/// designs are finished. A thread takes one group at a time, because the designs of a group share a
-/// calibration that is slow to compute. When no group is left, threads take designs from each other.
+/// Results arrive in any order. The first error of `sink` ends the work. After `stop` is set,
+/// started designs are finished. A thread takes one group at a time, because the designs of a group
+/// share a calibration that is slow to compute. When no group is left, threads take designs from
+/// each other.
 ///
 /// # Errors
+///
 /// If the threads cannot be started, or errors of `sink`.
 pub(crate) fn solve<T: Send>(
     threads: usize,
@@ -31,7 +33,7 @@ pub(crate) fn solve<T: Send>(
     let queue = Mutex::new(Queue { groups, open: vec![VecDeque::new(); threads] });
     let next = |worker| {
         let ended = abandoned.load(Ordering::Relaxed) || stop.load(Ordering::Relaxed);
-        // Taking a design leaves the queue whole, so a poisoned lock is as good as any.
+        // A poisoned lock is safe, because taking a design leaves the queue consistent.
         let mut queue = queue.lock().unwrap_or_else(PoisonError::into_inner);
         if ended { None } else { queue.next(worker) }
     };
@@ -39,13 +41,14 @@ pub(crate) fn solve<T: Send>(
         let (sender, results) = sync_channel(WAITING);
         for worker in 0..threads {
             let (sender, next, solve) = (sender.clone(), &next, &solve);
-            // A thread that cannot be started ends those that were, or the scope would wait for them for ever.
+            // If a thread cannot be started, end the others; otherwise the scope would wait for
+            // them.
             start(scope, move || work(|| next(worker), solve, &sender)).map_err(|error| {
                 abandoned.store(true, Ordering::Relaxed);
                 RunError::Threads { count: threads, reason: text::reason(&error) }
             })?;
         }
-        // The results end when the last worker does.
+        // The channel closes with the last worker.
         drop(sender);
         let taken = results.into_iter().try_for_each(&mut sink);
         abandoned.store(taken.is_err(), Ordering::Relaxed);
@@ -60,28 +63,30 @@ fn start<'s>(scope: &'s Scope<'s, '_>, work: impl FnOnce() + Send + 's) -> std::
 /// The work of one thread.
 fn work<T>(next: impl Fn() -> Option<u64>, solve: impl Fn(u64) -> T, sender: &SyncSender<T>) {
     while let Some(design) = next() {
-        // Nobody listens any more only when the work is abandoned.
+        // The receiver is only gone if the work was abandoned.
         if sender.send(solve(design)).is_err() {
             return;
         }
     }
 }
 
-/// Groups that were not started, and the rest of the group of each worker.
+/// Groups not yet started, and the remaining designs of each worker.
 struct Queue<G> {
     groups: G,
     open: Vec<VecDeque<u64>>,
 }
 
 impl<G: Iterator<Item = Vec<u64>>> Queue<G> {
-    /// The next design for `worker`: of its own group, of a new one, or of the largest that is open.
+    /// Returns the next design for `worker`.
+    ///
+    /// It is from its own group, from a new group, or from the largest remaining group.
     fn next(&mut self, worker: usize) -> Option<u64> {
         if self.open[worker].is_empty()
             && let Some(group) = self.groups.next()
         {
             self.open[worker] = group.into();
         }
-        // From the front for itself, from the back for others: so both keep to neighbours.
+        // Take own designs from the front and others' from the back, so that both keep neighbours.
         let own = self.open[worker].pop_front();
         own.or_else(|| self.open.iter_mut().max_by_key(|group| group.len())?.pop_back())
     }
@@ -97,7 +102,7 @@ mod tests {
         (0..count).map(|group| (6 * group..6 * group + 6).collect())
     }
 
-    /// An error of the sink.
+    /// Returns an error of the sink.
     fn full() -> RunError {
         RunError::Threads { count: 0, reason: "full".to_owned() }
     }
@@ -118,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn a_thread_without_a_group_helps_the_others() {
+    fn idle_threads_take_designs_of_other_groups() {
         let mut queue = Queue { groups: groups(1), open: vec![VecDeque::new(); 2] };
         let taken: Vec<_> = [0, 1, 0, 1].into_iter().map(|worker| queue.next(worker)).collect();
         assert_eq!(taken, [Some(0), Some(5), Some(1), Some(4)]);
@@ -137,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn who_is_told_to_stop_finishes_what_is_in_hand() {
+    fn started_designs_are_finished_after_a_stop() {
         let stop = AtomicBool::new(false);
         let begun = AtomicU64::new(0);
         let mut done = 0;

@@ -1,4 +1,4 @@
-//! The table of values that reruns changed.
+//! Table of values that reruns changed.
 
 use journal::JournalError;
 use results::columns::{design_columns, name};
@@ -8,15 +8,16 @@ use results::{
 
 use crate::run_journal::Archive;
 
-/// Writes the table of values that reruns changed; returns its name and SHA-256, or `None` if no
-/// design was solved again.
+/// Writes the table of values that reruns changed.
+///
+/// Returns its name and SHA-256, or `None` if no design was solved again.
 pub(super) fn write(
     archive: &Archive,
     folder: &ResultsFolder,
     format: CsvFormat,
 ) -> Result<Option<(String, String)>, JournalError> {
     let mut pairs = archive.entries()?.replaced().peekable();
-    // No empty table: its absence says that nothing was solved again.
+    // No empty table: its absence shows that no design was solved again.
     if pairs.peek().is_none() {
         return Ok(None);
     }
@@ -40,13 +41,13 @@ fn changes(columns: &[Column<DesignRow>], rerun: u64, rows: &[DesignRow; 2]) -> 
         column,
         values,
     };
-    // The settings have columns of their own.
+    // Settings have their own columns.
     let columns = columns.iter().filter(|column| column.name != name::SETTINGS);
     let values =
         columns.map(|column| (column.name.clone(), rows.each_ref().map(|row| column.cell(row))));
     let changed = values.filter(|(_, [old, new])| old != new);
     let mut changes: Vec<_> = changed.map(|(name, values)| change(name, values)).collect();
-    // A rerun that changes nothing is worth a row: it says that the settings do not matter.
+    // Also list reruns without changes: they show that the settings do not matter.
     if changes.is_empty() {
         changes.push(change("".into(), [Cell::Empty, Cell::Empty]));
     }

@@ -1,4 +1,4 @@
-//! The tables of a run during writing.
+//! Tables of a run during writing.
 
 use results::columns::TableLayout;
 use results::{
@@ -7,16 +7,16 @@ use results::{
 };
 use sweep::{Measure, Sweep};
 
-/// The tables with one or more rows per design.
+/// Tables with one or more rows per design.
 pub(super) struct OpenTables<'a> {
     layouts: &'a [TableLayout],
     designs: Vec<CsvFile<'a, DesignRow>>,
     failures: CsvFile<'a, FailureRow>,
-    /// The table of derivatives, if the sweep asks for one.
+    /// Table of derivatives, if the sweep requests it.
     derivatives: Option<CsvFile<'static, DerivativeRow>>,
 }
 
-/// The rows of some designs in each table.
+/// Formatted rows of some designs for each table.
 pub(super) struct TableLines {
     designs: Vec<Vec<u8>>,
     failures: Vec<u8>,
@@ -24,7 +24,7 @@ pub(super) struct TableLines {
 }
 
 impl<'a> OpenTables<'a> {
-    /// Begins the tables of a sweep.
+    /// Creates the tables of a sweep.
     pub fn create(
         folder: &ResultsFolder,
         format: CsvFormat,
@@ -39,13 +39,13 @@ impl<'a> OpenTables<'a> {
         let failures = CsvFile::create(folder, ResultsFolder::FAILURES, format, failures)?;
         let derivatives =
             || CsvFile::create(folder, ResultsFolder::SENSITIVITY, format, DERIVATIVE_COLUMNS);
-        // Not an empty table if nobody asked: whoever finds it would look for derivatives.
+        // No empty table if derivatives were not requested.
         let is_asked = sweep.measures().contains(&Measure::Sensitivity);
         let derivatives = is_asked.then(derivatives).transpose()?;
         Ok(Self { layouts, designs, failures, derivatives })
     }
 
-    /// The lines of these designs.
+    /// Formats the rows of these designs.
     pub fn lines(&self, rows: &[DesignRow]) -> Result<TableLines, OutputError> {
         let derivatives =
             |table: &CsvFile<_>| table.lines(rows.iter().flat_map(DesignRow::derivatives));
@@ -65,7 +65,7 @@ impl<'a> OpenTables<'a> {
         })
     }
 
-    /// Adds lines to every table.
+    /// Appends lines to every table.
     pub fn append(&mut self, lines: &TableLines) -> Result<(), OutputError> {
         for (table, lines) in self.designs.iter_mut().zip(&lines.designs) {
             table.append(lines)?;
@@ -74,7 +74,7 @@ impl<'a> OpenTables<'a> {
         self.derivatives.iter_mut().try_for_each(|table| table.append(&lines.derivatives))
     }
 
-    /// Puts the tables in their places; returns their names, each with its SHA-256.
+    /// Moves the tables to their final paths; returns their names with their SHA-256.
     pub fn finish(self) -> Result<Vec<(String, String)>, OutputError> {
         let mut files = Vec::new();
         for (layout, table) in self.layouts.iter().zip(self.designs) {

@@ -1,4 +1,4 @@
-//! The record of a run, `run.toml`.
+//! Record of a run, `run.toml`.
 
 use std::fmt::Write as _;
 use std::time::{Duration, Instant};
@@ -11,7 +11,7 @@ use super::summary::Summary;
 use crate::options::Options;
 use crate::run_journal::Archive;
 
-/// Information on a run besides its sweep and its results.
+/// Information about a run besides its sweep and its results.
 pub(crate) struct RunInfo<'a> {
     program: &'a Program,
     threads: usize,
@@ -23,17 +23,17 @@ impl<'a> RunInfo<'a> {
         Self { program, threads: options.threads, clock }
     }
 
-    /// The program, in words.
+    /// Returns version and revision of the program.
     pub fn program(&self) -> String {
         format!("{} ({})", self.program.version, self.program.revision)
     }
 
-    /// The time since the session began.
+    /// Returns the time since the session began.
     pub fn elapsed(&self) -> Duration {
         self.clock.elapsed()
     }
 
-    /// Writes the file to `folder`; returns its SHA-256.
+    /// Writes the file to `folder`, and returns its SHA-256.
     pub fn write(
         &self,
         archive: &Archive,
@@ -55,7 +55,7 @@ impl<'a> RunInfo<'a> {
              sessions = {}\ndesigns = {designs}\ndone = {}\nfailed = {}\nmissing = {}\n",
             quoted(self.program.version),
             quoted(self.program.revision),
-            // A run that was killed before its first design has no session.
+            // A run without solved designs may have no session.
             started.unwrap_or("1970-01-01T00:00:00Z"),
             self.elapsed().as_secs_f64(),
             self.threads,

@@ -1,4 +1,4 @@
-//! The summary of a run: counts and best values.
+//! Summary of a run: counts and best values.
 
 use std::collections::BTreeMap;
 
@@ -10,29 +10,29 @@ use sweep::{DesignNumber, Measure, Sweep};
 /// Counts and best values of the designs of a run.
 #[derive(Clone, Debug, Default)]
 pub struct Summary {
-    /// Designs that were solved.
+    /// Number of solved designs.
     pub designs: u64,
-    /// Designs that lack a value that was asked for.
+    /// Number of designs that lack a requested value.
     pub failed: u64,
-    /// The number of designs of each status, by its text, for each measure that has a path.
+    /// Number of designs with each status, for each measure with a path.
     pub statuses: BTreeMap<Measure, BTreeMap<&'static str, u64>>,
-    /// Designs in which the surface of the substrate folds.
+    /// Number of designs with a fold of the surface.
     pub folded: u64,
     contests: Vec<Contest>,
 }
 
-/// The best value of a measure, and the first design that has it.
+/// Best value of a measure, and the first design with it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Best {
-    /// The name of the value, in words.
+    /// Label of the value.
     pub what: &'static str,
-    /// The value, its first design, and how many others have it too.
+    /// Value, its first design, and the number of ties.
     pub leader: Leader<DesignNumber>,
-    /// The parameter in which designs differ so that they cannot be compared by it.
+    /// Parameter that makes the value incomparable between designs, if any.
     pub apart: Option<&'static str>,
 }
 
-/// A measure with the direction in which it is better.
+/// A measure with its best value so far.
 #[derive(Clone, Copy, Debug)]
 struct Contest {
     what: &'static str,
@@ -41,7 +41,7 @@ struct Contest {
     apart: Option<&'static str>,
 }
 
-/// The measures of the summary, with labels and column names.
+/// Measures of the summary: labels and column names.
 const TOLD: [(&str, &str); 5] = [
     ("best coverage", name::COVERAGE),
     ("largest critical force", name::CRITICAL_FORCE),
@@ -51,7 +51,7 @@ const TOLD: [(&str, &str); 5] = [
 ];
 
 impl Summary {
-    /// The summary of no design of a sweep.
+    /// Creates an empty summary of a sweep.
     pub(crate) fn new(sweep: &Sweep) -> Self {
         let contest = |(what, name)| {
             let (value, apart) = (measured_value(name)?, incomparable_by(sweep, name));
@@ -60,7 +60,9 @@ impl Summary {
         Self { contests: TOLD.into_iter().filter_map(contest).collect(), ..Self::default() }
     }
 
-    /// Counts a design. Designs must come in their order, because of equal ones the first is the best.
+    /// Counts a design.
+    ///
+    /// Designs must be added in order, because the first of equal designs is the best.
     pub(crate) fn add(&mut self, row: &DesignRow) {
         self.designs += 1;
         self.failed += u64::from(row.result.failed());
@@ -75,7 +77,7 @@ impl Summary {
                 Leader::enter(best, row.number, number, goal);
             }
         }
-        // Folded designs have measures too; that their surface folds is why the largest of them may mean nothing.
+        // Folded designs have measures, too, but the largest of these may be meaningless.
         let fold = row.result.puncture.and_then(|puncture| puncture.measures.fold_force);
         self.folded += u64::from(fold.is_some());
     }
@@ -84,9 +86,9 @@ impl Summary {
         *self.statuses.entry(measure).or_default().entry(outcome.text()).or_default() += 1;
     }
 
-    /// The best values, those that exist.
+    /// Returns the best values that exist.
     pub fn best(&self) -> impl Iterator<Item = Best> {
-        // Of all designs that do not fold the sound force is the critical force, and would repeat it.
+        // Without folds, the force before a fold equals the critical force and would repeat it.
         let is_told =
             |contest: &&Contest| contest.value.name != name::SOUND_FORCE || self.folded > 0;
         self.contests.iter().filter(is_told).filter_map(|&Contest { what, best, apart, .. }| {

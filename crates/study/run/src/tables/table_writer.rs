@@ -17,7 +17,7 @@ use crate::options::Options;
 use crate::progress::{Finished, RunError};
 use crate::run_journal::{Archive, Journal};
 
-/// Reciprocal of the largest share of a run's time that writing tables may take: 5 %.
+/// Reciprocal of the largest fraction of time spent on writing tables: 5 %.
 const SHARE: u32 = 20;
 
 /// Number of designs that one thread formats at a time.
@@ -34,13 +34,13 @@ pub(crate) struct TableWriter<'a> {
     every: Duration,
     threads: usize,
     info: RunInfo<'a>,
-    /// The moment at which the tables were written last, and how long that took.
+    /// Time of the last writing of tables, and its duration.
     written: Instant,
     writing: Duration,
 }
 
 impl<'a> TableWriter<'a> {
-    /// A writer of tables to `folder`, as the options say.
+    /// Creates a writer of tables to `folder`.
     pub fn new(
         folder: ResultsFolder,
         format: CsvFormat,
@@ -52,20 +52,21 @@ impl<'a> TableWriter<'a> {
         Self { folder, format, every, threads, info, written, writing }
     }
 
-    /// Whether it is time to write the tables again.
+    /// Returns true if the tables should be written again.
     pub fn are_due(&self) -> bool {
         self.written.elapsed() > self.every.max(self.writing * SHARE)
     }
 
-    /// Writes the tables of `journal`, the record of the run and, last, `contents.toml`.
+    /// Writes the tables, the record of the run and, last, `contents.toml`.
     pub fn write(&mut self, journal: &mut Journal) -> Result<Finished, RunError> {
         let begun = Instant::now();
-        // The tables must not tell of designs that a loss of power takes from the journal.
+        // Synchronise first: tables must not contain designs that a power failure removes from the
+        // journal.
         journal.sync()?;
         let archive = journal.records();
         let (summary, tables) = self.write_tables(archive)?;
         let names: Vec<_> = tables.iter().map(|(name, _)| name.clone()).collect();
-        // Other tables are left from an earlier run.
+        // Remove tables that remain from an earlier run.
         self.folder.remove_tables_but(&names);
         let record = self.info.write(archive, &self.folder, &summary)?;
         let record = (ResultsFolder::RUN_INFO.to_owned(), record);
@@ -90,12 +91,13 @@ impl<'a> TableWriter<'a> {
         Ok(Contents { program, designs, done, journal, files })
     }
 
-    /// Writes the tables; returns the summary of the run and the SHA-256 of each table.
+    /// Writes the tables; returns the summary and the SHA-256 of each table.
     ///
     /// Entries are read one by one in the order of their designs; all threads format rows.
     fn write_tables(&self, archive: &Archive) -> Result<(Summary, WrittenTables), RunError> {
         let (folder, format) = (&self.folder, self.format);
-        // A pool of its own: the threads of the solver sleep while tables are written, and the number of threads is kept.
+        // A separate pool, with the number of threads of the run. Its solver threads are idle
+        // meanwhile.
         let pool = rayon::ThreadPoolBuilder::new().num_threads(self.threads).build();
         let pool = pool.map_err(|error| RunError::Threads {
             count: self.threads,

@@ -1,5 +1,6 @@
-//! Whatever is read, nothing panics: journals, random and nearly right. `scripts/fuzz` runs these for
-//! as long as one likes.
+//! Reading random and damaged journals never panics.
+//!
+//! `scripts/fuzz` runs these tests for any length of time.
 
 use std::fmt::Write as _;
 use std::io::Cursor;
@@ -11,7 +12,7 @@ use proptest::prelude::*;
 use proptest::sample::Index;
 use run::Archive;
 
-/// The lines of a sound journal, without their checksums: a header, a session, designs.
+/// Returns the lines of a valid journal, without checksums.
 fn journal() -> &'static [String] {
     static LINES: OnceLock<Vec<String>> = OnceLock::new();
     LINES.get_or_init(|| {
@@ -22,10 +23,10 @@ fn journal() -> &'static [String] {
     })
 }
 
-/// Bytes of `{"crc":"01234567",`.
+/// Length of `{"crc":"01234567",`.
 const CHECKSUM: usize = 18;
 
-/// The journal with these contents, each line with the checksum that it must have.
+/// Returns the journal with these lines and valid checksums.
 fn sealed(contents: &[String]) -> Vec<u8> {
     let header: serde_json::Value =
         serde_json::from_str(&format!("{{{}", contents[0])).unwrap_or_default();
@@ -42,7 +43,7 @@ fn sealed(contents: &[String]) -> Vec<u8> {
     text.into_bytes()
 }
 
-/// Reads a journal; what is refused is refused in one line that names its own.
+/// Reads a journal; an error must be one line and name the line of the journal.
 fn open(bytes: Vec<u8>) -> Result<(), TestCaseError> {
     match Archive::read_from(Cursor::new(bytes), Path::new("journal.jsonl")) {
         Ok(None) => {}
@@ -62,12 +63,12 @@ fn open(bytes: Vec<u8>) -> Result<(), TestCaseError> {
 
 proptest! {
     #[test]
-    fn journals_of_random_bytes(bytes in vec(any::<u8>(), 0..200)) {
+    fn random_bytes_never_panic(bytes in vec(any::<u8>(), 0..200)) {
         open(bytes)?;
     }
 
     #[test]
-    fn journals_that_were_damaged(
+    fn damaged_journals_never_panic(
         at: Index, length in 0..30_usize, piece in vec(any::<u8>(), 0..30)
     ) {
         let mut bytes = sealed(journal());
@@ -77,9 +78,9 @@ proptest! {
         open(bytes)?;
     }
 
-    /// The checksums are right, so that all else is read too.
+    /// With valid checksums, the content is parsed, too.
     #[test]
-    fn journals_that_somebody_has_written(
+    fn edited_journals_with_valid_checksums_never_panic(
         line: Index, at: Index, length in 0..12_usize, piece in "[-0-9a-z{}\\[\\]:,.\"\\\\]{0,12}"
     ) {
         let mut contents = journal().to_vec();
@@ -92,7 +93,7 @@ proptest! {
     }
 
     #[test]
-    fn journals_with_numbers_that_nobody_expects(
+    fn extreme_numbers_in_journals_never_panic(
         line: Index, at: Index, number: u64, shift in 0..64_u32
     ) {
         let mut contents = journal().to_vec();

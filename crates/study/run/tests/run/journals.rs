@@ -1,4 +1,4 @@
-//! Journals that were damaged: refused with the line named, or gone on with to the same tables.
+//! Damaged journals are refused with the line, or continued to the same tables.
 
 use std::fs;
 use std::path::Path;
@@ -11,16 +11,16 @@ use rand_chacha::rand_core::SeedableRng as _;
 use run::{Options, Program, RunError, Start, WorkMeter};
 use sweep::{Subset, Sweep};
 
-/// Half a hundred designs; some of their punctures stop early.
+/// Definition of 48 designs; some punctures stop early.
 const DESIGNS: &str = "name = 'x'\nmeasures = ['coverage', 'puncture']\n[designs]\n\
                        gap_over_t = [0.1, 0.3, 0.5]\nlength_over_t = [0.2, 1]\n\
                        slant_deg = { from = 0, to = 70, step = 10 }\n\
                        [puncture]\nscales = 5\n[solver]\nmax_points = 7\n";
 
-/// The journal of a run.
+/// File name of the journal.
 const JOURNAL: &str = "journal.jsonl";
 
-/// Goes on with the run in `folder`.
+/// Continues the run in `folder`.
 pub fn resume(folder: &Path) -> Result<(), RunError> {
     let sweep = Sweep::parse(DESIGNS, "x.toml", &[]).expect("a valid sweep");
     let stop = AtomicBool::new(false);
@@ -37,13 +37,13 @@ pub fn resume(folder: &Path) -> Result<(), RunError> {
     run::run(&sweep, all, folder, Start::Resume, &options, &program, |_| ()).map(|_| ())
 }
 
-/// The tables, one after the other.
+/// Returns the concatenated tables.
 fn tables(folder: &Path) -> String {
     let tables = ["designs.csv", "coverage.csv", "critical_force.csv", "failures.csv"];
     tables.map(|table| fs::read_to_string(folder.join(table)).expect("a table")).concat()
 }
 
-/// Damages `journal` somewhere; returns what was done.
+/// Damages `journal` at a random position, and describes the damage.
 fn damage(journal: &mut Vec<u8>, random: &mut ChaCha8Rng) -> String {
     let at = random.random_range(0..journal.len());
     let length = random.random_range(1..300_usize).min(journal.len() - at);
@@ -66,14 +66,14 @@ fn damage(journal: &mut Vec<u8>, random: &mut ChaCha8Rng) -> String {
     format!("kind {kind} at {at}, {length} bytes")
 }
 
-/// The line, from 1, in which two texts first differ.
+/// Returns the number of the first line in which two texts differ, from 1.
 fn first_difference(one: &[u8], other: &[u8]) -> usize {
     let same = one.iter().zip(other).take_while(|(a, b)| a == b).count();
     1 + String::from_utf8_lossy(&one[..same]).matches('\n').count()
 }
 
 #[test]
-fn damaged_at_any_place_it_is_refused_or_makes_the_same_tables() {
+fn damaged_journals_are_refused_or_give_the_same_tables() {
     let place = tempfile::tempdir().expect("a folder");
     resume(place.path()).expect("a run");
     let (journal, expected) =
@@ -105,12 +105,12 @@ fn damaged_at_any_place_it_is_refused_or_makes_the_same_tables() {
             }
         }
     }
-    // Both ends are met: what is torn at the end, and what is damaged before.
+    // Both cases occur: torn ends, and damage before intact lines.
     assert!(refused > 50 && recovered > 20, "{refused} refused, {recovered} recovered");
 }
 
 #[test]
-fn a_journal_without_its_damaged_line_is_gone_on_with() {
+fn a_journal_continues_after_removal_of_a_damaged_line() {
     let place = tempfile::tempdir().expect("a folder");
     resume(place.path()).expect("a run");
     let path = place.path().join(JOURNAL);

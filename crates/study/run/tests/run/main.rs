@@ -1,4 +1,4 @@
-//! The promises of a run: rows that depend on nothing else, journals that survive, committed results.
+//! Runs: independent rows, damaged journals, derivatives and reference results.
 
 mod fuzz;
 mod journals;

@@ -1,4 +1,4 @@
-//! The committed tables of the paper sweep against what the program finds now.
+//! Compares the committed tables of the paper sweep with new solutions.
 
 use std::path::PathBuf;
 
@@ -8,7 +8,9 @@ use results::columns::design_columns;
 use run::Evaluator;
 use sweep::Sweep;
 
-/// Designs that are solved again, and how far they are apart: a row of the grid has six slants.
+/// Number of compared designs, and their distance in the grid.
+///
+/// The slant is the fastest axis of the grid, with six values.
 const DESIGNS: u64 = 40;
 const EVERY: u64 = 18;
 
@@ -16,7 +18,9 @@ fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../..")
 }
 
-/// Cells of a row that are not as the reference has them; numbers may differ by 1e-9 of the larger.
+/// Returns the cells of a row that differ from the reference.
+///
+/// Numbers may differ by 1e-9, relative to the larger.
 fn differences(ours: &[(&str, String)], reference: &Results, row: usize) -> Vec<String> {
     assert_eq!(ours.iter().map(|(name, _)| *name).collect::<Vec<_>>(), reference.header());
     let differs = |(column, (name, ours)): (usize, &(&str, String))| {
@@ -25,11 +29,11 @@ fn differences(ours: &[(&str, String)], reference: &Results, row: usize) -> Vec<
             (Ok(a), Ok(b)) => (a - b).abs() <= 1e-9 * a.abs().max(b.abs()),
             _ => *ours == theirs,
         };
-        // How the path was followed may differ in the last step; what it found may not.
+        // The number of steps may differ, but not the result.
         let path = name.ends_with("_points") || name.ends_with("_iterations");
-        // What vanishes but for round-off has no digits to compare.
+        // A value that vanishes except for round-off has no significant digits.
         let nothing = *name == "axial_energy_share" && theirs.parse().is_ok_and(|x: f64| x < 1e-20);
-        // A difference of values that agree to many digits has few of its own.
+        // A difference of nearly equal values has few significant digits.
         let difference = *name == "flexure_error";
         (!same && !path && !nothing && !difference)
             .then(|| format!("{name}: {ours} instead of {theirs}"))
@@ -38,12 +42,12 @@ fn differences(ours: &[(&str, String)], reference: &Results, row: usize) -> Vec<
 }
 
 #[test]
-fn forty_designs_of_the_paper_sweep_are_as_the_reference_has_them() {
+fn forty_designs_of_the_paper_sweep_match_the_reference() {
     let sweep = Sweep::read(&root().join("sweeps/paper.toml"), &[]).expect("a sweep");
     let reference = Results::read(&root().join("results/reference/paper")).expect("tables");
     assert_eq!(reference.len() as u64, sweep.grid().len());
     let (evaluator, columns) = (Evaluator::new(sweep.measures()), design_columns(&sweep));
-    // Every gap, length and slant is among them.
+    // The selection contains every gap, length and slant.
     let chosen: Vec<u64> = (0..DESIGNS).map(|k| k * EVERY + k % EVERY).collect();
     let wrong: Vec<_> = chosen
         .par_iter()

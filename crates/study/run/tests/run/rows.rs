@@ -1,4 +1,4 @@
-//! Rows do not depend on what else is solved.
+//! Rows do not depend on other designs that are solved.
 
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
@@ -9,7 +9,7 @@ use run::{Evaluator, GapChange};
 use skin::Design;
 use sweep::{Case, Sweep};
 
-/// The axes of a small grid.
+/// Returns the axes of a small grid.
 fn axes() -> Vec<(&'static str, Vec<f64>)> {
     vec![
         ("gap_over_t", vec![0.1, 0.4]),
@@ -18,7 +18,7 @@ fn axes() -> Vec<(&'static str, Vec<f64>)> {
     ]
 }
 
-/// The rows of the sweep over these axes, in the order in which they are found, without their numbers.
+/// Returns the rows of the sweep over these axes, sorted, without numbers.
 fn rows(axes: &[(&str, Vec<f64>)]) -> BTreeSet<Vec<String>> {
     let axes: Vec<_> = axes.iter().map(|(key, values)| format!("{key} = {values:?}")).collect();
     let axes = axes.join("\n");
@@ -37,7 +37,7 @@ fn rows(axes: &[(&str, Vec<f64>)]) -> BTreeSet<Vec<String>> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(12))]
 
-    /// The designs that are solved before one, and where it stands, do not change a digit of it.
+    /// A row does not depend on the designs solved before it, nor on its position.
     #[test]
     fn rows_do_not_depend_on_their_order(
         axes in Just(axes()).prop_shuffle().prop_flat_map(|axes| {
@@ -51,9 +51,11 @@ proptest! {
     }
 }
 
-/// A row alone has the numbers of a design whose paths are kept, and those paths have every fold and the stretches at every point.
+/// `row` and `solve` give the same row.
+///
+/// The paths of `solve` include every fold, and the stretches at every point.
 #[test]
-fn a_row_alone_is_that_of_a_design_with_its_paths() {
+fn rows_do_not_depend_on_whether_paths_are_stored() {
     let text = "name = 'x'\nmeasures = ['puncture', 'flexure']\n[designs]\ngap_over_t = 0.1\nlength_over_t = [0.2, 1]\nslant_deg = 75";
     let sweep = Sweep::parse(text, "x.toml", &[]).expect("a valid sweep");
     let evaluator = Evaluator::new(sweep.measures());
@@ -67,9 +69,11 @@ fn a_row_alone_is_that_of_a_design_with_its_paths() {
     }
 }
 
-/// The coverage of slanted scales in closed form tells how it moves with the gap; what is not measured is left out.
+/// The coverage of slanted scales changes with the gap as in the closed form.
+///
+/// Columns that are not measured are omitted.
 #[test]
-fn measures_move_with_the_gap_as_their_closed_form_says() {
+fn gap_changes_match_the_closed_form_of_the_coverage() {
     let text = "name = 'x'\nmeasures = 'coverage'\n[designs]\ngap_over_t = [0.2, 0.4]\nlength_over_t = 0.5\nslant_deg = 60";
     let sweep = Sweep::parse(text, "x.toml", &[]).expect("a valid sweep");
     let change =
@@ -90,7 +94,7 @@ fn measures_move_with_the_gap_as_their_closed_form_says() {
 }
 
 #[test]
-fn no_one_waits_for_the_gaps_of_long_chains() {
+fn gap_changes_are_not_solved_for_long_chains() {
     let change = |gaps: u32| {
         let text = format!(
             "name = 'x'\nmeasures = ['coverage', 'flexure']\n[designs]\ngap_over_t = 0.2\nlength_over_t = 0.5\nslant_deg = 0\n[flexure]\nmethod = 'chain'\ngaps = {gaps}"

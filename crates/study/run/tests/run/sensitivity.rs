@@ -1,4 +1,4 @@
-//! Derivatives of all measures against differences of whole solutions.
+//! Compares derivatives of all measures with differences of solutions.
 
 mod branches;
 mod curves;
@@ -20,7 +20,7 @@ use sweep::{Case, Measure, Parameter, Sweep};
 use designs::random_case;
 use differences::Differences;
 
-/// Relative error that a derivative may have against differences.
+/// Tolerated relative error of a derivative, compared to differences.
 const TOLERANCE: f64 = 1e-6;
 
 fn derivatives(case: &Case) -> Vec<ParameterDerivative> {
@@ -28,15 +28,17 @@ fn derivatives(case: &Case) -> Vec<ParameterDerivative> {
     solved.row.result.sensitivity
 }
 
-/// Compares the derivatives of `case` with differences, component by component and, of each measure, along its gradient. Returns
-/// how many were compared.
+/// Compares the derivatives of `case` with differences of solutions.
+///
+/// Compares each component and, for each measure, the derivative along its gradient. Returns the
+/// number of comparisons.
 fn compare(case: &Case) -> usize {
     let (derivatives, differences) = (derivatives(case), Differences::of(case));
     let compared = compare_components(case, &derivatives, &differences);
     compared + compare_along_gradients(case, &derivatives, &differences)
 }
 
-/// Compares each of some derivatives of `case` with differences. Returns how many were compared.
+/// Compares each derivative with differences. Returns the number of comparisons.
 fn compare_components(
     case: &Case,
     derivatives: &[ParameterDerivative],
@@ -56,7 +58,9 @@ fn compare_components(
     compared
 }
 
-/// Compares the derivative of each measure along its own gradient, where no error averages out.
+/// Compares the derivative of each measure along its gradient.
+///
+/// Errors of the components do not cancel there.
 fn compare_along_gradients(
     case: &Case,
     derivatives: &[ParameterDerivative],
@@ -85,7 +89,7 @@ fn compare_along_gradients(
     compared
 }
 
-/// Whether the long campaign was asked for.
+/// Returns true in a long campaign.
 fn is_long() -> bool {
     std::env::var_os("SQUAMA_CAMPAIGNS").is_some_and(|value| value == "long")
 }
@@ -98,19 +102,22 @@ fn compare_designs(count: u64) {
     assert!(compared.iter().sum::<usize>() > 100 * compared.len(), "{compared:?}");
 }
 
-/// Designs that are always compared, and the time in which more are begun.
+/// Number of designs that are always compared, and time to start further ones.
 const FEW: u64 = 12;
 const LONGEST: Duration = Duration::from_secs(8);
 
-/// Twelve designs; three hundred in a long campaign, or as many as there is time for.
+/// Compares twelve designs; in a long campaign up to three hundred.
 #[test]
-fn derivatives_are_those_of_whole_solutions() {
+fn derivatives_match_differences_of_solutions() {
     compare_designs(if is_long() { 300 } else { FEW });
 }
 
-/// Rows of scales that rub, of which some stick at the end. What sticks keeps something of the way, and the parameter moves that, too.
+/// Rows with friction, some of them with sticking contacts at the end.
+///
+/// A sticking contact preserves part of its slip along the path, which depends on the parameter,
+/// too.
 #[test]
-fn derivatives_of_rows_that_rub_are_those_of_whole_solutions() {
+fn derivatives_of_rows_with_friction_match_differences() {
     let begun = Instant::now();
     let count = if is_long() { 100 } else { 8 };
     let has_time = |number: &u64| *number < 8 || begun.elapsed() < LONGEST;
@@ -123,9 +130,9 @@ fn derivatives_of_rows_that_rub_are_those_of_whole_solutions() {
     assert!(compared.iter().sum::<usize>() > 80 * compared.len(), "{compared:?}");
 }
 
-/// The place of a smooth maximum moves along the path.
+/// The position of a smooth maximum moves along the path.
 #[test]
-fn the_place_of_a_smooth_peak_has_derivatives() {
+fn the_position_of_a_smooth_peak_has_derivatives() {
     let text = "name = 'smooth-peak'\nmeasures = 'puncture'\n[designs]\ngap_over_t = 0.166\nlength_over_t = 0.735\n\
                 slant_deg = 74.723\nwidth_over_t = 1.874\n[substrate]\npoisson_ratio = 0.433\n[puncture]\n\
                 load_position = 0.865\ncritical_tilt_deg = 16.63\ncontact_modulus_over_substrate = 114";
@@ -140,9 +147,9 @@ fn the_place_of_a_smooth_peak_has_derivatives() {
     assert!(compare(&case) > 90);
 }
 
-/// A parameter at the end of its range has a neighbour that no definition may have.
+/// Beyond the end of its range, a slant has values that definitions do not accept.
 #[test]
-fn upright_scales_have_derivatives_of_both_physics() {
+fn upright_scales_have_derivatives_in_puncture_and_bending() {
     let mut case = random_case(0);
     case.design.slant_deg = 0.0;
     let derivatives = derivatives(&case);
@@ -153,7 +160,9 @@ fn upright_scales_have_derivatives_of_both_physics() {
     }
 }
 
-/// On tissue of a finite thickness, by that and by all else.
+/// Layers of finite thickness have derivatives with respect to all parameters.
+///
+/// The thickness is one of them.
 #[test]
 fn layers_have_derivatives() {
     for (number, thickness) in [(1, 3.0), (2, 1.2), (5, 7.0)] {

@@ -1,4 +1,4 @@
-//! The branches of the contact that the designs of these tests end in.
+//! Contact branches in which the designs of these tests end.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -13,8 +13,10 @@ use super::designs::{self, random_case};
 use super::differences::Differences;
 use super::{compare, compare_components, derivatives};
 
-/// The branches in which the contacts of a puncture and a bent strip end: a corner on an edge, corners together, a tip on the
-/// neighbour's end, and sides that lie flush.
+/// Returns the branches in which the contacts of puncture and bending end.
+///
+/// Branches are a corner on an edge, corners together, a tip on the neighbour's end, and flush
+/// sides.
 fn branches(case: &Case) -> BTreeSet<&'static str> {
     let solved = Evaluator::new(&Measure::USUAL).solve(designs::number(), case);
     let punctured = solved.puncture.iter().flat_map(|p| &p.events);
@@ -52,7 +54,7 @@ fn ends(
     ends.into_values().collect()
 }
 
-/// Steep designs at large tilts, of which a few end in the rarer branches.
+/// Returns a steep design with a large tilt; a few of them end in rare branches.
 pub fn steep_case(number: u64) -> Case {
     let mut case = random_case(number);
     case.puncture.critical_tilt_deg = 10.0 + 25.0 * (number % 7) as f64 / 7.0;
@@ -61,7 +63,7 @@ pub fn steep_case(number: u64) -> Case {
     case
 }
 
-/// Derivatives of designs that end in every branch of the contact are those of whole solutions.
+/// Derivatives match differences in every contact branch.
 #[test]
 fn every_branch_of_the_contact_is_exercised() {
     let exercised = [43, 97].into_par_iter().flat_map_iter(|number| {
@@ -73,16 +75,17 @@ fn every_branch_of_the_contact_is_exercised() {
     assert_eq!(exercised, BTreeSet::from(["corner", "edge", "flush", "tip"]));
 }
 
-/// With full coupling the scales on both sides of a punctured one that is driven down meet above it.
+/// With full coupling, the neighbours of a deeply punctured scale meet above it.
 #[test]
-fn scales_meet_over_one_that_is_driven_down() {
+fn neighbours_meet_above_a_deeply_punctured_scale() {
     let mut case = Case { coupling: Coupling::Full, ..Case::default() };
     (case.design.gap, case.design.length, case.design.slant_deg) = (0.1, 0.4, 75.0);
     let solved = Evaluator::new(&Measure::USUAL).solve(designs::number(), &case);
     let events = solved.puncture.iter().flat_map(|puncture| &puncture.events);
     let mut pairs = events.map(|event| (event.left_scale, event.right_scale));
     assert!(pairs.any(|pair| pair == (Some(-1), Some(1))));
-    // Two parameters: with full coupling the calibration of each neighbouring footprint takes its time.
+    // Only two parameters, because with full coupling each neighbouring footprint needs a slow
+    // calibration.
     let is_compared =
         |by: &ParameterDerivative| ["gap_over_t", "slant_deg"].contains(&by.parameter);
     let compared: Vec<_> = derivatives(&case).into_iter().filter(is_compared).collect();

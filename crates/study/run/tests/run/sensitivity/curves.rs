@@ -1,4 +1,4 @@
-//! Derivatives of curves at chosen places against differences of whole solutions.
+//! Compares derivatives of curves at given points with differences of solutions.
 
 use rayon::prelude::*;
 use run::{CurvePoints, Evaluator};
@@ -6,7 +6,7 @@ use sweep::{Case, Measure, Parameter, Sweep};
 
 use super::designs::{number, random_case};
 
-/// Error of a rate, as a part of the value for a change of the parameter by its whole size.
+/// Tolerated error of a rate times the parameter, relative to the value.
 const TOLERANCE: f64 = 1e-6;
 
 type CurveOf = fn(&Evaluator, &Case, &[&'static Parameter], &[f64]) -> CurvePoints;
@@ -19,7 +19,10 @@ fn moments(e: &Evaluator, case: &Case, by: &[&'static Parameter], at: &[f64]) ->
     e.moment_curve(case, by, at).expect("a curve")
 }
 
-/// Compares the rates of a curve with differences, where these say the same with a step and with its half, and returns how many.
+/// Compares the rates of a curve with differences of solutions.
+///
+/// Skips points at which differences with a step and with half of it disagree. Returns the number
+/// of comparisons.
 fn compare(case: &Case, keys: &[&str], places: &[f64], curve: CurveOf) -> usize {
     let evaluator = Evaluator::new(&[]);
     let named = |key: &&str| Parameter::named(key).expect("a parameter");
@@ -65,9 +68,11 @@ const OF_PUNCTURE: [&str; 8] = [
     "needle_friction",
 ];
 
-/// Random rows that rub, free and guided, up to their critical displacement and beyond.
+/// Random rows, with and without friction, under free and guided needles.
+///
+/// The curves extend beyond the critical displacement.
 #[test]
-fn rates_of_force_curves_are_those_of_whole_solutions() {
+fn rates_of_force_curves_match_differences() {
     let compared = (0..12_u64).into_par_iter().map(|k| {
         let mut case = random_case(2000 + k);
         case.common.friction = [0.0, 0.2][k as usize % 2];
@@ -89,9 +94,9 @@ fn rates_of_force_curves_are_those_of_whole_solutions() {
     assert!(compared.iter().sum::<usize>() > 200, "{compared:?}");
 }
 
-/// Random strips, with contact and without.
+/// Random strips with and without contact.
 #[test]
-fn rates_of_moment_curves_are_those_of_whole_solutions() {
+fn rates_of_moment_curves_match_differences() {
     let keys = [
         "gap_over_t",
         "slant_deg",
@@ -112,7 +117,7 @@ fn rates_of_moment_curves_are_those_of_whole_solutions() {
     assert!(compared.iter().sum::<usize>() > 100, "{compared:?}");
 }
 
-/// What has no derivative has no rate, and keeps its place among the others.
+/// A parameter without derivatives has no rate, and keeps its index.
 #[test]
 fn a_parameter_without_derivatives_has_no_rate() {
     let case = random_case(1);
@@ -125,9 +130,9 @@ fn a_parameter_without_derivatives_has_no_rate() {
     assert!(points[1].is_none(), "no path comes so far");
 }
 
-/// A length in mm moves the springs, too.
+/// A length in mm changes the springs, too.
 #[test]
-fn a_length_in_mm_has_the_rate_of_the_length() {
+fn lengths_in_mm_have_the_rate_of_the_relative_length() {
     let text = "name = 'x'\n[designs]\ngap_mm = 0.5\nlength_mm = 2.0\nslant_deg = 40\n[material]\nthickness_mm = 2.0\nsubstrate_modulus_MPa = 0.1";
     let case = Sweep::parse(text, "x.toml", &[]).expect("a sweep").grid().case(0);
     let keys = ["gap_mm", "gap_over_t", "length_mm", "length_over_t"];

@@ -5,12 +5,14 @@ use rand_chacha::ChaCha8Rng;
 use skin::Base;
 use sweep::{Case, DesignNumber, Sweep};
 
-/// The number of a design that belongs to no grid.
+/// Returns the number of a design that belongs to no grid.
 pub fn number() -> DesignNumber {
     Sweep::parse("name = 'x'", "x.toml", &[]).unwrap().grid().number(0)
 }
 
-/// The random design of that number: both bases, both contact laws and both laws of the substrate in turn.
+/// Returns random design `number`.
+///
+/// Both bases, both contact laws and both substrate laws occur in turn.
 pub fn random_case(number: u64) -> Case {
     let mut random = ChaCha8Rng::seed_from_u64(number);
     let mut between = |low: f64, high: f64| random.random_range(low..high);

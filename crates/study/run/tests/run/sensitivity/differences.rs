@@ -1,4 +1,4 @@
-//! Differences of whole solutions.
+//! Finite differences of solutions.
 
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -12,26 +12,32 @@ use super::TOLERANCE;
 /// A direction in which parameters change together.
 pub type Direction = [(&'static Parameter, f64)];
 
-/// Differences of the solutions of designs near one.
+/// Differences of the solutions of designs near a design.
 pub struct Differences<'a> {
     case: &'a Case,
     /// Results by direction and step.
     solved: RefCell<HashMap<(String, i32), DesignResult>>,
 }
 
-/// The smallest step; others are its multiples.
+/// Smallest step; the others are multiples.
 const STEP: f64 = 1.25e-5;
 
-/// Steps, as multiples: short ones for designs near a kink, longer ones for derivatives that drown in round-off.
+/// Steps, as multiples of the smallest.
+///
+/// Short ones are for designs near a kink, long ones for derivatives near round-off.
 const STEPS: [i32; 4] = [128, 32, 8, 1];
 
-/// Differences with neighbouring steps that agree to this part are those of a smooth measure.
+/// Relative difference of estimates with successive steps for a smooth measure.
 const AGREE: f64 = 1e-4;
 
-/// Elasticity below which a derivative is round-off, of the solver and of what is differenced.
+/// Elasticity below which a derivative is within round-off.
+///
+/// Round-off of the solver and of the differences.
 const NOISE: f64 = 1e-7;
 
-/// Part of a largest stiffness to which its search is exact, with some allowance: it ends where three values agree to 1e-10.
+/// Relative accuracy of searched maxima such as the largest stiffness.
+///
+/// The search stops when three values agree to 1e-10.
 const SEARCHED: f64 = 2e-10;
 
 impl<'a> Differences<'a> {
@@ -39,8 +45,10 @@ impl<'a> Differences<'a> {
         Self { case, solved: RefCell::default() }
     }
 
-    /// How far a derivative along a direction is from a centred difference, relative to it: the first that is near enough, or else the nearest. `None` if the
-    /// measure does not exist nearby, or has a kink nearby.
+    /// Returns the relative error of a directional derivative.
+    ///
+    /// The reference is a central difference. Returns the first sufficiently small error, or else
+    /// the smallest. `None` if the measure does not exist nearby or has a kink there.
     pub fn off(&self, measure: &str, along: &Direction, ours: f64) -> Option<f64> {
         let at = |steps: i32| self.value(measure, along, steps);
         let mut estimates = STEPS.into_iter().filter_map(|steps| {
@@ -50,7 +58,8 @@ impl<'a> Differences<'a> {
             let (fine, rough) = (difference(steps)?, difference(2 * steps)?);
             Some((fine + (fine - rough) / 3.0, f64::from(steps) * STEP))
         });
-        // A difference is not better than it agrees with that of the next step; where none agrees there is a kink between.
+        // Differences are as accurate as the agreement of successive steps. Without agreement,
+        // there is a kink in between.
         let (mut rough, _) = estimates.next()?;
         let mut offs = estimates.filter_map(|(fine, step)| {
             let pair = [std::mem::replace(&mut rough, fine), fine];
@@ -59,12 +68,12 @@ impl<'a> Differences<'a> {
             let nearest = off.into_iter().flatten().reduce(f64::min)?;
             (spread <= AGREE || nearest == 0.0).then_some((nearest - spread).max(0.0))
         });
-        // Shorter steps are taken only where the longer ones do not do.
+        // Shorter steps are only used if longer ones do not suffice.
         let first = offs.next()?;
         if first <= TOLERANCE { Some(first) } else { Some(offs.fold(first, f64::min)) }
     }
 
-    /// How far a derivative along a direction is from the difference of the solutions on that side, relative to it.
+    /// Returns the relative error of a directional derivative, compared to one side.
     pub fn off_one_sided(&self, measure: &str, along: &Direction, ours: f64) -> Option<f64> {
         let at = |steps: i32| self.value(measure, along, steps);
         let offs = STEPS.iter().filter_map(|&steps| {
@@ -103,7 +112,7 @@ fn solve(case: &Case) -> DesignResult {
     Evaluator::new(&Measure::USUAL).solve(super::designs::number(), case).row.result
 }
 
-/// The measure of that name.
+/// Returns the measure with this name.
 pub fn value(result: &DesignResult, name: &str) -> Option<f64> {
     let puncture = result.puncture.map(|puncture| puncture.measures)?;
     let flexure = result.flexure.map(|flexure| flexure.measures)?;

@@ -1,4 +1,4 @@
-//! Designs at a kink: both one-sided derivatives against differences of whole solutions on that side.
+//! Compares one-sided derivatives at kinks with one-sided differences.
 
 use results::ParameterDerivative;
 use run::Evaluator;
@@ -8,7 +8,7 @@ use super::designs::{self, random_case};
 use super::differences::Differences;
 use super::{TOLERANCE, derivatives};
 
-/// Compares both one-sided derivatives of every measure that has a kink. Returns them.
+/// Compares both one-sided derivatives of every measure with a kink. Returns them.
 fn compare_sides(case: &Case) -> Vec<ParameterDerivative> {
     let differences = Differences::of(case);
     let mut kinks = derivatives(case);
@@ -30,9 +30,9 @@ fn compare_sides(case: &Case) -> Vec<ParameterDerivative> {
     kinks
 }
 
-/// The critical tilt is that of a change of a contact.
+/// The critical tilt is at a change of contact.
 #[test]
-fn where_a_contact_changes_at_the_end_both_sides_are_right() {
+fn one_sided_derivatives_at_a_change_of_contact_match_differences() {
     let mut changes = std::collections::BTreeSet::new();
     for number in 0..6 {
         let mut case = random_case(number);
@@ -47,10 +47,10 @@ fn where_a_contact_changes_at_the_end_both_sides_are_right() {
     assert!(changes.contains("closed"), "{changes:?}");
 }
 
-/// A contact with friction that closes slips as the path continues, on the side where it closes.
+/// When a contact with friction closes, it slips on one side of the kink.
 #[test]
-fn where_a_contact_with_friction_closes_at_the_end_both_sides_are_right() {
-    // Left: a difference of whole solutions, and an independent program.
+fn one_sided_derivatives_at_a_closing_contact_with_friction_match_differences() {
+    // The left derivative agrees with differences of solutions and with an independent program.
     let text = "name = 'x'\n[designs]\ngap_over_t = 0.07849724324026891\n\
                 length_over_t = 0.4446590509574837\nslant_deg = 41.18411012602079\n\
                 [contact]\nfriction = 0.2\n[puncture]\ncritical_tilt_deg = 3.832614316679949";
@@ -96,9 +96,9 @@ fn where_a_contact_with_friction_closes_at_the_end_both_sides_are_right() {
     assert!(closings > 40, "{closings}");
 }
 
-/// The gap at which two scales are equally deep.
+/// Gap at which two scales are equally deep.
 #[test]
-fn where_two_scales_are_equally_deep_both_sides_are_right() {
+fn one_sided_derivatives_with_two_deepest_scales_match_differences() {
     let deepest = |case: &Case| {
         let solved = Evaluator::new(&Measure::USUAL).solve(designs::number(), case);
         let scales = solved.puncture.unwrap().scales;
@@ -129,16 +129,18 @@ fn where_two_scales_are_equally_deep_both_sides_are_right() {
     assert!(found > 0);
 }
 
-/// `d = t tan 45°` minus the base, and a line that ends at the corner of a base.
+/// `d = t tan 45°` minus the base: a vertical line ends at the corner of a base.
 #[test]
-fn where_the_row_of_coverage_changes_both_sides_are_right() {
+fn one_sided_derivatives_of_the_coverage_at_a_corner_match_differences() {
     let mut case = random_case(0);
     (case.design.gap, case.design.length, case.design.slant_deg) = (0.75, 0.25, 45.0);
     let kinks = compare_sides(&case);
     assert!(kinks.iter().any(|kink| kink.measure == "coverage"), "{kinks:?}");
 }
 
-/// `b = 2 a`, where another length grades the meshes of boundary elements: the springs of the table know nothing of it.
+/// At `b = 2 a`, the mesh grading of boundary elements changes to another length.
+///
+/// Springs from the table do not depend on it.
 #[test]
 fn the_springs_have_no_kink() {
     let mut case = random_case(0);
@@ -147,9 +149,12 @@ fn the_springs_have_no_kink() {
     assert!(kinks.iter().all(|kink| kink.measure != "critical_force"), "{kinks:?}");
 }
 
-/// Designs of the paper whose two sides differ in the last bits: a tilt that is the critical one on both sides, and upright scales of which one corner or the other meets an edge, at the same curvature.
+/// Designs of the paper with one-sided derivatives that only differ by round-off.
+///
+/// In some, the critical tilt is the largest on both sides. In others, scales are upright and
+/// either corner meets an edge at the same curvature.
 #[test]
-fn where_only_round_off_tells_two_sides_apart_there_is_no_kink() {
+fn round_off_between_two_sides_is_not_a_kink() {
     let paper = Sweep::parse("name = 'paper'", "paper.toml", &[]).unwrap();
     let check = |number: u64, measure: &str| {
         let mut derivatives = derivatives(&paper.grid().case(number - 1));
@@ -165,9 +170,9 @@ fn where_only_round_off_tells_two_sides_apart_there_is_no_kink() {
     }
 }
 
-/// Parameters at the end of their range, from which they can go one way only.
+/// At the end of a range, parameters can only change in one direction.
 #[test]
-fn at_the_end_of_a_range_derivatives_are_those_of_the_side_that_exists() {
+fn derivatives_at_the_end_of_a_range_match_one_sided_differences() {
     let mut case = random_case(1);
     (case.design.slant_deg, case.puncture.poisson_ratio) = (0.0, 0.5);
     case.puncture.load_position = 1.0;
@@ -191,9 +196,11 @@ fn at_the_end_of_a_range_derivatives_are_those_of_the_side_that_exists() {
     assert!(compared > 10, "{compared}");
 }
 
-/// A strip bent until its scales touch, and no farther: a step ahead its compliance jumps, and it has no derivative.
+/// Strips bent just until scales touch.
+///
+/// Beyond, the compliance jumps, so it has no derivative.
 #[test]
-fn where_scales_first_touch_at_the_end_of_bending_the_compliance_jumps() {
+fn the_compliance_has_no_derivative_at_first_contact() {
     for (gap, length, slant_deg) in
         [(0.3, 0.5, 75.0), (0.1, 1.0, 60.0), (0.2, 0.3, 45.0), (0.4, 0.6, 0.0)]
     {
@@ -202,7 +209,7 @@ fn where_scales_first_touch_at_the_end_of_bending_the_compliance_jumps() {
         case.design.slant_deg = slant_deg;
         let curvature = skin::flexure::contact_curvature(&case.design, &case.flexure);
         let touching = curvature.unwrap().unwrap() * case.flexure.membrane_length / 2.0;
-        // Beside the rotation of the first touch, too: whether the last step meets the contact is for round-off to say.
+        // Also near this rotation: round-off decides whether the last step includes the contact.
         for off in [-1e-12, -1e-15, 0.0, 1e-15] {
             case.flexure.max_end_rotation_deg = (touching * (1.0 + off)).to_degrees();
             let derivatives = derivatives(&case);
@@ -215,9 +222,11 @@ fn where_scales_first_touch_at_the_end_of_bending_the_compliance_jumps() {
     }
 }
 
-/// Where contacts of a strip stick, derivatives are differences of whole solutions, and say so.
+/// While contacts of a strip stick, derivatives are differences of solutions.
+///
+/// The kink states this.
 #[test]
-fn a_strip_that_sticks_has_the_derivatives_of_whole_solutions() {
+fn derivatives_of_sticking_strips_match_differences() {
     let text = "name = 'x'\n[designs]\ngap_over_t = 0.3\nlength_over_t = 1\nslant_deg = 75\n[contact]\nfriction = 0.5";
     let case = Sweep::parse(text, "x.toml", &[]).unwrap().grid().case(0);
     let moment = |case: &Case| {

@@ -1,4 +1,4 @@
-//! The weakest of several places of the load.
+//! The weakest of several load positions.
 
 use results::ParameterDerivative;
 use skin::puncture::Needle;
@@ -14,9 +14,9 @@ fn of_weakest(case: &Case) -> Vec<ParameterDerivative> {
     derivatives
 }
 
-/// Free needles and guided ones that rub, on both substrates.
+/// Free needles and guided needles with friction, on both substrates.
 #[test]
-fn derivatives_of_the_weakest_force_are_those_of_whole_solutions() {
+fn derivatives_of_the_weakest_force_match_differences() {
     for number in 0..6 {
         let mut case = random_case(number);
         case.puncture.places = Some(4);
@@ -25,7 +25,7 @@ fn derivatives_of_the_weakest_force_are_those_of_whole_solutions() {
             case.needle_friction = Some(Scalar::Number(0.3));
         }
         let derivatives = of_weakest(&case);
-        // The load does not stand where its place says.
+        // The weakest position does not depend on the nominal load position.
         let by_place = derivatives.iter().find(|d| d.parameter == "load_position");
         assert_eq!(by_place.and_then(ParameterDerivative::derivative), Some(0.0), "{case:?}");
         let compared = compare_components(&case, &derivatives, &Differences::of(&case));
@@ -33,10 +33,11 @@ fn derivatives_of_the_weakest_force_are_those_of_whole_solutions() {
     }
 }
 
-/// Both corners of an upright scale are as weak. It leans to one side only, where one of them is the weaker; other parameters change both
-/// alike.
+/// Both corners of an upright scale are equally weak.
+///
+/// If the scale leans, one of them is weaker. Other parameters change both equally.
 #[test]
-fn where_two_places_are_as_weak_the_weaker_side_counts() {
+fn equally_weak_positions_have_one_sided_derivatives() {
     let mut case = random_case(0);
     (case.design.slant_deg, case.puncture.places) = (0.0, Some(2));
     let differences = Differences::of(&case);

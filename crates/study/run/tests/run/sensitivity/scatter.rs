@@ -1,4 +1,4 @@
-//! Derivatives with respect to single gaps and slants.
+//! Derivatives with respect to gaps and slants of single scales.
 
 use run::Evaluator;
 use skin::puncture;
@@ -12,9 +12,11 @@ fn force(case: &Case, stiffness: &RowStiffness) -> Option<f64> {
     puncture::solve(design, stiffness.clone(), common, parameters).ok()?.measures.critical_force
 }
 
-/// A deviation that all scales share, the substrate as it is, is the sum of those of each.
+/// Derivatives for single scales add up to the derivative for all scales.
+///
+/// The substrate stays fixed.
 #[test]
-fn the_derivatives_of_all_scales_add_up_to_that_of_the_row() {
+fn derivatives_for_single_scales_add_up_to_the_common_derivative() {
     let mut compared = 0;
     for k in 0..8 {
         let case = random_case(k);
@@ -41,7 +43,7 @@ fn the_derivatives_of_all_scales_add_up_to_that_of_the_row() {
             let Some((above, below)) = moved(step).zip(moved(-step)) else { continue };
             let (sum, whole) = (slopes.iter().sum::<f64>(), (above - below) / (2.0 * step));
             let size = slopes.iter().map(|slope| slope.abs()).sum::<f64>();
-            // A force that hardly changes is lost in the rounding of its differences.
+            // If the force hardly changes, round-off dominates its differences.
             let allowed = 1e-5 * size + 1e-8 * above.abs() / unit;
             assert!((sum - whole).abs() < allowed, "{key} {k}: {sum} {whole}");
             compared += 1;

@@ -18,7 +18,7 @@ fn by_tilt(case: &Case) -> Vec<ParameterDerivative> {
 
 /// Every twentieth design of the paper; all in a long campaign.
 #[test]
-fn derivatives_with_respect_to_the_critical_tilt_are_those_of_whole_solutions() {
+fn derivatives_with_respect_to_the_critical_tilt_match_differences() {
     let paper = Sweep::parse("name = 'paper'", "paper.toml", &[]).unwrap();
     let indices = (0..paper.grid().len()).step_by(if is_long() { 1 } else { 20 });
     let cases: Vec<Case> = indices.map(|index| paper.grid().case(index)).collect();
@@ -33,7 +33,7 @@ fn derivatives_with_respect_to_the_critical_tilt_are_those_of_whole_solutions() 
     assert!(compared > 11 * cases.len(), "{compared} of {}", cases.len());
 }
 
-/// The beginning of a path does not depend on where it ends.
+/// The first part of a path does not depend on its end.
 #[test]
 fn measures_before_the_end_do_not_depend_on_the_critical_tilt() {
     for number in 0..6 {
@@ -46,9 +46,11 @@ fn measures_before_the_end_do_not_depend_on_the_critical_tilt() {
     }
 }
 
-/// A critical tilt that follows from the friction of the needle is no parameter of its own: `dm/df = dm/dφ dφ/df`.
+/// A critical tilt given by the needle friction is not a parameter of its own.
+///
+/// By the chain rule, `dm/df = dm/dφ dφ/df`.
 #[test]
-fn friction_takes_the_place_of_the_critical_tilt() {
+fn needle_friction_replaces_the_critical_tilt_as_a_parameter() {
     let [friction, tilt] = ["needle_friction", TILT].map(|key| Parameter::named(key).unwrap());
     let value = 0.15_f64;
     let given = random_case(3);

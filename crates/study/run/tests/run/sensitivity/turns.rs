@@ -1,4 +1,4 @@
-//! Derivatives of places at which load or depth turns back, and of the forces there.
+//! Derivatives at turning points of load and depth, and of the forces there.
 
 use rayon::prelude::*;
 use run::Evaluator;
@@ -12,7 +12,7 @@ use super::{compare_components, derivatives};
 const MEASURES: [&str; 4] =
     ["peak_displacement", "peak_tilt_deg", "load_stability_force", "depth_stability_force"];
 
-/// Whether the load, and the depth, first turns back at a contact that changes.
+/// Returns whether load and depth first reverse at a change of contact.
 fn turns_at_events(case: &Case) -> [Option<bool>; 2] {
     let puncture = Evaluator::new(&Measure::USUAL).solve(designs::number(), case).puncture.unwrap();
     let at_event = |force: f64| puncture.events.iter().any(|event| event.point.force == force);
@@ -20,7 +20,9 @@ fn turns_at_events(case: &Case) -> [Option<bool>; 2] {
     [measures.load_stability_force, measures.depth_stability_force].map(|force| force.map(at_event))
 }
 
-/// Steep designs with soft contacts and other places of the load, of which a few have a depth that turns back smoothly.
+/// Returns a steep design with soft contacts and another load position.
+///
+/// The depth of a few of them reverses smoothly.
 fn soft_case(number: u64) -> Case {
     let mut case = steep_case(number);
     case.puncture.load_position = 0.2 + 0.8 * (number % 13) as f64 / 13.0;
@@ -29,9 +31,9 @@ fn soft_case(number: u64) -> Case {
     case
 }
 
-/// Designs whose load and depth turn back smoothly, and at contacts that change.
+/// Designs with load and depth that reverse smoothly or at a change of contact.
 #[test]
-fn where_load_or_depth_turns_back_derivatives_are_those_of_whole_solutions() {
+fn derivatives_at_turning_points_match_differences() {
     let steep = [5, 6, 9, 64, 72].map(steep_case);
     let cases: Vec<_> = steep.into_iter().chain([121, 521, 808].map(soft_case)).collect();
     let turns = cases.par_iter().map(|case| {
