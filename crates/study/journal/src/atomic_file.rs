@@ -63,6 +63,7 @@ impl AtomicFile {
     /// Starts the file `name` in `folder`.
     ///
     /// # Errors
+    ///
     /// If the folder cannot be written.
     pub fn create(folder: &Path, name: &str) -> Result<Self, OutputError> {
         let partial = PartialFile::create(folder, name);
@@ -78,6 +79,7 @@ impl AtomicFile {
     /// Renames the file to its final path and returns its SHA-256.
     ///
     /// # Errors
+    ///
     /// If it cannot be written to the disk.
     pub fn finish(self) -> Result<String, OutputError> {
         let moved = self.partial.move_to(&self.path);
@@ -98,9 +100,12 @@ impl Write for AtomicFile {
     }
 }
 
-/// Creates `folder` and its parents, and removes partial files of killed processes.
+/// Creates `folder` and its parents, and removes abandoned partial files.
+///
+/// Such files remain from killed processes.
 ///
 /// # Errors
+///
 /// If it cannot be created.
 pub fn make_folder(folder: &Path) -> Result<(), OutputError> {
     fs::create_dir_all(folder).map_err(|error| OutputError::folder(folder, &error))?;
@@ -111,6 +116,7 @@ pub fn make_folder(folder: &Path) -> Result<(), OutputError> {
 /// Reads the text file at `path`; refuses pipes and devices, which may never end.
 ///
 /// # Errors
+///
 /// If it cannot be read or is not a regular file.
 pub fn read_text(path: &Path) -> io::Result<String> {
     if fs::metadata(path)?.is_file() {
@@ -123,6 +129,7 @@ pub fn read_text(path: &Path) -> io::Result<String> {
 /// Writes `text` as the file `name` in `folder`; returns its SHA-256.
 ///
 /// # Errors
+///
 /// If it cannot be written.
 pub fn write_text(folder: &Path, name: &str, text: &str) -> Result<String, OutputError> {
     let mut file = AtomicFile::create(folder, name)?;
@@ -133,7 +140,7 @@ pub fn write_text(folder: &Path, name: &str, text: &str) -> Result<String, Outpu
 
 /// Synchronises the renames in `folder` to the disk.
 pub fn sync_folder(folder: &Path) {
-    // Some systems cannot; the files themselves are on the disk already.
+    // Not all systems support this; the files themselves are already on the disk.
     let _ = File::open(folder).and_then(|folder| folder.sync_all());
 }
 
@@ -142,7 +149,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_file_that_is_not_finished_leaves_the_old_one() {
+    fn an_unfinished_file_does_not_replace_the_old_one() {
         let folder = tempfile::tempdir().expect("a folder");
         write_text(folder.path(), "x.csv", "old").expect("writable");
         let mut file = AtomicFile::create(folder.path(), "x.csv").expect("writable");
@@ -153,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn two_writers_of_one_file_do_not_meet() {
+    fn two_writers_of_one_file_do_not_interfere() {
         let folder = tempfile::tempdir().expect("a folder");
         let mut files = ["one", "other"].map(|text| {
             let mut file = AtomicFile::create(folder.path(), "x.csv").expect("writable");

@@ -5,17 +5,18 @@ use std::io::{self, Read};
 
 use sha2::{Digest as _, Sha256};
 
-/// Number of bytes that are read at a time.
+/// Number of bytes read at a time.
 const PIECE: usize = 1 << 16;
 
-/// The SHA-256 of `bytes`.
+/// Returns the SHA-256 of `bytes`.
 pub fn sha256(bytes: impl AsRef<[u8]>) -> String {
     digits(Sha256::new_with_prefix(bytes))
 }
 
-/// The SHA-256 of what `source` holds to its end.
+/// Returns the SHA-256 of all bytes of `source`.
 ///
 /// # Errors
+///
 /// If it cannot be read.
 pub fn sha256_of(mut source: impl Read) -> io::Result<String> {
     let (mut hasher, mut piece) = (Sha256::new(), vec![0; PIECE]);
@@ -29,7 +30,7 @@ pub fn sha256_of(mut source: impl Read) -> io::Result<String> {
     }
 }
 
-/// The digits of what `hasher` has read.
+/// Returns the digest of `hasher` in hexadecimal digits.
 pub(crate) fn digits(hasher: Sha256) -> String {
     let mut text = String::new();
     for byte in hasher.finalize() {
@@ -45,7 +46,7 @@ mod tests {
 
     /// The example of one block in FIPS 180-4.
     #[test]
-    fn the_digest_of_abc() {
+    fn the_digest_matches_the_published_example() {
         let known = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
         assert_eq!(sha256("abc"), known);
         assert_eq!(sha256_of("abc".as_bytes()).expect("text"), known);

@@ -14,7 +14,7 @@ pub enum JournalError {
     /// The folder holds results of another command.
     #[error("{}: holds the results of {what}; choose another folder with --out DIR", folder.display())]
     Holds {
-        /// The folder.
+        /// Folder.
         folder: PathBuf,
         /// Name of these results.
         what: &'static str,
@@ -22,9 +22,9 @@ pub enum JournalError {
     /// The folder holds tables without a journal.
     #[error("{}: holds {file} without a journal; choose another folder with --out DIR, or use --fresh to delete the files that have the names of results", folder.display())]
     NoJournal {
-        /// The folder.
+        /// Folder.
         folder: PathBuf,
-        /// The first of these files.
+        /// First of these files.
         file: String,
     },
     /// There is no journal.
@@ -39,21 +39,21 @@ pub enum JournalError {
     /// A line was changed and sealed again.
     #[error("{}: {line} differs from {table}, which was written from it, so one of its lines was changed; restore the journal, or solve everything again {again}", path.display())]
     Edited {
-        /// The path of the journal.
+        /// Path of the journal.
         path: PathBuf,
-        /// The design or point of the first changed line.
+        /// Design or point of the first changed line.
         line: String,
-        /// The table.
+        /// Name of the table.
         table: String,
-        /// The command that solves everything again.
+        /// Advice on how to solve everything again.
         again: &'static str,
     },
     /// Lines at the end of the journal are missing.
     #[error("{}: {lost}; restore them from a copy of the journal, or solve them again with squama run --resume", path.display())]
     LinesLost {
-        /// The path of the journal.
+        /// Path of the journal.
         path: PathBuf,
-        /// The expected and the present number of lines.
+        /// Number of missing lines and number of expected lines, in words.
         lost: String,
     },
     /// The journal cannot be read.
@@ -61,7 +61,7 @@ pub enum JournalError {
     Unreadable {
         /// Path of the journal.
         path: PathBuf,
-        /// The message of the system.
+        /// Error message of the system.
         reason: String,
     },
     /// A line before the last intact one is damaged.
@@ -71,7 +71,7 @@ pub enum JournalError {
         path: PathBuf,
         /// Number of the line, from 1.
         line: u64,
-        /// The damage.
+        /// Description of the damage.
         problem: String,
     },
     /// The first line is damaged.
@@ -79,7 +79,7 @@ pub enum JournalError {
     NoHeader {
         /// Path of the journal.
         path: PathBuf,
-        /// The damage.
+        /// Description of the damage.
         problem: String,
     },
     /// The journal has the format of another version of the program.
@@ -87,19 +87,19 @@ pub enum JournalError {
     OtherFormat {
         /// Path of the journal.
         path: PathBuf,
-        /// The format of the journal.
+        /// Format of the journal.
         found: u64,
-        /// The program that wrote it.
+        /// Program that wrote it.
         by: String,
     },
-    /// The journal is of another definition, another subset of the designs or another program.
+    /// The journal has another definition, subset of designs or program.
     #[error("{}: {difference}; expected {expected}", path.display())]
     Different {
         /// Path of the journal.
         path: PathBuf,
-        /// The difference.
+        /// Description of the difference.
         difference: String,
-        /// The expected values.
+        /// Expected values.
         expected: &'static str,
     },
     /// The journal cannot be written.

@@ -14,28 +14,30 @@ use crate::error::JournalError;
 use crate::reader::Records;
 use crate::seal::Seal;
 
-/// Format of the journals that this program writes: 2 has typed results, 1 had rows of text.
+/// Format of journals: 2 has typed results, 1 had rows of text.
 pub(crate) const FORMAT: u64 = 2;
 
 /// The program that wrote a journal.
 #[derive(Clone, Copy, Debug)]
 pub struct Program {
-    /// The version of the program.
+    /// Version of the program.
     pub version: &'static str,
-    /// The revision of its source.
+    /// Revision of its source.
     pub revision: &'static str,
 }
 
-/// The part of the designs that a journal holds: written to its header, shown in messages.
+/// Subset of the designs in a journal.
+///
+/// It is written to the header and shown in messages.
 pub trait Designs: Clone + Default + Display + PartialEq + Serialize + DeserializeOwned {}
 
 impl<D: Clone + Default + Display + PartialEq + Serialize + DeserializeOwned> Designs for D {}
 
-/// The header of a journal: the definition, the part `D` of its designs, the program.
+/// Header of a journal: definition, subset of the designs, and program.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, bound(deserialize = "D: Designs"))]
 pub struct JournalHeader<D> {
-    /// The format of the lines.
+    /// Format of the lines.
     format: u64,
     /// Version of the program.
     version: String,
@@ -43,10 +45,10 @@ pub struct JournalHeader<D> {
     revision: String,
     /// SHA-256 of the definition.
     definition_sha256: String,
-    /// The designs that are solved.
+    /// Subset of the designs.
     #[serde(default)]
     subset: D,
-    /// The definition, complete.
+    /// Complete definition.
     definition: String,
 }
 
@@ -94,7 +96,7 @@ impl<D: Designs> JournalHeader<D> {
         sha256(format!("{} {}\n{}\n{}", self.version, self.revision, self.subset, self.definition))
     }
 
-    /// The definition, complete.
+    /// Returns the complete definition.
     pub fn definition(&self) -> &str {
         &self.definition
     }
@@ -104,17 +106,17 @@ impl<D: Designs> JournalHeader<D> {
         self.definition_sha256 == sha256(&self.definition)
     }
 
-    /// The designs that are solved.
+    /// Returns the subset of the designs.
     pub fn subset(&self) -> &D {
         &self.subset
     }
 
-    /// SHA-256 of the definition.
+    /// Returns the SHA-256 of the definition.
     pub fn definition_sha256(&self) -> &str {
         &self.definition_sha256
     }
 
-    /// Version and revision of the program.
+    /// Returns version and revision of the program.
     pub fn program(&self) -> String {
         format!("{} ({})", self.version, self.revision)
     }
@@ -125,10 +127,12 @@ impl<D: Designs> JournalHeader<D> {
         Self { subset, ..self }
     }
 
-    /// Requires that the journal at `path` has the header `wanted`; the error states what is
-    /// `expected`.
+    /// Requires that the journal at `path` has the header `wanted`.
+    ///
+    /// The error message states `expected`.
     ///
     /// # Errors
+    ///
     /// If program, definition or subset differ.
     pub fn require(
         &self,
@@ -158,7 +162,7 @@ impl<D: Designs> JournalHeader<D> {
     }
 }
 
-/// Returns format and program of a first line if its format is not the one of this program.
+/// Returns format and program of a first line if its format is another one.
 ///
 /// In format 1, searches stated format and program side by side.
 fn other_format<R: Records>(object: &[u8]) -> Option<(u64, String)> {

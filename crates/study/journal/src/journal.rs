@@ -1,9 +1,10 @@
 //! Journals that are open for writing.
 //!
 //! Each line is written with one system call before its result counts as done, so a killed process
-//! loses only the designs in progress. The file is synchronised to the disk once a second and at the
-//! end, so a power failure costs about a second of work. A torn end is copied to a file, cut off and
-//! solved again. A damaged line before intact ones is an error, because lines after it may be missing.
+//! loses only the designs in progress. The file is synchronised to the disk once a second and at
+//! the end, so a power failure costs about a second of work. A torn end is copied to a file, cut
+//! off and solved again. A damaged line before intact ones is an error, because lines after it may
+//! be missing.
 //!
 //! The file is locked before it is read and while it is written. The lock ends with its process.
 
@@ -59,9 +60,10 @@ pub struct Journal<R> {
 }
 
 impl<R: Records> Journal<R> {
-    /// Creates or continues the journal at `path` for the work that `header` describes.
+    /// Creates or continues the journal at `path` for the work in `header`.
     ///
     /// # Errors
+    ///
     /// If the journal is in use, damaged or of other work, or exists and `start` is `New`.
     pub fn begin(
         path: &Path,
@@ -88,9 +90,10 @@ impl<R: Records> Journal<R> {
         }
     }
 
-    /// Continues the existing journal at `path`, whatever its definition.
+    /// Continues the existing journal at `path` with any definition.
     ///
     /// # Errors
+    ///
     /// If there is no journal, or it is in use or damaged.
     pub fn resume(path: &Path) -> Result<Self, JournalError> {
         let missing = || JournalError::Missing(folder(path));
@@ -147,6 +150,7 @@ impl<R: Records> Journal<R> {
     /// Appends a line; its result then counts as done.
     ///
     /// # Errors
+    ///
     /// If the line cannot be written.
     pub fn append(&mut self, line: R::Line) -> Result<(), OutputError> {
         let bytes = self.records.header().seal().seal(&line);
@@ -165,6 +169,7 @@ impl<R: Records> Journal<R> {
     /// Synchronises the file to the disk.
     ///
     /// # Errors
+    ///
     /// If the data cannot be written.
     pub fn sync(&mut self) -> Result<(), OutputError> {
         self.synced = Instant::now();
@@ -177,7 +182,9 @@ fn folder(path: &Path) -> PathBuf {
     path.parent().unwrap_or(path).to_owned()
 }
 
-/// Locks a file or folder until it is closed; returns false if another process holds the lock.
+/// Locks a file or folder until it is closed.
+///
+/// Returns false if another process holds the lock.
 fn locked(file: &File) -> io::Result<bool> {
     let begun = Instant::now();
     loop {
@@ -196,19 +203,24 @@ fn locked(file: &File) -> io::Result<bool> {
     }
 }
 
-/// Locks a folder while several related files are written; dropping the file releases the lock.
+/// Locks a folder while several related files are written.
+///
+/// Dropping the file releases the lock.
 ///
 /// # Errors
+///
 /// If another process writes there, or the folder cannot be opened.
 pub fn lock_folder(folder: &Path) -> Result<File, OutputError> {
     let file = File::open(folder).map_err(|error| OutputError::folder(folder, &error))?;
-    // Some systems cannot lock folders. Each file is then complete, but files of two writers may mix.
+    // Some systems cannot lock folders. Each file is then complete, but files of two writers may
+    // mix.
     if locked(&file).unwrap_or(true) { Ok(file) } else { Err(OutputError::in_use(folder)) }
 }
 
 /// Opens or creates the journal at `path`, and locks it until it is closed.
 ///
 /// # Errors
+///
 /// If it is not a regular file, cannot be opened, or another process writes to it.
 pub fn lock_journal(path: &Path) -> Result<File, JournalError> {
     // A link may point to a file that squama did not write.

@@ -1,20 +1,23 @@
 //! Crash-safe files: append-only journals, and files that are written atomically.
 //!
-//! Runs, searches and samples keep their results in journals of this one format. One process at a
-//! time appends lines.
+//! The results of runs, searches and sampling are stored in journals of this format. One process at
+//! a time appends lines.
 //!
 //! ```text
 //! header ─► {"crc":"…","journal":{format, version, revision, definition}}     the first line
-//! line   ─► {"crc":"…", …}                                                    sealed with the header, so that lines of another journal count as damaged
+//! line   ─► {"crc":"…", …}                                                    a result
 //! ```
+//!
+//! The checksum of a line includes the header, so lines of another journal count as damaged.
 //!
 //! | Type | Role |
 //! |---|---|
-//! | [`Journal`] | a journal open for writing: locked, appended to, synchronised once a second |
-//! | [`Records`], [`read`] | the content of the lines, and reading without a lock |
-//! | [`JournalHeader`], [`Designs`], [`Program`], [`Start`] | the definition, designs and program of a journal, and the treatment of an existing one |
-//! | [`Seal`], [`Windows`] | the checksum of a line, and random access to lines |
-//! | [`JournalError`], [`OutputError`] | unusable journals and unwritable files; each message is one line |
+//! | [`Journal`] | a journal open for writing: locked, and synchronised once a second |
+//! | [`Records`], [`read`] | content of the lines, and reading without a lock |
+//! | [`JournalHeader`], [`Designs`], [`Program`] | definition, designs and program of a journal |
+//! | [`Start`] | treatment of an existing journal |
+//! | [`Seal`], [`Windows`] | checksum of a line, and random access to lines |
+//! | [`JournalError`], [`OutputError`] | unusable journals and unwritable files |
 //! | [`AtomicFile`], [`write_text`] | files that appear only when complete, with their SHA-256 |
 
 mod atomic_file;

@@ -2,7 +2,9 @@
 
 use std::io::{self, BufRead, Read as _};
 
-/// Maximum length of a line; a definition with a million values takes a third of it.
+/// Maximum length of a line.
+///
+/// A definition with a million values takes a third of it.
 const LONGEST: u64 = 1 << 26;
 
 /// The lines of a source, including their line ends.

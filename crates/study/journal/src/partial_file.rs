@@ -1,9 +1,9 @@
 //! Partial files: the temporary form of an atomic file.
 //!
-//! A partial file has a unique name, `.NAME.squama-PROCESS-COUNT.partial`, and must not exist before,
-//! so neither a file of another process nor the target of a link is overwritten. It is locked while
-//! its process lives, which distinguishes it from files that killed processes left. A process that is
-//! ended by a signal removes its own partial files.
+//! A partial file has a unique name, `.NAME.squama-PROCESS-COUNT.partial`, and must not exist
+//! before, so neither a file of another process nor the target of a link is overwritten. It is
+//! locked while its process lives, which distinguishes it from files that killed processes left. A
+//! process that is ended by a signal removes its own partial files.
 
 use std::fs::{self, File, OpenOptions};
 use std::io;
@@ -12,13 +12,13 @@ use std::process;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Number of names that are tried before an error is reported.
+/// Maximum number of names that are tried.
 const ATTEMPTS: usize = 100;
 
 /// Number of partial files that this process has created.
 static COUNT: AtomicU64 = AtomicU64::new(0);
 
-/// The existing partial files of this process.
+/// Existing partial files of this process.
 static PRESENT: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 fn present() -> MutexGuard<'static, Vec<PathBuf>> {
@@ -84,7 +84,7 @@ pub fn exit_without_partial_files(code: i32) -> ! {
     for path in present.iter() {
         let _ = fs::remove_file(path);
     }
-    // The list stays locked, so no other thread can create one.
+    // The list stays locked, so that no other thread can create a partial file.
     process::exit(code)
 }
 
@@ -105,7 +105,7 @@ fn remove_abandoned(path: &Path) {
     }
 }
 
-/// Returns true if `name` has the form of [`PartialFile::create`].
+/// Returns true if the name of `path` has the form of [`PartialFile::create`].
 fn is_partial(path: &Path) -> bool {
     let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
     let parts = name.strip_prefix('.').and_then(|name| name.strip_suffix(".partial"));
@@ -120,7 +120,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_what_nobody_writes_is_removed() {
+    fn only_abandoned_partial_files_are_removed() {
         let folder = tempfile::tempdir().expect("a folder");
         let names = || {
             let entries = fs::read_dir(folder.path()).expect("a folder");
@@ -143,7 +143,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn a_link_of_that_name_is_not_followed() {
+    fn links_with_the_name_of_a_partial_file_are_not_followed() {
         let folder = tempfile::tempdir().expect("a folder");
         let target = folder.path().join("target");
         fs::write(&target, "a stranger's").expect("writable");

@@ -19,15 +19,18 @@ pub trait Records: Sized {
     /// The content of a line after the first.
     type Line: Serialize + DeserializeOwned;
 
-    /// The part of the designs that the header states.
+    /// Type of the subset of designs that the header states.
     type Designs: Designs;
 
-    /// The key under which the first line names the header.
+    /// Key of the header in the first line.
     const KEY: &'static str;
 
-    /// Creates empty records for a header that takes the first `length` bytes of the file at `path`.
+    /// Creates empty records for a header.
+    ///
+    /// The header takes the first `length` bytes of the file at `path`.
     ///
     /// # Errors
+    ///
     /// If the header is not valid, with the problem.
     fn begin(
         header: JournalHeader<Self::Designs>,
@@ -38,10 +41,11 @@ pub trait Records: Sized {
     /// Adds the line at these bytes of the file.
     ///
     /// # Errors
+    ///
     /// If the line does not belong there, with the problem; it then counts as damaged.
     fn take(&mut self, line: Self::Line, bytes: Range<u64>) -> Result<(), String>;
 
-    /// The header.
+    /// Returns the header.
     fn header(&self) -> &JournalHeader<Self::Designs>;
 
     /// Returns true if deleting the journal would lose no results.
@@ -53,6 +57,7 @@ pub trait Records: Sized {
 /// Returns `None` if the first line is incomplete.
 ///
 /// # Errors
+///
 /// If the journal is missing, unreadable or damaged.
 pub fn read<R: Records>(path: &Path) -> Result<Option<R>, JournalError> {
     Ok(intact(path)?.map(|(records, _)| records))
@@ -63,12 +68,15 @@ pub fn read<R: Records>(path: &Path) -> Result<Option<R>, JournalError> {
 /// Returns `None` if the first line is incomplete.
 ///
 /// # Errors
+///
 /// If the journal is unreadable or damaged.
 pub fn read_from<R: Records>(source: impl BufRead, path: &Path) -> Result<Option<R>, JournalError> {
     Ok(intact_from(source, path)?.map(|(records, _)| records))
 }
 
-/// Reads the journal at `path`; returns its records and the number of intact bytes.
+/// Reads the journal at `path`.
+///
+/// Returns its records and the number of intact bytes, or `None` if the first line is incomplete.
 pub(crate) fn intact<R: Records>(path: &Path) -> Result<Option<(R, u64)>, JournalError> {
     require_file(path)?;
     let file = File::open(path).map_err(|error| unreadable(path, &error))?;
@@ -86,7 +94,7 @@ fn intact_from<R: Records>(
         return Err(JournalError::NoHeader { path: path.to_owned(), problem });
     }
     let first = lines.next().map_err(io)?;
-    // A writer that was killed during the first line left nothing to use.
+    // A writer that was killed while writing the first line left no results.
     let Some(first) = first.filter(|bytes| bytes.ends_with(b"\n")) else { return Ok(None) };
     let mut length = first.len() as u64;
     let header = JournalHeader::read::<R>(first, path)?;

@@ -13,8 +13,8 @@ const DIGITS: usize = 8;
 
 /// Computes the checksums of the lines of one journal.
 ///
-/// The checksum of every line but the first also covers the first line, so a line of another journal
-/// counts as damaged.
+/// The checksum of every line but the first also covers the first line, so a line of another
+/// journal counts as damaged.
 #[derive(Clone, Debug, Default)]
 pub struct Seal {
     hasher: crc32fast::Hasher,
@@ -49,6 +49,7 @@ impl Seal {
     /// CR LF is accepted as line end, because tools that synchronise files write it.
     ///
     /// # Errors
+    ///
     /// If the line has no end, or its checksum does not match.
     pub fn open<'b>(&self, bytes: &'b mut [u8]) -> Result<&'b [u8], String> {
         let [content @ .., b'\n'] = bytes else {
@@ -73,7 +74,8 @@ impl Seal {
     /// Verifies a line and deserialises its content.
     ///
     /// # Errors
-    /// As [`Self::open`], or if the content is not a `T`.
+    ///
+    /// See [`Self::open`]; also if the content is not a `T`.
     pub fn read<T: DeserializeOwned>(&self, bytes: &mut [u8]) -> Result<T, String> {
         let content = serde_json::from_slice(self.open(bytes)?);
         content.map_err(|error| one_line(&error.to_string()))
@@ -103,7 +105,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_that_ends_as_on_windows_is_a_line() {
+    fn lines_may_end_with_crlf() {
         let mut bytes = Seal::default().seal(&line());
         bytes.insert(bytes.len() - 1, b'\r');
         assert_eq!(Seal::default().read(&mut bytes), Ok(line()));
@@ -117,7 +119,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_line_that_is_changed_anywhere_is_refused(at in 0..1000_usize, bit in 0..8_u32) {
+        fn lines_with_a_flipped_bit_are_refused(at in 0..1000_usize, bit in 0..8_u32) {
             let mut bytes = Seal::default().seal(&line());
             let place = at % bytes.len();
             bytes[place] ^= 1 << bit;
@@ -125,7 +127,7 @@ mod tests {
         }
 
         #[test]
-        fn anything_is_read_or_refused(mut bytes: Vec<u8>, text in "\\{\"crc\":\"[0-9a-f]{8}\",.{0,20}\n") {
+        fn arbitrary_lines_never_panic(mut bytes: Vec<u8>, text in "\\{\"crc\":\"[0-9a-f]{8}\",.{0,20}\n") {
             let _ = Seal::default().read::<Line>(&mut bytes);
             let _ = Seal::default().read::<Line>(&mut text.into_bytes());
         }

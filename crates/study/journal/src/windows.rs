@@ -1,7 +1,7 @@
-//! A small cache of parts of a journal, for reading lines from several positions in turn.
+//! Cache of parts of a journal, to read lines from several positions in turn.
 //!
 //! Designs are read in the order of their numbers, but their lines are in the order of completion:
-//! those of several threads alternate, and reruns are far behind.
+//! lines of several threads alternate, and reruns are far behind.
 
 use std::fs::File;
 use std::io::{self, Read as _, Seek as _, SeekFrom};
@@ -12,7 +12,7 @@ const COUNT: usize = 4;
 /// Size of a window in bytes, unless a line is longer.
 const LENGTH: u64 = 1 << 16;
 
-/// The cached windows of one file.
+/// Cached windows of one file.
 #[derive(Debug)]
 pub struct Windows {
     file: File,
@@ -46,6 +46,7 @@ impl Windows {
     /// Reads the line at `offset`, including its line end if there is one.
     ///
     /// # Errors
+    ///
     /// If the file cannot be read.
     pub fn line(&mut self, offset: u64) -> io::Result<Vec<u8>> {
         let known = self.windows.iter().position(|window| window.line(offset).is_some());
@@ -58,7 +59,9 @@ impl Windows {
         Ok(line)
     }
 
-    /// Replaces the least recently used window by one that starts at `offset` and holds a whole line.
+    /// Replaces the least recently used window.
+    ///
+    /// The new window starts at `offset` and contains a whole line.
     fn open(&mut self, offset: u64) -> io::Result<Window> {
         let mut bytes =
             if self.windows.len() < COUNT { Vec::new() } else { self.windows.remove(0).bytes };

@@ -109,6 +109,7 @@ impl<'a> Evaluations<'a> {
     /// Solves the design at `point`, or returns its known result.
     ///
     /// # Errors
+    ///
     /// If a stop was requested, or the journal cannot be written.
     pub fn solve(
         &self,

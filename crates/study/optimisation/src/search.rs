@@ -77,6 +77,7 @@ pub struct LeftOutDesigns {
 /// Returns `None` if a stop was requested.
 ///
 /// # Errors
+///
 /// If the folder holds other results, the journal cannot be written, or no design has a number in
 /// some column of the goal.
 pub fn optimise(

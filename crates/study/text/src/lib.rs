@@ -1,10 +1,11 @@
-//! Text helpers that all crates of a study share. The crate depends on no other crate of the
-//! workspace.
+//! Text helpers shared by the crates of a study.
+//!
+//! The crate depends on no other crate of the workspace.
 //!
 //! | Item | Role |
 //! |---|---|
 //! | [`number`] | writes numbers as the shortest text, or rounded to significant digits |
-//! | [`visible`], [`shortened`], [`one_line`], [`reason`] | make text safe and short enough for a message |
+//! | [`visible`], [`shortened`], [`one_line`], [`reason`] | prepare text for messages |
 //! | [`nearest`], [`has_part`] | suggest the name that a misspelled one may mean |
 //! | [`shell_word`], [`shell_quoted`] | quote words for a POSIX shell |
 //! | [`toml_source`] | parses TOML and keeps the line of each key |

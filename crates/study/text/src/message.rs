@@ -1,11 +1,13 @@
-//! Prepares text for messages: escapes invisible characters, shortens, joins lines.
+//! Prepares text for messages: escapes, shortens and joins it.
 
 use std::borrow::Cow;
 
 /// Maximum number of characters of a message.
 const LONGEST: usize = 600;
 
-/// Number of characters kept at the end of a shortened message, where it states the expected value.
+/// Number of characters kept at the end of a shortened message.
+///
+/// The end states the expected value.
 const END: usize = 250;
 
 /// Escapes the characters that a terminal or a browser would interpret.
@@ -25,10 +27,10 @@ pub fn visible(text: &str) -> Cow<'_, str> {
     escaped.into()
 }
 
-/// Returns true for control characters other than newline and for invisible characters.
+/// Returns true for invisible characters, except the newline.
 ///
-/// Invisible are zero-width characters and the direction marks of Unicode's bidirectional
-/// algorithm (UAX 9).
+/// They are control characters, zero-width characters and the direction marks of Unicode's
+/// bidirectional algorithm (UAX 9).
 fn is_hidden(c: char) -> bool {
     (c.is_control() && c != '\n')
         || matches!(c, '\u{61c}' | '\u{200b}' | '\u{200e}' | '\u{200f}' | '\u{feff}')

@@ -14,7 +14,9 @@ pub fn has_part(name: &str, part: &str) -> bool {
         || name.strip_suffix(part).is_some_and(|rest| rest.ends_with('_'))
 }
 
-/// Returns the candidate that `key` most likely abbreviates or misspells, if any is similar enough.
+/// Returns the candidate that `key` most likely abbreviates or misspells.
+///
+/// `None` if no candidate is similar enough.
 pub fn nearest<'c>(key: &str, candidates: &[&'c str]) -> Option<&'c str> {
     // Users omit the unit most often, so `gap` means `gap_over_t` rather than `gaps`.
     if let Some(whole) = candidates.iter().find(|c| **c != key && quantity(c) == key) {

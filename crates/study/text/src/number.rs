@@ -22,6 +22,7 @@ pub fn rounded(value: f64, digits: usize) -> String {
 /// Writes the shortest text of `value`; see [`text`].
 ///
 /// # Errors
+///
 /// Returns the errors of the writer.
 pub fn write(to: &mut impl Write, value: f64) -> fmt::Result {
     let size = value.abs();

@@ -2,7 +2,7 @@
 
 /// Returns `text` as one word of a POSIX shell, quoted only if necessary.
 pub fn shell_word(text: &str) -> String {
-    // Without quotes an empty text would be no word.
+    // Without quotes, an empty text would disappear from the command.
     if !text.is_empty() && text.chars().all(is_plain) {
         text.to_owned()
     } else {

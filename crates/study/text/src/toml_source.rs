@@ -1,4 +1,4 @@
-//! A sweep definition as it is written: keys and values with their places, not yet understood.
+//! TOML as written: keys and values with their positions, not yet interpreted.
 
 use std::fmt;
 use std::sync::Arc;
@@ -7,7 +7,7 @@ use toml::de::{DeTable, DeValue};
 
 use crate::message::one_line;
 
-/// The place of a key or a value.
+/// Position of a key or a value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Place {
     /// In a file.
@@ -31,27 +31,29 @@ impl fmt::Display for Place {
     }
 }
 
-/// The values that a document may hold: as many as a sweep has designs along its longest axis, and some.
+/// Maximum number of values of a document.
+///
+/// The longest axis of a sweep has at most a million values.
 const MOST_VALUES: usize = 1_200_000;
 
 /// A key with its value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KeyValue {
-    /// The key, within its table.
+    /// Key within its table.
     pub key: String,
-    /// The value.
+    /// Value.
     pub value: Value,
-    /// Place of the key.
+    /// Position of the key.
     pub place: Place,
 }
 
-/// Keys and values in the order in which they are written.
+/// Keys and values in the order of the document.
 pub type KeyValues = Vec<KeyValue>;
 
-/// A value as it is written. Numbers stay text, so that ranges can count in decimals.
+/// A value as written. Numbers stay text, so that ranges can count in decimals.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
-    /// A number, `nan` and `inf` included.
+    /// A number, including `nan` and `inf`.
     Number(String),
     /// A text.
     Text(String),
@@ -82,13 +84,13 @@ impl fmt::Display for Value {
     }
 }
 
-/// `text` as a TOML string on one line.
+/// Returns `text` as a TOML string on one line.
 pub fn quoted(text: &str) -> String {
-    // TOML writes a text of several lines in several lines, and messages have one.
+    // The `toml` crate writes text with line breaks on several lines, but messages have one line.
     toml::Value::from(text.replace(['\n', '\r'], " ")).to_string()
 }
 
-/// A text that is no TOML, with a line for each mistake.
+/// Text that is not valid TOML, with one line per mistake.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
 pub struct SyntaxError(Vec<SyntaxMistake>);
@@ -98,37 +100,39 @@ pub struct SyntaxError(Vec<SyntaxMistake>);
 #[error("{place}: {line}: not valid TOML ({message}), expected key = value or [section]")]
 struct SyntaxMistake {
     place: Place,
-    /// The line, shortened.
+    /// Text of the line, shortened.
     line: String,
     message: String,
 }
 
-/// The keys and values of the TOML document `text`, which stands in the file `name`.
+/// Parses the TOML document `text`; `name` is the file name for messages.
 ///
 /// # Errors
-/// If it is no TOML, where all lines that cannot be read are told, or holds more values than a definition may.
+///
+/// If it is not valid TOML, with all invalid lines, or if it has too many values.
 pub fn parse(text: &str, name: &str) -> Result<KeyValues, SyntaxError> {
     let source = Document::new(text, name);
-    // Before anything is read: each value takes some 200 bytes for the two or three that it has in the file.
+    // Checked before parsing: a value takes some 200 bytes in memory, but only two or three in the
+    // file.
     if let Some((offset, _)) = text.match_indices(',').nth(MOST_VALUES) {
         let message = format!("more than {MOST_VALUES} values");
         let (place, line) = (source.place(Some(offset)), source.line(offset));
         return Err(SyntaxError(vec![SyntaxMistake { place, line, message }]));
     }
     let (table, mut errors) = DeTable::parse_recoverable(text);
-    // In the order of lines, so that the mistakes of one stand together.
+    // Ordered by position, so that mistakes on one line are adjacent.
     errors.sort_by_key(|error| error.span().map(|span| span.start));
     let mut mistakes: Vec<_> = errors.iter().map(|error| source.mistake(error)).collect();
-    // What follows a mistake on its line is no other mistake.
+    // Further mistakes on a line follow from the first one.
     mistakes.dedup_by(|next, first| next.place == first.place);
     if mistakes.is_empty() { Ok(source.table(table.get_ref())) } else { Err(SyntaxError(mistakes)) }
 }
 
-/// A document with its name, from which the places of keys are found.
+/// A document with its name, to find the lines of keys.
 struct Document<'a> {
     text: &'a str,
     name: Arc<str>,
-    /// The offsets at which lines end.
+    /// Offsets of the line ends.
     ends: Vec<usize>,
 }
 
@@ -144,7 +148,7 @@ impl<'a> Document<'a> {
         SyntaxMistake { place, line, message: one_line(error.message()) }
     }
 
-    /// The beginning of the line at `offset`, what cannot be printed left out.
+    /// Returns the beginning of the line at `offset`, without control characters.
     fn line(&self, offset: usize) -> String {
         let start = self.text.get(..offset).and_then(|before| before.rfind('\n'));
         let line = self.text[start.map_or(0, |newline| newline + 1)..].lines().next();
@@ -154,7 +158,7 @@ impl<'a> Document<'a> {
     }
 
     fn place(&self, offset: Option<usize>) -> Place {
-        // A search by halves: counting lines for each key took the square of the length of a file.
+        // A binary search. Counting lines for each key would take quadratic time.
         let line = offset.map(|offset| self.ends.partition_point(|end| *end < offset) + 1);
         Place::File { name: Arc::clone(&self.name), line }
     }
@@ -184,7 +188,7 @@ fn value_of(value: &DeValue<'_>, place: &dyn Fn(usize) -> Place) -> Value {
             Value::Number(number.as_str().to_owned())
         }
         DeValue::Integer(number) => {
-            // Decimals know the base ten alone.
+            // Ranges only accept decimal numbers.
             let parsed = i128::from_str_radix(number.as_str(), number.radix());
             Value::Number(parsed.map_or_else(|_| number.to_string(), |n| n.to_string()))
         }
@@ -198,22 +202,23 @@ fn value_of(value: &DeValue<'_>, place: &dyn Fn(usize) -> Place) -> Value {
     }
 }
 
-/// The value that `text` stands for on the command line, where quotes may be left out.
+/// Parses a value on the command line, where quotes may be omitted.
 ///
 /// # Errors
-/// If it opens a string, list or table and is no TOML.
+///
+/// If it opens a string, list or table and is not valid TOML.
 pub fn parse_argument(text: &str, place: &Place) -> Result<Value, String> {
     let text = text.trim();
     let error = match DeValue::parse(text) {
         Ok(value) => return Ok(value_of(value.get_ref(), &|_| place.clone())),
         Err(error) => error,
     };
-    // TOML has no number that begins or ends with its point, and people write them.
+    // TOML does not accept numbers such as `.5` and `5.`, which users write.
     let number = || text.parse::<f64>().ok().filter(|number| number.is_finite());
     if let Some(number) = text.contains('.').then(number).flatten() {
         return Ok(Value::Number(number.to_string()));
     }
-    // What opens a list or a text and does not close it is a slip, and no word without quotes.
+    // An unclosed list or string is a mistake, not a word without quotes.
     if text.is_empty() || text.starts_with(['[', '{', '"', '\'']) {
         return Err(one_line(error.message()));
     }
