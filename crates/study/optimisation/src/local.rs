@@ -24,7 +24,7 @@ use samples::SampledPoint;
 /// Maximum number of rounds of ridge search, polish and gradient search.
 const ROUNDS: usize = 4;
 
-/// Tolerance within which a share counts as an end of its interval.
+/// Tolerance within which a fraction counts as an end of its interval.
 const ROUND_OFF: f64 = 1e-13;
 
 /// Grid steps in each round of a search along a scaling interval.

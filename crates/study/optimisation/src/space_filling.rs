@@ -10,9 +10,9 @@ const CORNERED: usize = 6;
 /// The corners of the box are included if they take at most half of the points; a sequence shifted
 /// by `seed` supplies the others.
 ///
-/// The sequence is Roberts's: coordinate `j` of point `k` is the fractional part of `s_j + k
-/// φ^−(j+1)`, with the root `φ` of `φ^(n+1) = φ + 1`. For `n = 1` this is the golden ratio (M.
-/// Roberts, *The unreasonable effectiveness of quasirandom sequences*, 2018).
+/// The sequence is Roberts's: coordinate `j` of point `k` is the fractional part of
+/// `s_j + k φ^−(j+1)`, with the root `φ` of `φ^(n+1) = φ + 1`. For `n = 1` this is the golden ratio
+/// (M. Roberts, *The unreasonable effectiveness of quasirandom sequences*, 2018).
 pub(crate) fn points(space: &DesignSpace, count: usize, seed: u64) -> Vec<SpacePoint> {
     let combinations = space.combinations();
     if space.intervals().is_empty() && combinations <= count {

@@ -13,7 +13,7 @@ pub struct TetrahedralGrid {
 }
 
 impl Default for TetrahedralGrid {
-    /// A step is 1/20.
+    /// Uses steps of 1/20.
     fn default() -> Self {
         Self { resolution: 20 }
     }

@@ -94,7 +94,9 @@ mod tests {
 
     use super::*;
 
-    /// Ishigami & Homma 1990, doi 10.1109/ISUMA.1990.151285, a = 7, b = 0.1, on (−π, π)³.
+    /// Returns the test function of Ishigami & Homma on (−π, π)³, with a = 7 and b = 0.1.
+    ///
+    /// Ishigami & Homma 1990, doi 10.1109/ISUMA.1990.151285.
     fn ishigami(x: [f64; 3]) -> f64 {
         x[0].sin() + 7.0 * x[1].sin().powi(2) + 0.1 * x[2].powi(4) * x[0].sin()
     }

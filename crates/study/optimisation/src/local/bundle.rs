@@ -54,7 +54,7 @@ pub(super) struct Piece {
 pub(super) struct Pieces {
     pub cost: Piece,
     pub limits: Vec<Piece>,
-    /// Whether the point counts as feasible.
+    /// True if the point counts as feasible.
     pub met: bool,
 }
 

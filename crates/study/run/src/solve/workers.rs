@@ -60,7 +60,7 @@ fn start<'s>(scope: &'s Scope<'s, '_>, work: impl FnOnce() + Send + 's) -> std::
     thread::Builder::new().spawn_scoped(scope, work).map(|_| ())
 }
 
-/// The work of one thread.
+/// Runs one thread: solves designs until none is left.
 fn work<T>(next: impl Fn() -> Option<u64>, solve: impl Fn(u64) -> T, sender: &SyncSender<T>) {
     while let Some(design) = next() {
         // The receiver is only gone if the work was abandoned.
