@@ -82,7 +82,7 @@ fn between(k: f64) -> [f64; 2] {
     [complete[0] - lower[0], complete[1] - lower[1]]
 }
 
-/// Returns Legendre's integrals `F(φ, k)` and `E(φ, k)`, from those of Carlson.
+/// Returns Legendre's integrals `F(φ, k)` and `E(φ, k)`, by Carlson's symmetric integrals.
 fn legendre(sin_phi: f64, k: f64) -> [f64; 2] {
     let (cos2, delta2) = (1.0 - sin_phi.powi(2), 1.0 - (k * sin_phi).powi(2));
     let f = sin_phi * carlson_rf(cos2, delta2, 1.0);

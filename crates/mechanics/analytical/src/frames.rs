@@ -10,8 +10,8 @@ pub const LEES_FRAME: f64 = 18.552;
 
 /// Returns the limit load of half a shallow toggle.
 ///
-/// A bar of axial stiffness `axial` leads from a hinge up to a vertical slide, at the horizontal
-/// distance `base` and the height `height`.
+/// A bar of axial stiffness `axial` connects a hinge with a vertical slide. The slide is `base`
+/// away horizontally and `height` above the hinge.
 ///
 /// With the bar length `l`, and `L` at rest, the load is `P = EA (1/l − 1/L) h`. It has its maximum
 /// at `l³ = L b²`.

@@ -5,10 +5,10 @@
 //!
 //! | Module | Problem |
 //! |---|---|
-//! | [`elastica`] | the inextensible cantilever under a transverse tip load, by elliptic integrals, and a strip rolled up |
+//! | [`elastica`] | inextensible cantilever under a transverse tip load, and a strip rolled up |
 //! | [`frames`] | limit loads of a toggle and of Lee's frame |
 //! | [`half_space`] | rigid rectangles and point loads on an elastic half-space |
-//! | [`rotating_plates`] | the bending of a beam with thin plates on torsional roots, which rub |
+//! | [`rotating_plates`] | locking of a beam with thin frictional plates on torsional roots |
 //! | [`strips`] | rigid strips on a half-plane: the limit of long rectangles |
 //! | [`isolated_scale`] | the puncture of a scale without neighbours |
 //! | [`linear_chain`] | a row of scales coupled by the substrate, before the first contact |

@@ -49,7 +49,7 @@ mod tests {
     use super::engagement;
 
     #[test]
-    fn friction_brings_the_lock_forward_and_plates_that_stand_up_lock_where_they_touch() {
+    fn friction_advances_locking_and_steep_plates_lock_at_first_touch() {
         // Without friction the beam locks kinematically, at θ + ψ/2 = 90°.
         let smooth = engagement(5.0, 0.1, 0.0).expect("plates that touch");
         let arm = 5.0 * smooth.lock * (0.5 * smooth.lock).cos();
