@@ -84,7 +84,7 @@ mod tests {
         }
 
         #[test]
-        fn no_line_is_covered_more_than_whole(
+        fn coverage_never_exceeds_one_at_round_off(
             whole in 1_u32..9, base in 0.001_f64..0.1, gap in 1e-13_f64..1e-11, part in 0.0_f64..1.0,
         ) {
             // The line ends just before its last scale does.
@@ -114,7 +114,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn rates_are_those_of_differences(
+        fn coverage_rates_agree_with_differences(
             slant in 1.0_f64..80.0, base in 0.02_f64..6.0, gap in 0.05_f64..2.0,
             rates in prop::array::uniform3(-1.0_f64..1.0),
         ) {
@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn where_the_count_changes_each_side_has_its_rate() {
+    fn coverage_has_one_sided_rates_where_the_count_changes() {
         // The line ends at the near corner of the first neighbour's base, and at the far corner of
         // the second.
         for at in [[1.25, 0.5, 1.75], [3.5, 0.5, 1.75], [1.75, 0.5, 1.75]] {

@@ -89,7 +89,7 @@ mod tests {
     }
 
     #[test]
-    fn nodes_stand_where_bases_and_gaps_put_them() {
+    fn nodes_follow_from_bases_and_gaps() {
         let row =
             UnevenRow::new(vec![scale(0.0), scale(5.0), scale(-2.0)], vec![0.1, 0.3]).unwrap();
         close(row.pitch(0), 1.1);
