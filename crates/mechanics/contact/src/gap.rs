@@ -235,9 +235,9 @@ impl Pair {
     /// Computes the tangential displacement between corner and edge, with its derivatives.
     ///
     /// It is positive if the left scale moves in the direction of the contact force on it, turned
-    /// by 90° counter-clockwise. It is measured from the node of the scale with the edge. The form
-    /// is that of [`Pair::gap`], with the quarter turn of the normal in (C1) to (C3); `normal` is
-    /// the sliding direction of the scale with the corner.
+    /// by 90° counter-clockwise. It is measured from the node of the scale with the edge. The
+    /// derivatives are (C1) to (C3) with the quarter turn of the normal, as in [`Pair::gap`];
+    /// `normal` is the sliding direction of the scale with the corner.
     pub fn slide(&self, corner_edge: CornerEdge, left: &Pose, right: &Pose) -> Gap {
         let meeting = self.meeting(corner_edge, left, right);
         let along = quarter(meeting.normal);

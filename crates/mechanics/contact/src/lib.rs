@@ -14,14 +14,14 @@
 //!
 //! | Type | Role |
 //! |---|---|
-//! | [`Pose`], [`Pair`] | displacement and rotation of a scale; two neighbours, alike or not, at a pitch |
-//! | [`CornerEdge`], [`Gap`] | which corner meets which edge; their distance, with gradient and Hessian |
+//! | [`Pose`], [`Pair`] | displacement and rotation of a scale; two neighbours at a pitch |
+//! | [`CornerEdge`], [`Gap`] | a corner and an edge in contact; their gap with gradient and Hessian |
 //! | [`Law`], [`ContactLaw`], [`Approach`] | the power law, and its form for one design |
 //! | [`Level`], [`Corners`] | the two corners that may meet at the tops or at the bases of a pair |
-//! | [`CornerContact`], [`Force`], [`Transition`] | the state of their contact (open, on an edge, corner on corner, flush), and how it changes |
-//! | [`CornerResponse`], [`Equation`] | contribution of a contact to a system: forces, conditions, derivatives |
-//! | [`ContactStiffness`] | the symmetric stiffness of a contact, for questions of stability |
-//! | [`overlaps`], [`overlap_polygon`], [`Overlap`] | scales that overlap, for the audit of final states and for drawings |
+//! | [`CornerContact`], [`Force`], [`Transition`] | contact state (open, on an edge, corner on corner, flush) and its transitions |
+//! | [`CornerResponse`], [`Equation`] | contribution of a contact to a system, with derivatives |
+//! | [`ContactStiffness`] | symmetric stiffness of a contact, for stability |
+//! | [`overlaps`], [`overlap_polygon`], [`Overlap`] | overlapping scales, for audits and drawings |
 //!
 //! ```
 //! use contact::{ContactLaw, CornerEdge, Law, Pair, Pose};
@@ -34,7 +34,7 @@
 //! assert!((gap.value - (0.1 - 0.05_f64.sin() + 0.5 * (1.0 - 0.05_f64.cos()))).abs() < 1e-15);
 //!
 //! let law = ContactLaw::new(Law::PRINTED, 1.0, 1.0, 7000.0)?;
-//! // A unit force makes next to no difference: contact is nearly rigid.
+//! The approach under a unit force is tiny: contact is nearly rigid.
 //! assert!(law.approach(1.0).value < 1e-15);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

@@ -49,7 +49,7 @@ proptest! {
 proptest! {
     /// A corner placed on its edge, at a fraction of its length.
     #[test]
-    fn the_foot_is_where_the_corner_stands_on_the_edge(
+    fn the_foot_is_the_position_of_the_corner_on_the_edge(
         slants in prop::array::uniform2(0.0_f64..80.0), half_bases in prop::array::uniform2(0.02_f64..3.0),
         rotations in prop::array::uniform2(-0.5_f64..0.5), place in -0.5_f64..1.5, off in -0.2_f64..0.2,
         corner_edge in 0_usize..6,
