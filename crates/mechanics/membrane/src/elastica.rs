@@ -173,7 +173,7 @@ impl Elastica {
             coupling += xi * mixed;
             let mut stretching = hessian.fixed_view_mut::<2, 2>(f, f);
             stretching -= weight * (along * along.transpose());
-            // The directions at both ends equal those of the bases and are not unknowns.
+            // The directions at both ends are given by the bases and are not unknowns.
             if (1..=f).contains(&i) {
                 gradient[i - 1] += torque;
                 hessian[(i - 1, i - 1)] += stiffness;

@@ -1,8 +1,8 @@
 //! Soft membrane that carries the scales, one gap at a time.
 //!
 //! The membrane is bonded to the bases of rigid scales and is rigid under them. In each gap it is a
-//! thin strip in plane bending: linear elastic with small strains, but with rotations as large as
-//! those of the scales. Equilibria make its energy
+//! thin strip in plane bending: linear elastic with small strains, but with large rotations, like
+//! the scales. Equilibria make its energy
 //!
 //! `W = ½ ∫ (EA ε² + EI κ²) ds`
 //!
@@ -21,8 +21,8 @@
 //! | [`CorotationalBeam`] | one element: energies, force, consistent tangent, end moments |
 //! | [`RigidArm`] | kinematics of a point that is rigidly attached to a pose |
 //! | [`OffsetBeam`] | an element between two rigid arms, in terms of the poses that hold them |
-//! | [`Span`], [`GapMembrane`] | the geometry of one gap; the elements in it, assembled between two neighbouring scales |
-//! | [`Elastica`] | the limit of infinitely many elements: one spectral element per gap, its energies, gradient and Hessian |
+//! | [`Span`], [`GapMembrane`] | geometry of one gap; its elements, assembled between two scales |
+//! | [`Elastica`] | limit of infinitely many elements: one spectral element per gap |
 //! | [`Membrane`] | either of the two, behind one interface |
 //!
 //! ```
