@@ -19,11 +19,11 @@
 //! | [`Bases`] | dimensions behind a footprint, in any unit |
 //! | [`Springs`] | the six coefficients and their estimated error |
 //! | [`calibrate`] | one footprint to its springs: from a table, elsewhere solved in milliseconds |
-//! | [`RowStiffness`], [`Coupling`], [`Neighbour`] | the same with more neighbours and with force from rotation |
-//! | [`FarField`], [`Relief`] | how scales move beyond the last that touch, and how much softer they make it |
-//! | [`StiffnessSlopes`] | the stiffness of a row with its derivatives with respect to the footprint |
+//! | [`RowStiffness`], [`Coupling`], [`Neighbour`] | stiffness with more neighbours and cross terms |
+//! | [`FarField`], [`Relief`] | motion of the scales beyond the last contact, and their compliance |
+//! | [`StiffnessSlopes`] | derivatives of the stiffness of a row by the footprint |
 //! | [`Calibrations`] | each footprint solved once, shared by all threads |
-//! | [`SurfaceStrip`], [`SubstrateLaw`] | the surface between two bases: its stretch, and how the substrate answers to it |
+//! | [`SurfaceStrip`], [`SubstrateLaw`] | the surface between two bases: its stretch and its law |
 //! | [`half_space`] | displacement under a uniformly loaded cell (Boussinesq, Cerruti) |
 //! | [`layer`] | contribution of a rigid base below a layer |
 //! | [`mesh`] | cells graded towards the edges and the gap |

@@ -106,7 +106,7 @@ fn largest_change(short: &RowStiffness, long: &RowStiffness) -> f64 {
 
 /// Rotations affect only the nearest neighbours, displacements also distant ones.
 #[test]
-fn couplings_of_rotations_decay_faster_than_those_of_displacements() {
+fn couplings_of_rotations_decay_faster_than_couplings_of_displacements() {
     for numbers in FOOTPRINTS {
         let row = row(numbers, NEIGHBOURS);
         let part = |k: usize, i: usize| (row.neighbours[k].direct[i] / row.direct[i]).abs();
