@@ -13,25 +13,26 @@
 //!
 //! | Type | Role |
 //! |---|---|
-//! | [`System`] | the problem: equations, tangent, constraints, control parameter; it never changes |
-//! | [`State`] | unknowns, active set, and the mode: which of several forms the equations have |
+//! | [`System`] | the problem: equations, tangent, constraints, control parameter |
+//! | [`State`] | unknowns, active set, and the mode, which selects the form of the equations |
 //! | [`Residual`], [`Control`] | values and sizes of the equations; a coordinate that measures the path |
-//! | [`Continuation`], [`Equilibrium`] | an iterator over the equilibria; one of them, with its directions |
-//! | [`Event`], [`Change`] | constraints that change sides, extrema of the load, the target |
-//! | [`Settings`], [`Termination`] | steps and tolerances; why a path ended |
-//! | [`Peak`], [`Summit`] | the largest value of a quantity along the path, between its points too |
+//! | [`Continuation`], [`Equilibrium`] | iterator over the equilibria; one of them, with its directions |
+//! | [`Event`], [`Change`] | changed constraints, extrema of the load, the target |
+//! | [`Settings`], [`Termination`] | steps and tolerances; the reason for the end of a path |
+//! | [`Peak`], [`Summit`] | the largest value of a quantity along the path, between points, too |
 //! | [`Newton`], [`Condition`], [`NewtonFailure`] | one equilibrium, by Newton's method |
-//! | [`Tangent`], [`Blocks`], [`BlockMatrix`], [`BlockElimination`] | derivatives of a row, eliminated block by block towards the block of the load |
-//! | [`BandMatrix`], [`BandLu`] | linear solves where blocks are not safe, or are not stated |
-//! | [`Linearisation`], [`AnchoredPoint`], [`PathAnchor`], [`Neighbours`], [`MovedPoint`] | derivatives of an equilibrium with respect to a parameter of the system |
-//! | [`SkylineMatrix`] | symmetric matrices, and how many negative eigenvalues they have |
-//! | [`Bracket`] | a root between two places, by the false position |
-//! | [`check_tangent`] | derivatives of a system against differences of its residual |
+//! | [`Tangent`], [`Blocks`], [`BlockMatrix`] | derivatives of a row, in blocks |
+//! | [`BlockElimination`] | elimination block by block towards the block of the load |
+//! | [`BandMatrix`], [`BandLu`] | linear solves if blocks are not available or not safe |
+//! | [`Linearisation`], [`AnchoredPoint`], [`PathAnchor`] | a measured point, differentiated by a parameter |
+//! | [`Neighbours`], [`MovedPoint`] | systems with a perturbed parameter, and their equilibria |
+//! | [`SkylineMatrix`] | symmetric matrices, and their number of negative eigenvalues |
+//! | [`Bracket`] | root finding by false position |
 //!
 //! ```
 //! use solver::{Control, Continuation, Residual, Settings, State, Termination, System, Tangent};
 //!
-//! /// The load `F = u (1 − u²)` that holds a spring which gives way: it has a maximum.
+//! /// Softening spring under the load `F = u (1 − u²)`, which has a maximum.
 //! struct SnapThrough([Control; 1]);
 //!
 //! impl System for SnapThrough {
@@ -55,7 +56,7 @@
 //!     }
 //! }
 //!
-//! // The control parameter is u, from 0 to 1: the load rises to 2/√27 at u = 1/√3, and falls to zero.
+//! The control parameter u goes from 0 to 1: the load rises to 2/√27 at u = 1/√3, then falls to 0.
 //! let system = SnapThrough([Control { index: 0, scale: 1.0 }]);
 //! let rest = State::at_rest(&system);
 //! let mut path = Continuation::new(system, rest, Settings::default());

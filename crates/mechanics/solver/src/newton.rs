@@ -201,7 +201,7 @@ impl Newton {
         guards
     }
 
-    /// Replaces `guards` by those of a state, and `slopes` by their derivatives along a direction.
+    /// Replaces `guards` by the guards of a state, and `slopes` by their rates along a direction.
     pub(crate) fn guard_slopes<S: System>(
         system: &S,
         state: &State<S::Mode>,

@@ -216,8 +216,8 @@ where
     /// ```text
     ///            top of the cubic
     ///               ,-·-.
-    ///    low ,-'     |     `-.          The sample at the top takes the place of the end on whose side
-    ///      ·'        |        `·. high  of the maximum it lies: low while f rises there, else high.
+    ///    low ,-'     |     `-.          The sample replaces the end on its side of the maximum:
+    ///      ·'        |        `·. high  low while f increases at the sample, else high.
     ///   ───┼─────────┼──────────┼───
     /// ```
     fn maximum(mut self, least: f64) -> Option<Summit<S::Mode>> {

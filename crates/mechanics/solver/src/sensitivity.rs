@@ -275,8 +275,8 @@ impl<M: Clone> Linearisation<M> {
             system.transition(&mut state, next)?;
             direction = newton.solve(system, &mut state, &condition, settings).ok()?;
         }
-        // The position at which a contact begins to stick depends on the parameter, but the mode, which
-        // stores it, is held fixed here.
+        // The position at which a contact begins to stick depends on the parameter, but the mode,
+        // which stores it, is held fixed here.
         let sticks = (0..state.active.len()).any(|c| {
             state.active[c]
                 && !self.place.state.active[c]

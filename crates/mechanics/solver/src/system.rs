@@ -95,7 +95,7 @@ pub trait System {
         &[]
     }
 
-    /// Returns further unknowns that vanish in a state, besides those of its inactive constraints.
+    /// Returns unknowns that vanish in a state in addition to the inactive constraints.
     ///
     /// The solver leaves them out.
     fn vanishing(&self, _state: &State<Self::Mode>) -> impl Iterator<Item = usize> {

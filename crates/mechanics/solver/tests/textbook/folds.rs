@@ -8,7 +8,7 @@ use crate::problems::{Bratu, SPRING, arch, arch_on_spring, circle};
 use crate::{extrema, follow, steps};
 
 #[test]
-fn the_extrema_of_an_arch_are_those_of_its_cubic() {
+fn the_extrema_of_an_arch_agree_with_its_cubic() {
     let (points, stop) = follow(arch(), Settings::default());
     assert_eq!(stop, Termination::Reached);
     let extrema = extrema(&points);

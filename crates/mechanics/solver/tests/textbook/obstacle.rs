@@ -8,7 +8,7 @@ use crate::{changes, follow, steps};
 
 /// Returns the end of a path from rest to a load.
 #[test]
-fn a_string_comes_to_lie_on_the_floor() {
+fn a_loaded_string_settles_on_the_floor() {
     for load in [0.5, 0.9, 3.0, 40.0] {
         let string = StringOverFloor::whole(40, load);
         let (points, stop) = follow(string.clone(), Settings::default());
