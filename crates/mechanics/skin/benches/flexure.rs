@@ -1,5 +1,7 @@
-//! Run time of bending: the reference study as unit cells on all cores, and chains of 100 to 800
-//! gaps along their whole path. The cost of a chain should grow linearly with its length.
+//! Run time of bending: unit cells of the reference study on all cores, and chains.
+//!
+//! Chains of 100 to 800 gaps follow their whole path. Their cost should grow linearly with the
+//! length.
 
 #[path = "../tests/samples/mod.rs"]
 mod samples;

@@ -1,5 +1,7 @@
-//! Run time of punctures: the reference study with calibration on all cores, and one design on rows
-//! of 41 to 4001 scales. The cost of a row should grow at most linearly with its length.
+//! Run time of punctures: the reference study with calibration, and rows of any length.
+//!
+//! The study runs on all cores, one design on rows of 41 to 4001 scales. The cost of a row should
+//! grow at most linearly with its length.
 
 #[path = "../tests/samples/mod.rs"]
 mod samples;

@@ -66,7 +66,7 @@ pub(crate) struct Contacts {
     law: ContactLaw,
     /// First of the three unknowns of each scale; `None` for the fixed scale.
     pub(crate) scales: Vec<Option<usize>>,
-    /// Whether each scale is placed in the frame of its left neighbour. Rotations are always
+    /// True if each scale is placed in the frame of its left neighbour. Rotations are always
     /// counted from the first scale.
     relative: bool,
     /// Constraints per contact.

@@ -63,7 +63,7 @@ pub struct FlexureParameters {
     /// Rotation of each end at which bending ends, degrees. Negative: the strip bends the other
     /// way, with the scales on the outside.
     pub max_end_rotation_deg: f64,
-    /// Whether to remove the moment again at the end.
+    /// True to remove the moment again at the end.
     pub unload: bool,
 }
 

@@ -13,22 +13,24 @@
 //! | Type | Role |
 //! |---|---|
 //! | [`Design`], [`Base`] | the geometry of one design |
-//! | [`puncture::solve`] | a row of scales under a point load, until the loaded one tilts by 10° |
+//! | [`puncture::solve`] | a row of scales under a point load, up to the critical tilt |
 //! | [`Common`] | contact law and solver settings, for puncture and bending |
 //! | [`puncture::PunctureParameters`] | moduli, row length, load, critical tilt |
 //! | [`puncture::RowLength`] | number of scales: given, or as many as contact reaches |
-//! | [`puncture::PerturbedScale`] | one scale that differs from the rest of its row, for derivatives with respect to single scales |
-//! | [`puncture::Snap`], [`puncture::Instability`], [`puncture::TiltMeasures`] | snap-through and loss of stability along the path; measures at intermediate tilts |
-//! | [`puncture::LoadPosition`], [`puncture::Weakest`] | the puncture at other load positions, and the weakest position |
-//! | [`puncture::Puncture`], [`puncture::PunctureMeasures`] | path, events, scales and measures of a puncture |
-//! | [`puncture::Fold`], [`puncture::GapStretch`] | a gap where the substrate surface folds over; stretch of the gaps |
+//! | [`puncture::PerturbedScale`] | one perturbed scale in a row, for derivatives by single scales |
+//! | [`puncture::Snap`], [`puncture::Instability`] | snap-through and loss of stability along the path |
+//! | [`puncture::TiltMeasures`] | measures at intermediate tilts |
+//! | [`puncture::LoadPosition`], [`puncture::Weakest`] | other load positions, and the weakest one |
+//! | [`puncture::Puncture`], [`puncture::PunctureMeasures`] | path, events, scales and measures |
+//! | [`puncture::Fold`], [`puncture::GapStretch`] | folds of the substrate surface; stretch of the gaps |
 //! | [`puncture::snapshots`] | the row at chosen points of the path |
 //! | [`flexure::solve`] | a strip of membrane with scales in pure bending |
 //! | [`flexure::FlexureParameters`] | moduli, strip, resolution of the membrane, largest rotation |
 //! | [`flexure::Flexure`], [`flexure::FlexureMeasures`] | path, events and measures of a bent strip |
 //! | [`flexure::contact_curvature`] | curvature of first contact, in closed form |
-//! | [`puncture::differentiate`], [`flexure::differentiate`] | solve and return the derivatives of all measures |
-//! | [`puncture::PunctureInput`], [`flexure::FlexureInput`], [`Neighbours`], [`Derivative`] | complete input of a path, inputs with one parameter perturbed, and the resulting derivative |
+//! | [`puncture::differentiate`], [`flexure::differentiate`] | derivatives of all measures |
+//! | [`puncture::PunctureInput`], [`flexure::FlexureInput`] | complete input of a path |
+//! | [`Neighbours`], [`Derivative`] | inputs with one parameter perturbed; the resulting derivative |
 //! | [`Imperfection`], [`Sample`] | random gaps and slants, and one row drawn from them |
 //! | [`puncture::solve_sample`], [`flexure::bend_sample`] | puncture and bending of an imperfect row |
 //! | [`Status`], [`Iteration`] | outcome of a path; one Newton iteration |

@@ -99,7 +99,7 @@ pub struct PunctureParameters {
     pub needle_radius: Option<f64>,
     /// Depth `u*` at which to report the force as well.
     pub depth: Option<f64>,
-    /// Whether to remove the load again at the end.
+    /// True to remove the load again at the end.
     pub unload: bool,
     /// Number of load positions to compare, at least two: from the left corner of the top to the
     /// right one, or over one pitch for a round tip.
@@ -107,7 +107,7 @@ pub struct PunctureParameters {
 }
 
 impl Default for PunctureParameters {
-    /// The values of Shafiei et al. (2021): scales of `E_ct = 3 GPa` on a substrate of `E_s = 310 kPa`.
+    /// Values of Shafiei et al. (2021): `E_ct = 3 GPa` on a substrate of `E_s = 310 kPa`.
     fn default() -> Self {
         Self {
             poisson_ratio: 0.5,
@@ -276,7 +276,7 @@ impl Followed {
         // The outer option tells whether a depth was requested, the inner one whether it was
         // reached.
         let deep = depth.points.first().map(|found| found.as_ref().map(|deep| &deep.state));
-        // A skin that fails before this depth bears no more than its final force.
+        // A skin that fails before this depth carries no more than its final force.
         let end = || (status == Status::Complete).then(|| &path.point().state);
         measures.force_at_depth =
             deep.and_then(|deep| Some(path.system().force(deep.or_else(end)?)));

@@ -33,7 +33,9 @@ pub struct Iteration {
     pub iteration: usize,
     /// Largest scaled residual.
     pub residual: f64,
-    /// Control parameter at the point, degrees: tilt of the punctured scale, or rotation of each end of a strip.
+    /// Control parameter at the point, degrees.
+    ///
+    /// Tilt of the punctured scale, or rotation of each end of a strip.
     pub angle_deg: f64,
 }
 

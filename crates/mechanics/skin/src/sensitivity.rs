@@ -64,7 +64,7 @@ pub(crate) struct MeasuredQuantity<S: Skin> {
     pub(crate) value: ValueOf<S>,
     /// For an extreme value over all scales: selects the extreme of two values.
     pub(crate) extreme: Option<fn(f64, f64) -> f64>,
-    /// Whether the value depends on the path direction.
+    /// True if the value depends on the path direction.
     pub(crate) turns: bool,
 }
 

@@ -21,7 +21,7 @@ pub struct Contact {
     pub force: [f64; 2],
     /// Approach `δ` of the scales, over `t`.
     pub approach: f64,
-    /// Whether the contact slips; `None` without friction.
+    /// True if the contact slips; `None` without friction.
     pub slips: Option<bool>,
 }
 

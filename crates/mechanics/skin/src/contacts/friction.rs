@@ -65,7 +65,7 @@ pub(crate) enum FrictionState {
         ratio: f64,
     },
     /// A sticking needle tip is at the corner. The unknown is `T + 2 μ Λ`, which vanishes only with
-    /// `Λ`: the limits of friction are those of the tip.
+    /// `Λ`, because the tip determines the limits of friction.
     WithTip,
 }
 
@@ -463,7 +463,8 @@ impl Contacts {
         else {
             return 0.0;
         };
-        // The state may have changed at the second point, so both ends use that of the first.
+        // The state may have changed at the second point, so use the state of the first point for
+        // both.
         let by_normal_force = self.by_normal_force(contact, friction_state);
         let multiplier = self.unknown(contact, STICK_MULTIPLIER);
         let traction = |z: &[f64]| {

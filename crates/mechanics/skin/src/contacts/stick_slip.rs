@@ -8,8 +8,8 @@ use super::{Contacts, SkinState};
 impl Contacts {
     /// Updates the friction of a pair after a force of `contact` changed sides.
     ///
-    /// `before` is the state at the event. `is_back` tells whether parting corners return the way
-    /// they came.
+    /// `before` is the state at the event. `is_back` is true if parting corners return to the
+    /// previous edge.
     pub(super) fn carry_friction(
         &self,
         state: &mut SkinState,

@@ -21,7 +21,7 @@ pub struct FlexureMeasures {
     pub compliance: Option<f64>,
     /// `1/(dM*/dκ*)` at rest.
     pub initial_compliance: Option<f64>,
-    /// Whether scales touch.
+    /// True if scales touch.
     pub contact: Option<bool>,
     /// `κ*` at the first contact.
     pub first_contact_curvature: Option<f64>,

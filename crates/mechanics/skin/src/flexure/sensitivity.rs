@@ -109,7 +109,8 @@ pub fn moment_curve(
         .into_iter()
         .map(|found| {
             let point = found?;
-            // In bending the derivative of a stick anchor with respect to a parameter is not available.
+            // In bending the derivative of a stick anchor with respect to a parameter is not
+            // available.
             let known =
                 if Contacts::stick_slip_counts(&point.state)[0] > 0 { &[][..] } else { &strips };
             let mut on_curve =

@@ -56,7 +56,7 @@ impl Weakest {
     /// Selects the weakest of `places`.
     ///
     /// # Errors
-    /// The status of the first position with a path that ended before it bore as much as the
+    /// The status of the first position with a path that ended before it carried as much as the
     /// weakest other position: the skin may be weaker there.
     pub fn from_positions(places: &[LoadPosition]) -> Result<Self, Status> {
         let Some(force) = places.iter().filter_map(|place| place.force).reduce(f64::min) else {

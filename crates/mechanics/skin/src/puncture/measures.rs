@@ -41,9 +41,9 @@ pub struct PunctureMeasures {
     pub peak_displacement: Option<f64>,
     /// Tilt of the punctured scale at the largest `F*`, degrees.
     pub peak_tilt_deg: Option<f64>,
-    /// Whether the row is stable at the critical tilt under a constant load.
+    /// True if the row is stable at the critical tilt under a constant load.
     pub stable_under_load: Option<bool>,
-    /// Whether the row is stable at the critical tilt under a constant depth of the loaded point.
+    /// True if the row is stable at the critical tilt under a constant depth of the loaded point.
     pub stable_under_depth: Option<bool>,
     /// `F*` up to which the path is stable under load control; `None` if all of it is.
     pub load_stability_force: Option<f64>,
@@ -71,7 +71,7 @@ pub struct PunctureMeasures {
     /// Frictional dissipation between scales up to the critical tilt, over `E* t³`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction_work: Option<f64>,
-    /// Whether every event had a single outgoing branch among those examined; `None` without
+    /// True if every event had a single outgoing branch among those examined; `None` without
     /// friction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unique: Option<bool>,

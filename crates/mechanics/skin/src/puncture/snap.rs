@@ -33,7 +33,7 @@ pub struct Snap {
 /// Tracks stability and snaps along a path.
 #[derive(Debug, Default)]
 pub(super) struct SnapObserver {
-    /// Whether the load has decreased; before that the row is stable.
+    /// True if the load has decreased; before that the row is stable.
     has_unloaded: bool,
     /// Instability at every point that the path has left.
     instability: Vec<Instability>,

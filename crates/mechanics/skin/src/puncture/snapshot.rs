@@ -78,7 +78,7 @@ pub struct Snapshots {
     pub at: Vec<Option<RowSnapshot>>,
     /// The last state of the path.
     pub end: RowSnapshot,
-    /// Whether the path reaches the critical state, regardless of the audit.
+    /// True if the path reaches the critical state, regardless of the audit.
     pub is_critical: bool,
 }
 

@@ -19,9 +19,10 @@ enum Stand {
     Open,
     Stick,
     Slip(f64),
-    /// Closed, with its friction carried by the sticking contact. Two contacts on parallel edges
-    /// slide together or not at all, and their individual friction is indeterminate while they
-    /// stick.
+    /// Closed, with its friction carried by the sticking contact.
+    ///
+    /// Two contacts on parallel edges slide together or not at all. While they stick, only the sum
+    /// of their friction is determined.
     Borne,
 }
 

@@ -254,7 +254,7 @@ fn work_of(path: &[puncture::PuncturePoint], length: f64) -> f64 {
 
 /// Tip and corner in a notch reverse together, so the friction of both reverses.
 ///
-/// The loop work is that of an independent program.
+/// The loop work agrees with an independent program.
 #[test]
 fn friction_in_a_notch_reverses_with_the_load() {
     let (gap, length, slant_deg) = (0.0879, 0.5481, 61.07);

@@ -72,7 +72,7 @@ impl Chain {
         }
     }
 
-    /// Returns the touch on the face of a notch, and the friction of the corner that sticks with it.
+    /// Returns the touch on the face of a notch, and the friction of its sticking corner.
     fn corner_friction(&self, state: &SkinState) -> Option<(usize, TipFriction)> {
         let [face, corner] = self.notch(state)?;
         Some((face, self.contacts.friction_with_tip(state, corner)?))

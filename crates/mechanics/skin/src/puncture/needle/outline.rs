@@ -140,7 +140,7 @@ impl Tip {
 pub(super) struct Meeting {
     pub(super) tip: Tip,
     radius: f64,
-    /// Whether a round tip is on a corner.
+    /// True if a round tip is on a corner.
     is_corner: bool,
     /// Length of the faces before this part.
     before: f64,
