@@ -104,8 +104,7 @@ impl FitDefinition {
             let own = table.own_values()?;
             // Each specimen is read as a definition of its own, which checks its values.
             let specimen = own.iter().map(|(_, setting)| setting);
-            // The last value of a key counts, so values of the specimen override those of the
-            // command.
+            // The last value of a key counts, so the specimen overrides the command line.
             let specimen: Vec<_> = settings.iter().chain(specimen).cloned().collect();
             let case = one_design(&read_entries(path, &specimen)?, &name)?.grid().case(0);
             // Checked here, because the line of the curve is known only here.
