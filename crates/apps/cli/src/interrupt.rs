@@ -22,8 +22,9 @@ pub struct Interrupt {
 }
 
 impl Interrupt {
-    /// Installs the handlers. A file size limit becomes a write error instead of ending the
-    /// process.
+    /// Installs the handlers.
+    ///
+    /// A file size limit becomes a write error instead of ending the process.
     pub fn listen() -> io::Result<Self> {
         let interrupt = Self::default();
         system::listen(interrupt.clone())?;
@@ -58,8 +59,9 @@ mod system {
 
     use super::{Arc, BASE, Interrupt, Ordering, flag, io};
 
-    /// Signals within this time of the first are the same request: `timeout` sends one to the
-    /// process and one to its group.
+    /// Signals within this time of the first are the same request.
+    ///
+    /// `timeout` sends one to the process and one to its group.
     const ONE_REQUEST: Duration = Duration::from_secs(1);
 
     pub fn listen(interrupt: Interrupt) -> io::Result<()> {
@@ -93,7 +95,9 @@ mod system {
         thread::Builder::new().name("signals".to_owned()).spawn(attend).map(|_| ())
     }
 
-    /// Returns true if a signal was ignored at the start, as under `nohup`. Known on Linux only.
+    /// Returns true if a signal was ignored at the start, as under `nohup`.
+    ///
+    /// Known on Linux only.
     fn is_ignored(signal: i32) -> bool {
         let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
         let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));

@@ -5,7 +5,9 @@ use geometry::Row;
 /// Maximum number of scales, at which files reach some 100 MB.
 const MOST_SCALES: usize = 20_000;
 
-/// A patch of skin: equal scales in rows on a membrane. All lengths are in millimetres.
+/// A patch of skin: equal scales in rows on a membrane.
+///
+/// All lengths are in millimetres.
 ///
 /// `x` runs along a row, `y` across the rows, `z` upwards. The origin is the lowest corner of the
 /// membrane. The bases of the scales stand on its upper face, which extends a gap beyond them on

@@ -21,8 +21,7 @@ type Slopes = (Option<f64>, Option<f64>, Option<String>);
 /// The value of a measure and its derivatives with respect to every key.
 type Gradient = (f64, Vec<Slopes>);
 
-/// Returns `measures` with their derivatives with respect to `keys`, and the force at the first
-/// fold.
+/// Returns `measures` with their derivatives by `keys`, and the force at the first fold.
 ///
 /// The force is `None` if nothing folds, or if no measure depends on the path beyond the fold.
 #[pyfunction]

@@ -131,7 +131,9 @@ impl Skin {
         Self { sweep: sweep.only(index) }
     }
 
-    /// Returns the case of the design. It is not stored, to halve the memory of long lists.
+    /// Returns the case of the design.
+    ///
+    /// It is not stored, to halve the memory of long lists.
     pub(crate) fn case(&self) -> Case {
         self.sweep.grid().case(0)
     }

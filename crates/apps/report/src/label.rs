@@ -19,8 +19,9 @@ struct TextRun {
     level: i8,
 }
 
-/// Splits `source` into runs: `$` toggles italics; `_x`, `^x`, `_{xy}`, `^{xy}` are sub- and
-/// superscripts.
+/// Splits `source` into runs of one style.
+///
+/// `$` toggles italics; `_x`, `^x`, `_{xy}`, `^{xy}` are sub- and superscripts.
 fn runs(source: &str) -> Vec<TextRun> {
     let mut runs = vec![TextRun::default()];
     let (mut italic, mut level) = (false, 0);

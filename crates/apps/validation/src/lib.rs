@@ -1,5 +1,6 @@
-//! The validation of squama: benchmarks with known answers, the claims of the paper, and the
-//! sensitivity to open choices.
+//! Validation of squama against benchmarks and the claims of the paper.
+//!
+//! It includes the sensitivity of the claims to choices that the paper leaves open.
 //!
 //! A benchmark holds if the relative difference from its reference lies within its band:
 //!

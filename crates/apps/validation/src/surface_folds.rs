@@ -120,8 +120,7 @@ fn largest(study: &Study, value: DesignValue) -> String {
     best.map_or_else(String::new, |(value, design)| format!("{} {}", digits(value), named(design)))
 }
 
-/// Formats the change of the critical force between two studies, for designs with or without a
-/// fold.
+/// Formats the change of the critical force for designs with or without a fold.
 fn changes(from: &Study, to: &Study, folded: bool) -> String {
     // Both studies have the same designs in the same order.
     let pairs = from.designs.iter().zip(&to.designs).filter(|(a, _)| folds(a) == folded);

@@ -27,8 +27,9 @@ pub extern "C" fn squama_room(length: usize) -> *const u8 {
     module.1.as_ptr()
 }
 
-/// Answers the request in the first `length` bytes of the buffer; returns the length of the answer
-/// in it.
+/// Answers the request in the first `length` bytes of the buffer.
+///
+/// Returns the length of the answer in the buffer.
 #[unsafe(no_mangle)]
 pub extern "C" fn squama_answer(length: usize) -> usize {
     let mut module = module();

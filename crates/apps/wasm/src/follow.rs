@@ -12,8 +12,7 @@ use crate::solver::values;
 
 /// Number of steps over the whole range; features narrower than a step may be missed.
 const STEPS: u32 = 24;
-/// Number of bisections of the last step: to a thousandth of the step, below the resolution of a
-/// slider.
+/// Number of bisections of the last step, down to less than the resolution of a slider.
 const HALVINGS: u32 = 10;
 
 /// The end of following a parameter.

@@ -12,8 +12,9 @@ pub struct Common {
     pub friction: f64,
     /// Step sizes and tolerances of path following.
     pub solver: Settings,
-    /// True to record everything that path tables and drawings show: the gap stretches at every
-    /// point and all folds. Measures need only the first fold.
+    /// True to record everything that path tables and drawings show.
+    ///
+    /// These are the gap stretches at every point and all folds. Measures need only the first fold.
     pub whole_path: bool,
 }
 

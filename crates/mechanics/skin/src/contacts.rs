@@ -60,8 +60,9 @@ pub(crate) struct Contacts {
     pub(crate) arrangement: Arrangement,
     /// One shape per pair, or one per distance if all scales are equal.
     pair_shapes: Vec<Pair>,
-    /// Number of scales on its right that a scale may touch: 1 unless the row was found to need
-    /// more.
+    /// Number of scales on its right that a scale may touch.
+    ///
+    /// It is 1 unless the row was found to need more.
     pub(crate) reach: usize,
     law: ContactLaw,
     /// First of the three unknowns of each scale; `None` for the fixed scale.

@@ -52,8 +52,9 @@ pub use stability::Instability;
 pub use surface_fold::{Fold, GapStretch};
 pub use tilts::TiltMeasures;
 
-/// Tilt below which a scale under a guided needle counts as not tilted, degrees: round-off of a
-/// symmetric row.
+/// Tilt below which a scale under a guided needle counts as not tilted, degrees.
+///
+/// It covers the round-off of a symmetric row.
 const STRAIGHT_DEG: f64 = 1e-6;
 
 /// Longest row of [`RowLength::Auto`].
@@ -90,8 +91,9 @@ pub struct PunctureParameters {
     pub critical_tilt_deg: f64,
     /// Constitutive law of the substrate surface between two bases.
     pub substrate_law: SubstrateLaw,
-    /// Intermediate tilts at which measures are taken, degrees, in addition to the critical one;
-    /// `None`: no measures at tilts.
+    /// Intermediate tilts at which measures are taken, degrees.
+    ///
+    /// The critical tilt is added to them. `None`: no measures at tilts.
     pub tilts_before_deg: Option<NumberList>,
     /// Constraint on the needle.
     pub needle: Needle,
@@ -101,8 +103,9 @@ pub struct PunctureParameters {
     pub depth: Option<f64>,
     /// True to remove the load again at the end.
     pub unload: bool,
-    /// Number of load positions to compare, at least two: from the left corner of the top to the
-    /// right one, or over one pitch for a round tip.
+    /// Number of load positions to compare, at least two.
+    ///
+    /// They span the top from its left to its right corner, or one pitch for a round tip.
     pub places: Option<usize>,
 }
 
@@ -324,8 +327,9 @@ struct Problem<'a> {
     rows: Rows<'a>,
     design: &'a Design,
     stiffness: RowStiffness,
-    /// Far field beyond the solved part of an endless row, lengths over `t`; `None` for a finite
-    /// row.
+    /// Far field beyond the solved part of an endless row, lengths over `t`.
+    ///
+    /// `None` for a finite row.
     endless: Option<FarField>,
     law: ContactLaw,
     settings: Settings,
@@ -412,8 +416,9 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Returns the number of scales on each side that a round tip may reach; `None` for other
-    /// needles.
+    /// Returns the number of scales on each side that a round tip may reach.
+    ///
+    /// `None` for other needles.
     fn reach(&self) -> Option<usize> {
         let pitch = 2.0 * self.design.half_base() + self.design.gap;
         self.parameters.needle_radius.and_then(|radius| needle::reach(radius, pitch))

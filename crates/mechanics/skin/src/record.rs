@@ -13,8 +13,9 @@ use crate::contacts::{ContactChange, Contacts, SkinMode, SkinPoint, SkinState};
 pub struct ContactEvent<P> {
     /// Path point of the event.
     pub point: P,
-    /// Left scale of the pair, numbered to the right from the punctured scale or from the first
-    /// scale of a strip. `None` if all pairs behave alike.
+    /// Left scale of the pair; `None` if all pairs behave alike.
+    ///
+    /// Numbered to the right from the punctured scale or from the first scale of a strip.
     pub left_scale: Option<i64>,
     /// Right scale of the pair: nearly always the neighbour.
     pub right_scale: Option<i64>,

@@ -86,8 +86,9 @@ pub(crate) struct MeasuredPoint<S: Skin> {
 /// Relative difference of one-sided derivatives below which a measure is smooth.
 const SMOOTH: f64 = 1e-9;
 
-/// Relative distance to the extreme value beyond which another value cannot become extreme within a
-/// difference step of a few millionths.
+/// Relative distance to the extreme value at which other values may become extreme.
+///
+/// Beyond it they cannot within a difference step of a few millionths.
 const NEAR: f64 = 1e-3;
 
 /// Relative round-off of a measure.
@@ -239,8 +240,9 @@ impl<S: Skin> Linearised<'_, S> {
     }
 }
 
-/// Lists derivatives that are unknown because a history variable depends on the parameter in an
-/// unknown way.
+/// Lists unknown derivatives.
+///
+/// They depend on a history variable with an unknown dependence on the parameter.
 pub(crate) fn missing<S: Skin>(
     skin: &S,
     spots: &[MeasuredPoint<S>],

@@ -15,8 +15,10 @@ pub struct Unloading<P> {
     pub path: Vec<P>,
     /// Why it stopped: [`Termination::Unloaded`] at zero load.
     pub stop: Termination,
-    /// Work of the load that is not recovered, i.e. the area of the load loop, over `E* t³` or for
-    /// a whole strip over `E_m t³`. It is dissipated by friction or remains stored.
+    /// Work of the load that is not recovered, i.e. the area of the load loop.
+    ///
+    /// It is over `E* t³`, or for a whole strip over `E_m t³`, and is dissipated by friction or
+    /// remains stored.
     pub loop_work: Option<f64>,
 }
 

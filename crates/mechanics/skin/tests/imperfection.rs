@@ -139,8 +139,10 @@ fn closing_range(gap_cv: f64, slant_sd_deg: f64) -> f64 {
     strips.map(|strip| strip.closing_range().unwrap()).sum::<f64>() / 5.0
 }
 
-/// Fig. 10b: all gaps of a perfect strip close at one curvature; the gaps of an imperfect strip
-/// close one by one, over a range that grows with the scatter.
+/// The gaps of an imperfect strip close one by one (Fig. 10b).
+///
+/// All gaps of a perfect strip close at one curvature. The range of curvatures grows with the
+/// scatter.
 #[test]
 fn the_gaps_of_an_imperfect_strip_close_one_by_one() {
     let perfect = flexure::solve(&STEEP, &Common::default(), &strip()).unwrap();
@@ -167,8 +169,9 @@ fn the_gaps_of_an_imperfect_strip_close_one_by_one() {
     assert!(closed.len() >= strip.gaps, "{} of {}", closed.len(), strip.gaps);
 }
 
-/// The slope of a perfect strip jumps at first contact; the slope of an imperfect one grows with
-/// every closing gap.
+/// The slope of a perfect strip jumps at first contact.
+///
+/// The slope of an imperfect strip grows with every closing gap.
 #[test]
 fn a_perfect_strip_stiffens_abruptly_and_an_imperfect_one_gradually() {
     let perfect = flexure::solve(&STEEP, &Common::default(), &strip()).unwrap();

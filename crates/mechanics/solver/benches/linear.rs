@@ -1,5 +1,6 @@
-//! Benchmark of one factorisation and solve of the tangent of a row of scales. Compares block
-//! elimination, band LU, and the sparse LU of faer with its symbolic part reused.
+//! Benchmark of one factorisation and solve of the tangent of a row of scales.
+//!
+//! Compares block elimination, band LU, and the sparse LU of faer with its symbolic part reused.
 
 use std::hint::black_box;
 
@@ -12,8 +13,9 @@ use solver::{BandLu, BandMatrix, BlockElimination, BlockMatrix, Blocks, Tangent}
 
 type Group<'a> = BenchmarkGroup<'a, WallTime>;
 
-/// Unknowns of a scale: three displacements and, at each of two levels, the forces of two corners
-/// in contact.
+/// Number of unknowns of a scale.
+///
+/// Three displacements and, at each of two levels, the forces of two corners in contact.
 const BLOCK: usize = 7;
 /// Half-bandwidth: from the first unknown of a scale to the last displacement of the next.
 const HALF: usize = BLOCK + 3;

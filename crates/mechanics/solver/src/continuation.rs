@@ -84,8 +84,9 @@ pub struct Continuation<S: System> {
     pub(crate) is_unique: bool,
     /// Reversals at friction events since the control parameter was last at its maximum.
     pub(crate) reversals: usize,
-    /// Steps from `point` that undid a change at zero rate, such as slip that ended as its rate
-    /// vanished.
+    /// Number of steps from `point` that undid a change at zero rate.
+    ///
+    /// An example is slip that ended as its rate vanished.
     pub(crate) undone: usize,
     /// Largest value of the control parameter so far.
     farthest: f64,

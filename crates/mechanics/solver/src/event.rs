@@ -19,9 +19,9 @@ const TOGETHER: f64 = 1e-10;
 /// Slopes below this are zero to first order: rates are near 1 and their round-off near 1e-11.
 pub(crate) const NO_RATE: f64 = 1e-6;
 
-/// Relative accuracy of the location of an extremum in its bracket, and the limit on its
-/// iterations.
+/// Relative accuracy of the location of an extremum in its bracket.
 const CLOSE: f64 = 1e-9;
+/// Maximum number of iterations in the search for an extremum.
 const MAX_ROUNDS: usize = 100;
 
 /// Event at a point of the path.

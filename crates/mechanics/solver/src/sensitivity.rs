@@ -232,7 +232,9 @@ impl<M: Clone> Linearisation<M> {
         Some(Change { constraint, activated: !self.place.state.active[constraint] })
     }
 
-    /// Solves again with a constraint on its other side. `None` if no such equilibrium exists.
+    /// Solves again with a constraint on its other side.
+    ///
+    /// `None` if no such equilibrium exists.
     pub fn beyond<S: System<Mode = M>>(
         &self,
         system: &S,

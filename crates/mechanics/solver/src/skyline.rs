@@ -34,7 +34,9 @@ impl SkylineMatrix {
         self.first.len()
     }
 
-    /// Adds `value` to the entry at (`row`, `column`). Entries above the diagonal are ignored.
+    /// Adds `value` to the entry at (`row`, `column`).
+    ///
+    /// Entries above the diagonal are ignored.
     pub fn add(&mut self, row: usize, column: usize, value: f64) {
         if column <= row {
             debug_assert!(

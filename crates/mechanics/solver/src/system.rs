@@ -111,7 +111,9 @@ pub trait System {
         &[]
     }
 
-    /// Makes all slipping contacts stick, where a path is turned back. Does nothing by default.
+    /// Makes all slipping contacts stick, where a path is turned back.
+    ///
+    /// Does nothing by default.
     fn stop_sliding(&self, _state: &mut State<Self::Mode>) {}
 
     /// Returns the constraints that may change sides as a consequence of this one.

@@ -33,7 +33,9 @@ impl<T: Clone> BoundedCache<T> {
         Self(Mutex::new(Generations { limit, young: HashMap::new(), old: HashMap::new() }))
     }
 
-    /// Returns the cached result for `footprint`, or calls `solve`. Errors are cached too.
+    /// Returns the cached result for `footprint`, or calls `solve`.
+    ///
+    /// Errors are cached too.
     pub(crate) fn get_or_solve(
         &self,
         footprint: &Footprint,

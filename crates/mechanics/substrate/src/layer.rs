@@ -122,7 +122,9 @@ static RECENT: Mutex<Vec<Arc<Layer>>> = Mutex::new(Vec::new());
 const KEPT: usize = 16;
 
 impl Layer {
-    /// Returns the layer for a Poisson's ratio. Its integrals do not depend on the thickness.
+    /// Returns the layer for a Poisson's ratio.
+    ///
+    /// Its integrals do not depend on the thickness.
     pub fn with_poisson_ratio(poisson_ratio: f64) -> Arc<Self> {
         // Compute under the lock, so that a thread that needs the same layer waits for it.
         let mut cache = RECENT.lock().unwrap_or_else(PoisonError::into_inner);

@@ -4,8 +4,9 @@ use ranking::Requirement;
 use results::columns::parameter_of;
 use run::{CoupledMeasure, CouplingChange};
 
-/// Relative changes below this are not reported; the paper's coupling is an approximation of this
-/// order.
+/// Smallest reported relative change.
+///
+/// The paper's coupling is an approximation of this order.
 const SMALL: f64 = 0.02;
 
 /// Returns the `columns` that are measures and not parameters, without duplicates.

@@ -12,8 +12,9 @@ use text::shell_word;
 /// Digits of the SHA-256 of a path in the name of a record.
 const DIGITS: usize = 8;
 
-/// Records in `results` that the files `names` in `folder` were made from its tables by this
-/// command.
+/// Records in `results` the files that this command made from its tables.
+///
+/// The files are `names` in `folder`.
 pub fn record(
     results: &VerifiedFolder,
     product: &str,

@@ -128,8 +128,9 @@ fn question_letters(name: &str, svg: &str, width: f64) {
 // File names have at most 255 bytes, including the kind of figure and the points on the path.
 const LONGEST: usize = 100;
 
-/// Joins `names` with hyphens for a file name; abbreviates long lists to
-/// `FIRST-to-LAST-COUNT-things`.
+/// Joins `names` with hyphens for a file name.
+///
+/// Long lists are abbreviated to `FIRST-to-LAST-COUNT-things`.
 pub fn joined(names: &[String], things: &str) -> String {
     let all = names.join("-");
     match names {
@@ -177,7 +178,9 @@ fn image(_: &str, _: f64) -> anyhow::Result<Vec<u8>> {
     )
 }
 
-/// Writes a file atomically. A file that squama did not write is kept, which is an error.
+/// Writes a file atomically.
+///
+/// A file that squama did not write is kept, which is an error.
 pub fn write(
     folder: &Path,
     name: &str,

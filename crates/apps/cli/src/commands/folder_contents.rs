@@ -30,8 +30,9 @@ impl FolderContents {
         self.results.verified_folder()
     }
 
-    /// Returns the name of the sweep; adds the number of designs if it is incomplete or thinned
-    /// out.
+    /// Returns the name of the sweep.
+    ///
+    /// Adds the number of designs if it is incomplete or thinned out.
     pub fn title(&self) -> String {
         let name = self.sweep.name();
         let held = self.verified().shortfall();

@@ -282,8 +282,7 @@ fn solve(case: &Case, to: Option<f64>) -> anyhow::Result<(Puncture, Flexure)> {
     Ok((puncture, flexure::solve(&case.design, &common, &case.flexure)?))
 }
 
-/// Returns the label of a design in a legend: its number, and values that differ besides the
-/// geometry.
+/// Returns the label of a design in a legend: its number and further differing values.
 fn number(design: &SelectedDesign, cases: &[Case]) -> String {
     let number = design.number.map_or("off the grid".to_owned(), |number| number.to_string());
     let own = design.case();

@@ -170,8 +170,9 @@ fn preferences(arguments: &Arguments) -> anyhow::Result<Preferences> {
     }
 }
 
-/// Returns the requested criteria, or the paper's; `--sound` replaces the critical force by the
-/// valid force.
+/// Returns the requested criteria, or the paper's.
+///
+/// `--sound` replaces the critical force by the valid force.
 fn criteria(arguments: &Arguments) -> anyhow::Result<Vec<Criterion>> {
     let goals = [(Goal::Maximize, &arguments.maximize), (Goal::Minimize, &arguments.minimize)];
     let of = |(goal, columns): (Goal, &Vec<String>)| -> Vec<Criterion> {

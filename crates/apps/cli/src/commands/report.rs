@@ -178,8 +178,10 @@ fn solved(results: &FolderContents, rankings: &[Ranking<'_>]) -> Vec<PageDesign>
     all
 }
 
-/// Returns the rows of the winners for equal weights, single criteria and other weights, then the
-/// next best for equal weights, without duplicates.
+/// Returns the rows of the best designs, without duplicates.
+///
+/// First the winners for equal weights, single criteria and other weights, then the next best for
+/// equal weights.
 fn leading(ranking: &Ranking<'_>) -> Vec<usize> {
     // The first five are drawn.
     let named = std::iter::once(Weights::BALANCED).chain(Weights::alone());

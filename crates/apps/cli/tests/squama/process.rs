@@ -99,7 +99,9 @@ impl Running {
         }
     }
 
-    /// Kills the process. The exit status has a code only if the process had ended before.
+    /// Kills the process.
+    ///
+    /// The exit status has a code only if the process had ended before.
     pub fn kill(&mut self) -> ExitStatus {
         self.child.kill().expect("a process");
         self.child.wait().expect("an end")

@@ -1,4 +1,6 @@
-//! Names of columns in titles, axis labels and legends. `$` delimits italics, as in labels.
+//! Names of columns in titles, axis labels and legends.
+//!
+//! `$` delimits italics, as in labels.
 
 use results::columns::{explain_value, name};
 

@@ -78,8 +78,9 @@ impl PageFront {
         sheet(WIDTH, above + rows * (PANEL + below), "What a search has found", inside)
     }
 
-    /// Draws one panel: grid designs, designs found, and a line if they form a front of two
-    /// objectives.
+    /// Draws one panel: grid designs, designs found, and the line of a front.
+    ///
+    /// The line is drawn if the designs form a front of two objectives.
     fn panel(&self, grid: &Designs, pair: &[&str; 2], area: Area, panels: usize) -> Vec<Element> {
         let axis = |column: &str| {
             let values = grid.numbers(column).chain(self.designs.numbers(column));

@@ -50,7 +50,9 @@ fn within(range: Interval, number: f64) -> bool {
     range[0] <= number && number <= range[1]
 }
 
-/// Parses a range: `≥ 1`, `≤ 1`, `1 to 2`, `1` or `any`. Degrees may have their sign.
+/// Parses a range: `≥ 1`, `≤ 1`, `1 to 2`, `1` or `any`.
+///
+/// Degrees may have their sign.
 fn interval(text: &str) -> Option<Interval> {
     let number = |text: &str| text.trim_end_matches('°').parse::<f64>().ok();
     if text == "any" {
@@ -114,8 +116,9 @@ pub(crate) struct Optimum {
 }
 
 impl Optimum {
-    /// Parses designs such as `(0.1, 0.1, 75°); in part (0.1 to 0.3, any, 60° to 75°) or among
-    /// equals`.
+    /// Parses the printed designs and the designs that count in part.
+    ///
+    /// The format is `(0.1, 0.1, 75°); in part (0.1 to 0.3, any, 60° to 75°) or among equals`.
     ///
     /// Without ranges after `in part`, the words mean the printed designs.
     pub(crate) fn read(text: &str) -> Option<Self> {

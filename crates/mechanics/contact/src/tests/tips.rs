@@ -129,8 +129,9 @@ fn there_is_no_flush_contact_beyond_the_far_end_of_its_edge() {
     }
 }
 
-/// Short of level, the force turns from the normal of the neighbour's side to the normal of the
-/// tip's side; beyond level only to the normal of the neighbour's end.
+/// At a corner the force turns no further than to the normal of the neighbour's end.
+///
+/// Short of level it turns from the normal of the neighbour's side to the normal of the tip's side.
 #[test]
 fn at_the_corner_the_force_turns_no_further_than_to_the_end() {
     let side = Vec2::new(75.0_f64.to_radians().cos(), -75.0_f64.to_radians().sin());

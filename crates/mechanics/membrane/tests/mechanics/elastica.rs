@@ -150,8 +150,9 @@ proptest! {
         }
     }
 
-    /// Rotated by 180°, the gap has its scales exchanged and its axis on the other side. Energies
-    /// and force are unchanged.
+    /// Rotated by 180°, the gap has its scales exchanged and its axis on the other side.
+    ///
+    /// Energies and force are unchanged.
     #[test]
     fn rotation_by_180_degrees_exchanges_the_scales((span, end) in pulled()) {
         let gap = elastica(span, 16).unwrap();
@@ -175,8 +176,10 @@ proptest! {
     }
 }
 
-/// The error of the co-rotational elements decreases by 4 when they are halved, and the remainder
-/// after extrapolation is far smaller. The gap is under a strong oblique pull and a moment.
+/// Halving the co-rotational elements divides their error by 4.
+///
+/// The remainder after extrapolation is far smaller. The gap is under a strong oblique pull and a
+/// moment.
 #[test]
 fn elements_converge_to_the_elastica_quadratically() -> Result<(), OutOfRange> {
     let span = Span { half_base: 0.2, gap: 0.5, axis_offset: 0.0 };
@@ -200,8 +203,9 @@ fn elements_converge_to_the_elastica_quadratically() -> Result<(), OutOfRange> {
     Ok(())
 }
 
-/// A moment bends the free length to an arc, here a full circle. The result is exact at every order
-/// that integrates the position.
+/// A moment bends the free length to an arc, here a full circle.
+///
+/// The result is exact at every order that integrates the position.
 #[test]
 fn pure_bending_is_a_circle() -> Result<(), OutOfRange> {
     for (order, tolerance) in [(12, 1e-5), (20, 1e-13)] {
@@ -257,8 +261,9 @@ fn mattiasson_elastica() -> Result<(), OutOfRange> {
     Ok(())
 }
 
-/// A pull with boundary layers of a thirtieth of the gap: each increase of the order by two reduces
-/// the error by a growing factor, down to round-off.
+/// Under a pull the error falls by a growing factor per increase of the order by two.
+///
+/// The boundary layers have a thirtieth of the length of the gap. The error falls to round-off.
 #[test]
 fn the_error_falls_faster_than_any_power() -> Result<(), OutOfRange> {
     let span = Span { half_base: 0.5, gap: 1.0, axis_offset: 0.0 };

@@ -61,8 +61,9 @@ fn tension_acts_below_the_base_for_a_positive_offset() -> Result<(), OutOfRange>
     Ok(())
 }
 
-/// A small curvature keeps its digits in a gap displaced by a hundred thicknesses, except for the
-/// rounding of the displacements themselves.
+/// A small curvature keeps its digits in a gap displaced by a hundred thicknesses.
+///
+/// Only the displacements themselves are rounded.
 #[test]
 fn a_distant_gap_keeps_its_digits() -> Result<(), OutOfRange> {
     let (half_base, angle) = (0.0125, 1e-3_f64);

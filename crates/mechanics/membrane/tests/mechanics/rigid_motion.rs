@@ -9,8 +9,9 @@ use proptest::prelude::*;
 
 use crate::states::{bent_beam, bent_gap};
 
-/// Returns the rotation of poses (or forces) about the origin, `q ↦ Q q`, without the change of the
-/// angles.
+/// Returns the rotation of poses (or forces) about the origin, `q ↦ Q q`.
+///
+/// The change of the angles is not included.
 fn turn(size: usize, angle: f64) -> DMatrix<f64> {
     let mut turn = DMatrix::identity(size, size);
     for node in (0..size).step_by(3) {

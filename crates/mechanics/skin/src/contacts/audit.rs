@@ -5,8 +5,9 @@ use geometry::Vec2;
 
 use super::{Contacts, SkinPoint, SkinState};
 
-/// Overlap (over `t`) by which the audit may exceed the contact law: round-off of the collision
-/// query.
+/// Overlap (over `t`) beyond the contact law that the audit accepts.
+///
+/// It covers the round-off of the collision query.
 const AUDIT_TOLERANCE: f64 = 1e-8;
 
 /// Fraction of an edge by which a foot may exceed its end: round-off of the path.
@@ -17,13 +18,15 @@ const OFF_EDGE: f64 = 1e-6;
 /// Step sizes were reduced to 1e-9 before the path stopped.
 const AHEAD: [f64; 4] = [1e-8, 1e-7, 1e-6, 1e-5];
 
-/// A penetration jump larger than this (over `t`) within such a step means that a corner passed the
-/// end of an edge.
+/// Smallest jump of the penetration (over `t`) that indicates a passed end of an edge.
+///
+/// The jump occurs within one of the steps [`AHEAD`].
 const BEHIND: f64 = 1e-3;
 
 impl Contacts {
-    /// Computes the forces of a contact on its left scale, with friction: at the corners and at the
-    /// flush contact.
+    /// Computes the forces of a contact on its left scale, including friction.
+    ///
+    /// The first acts at the corner or corners, the second at the flush contact.
     pub(super) fn forces_on_left(&self, state: &SkinState, contact: usize) -> [Vec2; 2] {
         let [on_corners, on_flush] = self.normal_forces_on_left(state, contact);
         if self.has_friction() {
@@ -33,8 +36,9 @@ impl Contacts {
         }
     }
 
-    /// Computes the normal components of the contact forces, which the contact law relates to the
-    /// approach.
+    /// Computes the normal components of the contact forces.
+    ///
+    /// The contact law relates them to the approach.
     fn normal_forces_on_left(&self, state: &SkinState, contact: usize) -> [Vec2; 2] {
         let poses = self.pair_poses(&state.z, contact);
         let forces = self.forces_of(&state.z, contact);

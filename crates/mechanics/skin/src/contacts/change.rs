@@ -15,8 +15,10 @@ pub enum ContactChange {
     ReachedCorner,
     /// The contact leaves the corner along the edge on which it arrived.
     LeftCorner,
-    /// The contact passes the corner and continues as its partner, with corner and edge exchanged;
-    /// or on flush edges the contact at the other end carries all the force.
+    /// The contact passes the corner and continues as its partner.
+    ///
+    /// Corner and edge are exchanged. On flush edges the contact at the other end carries all the
+    /// force.
     HandedOver,
     /// The contact starts to slip.
     Slips,

@@ -14,8 +14,9 @@ pub struct Contact {
     pub right: usize,
     /// Which corner meets which edge.
     pub corner_edge: CornerEdge,
-    /// Position of the touching corner in the deformed state, relative to the node of the first
-    /// scale at rest; over `t`.
+    /// Position of the touching corner in the deformed state, over `t`.
+    ///
+    /// It is relative to the node of the first scale at rest.
     pub point: [f64; 2],
     /// Force on the left scale; the right scale carries the opposite force.
     pub force: [f64; 2],

@@ -175,8 +175,9 @@ impl Contacts {
         }
     }
 
-    /// Shifts the anchor of a contact, for a perturbed row that reaches the same state with another
-    /// history.
+    /// Shifts the anchor of a contact.
+    ///
+    /// For a perturbed row, which reaches the same state with another history.
     pub(crate) fn shift_anchor(&mut self, contact: usize, by: f64) {
         self.anchor_shifts.push((contact, by));
     }
@@ -355,8 +356,9 @@ impl Contacts {
         }
     }
 
-    /// Evaluates the condition of an inactive friction constraint; with a direction for `z` its
-    /// derivative.
+    /// Evaluates the condition of an inactive friction constraint.
+    ///
+    /// With a direction for `z` it is the derivative of the condition.
     ///
     /// Only the slip condition of a sticking contact can be violated.
     pub(super) fn slot_condition(

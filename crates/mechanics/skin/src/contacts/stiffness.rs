@@ -20,8 +20,9 @@ impl Contacts {
         (0..FORCES).filter(move |&force| acting[force]).map(move |force| unknowns[force])
     }
 
-    /// Calls `entry` for each entry (row, column, value) of the symmetric stiffness of the closed
-    /// contacts.
+    /// Calls `entry` for each entry of the symmetric stiffness of the closed contacts.
+    ///
+    /// Its arguments are row, column and value.
     ///
     /// Each force unknown adds one negative eigenvalue to the negative ones of the condensed
     /// stiffness (Haynsworth 1968, doi 10.1016/0024-3795(68)90050-5).

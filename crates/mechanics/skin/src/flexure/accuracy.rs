@@ -9,8 +9,9 @@ use crate::record::Skin;
 /// Floor of the denominator of relative changes; smaller values are round-off.
 const NEGLIGIBLE: f64 = 1e-9;
 
-/// Moment, its slope, axial fraction of the energy and largest strain of a state: the quantities
-/// that a finer membrane may change.
+/// The quantities of a state that a finer membrane may change.
+///
+/// Moment, its slope, axial fraction of the energy, and largest strain.
 pub(super) type Quantities = [f64; 4];
 
 /// Returns the largest relative change against a finer membrane; `None` if not finite.
@@ -22,8 +23,9 @@ pub(super) fn largest_change(ours: Quantities, finer: Quantities) -> Option<f64>
     changes.reduce(f64::max).filter(|largest| largest.is_finite())
 }
 
-/// Solves the strip at the rotation and with the contacts of `state`; `None` if Newton's method
-/// fails.
+/// Solves the strip at the rotation and with the contacts of `state`.
+///
+/// `None` if Newton's method fails.
 fn quantities(strip: &Strip, mut state: SkinState, settings: &Settings) -> Option<Quantities> {
     let condition = strip.same_rotation(&state);
     let direction = Newton::new(strip).solve(strip, &mut state, &condition, settings).ok()?;

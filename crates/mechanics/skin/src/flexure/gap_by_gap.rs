@@ -19,9 +19,9 @@ const CLOSE: f64 = 1e-12;
 /// The search for the largest stiffness stops when the predicted relative gain is below this.
 const FLAT: f64 = 1e-11;
 
-/// Relative distance to the next breakpoint at which to check for a larger stiffness beside the
-/// stiffest point, and the relative gain that counts as larger.
+/// Fraction of the distance from the stiffest point to the next breakpoint at which it is checked.
 const BESIDE: f64 = 1e-3;
+/// Relative gain that counts as a larger stiffness.
 const STIFFER: f64 = 1e-9;
 
 /// Maximum number of iterations of a search; most need less than a quarter of them.
@@ -131,8 +131,9 @@ impl<'a> UnevenStrip<'a> {
         })
     }
 
-    /// Computes the measures of a strip bent up to a moment, and the range of curvatures over which
-    /// its gaps close.
+    /// Computes the measures of a strip bent up to a moment.
+    ///
+    /// Also returns the range of curvatures over which its gaps close.
     fn measures(&mut self, end: f64) -> Option<(FlexureMeasures, Option<f64>)> {
         let problem = self.problem;
         let closings = self.gaps.iter().filter_map(GapCurve::first_closing);
@@ -302,8 +303,9 @@ impl<'a> UnevenStrip<'a> {
         if inner[0].1 < inner[1].1 { inner[0] } else { inner[1] }
     }
 
-    /// Returns the moment of the last contact change, if contacts stick at the end and lock the
-    /// strip.
+    /// Returns the moment of the last contact change if the strip locks at the end.
+    ///
+    /// A strip locks if its contacts stick.
     fn locking(&self, end: f64) -> Option<f64> {
         let sticks =
             self.knots(end).any(|(_, knot)| Contacts::stick_slip_counts(&knot.point.state)[0] > 0);

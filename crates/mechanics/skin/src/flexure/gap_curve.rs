@@ -55,8 +55,9 @@ impl Knot {
     }
 }
 
-/// The curve of a gap: equilibria of its path and equilibria solved for between them, sorted by
-/// moment.
+/// The curve of a gap: its equilibria sorted by moment.
+///
+/// Some belong to its path, others are solved for in between.
 ///
 /// Between two knots, with the rotations `θ`, the compliances `c = dθ/dM` and the secant `s =
 /// Δθ/ΔM`, the rotation is approximately

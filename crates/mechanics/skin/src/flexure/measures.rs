@@ -31,7 +31,8 @@ pub struct FlexureMeasures {
     pub axial_energy_share: Option<f64>,
     /// Largest strain `|ε| + ½ h |κ|` at the surface of the membrane, anywhere on the path.
     pub membrane_strain_max: Option<f64>,
-    /// Estimated largest relative error of the measures due to the discretisation of the membrane;
+    /// Estimated largest relative error of the measures by the membrane discretisation.
+    ///
     /// `None` for a given number of elements.
     pub error: Option<f64>,
     /// Number of gaps `n` of the strip, an integer in a chain.
@@ -47,8 +48,9 @@ pub struct FlexureMeasures {
     /// Residual state after unloading.
     #[serde(default, skip_serializing_if = "is_default")]
     pub remains: Remains,
-    /// `κ*` at which scales would touch, even if the path ends earlier; in an imperfect strip for
-    /// the gap that closes first. `None` if no gap can close.
+    /// `κ*` at which scales would touch, even if the path ends earlier.
+    ///
+    /// In an imperfect strip it belongs to the gap that closes first. `None` if no gap can close.
     pub contact_curvature: Option<f64>,
 }
 

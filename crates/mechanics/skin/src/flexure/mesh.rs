@@ -6,8 +6,9 @@ use membrane::{Elastica, GapMembrane, Membrane, Section, Span};
 /// Resolution of the membrane between two scales.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MembraneMesh {
-    /// As fine as the measures need: the extensible elastica by a spectral element, with increasing
-    /// order until the measures change by less than 1e-4.
+    /// As fine as the measures need, by a spectral element for the extensible elastica.
+    ///
+    /// Its order increases until the measures change by less than 1e-4.
     #[default]
     Auto,
     /// This many co-rotational beam elements of equal length.

@@ -36,8 +36,9 @@ pub(super) const FOLLOWED: [PathFunction<Strip>; 2] = [
 const MOMENT: usize = 0;
 const STRAIN: usize = 1;
 
-/// Relative distance between first contact and end of bending beyond which a parameter step does
-/// not change whether scales touch.
+/// Relative distance of first contact from the end of bending that counts as far.
+///
+/// Beyond it a parameter step does not change whether scales touch.
 ///
 /// Steps are a few millionths of a parameter.
 const NEARLY: f64 = 1e-3;

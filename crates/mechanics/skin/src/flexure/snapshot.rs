@@ -24,8 +24,9 @@ pub struct StripSnapshot {
     pub moment: f64,
     /// Rotation of each end, degrees.
     pub end_rotation_deg: f64,
-    /// Displacement (over `t`) and rotation (radians, counter-clockwise) of every scale; the first
-    /// is at rest.
+    /// Displacement (over `t`) and rotation (radians, counter-clockwise) of every scale.
+    ///
+    /// The first scale is at rest.
     pub scales: Vec<[f64; 3]>,
     /// Deformed membrane axis in every gap, relative to the node of the first scale; over `t`.
     pub membrane: Vec<Vec<[f64; 2]>>,

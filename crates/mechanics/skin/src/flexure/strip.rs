@@ -81,8 +81,9 @@ pub(crate) struct StripExtent {
     pub(crate) repeats: f64,
     /// Relative rotation (radians) of the ends of the solved part at which bending ends.
     pub(crate) rotation: f64,
-    /// End of the path as a multiple of that rotation: 1, except for one of several unequal gaps,
-    /// which may take more than its share.
+    /// End of the path as a multiple of that rotation.
+    ///
+    /// It is 1, except for one of several unequal gaps, which may take more than its share.
     pub(crate) farthest: f64,
 }
 

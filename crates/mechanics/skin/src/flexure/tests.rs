@@ -21,8 +21,9 @@ fn work(path: &mut Continuation<Strip>, from: &SkinPoint, to: &SkinPoint) -> f64
     mean * (strip.rotation(&to.state.z) - strip.rotation(&from.state.z))
 }
 
-/// Computes the largest difference between work and energy along a path, relative to the final
-/// energy.
+/// Computes the largest difference between work and energy along a path.
+///
+/// It is relative to the final energy.
 ///
 /// Also returns the axial and the contact fraction of the energy at the end.
 fn balance(design: &Design, common: &Common, parameters: &FlexureParameters) -> [f64; 3] {

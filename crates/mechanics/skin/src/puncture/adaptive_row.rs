@@ -120,9 +120,9 @@ const FIRST_SCALES: usize = 4;
 const GROWTH: usize = 4;
 const GROWTH_PART: usize = 8;
 
-/// Decay of displacements over the additional scales of an initial row of bars, and their largest
-/// number.
+/// Decay of displacements over the additional scales of an initial row of bars.
 const DECAYED: f64 = 1e-3;
+/// Largest number of additional scales of an initial row of bars.
 const LONGEST_DECAY: usize = 50;
 
 impl RowLayout {

@@ -15,8 +15,9 @@ use crate::record::Skin;
 use crate::sensitivity::Derivative;
 use crate::{Common, Design, Status};
 
-/// Relative difference below which two forces count as equal, such as at the two corners of an
-/// upright scale. The tolerance of paths leaves about 1e-9.
+/// Relative difference below which two forces count as equal.
+///
+/// An example are the two corners of an upright scale. The tolerance of paths leaves about 1e-9.
 const TIE: f64 = 1e-7;
 
 /// Relative difference below which derivatives count as equal.
@@ -38,8 +39,9 @@ pub struct LoadPosition {
     pub tilt_deg: Option<f64>,
     /// Which of the two events it was, under a guided needle.
     pub critical_event: Option<CriticalEvent>,
-    /// Largest `F*` of the path; `None` if the load does not tilt the scale at all, as in the
-    /// middle of an upright scale.
+    /// Largest `F*` of the path.
+    ///
+    /// `None` if the load does not tilt the scale at all, as in the middle of an upright scale.
     pub borne: Option<f64>,
 }
 

@@ -62,8 +62,9 @@ pub struct PunctureMeasures {
     pub fold_displacement: Option<f64>,
     /// Tilt of the punctured scale at the first fold, degrees.
     pub fold_tilt_deg: Option<f64>,
-    /// `F*` at the critical tilt or at the first fold, whichever comes first: the largest force
-    /// within the validity of the model.
+    /// `F*` at the critical tilt or at the first fold, whichever comes first.
+    ///
+    /// It is the largest force within the validity of the model.
     pub sound_force: Option<f64>,
     /// `F*` at the requested depth, or at the critical tilt if that comes first.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -71,8 +72,9 @@ pub struct PunctureMeasures {
     /// Frictional dissipation between scales up to the critical tilt, over `E* t³`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction_work: Option<f64>,
-    /// True if every event had a single outgoing branch among those examined; `None` without
-    /// friction.
+    /// True if every event had a single outgoing branch among those examined.
+    ///
+    /// `None` without friction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unique: Option<bool>,
     /// Residual state after unloading.

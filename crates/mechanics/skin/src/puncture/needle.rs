@@ -45,8 +45,9 @@ pub(super) use round::{reach, unknowns};
 /// Constraint on the needle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Needle {
-    /// A dead load attached to its point of the scale, following it sideways, as in Shafiei et al.
-    /// (2021).
+    /// A dead load attached to its point of the scale, which it follows sideways.
+    ///
+    /// This is the load of Shafiei et al. (2021).
     #[default]
     Free,
     /// A tip guided straight down, with this coefficient of friction.
@@ -68,12 +69,15 @@ impl Needle {
     }
 }
 
-/// Number of scales on each side of the punctured one that a guided needle may reach; it moves by
-/// less than its own depth along the row.
+/// Number of scales on each side of the punctured one that a guided needle may reach.
+///
+/// It moves by less than its own depth along the row.
 pub(super) const FARTHEST: usize = 8;
 
-/// Unknowns per touch: `N`, `T`, the forward and backward slip distances, and two unknowns for
-/// conditions that never become active.
+/// Number of unknowns per touch.
+///
+/// `N`, `T`, the forward and backward slip distances, and two unknowns for conditions that never
+/// become active.
 const UNKNOWNS_PER_TOUCH: usize = 6;
 
 /// Constraints per touch, in this order.
@@ -84,8 +88,9 @@ const BACKWARD: usize = 2;
 const FACE_START: usize = 3;
 const FACE_END: usize = 4;
 
-/// Conditions that end the path, behind the constraints of all touches: a critical tilt, and
-/// passing through.
+/// Number of conditions that end the path: a critical tilt, and passing through.
+///
+/// They follow the constraints of all touches.
 const ENDINGS: usize = 2;
 
 /// Unknowns of a guided needle with a sharp tip, behind the load: depth, two touches, and endings.
@@ -337,8 +342,7 @@ impl Chain {
         }
     }
 
-    /// Returns true if a needle constraint is the first touch of a scale that is already critically
-    /// tilted.
+    /// Returns true if a needle constraint is the first touch of a critically tilted scale.
     fn meets_tilted(&self, needle: &GuidedNeedle, state: &SkinState, number: usize) -> bool {
         let slot = number / needle.constraints_per_touch;
         if number >= needle.tilt_number()

@@ -26,8 +26,9 @@ pub struct PuncturePoint {
     pub contact_energy: f64,
     /// Frictional dissipation between scales up to here, over `E* t³`; `None` without friction.
     pub friction_work: Option<f64>,
-    /// Stretch of the tightest and of the widest gap; `None` for a single scale, and unless the
-    /// whole path is recorded.
+    /// Stretch of the tightest and of the widest gap.
+    ///
+    /// `None` for a single scale, and unless the whole path is recorded.
     pub gap_stretch: Option<GapStretch>,
 }
 
@@ -107,8 +108,9 @@ impl Skin for Chain {
     }
 }
 
-/// Lists the states of all scales of a row from the left, including a finite row's scales in closed
-/// form.
+/// Lists the states of all scales of a row from the left.
+///
+/// A finite row includes its scales in closed form.
 pub(super) fn scales(chain: &Chain, state: &SkinState) -> Vec<ScaleState> {
     let solved_for = 0..chain.layout.scales().cast_signed();
     let [left, right] = chain.exterior.scales_to_ends().map(usize::cast_signed);

@@ -45,8 +45,9 @@ pub(super) struct Beyond {
 pub(crate) struct RowExterior {
     /// Beyond the left and the right end.
     sides: [Option<ExteriorSide>; 2],
-    /// Reduction of the substrate stiffness by the compliance of the scales beyond: row and column
-    /// of the tangent, and entries.
+    /// Reduction of the substrate stiffness by the compliance of the scales beyond.
+    ///
+    /// Row and column of the tangent, and entries.
     pub(super) relief: Vec<(usize, usize, [[f64; 3]; 3])>,
     /// Distance of the farthest corner of a scale from its node.
     arm: f64,
@@ -155,8 +156,9 @@ impl Chain {
         move |k| mirrored(self.displacement(z, scale(k)), side)
     }
 
-    /// Computes the displacements of the end scale and of the checked scales beyond, mirrored to a
-    /// right end.
+    /// Computes the displacements of the end scale and of the checked scales beyond.
+    ///
+    /// They are mirrored to a right end.
     fn displacements_beyond(&self, z: &[f64], number: usize, side: &ExteriorSide) -> Vec<[f64; 3]> {
         let end = self.at_end(z, number);
         let mut displacements = vec![end(0)];

@@ -329,8 +329,9 @@ fn critical() -> Vec<MeasuredQuantity<Chain>> {
     ]
 }
 
-/// Returns the stretch of a gap; beyond the last one the extreme stretch of the gaps in closed
-/// form, or NaN.
+/// Returns the stretch of a gap.
+///
+/// Beyond the last gap it is the extreme stretch of the gaps in closed form, or NaN.
 fn stretch(chain: &Chain, state: &SkinState, gap: usize, outer: fn(f64, f64) -> f64) -> f64 {
     if gap < chain.layout.scales() - 1 {
         return chain.gap_stretch(state, gap);

@@ -8,9 +8,9 @@ use super::{At, PunctureMeasures, PuncturePoint};
 use crate::contacts::SkinPoint;
 use crate::record::Skin;
 
-/// Tolerance on the rate of the depth at its maximum, relative to the rates at both ends, and the
-/// maximum number of evaluations.
+/// Tolerance on the rate of the depth at its maximum, relative to the rates at both ends.
 const FLAT: f64 = 1e-9;
+/// Maximum number of evaluations in the search for a maximum of the depth.
 const EVALUATIONS: usize = 60;
 
 /// Halvings of a segment in which to search for a dip of the depth that starts at its first point.

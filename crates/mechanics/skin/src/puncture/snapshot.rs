@@ -60,8 +60,9 @@ pub struct RowSnapshot {
     pub force: f64,
     /// Tilt of the punctured scale, clockwise, degrees.
     pub tilt_deg: f64,
-    /// Lowest point of the tip of a guided needle, over `t`, relative to the node of the punctured
-    /// scale at rest; `None` for a free needle.
+    /// Lowest point of the tip of a guided needle, over `t`; `None` for a free needle.
+    ///
+    /// It is relative to the node of the punctured scale at rest.
     pub tip: Option<[f64; 2]>,
     /// Every scale, from the left.
     pub scales: Vec<ScaleState>,

@@ -13,9 +13,10 @@ use super::row_exterior::RowExterior;
 use crate::arrangement::Arrangement;
 use crate::contacts::{Contacts, SkinMode, SkinState};
 
-/// Depth unit of a guided needle as the control parameter, over `t`: about the depth at a tilt of
-/// 10°, but at most a few tops of a scale. Steps are fractions of it, and a needle soon leaves a
-/// narrow top.
+/// Depth unit of a guided needle as the control parameter, over `t`.
+///
+/// It is about the depth at a tilt of 10°, but at most a few tops of a scale: steps are fractions
+/// of it, and a needle soon leaves a narrow top.
 const DEPTH: f64 = 0.5;
 const TOPS: f64 = 4.0;
 
@@ -140,12 +141,14 @@ pub(crate) struct Chain {
     pub(super) direct: [f64; 3],
     /// `a² r_0` of (S21), on a layer.
     pub(super) roll: f64,
-    /// Coupling with the neighbours on one side, the nearest first: `−a β_x, −a β_y, −a³ β_φ`, or
-    /// for as many as the substrate couples `a K_x, a K_y, a³ K_φ, a² c` of (S9) and `a l`, `a² r`
-    /// of (S21).
+    /// Coupling with the neighbours on one side, the nearest first.
+    ///
+    /// `−a β_x, −a β_y, −a³ β_φ`; with full coupling `a K_x, a K_y, a³ K_φ, a² c` of (S9) and
+    /// `a l`, `a² r` of (S21).
     pub(super) neighbours: Vec<Neighbour>,
-    /// `a β_x`, the stiffness of the bars in place of the springs along the row; `None` for a
-    /// linear substrate.
+    /// `a β_x`, the stiffness of the bars that replace the springs along the row.
+    ///
+    /// `None` for a linear substrate.
     pub(super) bars: Option<f64>,
     /// The row beyond the ends, if this is a part of a longer row; same units.
     pub(super) exterior: RowExterior,

@@ -170,8 +170,9 @@ fn slopes_of_inactive_conditions_match_finite_differences() {
     assert!(compared.iter().all(|&count| count > 10), "{compared:?}");
 }
 
-/// Integrates `F du` between two points by Boole's rule on five equilibria, with `u'` from their
-/// polynomial.
+/// Integrates `F du` between two points by Boole's rule on five equilibria.
+///
+/// `u'` is the derivative of the polynomial through them.
 fn work(path: &mut Continuation<Chain>, from: &SkinPoint, to: &SkinPoint) -> f64 {
     let inner = [0.25, 0.5, 0.75].map(|x| path.between(from, to, x).unwrap().state);
     let states = [&from.state, &inner[0], &inner[1], &inner[2], &to.state];
@@ -374,8 +375,9 @@ fn parameters_out_of_range_are_rejected() {
 /// Bound on finite eigenvalues: contacts are softer than this, unless rigid.
 const RIGID: f64 = 1e6;
 
-/// Computes the dense stiffness over the displacements by eliminating contact forces from the
-/// tangent.
+/// Computes the dense stiffness over the displacements.
+///
+/// Contact forces are eliminated from the tangent.
 ///
 /// Rigid contacts get a tiny compliance.
 fn dense_stiffness(chain: &Chain, state: &SkinState) -> DMatrix<f64> {
@@ -455,8 +457,10 @@ fn compare_instability(path: Continuation<Chain>, compared: &mut HashSet<(usize,
     });
 }
 
-/// Paths to 40° through snaps, on finite rows and on a part of an endless one, with nearest and
-/// full coupling. The contacts are soft enough for an accurate dense stiffness.
+/// Paths to 40° pass through snaps.
+///
+/// They run on finite rows and on a part of an endless one, with nearest and full coupling. The
+/// contacts are soft enough for an accurate dense stiffness.
 #[test]
 fn negative_eigenvalues_match_the_dense_stiffness() {
     let mut compared = HashSet::new();

@@ -82,8 +82,9 @@ fn elements_converge_quadratically() {
     }
 }
 
-/// One element per gap, the former default, on whole gaps: `(d, L, gaps, C_f*, M* at the end)` for
-/// designs with a slant of 75°.
+/// `(d, L, gaps, C_f*, M* at the end)` for designs with a slant of 75°.
+///
+/// One element per gap, the former default, on whole gaps.
 const ONE_ELEMENT: [(f64, f64, usize, f64, f64); 6] = [
     (0.2, 0.6, 125, 0.000_043_226_402_372_231_1, 896.124_183_604_776_7),
     (0.4, 0.2, 167, 0.000_567_246_544_534_441_5, 26.581_881_174_697_386),

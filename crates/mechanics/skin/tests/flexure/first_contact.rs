@@ -29,8 +29,9 @@ fn a_slight_slant_hardly_changes_first_contact() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
-    /// On a strip long enough for contact, scales touch at the closed-form curvature; on the
-    /// default strip also there or never.
+    /// On a strip long enough for contact, scales touch at the closed-form curvature.
+    ///
+    /// On the default strip they touch there or never.
     #[test]
     fn closed_form_matches_the_first_contact_of_solved_strips(
         gap in 0.05_f64..0.8, length in 0.1_f64..1.5, slant in 0.0_f64..75.0, offset in 0.0_f64..0.3,

@@ -6,8 +6,9 @@ use skin::{Base, Common};
 
 use crate::samples::design;
 
-/// Moments at the end of bending, with one linear element per gap. In all cases but the last
-/// contacts slip at the end.
+/// Moments at the end of bending, with one linear element per gap.
+///
+/// In all cases but the last contacts slip at the end.
 #[test]
 fn end_moments_with_friction_match_two_programs() {
     let moments = [

@@ -1,5 +1,6 @@
-//! Strips locked by friction, next to a beam with plates on torsional springs
-//! ([`analytical::rotating_plates`]).
+//! Strips locked by friction, and a beam with plates on torsional springs.
+//!
+//! The beam is [`analytical::rotating_plates`].
 
 use analytical::rotating_plates;
 use skin::flexure::{FlexureParameters, solve};
@@ -10,8 +11,9 @@ use crate::samples::design;
 /// Increasing coefficients of friction, starting with smooth plastic.
 const FRICTIONS: [f64; 8] = [0.02, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.5];
 
-/// Checks the trend shared by both models: more friction locks earlier, up to a friction beyond
-/// which scales lock at first contact.
+/// Checks the trend shared by both models: more friction locks earlier.
+///
+/// Beyond some friction scales lock at first contact.
 #[track_caller]
 fn locks_earlier(locks: &[Option<f64>], touch: f64) {
     let found: Vec<f64> = locks.iter().copied().skip_while(Option::is_none).flatten().collect();

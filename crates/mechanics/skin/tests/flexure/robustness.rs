@@ -34,6 +34,8 @@ fn a_contact_beyond_its_edge_fails_the_audit() {
     assert_eq!(flexure.measures.max_moment, None);
 }
 
+/// A strip locked by flush sides has no compliance.
+///
 /// On a membrane far below their bases steep scales rotate until a side is flush with a base. There
 /// the moment grows without rotation, so the compliance is undefined and the path stops before the
 /// moment of contact.

@@ -124,9 +124,10 @@ fn random_designs_never_have_a_negative_load() {
     check(&designs, &Calibrations::default());
 }
 
-/// A corner that slides off its edge makes the row snap: load, depth and tilt turn back there. The
-/// location does not depend on the step size, and the force is lower by `drop` where the depth is
-/// as large again.
+/// A corner that slides off its edge makes the row snap.
+///
+/// Load, depth and tilt turn back there. The location does not depend on the step size, and the
+/// force is lower by `drop` where the depth is as large again.
 #[test]
 fn a_row_snaps_where_a_corner_passes_a_corner() {
     let design = design(0.1, 1.0, 45.0, Base::TwoL);

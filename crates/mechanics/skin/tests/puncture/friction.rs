@@ -19,8 +19,9 @@ fn solve(design: &Design, friction: f64, parameters: &PunctureParameters) -> Pun
     solve_as(&Calibrations::default(), design, &with_friction(friction), parameters)
 }
 
-/// Critical force and penetration of two independent programs, with penalty springs and return
-/// mapping.
+/// Critical force and penetration agree with two independent programs.
+///
+/// The programs use penalty springs and return mapping.
 #[test]
 fn forces_and_penetration_match_independent_programs() {
     let row = |slant_deg: f64, friction: f64| {
@@ -125,8 +126,9 @@ fn guided(friction: f64) -> PunctureParameters {
     }
 }
 
-/// The tip slides to a corner that lies on the next scale with friction: both then stick to one
-/// position of the face.
+/// The tip slides to a corner that lies on the next scale with friction.
+///
+/// Both then stick to one position of the face.
 #[test]
 fn tip_and_corner_stick_together_in_a_notch() {
     for (gap, length, slant_deg, base) in [
@@ -198,8 +200,10 @@ fn random_designs_are_complete_with_friction() {
     assert!(failed.len() <= count / 1000, "{failed:?}");
 }
 
-/// Without friction unloading retraces the loading path. With friction less work is recovered: the
-/// loop area is dissipated or stored in residual deformation.
+/// Without friction unloading retraces the loading path.
+///
+/// With friction less work is recovered: the loop area is dissipated or stored in residual
+/// deformation.
 #[test]
 fn unloading_closes_the_energy_balance() {
     for (gap, length, slant_deg, friction, needle) in [
@@ -313,8 +317,9 @@ fn loop_work_is_the_area_of_the_loop_for_random_designs() {
     assert!(closed > count * 4 / 5, "{closed} of {count}");
 }
 
-/// A tip leaves a notch as the load decreases, or contacts close where others open. If pivoting
-/// starts with the wrong one of simultaneous changes, these paths reverse or stop.
+/// A tip leaves a notch as the load decreases, or contacts close where others open.
+///
+/// If pivoting starts with the wrong one of simultaneous changes, these paths reverse or stop.
 #[test]
 fn unloading_passes_simultaneous_changes() {
     let guided = Needle::Guided { friction: 0.3 };
@@ -340,8 +345,9 @@ fn unloading_passes_simultaneous_changes() {
     }
 }
 
-/// These rows are not unloaded: their paths reverse where friction leaves no outgoing branch, and
-/// return to rest (the first) or repeat themselves.
+/// Paths that reverse where friction leaves no outgoing branch must end as jumps.
+///
+/// Otherwise they would return to rest (the first) or repeat themselves.
 #[test]
 fn a_reversing_path_jumps() {
     let needle = Needle::Guided { friction: 0.3 };

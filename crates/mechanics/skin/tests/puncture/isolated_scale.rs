@@ -73,8 +73,9 @@ fn measures_match_the_closed_form() {
     assert_eq!((measures.contacts, measures.engaged_scales), (Some(0), Some(0)));
 }
 
-/// A load above the node of an upright block has no arm: the block sinks without tilting until it
-/// buckles, so tilt cannot control the path.
+/// A load above the node of an upright block has no arm.
+///
+/// The block sinks without tilting until it buckles, so tilt cannot control the path.
 #[test]
 fn a_load_over_the_node_does_not_tilt_a_block() {
     let parameters = PunctureParameters { load_position: 0.5, ..on_row(1) };

@@ -18,8 +18,10 @@ fn solve(design: &Design, stiffness: &RowStiffness, parameters: &PunctureParamet
     puncture::solve(design, stiffness, &Common::default(), parameters).unwrap()
 }
 
-/// Forces and penetrations of an independent program. Its springs are 1 to 2 % coarse and lack the
-/// coupling of forces along and across the row, so compare only where that coupling is small.
+/// Forces and penetrations of an independent program.
+///
+/// Its springs are 1 to 2 % coarse and lack the coupling of forces along and across the row, so
+/// compare only where that coupling is small.
 #[test]
 fn layers_match_an_independent_program() {
     let slanted = design(0.1, 1.0, 45.0, Base::L);

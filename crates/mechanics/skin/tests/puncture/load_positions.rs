@@ -57,8 +57,9 @@ fn the_weakest_position_has_the_smallest_force_of_single_punctures() {
     }
 }
 
-/// An upright scale is its own mirror image: it tilts to the left under a load on its left, and not
-/// at all under a load in its middle.
+/// An upright scale is its own mirror image.
+///
+/// It tilts to the left under a load on its left, and not at all under a load in its middle.
 #[test]
 fn positions_on_an_upright_scale_are_mirror_images() {
     for needle in [FREE, GUIDED] {
@@ -77,8 +78,10 @@ fn positions_on_an_upright_scale_are_mirror_images() {
     }
 }
 
-/// A frictionless needle set down exactly on the left corner of this design stops early, at a force
-/// not known to be smaller than elsewhere. Therefore no weakest force is reported.
+/// A position that stops early hides the weakest force.
+///
+/// A frictionless needle set down exactly on the left corner of this design stops at a force not
+/// known to be smaller than elsewhere. Therefore no weakest force is reported.
 #[test]
 fn an_inconclusive_position_hides_the_weakest_force() {
     let lost = design(0.1, 1.0, 75.0, Base::L);

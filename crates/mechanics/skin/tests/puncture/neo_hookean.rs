@@ -43,7 +43,9 @@ fn no_gap_closes_in_the_reference_study() {
     }
 }
 
-/// Two hundred designs; two thousand in a long campaign. One in a thousand may stop.
+/// Two hundred designs; two thousand in a long campaign.
+///
+/// One in a thousand may stop.
 #[test]
 fn random_designs_are_solved() {
     let (known, parameters) = (Calibrations::default(), neo_hookean(on_row(41)));
@@ -73,8 +75,9 @@ fn difference(design: &Design, tilt_deg: f64) -> f64 {
     (force(neo_hookean(linear)) - linear_force).abs() / linear_force
 }
 
-/// The relative difference decreases at least as fast as the load. If scales touch at once, gaps
-/// are compressed from the start.
+/// The relative difference decreases at least as fast as the load.
+///
+/// If scales touch at once, gaps are compressed from the start.
 #[test]
 fn at_small_loads_both_laws_agree_to_first_order() {
     let steep = Design { gap: 1e-4, ..design(0.1, 0.3, 60.0, Base::L) };

@@ -133,8 +133,9 @@ fn a_stopped_path_keeps_its_initial_measures() {
     assert_eq!(cut.contacts.or(cut.engaged_scales), None);
 }
 
-/// The force at a depth equals the force of a snapshot there; beyond the end of the path it is the
-/// final force.
+/// The force at a depth equals the force of a snapshot there.
+///
+/// Beyond the end of the path it is the final force.
 #[test]
 fn force_at_a_depth_matches_a_snapshot_there() {
     let design = design(0.2, 0.5, 60.0, Base::L);

@@ -75,8 +75,9 @@ fn small_radii_converge_to_a_sharp_tip_with_friction() {
     }
 }
 
-/// A single scale with the circle of radius `R` on its top: `N` is the root of a quadratic
-/// equation, with the arm `x` at rest,
+/// A single scale with the circle of radius `R` on its top has a closed form.
+///
+/// `N` is the root of a quadratic equation, with the arm `x` at rest,
 ///
 /// ```text
 /// N² sin φ / k_x − N (x + (1 + R) sin φ) − k_φ φ cos φ = 0                F = N cos φ
@@ -153,8 +154,9 @@ fn a_tip_between_two_scales_loads_both_equally() {
     }
 }
 
-/// Positions of a round tip cover one pitch, including the region between two scales; they repeat
-/// after a pitch.
+/// Positions of a round tip cover one pitch, including the region between two scales.
+///
+/// They repeat after a pitch.
 #[test]
 fn load_positions_cover_the_pitch() {
     let known = Calibrations::default();
@@ -176,8 +178,9 @@ fn load_positions_cover_the_pitch() {
     assert_relative_eq!(places[0].force.unwrap(), at(1.5), max_relative = 1e-8);
 }
 
-/// A tip that fits between two scales reaches the soft surface between their bases: its lowest
-/// point lies on the line from base to base.
+/// A tip that fits between two scales reaches the soft surface between their bases.
+///
+/// Its lowest point lies on the line from base to base.
 #[test]
 fn a_tip_passes_through_between_bases() {
     let open = design(1.0, 1.0, 60.0, Base::L);
@@ -209,8 +212,9 @@ fn a_tip_passes_through_between_bases() {
     assert_relative_eq!(area / line[0].hypot(line[1]), radius, max_relative = 1e-7);
 }
 
-/// With full coupling scales lean on each other before the tip reaches them. Touching a scale that
-/// is already critically tilted ends the path.
+/// With full coupling scales lean on each other before the tip reaches them.
+///
+/// Touching a scale that is already critically tilted ends the path.
 #[test]
 fn touching_a_tilted_scale_ends_the_path() {
     let blocks = design(0.1, 0.4, 0.0, Base::L);
@@ -228,8 +232,9 @@ fn touching_a_tilted_scale_ends_the_path() {
     assert!(tilt(touched.next_back().unwrap() + 1) > 14.0);
 }
 
-/// In a notch a tip with friction may stop sliding on one face where it can neither stick nor
-/// slide: it jumps.
+/// In a notch a tip with friction may jump.
+///
+/// It may stop sliding on one face where it can neither stick nor slide.
 #[test]
 fn a_tip_may_jump_in_a_notch() {
     let notched = design(0.1, 0.9, 60.0, Base::TwoL);

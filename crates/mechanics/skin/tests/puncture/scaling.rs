@@ -46,8 +46,10 @@ fn a_wider_softer_scale_is_equivalent() {
     crate::assert_same_measures(&ours, &measured(&settled(), &on_row(41)), SAME);
 }
 
-/// The two meanings of `L` give one geometry two names. The contact law (Eq. 5) normalises the
-/// approach by `L`, which its prefactor can compensate, and `F*` the force.
+/// The two meanings of `L` give one geometry two names.
+///
+/// The contact law (Eq. 5) normalises the approach by `L`, which its prefactor can compensate, and
+/// `F*` the force.
 #[test]
 fn both_meanings_of_the_length_agree() {
     let (known, ours) = (Calibrations::default(), settled());

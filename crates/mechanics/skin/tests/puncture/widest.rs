@@ -12,8 +12,9 @@ use substrate::{Calibrations, SubstrateLaw};
 
 use crate::samples::{BASES, SplitMix64, long_campaigns, springs};
 
-/// Everything that a definition may state about a puncture; quantities spanning decades are drawn
-/// log-uniformly.
+/// Everything that a definition may state about a puncture.
+///
+/// Quantities spanning decades are drawn log-uniformly.
 struct Drawn {
     design: Design,
     common: Common,
@@ -75,6 +76,7 @@ fn paths_pass_simultaneous_events() {
 }
 
 /// Long campaign only: as many designs as eight seconds allow, up to a thousand.
+///
 /// `docs/reliability.md` reports how many stop for a numerical reason.
 #[test]
 fn few_punctures_in_the_widest_ranges_stop_numerically() {

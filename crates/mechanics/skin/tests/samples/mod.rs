@@ -38,8 +38,10 @@ pub fn settled() -> Design {
     design(0.2, 0.5, 60.0, Base::L)
 }
 
-/// A variety of designs: no contact to many; open, at edges, corners and tips; loads that rise,
-/// fall and turn back.
+/// A variety of designs.
+///
+/// From no contact to many contacts; open, at edges, corners and tips; loads that rise, fall and
+/// turn back.
 pub fn spread() -> Vec<Design> {
     vec![
         blocks(),
@@ -58,8 +60,9 @@ pub fn spread() -> Vec<Design> {
     ]
 }
 
-/// Scales so steep and long that a left side rotates until it is flush with the base of its left
-/// neighbour, and beyond, so that its tip carries the contact.
+/// Scales so steep and long that a side becomes flush with a base, and passes it.
+///
+/// The left side rotates to the base of the left neighbour, and then the tip carries the contact.
 pub fn folding() -> Design {
     design(0.2, 2.8, 79.5, Base::TwoL)
 }
@@ -78,16 +81,18 @@ pub fn reference_study(base: Base) -> Vec<Design> {
     designs
 }
 
-/// Forty designs of the reference study, evenly spread over both bases, including the steepest one
-/// with the smallest gap.
+/// Forty designs of the reference study, evenly spread over both bases.
+///
+/// They include the steepest one with the smallest gap.
 pub fn forty() -> Vec<Design> {
     let all = BASES.into_iter().flat_map(reference_study);
     // 37 is coprime to the numbers of slants, lengths and gaps.
     all.skip(5).step_by(37).take(39).chain([design(0.1, 1.0, 75.0, Base::TwoL)]).collect()
 }
 
-/// Draws designs uniformly: `d/t` from 0.05 to 2, `L/t` from 0.02 to 3, slants from 0° to 80°, both
-/// bases.
+/// Draws designs uniformly, with both bases.
+///
+/// `d/t` from 0.05 to 2, `L/t` from 0.02 to 3, slants from 0° to 80°.
 pub fn random(count: usize, seed: u64) -> Vec<Design> {
     let mut random = SplitMix64(seed);
     let mut draw = |low: f64, high: f64| low + (high - low) * random.next();

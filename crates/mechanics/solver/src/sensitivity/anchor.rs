@@ -8,8 +8,9 @@ use crate::system::{State, System};
 /// Condition that fixes a point on a path while a parameter changes the path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PathAnchor {
-    /// The point keeps its position along the path: at rest, or at a smooth maximum, where motion
-    /// along the path has no first-order effect.
+    /// The point keeps its position along the path.
+    ///
+    /// At rest, or at a smooth maximum, where motion along the path has no first-order effect.
     Still,
     /// The control parameter is at its target.
     Target,

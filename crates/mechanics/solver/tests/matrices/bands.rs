@@ -159,8 +159,9 @@ fn entries_outside_the_band_are_refused() {
     BandMatrix::new(5, 2).add(0, 3, 1.0);
 }
 
-/// A large row is not a good pivot merely because of its units. Without scaling, the first row
-/// would be the pivot and the digits of the second would be lost.
+/// A large row is not a good pivot merely because of its units.
+///
+/// Without scaling, the first row would be the pivot and the digits of the second would be lost.
 #[test]
 fn pivots_do_not_depend_on_row_scaling() {
     let mut matrix = BandMatrix::new(2, 1);

@@ -158,8 +158,10 @@ proptest! {
         prop_assert_eq!(x, solver.solve_unit(unknown));
     }
 
-    /// Without extra unknowns, a symmetric matrix has as many negative eigenvalues as its blocks
-    /// after elimination. The sign of a block's determinant shows only whether its number is odd.
+    /// The blocks after elimination have the number of negative eigenvalues of the matrix.
+    ///
+    /// This holds for symmetric matrices without extra unknowns. The sign of a block's determinant
+    /// shows only whether its number is odd.
     #[test]
     fn negative_determinants_count_negative_eigenvalues(
         count in 1_usize..6, root in 0_usize..6, entries in prop::collection::vec(-1.0_f64..1.0, 18 * 18),

@@ -66,8 +66,9 @@ fn a_bump_within_a_later_step_is_not_missed() {
     }
 }
 
-/// A step over the whole path touches the wall for a hundredth of its length. The cubic through the
-/// ends of the step equals the guard, so its minimum lies at the wall.
+/// A step over the whole path touches the wall for a hundredth of its length.
+///
+/// The cubic through the ends of the step equals the guard, so its minimum lies at the wall.
 #[test]
 fn a_thin_wall_within_one_step_is_not_missed() {
     let wall: fn(f64) -> [f64; 2] = |u| [(u - 0.7).powi(2) - 1e-4, 2.0 * (u - 0.7)];
@@ -105,8 +106,9 @@ fn the_nearer_of_two_walls_is_met_first() {
     }
 }
 
-/// Two walls at one position, one of which takes over the force of the other. The other never acts,
-/// whichever is evaluated first.
+/// Two walls at one position, one of which takes over the force of the other.
+///
+/// The other never acts, whichever is evaluated first.
 #[test]
 fn a_shielded_wall_stays_open() {
     let wall: fn(f64) -> [f64; 2] = |u| [0.5 - u, -1.0];

@@ -114,8 +114,9 @@ fn the_load_of_a_circle_turns_at_the_top_and_at_the_bottom() {
     }
 }
 
-/// The critical load is `λ = 2 (2θ/cosh θ)²`… with `θ tanh θ = 1`; the error of central differences
-/// is `O(h²)`.
+/// The critical load is `λ = 2 (2θ/cosh θ)²`… with `θ tanh θ = 1`.
+///
+/// The error of central differences is `O(h²)`.
 #[test]
 fn bratu_folds_at_the_critical_load() {
     let critical = 3.513_830_719_125_16;

@@ -73,9 +73,10 @@ fn a_maximum_close_behind_a_kink_is_found() {
     }
 }
 
-/// The maximum lies within the first thousandth of a segment. It is located to `10⁻⁵`, a hundredth
-/// of its distance from the kink. The error of the value is quadratic in this, some `(10⁻³)²`. The
-/// function is lower elsewhere, where the slope is 1 too.
+/// The maximum lies within the first thousandth of a segment.
+///
+/// It is located to `10⁻⁵`, a hundredth of its distance from the kink. The error of the value is
+/// quadratic in this, some `(10⁻³)²`. The function is lower elsewhere, where the slope is 1 too.
 #[test]
 fn a_maximum_very_close_behind_a_kink_is_found() {
     for largest_step in [0.13, 0.047, 0.011] {

@@ -50,8 +50,9 @@ fn paths_with_turning_control_parameters_take_few_iterations() {
     assert_at_most(&work(arch_on_spring(), steps(0.4)), &[42, 432]);
 }
 
-/// `p = tanh 4 (u − 0.6)` up to its maximum slope: the step is measured by arc length and passes
-/// the target.
+/// Reaches the maximum slope of `p = tanh 4 (u − 0.6)`, a steep target.
+///
+/// The step is measured by arc length and passes the target.
 #[test]
 fn a_steep_target_takes_few_iterations() {
     let mut steep = step();

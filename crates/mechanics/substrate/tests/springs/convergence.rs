@@ -122,8 +122,9 @@ fn reciprocity_defect(found: &RowReactions) -> f64 {
     (force - moment).abs() / force.abs().max(moment.abs())
 }
 
-/// Collocation does not enforce Betti's theorem, so the defect measures the error. It decreases at
-/// least with the second power of the number of cells, mostly with the third.
+/// Collocation does not enforce Betti's theorem, so the defect measures the error.
+///
+/// It decreases at least with the second power of the number of cells, mostly with the third.
 #[test]
 fn reciprocity() {
     for (gap, width) in [(0.05, 0.25), (0.2, 2.0), (2.0, 2.0), (0.05, 80.0), (4.0, 80.0)] {

@@ -119,7 +119,8 @@ fn dense(stiffness: &RowStiffness, scales: usize) -> Mat<f64> {
     matrix
 }
 
-/// In an infinite row with `m` couplings, the last `m` scales take the role of the last one.
+/// With `m` couplings, the last `m` scales of an infinite row take the role of the last one.
+///
 /// Compared with the static condensation of 400 scales.
 #[test]
 fn a_row_with_far_couplings_is_condensed_to_its_last_scales() {

@@ -32,8 +32,9 @@ fn cells_away_from_the_field_point() {
     }
 }
 
-/// In polar coordinates about a field point inside the cell, the integrand is regular: `∬ x²/r³ = ∫
-/// R(θ) cos²θ dθ` with the distance `R` to the boundary.
+/// In polar coordinates about a field point inside the cell, the integrand is regular.
+///
+/// `∬ x²/r³ = ∫ R(θ) cos²θ dθ` with the distance `R` to the boundary.
 #[test]
 fn cells_around_the_field_point() {
     for (x, z) in [([-0.5_f64, 0.5_f64], [-0.5_f64, 0.5_f64]), ([-0.1, 0.7], [-0.02, 0.05])] {

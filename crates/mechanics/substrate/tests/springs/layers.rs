@@ -132,8 +132,10 @@ fn thick_layers_approach_the_half_space() {
     }
 }
 
-/// Values of an independent program on coarse meshes, printed to two digits: an isolated square
-/// relative to the half-space, and the additional couplings of three squares.
+/// Values of an independent program on coarse meshes, printed to two digits.
+///
+/// They are an isolated square relative to the half-space, and the additional couplings of three
+/// squares.
 #[test]
 fn layers_agree_with_an_independent_program() {
     let alone = RowStiffness::compute(&Footprint::new(100.0, 2.0, 0.5).unwrap(), Coupling::Nearest);
@@ -156,8 +158,9 @@ fn layers_agree_with_an_independent_program() {
     }
 }
 
-/// The estimated error bounds the deviation of other quadratures and footprints, and excessively
-/// thin layers are rejected.
+/// The estimated error bounds the deviation of other quadratures and footprints.
+///
+/// Excessively thin layers are rejected.
 #[test]
 fn the_error_is_bounded_and_thin_layers_are_refused() {
     for (thickness, bound) in [(10.0, 1e-4), (2.0, 3e-4), (1.0, 5e-4), (0.5, 2e-3)] {
@@ -168,8 +171,9 @@ fn the_error_is_bounded_and_thin_layers_are_refused() {
     assert!(refused.to_string().contains("a quarter of the half-width"), "{refused}");
 }
 
-/// Waves along an infinite row, as (S12): nine entries of a Hermitian matrix with positive
-/// eigenvalues.
+/// Waves along an infinite row have positive eigenvalues, as in (S12).
+///
+/// The matrix is Hermitian with nine entries.
 #[test]
 fn the_stiffness_is_positive_definite() {
     for thickness in [0.5, 1.0, 2.0, 5.0, 20.0] {
@@ -199,8 +203,9 @@ fn the_stiffness_is_positive_definite() {
     }
 }
 
-/// Derivatives by all four parameters, and by all lengths together, against differences of whole
-/// stiffnesses.
+/// Derivatives agree with differences of whole stiffnesses.
+///
+/// By all four parameters, and by all lengths together.
 #[test]
 fn derivatives_agree_with_differences() {
     for (coupling, [gap, width, ratio, thickness]) in [

@@ -1,5 +1,7 @@
-//! Long rectangles: each unit of length adds the rotational stiffness of the plane problem.
-//! [`analytical::strips`] solves the plane problem by an independent method.
+//! Long rectangles against the plane problem of [`analytical::strips`].
+//!
+//! Each unit of length adds the rotational stiffness of the plane problem, solved by an independent
+//! method.
 
 use analytical::strips;
 use substrate::{Footprint, extrapolated};

@@ -38,9 +38,10 @@ fn isolated_square() {
     assert_printed(square.direct[2], known.rocking, 4, square.error * square.direct[2]);
 }
 
-/// Three squares with gaps of a tenth of their side at `ν = 0.5`, with values known to three
-/// decimals. They are compared as truncated after the third: `β_x = 0.9936`, known as 0.993, would
-/// round to 0.994; the other five agree either way.
+/// Three squares with gaps of a tenth of their side at `ν = 0.5`.
+///
+/// The values are known to three decimals. They are compared as truncated after the third:
+/// `β_x = 0.9936`, known as 0.993, would round to 0.994; the other five agree either way.
 #[test]
 fn three_squares() {
     let row = springs(0.2, 2.0, 0.5);
@@ -55,8 +56,9 @@ fn three_squares() {
     assert!(row.coupling[2] < 0.0);
 }
 
-/// A distant neighbour sees a point load: its reaction is `α u` with `u = α/(π p)`, and for shear
-/// `u = α/(π p (1 − ν))`.
+/// A distant neighbour responds as to a point load.
+///
+/// Its reaction is `α u` with `u = α/(π p)`, and for shear `u = α/(π p (1 − ν))`.
 #[test]
 fn distant_neighbours_respond_as_to_a_point_load() {
     let poisson_ratio = 0.3;
@@ -98,8 +100,9 @@ fn isolated_limit() {
     assert!(excess(40.0, 2).abs() < 1e-4 * alone[2]);
 }
 
-/// Normal problems over `E*` do not depend on `ν`. Shear does, and at `ν = 0` it equals the normal
-/// problem.
+/// Normal problems over `E*` do not depend on `ν`.
+///
+/// Shear does, and at `ν = 0` it equals the normal problem.
 #[test]
 fn poisson_ratio_scaling() {
     let [zero, some, half] = [0.0, 0.25, 0.5].map(|ratio| springs(0.3, 1.5, ratio));

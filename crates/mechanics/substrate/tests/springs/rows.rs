@@ -32,8 +32,10 @@ fn one_neighbour_without_rotation_is_equation_1() {
     }
 }
 
-/// (S12): stiffness of an infinite row for displacements that vary along it as `exp(i q k)`. If it
-/// is positive for every `q`, the stiffness of every finite row is positive definite.
+/// The stiffness of an infinite row is positive definite for every wave (S12).
+///
+/// Displacements vary along the row as `exp(i q k)`. If the stiffness is positive for every `q`,
+/// every finite row is positive definite, too.
 #[test]
 fn the_stiffness_is_positive_definite() {
     for numbers in FOOTPRINTS {
@@ -55,8 +57,9 @@ fn the_stiffness_is_positive_definite() {
     }
 }
 
-/// A distant scale sees a point load and a couple: it is held against `u = α_y/(π r)` and against
-/// `u = α_φ/(π r²)`.
+/// A distant scale responds as to a point load and a couple.
+///
+/// It is held against `u = α_y/(π r)` and against `u = α_φ/(π r²)`.
 #[test]
 fn distant_scales_respond_as_to_point_loads_and_couples() {
     let row = row([200.0, 2.0], 3);

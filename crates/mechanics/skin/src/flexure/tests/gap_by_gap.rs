@@ -50,9 +50,11 @@ fn close(a: Option<f64>, b: Option<f64>, max_relative: f64) {
     assert_relative_eq!(a.unwrap(), b.unwrap(), max_relative = max_relative);
 }
 
-/// Between upright scales the membrane is an arc of radius `1/M*` whatever its length, so the tops
-/// meet where the radius equals their height, `M* = 1`, in all gaps at once. Discretised with `m`
-/// elements the arc is a polygon with sides `d/m = 2 sin(θ/2m)`, which gives `M* = θ/d`.
+/// Upright scales touch at `M* = 1` in all gaps at once.
+///
+/// The membrane between them is an arc of radius `1/M*` whatever its length, and the tops meet
+/// where the radius equals their height. Discretised with `m` elements the arc is a polygon with
+/// sides `d/m = 2 sin(θ/2m)`, which gives `M* = θ/d`.
 #[test]
 fn upright_scales_touch_at_one_moment_for_all_gaps() {
     let flexure = bent(&GAPS, &[0.0; 7]);

@@ -8,8 +8,9 @@ use super::{BACKWARD, CONSTRAINTS_PER_TOUCH, FACE_END, FACE_START, FORWARD, Guid
 use crate::contacts::{Contacts, HOLDS, SkinPoint, SkinState, TipFriction, product_integral};
 use crate::puncture::system::Chain;
 
-/// Distance (over `t`) by which a foot may exceed the end of a face: round-off and approach of
-/// corners that lie on it.
+/// Distance (over `t`) by which a foot may exceed the end of a face.
+///
+/// It covers round-off and the approach of corners that lie on the face.
 const BESIDE: f64 = 1e-9;
 
 /// Distance (over `t`) within which the shortest steps approach an end that they cannot pass.
@@ -242,8 +243,9 @@ impl Chain {
         })
     }
 
-    /// Lists the needle unknowns of the stiffness: depth, and the forces that hold it on faces and
-    /// at anchors.
+    /// Lists the needle unknowns of the stiffness.
+    ///
+    /// These are the depth, and the forces that hold the needle on faces and at anchors.
     pub(in crate::puncture) fn needle_in_stiffness(&self, state: &SkinState) -> Vec<usize> {
         let Some(needle) = &self.needle else { return Vec::new() };
         let mut unknowns = vec![needle.depth];
@@ -294,8 +296,7 @@ impl Chain {
         touches.map(|(slot, _, _, at)| at.tip.force(needle.forces(&state.z, slot)).x).sum()
     }
 
-    /// Computes the frictional dissipation at the tip between two neighbouring points, `∫ μ_n N
-    /// |dξ|`.
+    /// Computes the frictional dissipation at the tip between two points, `∫ μ_n N |dξ|`.
     pub(in crate::puncture) fn taken_at_tip(
         &self,
         from: &SkinPoint,
@@ -345,8 +346,7 @@ impl GuidedNeedle {
         [z[normal_force], if rubs { z[normal_force + 1] } else { 0.0 }]
     }
 
-    /// Adds the equation that tip and corner in a notch take equal fractions of their friction
-    /// limits.
+    /// Adds the equation for equal fractions of the friction limits in a notch.
     ///
     /// With the friction limits `μ_n N` of the tip and `μ Λ` of the corner it is
     /// `T_c = (T_c + T) μ Λ/(μ Λ + μ_n N)`, in the row of the unknown of the corner.

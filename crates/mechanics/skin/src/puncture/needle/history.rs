@@ -169,8 +169,9 @@ fn moved_to(
 }
 
 impl Chain {
-    /// Evaluates in `state` a history variable that state `to` will have: an anchor or a ratio of
-    /// forces.
+    /// Evaluates in `state` a history variable that state `to` will have.
+    ///
+    /// It is an anchor or a ratio of forces.
     fn history_value(
         &self,
         state: &SkinState,

@@ -36,11 +36,13 @@ pub(crate) enum TipState {
     Slip { sign: f64, start: f64 },
     /// Sticks: `ξ = anchor`, and `T` is unknown.
     Stick { anchor: f64 },
-    /// Passes over a corner, forward or backward along the outline: `ξ = 0` in the frame of the
-    /// corner, `T` is unknown.
+    /// Passes over a corner, forward or backward along the outline.
+    ///
+    /// `ξ = 0` in the frame of the corner, and `T` is unknown.
     Passing { forward: bool },
-    /// Locked in a notch by the neighbouring face: nothing moves, and `T = ratio N` keeps its
-    /// ratio.
+    /// Locked in a notch by the neighbouring face.
+    ///
+    /// Nothing moves, and `T = ratio N` keeps its ratio.
     Locked { ratio: f64 },
 }
 

@@ -78,8 +78,9 @@ impl Tip {
         Self { arm, normal, along, gap, xi, length: face.length }
     }
 
-    /// Rotates the frame so that its normal points from the corner to the tip, as for a round tip
-    /// there.
+    /// Rotates the frame so that its normal points from the corner to the tip.
+    ///
+    /// A round tip at a corner requires this.
     pub(super) fn at_corner(self) -> Self {
         let away = self.gap * self.normal + self.xi * self.along;
         let gap = away.norm();

@@ -33,15 +33,17 @@ impl CriticalEvent {
 pub struct Passage {
     /// Event that ended the path; `None` if it ended otherwise.
     pub critical_event: Option<CriticalEvent>,
-    /// `F*` where the needle first touches more than its initial face (a corner or another scale);
-    /// `None` if it never does.
+    /// `F*` at which the needle first touches more than its initial face.
+    ///
+    /// This is a corner or another scale. `None` if it never does.
     pub passing_force: Option<f64>,
     /// `u*` there.
     pub passing_displacement: Option<f64>,
     /// Tilt of the punctured scale there, degrees.
     pub passing_tilt_deg: Option<f64>,
-    /// Inward displacement of the needle on that face, over `t`: at the end, or where it first
-    /// touches more.
+    /// Inward displacement of the needle on that face, over `t`.
+    ///
+    /// At the end, or where it first touches more.
     pub needle_shift: Option<f64>,
 }
 
@@ -55,8 +57,7 @@ impl Passage {
 /// Scales touched by a round tip (0 is the punctured one), with the normal forces in units of `F*`.
 pub type TipForces = Vec<(i64, f64)>;
 
-/// Detects where the needle first touches more than its face, and records the forces of a round
-/// tip.
+/// Detects the first touch beyond the initial face, and records the forces of a round tip.
 #[derive(Debug, Default)]
 pub(in crate::puncture) struct PassageObserver {
     /// One entry per point that the path has left.

@@ -26,8 +26,9 @@ const PUSHED_ALONG: usize = 2;
 /// Gaps of scales touched at rest agree within this round-off.
 const AT_REST: f64 = 1e-10;
 
-/// Maximum number of trials to settle a tip set down on two scales: on one of them, sticking or
-/// sliding.
+/// Maximum number of trials to settle a tip set down on two scales.
+///
+/// It may rest on one of them, sticking or sliding.
 const SETTLES: usize = 8;
 
 const FACES: [OutlinePart; 3] = [OutlinePart::Left, OutlinePart::Top, OutlinePart::Right];
@@ -92,8 +93,9 @@ impl Chain {
         Vec2::new(x, highest)
     }
 
-    /// Finds the outline part of a scale nearest to the centre, and its distance; negative inside
-    /// the scale.
+    /// Finds the outline part of a scale nearest to the centre, and its distance.
+    ///
+    /// The distance is negative inside the scale.
     fn nearest(&self, z: &[f64], scale: i64) -> Option<(OutlinePart, f64)> {
         let [left, top, right] = FACES.map(|place| self.tip(z, scale, place));
         let faces = [left?, top?, right?];
@@ -197,8 +199,9 @@ impl Chain {
         values[through] = values[through].min(self.above_surface(needle, state));
     }
 
-    /// Computes the distances of the tip from both ends of the touched outline part; feet do not
-    /// count.
+    /// Computes the distances of the tip from both ends of the touched outline part.
+    ///
+    /// Feet do not count as ends.
     fn to_ends(&self, state: &SkinState, scale: i64, place: OutlinePart) -> [f64; 2] {
         let seen = |place: OutlinePart| self.tip(&state.z, scale, place);
         let is_corner = !FACES.contains(&place);
@@ -212,8 +215,9 @@ impl Chain {
         })
     }
 
-    /// Computes the distance of the circle from the soft surface between two bases, a straight
-    /// line.
+    /// Computes the distance of the circle from the soft surface between two bases.
+    ///
+    /// The surface is a straight line.
     fn above_surface(&self, needle: &GuidedNeedle, state: &SkinState) -> f64 {
         let mut least = HOLDS;
         for (_, scale) in needle.scales() {
@@ -275,8 +279,9 @@ impl Chain {
     }
 }
 
-/// Computes the height of the centre of a circle resting on a face or its ends, at `x` in the frame
-/// of the scale.
+/// Computes the height of the centre of a circle resting on a face or its ends.
+///
+/// The circle is at `x` in the frame of the scale.
 fn height_above(face: &Face, x: f64, radius: f64) -> f64 {
     let normal = Vec2::new(-face.along.y, face.along.x);
     let on_face = face.origin.y + (radius - (x - face.origin.x) * normal.x) / normal.y;

@@ -67,8 +67,9 @@ impl Chain {
         Some(needle.number(slot, valid))
     }
 
-    /// Dissolves a notch when its corner no longer lies on the neighbouring face; the tip stays at
-    /// the corner.
+    /// Dissolves a notch when its corner no longer lies on the neighbouring face.
+    ///
+    /// The tip stays at the corner.
     pub(in crate::puncture) fn release_notch(&self, needle: &GuidedNeedle, state: &mut SkinState) {
         let Some([face, _]) = self.notch(state) else { return };
         let top = state.mode.needle.touches[1 - face];
@@ -291,8 +292,9 @@ impl Chain {
         Some(if onward { BACKWARD } else { FORWARD })
     }
 
-    /// Moves a touch to another outline part, with its force resolved along the new normal and
-    /// tangent.
+    /// Moves a touch to another outline part.
+    ///
+    /// Its force is resolved along the new normal and tangent.
     fn move_to(
         &self,
         needle: &GuidedNeedle,

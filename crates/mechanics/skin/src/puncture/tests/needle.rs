@@ -40,8 +40,9 @@ fn guided_path(design: &Design, friction: f64, inside: f64, step: f64) -> Contin
     Continuation::new(chain, rest, settings)
 }
 
-/// Designs, frictions and positions with a tip that sticks, slides in both directions, and passes
-/// over the right or the left corner.
+/// Designs, frictions and positions of tips in all states.
+///
+/// The tips stick, slide in both directions, and pass over the right or the left corner.
 const CASES: [(f64, f64, f64, f64, f64); 7] = [
     (0.1, 1.0, 0.0, 0.0, 0.0),
     (0.1, 1.0, 45.0, 0.0, 0.0),
@@ -120,9 +121,11 @@ fn a_needle_passes_into_the_notch() {
     }
 }
 
-/// Ten results of an independent program with rigid contacts, active sets, steps of 2e-4 in depth,
-/// and rows of 41 scales: the force at the passage or else at 10°, the depth of the needle there,
-/// and its inward displacement.
+/// Compares with ten results of an independent program.
+///
+/// It has rigid contacts, active sets, steps of 2e-4 in depth, and rows of 41 scales. The results
+/// are the force at the passage or else at 10°, the depth of the needle there, and its inward
+/// displacement.
 #[test]
 fn needle_matches_an_independent_program() {
     let ten: [([f64; 3], f64, f64, [f64; 3]); 10] = [
@@ -173,8 +176,9 @@ fn tangent_matches_finite_differences() {
     }
 }
 
-/// Compares with the dense stiffness over displacements and depth, for needles that slide without
-/// friction, stick and pass.
+/// Compares with the dense stiffness over displacements and depth.
+///
+/// The needles slide without friction, stick and pass.
 #[test]
 fn negative_eigenvalues_match_the_dense_stiffness() {
     let mut compared = HashSet::new();
@@ -250,8 +254,9 @@ fn dissipated_fraction(path: Continuation<Chain>) -> f64 {
     rubbed / done
 }
 
-/// One scale on its springs, `k u = f` in each direction, with the arm `ρ` of the needle along the
-/// top and the tip at `X`:
+/// One scale on its springs, `k u = f` in each direction.
+///
+/// With the arm `ρ` of the needle along the top and the tip at `X`:
 ///
 /// ```text
 /// k_φ φ = −N ρ,   N sin φ = −k_x x,   ρ cos φ − sin φ = X − x                  F = N cos φ
@@ -404,8 +409,9 @@ fn set_down_further_right(input: &mut puncture::PunctureInput, by: f64) {
     input.parameters.load_position += by;
 }
 
-/// Compares derivatives with differences of whole solutions, for needles that slide, that stick
-/// from the start, that slide and stop, and that are locked in a notch.
+/// Compares derivatives with differences of whole solutions.
+///
+/// The needles slide, stick from the start, slide and stop, or are locked in a notch.
 #[test]
 fn derivatives_account_for_history_variables() {
     let changes: [(Change, f64); 4] = [

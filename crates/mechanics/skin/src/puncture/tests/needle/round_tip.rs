@@ -3,8 +3,9 @@
 use super::*;
 use crate::puncture::needle::{OutlinePart, reach, unknowns};
 
-/// Gap, length and slant, radius, friction, and position: tips that roll from face to corner, touch
-/// several scales, stick and slide in both directions.
+/// Gap, length and slant; radius; friction; position.
+///
+/// The tips roll from face to corner, touch several scales, stick and slide in both directions.
 const TIPS: [([f64; 3], f64, f64, f64); 9] = [
     ([0.1, 1.0, 0.0], 0.1, 0.0, 1.0),
     ([0.1, 0.2, 0.0], 1.0, 0.0, 1.0),
@@ -50,8 +51,9 @@ fn tangent_of_a_round_tip_matches_finite_differences() {
     assert_eq!(rubs.len(), 4);
 }
 
-/// Compares derivatives with respect to radius, position and length with differences of whole
-/// solutions: on a face, on a corner, and on two or three scales.
+/// Compares derivatives by radius, position and length with differences of solutions.
+///
+/// The tips are on a face, on a corner, and on two or three scales.
 #[test]
 fn derivatives_of_a_round_tip_match_differences() {
     let by_radius: Change =
