@@ -158,6 +158,9 @@ fn cells(
 ///
 /// The files are the goal, the history, the optimum or front, and `figures` by name. Returns the
 /// names of the files.
+///
+/// # Errors
+/// If a file cannot be written, or a table has been changed since squama wrote it.
 pub fn write_found(
     folder: &ResultsFolder,
     goal: &DesignGoal,

@@ -94,6 +94,7 @@ pub fn shown(place: Shown) -> Vec<&'static str> {
 
 /// Layout of a table: file name and columns.
 pub struct TableLayout {
+    /// Name of the file in the folder.
     pub file: String,
     /// Columns, from the left.
     pub columns: Vec<Column<DesignRow>>,

@@ -17,7 +17,9 @@ pub enum Cell {
     Empty,
     /// A real number. A number that is not finite is written as an empty cell.
     Number(f64),
+    /// A whole number.
     Count(i64),
+    /// A text.
     Text(Cow<'static, str>),
 }
 

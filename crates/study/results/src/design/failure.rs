@@ -12,6 +12,7 @@ use super::outcome::Outcome;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Failure {
+    /// Measure without a value.
     pub measure: Measure,
     /// Reason why the measure has no value.
     pub outcome: Outcome,

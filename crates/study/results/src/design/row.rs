@@ -18,6 +18,7 @@ pub struct DesignRow {
     pub number: DesignNumber,
     /// Parameters of the design.
     pub case: Case,
+    /// Measures of the design.
     pub result: DesignResult,
 }
 
@@ -43,6 +44,7 @@ impl DesignRow {
 pub struct DerivativeRow {
     /// Position of the design in the grid.
     pub design: DesignNumber,
+    /// Derivatives with respect to one parameter.
     pub derivative: ParameterDerivative,
 }
 
@@ -66,7 +68,9 @@ pub struct SolvedDesign {
 /// Row of `failures.csv`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FailureRow {
+    /// Row of the design in `designs.csv`.
     pub design: DesignRow,
+    /// Reason why one of its measures has no value.
     pub failure: Failure,
 }
 

@@ -8,6 +8,7 @@ use super::failure::finite;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Statistics {
+    /// Mean over the samples.
     pub mean: f64,
     /// Quantiles at 5 %, 50 % and 95 %. They are interpolated between the two nearest values
     /// ([`quantile_places`]).
