@@ -135,7 +135,7 @@ fn as_json(sweep: &Sweep) -> Value {
     })
 }
 
-/// Formats the contact moduli in MPa, if all designs share the moduli and ratios.
+/// Formats the contact moduli in `MPa`, if all designs share the moduli and ratios.
 fn contact_moduli(sweep: &Sweep) -> Option<String> {
     let shared = |key: &str| sweep.shared().find(|(p, _)| p.key == key)?.1.number();
     let modulus = |of: &str, ratio: &str| Some(shared(of)? * shared(ratio)?);

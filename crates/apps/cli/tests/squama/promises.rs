@@ -306,8 +306,8 @@ fn endless_inputs_are_rejected() {
     };
     fs::write(place.path("pipe.toml"), fit("p")).expect("writable");
     fs::write(place.path("zero.toml"), fit("/dev/zero")).expect("writable");
-    let sections: String = (0..150_000).map(|k| format!("[s{k}]\n")).collect();
-    fs::write(place.path("sections.toml"), sections).expect("writable");
+    let sections: Vec<String> = (0..150_000).map(|k| format!("[s{k}]")).collect();
+    fs::write(place.path("sections.toml"), sections.join("\n")).expect("writable");
     let commands = [
         ("fit pipe.toml", "p: cannot be read (it is not a regular file)"),
         ("fit zero.toml", "/dev/zero: cannot be read (it is not a regular file)"),
