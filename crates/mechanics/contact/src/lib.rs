@@ -34,7 +34,7 @@
 //! assert!((gap.value - (0.1 - 0.05_f64.sin() + 0.5 * (1.0 - 0.05_f64.cos()))).abs() < 1e-15);
 //!
 //! let law = ContactLaw::new(Law::PRINTED, 1.0, 1.0, 7000.0)?;
-//! The approach under a unit force is tiny: contact is nearly rigid.
+//! // The approach under a unit force is tiny: contact is nearly rigid.
 //! assert!(law.approach(1.0).value < 1e-15);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

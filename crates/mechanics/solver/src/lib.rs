@@ -56,7 +56,7 @@
 //!     }
 //! }
 //!
-//! The control parameter u goes from 0 to 1: the load rises to 2/√27 at u = 1/√3, then falls to 0.
+//! // The control parameter u goes from 0 to 1: the load rises to 2/√27 at u = 1/√3, then falls to 0.
 //! let system = SnapThrough([Control { index: 0, scale: 1.0 }]);
 //! let rest = State::at_rest(&system);
 //! let mut path = Continuation::new(system, rest, Settings::default());

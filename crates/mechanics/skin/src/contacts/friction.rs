@@ -213,7 +213,7 @@ impl Contacts {
         }
     }
 
-    /// Computes the fraction of its limit that the friction of a contact has, from −1 to 1.
+    /// Computes the friction of a contact as a fraction of its limit, from −1 to 1.
     pub(crate) fn mobilised(&self, state: &SkinState, contact: usize) -> f64 {
         if !self.has_friction() {
             return 0.0;
@@ -223,8 +223,8 @@ impl Contacts {
 
     /// Locks the friction of a contact because a needle tip is at its corner.
     ///
-    /// The ratio stays as it is, or with `sliding` is the one of sliding with the tip: `T` has this
-    /// sign.
+    /// The ratio `T/Λ` is unchanged, or with `sliding` it is the ratio of sliding with the tip, and
+    /// `sliding` is the sign of `T`.
     pub(crate) fn lock(&self, state: &mut SkinState, contact: usize, sliding: Option<f64>) {
         if !self.has_friction() {
             return;

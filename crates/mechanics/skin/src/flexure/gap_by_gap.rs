@@ -19,7 +19,9 @@ const CLOSE: f64 = 1e-12;
 /// The search for the largest stiffness stops when the predicted relative gain is below this.
 const FLAT: f64 = 1e-11;
 
-/// Fraction of the distance from the stiffest point to the next breakpoint at which it is checked.
+/// Distance from the stiffest point at which the strip is checked to be softer.
+///
+/// It is relative to the distance to the next breakpoint.
 const BESIDE: f64 = 1e-3;
 /// Relative gain that counts as a larger stiffness.
 const STIFFER: f64 = 1e-9;

@@ -12,7 +12,8 @@ const ROUND_OFF: f64 = 1e-12;
 
 /// Tolerance of Newton's method for states of a finer resolution.
 ///
-/// They only serve an error estimate; the quadratic convergence still doubles the digits once.
+/// They only serve an error estimate. The last iteration converges quadratically, so the error is
+/// far smaller than the tolerance.
 const ESTIMATED: f64 = 1e-6;
 
 /// Side of a moment at which the curve has a kink.

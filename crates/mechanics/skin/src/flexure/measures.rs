@@ -25,7 +25,7 @@ pub struct FlexureMeasures {
     pub contact: Option<bool>,
     /// `κ*` at the first contact.
     pub first_contact_curvature: Option<f64>,
-    /// `M*` of the largest size; negative on a path to the outside.
+    /// `M*` of the largest magnitude; negative on a path to the outside.
     pub max_moment: Option<f64>,
     /// Axial fraction of the elastic energy at the end of the path.
     pub axial_energy_share: Option<f64>,

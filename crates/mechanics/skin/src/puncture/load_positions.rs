@@ -17,7 +17,7 @@ use crate::{Common, Design, Status};
 
 /// Relative difference below which two forces count as equal.
 ///
-/// An example are the two corners of an upright scale. The tolerance of paths leaves about 1e-9.
+/// The two corners of an upright scale are an example. The tolerance of paths leaves about 1e-9.
 const TIE: f64 = 1e-7;
 
 /// Relative difference below which derivatives count as equal.
