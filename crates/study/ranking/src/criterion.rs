@@ -15,6 +15,9 @@ use serde::{Serialize, Serializer};
 /// let criterion: Criterion = "min:areal_mass_kg_m2".parse()?;
 /// assert_eq!((criterion.column.as_ref(), criterion.goal), ("areal_mass_kg_m2", Goal::Minimize));
 /// // For some columns the direction is known.
+/// assert_eq!("penetration".parse::<Criterion>()?.goal, Goal::Minimize);
+/// # Ok::<(), ranking::InvalidCriterion>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Criterion {
     /// Name of the criterion, for messages.

@@ -57,6 +57,9 @@ impl Relation {
 /// let requirement: Requirement = "coverage >= 0.6".parse()?;
 /// assert!(requirement.is_met(0.7) && !requirement.is_met(0.5));
 /// // Round-off does not violate a requirement.
+/// assert!(requirement.is_met(0.6 - 1e-15));
+/// # Ok::<(), ranking::InvalidRequirement>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Requirement {
     /// Column name.

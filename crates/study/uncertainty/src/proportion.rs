@@ -23,10 +23,14 @@ impl Proportion {
     /// Returns the 95 % confidence interval of the probability.
     ///
     /// Its coverage is at least 95 % (Clopper & Pearson 1934, doi 10.1093/biomet/26.4.404).
+    ///
     /// ```
     /// use uncertainty::Proportion;
     ///
     /// // If all of 1,000 samples meet a requirement, at most 3.7 of a thousand do not.
+    /// let [low, high] = Proportion { met: 1000, of: 1000 }.interval();
+    /// assert!((low - 0.99632).abs() < 1e-5 && high == 1.0);
+    /// ```
     pub fn interval(self) -> [f64; 2] {
         let (met, missed) = (self.met as f64, (self.of - self.met) as f64);
         // The beta distribution is undefined if no sample or every sample has the property. The
