@@ -31,7 +31,7 @@ impl Interrupt {
         Ok(interrupt)
     }
 
-    /// From now on the first signal only requests the end.
+    /// Lets the first signal only request the end from now on.
     pub fn ask_first(&self) {
         self.asks_first.store(true, Ordering::Relaxed);
     }

@@ -57,7 +57,7 @@ impl Designs {
         self.table.numbers(self.table.column(column)?)
     }
 
-    /// Returns whether any design has a number in a column.
+    /// Returns true if any design has a number in a column.
     pub(crate) fn has(&self, column: &str) -> bool {
         (0..self.count()).any(|row| self.number(column, row).is_some())
     }

@@ -97,10 +97,9 @@ pub(crate) const PARTS: usize = 24;
 
 /// Draws every figure for which the table has values.
 ///
-/// With a ranking it includes the Pareto fronts and the best designs for all weights. A sweep with
-/// more axes than gap, aspect ratio and slant has separate figures for each value of those, up to
-/// 24; their names and titles include the values.
-/// and its title say which.
+/// With a ranking it includes the Pareto fronts and the best designs for all weights. If a sweep has
+/// axes besides gap, aspect ratio and slant, each combination of their values has its own figures,
+/// for at most 24 combinations. Their names and titles include the values.
 pub fn figures(name: &str, designs: &Designs, ranking: Option<&Ranking<'_>>) -> Vec<Figure> {
     let parts = designs.parts();
     let part = |(values, part): &(AxisValues<'_>, Designs)| {

@@ -84,7 +84,7 @@ pub fn explore(arguments: &Arguments) -> anyhow::Result<u8> {
     Ok(DONE)
 }
 
-/// The sweep of a definition, and the requirements of its goal if it has one.
+/// Returns the sweep of a definition, and the requirements of its goal if it has one.
 fn sweep_and_goal(definition: &Definition) -> anyhow::Result<(Sweep, Vec<Requirement>)> {
     Ok(match defined(definition)? {
         Defined::Goal(goal) => (goal.space.sweep().clone(), goal.requirements),

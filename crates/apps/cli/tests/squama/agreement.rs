@@ -3,7 +3,6 @@
 //! A computed number is written with a point and at least three digits, or with a point and an
 //! exponent. Its last digit may differ by one, because machines round differently. All other
 //! numbers (designs, settings, bands, years, counts) must be equal.
-//! (designs, settings, bands, years) or count something, and are equal.
 
 use std::iter::{from_fn, zip};
 

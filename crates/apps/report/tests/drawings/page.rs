@@ -213,7 +213,7 @@ fn figures_of(html: &str) -> Vec<(String, String)> {
 }
 
 #[test]
-fn the_figures_of_a_page_are_those_of_files() {
+fn a_page_has_the_same_figures_as_files() {
     let results = results(&table());
     let ranking = Ranking::new(&results, TetrahedralGrid::default()).expect("designs to rank");
     let files = figures("x", &designs(), Some(&ranking));

@@ -86,7 +86,7 @@ fn an_edge_contact_becomes_flush() {
 }
 
 #[test]
-fn a_corner_whose_own_force_vanishes_is_left_by_the_partner() {
+fn a_corner_without_its_own_force_is_left_by_the_partner() {
     for (short, edge, partner) in [
         (1.0, BottomRightOnLeftEdge, BottomLeftOnRightEdge),
         (-1.0, BottomLeftOnBase, BottomLeftOnRightEdge),
@@ -99,7 +99,7 @@ fn a_corner_whose_own_force_vanishes_is_left_by_the_partner() {
 }
 
 #[test]
-fn a_corner_whose_partners_force_vanishes_is_left_as_the_side_leans() {
+fn a_corner_without_the_force_of_its_partner_is_left_as_the_side_leans() {
     for (short, edge, leaves) in [
         (1.0, BottomLeftOnBase, BottomRightOnLeftEdge),
         (-1.0, BottomRightOnLeftEdge, BottomLeftOnBase),
@@ -111,7 +111,7 @@ fn a_corner_whose_partners_force_vanishes_is_left_as_the_side_leans() {
 }
 
 #[test]
-fn a_flush_contact_whose_own_force_vanishes_is_left_by_the_other_end() {
+fn a_flush_contact_without_its_own_force_continues_at_the_other_end() {
     for (edge, other) in
         [(BottomLeftOnBase, BottomRightOnLeftEdge), (BottomRightOnLeftEdge, BottomLeftOnBase)]
     {
@@ -127,7 +127,7 @@ fn a_flush_contact_that_reaches_the_corner_joins_its_forces_there() {
 }
 
 #[test]
-fn a_flush_contact_whose_other_force_vanishes_is_left_as_it_came() {
+fn a_flush_contact_without_the_flush_force_returns_to_its_edge() {
     let left = next(Flush(BottomLeftOnBase), (Force::Flush, VANISHES), 0.0, [0.7, 0.0, 0.0]);
     assert_eq!(left, Some(to(Edge(BottomLeftOnBase), [0.7, 0.0, 0.0], Force::Flush)));
 }
