@@ -1,4 +1,4 @@
-// Sliders: one for each parameter, with a field to type in and an arrow that says which way is better.
+// Sliders: one per parameter, with an input field and an arrow in the direction of improvement.
 
 (() => {
   const { element, at, live } = squama;
@@ -10,7 +10,7 @@
     return element("div", { class: "control" }, element("label", { for: `live-set-${control.key}` }, control.label), chosen);
   };
 
-  /** Reads a typed number, with a decimal comma too; null if it is none or out of range. */
+  /** Parses a number with a decimal point or comma; null if it is invalid or out of range. */
   const typed = (control, text) => {
     const number = Number(text.trim().replace(",", ".").replace(/\s*(mm|MPa|t|°)$/, "")) / live.shownAs(control)[0];
     const slack = 1e-9 * (control.max - control.min);
@@ -32,7 +32,7 @@
     control.arrow = element("button", { type: "button", class: "arrow", onclick: () => live.follow(control.key, control.better > 0) });
     control.show = () => {
       const [factor, name] = live.shownAs(control);
-      // The step of a slider would round what was typed or dragged.
+      // Any step, because a fixed one would round values that were typed or dragged.
       Object.assign(range, { min: control.min, max: control.max, step: "any", value: control.value });
       range.setAttribute("aria-valuetext", live.text(control.key));
       if (document.activeElement !== field || field.getAttribute("aria-invalid") !== "true") {
@@ -65,7 +65,7 @@
   };
 
   let listed = "";
-  /** Shows the controls that act, and makes their list anew where others do. */
+  /** Updates the active controls, and rebuilds their list if it has changed. */
   const show = () => {
     const acting = live.controls(), keys = acting.map(({ key }) => key).join();
     if (keys !== listed) {

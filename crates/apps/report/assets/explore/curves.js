@@ -1,4 +1,4 @@
-// Force against depth and moment against curvature, each with a mark that moves along the path.
+// Force over depth and moment over curvature, each with a mark at the current state.
 
 (() => {
   const { svg, at, live } = squama;
@@ -13,7 +13,7 @@
     const slider = at(`live-${id}-share`);
     slider.value = live.drawn[load];
     slider.setAttribute("aria-valuetext", at(load === 0 ? "live-needle-words" : "live-bent-words").textContent);
-    // Axes without a curve would have no ends.
+    // Without a curve the axes have no range.
     if (!live.answer) return;
     const own = live.answer[path], before = live.pinned?.answer?.[path], { units } = live.answer;
     const lines = [own, before].map((one) => one?.path ?? []), all = lines.flat();

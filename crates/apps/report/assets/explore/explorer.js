@@ -22,7 +22,7 @@
   at("live-sheet").addEventListener("click", () => {
     const open = at("live-sheet").getAttribute("aria-expanded") !== "true";
     at("live-sheet").setAttribute("aria-expanded", String(open));
-    // Keeps the drawing in sight above the sliders.
+    // Keeps the drawing visible above the sliders.
     if (open) at("live-rest").scrollIntoView();
   });
 

@@ -3,7 +3,7 @@
 (() => {
   const { element, at, live } = squama;
   const named = (answer, name) => answer?.values.find((value) => value.name === name);
-  /** A measure in physical units where the material tells, else as it is. */
+  /** Returns a measure in physical units if the material is known, otherwise dimensionless. */
   const shown = (answer, { name, physical }) => named(answer, physical) ?? named(answer, name);
   // Dimensionless units are hidden: their symbols are explained only in theory.md.
   const unitOf = (value) => (/^(N|mm)/.test(value.unit) ? value.unit : "");
@@ -23,7 +23,7 @@
     element("span", { class: "other" }, compared(value, measure) || measure.words));
   };
 
-  /** `critical_force_N >= 2` as people write it. */
+  /** Formats a requirement such as `critical_force_N >= 2` in words. */
   const inWords = (text) => text.replace(/(?:_(N|mm|deg))? (>=|<=|==|>|<) (\S+)$/, (_, unit, sign, limit) =>
     ` ${{ ">=": "≥", "<=": "≤", "==": "=" }[sign] ?? sign} ${limit}${unit ? ` ${unit}` : ""}`).replaceAll("_", " ");
 

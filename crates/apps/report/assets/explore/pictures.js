@@ -1,11 +1,11 @@
-// The skin to scale: at rest with the handles that a hand may drag, under the needle, and bent.
+// The skin to scale: at rest with handles to drag, under the needle, and bent.
 
 (() => {
   const { svg, at, live } = squama;
   const radians = (degrees) => (degrees * Math.PI) / 180;
   let grabbed = null;
 
-  /** Half the base, the gap, the shift of the top and the pitch, over the thickness. */
+  /** Computes half-base, gap, shift of the top, and pitch, over the thickness. */
   const form = (values) => {
     const half = values.length_over_t / (live.data.base === "2L" ? 1 : 2), gap = values.gap_over_t;
     return { half, gap, shift: Math.tan(radians(values.slant_deg)), pitch: 2 * half + gap };
@@ -14,7 +14,7 @@
 
   const place = (view, [x, y]) => [view.left + view.scale * x, view.base - view.scale * y];
   const points = (view, line) => line.map((point) => place(view, point).map((c) => c.toFixed(1)).join(",")).join(" ");
-  /** The outline of a scale that stands at x, y and has turned. */
+  /** Computes the outline of a scale at a pose: node position and rotation. */
   const outline = ({ half, shift }, [x, y, turn]) => {
     const [cos, sin] = [Math.cos(turn), Math.sin(turn)];
     return [[-half, 0], [half, 0], [half + shift, 1], [-half + shift, 1]].map(([u, v]) => [x + u * cos - v * sin, y + u * sin + v * cos]);
@@ -24,7 +24,7 @@
     at(id).setAttribute("viewBox", `0 0 ${width} ${height}`);
     return { width, height };
   };
-  /** What the rings among the dots are: nothing is known of that without friction. */
+  /** Shows the legend of dots and rings, sticking and slipping contacts; empty without friction. */
   const stuck = (id, contacts) => {
     const known = contacts.filter(([, , slips]) => slips !== null), slipping = known.filter(([, , slips]) => slips).length;
     at(id).textContent = known.length > 0 ? `Where scales touch: ● ${known.length - slipping} stick, ○ ${slipping} slip` : "";
@@ -37,7 +37,7 @@
     const [cx, cy] = place(view, [x, y]);
     return svg("circle", { cx, cy, r: 4, class: slips ? "contact slips" : "contact" });
   });
-  /** The scales that a picture of that width shows, at rest but for those that have `moved`. */
+  /** Lists the scales within a drawing of this width; those not in `moved` are at rest. */
   const poses = (own, view, width, moved = new Map()) => {
     const [first, last] = [-view.left / view.scale - own.half - own.shift, (width - view.left) / view.scale + own.half].map((x) => x / own.pitch);
     return Array.from({ length: Math.min(400, Math.floor(last) - Math.ceil(first) + 1) }, (_, k) => k + Math.ceil(first)).map((number) => {
@@ -45,18 +45,19 @@
       return { number, pose: [number * own.pitch + x, y, radians(turn)] };
     });
   };
-  /** A row of about five scales, as large as there is room. */
+  /** Fits a row of about five scales into the available space. */
   const fitted = (own, { width, height }, most) => {
     const scale = Math.min(width / Math.max(3.4, 4.5 * own.pitch + own.shift), height / 1.9, most);
     return { scale, left: width / 2 - scale * own.shift / 2, base: 0.72 * height };
   };
 
-  /** What a hand may drag: where it stands, and what it makes of the place to which it is dragged. */
+  /** Lists the handles: position, and a function from a dragged position to parameters. */
   const handles = (own, scale) => {
-    // The foot of a scale that is far enough from the first one for two fingers.
+    // Far enough from the first handle for touch input.
     const far = Math.max(1, Math.ceil(130 / (scale * own.pitch)));
     return [
-      // The base stays as it is drawn, and the corner follows the hand: lengths are over the thickness, which it pulls up or down.
+      // The drawn base stays and the corner follows the pointer, which changes the thickness on
+      // paper. Lengths over the thickness change accordingly.
       { id: "slant", key: "slant_deg", spot: [own.half + own.shift, 1], above: true,
         drag: ([x, y], _, { length, half }) => ({ length_over_t: length / Math.max(0.02, y), slant_deg: Math.atan2(Math.max(0, x - half), Math.max(0.02, y)) / radians(1) }) },
       { id: "length", key: "length_over_t", spot: [-own.half, 0],
@@ -83,7 +84,7 @@
   };
 
   const rest = () => {
-    // A window that is opened behind another, or printed from a script, may have no room yet.
+    // A window in the background, or printed from a script, may have no size yet.
     if (at("live-rest").clientWidth === 0) return;
     const own = now(), size = box("live-rest"), view = { ...(grabbed?.view ?? fitted(own, size, 170)) };
     if (grabbed?.id === "slant") view.scale = Math.min(view.scale * grabbed.half / own.half, 0.7 * size.height);
@@ -96,7 +97,7 @@
     const moved = new Map((puncture?.scales ?? []).map(([number, ...pose]) => [number, pose]));
     const stands = poses(own, view, size.width, moved), hit = stands.find(({ number }) => number === 0);
     const [, , right, left] = outline(own, hit?.pose ?? [0, 0, 0]), share = puncture?.load_position ?? 1;
-    // A guided tip moves straight down, whatever the scale does; a free load follows its place on the scale.
+    // A guided tip moves straight down; a free load follows its point on the scale.
     const [x, y] = place(view, puncture?.tip ?? [0, 1].map((k) => left[k] + share * (right[k] - left[k])));
     const round = view.scale * (puncture?.tip?.[2] ?? 0), shaft = Math.max(round, 5), nose = round || 16;
     at("live-needle").replaceChildren(soil(view, size), ...row(view, own, poses(own, view, size.width), "ghost"), ...row(view, own, stands), ...dots(view, puncture?.contacts ?? []),

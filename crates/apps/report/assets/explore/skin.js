@@ -11,19 +11,19 @@ squama.live = (() => {
   live.listen = (topic, listener) => listeners[topic].push(listener);
   const tell = (topic) => listeners[topic].forEach((listener) => listener());
   live.show = () => tell("answered");
-  /** Placeholder until there is an answer. */
+  /** Returns a placeholder until there is an answer, otherwise null. */
   live.solving = () => (live.answer ? null : live.error ? "no answer" : "solving …");
 
   live.guided = () => controls.get("needle")?.value === "guided";
-  /** The active controls: some apply only to one kind of needle. */
+  /** Lists the active controls: some apply only to one kind of needle. */
   live.controls = () => [...controls.values()].filter(({ only }) => !only || live.guided() === (only === "guided"));
   live.control = (key) => controls.get(key);
   live.value = (key) => controls.get(key).value;
 
   live.digits = (number, count = 4) => (number === null || number === undefined ? "–" : String(Number(number.toPrecision(count))));
-  /** A millimetre for a length over t, where the thickness is known. */
+  /** Returns the thickness in mm, the unit of lengths over t, if it is known. */
   live.millimetres = () => controls.get("thickness_mm")?.value ?? data.thickness;
-  /** Display factor and unit of a control. */
+  /** Returns the display factor and unit of a control. */
   live.shownAs = ({ unit }) => {
     const thickness = live.millimetres();
     if (unit === "t" && thickness) return [thickness, "mm"];
@@ -35,7 +35,7 @@ squama.live = (() => {
     return `${live.digits(control.value * factor, 3)}${unit === "°" ? "" : " "}${unit}`.trim();
   };
 
-  /** The requirements: on the page of a run, the requirements of the page. */
+  /** Returns the requirements: of the page of a run, otherwise of the definition. */
   live.required = () => squama.required?.().filter(({ sign }) => sign !== "~").map(squama.ranking.written) ?? data.requirements;
 
   const request = () => ({
@@ -44,17 +44,17 @@ squama.live = (() => {
   });
   live.solve = () => squama.solver.solve(request());
 
-  // Six digits, as an address has them.
+  // Rounded to six digits, as in the address.
   const clamped = ({ words, min, max }, value) => {
     if (words) return words.includes(value) ? value : words[0];
     return Number(Math.min(max, Math.max(min, value)).toPrecision(6));
   };
   for (const control of controls.values()) control.value = clamped(control, control.value);
   live.opened = Object.fromEntries([...controls.values()].map(({ key, value }) => [key, value]));
-  // Duration of a walk to a limit, ms: slow enough to follow.
+  // Duration of an animated change to a limit, ms: slow enough to follow.
   const WALK = 1200;
   let walking = null;
-  /** Sets parameters within their ranges, and solves. User input ends a walk. */
+  /** Sets parameters within their ranges, and solves. User input ends an animated change. */
   live.set = (values, said = "", isStep = false) => {
     if (!isStep) cancelAnimationFrame(walking);
     for (const [key, value] of Object.entries(values)) {
@@ -104,7 +104,7 @@ squama.live = (() => {
   };
 
   const KEY = "live.";
-  /** The parameters as an address has them. */
+  /** Formats the parameters for the address. */
   live.written = () => (live.moved ? [...controls.values()].map(({ key, value }) => `${KEY}${key}=${value}`).join("&") : "");
   live.read = (text) => {
     const parts = new URLSearchParams(text);
@@ -114,7 +114,7 @@ squama.live = (() => {
     }
   };
   live.remember = () => {
-    // The page of a run writes its own address, in which this is a part.
+    // The page of a run writes its own address, which includes these parameters.
     if (squama.writeAddress) squama.writeAddress();
     else try { history.replaceState(null, "", `#${live.written()}`); } catch { /* The page works without an address. */ }
   };

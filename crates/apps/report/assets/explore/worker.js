@@ -1,5 +1,6 @@
 "use strict";
-// The solver in a thread of its own, so that the page never waits: one request at a time, text in, text out.
+// The solver in a worker thread, so that the page stays responsive. It answers one request at a
+// time; requests and answers are text.
 let solver;
 
 const answer = (request) => {

@@ -1,4 +1,5 @@
-// The state in the address: `#require=coverage >= 0.6&weights=40,30,20,10&design=0123`. What is as at first is left out.
+// The state in the address: `#require=coverage >= 0.6&weights=40,30,20,10&design=0123`.
+// Initial values are omitted.
 
 (() => {
   const DELAY = 250;
@@ -10,7 +11,7 @@
   };
   const atFirst = Object.fromEntries(Object.entries(texts).map(([key, text]) => [key, text()]));
 
-  /** The state as the part of the address behind `#`. */
+  /** Formats the state as the part of the address after `#`. */
   squama.written = () => {
     const parts = new URLSearchParams();
     squama.required().forEach((one) => parts.append("require", ranking.written(one)));
@@ -33,7 +34,7 @@
     next.weights = right ? squama.hundredths(weights) : squama.equalWeights(next.criteria.length);
   };
 
-  /** A value of an axis by its text. */
+  /** Finds the value of an axis by its text. */
   const valueOf = (axis, text) => squama.different(axis).find((value) => String(value) === text);
 
   const readView = (parts, next) => {

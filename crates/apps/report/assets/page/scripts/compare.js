@@ -1,4 +1,4 @@
-// The pinned design beside the chosen one: drawings, curves, numbers.
+// The pinned design beside the selected one: drawings, curves, numbers.
 
 (() => {
   const { state } = squama;
@@ -37,7 +37,7 @@
   const control = squama.element("label", {}, log, " Logarithmic force and moment");
   squama.at("compare-curves").append(control, drawing, words);
 
-  /** Shows the curves of both designs, the pinned one dashed, among those that the program has drawn. */
+  /** Shows the curves of both designs if the program has drawn them, the pinned one dashed. */
   const curves = async () => {
     log.checked = state.log;
     const rows = pair(), missing = rows.filter((row) => !squama.solved(row)?.curves);
@@ -51,7 +51,7 @@
     drawing.querySelectorAll(".panel").forEach(fit(rows));
   };
 
-  /** Shows the curves of some designs in a panel, both as large as the axes are that they need. */
+  /** Shows the curves of some designs in a panel, scaled to the axes that they need. */
   const fit = (rows) => (panel) => {
     const shown = [...panel.querySelectorAll(".curve")].filter((curve) => rows.includes(squama.rowOf(curve.dataset.design)));
     const high = Object.fromEntries(["x", "y"].map((axis) => {

@@ -1,4 +1,4 @@
-// Criteria and their weights: sliders, the best designs, and the command that does the same.
+// Criteria and their weights: sliders, the best designs, and the equivalent command.
 
 (() => {
   const LISTED = 15;
@@ -6,7 +6,7 @@
   const { state, ranking } = squama;
   const isPaper = () => state.criteria.map(({ goal, column }) => `${goal}:${column}`).join() === ranking.PAPER.join();
 
-  /** Sets one weight; the others share what is left in their old proportions. */
+  /** Sets one weight; the others keep their proportions and fill the remainder. */
   squama.setWeight = (which, value) => {
     const others = state.weights.map((_, k) => k).filter((k) => k !== which);
     if (others.length === 0) return squama.tell("weights");
@@ -77,7 +77,7 @@
     `squama rank ${squama.folder}`,
     ...squama.required().filter(({ sign }) => sign !== "~").map((one) => `--require ${quoted(ranking.written(one))}`),
     ...squama.comparable.now().map(({ parameter, value }) => `--require ${quoted(`${parameter} == ${value}`)}`),
-    // The surface folds over where a gap between two bases has closed.
+    // The surface folds over if the gap between two bases closes.
     ...(state.sound ? [`--require ${quoted(`${squama.tightest} > 0`)}`] : []),
     ...(isPaper() ? [] : [`--criteria ${state.criteria.map(({ goal, column }) => `${goal}:${column}`).join(",")}`]),
     `--weights ${squama.weights().join(",")}`,
@@ -100,7 +100,7 @@
       squama.element("td", {}, String(rank)), own, squama.element("td", {}, fitness.toFixed(4)), ...shown().map((name) => squama.element("td", {}, cell(name))));
   };
 
-  /** Names the best design without a fold, if the best of all folds. */
+  /** Shows the best design without a fold, if the winner has a fold. */
   const showSound = (best) => {
     const note = squama.at("best-sound");
     note.hidden = !(best && squama.folded(best.row));

@@ -1,4 +1,4 @@
-// The chosen design: parameters, values, drawing, commands.
+// The selected design: parameters, values, drawing, commands.
 
 (() => {
   const { state } = squama;
@@ -9,7 +9,7 @@
     squama.element("dd", {}, ...squama.withUnit(name, squama.cell(row, name), unit)),
   ];
 
-  /** Shows a drawing as large as the window; Escape or a click closes it. */
+  /** Enlarges a drawing to the window; Escape or a click closes it. */
   const enlarge = async (svg) => {
     const large = squama.at("large");
     large.querySelector("div").innerHTML = await svg;
@@ -17,7 +17,7 @@
   };
   squama.at("large").addEventListener("click", (event) => event.currentTarget.close());
 
-  /** A button that shows the drawing of a solved design, and enlarges it; nothing if there is none. */
+  /** Creates a button with the drawing of a solved design, which enlarges it; null without one. */
   squama.solvedDrawing = (row) => {
     const number = squama.number(row), solved = squama.solved(row);
     if (!solved?.svg) return [];
@@ -27,7 +27,7 @@
     return [button, squama.element("p", { class: "note" }, "At rest and at the critical tilt; a click enlarges it.")];
   };
 
-  /** Warnings about the validity of the results of a design. */
+  /** Lists warnings about the validity of the results of a design. */
   squama.doubts = (row) => {
     const doubts = [];
     if (squama.folded(row)) {
@@ -43,7 +43,7 @@
     return doubts;
   };
 
-  // In a narrow window the design stands at the lower edge, folded up until one is chosen.
+  // In a narrow window the design is at the lower edge, collapsed until one is selected.
   squama.setFolded = (folded) => {
     aside.classList.toggle("closed", folded);
     fold.setAttribute("aria-expanded", String(!folded));

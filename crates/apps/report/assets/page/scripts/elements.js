@@ -1,6 +1,6 @@
 // Elements of the page.
 
-/** Sets attributes; a function named `on…` listens, and what is null or false is left out. */
+/** Sets attributes; functions named `on…` become listeners; null and false are skipped. */
 squama.attributes = (element, attributes) => {
   for (const [key, value] of Object.entries(attributes)) {
     if (key.startsWith("on")) element.addEventListener(key.slice(2), value);
@@ -9,21 +9,21 @@ squama.attributes = (element, attributes) => {
   return element;
 };
 
-/** An element with attributes and children. */
+/** Creates an element with attributes and children. */
 squama.element = (name, attributes = {}, ...children) => {
   const element = squama.attributes(document.createElement(name), attributes);
   element.append(...children);
   return element;
 };
 
-/** An element of a drawing. */
+/** Creates an SVG element. */
 squama.svg = (name, attributes = {}, ...children) => {
   const element = squama.attributes(document.createElementNS("http://www.w3.org/2000/svg", name), attributes);
   element.append(...children);
   return element;
 };
 
-/** The element of an id. */
+/** Returns the element with an id. */
 squama.at = (id) => document.getElementById(id);
 
 /** Decodes the content of an element: seven bits per character, padded. */
@@ -36,11 +36,11 @@ squama.unpacked = (id, format = "deflate-raw") => {
   return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream(format)));
 };
 
-/** A choice among options, each `[value, text]`. */
+/** Creates a dropdown with options `[value, text]`. */
 squama.dropdown = (attributes, options, chosen) => squama.element("select", attributes,
   ...options.map(([value, text]) => squama.element("option", { value, selected: value === chosen }, text)));
 
-/** Attributes of an element that reacts to clicks and keys. */
+/** Returns the attributes of an element that reacts to clicks and keys. */
 squama.pressed = (act) => ({
   tabindex: 0,
   onclick: act,
@@ -51,15 +51,15 @@ squama.pressed = (act) => ({
   },
 });
 
-/** Attributes of an element that selects a design. */
+/** Returns the attributes of an element that selects a design. */
 squama.chooser = (row) => squama.pressed(() => squama.choose(row));
 
-/** The sign of a design whose surface folds; nothing for others. */
+/** Returns the warning sign of a design with a fold; empty for others. */
 squama.warning = (row) => (squama.folded(row)
   ? [squama.element("span", { class: "warning", title: "The surface of the substrate folds: the critical force is not to be trusted.", role: "img", "aria-label": "folded" }, "⚠")]
   : []);
 
-/** A command with a button that copies it. */
+/** Creates a command with a copy button. */
 squama.command = (text) => {
   const button = squama.element("button", { type: "button", "aria-label": `Copy: ${text}` }, "Copy");
   button.addEventListener("click", async () => {

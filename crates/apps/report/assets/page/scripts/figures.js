@@ -10,11 +10,11 @@ squama.charts = [];
   const tip = squama.element("div", { id: "tip", hidden: true, "aria-hidden": "true" });
   document.body.append(tip);
 
-  /** The figure of a chart that is to be seen: of what was chosen, for the further parameters that are shown. */
+  /** Finds the visible figure of a chart: selected variant and shown further parameters. */
   const wanted = (chart) => squama.figures.find(({ kind, choice, part }) => kind === chart.id && (chart.choices.length === 0 || choice === chart.choice())
     && Object.entries(part).every(([name, value]) => view.shown(name) === value));
 
-  /** The marks of a drawing: each with its design, or with the design of a front, and its middle on the drawing. */
+  /** Lists the marks of a drawing: design of the table or of a front, and centre. */
   const marksOf = (svg) => [...svg.querySelectorAll("[data-design], [data-front]")].map((element) => {
     const [x, y, width, height] = ["x", "y", "width", "height"].map((name) => Number(element.getAttribute(name)));
     return { element, row: squama.rowOf(element.dataset.design), front: element.dataset.front, x: x + width / 2, y: y + height / 2 };
@@ -40,7 +40,7 @@ squama.charts = [];
 
   const isReady = (chart) => wanted(chart)?.text !== undefined || !wanted(chart);
 
-  /** Shows the drawing of a chart, if it is unpacked. */
+  /** Shows the figure of a chart, if it is unpacked. */
   const draw = (chart) => {
     const figure = wanted(chart);
     if (!isReady(chart)) return;
@@ -56,7 +56,7 @@ squama.charts = [];
     restyle(chart);
   };
 
-  // Charts out of sight wait; one chart per time slice, so that the page stays responsive.
+  // Draws visible charts only, one per time slice, so that the page stays responsive.
   const seen = new IntersectionObserver((entries) => {
     for (const { target, isIntersecting } of entries) squama.charts.find(({ area }) => area === target).seen = isIntersecting;
     later();
@@ -72,7 +72,7 @@ squama.charts = [];
   const later = () => {
     if (waiting === null) waiting = requestAnimationFrame(() => { waiting = setTimeout(drawNext); });
   };
-  // One after the other, those that are in sight first; all in the end, so that they can be printed.
+  // Unpacks one by one, visible figures first; finally all, for printing.
   const unpackNext = async () => {
     const next = squama.charts.filter(({ seen: own }) => own).map(wanted).find((figure) => figure && figure.text === undefined) ?? squama.figures.find(({ text }) => text === undefined);
     if (!next) return;
@@ -84,13 +84,13 @@ squama.charts = [];
     squama.charts.forEach((chart) => { chart.stale = true; });
     later();
   };
-  /** Draws every chart, whether it is in sight or not. */
+  /** Draws every chart, visible or not. */
   squama.drawAll = () => squama.charts.forEach(draw);
   squama.listen("selection view", squama.redraw);
   squama.listen("design pinned", () => squama.charts.forEach(rings));
   squama.listen("design", () => { if (view.further.length > 0) squama.redraw(); });
 
-  /** Marks nearest to a place in the window: one, or those of several designs that stand on each other. */
+  /** Finds the mark nearest to the pointer, with other marks at the same position. */
   const near = (chart, event) => {
     if (!chart.svg) return [];
     const box = chart.svg.getBoundingClientRect(), scale = chart.svg.viewBox.baseVal.width / box.width, top = chart.svg.viewBox.baseVal.y;
@@ -135,8 +135,11 @@ squama.charts = [];
   };
 
   /**
-   * Adds the chart of a kind of figure, if there is one. `columns()` are those that the tip tells of a design, `tip(k)` tells of the
-   * design `k` of a front, `take(k)` puts it under the hand; `passes(row)` says which designs are hidden; `restyle(chart)` does what else follows requirements.
+   * Adds the chart of a kind of figure, if the page has one.
+   *
+   * `columns()` are the columns in the tooltip of a design. `tip(k)` is the tooltip of design `k` of
+   * a front, and `take(k)` opens this design in the explorer. `passes(row)` is false for hidden
+   * designs, and `restyle(chart)` updates everything else that depends on the requirements.
    */
   squama.addChart = ({ id, title, description, columns = () => [], passes = (row) => squama.passes[row], ...more }) => {
     const own = squama.figures.filter(({ kind }) => kind === id), choices = [...new Set(own.map(({ choice }) => choice))].filter(Boolean);
@@ -145,7 +148,7 @@ squama.charts = [];
     const chooser = squama.dropdown({ id, "aria-label": "Column", onchange: (event) => { state[id] = event.target.value; squama.tell("view"); } }, choices.map((name) => [name, squama.label(name)]), choices[0]);
     squama.listen("view", () => { if (choices.length > 0) chooser.value = choice(); });
     const chart = { id, title, description, columns: () => [...columns(), ...choices.filter((name) => name === choice())], passes, choices, choice, ...more, marks: [], rows: [], stale: true, seen: false, caption: squama.element("figcaption") };
-    // As high as the figure will be, so that nothing moves when it comes.
+    // Reserves the height of the figure, so that the layout does not shift when it is drawn.
     chart.paper = squama.element("div", { style: `aspect-ratio: ${own[0].size.split(" ").slice(2).join("/")}` });
     chart.area = squama.element("div", { class: "chart drawn", id: `chart-${id}`, tabindex: 0, role: "img", "aria-label": `${title}. ${description} The arrow keys go from design to design.` }, chart.paper);
     (more.into ?? squama.at("figure-list")).append(squama.element("figure", { id: `figure-${id}` }, squama.element("h3", {}, title, ...(choices.length > 1 ? [" ", chooser] : [])), chart.area, chart.caption));
@@ -159,7 +162,7 @@ squama.charts = [];
 
   const goalOf = (column) => squama.paper.find((one) => one.column === column);
 
-  /** The fronts of the designs that meet the requirements, each of designs that can be compared: in colour and on a line. */
+  /** Colours and connects the Pareto fronts of each comparable group of feasible designs. */
   const fronts = ({ svg }) => {
     const { rows } = squama.ranking.contest(squama, squama.rows.filter((row) => squama.passes[row]), squama.paper, "paper");
     for (const panel of svg.querySelectorAll("[data-criteria]")) {

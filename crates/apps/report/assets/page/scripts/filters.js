@@ -1,9 +1,10 @@
-// Filters under the headers of the table: another way to write requirements, `>0.5`, `0.1..0.5` or a part of a text.
+// Filters below the headers of the table: short forms of requirements, `>0.5`, `0.1..0.5`, or a
+// part of a text.
 
 squama.filters = (() => {
   const { number } = squama.ranking;
 
-  /** Requirements that a filter on a column means; null while it is not whole. */
+  /** Parses the filter of a column to requirements; null if it is incomplete. */
   const read = (column, filter) => {
     if (filter === "") return [];
     const ends = filter.split("..").map(number);
@@ -13,14 +14,14 @@ squama.filters = (() => {
     return Number.isFinite(limit) ? [{ column, sign: { undefined: "==", "=": "==" }[sign] ?? sign, limit }] : null;
   };
 
-  /** The filter that means the requirements on a column. */
+  /** Formats the requirements on a column as a filter. */
   const text = (column) => {
     const own = squama.state.requirements.filter((one) => one.column === column);
     if (own.length === 2 && own[0].sign === ">=" && own[1].sign === "<=") return `${own[0].limit}..${own[1].limit}`;
     return own.map(({ sign, limit }) => ({ "~": `${limit}`, "==": `${limit}` }[sign] ?? `${sign}${limit}`)).join(" ");
   };
 
-  /** Puts requirements in the place of those on a column. */
+  /** Replaces the requirements on a column. */
   const set = (column, requirements) => squama.require([...squama.state.requirements.filter((one) => one.column !== column), ...requirements]);
 
   return { read, text, set };

@@ -1,4 +1,4 @@
-// Designs found by a search, over the designs of the grid, and a table.
+// Designs found by a search: figure with the designs of the grid, and table.
 
 (() => {
   const { found, ranking } = squama;
@@ -8,7 +8,7 @@
   const columns = [...new Set([...found.variables, ...found.objectives.map(({ column }) => column), ...found.requirements.map(({ column }) => column)])];
   const isFront = found.objectives.length > 1;
 
-  /** Designs of the grid within the bounds of the search. */
+  /** Designs of the grid that meet the requirements of the search. */
   const could = new Set(ranking.meeting(squama, found.requirements.filter(({ column }) => squama.has(column)), (row) => !(found.sound && squama.folded(row))));
 
   /** Returns true if the found design dominates a design of the grid. */

@@ -1,14 +1,14 @@
 // Sensitivity to the gap, for designs solved again with a gap 10 % smaller and larger.
 
 squama.gap = (() => {
-  // A change by this factor for a change of the gap by a tenth counts as sensitive.
+  // A design is sensitive if a measure changes by this factor with the gap.
   const CLIFF = 1.5;
   const LARGE = 2;
 
-  /** Changes of a row: `{ column, factors }` for the smaller and the larger gap. */
+  /** Returns the changes of a row: `{ column, factors }` for the smaller and the larger gap. */
   const known = (row) => squama.solved(row)?.gapFactors ?? [];
 
-  /** A factor in words. */
+  /** Formats a factor in words. */
   const words = (factor) => {
     if (factor === null) return "no value";
     if (Math.abs(factor - 1) < 5e-4) return "unchanged";
@@ -19,12 +19,12 @@ squama.gap = (() => {
 
   const isSteep = (factor) => factor !== null && factor > 0 && Math.max(factor, 1 / factor) >= CLIFF;
 
-  /** Columns of a row that are sensitive to the gap. */
+  /** Lists the columns of a row that are sensitive to the gap. */
   const cliffs = (row) => known(row).filter(({ factors }) => factors.some(isSteep)).map(({ column }) => column);
 
   const both = (factors) => factors.map(words).join(" / ");
 
-  /** Warns if a row is sensitive to its gap; empty otherwise. */
+  /** Returns a warning if a row is sensitive to its gap; empty otherwise. */
   const warning = (row) => {
     const steep = known(row).filter(({ factors }) => factors.some(isSteep));
     return steep.length === 0 ? [] : [`This design is sensitive to its gap: for a gap 10 % smaller / larger, ${steep.map(({ column, factors }) => `${squama.label(column)} changes by ${both(factors)}`).join(", ")}.`];

@@ -1,4 +1,4 @@
-// Theme, printing, links; and what is shown first.
+// Theme, printing, links, and the initial view.
 
 (() => {
   const button = squama.at("theme"), root = document.documentElement;
@@ -10,7 +10,7 @@
   const isDark = () => root.dataset.theme === "dark";
   button.addEventListener("click", () => setTheme(!isDark()));
 
-  // Paper is light, whatever the screen is; and all charts are on it.
+  // Prints with the light theme and all charts.
   let before = null;
   addEventListener("beforeprint", () => {
     before = isDark();
@@ -19,7 +19,7 @@
   });
   addEventListener("afterprint", () => setTheme(before));
 
-  // The address holds the state, so that links within the page leave it alone.
+  // Links within the page must not change the address, because it holds the state.
   document.querySelectorAll('a[href^="#"]').forEach((link) => link.addEventListener("click", (event) => {
     event.preventDefault();
     const target = squama.at(link.getAttribute("href").slice(1));

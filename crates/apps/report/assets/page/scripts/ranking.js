@@ -1,5 +1,5 @@
-// Ranking: requirements, criteria, fitness, fronts, independent of the page. `squama rank` uses the same
-// order of operations; scripts/check-page compares both.
+// Ranking: requirements, criteria, fitness, fronts, independent of the page. `squama rank` uses the
+// same order of operations; scripts/check-page compares both.
 
 squama.ranking = (() => {
   const ROUND_OFF = 1e-9;
@@ -9,10 +9,10 @@ squama.ranking = (() => {
   const [COVERAGE] = squama.paper.map(({ column }) => column);
   const MOST_CRITERIA = 8;
 
-  /** Whether two numbers are the same but for round-off. */
+  /** Returns true if two numbers are equal up to round-off. */
   const same = (a, b) => Math.abs(a - b) <= ROUND_OFF * Math.max(Math.abs(a), Math.abs(b));
 
-  /** Whether a number keeps a bound; NaN keeps none. */
+  /** Returns true if a number satisfies a bound; NaN satisfies none. */
   const keeps = (value, sign, limit) => {
     if (Number.isNaN(value)) return false;
     const equal = same(value, limit);
@@ -21,12 +21,12 @@ squama.ranking = (() => {
     return sign.length === 2 ? equal || beyond : !equal && beyond;
   };
 
-  /** Whether a row meets a requirement: a bound of a number, or, with the sign `~`, a part of a text. */
+  /** Returns true if a row meets a requirement: a bound, or with the sign `~` a part of a text. */
   const meets = (table, { column, sign, limit }, row) => (sign === "~"
     ? String(table.cell(row, column) ?? "").toLowerCase().includes(limit.toLowerCase())
     : keeps(table.numbers(column)[row], sign, limit));
 
-  /** Reads `COLUMN OP LIMIT`; null if it is no requirement on a column of the table. */
+  /** Parses `COLUMN OP LIMIT`; null if it is no requirement on a column of the table. */
   const requirement = (table, text) => {
     const sign = [...SIGNS, "~"].find((one) => text.includes(one));
     if (!sign) return null;
@@ -36,22 +36,22 @@ squama.ranking = (() => {
     return table.has(column) && rest !== "" && (sign === "~" || Number.isFinite(limit)) ? { column, sign, limit } : null;
   };
 
-  /** Reads a number with a decimal point or comma; NaN of anything else. */
+  /** Parses a number with a decimal point or comma; NaN if it is invalid. */
   const number = (text) => (/^[-+]?([0-9]+([.,][0-9]*)?|[.,][0-9]+)(e[-+]?[0-9]+)?$/i.test(text.trim()) ? Number(text.trim().replace(",", ".")) : NaN);
 
-  /** A requirement as commands write it. */
+  /** Formats a requirement as on the command line. */
   const written = ({ column, sign, limit }) => `${column} ${sign} ${limit}`;
 
-  /** Reads `max:COLUMN` or `min:COLUMN`; null if it is no criterion of the table. */
+  /** Parses `max:COLUMN` or `min:COLUMN`; null if it is no criterion of the table. */
   const criterion = (table, text) => {
     const [goal, column] = text.split(":");
     return (goal === "max" || goal === "min") && table.has(column) ? { column, goal } : null;
   };
 
-  /** The goal that a column has unless something else is said. */
+  /** Returns the default direction of a column. */
   const plainGoal = (table, column) => table.goal(column) ?? "max";
 
-  /** Converts a value to a criterion, larger being better (R1); NaN if an inverse or logarithm does not exist. */
+  /** Converts a value so that larger is better (R1); NaN without an inverse or logarithm. */
   const worth = (scale, goal, value) => {
     if (scale === "linear" || (scale === "paper" && goal === "max")) return goal === "max" ? value : -value;
     if (!(value > 0)) return NaN;
@@ -59,11 +59,11 @@ squama.ranking = (() => {
     return Number.isFinite(result) ? result : NaN;
   };
 
-  /** Rows that meet all requirements, and that `also` lets in. */
+  /** Returns the rows that meet all requirements and the condition `also`. */
   const meeting = (table, requirements, also = () => true) =>
     table.rows.filter((row) => also(row) && requirements.every((one) => meets(table, one, row)));
 
-  /** The least and the largest of some numbers. */
+  /** Returns the smallest and the largest number. */
   const ends = (numbers) => {
     let low = Infinity, high = -Infinity;
     for (let i = 0; i < numbers.length; i++) {
@@ -73,22 +73,22 @@ squama.ranking = (() => {
     return [low, high];
   };
 
-  /** The numbers that stand in some rows. */
+  /** Returns the numbers in some rows. */
   const picked = (numbers, rows) => {
     const own = new Float64Array(rows.length);
     for (let i = 0; i < own.length; i++) own[i] = numbers[rows[i]];
     return own;
   };
 
-  /** Numbers from 0, the worst, to 1, the best (R2); 1 if all are the same, so that they do not count. */
+  /** Rescales numbers from 0 (worst) to 1 (best) (R2); 1 if all are equal, without effect. */
   const rescaled = (numbers, isTie) => {
     const [low, high] = ends(numbers);
     return numbers.map((value) => (isTie || !(high > low) ? 1 : (value - low) / (high - low)));
   };
 
   /**
-   * The designs that are ranked: of `rows` those that are covered, where coverage counts, and have every criterion.
-   * `worths` and `terms` stand criterion by criterion.
+   * Returns the ranked designs: the `rows` with every criterion, and with coverage if it counts.
+   * `worths` and `terms` are lists by criterion.
    */
   const contest = (table, rows, criteria, scale) => {
     const all = criteria.map(({ column, goal }) => table.numbers(column).map((value) => worth(scale, goal, value)));
@@ -101,7 +101,7 @@ squama.ranking = (() => {
     return { rows: ranked, worths, terms, scale };
   };
 
-  /** Scores of the designs that are ranked. A weight of 0 leaves its criterion out, even where it is as bad as can be. */
+  /** Computes the scores of ranked designs. A weight of 0 skips its criterion, even at −∞. */
   const scores = ({ rows, terms }, weights) => {
     const sums = new Float64Array(rows.length);
     terms.forEach((values, c) => {
@@ -111,10 +111,10 @@ squama.ranking = (() => {
     return sums;
   };
 
-  /** Whether a score is as good as the best one, but for round-off. */
+  /** Returns true if a score equals the best one up to round-off. */
   const isAsGood = (score, best) => score >= best - ROUND_OFF;
 
-  /** Places by their scores, the best first; those that are equal but for round-off in the order of the table. */
+  /** Sorts places by score, the best first; ties up to round-off are in the order of the table. */
   const inOrder = (places, sums) => {
     const sorted = places.sort((a, b) => (sums[a] === sums[b] ? a - b : sums[b] - sums[a])), groups = [];
     for (const place of sorted) {
@@ -129,12 +129,12 @@ squama.ranking = (() => {
     });
   };
 
-  /** The designs that are ranked with their fitness and rank, the best first; `most` of them. */
+  /** Returns the first `most` ranked designs with fitness and rank, the best first. */
   const order = (own, weights, most = Infinity) => {
     const sums = scores(own, weights);
     let places = own.rows.map((_, i) => i);
     if (most < places.length / 8) {
-      // What cannot be among the first is not sorted.
+      // Skip designs that cannot be among the first.
       const bound = Float64Array.from(sums).sort()[sums.length - most];
       places = places.filter((i) => isAsGood(sums[i], bound));
     }
@@ -142,7 +142,7 @@ squama.ranking = (() => {
     return inOrder(places, sums).slice(0, most).map(({ place, rank }) => ({ row: own.rows[place], rank, fitness: fitness(sums[place]) }));
   };
 
-  /** Whether one is at least as good as another in every criterion, and better in one (R6). */
+  /** Returns true if `p` dominates `q`: nowhere worse, and better in one criterion (R6). */
   const beats = (worths, p, q) => {
     let better = false;
     for (const values of worths) {
@@ -169,8 +169,9 @@ squama.ranking = (() => {
   };
 
   /**
-   * Requirements that no row meets: the row whose largest shortfall is the least, then their sum, and the requirements
-   * without any one of which there would be designs. A shortfall is relative to its limit.
+   * Explains requirements that no row meets: the nearest row, and the binding requirements.
+   * The nearest row has the smallest largest shortfall, relative to the limit, then the smallest
+   * sum. Without any single binding requirement some rows would meet all others.
    */
   const unmet = (table, rows, requirements) => {
     const bounds = requirements.filter(({ sign }) => sign !== "~");

@@ -1,4 +1,4 @@
-// Requirements: bounds that a design must keep. They act on ranking, tetrahedron, figures and table alike.
+// Requirements: bounds on designs, for ranking, tetrahedron, figures and table.
 
 (() => {
   const { state, ranking } = squama;
@@ -7,7 +7,7 @@
 
   const columns = (chosen) => squama.names.filter((name) => name !== "design" && (squama.numeric.includes(name) || name === chosen)).map((name) => [name, squama.label(name)]);
 
-  /** Smallest and largest value of a column, as a hint. */
+  /** Formats the smallest and the largest value of a column, as a hint. */
   const range = (column) => {
     const numbers = squama.numbers(column).filter((value) => !Number.isNaN(value));
     const [low, high] = numbers.reduce(([a, b], value) => [Math.min(a, value), Math.max(b, value)], [Infinity, -Infinity]);
@@ -30,7 +30,7 @@
       squama.element("button", { type: "button", "aria-label": `Remove the requirement on ${label}`, onclick: () => squama.require(state.requirements.filter((_, other) => other !== k)) }, "✕"));
   };
 
-  // The list is made anew only when its shape changes, so that a limit can be typed.
+  // The list is rebuilt only if columns or signs change, so that an edited limit keeps the focus.
   const shape = () => JSON.stringify(state.requirements.map(({ column, sign }) => [column, sign]));
   let last = null;
   const showList = () => {
@@ -71,7 +71,7 @@
   adder.addEventListener("click", () => {
     const column = first.find((name) => !state.requirements.some((one) => one.column === name)) ?? first[0];
     const sign = ranking.plainGoal(squama, column) === "min" ? "<=" : ">=";
-    // The middle of what there is.
+    // The median of the column.
     const numbers = squama.numbers(column).filter((value) => !Number.isNaN(value)).sort();
     squama.require([...state.requirements, { column, sign, limit: Number((numbers[Math.floor(numbers.length / 2)] ?? 0).toPrecision(2)) }]);
     list.querySelector("li:last-child input")?.focus();

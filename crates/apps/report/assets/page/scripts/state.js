@@ -2,7 +2,7 @@
 
 squama.listeners = new Map();
 
-/** Calls `tell` on changes of `topics`: selection, weights, view, design, pinned, theme. */
+/** Registers `tell` for changes of `topics`: selection, weights, view, design, pinned, theme. */
 squama.listen = (topics, tell) => topics.split(" ").forEach((topic) => {
   squama.listeners.set(topic, [...(squama.listeners.get(topic) ?? []), tell]);
 });
@@ -12,7 +12,8 @@ squama.tell = (topic) => {
   squama.writeAddress?.();
 };
 
-/** Whole hundredths in the proportion of `weights` that sum to 100; what rounding leaves over goes to the largest remainders. */
+// Rounds `weights` to integers of sum 100 (`whole`) in the same proportion. The largest remainders
+// are rounded up.
 squama.hundredths = (weights, whole = 100) => {
   const sum = weights.reduce((a, b) => a + b, 0);
   const ideal = weights.map((weight) => (sum > 0 ? (whole * weight) / sum : whole / weights.length));
@@ -22,7 +23,7 @@ squama.hundredths = (weights, whole = 100) => {
   return parts;
 };
 
-/** Whole hundredths that are as equal as can be and sum to 100. */
+/** Returns integers of sum 100 that are as equal as possible. */
 squama.equalWeights = (count) => squama.hundredths(Array(count).fill(1));
 
 squama.initial = () => {
@@ -36,16 +37,16 @@ squama.initial = () => {
 
 squama.state = squama.initial();
 
-/** Weights of the criteria, as parts of one. */
+/** Returns the weights of the criteria, of sum 1. */
 squama.weights = () => squama.state.weights.map((hundredth) => hundredth / 100);
 
-/** The requirements whose limits can be read. */
+/** Returns the requirements with valid limits. */
 squama.required = () => squama.state.requirements.filter(({ limit }) => limit !== null);
 
 /** Invalid requirements of a link. */
 squama.unread = [];
 
-/** The designs that are ranked by the state as it is. */
+/** Returns the designs ranked in the current state. */
 squama.contestNow = () => {
   const { criteria, scale, sound } = squama.state;
   squama.meeting = squama.ranking.meeting(squama, squama.required(), (row) => !sound || !squama.folded(row));
@@ -71,7 +72,7 @@ squama.choose = (row) => {
   squama.tell("design");
 };
 
-/** Chooses the next design of `rows`. */
+/** Selects the next design of `rows`. */
 squama.step = (step, rows) => {
   if (rows.length === 0) return;
   const here = rows.indexOf(squama.state.design);

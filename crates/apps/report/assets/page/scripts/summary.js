@@ -6,7 +6,7 @@
   const facts = (id, pairs) => squama.at(id).replaceChildren(...pairs.flatMap(([name, ...value]) => [squama.element("dt", {}, name), squama.element("dd", {}, ...value)]));
   const button = (row) => squama.element("button", { type: "button", onclick: () => squama.choose(row) }, ...squama.warning(row), squama.title(row));
 
-  /** The best of some rows by one column, and how many are as good; sound ones beside it where it folds. */
+  /** Shows the best row by a column, the number of ties, and the best without a fold if needed. */
   const bestOf = (all, name, column, goal) => {
     const numbers = squama.numbers(column), sign = goal === "max" ? 1 : -1;
     const leader = (rows) => rows.reduce((a, b) => (a === null || sign * numbers[b] > sign * numbers[a] && !squama.ranking.same(numbers[a], numbers[b]) ? b : a), null);
@@ -19,7 +19,7 @@
       ...(sound === null ? [] : [squama.element("br"), `without a fold: ${squama.short(numbers[sound])}  `, button(sound)])]];
   };
 
-  /** The best design by one column, of each group of designs that can be compared. */
+  /** Shows the best design by a column for each group of comparable designs. */
   const best = (name, column, goal) => {
     if (!squama.has(column)) return [];
     const differing = squama.comparable.differing(squama.rows, [{ column }]).map(({ parameter }) => parameter);

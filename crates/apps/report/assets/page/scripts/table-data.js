@@ -1,6 +1,7 @@
-// The cells of the table, which the page holds packed.
+// The cells of the table, packed in the page.
 
-/** Unpacks the cells: of each column of numbers all first bytes, then all second ones, as in the file; and columns with texts. */
+// Unpacks the cells. Each numeric column holds all first bytes, then all second bytes, and so on;
+// text columns are JSON.
 squama.unpack = async () => {
   const [numbers, texts] = await Promise.all([squama.unpacked("cells").arrayBuffer(), squama.unpacked("texts").json()]);
   const bytes = new Uint8Array(numbers), { count } = squama;

@@ -1,4 +1,5 @@
-// The table of designs: sorted by its headers, filtered by its second line. Of many rows only those in sight exist.
+// The table of designs, sorted by its headers and filtered by its second line. Of many rows only
+// the visible ones are elements.
 
 (() => {
   const { state, filters } = squama;
@@ -22,7 +23,7 @@
     squama.writeAddress();
   };
 
-  /** Characters that a column needs, by its header and what stands in it here and there. */
+  /** Estimates the width of a column in characters, from its header and some of its cells. */
   const room = (name) => {
     const step = Math.max(1, Math.floor(squama.count / 300));
     const cells = squama.rows.filter((row) => row % step === 0).map((row) => squama.short(squama.cell(row, name)).length);
@@ -55,21 +56,21 @@
     for (const part of [above, below]) part.replaceChildren(squama.element("tr", {}, squama.element("td", { colspan: columns.length, class: "spacer" })));
   };
 
-  /** Order of two rows by numbers; those that do not exist come last either way. */
+  /** Compares two rows by numbers; missing ones come last in both directions. */
   const byNumbers = (numbers, sign) => (p, q) => {
     const [a, b] = [numbers[p], numbers[q]];
     if (a !== a || b !== b) return (a !== a) - (b !== b) || p - q;
     return sign * (a - b) || p - q;
   };
 
-  /** Order of two rows by texts, in the same way. */
+  /** Compares two rows by texts, in the same way. */
   const byTexts = (cells, sign) => (p, q) => {
     const [a, b] = [cells[p] ?? null, cells[q] ?? null];
     if (a === null || b === null) return (a === null) - (b === null) || p - q;
     return a === b ? p - q : sign * (String(a) < String(b) ? -1 : 1);
   };
 
-  /** The rows that meet the requirements, in the order of the table. */
+  /** Returns the rows that meet the requirements, in the order of the table. */
   const sorted = () => {
     const { name, down } = sorting(), sign = down ? -1 : 1;
     const isNumeric = squama.numeric.includes(name) && name !== "design";
@@ -82,7 +83,7 @@
       return squama.element("td", value === null ? {} : { title: String(value) }, ...(name === "design" ? squama.warning(row) : []), squama.short(value));
     }));
 
-  // One row at a time can be reached with Tab, the others from there with the arrow keys.
+  // Tab reaches one row, from which the arrow keys reach the others.
   const reach = () => {
     const elements = [...body.children];
     const here = elements.find((element) => element.classList.contains("chosen")) ?? elements[0];
@@ -96,7 +97,7 @@
     return [first, Math.min(rows.length, first + Math.ceil(scroll.clientHeight / height()) + 2 * AROUND)];
   };
 
-  /** Makes the rows that are in sight, where they are not there yet. */
+  /** Creates the elements of the visible rows if they have changed. */
   const fill = (anew) => {
     const [first, last] = window_();
     if (!anew && first === from && last === to) return;
@@ -131,7 +132,7 @@
     squama.at("table-count").textContent = `${rows.length} of ${squama.count} designs.`;
   };
 
-  /** Puts the focus on a row, wherever it is. */
+  /** Focuses a row, and scrolls to it if necessary. */
   const focus = (place) => {
     if (place < 0 || place >= rows.length) return;
     const top = head.offsetHeight;

@@ -1,4 +1,5 @@
-// The best design for every weighting of four criteria: the dots of the tetrahedron, cut into slices, in the colours of designs.
+// The best design for every weighting of four criteria: slices of the weight tetrahedron, with dots
+// in the colours of designs.
 
 (() => {
   const LISTED = 10;
@@ -26,7 +27,7 @@
   let winners = new Map();
   const weights = (dot) => dot.dataset.steps.split(",").map((step) => step / 20);
 
-  /** Rings the dot that is nearest to the weighting of the sliders. */
+  /** Marks the dot nearest to the weights of the sliders with a ring. */
   const ring = () => {
     const dots = [...drawing.querySelectorAll("[data-steps]")], now = squama.weights();
     const away = (dot) => weights(dot).reduce((sum, weight, k) => sum + (weight - now[k]) ** 2, 0);

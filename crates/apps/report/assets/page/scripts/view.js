@@ -1,10 +1,10 @@
-// The further parameters: those beside gap, aspect ratio and slant, of which the figures show one value each.
+// Parameters besides gap, aspect ratio and slant; figures show one value of each.
 
 squama.view = (() => {
   const { state } = squama;
   const further = squama.varied.filter((name) => !["gap_over_t", "length_over_t", "slant_deg"].includes(name));
 
-  /** The value of a parameter that figures show: that of the design that is chosen. */
+  /** Returns the value of a parameter in figures, by default the value of the selected design. */
   const shown = (name) => state.shown[name] ?? (state.design === null ? squama.different(name)[0] : squama.cell(state.design, name));
 
   const show = () => {

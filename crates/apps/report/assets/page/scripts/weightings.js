@@ -1,9 +1,9 @@
 // All weightings of four criteria, and the best design for each.
 
 squama.weightings = (() => {
-  // Steps from corner to corner, as `squama rank` has them.
+  // Steps from corner to corner, as in `squama rank`.
   const RESOLUTION = 20;
-  // The part of the tetrahedron that is nearest to a weighting, by how many of its weights are zero.
+  // Volume of the region nearest to a weighting, by the number of zero weights.
   const CELLS = [72, 36, 14, 3];
 
   const nodes = [];
@@ -16,11 +16,12 @@ squama.weightings = (() => {
     }
   }
 
-  /** The place of the best of four lists of terms, of those that are equal but for round-off the first. */
+  /** Finds the index of the largest weighted sum of terms; the first of ties up to round-off. */
   const best = ([a, b, c, d], [m, n, k, l], sums) => {
     let most = -Infinity;
     for (let i = 0; i < a.length; i++) {
-      // In this order, and without what has no weight, as the fitness is summed everywhere.
+      // The same order as in other sums of the fitness, and without zero weights, so that
+      // round-off agrees.
       let sum = 0;
       if (m > 0) sum += m * a[i];
       if (n > 0) sum += n * b[i];
@@ -33,7 +34,7 @@ squama.weightings = (() => {
     return sums.findIndex((sum) => sum >= bound);
   };
 
-  /** The row that is best at each node, and the share of each row in all of them, the largest first. */
+  /** Returns the best row at each node, and the share of weightings of each best row, sorted. */
   const winners = ({ rows, terms }) => {
     const sums = new Float64Array(rows.length);
     const dots = nodes.map(({ weights, cell }) => ({ weights, cell, row: rows[best(terms, weights, sums)] }));
