@@ -27,8 +27,8 @@ impl Stiffnesses {
 /// Isolated square of side `2a`, to four decimals.
 ///
 /// Normal: a punch of side `s` needs `P = 1.1523 E* s δ` (N. M. Borodachev, *Contact problem for a
-/// stamp with a rectangular base*, J. Appl. Math. Mech. 40 (1976) 505), with `s = 2a`. Shear at `ν
-/// = 0.5`, and rotation: converged boundary elements.
+/// stamp with a rectangular base*, J. Appl. Math. Mech. 40 (1976) 505), with `s = 2a`. Shear at
+/// `ν = 0.5`, and rotation: converged boundary elements.
 pub const SQUARE: Stiffnesses = Stiffnesses { shear: 1.5384, normal: 2.3046, rocking: 2.0807 };
 
 /// `α` of three squares with gaps of a tenth of their side at `ν = 0.5`.

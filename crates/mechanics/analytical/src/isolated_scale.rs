@@ -8,8 +8,8 @@
 //! u = −y + r_x sin ψ + r_y (1 − cos ψ)
 //! ```
 //!
-//! so `F(ψ)` and `u(ψ)` are known in closed form, and so are the energies `½ k_y y²` and `½ k_φ
-//! ψ²`. Forces are in units of `E* t²`, lengths in units of `t`.
+//! so `F(ψ)` and `u(ψ)` are known in closed form, and so are the energies `½ k_y y²` and
+//! `½ k_φ ψ²`. Forces are in units of `E* t²`, lengths in units of `t`.
 
 /// Scale held by its own springs.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,8 +1,8 @@
 //! Bending of a soft strip with upright blocks, up to first contact.
 //!
 //! Blocks of base `2a` at gaps `d`, both over their height `t`, sit on a strip that bends only in
-//! the gaps. A moment `M` rotates neighbours relative to each other by `θ = M d/EI`. With `M* = M
-//! t/EI`, `κ* = κ t` and the pitch `p = 2a + d`,
+//! the gaps. A moment `M` rotates neighbours relative to each other by `θ = M d/EI`. With
+//! `M* = M t/EI`, `κ* = κ t` and the pitch `p = 2a + d`,
 //!
 //! ```text
 //! κ* = θ/p,     M*/κ* = p/d

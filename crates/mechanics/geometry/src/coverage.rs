@@ -9,10 +9,10 @@ const TOUCH: f64 = 1e-12;
 
 /// Returns the coverage for shift `S` of the top, base `2a` and pitch `p`, all over `t`.
 ///
-/// Measured in `y tan α` from the base up, neighbour `k = 1, 2 …` covers `[S − k p, S − k p + 2a] ∩
-/// [0, S]` of the line. For `k ≤ S/p` the neighbour begins within the line and is covered as a
-/// whole, because its upper end `S − k p + 2a` lies below `S` (`2a < p`). The next neighbour may
-/// extend into the line from below the base by `S − k p + 2a`.
+/// Measured in `y tan α` from the base up, neighbour `k = 1, 2 …` covers
+/// `[S − k p, S − k p + 2a] ∩ [0, S]` of the line. For `k ≤ S/p` the neighbour begins within the
+/// line and is covered as a whole, because its upper end `S − k p + 2a` lies below `S` (`2a < p`).
+/// The next neighbour may extend into the line from below the base by `S − k p + 2a`.
 pub(crate) fn coverage(shift: f64, base: f64, pitch: f64) -> f64 {
     if shift < TOUCH {
         return 0.0;

@@ -62,8 +62,8 @@ impl RigidArm {
 
 /// Element with ends that are rigidly attached to two bodies.
 ///
-/// Let `F` and `K` be the force and the tangent of the element at the attached poses `Q(q)`, and `T
-/// = ∂Q/∂q`. In terms of the poses `q` of the bodies,
+/// Let `F` and `K` be the force and the tangent of the element at the attached poses `Q(q)`, and
+/// `T = ∂Q/∂q`. In terms of the poses `q` of the bodies,
 ///
 /// ```text
 /// f = Tᵀ F,   k = Tᵀ K T + Σᵢ Fᵢ·(−R pᵢ) iᵩᵢ iᵩᵢᵀ                               (M12)

@@ -86,8 +86,8 @@ fn node(k: usize, nodes: usize) -> f64 {
 
 /// Returns the values of Eq. (1) to be tabulated.
 ///
-/// `ln α_y, ln α_φ, β_y/α_y, β_φ/α_φ`, then `ln α_x` and `β_x/α_x`, each as a polynomial in `log(1
-/// − ν)`.
+/// `ln α_y, ln α_φ, β_y/α_y, β_φ/α_φ`, then `ln α_x` and `β_x/α_x`, each as a polynomial in
+/// `log(1 − ν)`.
 fn nearest(footprint: &Footprint) -> Result<Vec<f64>, Unresolved> {
     let rows = extrapolated(footprint, 1, FINE)?;
     let part =

@@ -71,8 +71,8 @@ pub fn corner(x: f64, z: f64) -> Influence {
     Influence { across: half(x, z), along: half(z, x) }
 }
 
-/// Returns the influence of the cell `x[0] < x < x[1]`, `z[0] < z < z[1]` at the field point `(0,
-/// 0)` (S3).
+/// Returns the influence of the cell `x[0] < x < x[1]`, `z[0] < z < z[1]` at the field point
+/// `(0, 0)` (S3).
 pub fn cell(x: [f64; 2], z: [f64; 2]) -> Influence {
     corner(x[1], z[1]) - corner(x[0], z[1]) - corner(x[1], z[0]) + corner(x[0], z[0])
 }

@@ -1,8 +1,8 @@
 //! Surface displacement of an elastic layer on a rigid base, relative to the half-space.
 //!
-//! A traction wave of wave number `k` displaces the surface of a layer of thickness `h`. With `x =
-//! k h`, `κ = 3 − 4ν` and `D = κ cosh 2x + 2x² + 5 − 12ν + 8ν²`, and over `G k`, the displacement
-//! is
+//! A traction wave of wave number `k` displaces the surface of a layer of thickness `h`. With
+//! `x = k h`, `κ = 3 − 4ν` and `D = κ cosh 2x + 2x² + 5 − 12ν + 8ν²`, and over `G k`, the
+//! displacement is
 //!
 //! ```text
 //! normal             N = (1 − ν) (κ sinh 2x − 2x)/D                          (Carbone & Mangialardi 2008)
@@ -10,10 +10,10 @@
 //! normal and shear   C = [x² − (1 − 2ν) κ sinh² x]/D                                                      (S19)
 //! ```
 //!
-//! The limits for a deep layer are the values of the half-space: `1 − ν`, `1 − ν`, `1` and `−(1 −
-//! 2ν)/2`. The remainder decays as `e^(−2x)`, so in real space it is a smooth function of `ρ =
-//! r/h`, which is added to the closed forms (S1) and (S2). With the angle `ψ` from the row to the
-//! direction from load to field point,
+//! The limits for a deep layer are the values of the half-space: `1 − ν`, `1 − ν`, `1` and
+//! `−(1 − 2ν)/2`. The remainder decays as `e^(−2x)`, so in real space it is a smooth function of
+//! `ρ = r/h`, which is added to the closed forms (S1) and (S2). With the angle `ψ` from the row to
+//! the direction from load to field point,
 //!
 //! ```text
 //! u_y of P   ∫ ΔN J₀(xρ) dx                     u_x of Q   ∫ ½Δ(S + T) J₀ dx − cos 2ψ ∫ ½Δ(S − T) J₂ dx

@@ -7,8 +7,8 @@ use crate::{Coupling, Footprint, RowStiffness};
 ///
 /// Dimensionless (Eq. 1 of Shafiei et al., doi 10.1016/j.jmps.2020.104176).
 ///
-/// With `E* = E_s / (1 − ν²)` and the half-width `a` of a base, including neighbour terms, `F_x =
-/// E* a (α_x u_x − β_x Σ u_x)`, likewise in `y`, and `M = E* a³ (α_φ φ − β_φ Σ φ)`.
+/// With `E* = E_s / (1 − ν²)` and the half-width `a` of a base, including neighbour terms,
+/// `F_x = E* a (α_x u_x − β_x Σ u_x)`, likewise in `y`, and `M = E* a³ (α_φ φ − β_φ Σ φ)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Springs {
     /// `α_x`, `α_y`, `α_φ`.

@@ -60,8 +60,8 @@ impl Knot {
 ///
 /// Some belong to its path, others are solved for in between.
 ///
-/// Between two knots, with the rotations `θ`, the compliances `c = dθ/dM` and the secant `s =
-/// Δθ/ΔM`, the rotation is approximately
+/// Between two knots, with the rotations `θ`, the compliances `c = dθ/dM` and the secant
+/// `s = Δθ/ΔM`, the rotation is approximately
 ///
 /// ```text
 /// θ₁ + Δθ [s x² + c₁ x (1 − x)]/[s + (c₁ + c₂ − 2s) x (1 − x)],    x = (M − M₁)/ΔM           (F8)

@@ -114,7 +114,7 @@ fn the_load_of_a_circle_turns_at_the_top_and_at_the_bottom() {
     }
 }
 
-/// The critical load is `λ = 2 (2θ/cosh θ)²`… with `θ tanh θ = 1`.
+/// The critical load is `λ = 2 (2θ/cosh θ)²` with `θ tanh θ = 1`.
 ///
 /// The error of central differences is `O(h²)`.
 #[test]

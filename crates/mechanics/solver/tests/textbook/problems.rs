@@ -81,8 +81,8 @@ pub const SPRING: f64 = 0.25;
 
 /// Arch pushed through a soft spring: `p = w (1 − w)(2 − w) = k (d − w)`.
 ///
-/// The control parameter `d` turns back at `w = 1/2`, `d = 2`, and forward again at `w = 3/2`, `d =
-/// 0`. Unknowns `w, d, p`.
+/// The control parameter `d` turns back at `w = 1/2`, `d = 2`, and forward again at `w = 3/2`,
+/// `d = 0`. Unknowns `w, d, p`.
 pub fn arch_on_spring() -> Smooth<3> {
     Smooth {
         controls: controls(&[(1, 3.0), (0, 1.0)]),
@@ -429,8 +429,8 @@ pub fn bump() -> OneConstraint {
 
 /// Corner: `0 ≤ c ⟂ 1 − u − c + c² ≥ 0`, `p = u + 3 c`.
 ///
-/// The path arrives at `u = 1`, reverses to `u = 3/4`, and then reaches its target `u = 2` with `c
-/// = (1 + √5)/2`.
+/// The path arrives at `u = 1`, reverses to `u = 3/4`, and then reaches its target `u = 2` with
+/// `c = (1 + √5)/2`.
 pub fn corner() -> OneConstraint {
     OneConstraint {
         controls: controls(&[(0, 2.0), (1, 1.0)]),
