@@ -4,8 +4,9 @@ use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use results::columns::{name, tells_apart};
+use results::columns::{name, parameter_of, tells_apart};
 use results::{Results, Table};
+use text::number::{self, DistinctNumbers};
 
 use crate::palette::SlantPalette;
 
@@ -74,6 +75,24 @@ impl Designs {
         parameters.filter(|name| self.texts(name).len() > 1).collect()
     }
 
+    /// Returns the varied parameter that `column` gives in mm, by its column.
+    ///
+    /// Any length in mm may be the axis of a figure, such as a pitch that determines the gaps.
+    pub(crate) fn varied_as(&self, column: &str) -> Option<&str> {
+        let varied = self.varied();
+        if let Some(own) = varied.iter().find(|varied| **varied == column) {
+            return Some(own);
+        }
+        parameter_of(column).filter(|parameter| parameter.is_in_mm())?;
+        let in_mm = self.groups(column);
+        varied.into_iter().find(|varied| {
+            let pairs: BTreeSet<_> = self.groups(varied).into_iter().zip(in_mm.clone()).collect();
+            // As many pairs as values of each: the columns determine each other.
+            pairs.len() > 1
+                && [self.texts(varied).len(), self.texts(column).len()] == [pairs.len(); 2]
+        })
+    }
+
     /// Returns the column names of the varied parameters besides gap, aspect ratio and slant.
     pub(crate) fn further_axes(&self) -> Vec<&str> {
         self.varied().into_iter().filter(|name| !GEOMETRY.contains(name)).collect()
@@ -92,16 +111,20 @@ impl Designs {
     pub(crate) fn parts_by(&self, axes: &[&str]) -> Vec<(AxisValues<'_>, Self)> {
         let others: Vec<&str> =
             self.varied().into_iter().filter(|name| !axes.contains(name)).collect();
-        let values = |row| others.iter().map(|axis| (*axis, self.text(axis, row))).collect();
-        let mut parts: Vec<(AxisValues<'_>, Vec<usize>)> = Vec::new();
+        let groups: Vec<_> = others.iter().map(|axis| self.groups(axis)).collect();
+        let mut parts: Vec<(Vec<&str>, Vec<usize>)> = Vec::new();
         for row in 0..self.count() {
-            let own: AxisValues<'_> = values(row);
+            let own: Vec<&str> = groups.iter().map(|texts| texts[row].as_ref()).collect();
             match parts.iter_mut().find(|(other, _)| *other == own) {
                 Some((_, rows)) => rows.push(row),
                 None => parts.push((own, vec![row])),
             }
         }
-        parts.into_iter().map(|(values, rows)| (values, self.only(&rows))).collect()
+        let parts = parts.into_iter().map(|(_, rows)| {
+            let values = others.iter().map(|axis| (*axis, self.text(axis, rows[0]))).collect();
+            (values, self.only(&rows))
+        });
+        parts.collect()
     }
 
     /// Returns true if the surface of the substrate folds before the puncture of a design ends.
@@ -120,9 +143,20 @@ impl Designs {
         Self { table: Arc::new(self.table.only(rows)) }
     }
 
-    /// Returns the distinct texts of a column.
+    /// Returns the different texts of a column. Numbers that are equal up to round-off have one.
     pub(crate) fn texts(&self, column: &str) -> BTreeSet<Cow<'_, str>> {
-        (0..self.count()).map(|row| self.text(column, row)).collect()
+        self.groups(column).into_iter().collect()
+    }
+
+    /// Returns a text for each design, equal for equal values of a column.
+    fn groups(&self, column: &str) -> Vec<Cow<'_, str>> {
+        let distinct = self.distinct(column);
+        let texts = (0..self.count()).map(|row| {
+            let number = self.number(column, row).and_then(|number| distinct.position(number));
+            let number = number.map(|index| number::text(distinct.as_slice()[index]).into());
+            number.unwrap_or_else(|| self.text(column, row))
+        });
+        texts.collect()
     }
 
     /// Returns the colours and marks of the slants.
@@ -130,11 +164,13 @@ impl Designs {
         SlantPalette::new(self.numbers("slant_deg"))
     }
 
-    /// Returns the distinct numbers of a column, sorted.
+    /// Returns the different numbers of a column, ascending.
     pub(crate) fn values(&self, column: &str) -> Vec<f64> {
-        let mut values: Vec<f64> = self.numbers(column).collect();
-        values.sort_by(f64::total_cmp);
-        values.dedup();
-        values
+        self.distinct(column).as_slice().to_vec()
+    }
+
+    /// Returns the different numbers of a column.
+    pub(crate) fn distinct(&self, column: &str) -> DistinctNumbers {
+        self.numbers(column).collect()
     }
 }

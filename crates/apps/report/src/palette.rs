@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use text::number::DistinctNumbers;
+
 use crate::colors::mixed;
 use crate::svg::{Element, Spot, circle, polygon};
 
@@ -21,26 +23,23 @@ const SLANTS: [[u8; 3]; 7] = [
 /// Multiples of 15° have the same look in every sweep. Other slants take the seven looks in order.
 /// With more than seven slants, looks repeat, but neighbours always differ.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SlantPalette(Vec<f64>);
+pub struct SlantPalette(DistinctNumbers);
 
 impl SlantPalette {
     /// Creates the palette of some slants, in degrees.
     pub fn new(slants: impl IntoIterator<Item = f64>) -> Self {
-        let mut slants: Vec<f64> = slants.into_iter().collect();
-        slants.sort_by(f64::total_cmp);
-        slants.dedup();
-        Self(slants)
+        Self(slants.into_iter().collect())
     }
 
     /// Returns the slants, sorted.
     pub fn slants(&self) -> &[f64] {
-        &self.0
+        self.0.as_slice()
     }
 
     /// Returns the colour of a slant.
     pub fn color(&self, slant_deg: f64) -> String {
         let last = SLANTS.len() - 1;
-        let place = match self.0.len() {
+        let place = match self.slants().len() {
             _ if self.is_by_fifteen() => slant_deg / 15.0,
             0..=7 => self.place(slant_deg) as f64,
             count => self.place(slant_deg) as f64 * last as f64 / (count - 1) as f64,
@@ -56,12 +55,15 @@ impl SlantPalette {
     }
 
     fn place(&self, slant_deg: f64) -> usize {
-        self.0.partition_point(|other| *other < slant_deg)
+        // A slant of another sweep has the look of the next one.
+        self.0
+            .position(slant_deg)
+            .unwrap_or_else(|| self.slants().partition_point(|other| *other < slant_deg))
     }
 
     /// Returns true if all slants are multiples of 15°.
     fn is_by_fifteen(&self) -> bool {
-        self.0.iter().all(|slant| (slant / 15.0 - (slant / 15.0).round()).abs() < 1e-9)
+        self.slants().iter().all(|slant| (slant / 15.0 - (slant / 15.0).round()).abs() < 1e-9)
     }
 }
 

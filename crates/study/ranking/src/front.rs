@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use results::round_off::same;
+use text::number::same;
 
 /// Point with four coordinates; larger is better.
 type Quadruple = [f64; 4];

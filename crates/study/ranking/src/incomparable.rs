@@ -134,7 +134,9 @@ fn values(
     for row in 0..results.len() {
         // Skip text such as `none` for a friction.
         let Ok(Some(value)) = results.number(row, column) else { continue };
-        if !values.contains(&value) && filter.first_unmet(row)?.is_none() {
+        if !values.iter().any(|other| number::same(*other, value))
+            && filter.first_unmet(row)?.is_none()
+        {
             values.push(value);
         }
     }

@@ -9,7 +9,6 @@ use std::path::Path;
 
 use rayon::prelude::*;
 use results::columns::{name, parameter_of};
-use results::round_off::ROUND_OFF;
 use results::{
     Claim, InvalidResults, Maker, OutputError, Results, ResultsFolder, VerifiedFolder, write_rows,
 };
@@ -344,11 +343,17 @@ fn winners(contenders: &Contenders, grid: TetrahedralGrid) -> Vec<usize> {
     nodes.par_iter().map(contest).collect()
 }
 
+/// Round-off of a score, a sum of logarithms or of fractions.
+///
+/// Equal values of a criterion are exactly equal when scores are computed, so only the round-off of
+/// the sum remains.
+const SUM_ROUND_OFF: f64 = 1e-12;
+
 /// Returns true if a score equals the best one up to round-off.
 ///
 /// Scores are logarithms or fractions of 1, so an absolute tolerance is appropriate.
 fn is_as_good(score: f64, best: f64) -> bool {
-    score >= best - ROUND_OFF
+    score >= best - SUM_ROUND_OFF
 }
 
 /// Returns the first contender with the largest fitness up to round-off.

@@ -3,9 +3,8 @@
 use std::fmt;
 use std::str::FromStr;
 
-use results::round_off::{ROUND_OFF, same};
 use serde::{Serialize, Serializer};
-use text::number;
+use text::number::{self, ROUND_OFF, same};
 
 use crate::standard::Standard;
 

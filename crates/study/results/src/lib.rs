@@ -21,7 +21,7 @@
 //! | [`ResultsFolder`], [`FILES`], [`FileEntry`] | the folder, and an entry for every file in it: name, maker, whether its SHA-256 is recorded |
 //! | [`write_measures`] | writes a table with one row per measure of a design |
 //! | [`path_tables()`], [`PathTable`], [`write_path_tables`] | the paths, events, scales and iterations of one design, in memory and as files |
-//! | [`round_off`] | comparison of numbers up to round-off |
+//! | [`round_off`] | the best of values that are equal up to round-off |
 //! | [`Results`], [`Table`] | the designs read from the folder of a run, and their cells |
 //! | [`Contents`], [`VerifiedFolder`], [`Completeness`] | the checksums of a run, and a folder verified against them |
 //! | [`Derivation`], [`Claim`] | products derived from the tables; the exclusive claim of a command to its files |

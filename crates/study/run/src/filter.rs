@@ -6,7 +6,7 @@ use journal::JournalError;
 use results::columns::design_columns;
 use results::{Cell, Column, DesignRow};
 use sweep::NoSuchDesign;
-use text::nearest;
+use text::{nearest, number};
 
 use crate::run_journal::{Archive, JournalEntry};
 
@@ -87,9 +87,9 @@ impl ColumnFilter {
     /// Returns true if `cell` has the value, as text or as a number.
     fn passes(&self, cell: &Cell) -> bool {
         let cell = cell.to_string();
-        let number = |text: &str| text.parse::<f64>().ok();
+        let numbers = cell.parse().ok().zip(self.value.parse().ok());
         // Compare texts first: `0010` is the number of a design, not the value 10.
-        cell == self.value || number(&cell).is_some_and(|cell| Some(cell) == number(&self.value))
+        cell == self.value || numbers.is_some_and(|(cell, value)| number::same(cell, value))
     }
 }
 

@@ -107,8 +107,10 @@ pub(crate) enum InvalidRange {
     /// The range has too many values for a list in memory.
     #[error("the range has {count} values, expected at most {LONGEST}, with a larger step")]
     TooLong { count: i128 },
-    /// Neighbours are the same `f64`, or have too many digits.
-    #[error("the step {step} is too fine, expected numbers that differ as f64")]
+    /// Neighbours are equal up to round-off, or have too many digits.
+    #[error(
+        "the step {step} is too fine, expected numbers that differ by more than a part in 10^9"
+    )]
     TooFine { step: Decimal },
 }
 
@@ -117,7 +119,7 @@ pub(crate) enum InvalidRange {
 /// # Errors
 ///
 /// If the step is not positive, `to` is below `from` or is not reached, there are more than a
-/// million numbers, or neighbours are the same `f64`.
+/// million numbers, or neighbours are equal up to round-off.
 pub(crate) fn range(
     from: Decimal,
     to: Decimal,
@@ -153,10 +155,10 @@ pub(crate) fn range(
     if tells_apart(&numbers) { Ok(numbers) } else { Err(InvalidRange::TooFine { step }) }
 }
 
-/// Returns true if neighbours of a range are different `f64`s. They are closest together, relative
-/// to their size, at the two ends.
+/// Returns true if neighbours of a range differ by more than round-off. They are closest together,
+/// relative to their size, at the two ends.
 fn tells_apart(numbers: &[Decimal]) -> bool {
-    let differ = |pair: &[Decimal]| pair[0].to_f64() < pair[1].to_f64();
+    let differ = |pair: &[Decimal]| !text::number::same(pair[0].to_f64(), pair[1].to_f64());
     let mut pairs = numbers.windows(2);
     pairs.clone().next().is_none_or(differ) && pairs.next_back().is_none_or(differ)
 }
@@ -189,8 +191,8 @@ mod tests {
         insta::assert_snapshot!(message("1", "0", "0.5"), @"`to` is below `from`, expected a `to` of at least 1");
         insta::assert_snapshot!(message("0.1", "1", "0.4"), @"1 is not reached in steps of 0.4, expected a `to` of 0.9 or 1.3");
         insta::assert_snapshot!(message("0", "1", "1e-6"), @"the range has 1000001 values, expected at most 1000000, with a larger step");
-        insta::assert_snapshot!(message("0", "1e30", "1e-30"), @"the step 1e-30 is too fine, expected numbers that differ as f64");
-        insta::assert_snapshot!(message("1", "1.000000000000000001", "1e-18"), @"the step 1e-18 is too fine, expected numbers that differ as f64");
+        insta::assert_snapshot!(message("0", "1e30", "1e-30"), @"the step 1e-30 is too fine, expected numbers that differ by more than a part in 10^9");
+        insta::assert_snapshot!(message("1", "1.000000000000000001", "1e-18"), @"the step 1e-18 is too fine, expected numbers that differ by more than a part in 10^9");
     }
 
     proptest! {

@@ -48,9 +48,9 @@ impl Axis {
         numbers.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
     }
 
-    /// Returns the index of `value`.
+    /// Returns the index of `value`, up to round-off.
     pub fn position(&self, value: Scalar) -> Option<u64> {
-        self.values.iter().position(|&other| other == value).map(|index| index as u64)
+        self.values.iter().position(|other| other.same(value)).map(|index| index as u64)
     }
 
     /// Returns the values as written in a definition.

@@ -4,7 +4,7 @@
 //!
 //! | Item | Role |
 //! |---|---|
-//! | [`number`] | writes numbers as the shortest text, or rounded to significant digits |
+//! | [`number`] | equality up to round-off; numbers as the shortest text, or rounded |
 //! | [`visible`], [`shortened`], [`one_line`], [`reason`] | prepare text for messages |
 //! | [`nearest`], [`has_part`] | suggest the name that a misspelled one may mean |
 //! | [`shell_word`], [`shell_quoted`] | quote words for a POSIX shell |

@@ -1,6 +1,62 @@
-//! Writes numbers as text.
+//! Equality of numbers up to round-off, and numbers as text.
+//!
+//! Two numbers that are computed in different ways differ in their last digits. Every comparison of
+//! values in squama uses [`same`]: axes, filters, matches of two runs, ranks and fronts.
 
 use std::fmt::{self, Write};
+
+/// Relative difference up to which two numbers count as equal.
+///
+/// It is far above the round-off of a solved value and far below any difference that can be
+/// measured.
+pub const ROUND_OFF: f64 = 1e-9;
+
+/// Returns true if `a` and `b` are equal up to round-off. Zero equals only zero.
+pub fn same(a: f64, b: f64) -> bool {
+    (a - b).abs() <= ROUND_OFF * a.abs().max(b.abs())
+}
+
+/// Returns the short decimal number that `value` equals up to its last digits, or else `value`.
+///
+/// `0.3/3` is `0.09999999999999999` as an `f64`, and means `0.1`. `size` is the largest number in
+/// the computation of `value`, because a difference has the round-off of its operands.
+pub fn short_decimal(value: f64, size: f64) -> f64 {
+    let short = format!("{value:.11e}").parse().unwrap_or(value);
+    if (short - value).abs() <= 4.0 * f64::EPSILON * size.abs() { short } else { value }
+}
+
+/// Different numbers in ascending order. Numbers that are equal up to round-off are one.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct DistinctNumbers {
+    /// The smallest number of each group.
+    numbers: Vec<f64>,
+}
+
+impl DistinctNumbers {
+    /// Returns the numbers, in ascending order.
+    pub fn as_slice(&self) -> &[f64] {
+        &self.numbers
+    }
+
+    /// Returns the index of a number, if it is one of them.
+    pub fn position(&self, number: f64) -> Option<usize> {
+        let above = self.numbers.partition_point(|other| *other < number);
+        // Check the smaller neighbour first, because it represents its group.
+        let neighbours = above.saturating_sub(1)..(above + 1).min(self.numbers.len());
+        neighbours.into_iter().find(|&index| same(self.numbers[index], number))
+    }
+}
+
+impl FromIterator<f64> for DistinctNumbers {
+    fn from_iter<I: IntoIterator<Item = f64>>(numbers: I) -> Self {
+        let mut numbers: Vec<f64> = numbers.into_iter().collect();
+        numbers.sort_by(f64::total_cmp);
+        // `dedup_by` compares with the last number that stays, the smallest of its group. Many
+        // small steps therefore do not make all numbers equal.
+        numbers.dedup_by(|next, kept| same(*next, *kept));
+        Self { numbers }
+    }
+}
 
 /// Returns the shortest text that reads back as `value`: `0.3`, `1`, `1e-7`.
 ///
@@ -41,7 +97,33 @@ pub fn write(to: &mut impl Write, value: f64) -> fmt::Result {
 mod tests {
     use proptest::prelude::*;
 
-    use super::{rounded, text};
+    use super::{DistinctNumbers, rounded, same, short_decimal, text};
+
+    #[test]
+    fn zero_equals_only_zero() {
+        assert!(same(0.0, -0.0));
+        assert!(!same(0.0, 1e-300));
+        assert!(same(1e20, 1e20 + 1e10));
+        assert!(!same(1.0, 1.0 + 1e-8));
+    }
+
+    #[test]
+    fn quotients_of_short_decimals_are_short() {
+        assert_eq!([0.3 / 3.0, 2.1 / 3.0, 0.6 / 3.0].map(|x| short_decimal(x, x)), [0.1, 0.7, 0.2]);
+        // A difference has the round-off of its operands.
+        assert_eq!(short_decimal(1.1 - 1.0, 1.1), 0.1);
+        for long in [1.0 / 3.0, std::f64::consts::PI, 0.1 + 1e-13, f64::NAN] {
+            assert_eq!(short_decimal(long, long).to_bits(), long.to_bits());
+        }
+    }
+
+    #[test]
+    fn equal_numbers_have_one_position() {
+        let distinct: DistinctNumbers = [0.3, 0.1 + 0.2, 0.1, -0.0, 0.0, 0.7].into_iter().collect();
+        assert_eq!(distinct.as_slice(), [0.0, 0.1, 0.3, 0.7]);
+        let positions = [0.1 + 0.2, 0.3, 0.0, 0.7 - 1e-16, 0.4].map(|x| distinct.position(x));
+        assert_eq!(positions, [Some(2), Some(2), Some(0), Some(3), None]);
+    }
 
     #[test]
     fn numbers_take_their_shortest_text() {
@@ -57,6 +139,17 @@ mod tests {
     }
 
     proptest! {
+        #[test]
+        fn a_quotient_of_decimals_is_the_nearest_number(units in 1_u32..10_000, thickness in 1_u32..1000) {
+            let (length, thickness) = (f64::from(units) / 100.0, f64::from(thickness) / 10.0);
+            let (over_t, expected) = (length / thickness, format!("{:.11e}", length / thickness));
+            let is_short = (over_t * 1e11).round() == over_t * 1e11;
+            if is_short {
+                let found = short_decimal(over_t, over_t);
+                prop_assert_eq!(Ok(found), expected.parse());
+            }
+        }
+
         #[test]
         fn the_text_reads_back_as_the_number(value in proptest::num::f64::NORMAL) {
             prop_assert_eq!(text(value).parse::<f64>().map(f64::to_bits), Ok(value.to_bits()));

@@ -9,6 +9,8 @@ use optimisation::{DesignGoal, FRONT, GOAL};
 use results::{Completeness, Results, VerifiedFolder};
 use sweep::{Axis, Case, DesignNumber, Grid, Parameter, Setting, Sweep, read_text};
 
+use text::number::same;
+
 use super::source::{Defined, Definition, IS_GOAL, defined_by, definition_file, settings};
 
 /// Options that select designs.
@@ -208,10 +210,11 @@ fn values(text: &str, axis: Option<&Axis>) -> anyhow::Result<String> {
         return Ok(if all.len() > 1 { format!("[{}]", all.join(",")) } else { all.concat() });
     };
     let number = |text: &str| text.trim().parse::<f64>().ok();
-    let bounds = number(low).zip(number(high)).map(|(low, high)| low..=high);
-    let bounds = bounds.context("not accepted, expected FROM..TO, e.g. 15..60")?;
+    let bounds = number(low).zip(number(high));
+    let (low, high) = bounds.context("not accepted, expected FROM..TO, e.g. 15..60")?;
+    let is_within = |n: f64| (low..=high).contains(&n) || same(n, low) || same(n, high);
     let axis = axis.map_or(Vec::new(), |axis| (0..axis.len()).map(|i| axis.value(i)).collect());
-    let within = axis.iter().filter(|value| value.number().is_some_and(|n| bounds.contains(&n)));
+    let within = axis.iter().filter(|value| value.number().is_some_and(is_within));
     let values: Vec<_> = within.map(|value| value.to_toml()).collect();
     let all: Vec<_> = axis.iter().map(ToString::to_string).collect();
     ensure!(

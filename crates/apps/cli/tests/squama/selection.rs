@@ -72,3 +72,51 @@ fn many_designs_have_a_short_name() {
     place.squama("plot curves x.toml --design 1-45 --out c").assert().code(1);
     assert!(place.list("c").contains("force-displacement-curves-of-0001-to-0045-45-designs.svg"));
 }
+
+/// A design is the same in mm and in units of the thickness, although `0.3/3` is not 0.1.
+#[test]
+fn a_design_in_mm_is_the_design_over_the_thickness() {
+    let place = Place::with(FEW);
+    let axes = |unit: &str, gaps: &str, lengths: &str| {
+        format!(
+            "name = \"{unit}\"\nmeasures = [\"coverage\", \"flexure\"]\n[designs]\n\
+             gap_{unit} = {gaps}\nlength_{unit} = {lengths}\nslant_deg = [30, 45]\n"
+        )
+    };
+    let in_mm = axes("mm", "{ from = 0.3, to = 3, step = 0.3 }", "[0.9, 2.1]");
+    let write =
+        |file: &str, text: String| std::fs::write(place.path(file), text).expect("writable");
+    write("mm.toml", in_mm + "[material]\nthickness_mm = 3\n");
+    write("t.toml", axes("over_t", "{ from = 0.1, to = 1, step = 0.1 }", "[0.3, 0.7]"));
+    place.squama("run mm.toml -q --out mm").assert().code(0);
+    place.squama("run t.toml -q --out t").assert().code(0);
+    for table in ["mm/designs.csv", "mm/compliance.csv"] {
+        let designs = place.read(table);
+        let mut geometry =
+            designs.lines().skip(1).map(|line| line.split(',').take(3).collect::<String>());
+        assert!(geometry.all(|cells| cells.len() < 12), "{table}: {designs}");
+    }
+    assert!(place.prints("compare mm t").contains("40 designs in both"));
+    for folder in ["mm", "t"] {
+        place.prints(&format!("rank {folder} --criteria coverage,compliance"));
+    }
+    let front = |folder: &str| -> Vec<String> {
+        let table = place.read(&format!("{folder}/pareto.csv"));
+        table.lines().skip(1).map(|line| line[..4].to_owned()).collect()
+    };
+    assert_eq!(front("mm"), front("t"));
+    // Lengths in mm are axes, conditions and values by the name that they were given.
+    let map = "plot map mm --of compliance --no-title --out maps";
+    place.prints(&format!("{map} --x gap_mm --y length_mm"));
+    let drawn = place.read("maps/map-of-compliance-over-gap-mm-and-length-mm.svg");
+    assert_eq!(drawn.matches("<g class=\"map\">").count(), 2, "one for each slant");
+    assert!(drawn.contains("gap (mm)") && drawn.contains("length (mm)"), "{drawn}");
+    place.prints(&format!("{map} --x gap_mm --y slant_deg --at length_mm=2.1"));
+    insta::assert_snapshot!(place.refused(&format!("{map} --x gap_mm --y gap_over_t")), @"error: --y gap_over_t: is on the horizontal axis already; choose another parameter");
+    let again = place.prints("rerun mm --where gap_mm=0.30000000000000004 --dry-run");
+    assert!(again.contains("4 designs"), "{again}");
+    let design = place.prints("design t.toml --gap 0.30000000000000004 --length 0.7 --slant 45");
+    assert!(design.starts_with("over_t: design 0012 of 40\n"), "{design}");
+    let range = place.prints("draw t.toml --gap 0.30000000000000004..0.4 --length 0.7 --slant 45");
+    assert_eq!(range.lines().count(), 2, "{range}");
+}

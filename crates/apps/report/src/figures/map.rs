@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use results::columns::name;
+use text::number::{self, DistinctNumbers};
 
 use super::contours::contours;
 use super::names::{axis_label, in_short, in_words, with_value};
@@ -91,12 +92,17 @@ pub fn map(name: &str, designs: &Designs, request: &MapRequest) -> Result<Figure
     // A parameter with words varies, too, but cannot be an axis.
     let known = designs.varied().into_iter().filter(|axis| designs.has(axis));
     let known: Vec<String> = known.map(str::to_owned).collect();
+    let mut axes = Vec::new();
     for (option, axis) in [("--x", &request.x), ("--y", &request.y)] {
-        if !known.contains(axis) {
-            return Err(InvalidMap::NoAxis { option, found: axis.clone(), known });
-        }
+        // A length in mm stands for the length over the thickness.
+        let varied = designs.varied_as(axis).filter(|varied| designs.has(varied));
+        axes.push(varied.ok_or_else(|| InvalidMap::NoAxis {
+            option,
+            found: axis.clone(),
+            known: known.clone(),
+        })?);
     }
-    if request.x == request.y {
+    if axes[0] == axes[1] {
         return Err(InvalidMap::Twice(request.y.clone()));
     }
     // The number of a design is numeric, but not a quantity.
@@ -105,7 +111,7 @@ pub fn map(name: &str, designs: &Designs, request: &MapRequest) -> Result<Figure
     }
     let held = held(designs, &request.at)?;
     let (x, y, of) = (request.x.as_str(), request.y.as_str(), request.of.as_str());
-    let parts = held.parts_by(&[x, y]);
+    let parts = held.parts_by(&axes);
     if parts.len() > MAPS {
         return Err(too_many(&parts));
     }
@@ -140,7 +146,8 @@ fn held(designs: &Designs, at: &[(String, String)]) -> Result<Designs, InvalidMa
     for (axis, value) in at {
         // The same number may have another notation than in the table, as 0.10 for 0.1.
         let number = value.parse::<f64>().ok();
-        let is_number = |row| number.is_some() && held.number(axis, row) == number;
+        let is_number =
+            |row| held.number(axis, row).zip(number).is_some_and(|(a, b)| number::same(a, b));
         let is_at = |&row: &usize| held.text(axis, row) == *value || is_number(row);
         let rows: Vec<usize> = (0..held.count()).filter(is_at).collect();
         if rows.is_empty() {
@@ -188,8 +195,8 @@ impl MapSubject<'_> {
                 subject: self,
                 designs,
                 area: first.panel(k, count, BETWEEN),
-                x: designs.values(self.x),
-                y: designs.values(self.y),
+                x: designs.distinct(self.x),
+                y: designs.distinct(self.y),
             };
             let title = values.iter().map(with_value).collect::<Vec<_>>().join(", ");
             inside.extend(map.drawn(&title, k + count >= parts.len(), k % count == 0));
@@ -264,8 +271,8 @@ struct Map<'a> {
     subject: &'a MapSubject<'a>,
     designs: &'a Designs,
     area: Area,
-    x: Vec<f64>,
-    y: Vec<f64>,
+    x: DistinctNumbers,
+    y: DistinctNumbers,
 }
 
 impl Map<'_> {
@@ -274,15 +281,20 @@ impl Map<'_> {
         [self.cells(&at), self.contours(&at), self.frame(title, x_labels, y_labels)]
     }
 
+    /// Returns the number of columns and of rows.
+    fn size(&self) -> [usize; 2] {
+        [&self.x, &self.y].map(|values| values.as_slice().len())
+    }
+
     fn cell(&self) -> [f64; 2] {
-        [self.area.width / self.x.len() as f64, self.area.height / self.y.len() as f64]
+        let [columns, rows] = self.size();
+        [self.area.width / columns as f64, self.area.height / rows as f64]
     }
 
     /// Returns the row of the design in each cell.
     fn rows(&self) -> HashMap<[usize; 2], usize> {
-        let position = |values: &[f64], column, row| {
-            let value = self.designs.number(column, row)?;
-            values.iter().position(|&other| other == value)
+        let position = |values: &DistinctNumbers, column, row| {
+            values.position(self.designs.number(column, row)?)
         };
         let cell = |row| {
             Some((
@@ -297,7 +309,8 @@ impl Map<'_> {
         let [width, height] = self.cell();
         let mut map = Element::group("map");
         // Iterate in a fixed order, because the order of a hash map is random.
-        for (i, j) in (0..self.x.len()).flat_map(|i| (0..self.y.len()).map(move |j| (i, j))) {
+        let [columns, rows] = self.size();
+        for (i, j) in (0..columns).flat_map(|i| (0..rows).map(move |j| (i, j))) {
             let Some(&row) = at.get(&[i, j]) else { continue };
             let value = self.designs.number(self.subject.of, row);
             let Some(color) = value.and_then(|value| self.subject.color(value)) else { continue };
@@ -328,7 +341,7 @@ impl Map<'_> {
         let place = |[i, j]: [f64; 2]| {
             [self.area.left + (i + 0.5) * width, self.area.bottom() - (j + 0.5) * height]
         };
-        let size = [self.x.len(), self.y.len()];
+        let size = self.size();
         let lines =
             self.subject.levels().into_iter().flat_map(|level| contours(size, &value, level));
         let drawn = lines.flat_map(|[from, to]| {
@@ -348,14 +361,14 @@ impl Map<'_> {
         if x_labels {
             // Each label needs the width of about five characters.
             let every = (34.0 / w).ceil() as usize;
-            for (i, value) in self.x.iter().enumerate().step_by(every.max(1)) {
+            for (i, value) in self.x.as_slice().iter().enumerate().step_by(every.max(1)) {
                 let spot = [left + (i as f64 + 0.5) * w, top + height + 15.0];
                 frame.add(label(&value.to_string(), spot, 11.0, Anchor::Middle).with("fill", INK));
             }
         }
         if y_labels {
             let every = (15.0 / h).ceil() as usize;
-            for (j, value) in self.y.iter().enumerate().step_by(every.max(1)) {
+            for (j, value) in self.y.as_slice().iter().enumerate().step_by(every.max(1)) {
                 let spot = [left - 6.0, top + height - (j as f64 + 0.5) * h + 4.0];
                 frame.add(label(&value.to_string(), spot, 11.0, Anchor::End).with("fill", INK));
             }

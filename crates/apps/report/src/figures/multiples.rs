@@ -1,5 +1,7 @@
 //! A measure against the aspect ratio: a panel per gap, a line per slant (Figs. 7b and 12).
 
+use text::number::same;
+
 use super::names::{axis_label, with_value};
 use super::{Quantity, columns, is_touched_by_folds, sheet};
 use crate::axis::ChartAxis;
@@ -58,7 +60,8 @@ pub(crate) fn figure(
         let area = first.panel(k, columns, BETWEEN);
         let panel = ChartPanel { title, x_labels, y_labels, ..ChartPanel::new(area, &x, &y) };
         inside.push(panel.frame());
-        let is_here = |row: &usize| designs.number(across, *row) == Some(value);
+        let is_here =
+            |row: &usize| designs.number(across, *row).is_some_and(|own| same(own, value));
         let rows: Vec<usize> = (0..designs.count()).filter(is_here).collect();
         let here = PanelSeries { designs, palette: &palette, along, rows, quantity, filled };
         inside.extend(palette.slants().iter().map(|&slant| here.series(&panel, slant)));
@@ -95,7 +98,8 @@ impl PanelSeries<'_> {
     /// The marks are joined by a line and a band if the values along the axis are distinct.
     fn series(&self, panel: &ChartPanel, slant: f64) -> Element {
         let designs = self.designs;
-        let own = |row: &&usize| designs.number("slant_deg", **row) == Some(slant);
+        let own =
+            |row: &&usize| designs.number("slant_deg", **row).is_some_and(|own| same(own, slant));
         let mut points: Vec<(f64, Spot, usize)> =
             self.rows.iter().filter(own).filter_map(|&row| self.point(panel, row)).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));

@@ -1,9 +1,11 @@
 //! Matches the designs of two runs.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 
 use results::Results;
 use sweep::{PARAMETERS, Parameter, Scalar};
+use text::number::DistinctNumbers;
 
 use super::InvalidComparison;
 
@@ -31,11 +33,14 @@ pub(super) struct Matching {
 
 impl Matching {
     pub fn new(first: &Results, second: &Results) -> Result<Self, InvalidComparison> {
-        let common = common(first, second);
+        let common: Vec<_> = common(first, second)
+            .into_iter()
+            .map(|parameter| CommonParameter::new(parameter, [first, second]))
+            .collect();
         let [first_keys, second_keys] = [keys(first, &common)?, keys(second, &common)?];
         let pair = |row| Some([row, *second_keys.get(&key(first, &common, row))?]);
         let pairs: Vec<[usize; 2]> = (0..first.len()).filter_map(pair).collect();
-        let without = |run: &Results, partners: &HashMap<String, usize>| {
+        let without = |run: &Results, partners: &HashMap<Vec<u8>, usize>| {
             let is_alone = |row: &usize| !partners.contains_key(&key(run, &common, *row));
             (0..run.len()).filter(is_alone).collect()
         };
@@ -61,18 +66,48 @@ fn common(first: &Results, second: &Results) -> Vec<&'static Parameter> {
     vary.filter(|p| knows(first, p) && knows(second, p)).collect()
 }
 
-/// Returns a key made of the values of `parameters`, which identifies a design.
-fn key(run: &Results, parameters: &[&'static Parameter], row: usize) -> String {
-    // Texts suffice, because all runs format numbers in the same way.
-    let mut key = String::new();
-    for parameter in parameters {
-        match run.parameter(row, parameter).as_ref() {
-            // Without a column, all designs of the run have the same value.
-            "" => key.extend(shared(run, parameter).map(|value| value.to_string())),
-            value => key.push_str(value),
+/// A parameter by which designs are matched, and its different numbers in both runs.
+struct CommonParameter {
+    parameter: &'static Parameter,
+    numbers: DistinctNumbers,
+}
+
+impl CommonParameter {
+    fn new(parameter: &'static Parameter, runs: [&Results; 2]) -> Self {
+        let numbers = runs.into_iter().flat_map(|run| {
+            (0..run.len()).filter_map(move |row| value(run, parameter, row).parse().ok())
+        });
+        Self { parameter, numbers: numbers.filter(|number: &f64| number.is_finite()).collect() }
+    }
+
+    /// Appends the value of a row to a key. Equal values have equal bytes.
+    fn write(&self, run: &Results, row: usize, key: &mut Vec<u8>) {
+        let value = value(run, self.parameter, row);
+        let number = value.parse().ok().and_then(|number| self.numbers.position(number));
+        match number {
+            Some(index) => key.extend(index.to_le_bytes()),
+            None => key.extend(value.as_bytes()),
         }
         // A separator, or 1 and 12 would equal 11 and 2.
-        key.push(',');
+        key.push(b',');
+    }
+}
+
+/// Returns the value of a parameter in a row, as text.
+fn value<'r>(run: &'r Results, parameter: &Parameter, row: usize) -> Cow<'r, str> {
+    let value = run.parameter(row, parameter);
+    if !value.is_empty() {
+        return value;
+    }
+    // Without a column, all designs of the run have the same value.
+    shared(run, parameter).map_or_else(Cow::default, |value| value.to_string().into())
+}
+
+/// Returns the values of a row that distinguish its design from the others.
+fn key(run: &Results, parameters: &[CommonParameter], row: usize) -> Vec<u8> {
+    let mut key = Vec::new();
+    for parameter in parameters {
+        parameter.write(run, row, &mut key);
     }
     key
 }
@@ -80,8 +115,8 @@ fn key(run: &Results, parameters: &[&'static Parameter], row: usize) -> String {
 /// Returns the row of each key.
 fn keys(
     run: &Results,
-    parameters: &[&'static Parameter],
-) -> Result<HashMap<String, usize>, InvalidComparison> {
+    parameters: &[CommonParameter],
+) -> Result<HashMap<Vec<u8>, usize>, InvalidComparison> {
     let mut keys = HashMap::with_capacity(run.len());
     for row in 0..run.len() {
         // Refuse repeated keys, because the second design would replace the first.
@@ -100,7 +135,7 @@ fn changes(first: &Results, second: &Results) -> Vec<ParameterChange> {
             first: shared(first, parameter)?,
             second: shared(second, parameter)?,
         };
-        (change.first != change.second).then_some(change)
+        (!change.first.same(change.second)).then_some(change)
     };
     PARAMETERS.iter().filter_map(change).collect()
 }

@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 
 use results::columns::name;
-use results::round_off::{merge_equal, same};
+use results::round_off::merge_equal;
 use results::{InvalidResults, Results};
+use text::number::same;
 
 use crate::filter::RequirementFilter;
 use crate::fitness::rescaled;
@@ -125,21 +126,17 @@ impl Contenders {
         let count = columns.len();
         // Test values for ties, not criteria: the logarithm of values near 1 is near 0.
         let is_tie = spans(&values, count).map(|(low, high)| same(low, high));
-        // Round-off must not decide on dominance.
-        let mut merged = values.clone();
+        // Digits of round-off must decide neither on dominance nor on scores. Otherwise designs of
+        // one rank could differ in whether they are on the front.
         for (c, of) in preferences.criteria.iter().enumerate() {
-            merge_equal(merged.iter_mut().skip(c).step_by(count), of.goal);
+            merge_equal(values.iter_mut().skip(c).step_by(count), of.goal);
         }
-        for (place, value) in merged.iter_mut().enumerate() {
-            *value = criterion(preferences, place % count, *value);
-        }
-        // Dominance depends neither on weights nor on rescaling.
-        let on_front = front_of(&merged, count);
-        drop(merged);
         // Reuse the memory: values are in the table anyway.
         for (place, value) in values.iter_mut().enumerate() {
             *value = criterion(preferences, place % count, *value);
         }
+        // Of criteria as they are: who beats whom needs neither weights nor rescaling.
+        let on_front = front_of(&values, count);
         let spans = spans(&values, count).into_iter().zip(is_tie).take(count);
         let spans = spans.map(|(span, is_tie)| (!is_tie).then_some(span)).collect();
         let mut contenders = Self { rows, columns, on_front, spans, terms: Vec::new() };
@@ -157,7 +154,8 @@ impl Contenders {
 
     /// Rescales criterion `c` from 0, the worst, to 1, the best.
     pub fn rescaled(&self, c: usize, criterion: f64) -> f64 {
-        self.spans[c].map_or(1.0, |span| rescaled(criterion, span))
+        // A value equals the end of the span up to round-off and may be beyond it.
+        self.spans[c].map_or(1.0, |span| rescaled(criterion, span).clamp(0.0, 1.0))
     }
 }
 

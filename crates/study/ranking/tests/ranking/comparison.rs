@@ -112,3 +112,14 @@ fn the_tables_of_a_comparison() {
     let table = |file: &str| std::fs::read_to_string(folder.path().join(file)).expect("a table");
     insta::assert_snapshot!(files.map(|file| format!("{file}\n{}\n", table(file))).concat());
 }
+
+#[test]
+fn designs_are_matched_up_to_round_off() {
+    let first = results("design,gap_over_t,coverage\n1,0.09999999999999999,1\n2,0.3,2\n", None);
+    let second = results("design,gap_over_t,coverage\n1,0.30000000000000004,2\n2,0.1,1\n", None);
+    let comparison = compare(&first, &second, 1e-12).expect("comparable");
+    assert_eq!((comparison.matched(), comparison.is_none()), (2, true));
+    let twice = results("design,gap_over_t,coverage\n1,0.1,1\n2,0.10000000000000002,2\n", None);
+    let error = compare(&first, &twice, 1e-12).expect_err("two designs are one");
+    assert!(error.to_string().contains("designs 1 and 2"), "{error}");
+}

@@ -1,5 +1,7 @@
 //! Rankings of the designs of a run.
 
+use std::collections::BTreeSet;
+
 use proptest::prelude::*;
 use ranking::{
     Criterion, Goal, InvalidRanking, Preferences, RankedDesign, Ranking, Scale, TetrahedralGrid,
@@ -354,4 +356,54 @@ fn round_off_does_not_put_designs_on_the_front() {
                  0002,0.8267949192431123,2\n0003,0.8267949192431121,3\n";
     assert_eq!(front(table, &["coverage", "critical_force"]), ["0003"]);
     assert_eq!(front(table, &["coverage"]), ["0001", "0002", "0003"]);
+}
+
+/// Returns the rank of each design and whether it is on the front, by number.
+fn ranks_and_front(table: &str, criteria: &[&str], scale: Scale) -> Vec<(String, usize, bool)> {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("designs.csv"), table).expect("writable");
+    let results = Results::read(folder.path()).expect("a table");
+    let weights = Weights::equal(criteria.len());
+    let criteria = criteria.iter().map(|column| Criterion::new(column, Goal::Maximize));
+    let preferences = Preferences::new(Vec::new(), criteria.collect(), None, scale);
+    let ranking = Ranking::by(&results, preferences.expect("preferences"), grid("4"));
+    let ranking = ranking.expect("a ranking");
+    let row =
+        |design: RankedDesign<'_>| (design.design().to_owned(), design.rank, design.on_front());
+    let mut rows: Vec<_> = ranking.by_fitness(weights).map(row).collect();
+    rows.sort();
+    rows
+}
+
+proptest! {
+    /// Differences at the last digits change neither ranks nor fronts.
+    #[test]
+    fn round_off_changes_neither_ranks_nor_fronts(
+        // Few values, so that ties in some criteria and equal designs are common.
+        designs in prop::collection::vec((prop::array::uniform3(1_u32..5), prop::array::uniform3(-8_i32..9)), 2..25),
+        count in 1_usize..4,
+    ) {
+        let criteria = &["coverage", "critical_force", "compliance"][..count];
+        let table = |noise: f64| {
+            let mut table = "design,coverage,critical_force,compliance\n".to_owned();
+            for (number, (values, digits)) in designs.iter().enumerate() {
+                let cells = values.iter().zip(digits).map(|(value, digit)| {
+                    let value = f64::from(*value) / 7.0 * (1.0 + noise * f64::from(*digit));
+                    value.to_string()
+                });
+                let cells = cells.collect::<Vec<_>>().join(",");
+                table.extend([&format!("{:04}", number + 1), ",", &cells, "\n"]);
+            }
+            table
+        };
+        for scale in [Scale::Paper, Scale::Linear] {
+            let exact = ranks_and_front(&table(0.0), criteria, scale);
+            prop_assert_eq!(&ranks_and_front(&table(f64::EPSILON), criteria, scale), &exact);
+            if count == 1 {
+                let front_by_rank: BTreeSet<_> = exact.iter().map(|(_, rank, on)| (rank, on)).collect();
+                let ranks: BTreeSet<_> = exact.iter().map(|(_, rank, _)| rank).collect();
+                prop_assert_eq!(front_by_rank.len(), ranks.len(), "equal ranks are equally on the front");
+            }
+        }
+    }
 }

@@ -7,6 +7,7 @@ use crate::case::Case;
 use crate::decimal::{self, Decimal};
 use crate::grid::Axis;
 use crate::parameter::{Parameter, Scalar, WrongValue};
+use text::number;
 use text::toml_source::{self, KeyValue, KeyValues, Value};
 
 /// The axes of every grid, with the values of the paper as defaults.
@@ -39,21 +40,35 @@ pub(crate) fn read_list(parameter: &Parameter, items: &[Value]) -> Result<Vec<Sc
         return Err(WrongValue::not_accepted("[]", expected).into());
     }
     let mut values = Vec::with_capacity(items.len());
-    // A set of keys: comparing each value with all earlier ones took minutes for a long list.
-    let mut seen = HashSet::with_capacity(items.len());
     for item in items {
         if let Value::List(_) = item {
             return Err(
                 WrongValue::not_accepted(item, "a value for each design, not a list").into()
             );
         }
-        let value = parameter.read(item)?;
-        if !seen.insert(value.key()) {
-            return Err(Problem::Twice(item.to_string()));
-        }
-        values.push(value);
+        values.push(parameter.read(item)?);
     }
-    Ok(values)
+    match repeated(&values) {
+        Some(index) => Err(Problem::Twice(items[index].to_string())),
+        None => Ok(values),
+    }
+}
+
+/// Returns the index of the first value that equals an earlier one up to round-off.
+fn repeated(values: &[Scalar]) -> Option<usize> {
+    // Sort numbers: comparing each value with all earlier ones took minutes for a long list.
+    let numbers = values.iter().enumerate();
+    let mut numbers: Vec<(f64, usize)> =
+        numbers.filter_map(|(index, value)| Some((value.number()?, index))).collect();
+    numbers.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+    let pairs = numbers.windows(2).filter(|pair| number::same(pair[0].0, pair[1].0));
+    let equal_number = pairs.map(|pair| pair[0].1.max(pair[1].1)).min();
+    let mut seen = HashSet::with_capacity(values.len() - numbers.len());
+    let equal_text = values.iter().enumerate().find(|(_, value)| {
+        // Counts and words are exact.
+        value.number().is_none() && !seen.insert(value.to_string())
+    });
+    equal_number.into_iter().chain(equal_text.map(|(index, _)| index)).min()
 }
 
 fn read_range(

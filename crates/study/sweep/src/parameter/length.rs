@@ -6,6 +6,7 @@
 
 use super::{PARAMETERS, Parameter, Role, Scalar, key, modulus};
 use crate::case::{Case, Millimetres};
+use text::number;
 
 impl Parameter {
     /// Returns the parameter of the same length over the thickness, for a length in mm.
@@ -53,7 +54,7 @@ impl Parameter {
             key::PITCH => pitch(case),
             _ => self.over_t()?.get(case).number()?,
         };
-        Some(length * thickness)
+        Some(product(length, thickness))
     }
 }
 
@@ -74,20 +75,33 @@ pub(super) fn settle(case: &mut Case) {
     let Some(thickness) = case.material.thickness_mm else { return };
     for (in_mm, length) in given(case).collect::<Vec<_>>() {
         if let Some(of) = in_mm.over_t().filter(|_| in_mm.key != key::PITCH) {
-            of.assign(case, Scalar::Number(length / thickness));
+            of.assign(case, Scalar::Number(quotient(length, thickness)));
         }
     }
     // Last, because the effect of a pitch depends on the length or the gap.
     if let Some(pitch) = case.in_mm.pitch {
-        let (pitch, design) = (pitch / thickness, &mut case.design);
+        let (pitch, design) = (quotient(pitch, thickness), &mut case.design);
         let base = 2.0 * design.half_base();
         if case.in_mm.pitch_says_length {
             // Scale the length, because the base is `L` or `2L`.
-            design.length *= (pitch - design.gap) / base;
+            let length = design.length * (pitch - design.gap) / base;
+            design.length = number::short_decimal(length, pitch);
         } else {
-            design.gap = pitch - base;
+            design.gap = number::short_decimal(pitch - base, pitch);
         }
     }
+}
+
+/// Returns the length over the thickness that is meant by a length in mm.
+fn quotient(length: f64, thickness: f64) -> f64 {
+    // `0.3/3` means 0.1, and is a digit less. Otherwise the same skin in mm and in units of the
+    // thickness would be two designs.
+    number::short_decimal(length / thickness, length / thickness)
+}
+
+/// Returns a length in mm, without the round-off of the product.
+fn product(length: f64, thickness: f64) -> f64 {
+    number::short_decimal(length * thickness, length * thickness)
 }
 
 /// Updates the parameters that follow from the changed one.
@@ -120,7 +134,7 @@ fn restate(case: &mut Case, moved: &Parameter) {
             },
             _ => continue,
         };
-        in_mm.assign(case, Scalar::Number(length * thickness));
+        in_mm.assign(case, Scalar::Number(product(length, thickness)));
     }
 }
 

@@ -44,15 +44,15 @@ impl Scalar {
         }
     }
 
-    /// Returns a key that is equal for equal values of one parameter. A number is never `NaN`.
-    pub(crate) fn key(self) -> (u64, &'static str) {
-        match self {
-            // Zero and minus zero are equal.
-            Self::Number(number) => ((number + 0.0).to_bits(), ""),
-            Self::Count(count) => (count as u64, ""),
-            Self::Word(word) => (0, word),
-            // An axis has no lists among its values.
-            Self::List(_) => (0, "list"),
+    /// Returns true if both are the same value up to round-off.
+    pub fn same(self, other: Self) -> bool {
+        match (self, other) {
+            (Self::Number(one), Self::Number(other)) => number::same(one, other),
+            (Self::List(one), Self::List(other)) => {
+                let (one, other) = (one.as_slice(), other.as_slice());
+                one.len() == other.len() && one.iter().zip(other).all(|(a, b)| number::same(*a, *b))
+            }
+            _ => self == other,
         }
     }
 

@@ -422,3 +422,28 @@ fn a_setting_in_mm_replaces_the_length_over_the_thickness() {
     let case = Sweep::parse(text, "x.toml", &settings).expect("valid").grid().case(0);
     assert_eq!((case.design.gap, case.design.width), (0.2, 1.5));
 }
+
+#[test]
+fn lengths_in_mm_are_short_decimals_over_the_thickness() {
+    let gaps = |text: &str| {
+        let text =
+            format!("name = 'x'\nmaterial.thickness_mm = 3\n[designs]\nslant_deg = 0\n{text}");
+        let sweep = Sweep::parse(&text, "x.toml", &[]).expect("valid");
+        let grid = sweep.grid();
+        (0..grid.len()).map(|index| grid.case(index).design.gap).collect::<Vec<_>>()
+    };
+    let tenths = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0];
+    assert_eq!(gaps("gap_mm = { from = 0.3, to = 3, step = 0.3 }\nlength_mm = 3"), tenths);
+    // Base 3 mm plus the gap.
+    assert_eq!(gaps("pitch_mm = { from = 3.3, to = 6, step = 0.3 }\nlength_mm = 3"), tenths);
+}
+
+#[test]
+fn values_are_found_up_to_round_off() {
+    let sweep = Sweep::parse("name = 'x'", "x.toml", &[]).expect("valid");
+    let mut case = sweep.grid().case(417);
+    case.design.gap *= 1.0 + 4.0 * f64::EPSILON;
+    assert_eq!(sweep.grid().find(&case), Some(417));
+    case.design.gap *= 1.0 + 1e-8;
+    assert_eq!(sweep.grid().find(&case), None);
+}
