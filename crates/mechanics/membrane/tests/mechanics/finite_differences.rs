@@ -60,21 +60,23 @@ fn asymmetry(tangent: &DMatrix<f64>) -> f64 {
 
 proptest! {
     #[test]
-    fn of_an_element((beam, q) in bent_beam()) {
+    fn derivatives_of_an_element_agree_with_finite_differences((beam, q) in bent_beam()) {
         let q = DVector::from_column_slice(q.as_slice());
         let [force, tangent] = errors(|q| parts(&beam.response(&ends(q))), &q);
         prop_assert!(force < TOLERANCE && tangent < TOLERANCE, "{force:e} {tangent:e}");
     }
 
     #[test]
-    fn of_an_element_between_arms((beam, q) in bent_offset_beam()) {
+    fn derivatives_of_an_element_between_arms_agree_with_finite_differences(
+        (beam, q) in bent_offset_beam(),
+    ) {
         let q = DVector::from_column_slice(q.as_slice());
         let [force, tangent] = errors(|q| parts(&beam.response(&ends(q))), &q);
         prop_assert!(force < TOLERANCE && tangent < TOLERANCE, "{force:e} {tangent:e}");
     }
 
     #[test]
-    fn of_a_gap((gap, u) in bent_gap()) {
+    fn derivatives_of_a_gap_agree_with_finite_differences((gap, u) in bent_gap()) {
         let parts = |u: &DVector<f64>| {
             let response = gap.response(u);
             let energy = response.axial_energy + response.bending_energy;
@@ -85,7 +87,9 @@ proptest! {
     }
 
     #[test]
-    fn of_an_arm(x in -1.0..1.0, y in -1.0..1.0, body in prop::array::uniform3(-20.0..20.0)) {
+    fn derivatives_of_an_arm_agree_with_finite_differences(
+        x in -1.0..1.0, y in -1.0..1.0, body in prop::array::uniform3(-20.0..20.0),
+    ) {
         let arm = RigidArm::new(Vector2::new(x, y));
         let place = |q: &DVector<f64>| {
             DVector::from_column_slice(arm.attached(&NodePose::new(q[0], q[1], q[2])).as_slice())

@@ -33,7 +33,9 @@ fn moved(q: &DVector<f64>, angle: f64, shift: Vector2<f64>) -> DVector<f64> {
 
 proptest! {
     #[test]
-    fn of_a_gap((gap, u) in bent_gap(), angle in -10.0..10.0, x in -5.0..5.0, y in -5.0..5.0) {
+    fn forces_of_a_gap_turn_with_it(
+        (gap, u) in bent_gap(), angle in -10.0..10.0, x in -5.0..5.0, y in -5.0..5.0,
+    ) {
         let before = gap.response(&u);
         let poses = moved(&(gap.rest() + &u), angle, Vector2::new(x, y));
         let after = gap.response(&(poses - gap.rest()));

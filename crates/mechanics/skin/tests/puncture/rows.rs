@@ -79,9 +79,9 @@ fn a_short_row_underestimates_the_force() {
     assert_relative_eq!(force(201), force(401), max_relative = 1e-9);
 }
 
-/// Scales out of reach of contact follow in closed form: only the substrate acts on them.
+/// These scales are computed in closed form, because only the substrate acts on them.
 #[test]
-fn scales_in_closed_form_are_in_equilibrium() {
+fn scales_out_of_reach_of_contact_are_in_equilibrium() {
     for scales in [12, 20, 41, 401] {
         let parameters = on_row(scales);
         let puncture = solve(&settled(), &parameters);

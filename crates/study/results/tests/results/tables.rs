@@ -14,12 +14,12 @@ fn headers(text: &str) -> String {
 }
 
 #[test]
-fn of_the_paper_sweep() {
+fn headers_of_the_paper_sweep_are_unchanged() {
     insta::assert_snapshot!(headers("name = 'x'"));
 }
 
 #[test]
-fn with_another_axis_and_another_measure() {
+fn headers_follow_the_axes_and_measures_of_a_sweep() {
     insta::assert_snapshot!(headers("name = 'x'\nmeasures = ['coverage']\ndesigns.c2 = [1, 1.5]"));
 }
 
