@@ -80,9 +80,9 @@ impl Extents {
     }
 }
 
-/// Computes the polygon in which two scales overlap, with nodes `offset` apart.
+/// Computes the polygon in which two scales overlap; empty if they do not.
 ///
-/// Empty if they do not overlap.
+/// `offset` is the distance between the nodes of the scales at rest.
 pub fn overlap_polygon(scale: &Parallelogram, offset: f64, left: &Pose, right: &Pose) -> Vec<Vec2> {
     let points = |pose, at| corners(scale, pose, at).map(|v| Vector::new(v.x, v.y));
     let mut polygon = Vec::new();

@@ -197,7 +197,7 @@ impl Contacts {
         pairs.filter(move |(_, contacts)| closed(contacts)).map(|(pair, _)| pair)
     }
 
-    /// Tells whether the first and the last scale touch another scale.
+    /// Returns whether the first and the last scale touch another scale.
     pub(crate) fn touching_at_ends(&self, state: &SkinState) -> [bool; 2] {
         let last = self.scales.len() - 1;
         let ends = || Self::touching(&state.mode).map(|pair| self.ends(pair));

@@ -511,7 +511,8 @@ impl<S: System> Iterator for Continuation<S> {
                     (self.farthest, self.reversals) = (progress, 0);
                 }
                 if point.event == Some(Event::Target) || self.at_target(&point.state) {
-                    // A path that was turned back and reaches its target again has reversed.
+                    // An unloading path that returns to the loading target has reversed at an event
+                    // instead of unloading.
                     self.termination =
                         Some(if self.is_back { Termination::Jumps } else { Termination::Reached });
                 } else if point.event == Some(Event::Unloaded) {

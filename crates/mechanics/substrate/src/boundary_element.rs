@@ -99,7 +99,7 @@ pub fn row_reactions_at(
     n: usize,
 ) -> Result<Vec<RowReactions>, Unresolved> {
     let mesh = Mesh::row(footprint, neighbours, n);
-    // Rounding shows in the mesh, before anything is solved.
+    // Check the mesh first: if round-off collapses cells or gaps, the solution is meaningless.
     let reactions = mesh.is_resolved().then(|| mesh.reactions(footprint, poisson_ratios));
     // A singular matrix gives non-finite results instead of an error.
     let are_finite = |reactions: &Vec<RowReactions>| {

@@ -24,7 +24,7 @@ pub struct Footprint {
     gap_over_a: f64,
     width_over_a: f64,
     poisson_ratio: f64,
-    /// Infinite for the half-space.
+    /// Substrate thickness over the half-width `a` of a base; infinite for a half-space.
     thickness_over_a: f64,
 }
 

@@ -80,7 +80,7 @@ fn half_space(poisson_ratio: f64) -> Integrals {
 #[derive(Debug)]
 pub struct Layer {
     poisson_ratio: f64,
-    /// Integrals and their slopes, at equidistant `ρ` from 0.
+    /// Values and derivatives of the four integrals of (S20), at equidistant distances `ρ` from 0.
     nodes: Vec<[[f64; 2]; 4]>,
 }
 

@@ -82,8 +82,9 @@ impl DesignGoal {
 
     /// Returns the goal for nominal designs, with which a search begins.
     ///
-    /// Quantiles become the columns themselves. A yield becomes the margin if it is an objective,
-    /// and is dropped if it is a requirement.
+    /// A quantile of a column is replaced by the column. A yield is replaced by the least margin over
+    /// the requirements (`Statistic::MARGIN`) if it is an objective, and is dropped if it is a
+    /// requirement.
     #[must_use]
     pub fn nominal(&self) -> Self {
         let mut goal = self.clone();

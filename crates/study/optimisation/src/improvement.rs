@@ -37,9 +37,10 @@ impl Plan {
         Self { finalists: 2, ..self }
     }
 
-    /// Returns the plan for a point between others.
+    /// Returns the plan for an intermediate point of a front.
     ///
-    /// Searches for the others have left good designs in every region.
+    /// No region needs a new search, because the searches for the neighbouring points have already
+    /// found good designs in each.
     pub fn between_points(self) -> Self {
         Self { regions: 0, finalists: 1, ..self }
     }

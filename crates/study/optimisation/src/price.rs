@@ -38,7 +38,9 @@ pub struct Binding {
     pub price: Option<f64>,
 }
 
-/// A limit.
+/// Constraint that can bind at the best design.
+///
+/// It is a requirement, the lower bound of an objective, an end of an interval, or first contact.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Limit {
     /// A requirement, by its index.

@@ -2,7 +2,7 @@
 
 use results::SlopeSide;
 
-/// Step of the differences of extrapolated rows, relative to the parameter.
+/// Relative parameter step of finite differences of linearly extrapolated table rows.
 const STEP: f64 = 1e-6;
 
 /// The derivatives of a value on both sides of a parameter.

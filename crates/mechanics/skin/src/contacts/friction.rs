@@ -83,7 +83,7 @@ impl FrictionState {
         }
     }
 
-    /// Tells whether the stick and the slip constraint are active.
+    /// Returns whether the stick and the slip constraint are active.
     pub(super) fn acting(self) -> [bool; 2] {
         [matches!(self, Self::Stick { .. } | Self::WithTip), matches!(self, Self::Slip { .. })]
     }

@@ -231,14 +231,17 @@ impl Chain {
         let pairs = displacements.windows(2).zip(&side.clearances);
         // Both scales may move straight towards each other, so the sum of their motions is a bound.
         let parts = pairs.map(|(pair, clearance)| (size(pair[0]) + size(pair[1])) / clearance);
-        // A row of bars also grows where the bars beyond its end deviate from springs.
+        // With a neo-Hookean substrate the solved part is also extended if a bar outside it leaves
+        // its linear range.
         let excess = self.largest_excess(&displacements, &side.gaps) / AS_SPRINGS;
         parts.fold(excess, f64::max)
     }
 
-    /// Computes the stretches of the gaps beyond the ends; none for a row solved as a whole.
+    /// Computes the stretches of the gaps outside the solved scales.
     ///
-    /// The last value bounds all farther gaps: the outermost gap, or 1 for an infinite row.
+    /// Each side contributes the gaps next to the solved scales, then one value that bounds all
+    /// farther gaps: the outermost gap of a finite row, or 1 for an infinite row. Stretches of
+    /// farther gaps lie between the last two values. Empty if every scale is solved.
     pub(super) fn stretches_beyond(&self, z: &[f64]) -> Vec<f64> {
         let mut stretches = Vec::new();
         for (number, side) in self.exterior.sides.iter().enumerate() {

@@ -7,16 +7,16 @@ use crate::newton::{Condition, Newton};
 use crate::settings::Settings;
 use crate::system::{State, System};
 
-/// First step of the secant search, as a fraction of the reach.
+/// First step of the secant search, relative to [`reach`].
 const SECANT: f64 = 1e-3;
 
-/// Last step of a converged secant search, as a fraction of the reach.
+/// Convergence tolerance of the secant search: largest last step, relative to [`reach`].
 const SETTLED: f64 = 1e-8;
 
 /// Largest step of the secant search, as a fraction of the path.
 const FARTHEST: f64 = 0.1;
 
-/// Lower bound of the reach, as a fraction of the path.
+/// Lower bound of [`reach`], as a fraction of the path.
 const SHORTEST: f64 = 1e-6;
 
 /// Slope over the path, relative to the value, below which a function counts as constant.

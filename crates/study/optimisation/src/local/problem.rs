@@ -117,7 +117,9 @@ impl<'a> LocalProblem<'a> {
         })
     }
 
-    /// Evaluates the design at `shares` with derivatives.
+    /// Evaluates the design at these fractions of the intervals, with derivatives.
+    ///
+    /// `None` if the design cannot be judged.
     pub fn evaluate(&self, shares: &[f64]) -> Result<Option<EvaluatedPoint>, Halt> {
         let shares = &shares[..self.walk.search.space.intervals().len()];
         let (mut candidate, mut row) = self.walk.at(self.stage, shares, true)?;

@@ -194,7 +194,7 @@ impl VerifiedFolder {
         {
             return self.claimed(file);
         }
-        // Tables without contents have no recorded SHA-256.
+        // A folder without a contents file has no recorded SHA-256 for its tables.
         let Some(contents) = &self.contents else { return Ok(None) };
         if let Some(digest) = contents.files.get(name) {
             return Ok(Some(digest.clone()));

@@ -34,7 +34,7 @@ impl<'a> Task<'a> {
         Self { sweep, evaluator, settings, rerun, clock, work }
     }
 
-    /// Reports the total work of `designs`.
+    /// Announces the number of paths of `designs`, given by index, to the work meter.
     pub fn measure(&self, designs: impl Iterator<Item = u64>) {
         let work = |index| work_of(&self.grid().case(index), self.sweep.measures());
         // Saturating: 10⁹ designs with many samples may exceed 2⁶⁴ paths.

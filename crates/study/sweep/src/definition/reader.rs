@@ -390,12 +390,12 @@ impl Reader {
         shared.chain(axes).chain(variables)
     }
 
-    /// Returns true if a parameter is written, directly or in mm.
+    /// Returns true if the definition sets a parameter, directly or in mm.
     fn says(&self, key: &str) -> bool {
         self.written().any(|(_, parameter, _)| parameter.is_or_says(key))
     }
 
-    /// Returns the place of a written parameter.
+    /// Returns the position in the definition at which a parameter is set, if it is.
     fn place(&self, key: &str) -> Option<&Place> {
         let axes = self.axes.iter().map(|written| (written.axis.parameter(), &written.place));
         let shared = self.shared.iter().map(|(parameter, place)| (*parameter, place));

@@ -413,7 +413,8 @@ fn add_balance(
     residual: &mut Residual,
     matrix: &mut impl Tangent,
 ) {
-    // For a frictionless round tip the next unknown is another one, which stays 0.
+    // A frictionless round tip has no tangential force. The next unknown then belongs to the
+    // condition on the position, and stays 0.
     let forces = [z[normal_force], z[normal_force + 1]];
     let (by_gap, by_xi) = (meeting.tip.gap_slopes(), meeting.xi_slopes());
     let curvature = meeting.curvature(forces);
