@@ -1,4 +1,7 @@
-//! The single list of columns: every table and every explanation of a column is derived from it.
+//! Columns of the tables, with their explanations.
+//!
+//! The list of measured values is in `columns/values.rs`; to add a column, start there. This module
+//! selects and orders the columns of each table for a sweep.
 
 mod builders;
 pub mod cell;

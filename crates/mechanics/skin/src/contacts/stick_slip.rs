@@ -1,4 +1,7 @@
 //! Transitions of contacts with friction at events (Q2).
+//!
+//! This module carries out transitions. The rate problem of the solver (`solver/src/rate_problem.rs`)
+//! chooses between stick and slip: it tries transitions until the rates satisfy all constraints.
 
 use contact::{CornerContact, CornerEdge, Force};
 

@@ -1,4 +1,8 @@
 //! Measures at intermediate tilts of a path.
+//!
+//! The critical tilt ends the path elsewhere: it is the target of the solver in `system.rs`, or for a
+//! guided needle a constraint in `needle/forces.rs`. `Case::punctured` in `study/sweep` derives the
+//! tilts of a free needle from its friction.
 
 use serde::{Deserialize, Serialize};
 

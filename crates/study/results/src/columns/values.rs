@@ -1,6 +1,19 @@
 //! The measured values of a design.
 //!
-//! To add a value, add an entry here and compute it where the measures are computed.
+//! To add a value, add a field to its measures, compute it there, and add an entry to [`VALUES`]:
+//!
+//! | Value | Computed in |
+//! |---|---|
+//! | of the puncture | `PunctureMeasures::new` in `skin/src/puncture/measures.rs` |
+//! | of the puncture at an intermediate tilt | `skin/src/puncture/tilts.rs` |
+//! | of bending | `FlexureMeasures::new` in `skin/src/flexure/measures.rs` |
+//! | of bending with unequal gaps | `skin/src/flexure/gap_by_gap.rs` |
+//! | statistics over imperfect samples | `run/src/solve/samples.rs` |
+//! | coverage | `run/src/solve/evaluator.rs` |
+//! | areal mass | `quantity.rs` |
+//!
+//! With `"sensitivity"` a value with derivatives also needs its point of the path in
+//! `skin/src/puncture/sensitivity.rs` or `skin/src/flexure/sensitivity.rs`.
 
 use skin::flexure::FlexureMeasures;
 use skin::puncture::{CriticalEvent, PunctureMeasures};

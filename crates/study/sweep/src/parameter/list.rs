@@ -1,4 +1,20 @@
 //! The single list of parameters. Validation, messages, axes, columns and documentation use it.
+//!
+//! To add a parameter:
+//!
+//! 1. Add a field with its default to [`Case`] or to the parameters of `skin` in it, for example
+//!    [`skin::puncture::PunctureParameters`].
+//! 2. Add an entry to [`PARAMETERS`] in its section: key, unit, roles ([`Role`]), kind with range and
+//!    field, meaning. A key that other code refers to is a constant in `key.rs`.
+//! 3. If it excludes or requires other parameters, add a check to `wrong_together` in
+//!    `definition/reader.rs`. A length in mm gets a second entry with [`InMm`] and a field in
+//!    `Millimetres`.
+//! 4. Add the key with its default to `sweeps/paper.toml`, and regenerate the signatures of the
+//!    Python package (`python -m squama._manual`).
+//!
+//! Tests enforce steps 2 and 4: `roles_agree_with_each_other` in `role.rs`, the snapshots of
+//! `tests/sweep`, `the_paper_sweep_lists_every_key_with_its_default` in `apps/report`, and the test of
+//! the signatures in `apps/python`.
 
 use skin::Base;
 use skin::flexure::{MembraneMesh, Method};
