@@ -67,8 +67,9 @@ pub(crate) struct Contacts {
     law: ContactLaw,
     /// First of the three unknowns of each scale; `None` for the fixed scale.
     pub(crate) scales: Vec<Option<usize>>,
-    /// True if each scale is placed in the frame of its left neighbour. Rotations are always
-    /// counted from the first scale.
+    /// True if each scale is placed in the frame of its left neighbour.
+    ///
+    /// Rotations are always counted from the first scale.
     relative: bool,
     /// Constraints per contact.
     slots: usize,

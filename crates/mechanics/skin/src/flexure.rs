@@ -36,8 +36,9 @@ pub use snapshot::{StripSnapshot, snapshots};
 /// How many gaps of a strip are solved for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
-    /// One gap: in pure bending equal gaps deform alike. Gaps that differ are solved separately,
-    /// under the moment that all share.
+    /// One gap: in pure bending equal gaps deform alike.
+    ///
+    /// Gaps that differ are solved separately, under the moment that all share.
     UnitCell,
     /// All gaps of the strip, assembled.
     Chain,
@@ -60,8 +61,9 @@ pub struct FlexureParameters {
     pub membrane_axis_offset: f64,
     /// Discretisation of the membrane in a gap.
     pub elements_per_gap: MembraneMesh,
-    /// Rotation of each end at which bending ends, degrees. Negative: the strip bends the other
-    /// way, with the scales on the outside.
+    /// Rotation of each end at which bending ends, degrees.
+    ///
+    /// Negative: the strip bends the other way, with the scales on the outside.
     pub max_end_rotation_deg: f64,
     /// True to remove the moment again at the end.
     pub unload: bool,

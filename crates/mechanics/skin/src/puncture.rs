@@ -60,16 +60,19 @@ const STRAIGHT_DEG: f64 = 1e-6;
 /// Longest row of [`RowLength::Auto`].
 pub const LONGEST_ROW: usize = 4001;
 
-/// Largest distance in pitches of touching scales. None beyond 3 were observed, and each pitch adds
-/// six unknowns per scale.
+/// Largest distance in pitches of touching scales.
+///
+/// None beyond 3 were observed, and each pitch adds six unknowns per scale.
 const FARTHEST_CONTACT: usize = 8;
 
 /// Number of scales in the row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RowLength {
-    /// A row without ends. The scales within reach of contact are unknowns, more as contact spreads
-    /// along the path; the scales beyond follow in closed form as a linear chain. Without such a
-    /// closed form the row grows until its ends move by at most `1e-6`.
+    /// A row without ends.
+    ///
+    /// The scales within reach of contact are unknowns, more as contact spreads along the path; the
+    /// scales beyond follow in closed form as a linear chain. Without such a closed form the row
+    /// grows until its ends move by at most `1e-6`.
     Auto,
     /// This many, with the middle one (the left of two) punctured.
     Scales(usize),
@@ -84,8 +87,9 @@ pub struct PunctureParameters {
     pub contact_modulus_over_substrate: f64,
     /// Row length.
     pub scales: RowLength,
-    /// Load position on the top of the punctured scale: 0 the left, 1 the right corner. A round tip
-    /// may be beyond, between two scales.
+    /// Load position on the top of the punctured scale: 0 the left, 1 the right corner.
+    ///
+    /// A round tip may be beyond, between two scales.
     pub load_position: f64,
     /// Critical tilt `φ_c` of the punctured scale at which the puncture ends, degrees.
     pub critical_tilt_deg: f64,

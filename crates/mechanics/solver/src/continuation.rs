@@ -31,7 +31,9 @@ pub struct Equilibrium<M = ()> {
     pub state: State<M>,
     /// Incoming direction of the path, of unit length in the controls.
     pub arriving: Vec<f64>,
-    /// Outgoing direction of the path. Differs from `arriving` where a constraint changes sides.
+    /// Outgoing direction of the path.
+    ///
+    /// Differs from `arriving` where a constraint changes sides.
     pub leaving: Vec<f64>,
     /// Event at this point, if any.
     pub event: Option<Event>,

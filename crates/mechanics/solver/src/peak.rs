@@ -161,7 +161,9 @@ pub struct Summit<M = ()> {
     pub value: f64,
     /// Point with this value.
     pub point: Arc<Equilibrium<M>>,
-    /// Previous point of the path if `point` is itself a point of the path. `None` at the start.
+    /// Previous point of the path if `point` is itself a point of the path.
+    ///
+    /// `None` at the start.
     pub before: Option<Arc<Equilibrium<M>>>,
     /// True if the point lies between points of the path.
     pub is_inside: bool,

@@ -239,7 +239,9 @@ pub trait System {
 pub struct Control {
     /// Index among the unknowns.
     pub index: usize,
-    /// Scale of the coordinate: the path is measured in `z / scale`. A negative scale reverses it.
+    /// Scale of the coordinate: the path is measured in `z / scale`.
+    ///
+    /// A negative scale reverses it.
     pub scale: f64,
 }
 

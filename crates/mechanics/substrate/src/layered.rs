@@ -18,7 +18,9 @@ use crate::{Coupling, Footprint, NEIGHBOURS, Neighbour, RowStiffness};
 use faer::linalg::solvers::Solve as _;
 use faer::{ColRef, Mat};
 
-/// Cells per side of the meshes. The contribution is smooth and needs fewer than the stiffness.
+/// Cells per side of the meshes.
+///
+/// The contribution is smooth and needs fewer than the stiffness.
 const CELLS: [usize; 2] = [4, 6];
 
 /// Relative step of the differences.

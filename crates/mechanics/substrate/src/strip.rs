@@ -3,7 +3,9 @@
 /// Response of the surface strip between two neighbouring bases.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum SubstrateLaw {
-    /// Linear springs, Eq. (1) of the paper. They do not prevent two bases from passing each other.
+    /// Linear springs, Eq. (1) of the paper.
+    ///
+    /// They do not prevent two bases from passing each other.
     #[default]
     Linear,
     /// Incompressible neo-Hookean bars, which cannot be compressed to zero length.

@@ -81,7 +81,9 @@ const KEYS: [&str; 6] = ["file", "kind", "columns", "from", "to", "offsets"];
 /// Bounds of an offset, as a fraction of the largest value on its axis.
 const FARTHEST_OFFSET: f64 = 0.25;
 
-/// Maximum number of points of a curve. Longer curves are averaged over neighbouring points.
+/// Maximum number of points of a curve.
+///
+/// Longer curves are averaged over neighbouring points.
 const MOST_POINTS: usize = 200;
 
 impl FitDefinition {

@@ -67,6 +67,7 @@ pub struct FittedCurve {
     /// Standard deviation of the residuals.
     pub noise: f64,
     /// Correlation of neighbouring residuals, if it is significant.
+    ///
     /// The model then differs systematically from the skin.
     pub trend: Option<f64>,
     /// Number of points beyond the end of the fitted path.

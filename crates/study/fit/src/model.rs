@@ -32,7 +32,9 @@ enum Place {
     Beyond,
 }
 
-/// Step of finite differences of units, as a fraction of the range. Units are smooth formulas.
+/// Step of finite differences of units, as a fraction of the range.
+///
+/// Units are smooth formulas.
 const STEP: f64 = 1e-6;
 
 /// Step of finite differences of solutions, as a fraction of the range.

@@ -18,7 +18,9 @@ use crate::model::ModelCurve;
 const STARTS: usize = 8;
 const IMPROVED: usize = 4;
 
-/// Maximum number of steps of a local search. With noise, a search takes five to ten.
+/// Maximum number of steps of a local search.
+///
+/// With noise, a search takes five to ten.
 const MOST_STEPS: u64 = 60;
 
 /// Expected number of solutions of a local search, to predict the remaining work.

@@ -5,7 +5,9 @@ use std::path::PathBuf;
 use crate::atomic_file::OutputError;
 use crate::header::FORMAT;
 
-/// A journal that cannot be used. Each message is one line that states the expected input.
+/// A journal that cannot be used.
+///
+/// Each message is one line that states the expected input.
 #[derive(Debug, thiserror::Error)]
 pub enum JournalError {
     /// The folder already holds results.

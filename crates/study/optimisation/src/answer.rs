@@ -16,8 +16,9 @@ pub enum Answer {
     Optimum(Box<BestDesign>),
     /// Non-dominated designs, for several objectives.
     Front(Front),
-    /// No feasible design. Holds the index in the history of the nearest design, if any has a valid
-    /// judgement.
+    /// No feasible design.
+    ///
+    /// Holds the index in the history of the nearest design, if any has a valid judgement.
     Infeasible(Option<usize>),
 }
 

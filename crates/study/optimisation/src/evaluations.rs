@@ -20,8 +20,9 @@ use crate::sample::{SampleJudge, Samples};
 use crate::space::{DesignSpace, Interval, SpacePoint};
 use evaluation_journal::{EvaluationKey, JournalLine, Known, PointKey, SamplesLine, SolvedLine};
 
-/// Offset of sample numbers in a search. `squama tolerance` uses numbers from 1, which remain
-/// independent of the search.
+/// Offset of sample numbers in a search.
+///
+/// `squama tolerance` uses numbers from 1, which remain independent of the search.
 const BEFORE: u64 = 1 << 32;
 
 /// Reason to stop evaluating.

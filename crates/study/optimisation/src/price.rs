@@ -51,8 +51,9 @@ pub enum Limit {
     Lower(usize),
     /// The upper end of an interval.
     Upper(usize),
-    /// Contact at the end of bending, where other columns jump. Measured by the logarithm of the
-    /// end rotation.
+    /// Contact at the end of bending, where other columns jump.
+    ///
+    /// Measured by the logarithm of the end rotation.
     Touch,
 }
 

@@ -287,7 +287,9 @@ impl Comparison<'_> {
         self.matching.pairs.iter().flat_map(move |&rows| cells(rows))
     }
 
-    /// Writes the differences to `folder`, by column and by cell. Returns the file names.
+    /// Writes the differences to `folder`, by column and by cell.
+    ///
+    /// Returns the file names.
     ///
     /// # Errors
     ///

@@ -7,7 +7,9 @@ use text::number::same;
 /// Point with four coordinates; larger is better.
 type Quadruple = [f64; 4];
 
-/// Marks the points on the Pareto front. Each point has `count` consecutive criteria.
+/// Marks the points on the Pareto front.
+///
+/// Each point has `count` consecutive criteria.
 pub(crate) fn front_of(criteria: &[f64], count: usize) -> Vec<bool> {
     let points = criteria.chunks_exact(count);
     // `pareto_front` is limited to four coordinates.

@@ -78,7 +78,9 @@ pub struct RankedDesign<'a> {
     pub weights: Weights,
     /// Fitness `f` (R3, R8).
     pub fitness: f64,
-    /// Rank for these weights, from 1. Designs with equal fitness up to round-off share it.
+    /// Rank for these weights, from 1.
+    ///
+    /// Designs with equal fitness up to round-off share it.
     pub rank: usize,
 }
 

@@ -8,7 +8,7 @@ use results::columns::Goal;
 /// Rescaling of criteria from 0, the worst, to 1, the best, and their combination.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Scale {
-    /// As in the paper. The criterion is the value, or its inverse if it is minimised (R1).
+    /// Scale of the paper: the value, or its inverse if it is minimised (R1).
     ///
     /// The fitness is the weighted geometric mean (R3), so it is 0 for the worst design in any
     /// criterion.

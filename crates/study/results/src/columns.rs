@@ -63,13 +63,16 @@ pub fn measure_name(name: &str) -> &str {
     physical_source(name).map_or(name, |(source, _)| source)
 }
 
-/// Returns the measure to which a column belongs. `None` for parameters and solver information.
+/// Returns the measure to which a column belongs.
+///
+/// `None` for parameters and solver information.
 pub fn measure_of(name: &str) -> Option<Measure> {
     ValueColumn::named(name)?.value.measure()
 }
 
-/// Returns the value and quantity of a column. The name may also be a derived one, such as a
-/// quantile.
+/// Returns the value and quantity of a column.
+///
+/// The name may also be a derived one, such as a quantile.
 pub(crate) fn about(name: &str) -> Option<(&'static MeasuredValue, Option<Quantity>)> {
     let is_made_from = |column: &&ValueColumn| {
         name.strip_prefix(column.stem())
@@ -81,7 +84,9 @@ pub(crate) fn about(name: &str) -> Option<(&'static MeasuredValue, Option<Quanti
     Some((column.value, column.quantity))
 }
 
-/// Returns whether large or small values of a column are better. `None` if that is ambiguous.
+/// Returns whether large or small values of a column are better.
+///
+/// `None` if that is ambiguous.
 pub fn plain_goal(name: &str) -> Option<Goal> {
     let (value, quantity) = about(name)?;
     value.good_as(quantity)
@@ -117,15 +122,18 @@ pub fn tables(sweep: &Sweep) -> Vec<TableLayout> {
     tables
 }
 
-/// Returns the columns of `designs.csv`. They do not depend on the measures, but on the axes,
-/// imperfections and the number of critical tilts.
+/// Returns the columns of `designs.csv`.
+///
+/// They do not depend on the measures, but on the axes, imperfections and the number of critical
+/// tilts.
 pub fn design_columns(sweep: &Sweep) -> Vec<Column<DesignRow>> {
     columns(sweep, None)
 }
 
-/// Returns the columns of one measure table, or of `designs.csv` for `None`. Order: number and
-/// geometry, leading values, axes that not every sweep has, other values, values at several tilts,
-/// values in physical units.
+/// Returns the columns of one measure table, or of `designs.csv` for `None`.
+///
+/// Order: number and geometry, leading values, axes that not every sweep has, other values, values
+/// at several tilts, values in physical units.
 fn columns(sweep: &Sweep, table: Option<&str>) -> Vec<Column<DesignRow>> {
     let leads = |column: &ValueColumn| match table {
         Some(table) => column.name == table,

@@ -152,8 +152,9 @@ pub static FILES: [FileEntry; 47] = [
 ];
 
 impl FileEntry {
-    /// Returns the entry of the file `name`. If several makers share the name, returns the entry of
-    /// the run.
+    /// Returns the entry of the file `name`.
+    ///
+    /// If several makers share the name, returns the entry of the run.
     pub fn named(name: &str) -> Option<&'static Self> {
         FILES.iter().find(|file| file.name == name)
     }
@@ -164,7 +165,9 @@ impl FileEntry {
     }
 }
 
-/// The folder of a run. Defines the names of all files that squama writes there and reads back.
+/// The folder of a run.
+///
+/// Defines the names of all files that squama writes there and reads back.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ResultsFolder {
     path: PathBuf,
@@ -220,8 +223,9 @@ impl ResultsFolder {
         format!("{value}.csv")
     }
 
-    /// Returns the names of all tables of a run, its ranking and its comparison. They are in
-    /// reading order.
+    /// Returns the names of all tables of a run, its ranking and its comparison.
+    ///
+    /// They are in reading order.
     pub fn tables() -> impl Iterator<Item = &'static str> {
         FILES.iter().filter(|file| file.role == Role::Table).map(|file| file.name)
     }
@@ -246,8 +250,9 @@ impl ResultsFolder {
         self.file(name).is_file()
     }
 
-    /// Returns the CSV format of this folder, or of the run that it belongs to. Plain without
-    /// tables.
+    /// Returns the CSV format of this folder, or of the run that it belongs to.
+    ///
+    /// Plain without tables.
     ///
     /// Results of `design` and `tolerance` are one or two levels below their run.
     pub fn csv_format(&self) -> CsvFormat {

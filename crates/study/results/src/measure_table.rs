@@ -26,8 +26,9 @@ pub static MEASURE_COLUMNS: &[Column<DesignMeasure>] = &columns! { DesignMeasure
     "meaning", "-", |m| m.meaning, "meaning, in half a sentence";
 };
 
-/// Writes every column of a row of `designs.csv` as a row of `measures.csv`. Returns the name of
-/// the file.
+/// Writes every column of a row of `designs.csv` as a row of `measures.csv`.
+///
+/// Returns the name of the file.
 ///
 /// # Errors
 ///

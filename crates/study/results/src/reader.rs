@@ -211,8 +211,9 @@ impl Results {
         self.table.length()
     }
 
-    /// Returns the number of designs in the table. It includes those that [`Results::thinned`]
-    /// omits.
+    /// Returns the number of designs in the table.
+    ///
+    /// It includes those that [`Results::thinned`] omits.
     pub fn in_table(&self) -> usize {
         self.in_table
     }

@@ -18,9 +18,13 @@ pub struct Case {
     pub common: Common,
     /// Parameters of the puncture.
     pub puncture: puncture::PunctureParameters,
-    /// Friction between needle and scale. For a free needle it determines the critical tilts.
+    /// Friction between needle and scale.
+    ///
+    /// For a free needle it determines the critical tilts.
     pub needle_friction: Option<Scalar>,
-    /// Distance of the load from the top right corner, inward. `None` if `load_position` gives it.
+    /// Distance of the load from the top right corner, inward.
+    ///
+    /// `None` if `load_position` gives it.
     pub load_inset: Option<f64>,
     /// Parameters of bending.
     pub flexure: flexure::FlexureParameters,
@@ -77,7 +81,9 @@ pub struct Samples {
 }
 
 impl Case {
-    /// Returns the parameters of the puncture as it is solved. Lengths are over the thickness.
+    /// Returns the parameters of the puncture as it is solved.
+    ///
+    /// Lengths are over the thickness.
     ///
     /// Friction sets the friction of a guided needle, or the critical tilts of a free one. The load
     /// is moved to the middle of a narrow top if the inset would place it beyond the middle, and to
@@ -99,14 +105,16 @@ impl Case {
         punctured
     }
 
-    /// Returns true if the load is on a top or has a round tip. A round tip may be between two
-    /// scales.
+    /// Returns true if the load is on a top or has a round tip.
+    ///
+    /// A round tip may be between two scales.
     pub fn load_can_stand(&self) -> bool {
         self.puncture.load_position <= 1.0 || self.puncture.needle_radius.is_some()
     }
 
-    /// Returns the bases and the substrate, which determine the springs. Lengths are over the
-    /// thickness.
+    /// Returns the bases and the substrate, which determine the springs.
+    ///
+    /// Lengths are over the thickness.
     pub fn bases(&self) -> Bases {
         Bases {
             half_width: self.design.half_base(),

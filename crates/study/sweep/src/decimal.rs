@@ -155,8 +155,9 @@ pub(crate) fn range(
     if tells_apart(&numbers) { Ok(numbers) } else { Err(InvalidRange::TooFine { step }) }
 }
 
-/// Returns true if neighbours of a range differ by more than round-off. They are closest together,
-/// relative to their size, at the two ends.
+/// Returns true if neighbours of a range differ by more than round-off.
+///
+/// They are closest together, relative to their size, at the two ends.
 fn tells_apart(numbers: &[Decimal]) -> bool {
     let differ = |pair: &[Decimal]| !text::number::same(pair[0].to_f64(), pair[1].to_f64());
     let mut pairs = numbers.windows(2);

@@ -219,7 +219,9 @@ impl Sweep {
 }
 
 impl Sweep {
-    /// Returns true if the definition gives this parameter. Its alternatives do not apply then.
+    /// Returns true if the definition gives this parameter.
+    ///
+    /// Its alternatives do not apply then.
     fn gives_alone(&self, parameter: &Parameter) -> bool {
         let value = parameter.get(self.grid.base());
         let follows = parameter.follows(self.grid.base());
@@ -228,15 +230,19 @@ impl Sweep {
     }
 }
 
-/// Modulus in `MPa` above which a substrate is not soft tissue. Cartilage has a hundredth of it,
-/// bone ten times as much.
+/// Modulus in `MPa` above which a substrate is not soft tissue.
+///
+/// Cartilage has a hundredth of it, bone ten times as much.
 const STIFFEST_TISSUE: f64 = 1e3;
 
-/// Maximum length of a definition in bytes. A million values of an axis take a third of it.
+/// Maximum length of a definition in bytes.
+///
+/// A million values of an axis take a third of it.
 const LONGEST: u64 = 1 << 26;
 
-/// Maximum number of keys in a definition. A parsed key takes a kilobyte, so a file of empty
-/// sections would exhaust the memory.
+/// Maximum number of keys in a definition.
+///
+/// A parsed key takes a kilobyte, so a file of empty sections would exhaust the memory.
 const MAX_KEYS: usize = 100_000;
 
 /// Reads the keys and values of the file at `path`. `settings` replace its values.
@@ -283,7 +289,9 @@ pub fn read_text(path: &Path) -> Result<String, InvalidDefinition> {
     })
 }
 
-/// Estimates the number of keys and sections, at most a few too high. Needs no memory.
+/// Estimates the number of keys and sections, at most a few too high.
+///
+/// Needs no memory.
 fn keys(text: &str) -> usize {
     let is_section = |line: &&str| {
         let name = line.trim_start().trim_start_matches('[');

@@ -35,7 +35,9 @@ impl BatchDeviation {
 }
 
 impl Deviation {
-    /// Returns the parameter. For a deviation in mm this is the length over the thickness.
+    /// Returns the parameter.
+    ///
+    /// For a deviation in mm this is the length over the thickness.
     pub fn parameter(&self) -> &'static Parameter {
         self.parameter.over_t().unwrap_or(self.parameter)
     }
@@ -57,7 +59,9 @@ impl Deviation {
         self.batch
     }
 
-    /// Returns the standard deviation from scale to scale. It is in the unit of the parameter.
+    /// Returns the standard deviation from scale to scale.
+    ///
+    /// It is in the unit of the parameter.
     pub fn scale_sd(&self, case: &Case) -> Option<f64> {
         Some(self.scale_sd? / self.unit(case)?)
     }

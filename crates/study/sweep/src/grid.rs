@@ -114,7 +114,9 @@ impl Grid {
         self.axes.iter().find(|axis| axis.parameter.is_or_says(key))
     }
 
-    /// Returns the case shared by all designs. Its values of axis parameters are meaningless.
+    /// Returns the case shared by all designs.
+    ///
+    /// Its values of axis parameters are meaningless.
     pub fn base(&self) -> &Case {
         &self.base
     }
@@ -167,7 +169,9 @@ impl Grid {
         number.map(|number| number - 1).ok_or_else(error)
     }
 
-    /// Parses one design number, such as `7`, or a range, such as `1-12`. Returns the indices.
+    /// Parses one design number, such as `7`, or a range, such as `1-12`.
+    ///
+    /// Returns the indices.
     ///
     /// # Errors
     ///

@@ -1,7 +1,8 @@
 //! The material of a skin, in physical units.
 
-/// Thickness, moduli and density of a skin, as far as they are given. The mechanics is
-/// dimensionless and needs none of them.
+/// Thickness, moduli and density of a skin, as far as they are given.
+///
+/// The mechanics is dimensionless and needs none of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Material {
     /// Thickness `t` of the scales, mm.

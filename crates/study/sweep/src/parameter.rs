@@ -272,15 +272,18 @@ impl Parameter {
         }
     }
 
-    /// Returns `case` with this parameter set to `value`. It comes from [`Self::read`] or is a
-    /// number.
+    /// Returns `case` with this parameter set to `value`.
+    ///
+    /// It comes from [`Self::read`] or is a number.
     pub fn put(&self, case: &Case, value: Scalar) -> Case {
         let mut changed = *case;
         self.set(&mut changed, value);
         changed
     }
 
-    /// Returns `case` with this parameter alone changed. Lengths in mm are updated to agree.
+    /// Returns `case` with this parameter alone changed.
+    ///
+    /// Lengths in mm are updated to agree.
     pub fn replace(&self, case: &Case, value: Scalar) -> Case {
         let mut changed = *case;
         self.assign(&mut changed, value);
@@ -392,8 +395,9 @@ pub(crate) fn any_of(words: &[&str]) -> String {
     words.iter().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(" or ")
 }
 
-/// Returns the numbers of `items` as a list. `None` if one is not a number, or they are too many or
-/// not ascending.
+/// Returns the numbers of `items` as a list.
+///
+/// `None` if one is not a number, or they are too many or not ascending.
 fn list(items: &[Value]) -> Option<NumberList> {
     let number = |item: &Value| match item {
         Value::Number(text) => text.parse().ok(),

@@ -99,7 +99,9 @@ impl fmt::Display for Subset {
     }
 }
 
-/// The designs that a run solves, in order. Stores the sample, if there is one, but never the grid.
+/// The designs that a run solves, in order.
+///
+/// Stores the sample, if there is one, but never the grid.
 #[derive(Clone, Debug)]
 pub struct SubsetDesigns {
     /// Designs of the sample, ascending.

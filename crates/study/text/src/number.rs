@@ -25,7 +25,9 @@ pub fn short_decimal(value: f64, size: f64) -> f64 {
     if (short - value).abs() <= 4.0 * f64::EPSILON * size.abs() { short } else { value }
 }
 
-/// Different numbers in ascending order. Numbers that are equal up to round-off are one.
+/// Different numbers in ascending order.
+///
+/// Numbers that are equal up to round-off are one.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DistinctNumbers {
     /// The smallest number of each group.

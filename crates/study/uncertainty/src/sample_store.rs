@@ -73,7 +73,9 @@ impl Records for KeptSamples {
 }
 
 impl SampleStore {
-    /// Creates a store in `folder`. The folder is created when the first samples are solved.
+    /// Creates a store in `folder`.
+    ///
+    /// The folder is created when the first samples are solved.
     pub fn new(folder: &Path) -> Self {
         Self { folder: ResultsFolder::new(folder), work: Arc::default() }
     }

@@ -64,8 +64,10 @@ pub(crate) enum FrictionState {
         /// `T/Λ`.
         ratio: f64,
     },
-    /// A sticking needle tip is at the corner. The unknown is `T + 2 μ Λ`, which vanishes only with
-    /// `Λ`, because the tip determines the limits of friction.
+    /// A sticking needle tip is at the corner.
+    ///
+    /// The unknown is `T + 2 μ Λ`, which vanishes only with `Λ`, because the tip determines the
+    /// limits of friction.
     WithTip,
 }
 

@@ -29,8 +29,9 @@ const STIFFER: f64 = 1e-9;
 /// Maximum number of iterations of a search; most need less than a quarter of them.
 const ROUNDS: usize = 50;
 
-/// Largest factor by which the moment is raised at once. Where gaps close, extrapolation along
-/// their slopes overshoots.
+/// Largest factor by which the moment is raised at once.
+///
+/// Where gaps close, extrapolation along their slopes overshoots.
 const FARTHER: f64 = 2.0;
 
 /// Divisor of the step size of gaps with friction.

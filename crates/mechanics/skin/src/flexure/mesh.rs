@@ -63,8 +63,10 @@ const FIRST_ORDER: usize = 12;
 /// Increment of the order.
 const ORDER_STEP: usize = 6;
 
-/// Largest order. Beyond it, boundary layers are thinner than a thousandth of the gap and beam
-/// theory does not apply.
+/// Largest order.
+///
+/// Beyond it, boundary layers are thinner than a thousandth of the gap and beam theory does not
+/// apply.
 const LAST_ORDER: usize = 48;
 
 impl MembraneMesh {

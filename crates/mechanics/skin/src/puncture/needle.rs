@@ -113,8 +113,9 @@ pub(crate) struct GuidedNeedle {
     pub(super) slip_distances: Vec<usize>,
     /// Maximum number of touches.
     pub(super) slots: usize,
-    /// Unknowns per touch, and constraints among them. For a round tip the condition on the
-    /// position is last.
+    /// Unknowns per touch, and constraints among them.
+    ///
+    /// For a round tip the condition on the position is last.
     unknowns_per_touch: usize,
     constraints_per_touch: usize,
     /// Touches with an anchor that differs from the anchor in the mode, and the difference. Set on

@@ -21,8 +21,9 @@ pub struct PuncturePoint {
     pub contacts: usize,
     /// Elastic energy of the substrate, over `E* t³`.
     pub substrate_energy: f64,
-    /// Elastic energy of the contacts, over `E* t³`. Without friction, substrate and contact energy
-    /// add up to the work `∫ F du` of the load.
+    /// Elastic energy of the contacts, over `E* t³`.
+    ///
+    /// Without friction, substrate and contact energy add up to the work `∫ F du` of the load.
     pub contact_energy: f64,
     /// Frictional dissipation between scales up to here, over `E* t³`; `None` without friction.
     pub friction_work: Option<f64>,

@@ -305,7 +305,9 @@ fn two_specimens_determine_thickness_and_modulus_of_tissue() {
     assert!((values[0] - 0.5).abs() < 1e-4 && (values[1] - 2.0).abs() < 1e-3, "{values:?}");
 }
 
-/// Strips with friction have no derivatives while a contact sticks. Differences replace them.
+/// Strips with friction have no derivatives while a contact sticks.
+///
+/// Differences replace them.
 #[test]
 fn differences_replace_derivatives_while_a_contact_sticks() {
     let shared = "name = 'rubs'\ndesigns.gap_over_t = 0.2\ndesigns.length_over_t = 1\ndesigns.slant_deg = 75\n\

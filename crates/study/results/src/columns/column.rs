@@ -17,8 +17,10 @@ pub struct Column<R> {
     cell: CellSource<R>,
 }
 
-/// Computes the cell of a row. Static column lists need function pointers, because a boxed closure
-/// cannot be built in a constant.
+/// Computes the cell of a row.
+///
+/// Static column lists need function pointers, because a boxed closure cannot be built in a
+/// constant.
 enum CellSource<R> {
     /// Column of a static list.
     Function(fn(&R) -> Cell),
@@ -64,8 +66,9 @@ impl<R> Column<R> {
     }
 }
 
-/// Builds an array of columns for rows of the given type. Each entry: header, unit, cell of a row,
-/// meaning.
+/// Builds an array of columns for rows of the given type.
+///
+/// Each entry: header, unit, cell of a row, meaning.
 #[macro_export]
 macro_rules! columns {
     ($row:ty: $($name:expr, $unit:expr, |$of:pat_param| $cell:expr, $meaning:expr;)*) => {
@@ -89,8 +92,9 @@ fn header(parameter: &Parameter) -> &'static str {
     }
 }
 
-/// Returns true if a column is a parameter that distinguishes designs. A length in mm does not
-/// count if the same length over the thickness is a column too.
+/// Returns true if a column is a parameter that distinguishes designs.
+///
+/// A length in mm does not count if the same length over the thickness is a column too.
 pub fn tells_apart(name: &str, headers: &[String]) -> bool {
     let over_t = parameter_of(name).map(Parameter::over_t);
     let stands = |of: &Parameter| headers.iter().any(|header| header == of.key);

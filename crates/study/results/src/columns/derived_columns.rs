@@ -34,8 +34,9 @@ const STATISTICS: [(&str, &str); 4] = [
     (QUANTILES[2].0, "95 % quantile"),
 ];
 
-/// Every column of measured values, in the order of `designs.csv`. Measure tables move their
-/// leading value to the front.
+/// Every column of measured values, in the order of `designs.csv`.
+///
+/// Measure tables move their leading value to the front.
 pub(super) static COLUMNS: LazyLock<Vec<ValueColumn>> = LazyLock::new(|| {
     let mut columns: Vec<_> =
         VALUES.iter().filter(|value| value.is_nominal()).map(value_column).collect();
@@ -124,7 +125,9 @@ fn physical_statistics(
 }
 
 impl MeasuredValue {
-    /// Returns whether large or small values are better in this unit. `None` if that is ambiguous.
+    /// Returns whether large or small values are better in this unit.
+    ///
+    /// `None` if that is ambiguous.
     pub(super) fn good_as(&self, quantity: Option<Quantity>) -> Option<Goal> {
         let is_inverse = quantity.is_some_and(Quantity::is_inverse);
         self.good.map(|goal| if is_inverse { goal.inverse() } else { goal })
@@ -142,8 +145,9 @@ impl ValueColumn {
         COLUMNS.iter().find(|column| column.name == name)
     }
 
-    /// Returns the dimensionless column of the same value and statistic. For a dimensionless column
-    /// this is the column itself.
+    /// Returns the dimensionless column of the same value and statistic.
+    ///
+    /// For a dimensionless column this is the column itself.
     pub(super) fn dimensionless(&self) -> Option<&'static Self> {
         // All columns of a value refer to the same static entry, so compare addresses.
         COLUMNS.iter().find(|column| {
@@ -163,8 +167,9 @@ impl ValueColumn {
         self.quantity.is_some() || matches!(self.value.value, Value::ArealMass)
     }
 
-    /// Returns true if the designs of `sweep` have this column in `table`. `None` means in any
-    /// table.
+    /// Returns true if the designs of `sweep` have this column in `table`.
+    ///
+    /// `None` means in any table.
     pub(super) fn stands(&self, sweep: &Sweep, table: Option<&str>) -> bool {
         let is_given = match self.value.value {
             Value::ArealMass => MASS_NEEDS.iter().all(|key| sweep.gives(key)),

@@ -1,4 +1,6 @@
-//! Measured values of a design. Columns, ranking criteria and page layout derive from each entry.
+//! Measured values of a design.
+//!
+//! Columns, ranking criteria and page layout derive from each entry.
 
 use skin::flexure::FlexureMeasures;
 use skin::puncture::{PunctureMeasures, TiltMeasures};
@@ -25,7 +27,9 @@ pub struct MeasuredValue {
     pub(super) place: Place,
     /// Accessor of the value in a result.
     pub(super) value: Value,
-    /// Conversions to physical units. Statistics of samples are written for the first one.
+    /// Conversions to physical units.
+    ///
+    /// Statistics of samples are written for the first one.
     pub(super) physical: &'static [Physical],
     /// Whether large or small values are better, if that is unambiguous.
     pub good: Option<Goal>,
@@ -37,8 +41,9 @@ pub struct MeasuredValue {
     pub shown: Shown,
     /// Whether the value exists only in runs with a guided needle.
     pub(super) is_of_guided_needle: bool,
-    /// Parameters, in both units, that define how the value is measured. It exists only in runs
-    /// that set one of them.
+    /// Parameters, in both units, that define how the value is measured.
+    ///
+    /// It exists only in runs that set one of them.
     pub(super) needs: &'static [&'static str],
 }
 
@@ -60,8 +65,9 @@ pub(super) enum Value {
     ArealMass,
 }
 
-/// Point of the path at which a value is measured. Determines whether the value depends on the end
-/// of the path.
+/// Point of the path at which a value is measured.
+///
+/// Determines whether the value depends on the end of the path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Place {
     /// On no path, or on the whole path without a physical meaning.
@@ -189,8 +195,9 @@ impl MeasuredValue {
         self.cell(result).number()
     }
 
-    /// Returns a mutable reference to the number in a result. `None` if it has no derivatives or
-    /// was not measured.
+    /// Returns a mutable reference to the number in a result.
+    ///
+    /// `None` if it has no derivatives or was not measured.
     pub(crate) fn number_mut<'r>(
         &self,
         result: &'r mut DesignResult,
@@ -220,8 +227,9 @@ impl MeasuredValue {
         matches!(self.value, Value::Coverage | Value::Puncture(_) | Value::Flexure(_))
     }
 
-    /// Returns the measure that must be solved for this value. `None` for values that need no
-    /// solution and for solver information.
+    /// Returns the measure that must be solved for this value.
+    ///
+    /// `None` for values that need no solution and for solver information.
     pub fn measure(&self) -> Option<Measure> {
         let of =
             |(table, measure): &(&str, Measure)| self.tables.contains(table).then_some(*measure);

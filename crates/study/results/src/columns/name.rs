@@ -87,8 +87,9 @@ mod tests {
         text.lines().filter(is_code).collect::<Vec<_>>().join("\n")
     }
 
-    /// A name occurs in one source file. One more is allowed, where the mechanics names a
-    /// derivative.
+    /// A name occurs in one source file.
+    ///
+    /// One more is allowed, where the mechanics names a derivative.
     #[test]
     fn a_name_occurs_in_two_files_at_most() {
         let mut paths = Vec::new();

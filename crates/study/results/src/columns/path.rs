@@ -15,7 +15,9 @@ use crate::design::outcome::Outcome;
 /// Equilibrium of a puncture with its instability.
 pub type StabilityPoint = (PuncturePoint, Instability);
 
-/// Returns the columns of `path.csv`. Some exist only for guided needles or scales with friction.
+/// Returns the columns of `path.csv`.
+///
+/// Some exist only for guided needles or scales with friction.
 pub fn path_columns(is_guided: bool, rubs: bool) -> Vec<Column<StabilityPoint>> {
     let mut columns = Vec::from(columns! { StabilityPoint:
         "displacement", "t", |(p, _)| p.displacement,
@@ -49,8 +51,9 @@ pub fn path_columns(is_guided: bool, rubs: bool) -> Vec<Column<StabilityPoint>> 
     columns
 }
 
-/// Returns the columns of the forces of a round tip. There is one for each scale from the first to
-/// the last touched scale.
+/// Returns the columns of the forces of a round tip.
+///
+/// There is one for each scale from the first to the last touched scale.
 pub fn tip_force_columns(forces: &[TipForces]) -> Vec<Column<usize>> {
     let scales = || forces.iter().flatten().map(|(scale, _)| *scale);
     let (Some(first), Some(last)) = (scales().min(), scales().max()) else { return Vec::new() };
@@ -169,7 +172,9 @@ pub static STEPS: &[Column<Iteration>] = &columns! { Iteration:
     "tilt_deg", "deg", |i| i.angle_deg, "clockwise tilt of the punctured scale";
 };
 
-/// Returns the columns of `flexure_path.csv`. One exists only for scales with friction.
+/// Returns the columns of `flexure_path.csv`.
+///
+/// One exists only for scales with friction.
 pub fn flexure_path_columns(rubs: bool) -> Vec<Column<flexure::FlexurePoint>> {
     let mut columns = Vec::from(columns! { flexure::FlexurePoint:
         "curvature", "1/t", |p| p.curvature, "curvature of the strip";

@@ -16,8 +16,9 @@ fn tilt_values() -> Vec<(&'static MeasuredValue, &'static TiltValue)> {
     values
 }
 
-/// Returns the columns at every tilt of `sweep`. They belong to one measure table or, for `None`,
-/// to all.
+/// Returns the columns at every tilt of `sweep`.
+///
+/// They belong to one measure table or, for `None`, to all.
 pub(super) fn tilt_columns(sweep: &Sweep, table: Option<&str>) -> Vec<Column<DesignRow>> {
     let places = places(sweep);
     let belongs = |value: &MeasuredValue| table.is_none_or(|table| value.tables.contains(&table));

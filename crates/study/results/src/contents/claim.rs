@@ -41,7 +41,9 @@ impl<'f> Claim<'f> {
         strange.try_for_each(|file| require_none(folder, file.name))
     }
 
-    /// Returns the SHA-256 of the recorded files of `maker`, by name. `None` without a record.
+    /// Returns the SHA-256 of the recorded files of `maker`, by name.
+    ///
+    /// `None` without a record.
     pub fn stated(folder: &ResultsFolder, maker: Maker) -> Option<BTreeMap<String, String>> {
         Derivation::read(folder, maker.key()).map(|made| made.files)
     }

@@ -18,7 +18,9 @@ pub struct Derivation {
     pub product: String,
     /// Command that makes the product again.
     pub command: String,
-    /// SHA-256 of the source tables, see `Contents::digest`. Empty if the source was a definition.
+    /// SHA-256 of the source tables, see `Contents::digest`.
+    ///
+    /// Empty if the source was a definition.
     pub from: String,
     /// Part of the run that the tables covered, if the run was incomplete.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -28,7 +30,9 @@ pub struct Derivation {
 }
 
 impl Derivation {
-    /// Creates a product of `results` made by `command`. `None` if the folder has no contents.
+    /// Creates a product of `results` made by `command`.
+    ///
+    /// `None` if the folder has no contents.
     pub fn new(results: &VerifiedFolder, product: &str, command: String) -> Option<Self> {
         let (from, made_from) = (results.digest()?, results.shortfall());
         Some(Self { product: product.to_owned(), command, from, made_from, files: BTreeMap::new() })
@@ -98,8 +102,9 @@ impl Derivation {
         }
         removed
     }
-    /// Removes the unchanged files of all products of `folder`, and all records. Returns the names
-    /// of the files.
+    /// Removes the unchanged files of all products of `folder`, and all records.
+    ///
+    /// Returns the names of the files.
     pub fn remove_all(folder: &ResultsFolder) -> Vec<String> {
         let removed = Self::all(folder).iter().flat_map(|made| made.remove(folder)).collect();
         let records = ResultsFolder::new(folder.file(ResultsFolder::DERIVED));

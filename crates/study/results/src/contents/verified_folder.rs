@@ -34,7 +34,9 @@ pub struct VerifiedFolder {
     behind: bool,
 }
 
-/// A results folder that contradicts its contents. The one-line message names the repair.
+/// A results folder that contradicts its contents.
+///
+/// The one-line message names the repair.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{}: {problem}", path.display())]
 pub struct InvalidFolder {
@@ -116,7 +118,9 @@ impl VerifiedFolder {
         self.folder.path()
     }
 
-    /// Returns true if anything named `name` exists. Opening it fails if it is not a file.
+    /// Returns true if anything named `name` exists.
+    ///
+    /// Opening it fails if it is not a file.
     pub fn holds(&self, name: &str) -> bool {
         self.folder.file(name).exists()
     }
@@ -270,7 +274,9 @@ impl VerifiedFolder {
         names.filter_map(|name| self.file(name).err()).collect()
     }
 
-    /// Returns the outdated products of the folder. Each has the command that makes it again.
+    /// Returns the outdated products of the folder.
+    ///
+    /// Each has the command that makes it again.
     pub fn outdated(&self) -> Vec<Derivation> {
         let Some(digest) = self.digest() else { return Vec::new() };
         let all = Derivation::all(&self.folder).into_iter();
@@ -326,8 +332,9 @@ fn read(folder: &ResultsFolder) -> Result<Option<Contents>, InvalidFolder> {
     parsed.map(Some).map_err(changed)
 }
 
-/// Returns true if the journal in `folder` is longer than `extent`. Tables may be copied without
-/// their journal.
+/// Returns true if the journal in `folder` is longer than `extent`.
+///
+/// Tables may be copied without their journal.
 fn is_behind(folder: &ResultsFolder, extent: &JournalExtent) -> Result<bool, InvalidFolder> {
     let path = folder.journal();
     let Ok(metadata) = fs::metadata(&path) else { return Ok(false) };

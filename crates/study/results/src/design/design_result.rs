@@ -29,8 +29,9 @@ pub struct DesignResult {
     /// Puncture, if it was requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub puncture: Option<PunctureResult>,
-    /// Puncture measures at several critical tilts, if requested. `None` where the path did not
-    /// reach the tilt.
+    /// Puncture measures at several critical tilts, if requested.
+    ///
+    /// `None` where the path did not reach the tilt.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub at_tilts: Vec<Option<TiltMeasures>>,
     /// Bending, if it was requested.
@@ -63,7 +64,7 @@ impl DesignResult {
 pub struct PunctureResult {
     /// Outcome: complete, or why the path stopped.
     pub outcome: Outcome,
-    /// Measures. Values at the end of the path are missing unless the outcome is complete.
+    /// Measures; without values at the end of an incomplete path.
     pub measures: puncture::PunctureMeasures,
     /// Number of equilibria of the path.
     pub points: usize,
@@ -93,8 +94,9 @@ impl PunctureResult {
         }
     }
 
-    /// Creates the result of a solved puncture. If one number is not finite, all numbers are
-    /// omitted.
+    /// Creates the result of a solved puncture.
+    ///
+    /// If one number is not finite, all numbers are omitted.
     pub fn new(puncture: &Puncture, calibration_error: f64) -> Self {
         let mut measures = puncture.measures;
         // The number of scales is a count, so it stays valid if a number is not finite.
@@ -128,7 +130,7 @@ impl PunctureResult {
 pub struct FlexureResult {
     /// Outcome: complete, or why the path stopped.
     pub outcome: Outcome,
-    /// Measures. Values at the end of the path are missing unless the outcome is complete.
+    /// Measures; without values at the end of an incomplete path.
     pub measures: flexure::FlexureMeasures,
     /// Number of equilibria of the path.
     pub points: usize,
@@ -146,7 +148,9 @@ impl FlexureResult {
         Self { outcome, measures, points: 0, iterations: 0, way_back: None }
     }
 
-    /// Creates the result of solved bending. If one number is not finite, all numbers are omitted.
+    /// Creates the result of solved bending.
+    ///
+    /// If one number is not finite, all numbers are omitted.
     pub fn new(flexure: &Flexure) -> Self {
         let Flexure { status, measures, path, history, .. } = flexure;
         let way_back = flexure.unloading.as_ref().map(back_to_zero);
@@ -181,7 +185,9 @@ fn back_to_zero<P>(back: &Unloading<P>) -> Outcome {
     }
 }
 
-/// Returns outcome and measures. If a number is not finite: the reason, and only `few` measures.
+/// Returns outcome and measures.
+///
+/// If a number is not finite: the reason, and only `few` measures.
 fn finite_or<M>(finite: bool, outcome: Outcome, measures: M, few: M) -> (Outcome, M) {
     match outcome {
         _ if finite => (outcome, measures),

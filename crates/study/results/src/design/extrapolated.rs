@@ -16,7 +16,9 @@ use super::sample_statistics::SampleStatistics;
 use crate::columns::measured_value;
 use crate::columns::values::VALUES;
 
-/// The one-sided derivative used for extrapolation. Both sides agree except at kinks.
+/// The one-sided derivative used for extrapolation.
+///
+/// Both sides agree except at kinks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SlopeSide {
     /// Derivative for decreasing parameters.
@@ -47,8 +49,9 @@ impl DesignRow {
         self.changed(to, &changes(&self.case, to), side)
     }
 
-    /// Returns the extrapolated row of the case with `parameter` larger by `by`. `None` if the
-    /// parameter is not a number.
+    /// Returns the extrapolated row of the case with `parameter` larger by `by`.
+    ///
+    /// `None` if the parameter is not a number.
     pub fn extrapolated_by(&self, parameter: &Parameter, by: f64, side: SlopeSide) -> Option<Self> {
         let to = parameter.moved(&self.case, by)?;
         // A length in mm or a thickness changes lengths over the thickness, and measures have
@@ -74,8 +77,9 @@ impl DesignRow {
         row
     }
 
-    /// Returns the row with another value of a continuous measure. `None` if no such measure has
-    /// that name, or it was not requested.
+    /// Returns the row with another value of a continuous measure.
+    ///
+    /// `None` if no such measure has that name, or it was not requested.
     pub fn with_value(&self, measure: &str, value: f64) -> Option<Self> {
         let mut row = self.clone();
         *row.result.value_mut(measure)? = Some(value);
@@ -153,7 +157,9 @@ impl DesignResult {
         result
     }
 
-    /// Returns a continuous measure by name. `None` if there is none, or it was not requested.
+    /// Returns a continuous measure by name.
+    ///
+    /// `None` if there is none, or it was not requested.
     fn value_mut(&mut self, measure: &str) -> Option<&mut Option<f64>> {
         measured_value(measure)?.number_mut(self)
     }

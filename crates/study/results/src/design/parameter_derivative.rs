@@ -43,7 +43,9 @@ impl ParameterDerivative {
         if self.kink.is_none() { self.left } else { None }
     }
 
-    /// Returns the elasticity `d ln m / d ln q`. `None` at a kink, and where the measure is zero.
+    /// Returns the elasticity `d ln m / d ln q`.
+    ///
+    /// `None` at a kink, and where the measure is zero.
     pub fn elasticity(&self) -> Option<f64> {
         finite(self.derivative()? * self.at / self.value)
     }

@@ -10,8 +10,9 @@ use super::failure::finite;
 pub struct Statistics {
     /// Mean over the samples.
     pub mean: f64,
-    /// Quantiles at 5 %, 50 % and 95 %. They are interpolated between the two nearest values
-    /// ([`quantile_places`]).
+    /// Quantiles at 5 %, 50 % and 95 %.
+    ///
+    /// They are interpolated between the two nearest values ([`quantile_places`]).
     pub quantiles: [f64; 3],
 }
 
@@ -27,15 +28,18 @@ pub fn quantile_places(count: usize, share: f64) -> Option<([usize; 2], f64)> {
     Some(([place.floor() as usize, place.ceil() as usize], place - place.floor()))
 }
 
-/// Returns a quantile of sorted values. `None` if there are no values, or the result is not finite.
+/// Returns a quantile of sorted values.
+///
+/// `None` if there are no values, or the result is not finite.
 pub fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
     let ([below, above], part) = quantile_places(sorted.len(), share)?;
     finite(sorted[below] + part * (sorted[above] - sorted[below]))
 }
 
 impl Statistics {
-    /// Computes the statistics of `values`. `None` if there are no values, or a result is not
-    /// finite.
+    /// Computes the statistics of `values`.
+    ///
+    /// `None` if there are no values, or a result is not finite.
     pub fn from_values(mut values: Vec<f64>) -> Option<Self> {
         values.sort_by(f64::total_cmp);
         let [low, middle, high] = QUANTILES.map(|(_, share)| quantile(&values, share));

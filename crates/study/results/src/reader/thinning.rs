@@ -22,7 +22,9 @@ struct BestRow {
 }
 
 impl Thinning {
-    /// Creates a thinning of a table with `rows` rows to about `most` rows. `table` is empty.
+    /// Creates a thinning of a table with `rows` rows to about `most` rows.
+    ///
+    /// `table` is empty.
     pub fn new(table: Table, rows: usize, most: usize) -> Self {
         let best = MEASURE_TABLES.iter().filter_map(|(name, _)| {
             let column = table.column(name)?;

@@ -16,8 +16,9 @@ pub enum CsvFormat {
     /// Comma between cells, decimal point.
     #[default]
     Plain,
-    /// Semicolon between cells, decimal comma, byte-order mark. Excel opens it correctly in locales
-    /// with a decimal comma.
+    /// Semicolon between cells, decimal comma, byte-order mark.
+    ///
+    /// Excel opens it correctly in locales with a decimal comma.
     ExcelEu,
 }
 

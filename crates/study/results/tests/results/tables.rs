@@ -77,8 +77,9 @@ fn every_parameter_may_be_an_axis_with_a_column_of_its_own() {
     assert_eq!(names.len(), count);
 }
 
-/// `force_at_depth` is a column if a depth is given in either unit. With a material it is also a
-/// column in newtons.
+/// `force_at_depth` is a column if a depth is given in either unit.
+///
+/// With a material it is also a column in newtons.
 #[test]
 fn a_given_depth_adds_the_column_of_its_force() {
     assert!(!headers("name = 'x'").contains("force_at_depth"));
@@ -130,8 +131,9 @@ fn several_critical_tilts_add_a_column_for_each() {
     assert_eq!(added("puncture.needle_friction = 0.1").concat(), "");
 }
 
-/// With a thickness every design has each length in mm once. No two columns distinguish the same
-/// parameter.
+/// With a thickness every design has each length in mm once.
+///
+/// No two columns distinguish the same parameter.
 #[test]
 fn a_thickness_adds_the_columns_of_lengths_in_mm() {
     let designs = |text: &str| headers(text).lines().next().expect("designs.csv").to_owned();

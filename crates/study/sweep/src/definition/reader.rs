@@ -16,7 +16,9 @@ use crate::variable::{Variable, VariableValues};
 use text::number;
 use text::toml_source::{KeyValue, KeyValues, Place, Value};
 
-/// Maximum number of refused keys. The rest is not read, because nobody corrects more at once.
+/// Maximum number of refused keys.
+///
+/// The rest is not read, because nobody corrects more at once.
 const MOST: usize = 50;
 
 /// A reader of definitions, with the accepted keys and the errors so far.
@@ -175,8 +177,9 @@ impl Reader {
         wrong
     }
 
-    /// Returns an error for every variable with a fixed value. The value may be given directly or
-    /// by an alternative.
+    /// Returns an error for every variable with a fixed value.
+    ///
+    /// The value may be given directly or by an alternative.
     fn fixed_variables(&self) -> impl Iterator<Item = InvalidDefinition> {
         let variables = self.variables.iter().enumerate();
         variables.filter_map(|(k, (variable, place))| {

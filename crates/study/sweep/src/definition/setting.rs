@@ -7,8 +7,9 @@ use crate::case::Case;
 use crate::parameter::{Parameter, key};
 use text::toml_source::{self, KeyValue, KeyValues, Place, Value};
 
-/// Maximum number of parts of a dotted key. Valid keys have two; the margin lets the message name a
-/// mistyped key.
+/// Maximum number of parts of a dotted key.
+///
+/// Valid keys have two; the margin lets the message name a mistyped key.
 const DEEPEST: usize = 8;
 
 /// A key and the value that replaces the value in the file.
@@ -45,7 +46,9 @@ impl Setting {
         Self::from_option(&format!("--set {text}"), text)
     }
 
-    /// Parses a setting like [`Self::parse`]. Errors name `option` as the user typed it.
+    /// Parses a setting like [`Self::parse`].
+    ///
+    /// Errors name `option` as the user typed it.
     ///
     /// # Errors
     ///

@@ -4,7 +4,9 @@ use super::Bound::{Excluded, Included};
 use super::{Parameter, ParameterKind, Scalar, key, length};
 use crate::case::Case;
 
-/// Minimum friction for derivatives. Below it, a difference step would make the friction negative.
+/// Minimum friction for derivatives.
+///
+/// Below it, a difference step would make the friction negative.
 const LEAST_FRICTION: f64 = 1e-4;
 
 impl Parameter {

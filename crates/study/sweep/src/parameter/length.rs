@@ -42,8 +42,9 @@ impl Parameter {
         given(case).any(|(in_mm, _)| says(in_mm)) || self.follows_modulus(case)
     }
 
-    /// Returns the length of this parameter in mm. `None` if it is not a length, or the thickness
-    /// is not given.
+    /// Returns the length of this parameter in mm.
+    ///
+    /// `None` if it is not a length, or the thickness is not given.
     pub fn millimetres(&self, case: &Case) -> Option<f64> {
         // Return the given value: conversion to the thickness and back may change its last digits.
         if let Some(given) = self.get(case).number() {

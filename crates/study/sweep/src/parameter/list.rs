@@ -1,4 +1,6 @@
-//! The single list of parameters. Validation, messages, axes, columns and documentation use it.
+//! The single list of parameters.
+//!
+//! Validation, messages, axes, columns and documentation use it.
 //!
 //! To add a parameter:
 //!
@@ -338,7 +340,9 @@ pub static PARAMETERS: &[Parameter] = parameters! {
     }
 };
 
-/// Returns the tilts of a puncture as solved. For a free needle they may follow from its friction.
+/// Returns the tilts of a puncture as solved.
+///
+/// For a free needle they may follow from its friction.
 fn tilts(case: &Case) -> Scalar {
     let punctured = case.punctured();
     let listed = punctured.tilts_before_deg.and_then(|_| {

@@ -26,8 +26,9 @@ pub enum Role {
     EndsBending,
     /// The unit of the bending measures depends on it.
     UnitOfBending,
-    /// Alternative to the parameter with that key. One of its words may leave the value to that
-    /// parameter.
+    /// Alternative to the parameter with that key.
+    ///
+    /// One of its words may leave the value to that parameter.
     InsteadOf(&'static str),
     /// Length in mm that determines the parameter with that key.
     InMm(&'static str),
@@ -44,7 +45,9 @@ impl Parameter {
         PARAMETERS.iter().filter(move |parameter| parameter.has(role))
     }
 
-    /// Returns the alternatives of this parameter in a case. A definition gives only one of them.
+    /// Returns the alternatives of this parameter in a case.
+    ///
+    /// A definition gives only one of them.
     pub(crate) fn others_in(&self, case: &Case) -> impl Iterator<Item = &'static Self> {
         PARAMETERS.iter().filter(|other| self.is_said_by(other, case))
     }
@@ -63,8 +66,9 @@ impl Parameter {
         is_same || self.excludes(other)
     }
 
-    /// Returns the key that this parameter finally determines, or its own. Follows chains of
-    /// alternatives and units.
+    /// Returns the key that this parameter finally determines, or its own.
+    ///
+    /// Follows chains of alternatives and units.
     fn origin(&self) -> &'static str {
         // Cached, because a definition requests this thousands of times and the search by key is
         // slow.

@@ -109,7 +109,9 @@ fn load_position_and_depth_are_written_back_in_their_notation() {
     assert!(both.contains("cannot be combined"), "{both}");
 }
 
-/// Tilt and friction of a guided needle are independent, in any order. A friction of 0 is allowed.
+/// Tilt and friction of a guided needle are independent, in any order.
+///
+/// A friction of 0 is allowed.
 #[test]
 fn tilt_and_friction_of_a_guided_needle_are_independent() {
     use skin::puncture::Needle;
@@ -191,7 +193,9 @@ fn a_needle_radius_requires_a_guided_needle() {
     }
 }
 
-/// Only a round tip may be between two scales. Its limit is the left corner of the next one.
+/// Only a round tip may be between two scales.
+///
+/// Its limit is the left corner of the next one.
 #[test]
 fn a_load_between_two_scales_requires_a_round_tip() {
     let read = |text: &str| Sweep::parse(&format!("name = 'x'\n{text}"), "x.toml", &[]);
@@ -337,7 +341,9 @@ fn the_size_of_a_parameter_that_may_be_zero_is_at_least_one() {
     assert!(found[2].is_some_and(|size| size < 1.0) && found[3] == Some(1.0), "{found:?}");
 }
 
-/// Lengths in mm and over the thickness give the same skin. The pitch is base plus gap.
+/// Lengths in mm and over the thickness give the same skin.
+///
+/// The pitch is base plus gap.
 #[test]
 fn lengths_in_mm_and_over_the_thickness_give_the_same_case() {
     let case = |text: &str| {

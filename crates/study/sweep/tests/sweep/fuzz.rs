@@ -82,7 +82,9 @@ fn value() -> impl Strategy<Value = String> {
     ]
 }
 
-/// Generates a definition. It has one line for each of some parameters, as axis or in its section.
+/// Generates a definition.
+///
+/// It has one line for each of some parameters, as axis or in its section.
 fn definition() -> impl Strategy<Value = String> {
     let line = (parameter(), any::<bool>(), value()).prop_map(|((section, key), axis, value)| {
         let section = if axis { "designs" } else { section };
@@ -116,7 +118,9 @@ fn paper() -> &'static [u8] {
     include_bytes!("../../../../../sweeps/paper.toml")
 }
 
-/// Reads a definition. A valid one must have designs and read back from its complete form.
+/// Reads a definition.
+///
+/// A valid one must have designs and read back from its complete form.
 fn read(text: &str) -> Result<(), TestCaseError> {
     match Sweep::parse(text, "x.toml", &[]) {
         Ok(sweep) => {

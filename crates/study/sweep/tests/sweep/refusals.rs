@@ -227,7 +227,9 @@ fn device_names_of_windows_are_refused() {
     }
 }
 
-/// The bound allows for a busy machine. With quadratic time, both would take minutes.
+/// The bound allows for a busy machine.
+///
+/// With quadratic time, both would take minutes.
 #[test]
 fn long_lists_and_many_keys_are_processed_quickly() {
     let begun = std::time::Instant::now();
