@@ -35,7 +35,7 @@ impl Tip {
     }
 }
 
-/// Loads `PL²/EI` and tip displacements, to the five decimals printed by Mattiasson (1981).
+/// Loads `PL²/EI` and tip displacements, to five decimals (Mattiasson, 1981).
 pub const MATTIASSON: [(f64, Tip); 4] = [
     (1.0, Tip { deflection: 0.30172, shortening: 0.05643, rotation: 0.46135 }),
     (2.0, Tip { deflection: 0.49346, shortening: 0.16064, rotation: 0.78175 }),
@@ -43,7 +43,9 @@ pub const MATTIASSON: [(f64, Tip); 4] = [
     (10.0, Tip { deflection: 0.81061, shortening: 0.55500, rotation: 1.43029 }),
 ];
 
-/// Returns the tip displacement of an inextensible cantilever under the load `PL²/EI > 0`.
+/// Returns the tip displacement of an inextensible cantilever.
+///
+/// The load is `PL²/EI > 0`.
 pub fn tip(load: f64) -> Tip {
     // Just inside the interval: at its ends the load is zero and infinite.
     let ends = [FRAC_1_SQRT_2 * (1.0 + 1e-12), 1.0 - 1e-12];
@@ -56,11 +58,11 @@ pub fn tip(load: f64) -> Tip {
     }
 }
 
-/// Returns the nodes of a strip rolled up by an end moment, as a polygon of straight links.
+/// Returns the nodes of a strip rolled up by an end moment.
 ///
 /// The strip has unit length along `x` and is clamped at its left end. The moment rotates its tip
-/// by `angle`. Each of the `elements` links is as long as its arc. Returns `(x, y, rotation)` of
-/// every node except the clamped one.
+/// by `angle`. It is a polygon of `elements` straight links, each as long as its arc. Returns
+/// `(x, y, rotation)` of every node except the clamped one.
 ///
 /// Co-rotational elements in pure bending are such links: their rotations and moments are exact for
 /// any number of elements.
@@ -82,17 +84,17 @@ fn between(k: f64) -> [f64; 2] {
     [complete[0] - lower[0], complete[1] - lower[1]]
 }
 
-/// Returns Legendre's integrals `F(φ, k)` and `E(φ, k)`, by Carlson's symmetric integrals.
+/// Returns Legendre's integrals `F(φ, k)` and `E(φ, k)`, by Carlson's integrals.
 fn legendre(sin_phi: f64, k: f64) -> [f64; 2] {
     let (cos2, delta2) = (1.0 - sin_phi.powi(2), 1.0 - (k * sin_phi).powi(2));
     let f = sin_phi * carlson_rf(cos2, delta2, 1.0);
     [f, f - k.powi(2) * sin_phi.powi(3) / 3.0 * carlson_rd(cos2, delta2, 1.0)]
 }
 
-/// Relative deviation of the arguments from their mean below which a series is used.
+/// Relative deviation of the arguments below which a series is used.
 ///
-/// The errors of the series of Carlson's integrals are of sixth order in this deviation, so they
-/// are exact to the last digits.
+/// It is the deviation from their mean. The errors of the series of Carlson's integrals are of
+/// sixth order in this deviation, so they are exact to the last digits.
 const NEAR: f64 = 1e-3;
 
 /// Returns Carlson's symmetric integral of the first kind, by duplication.

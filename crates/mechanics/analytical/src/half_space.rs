@@ -1,8 +1,8 @@
-//! Rigid rectangles and point loads on an elastic half-space, in units of `E* = E_s/(1 − ν²)`.
+//! Rigid rectangles and point loads on an elastic half-space.
 //!
-//! Rectangles have the half-width `a = 1` along `x`. The stiffnesses are defined by Eq. (1) of
-//! Shafiei et al. (2021, doi 10.1016/j.jmps.2020.104176): `α` couples a rectangle with itself, `β`
-//! nearest neighbours.
+//! Values are in units of `E* = E_s/(1 − ν²)`. Rectangles have the half-width `a = 1` along `x`.
+//! The stiffnesses are defined by Eq. (1) of Shafiei et al. (2021, doi 10.1016/j.jmps.2020.104176):
+//! `α` couples a rectangle with itself, `β` nearest neighbours.
 
 use std::f64::consts::PI;
 
@@ -41,24 +41,28 @@ pub const THREE_SQUARES_DIRECT: Stiffnesses =
 pub const THREE_SQUARES_COUPLING: Stiffnesses =
     Stiffnesses { shear: 0.993, normal: 1.082, rocking: -0.428 };
 
-/// Returns the displacement of the centre of a square of side 2 under a unit pressure.
+/// Returns the displacement of the centre of a square under a unit pressure.
 ///
-/// The value `8 asinh(1)/π` is the integral of Boussinesq's solution.
+/// The side of the square is 2. The value `8 asinh(1)/π` is the integral of Boussinesq's solution.
 pub fn loaded_square_centre() -> f64 {
     8.0 * 1_f64.asinh() / PI
 }
 
-/// Returns the normal displacement at the distance `r` from a unit normal load (Boussinesq).
+/// Returns the normal displacement at distance `r` from a unit normal load.
+///
+/// This is the solution of Boussinesq.
 pub fn point_load(r: f64) -> f64 {
     1.0 / (PI * r)
 }
 
-/// Returns the displacement along a unit tangential load, at the distance `r` ahead (Cerruti).
+/// Returns the displacement along a unit tangential load, at distance `r` ahead.
+///
+/// This is the solution of Cerruti.
 pub fn tangential_point_load(r: f64, poisson_ratio: f64) -> f64 {
     1.0 / (PI * r * (1.0 - poisson_ratio))
 }
 
-/// Returns the normal displacement at the distance `r` from a unit couple, in its plane.
+/// Returns the normal displacement at distance `r` in the plane of a unit couple.
 ///
 /// This is the derivative of [`point_load`].
 pub fn point_couple(r: f64) -> f64 {

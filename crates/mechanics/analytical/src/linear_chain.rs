@@ -4,7 +4,7 @@
 //! system, `α u_i − β (u_{i−1} + u_{i+1}) = f_i` (Eq. 1 of Shafiei et al. 2021, doi
 //! 10.1016/j.jmps.2020.104176).
 
-/// Displacements for a unit load on the middle scale of a row: entries of its Green's function.
+/// Displacements for a unit load on the middle scale of a row (Green's function).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Compliance {
     /// Displacement of the middle scale.
@@ -13,7 +13,7 @@ pub struct Compliance {
     pub neighbour: f64,
 }
 
-/// Returns the compliance of the middle of a row of `scales`, by the Thomas algorithm.
+/// Returns the compliance of the middle of a row, by the Thomas algorithm.
 ///
 /// `scales` is odd and at least 3. Each scale has the stiffness `direct`, and neighbours have the
 /// stiffness `coupling`.

@@ -26,9 +26,10 @@ pub struct Engagement {
     pub lock: f64,
 }
 
-/// Returns the angles of touch and of locking for plates of length `l/d`, inclined by `angle`.
+/// Returns the angles of touch and of locking of inclined plates.
 ///
-/// `None` if they do not touch before the maximum of `ψ cos(ψ/2)`.
+/// The plates have length `l/d` and are inclined by `angle`. `None` if they do not touch before the
+/// maximum of `ψ cos(ψ/2)`.
 pub fn engagement(length_over_pitch: f64, angle: f64, friction: f64) -> Option<Engagement> {
     let arm = |arc: f64| length_over_pitch * arc * (0.5 * arc).cos();
     let touch = root(|arc| arm(arc) - (angle + 0.5 * arc).sin())?;

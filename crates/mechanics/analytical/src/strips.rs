@@ -10,7 +10,9 @@ use std::f64::consts::PI;
 
 use nalgebra::{DMatrix, DVector};
 
-/// Moment per length for a unit rotation of an isolated strip of half-width 1 (`E* = 1`).
+/// Moment per length for a unit rotation of an isolated strip.
+///
+/// The strip has half-width 1, and `E* = 1`.
 pub const ALONE: f64 = 0.25 * PI;
 
 /// Moments per length for a unit rotation of the middle one of three strips.
@@ -24,9 +26,10 @@ pub struct Rocking {
     pub coupling: f64,
 }
 
-/// Returns `α_φ` and `β_φ` per length of three strips of half-width 1 at gaps `gap`.
+/// Returns `α_φ` and `β_φ` per length of three strips at gaps `gap`.
 ///
-/// Uses `2 terms` Chebyshev polynomials on each strip. `None` if the equations are singular.
+/// The strips have half-width 1. Uses `2 terms` Chebyshev polynomials on each strip. `None` if the
+/// equations are singular.
 pub fn three_strips(gap: f64, terms: usize) -> Option<Rocking> {
     let centre = 2.0 + gap;
     let point = |k: usize, n: usize| (PI * (k as f64 + 0.5) / n as f64).cos();

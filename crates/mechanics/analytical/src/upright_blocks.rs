@@ -27,7 +27,9 @@ pub fn contact_curvature(gap: f64, pitch: f64) -> f64 {
     gap / pitch
 }
 
-/// Returns the contact moment `M* = 2m asin(d/2m)/d` for `elements` straight elements in a gap.
+/// Returns the contact moment `M* = 2m asin(d/2m)/d` of a gap.
+///
+/// The gap has `m = elements` straight elements.
 pub fn contact_moment_of_polygon(gap: f64, elements: usize) -> f64 {
     let m = elements as f64;
     2.0 * m * (gap / (2.0 * m)).asin() / gap

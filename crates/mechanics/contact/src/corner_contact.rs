@@ -3,7 +3,7 @@
 use crate::corners::Corners;
 use crate::gap::CornerEdge;
 
-/// Contact forces at one level of a pair; each is an unknown with its own condition.
+/// Contact forces at one level of a pair; each is an unknown with a condition.
 pub const FORCES: usize = 3;
 
 /// Force of a contact of two corners.

@@ -15,10 +15,9 @@ const PARALLEL: f64 = 1e-6;
 /// Level of a pair at which two corners may meet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
-    /// Tops: the top right corner of the left scale and the top left corner of the right one.
+    /// Tops: top right corner of the left scale, top left corner of the right one.
     Upper,
-    /// Bases: the bottom right corner of the left scale and the bottom left corner of the right
-    /// one.
+    /// Bases: bottom right corner of the left scale, bottom left of the right one.
     Lower,
 }
 
@@ -31,7 +30,9 @@ impl Level {
         }
     }
 
-    /// Returns the contact of the tip, the sharp corner of this level, with the neighbour's end.
+    /// Returns the contact of the tip with the neighbour's end.
+    ///
+    /// The tip is the sharp corner of this level.
     fn tip_on_end(self) -> CornerEdge {
         match self {
             Self::Upper => CornerEdge::TopRightOnTop,
@@ -84,15 +85,17 @@ pub(crate) struct Angle {
 }
 
 impl<'a> Corners<'a> {
-    /// Selects the corners at a level of `pair`, with the left and the right scale in `poses`.
+    /// Selects the corners at a level of `pair`.
+    ///
+    /// `poses` are the poses of the left and the right scale.
     pub fn new(level: Level, pair: &'a Pair, poses: [&'a Pose; 2]) -> Self {
         Self { level, pair, poses }
     }
 
-    /// Returns the corner that faces an edge while the contact is open, with its gap over `t`.
+    /// Returns the corner that faces an edge while the contact is open, with its gap.
     ///
-    /// If both corners have their foot within an edge, the corner of the left scale counts. `None`
-    /// if neither has.
+    /// The gap is over `t`. If both corners have their foot within an edge, the corner of the left
+    /// scale counts. `None` if neither has.
     pub fn facing(&self) -> Option<(CornerEdge, f64)> {
         self.meeting().map(|(edge, meeting)| (edge, meeting.gap))
     }
@@ -171,7 +174,7 @@ impl<'a> Corners<'a> {
         Angle { value: toward * self.beyond_level(), slope: toward * turning }
     }
 
-    /// Returns true if the corner of a flush contact has not passed the far end of its edge.
+    /// Returns true if a flush corner has not passed the far end of its edge.
     ///
     /// The far end is the one away from the meeting corners.
     pub(crate) fn is_within_far_end(&self, flush: CornerEdge) -> bool {

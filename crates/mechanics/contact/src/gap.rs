@@ -232,7 +232,7 @@ impl Pair {
         meeting.along(corner_edge, meeting.normal, meeting.gap)
     }
 
-    /// Computes the tangential displacement between corner and edge, with its derivatives.
+    /// Computes the tangential displacement between corner and edge, with derivatives.
     ///
     /// It is positive if the left scale moves in the direction of the contact force on it, turned
     /// by 90° counter-clockwise. It is measured from the node of the scale with the edge. The

@@ -110,10 +110,11 @@ impl ContactLaw {
         Approach { value, slope }
     }
 
-    /// Evaluates the parabola `(2 − n) x − (1 − n) x |x|`, which meets `xⁿ` smoothly at `x = 1`.
+    /// Evaluates the parabola `(2 − n) x − (1 − n) x |x|`.
     ///
-    /// `x` is relative to the smallest force. Value and slope must be consistent: while a contact
-    /// opens, the path turns within these forces, and Newton's method follows it.
+    /// It meets `xⁿ` smoothly at `x = 1`. `x` is relative to the smallest force. Value and slope
+    /// must be consistent: while a contact opens, the path turns within these forces, and Newton's
+    /// method follows it.
     fn first_approach(&self, n: f64, x: f64) -> Approach {
         let unit = self.length * SMALLEST_FORCE.powf(n);
         Approach {
@@ -122,7 +123,7 @@ impl ContactLaw {
         }
     }
 
-    /// Computes the elastic energy `∫ λ dδ = λ δ / (1 + C₂)` of a contact under a force.
+    /// Computes the elastic energy `∫ λ dδ = λ δ / (1 + C₂)` of a contact.
     pub fn energy(&self, force: f64) -> f64 {
         force * self.approach(force).value / (1.0 + self.exponent)
     }
@@ -162,7 +163,9 @@ mod tests {
         }
     }
 
-    /// Also for an exponent with infinite slope at zero, which the parabola replaces smoothly.
+    /// Also holds for an exponent with infinite slope at zero.
+    ///
+    /// The parabola replaces the power law there.
     #[test]
     fn slope_is_the_derivative_at_first_touch() {
         let (law, contact) = laws()[1];

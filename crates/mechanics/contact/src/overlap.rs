@@ -22,7 +22,7 @@ pub struct Overlap {
     pub depth: f64,
 }
 
-/// Finds all overlapping pairs of scales of a row, neighbours or not, in given poses.
+/// Finds all overlapping pairs of scales of a row, neighbours or not.
 ///
 /// `standing(i)` returns the shape of scale `i` and the position of its node at rest.
 pub fn overlaps(standing: impl Fn(usize) -> (Parallelogram, f64), poses: &[Pose]) -> Vec<Overlap> {

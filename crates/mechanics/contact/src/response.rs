@@ -96,7 +96,7 @@ impl CornerContact {
         }
     }
 
-    /// Returns the forces on the left scale: of the two corners, and of the flush contact.
+    /// Returns the forces of both corners and of the flush contact on the left scale.
     ///
     /// The forces on the right scale are opposite.
     pub fn forces_on_left(self, corners: &Corners, forces: [f64; FORCES]) -> [Vec2; 2] {
@@ -173,7 +173,7 @@ fn flush_condition(corners: &Corners, flush: CornerEdge) -> Equation {
 }
 
 impl CornerEdge {
-    /// Returns the direction of the force on the left scale and the rotation that turns it.
+    /// Returns the force direction on the left scale and the rotation that turns it.
     fn normal(self, pair: &Pair, [left, right]: [&Pose; 2]) -> (Vec2, usize) {
         let (normal, [with_left, with_right]) = (pair.normal(self), ROTATIONS);
         // The corner is pushed along the outward normal of the edge; the other scale in the

@@ -70,7 +70,7 @@ fn derivatives(equation: &Equation) -> [f64; COUPLED] {
     })
 }
 
-/// Returns the equations of a state: the balance, and the conditions of the acting forces.
+/// Returns the equations of a state: balance, and conditions of acting forces.
 fn equations(response: &CornerResponse, acting: [bool; FORCES]) -> Vec<Equation> {
     let conditions = response.conditions.iter().zip(acting).filter(|(_, acts)| *acts);
     let conditions = conditions.map(|(condition, _)| condition.unwrap());
@@ -101,7 +101,7 @@ proptest! {
         }
     }
 
-    /// The conditions of the edge end and of the flush contact are needed before their forces act.
+    /// Conditions of edge end and flush contact are needed before their forces act.
     #[test]
     fn resting_conditions_agree_with_finite_differences(
         edge in 0_usize..6, slant in 0.0_f64..80.0, q in prop::array::uniform6(-0.5_f64..0.5),
@@ -153,7 +153,7 @@ proptest! {
         }
     }
 
-    /// Rotating a pair by 180° gives a pair with left and right, and upper and lower exchanged.
+    /// A pair rotated by 180° has left and right, and upper and lower exchanged.
     #[test]
     fn rotation_by_180_degrees_exchanges_the_levels(
         edge in 0_usize..6, slant in 0.0_f64..80.0, state in 0_usize..3,
@@ -197,7 +197,9 @@ fn half_turn(slant: f64, q: &[f64; 6]) -> [f64; 6] {
     [a, b, c, d, e, f]
 }
 
-/// Two rotated blocks; the corner of the left one lies exactly at the end of the right one's edge.
+/// Two rotated blocks with a corner exactly at the end of the other's edge.
+///
+/// It is a corner of the left block.
 #[test]
 fn edge_and_corner_states_agree_at_their_transition() {
     let (alike, leaning) = ([-0.05, 0.03], [0.05, -0.03]);

@@ -7,9 +7,9 @@
 /// 1e-15) and far below any relevant length.
 const TOUCH: f64 = 1e-12;
 
-/// Returns the coverage for shift `S` of the top, base `2a` and pitch `p`, all over `t`.
+/// Returns the coverage for shift `S` of the top, base `2a` and pitch `p`.
 ///
-/// Measured in `y tan α` from the base up, neighbour `k = 1, 2 …` covers
+/// All are over `t`. Measured in `y tan α` from the base up, neighbour `k = 1, 2 …` covers
 /// `[S − k p, S − k p + 2a] ∩ [0, S]` of the line. For `k ≤ S/p` the neighbour begins within the
 /// line and is covered as a whole, because its upper end `S − k p + 2a` lies below `S` (`2a < p`).
 /// The next neighbour may extend into the line from below the base by `S − k p + 2a`.
@@ -25,10 +25,12 @@ pub(crate) fn coverage(shift: f64, base: f64, pitch: f64) -> f64 {
     ((whole * base + partial) / shift).min(1.0)
 }
 
-/// Relative distance within which a change of the number of crossed scales counts as exact.
+/// Relative distance for an exact change of the number of crossed scales.
 const NEAR: f64 = 1e-9;
 
-/// Returns the one-sided rate of [`coverage`] at the given `rates` of shift, base and pitch.
+/// Returns the one-sided rate of [`coverage`].
+///
+/// `rates` are the rates of shift, base and pitch.
 pub(crate) fn coverage_rate([shift, base, pitch]: [f64; 3], rates: [f64; 3]) -> f64 {
     if shift < TOUCH {
         // Nothing is covered while the shift is smaller than the gap.
@@ -55,7 +57,7 @@ mod tests {
     use super::{coverage, coverage_rate};
     use proptest::prelude::*;
 
-    /// Computes the coverage by its definition: a sum over neighbours, interval by interval.
+    /// Computes the coverage by its definition, a sum over neighbours by interval.
     fn by_intervals(shift: f64, base: f64, pitch: f64) -> f64 {
         let mut sum = 0.0;
         for k in 1..=(shift / pitch).ceil() as u32 + 1 {

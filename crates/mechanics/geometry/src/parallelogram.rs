@@ -38,7 +38,7 @@ impl Corner {
 }
 
 impl Parallelogram {
-    /// Creates a scale with half-base `half_base` (over `t`) and slant `slant_deg` (degrees).
+    /// Creates a scale with `half_base` (over `t`) and slant `slant_deg` (degrees).
     ///
     /// # Errors
     /// If `half_base` is not positive and finite, or the slant lies outside `[0°, 90°)`.
@@ -73,7 +73,7 @@ impl Parallelogram {
         self.slant
     }
 
-    /// Returns the horizontal shift `S = t tan α` of the top relative to the base, over `t`.
+    /// Returns the shift `S = t tan α` of the top relative to the base, over `t`.
     pub fn shift(&self) -> f64 {
         self.shift
     }
@@ -89,7 +89,9 @@ impl Parallelogram {
         }
     }
 
-    /// Returns the undeformed corners relative to the node, counter-clockwise from bottom left.
+    /// Returns the undeformed corners, counter-clockwise from bottom left.
+    ///
+    /// They are relative to the node.
     pub fn corners(&self) -> [Vec2; 4] {
         Corner::ALL.map(|corner| self.corner(corner))
     }

@@ -44,7 +44,7 @@ impl Row {
         coverage::coverage(self.scale.shift(), 2.0 * self.scale.half_base(), self.pitch())
     }
 
-    /// Returns the one-sided rate of the coverage under a change of the lengths of the row.
+    /// Returns the one-sided rate of the coverage under changes of the row's lengths.
     ///
     /// The coverage has a kink where the number of crossed scales changes; the rate is the one on
     /// the side to which the change leads.

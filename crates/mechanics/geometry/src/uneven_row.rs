@@ -2,7 +2,7 @@
 
 use crate::{OutOfRange, Parallelogram};
 
-/// Row with an individual slant for every scale and an individual width for every gap.
+/// Row with individual slants of the scales and individual widths of the gaps.
 ///
 /// ```text
 ///   ┌────────┐           ┌────────┐      ┌────────┐

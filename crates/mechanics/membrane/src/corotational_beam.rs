@@ -5,7 +5,7 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::section::positive;
 
-/// Poses of the two ends of an element, `q = (x₁ y₁ φ₁ x₂ y₂ φ₂)`, or forces on them.
+/// Poses of the ends of an element, `q = (x₁ y₁ φ₁ x₂ y₂ φ₂)`, or forces on them.
 pub type Ends = SVector<f64, 6>;
 
 /// Second derivatives of an energy with respect to [`Ends`].
@@ -95,7 +95,9 @@ pub struct Response {
 }
 
 impl CorotationalBeam {
-    /// Creates an element of length `L` at rest, axial stiffness `EA` and bending stiffness `EI`.
+    /// Creates an element of length `L` at rest.
+    ///
+    /// Its axial stiffness is `EA`, its bending stiffness `EI`.
     ///
     /// # Errors
     /// If one of them is not positive and finite.

@@ -10,7 +10,7 @@ use crate::gap::check;
 use crate::lobatto::Lobatto;
 use crate::{RigidArm, Section, Span};
 
-/// Membrane between two neighbouring scales: one spectral element of the extensible elastica.
+/// Membrane of a gap: one spectral element of the extensible elastica.
 ///
 /// Between two rigid bases the membrane carries no load, so one force `F` acts in the whole gap.
 /// With the arc length `S` at rest, the direction `θ(S)` of the axis, `t = (cos θ, sin θ)` and its
@@ -90,7 +90,9 @@ pub struct Derivatives {
 const ORDERS: std::ops::RangeInclusive<usize> = 2..=128;
 
 impl Elastica {
-    /// Creates the membrane of a section over a span, with a direction of degree `order`.
+    /// Creates the membrane of a section over a span.
+    ///
+    /// Its direction is a polynomial of degree `order`.
     ///
     /// # Errors
     /// If the gap is not positive and finite, the half-base negative, the offset not finite, or the
@@ -117,7 +119,9 @@ impl Elastica {
         self.rule.order()
     }
 
-    /// Returns the number of unknowns `ψ` and `f` of the gap, the first `n + 1` of the state.
+    /// Returns the number of unknowns `ψ` and `f` of the gap.
+    ///
+    /// They are the first `n + 1` of the state.
     pub fn interior(&self) -> usize {
         self.order() + 1
     }
@@ -132,7 +136,9 @@ impl Elastica {
         2.0 * self.span.half_base + self.span.gap
     }
 
-    /// Returns the reference sizes of the entries of the gradient, in the order of the state.
+    /// Returns the reference sizes of the entries of the gradient.
+    ///
+    /// They are in the order of the state.
     pub fn units(&self) -> DVector<f64> {
         let [axial, bending] = self.stiffness();
         let mut units = DVector::from_element(self.unknowns(), bending);
@@ -246,7 +252,7 @@ impl Elastica {
         std::iter::once(start).chain(steps).collect()
     }
 
-    /// Transfers the state `z` to a membrane of another order, interpolating its direction.
+    /// Transfers the state `z` to another order by interpolating its direction.
     ///
     /// # Panics
     /// If the state `z` has neither [`Self::unknowns`] nor five entries.

@@ -9,7 +9,7 @@ use crate::{CorotationalBeam, Ends, GapEnergies, Local, OffsetBeam, Response, Ri
 /// Undeformed span of the membrane in a gap; lengths over `t`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span {
-    /// Half-width `a ≥ 0` of the bases of the scales, under which the membrane is rigid.
+    /// Half-width `a ≥ 0` of the bases, under which the membrane is rigid.
     pub half_base: f64,
     /// Gap `d` between two bases, the free length of the membrane.
     pub gap: f64,
@@ -17,7 +17,7 @@ pub struct Span {
     pub axis_offset: f64,
 }
 
-/// Membrane between two neighbouring scales: `m` equal elements, rigid under the bases.
+/// Membrane of a gap: `m` equal elements, rigid under the bases.
 ///
 /// ```text
 ///  ┌───────┐           ┌───────┐
@@ -61,7 +61,7 @@ pub struct GapResponse {
 }
 
 impl GapMembrane {
-    /// Creates a membrane of `elements` equal elements of the given section over a span.
+    /// Creates a membrane of `elements` equal elements over a span.
     ///
     /// # Errors
     /// If the gap is not positive and finite, the half-base negative, the offset not finite, or the
@@ -93,7 +93,9 @@ impl GapMembrane {
         2.0 * self.span.half_base + self.span.gap
     }
 
-    /// Returns the poses at rest of the displaced nodes, with the node of the left scale at 0.
+    /// Returns the poses at rest of the displaced nodes.
+    ///
+    /// The node of the left scale is at 0.
     pub fn rest(&self) -> DVector<f64> {
         let mut poses = DVector::zeros(self.unknowns());
         for node in 0..=self.elements {
@@ -178,7 +180,7 @@ impl GapMembrane {
         self.local(u).into_iter().map(strain).fold(0.0, f64::max)
     }
 
-    /// Returns the deformations and forces of all elements, in the frames of their chords.
+    /// Returns deformations and forces of all elements, in the frames of their chords.
     ///
     /// # Panics
     /// If `u` is shorter than [`Self::unknowns`].
@@ -187,9 +189,10 @@ impl GapMembrane {
         (0..self.elements).map(local).collect()
     }
 
-    /// Returns the deformed axis from base to base, in `intervals ≥ 1` intervals per element.
+    /// Returns the deformed axis from base to base.
     ///
-    /// Positions are relative to the rest position of the left scale's node.
+    /// It has `intervals ≥ 1` intervals per element. Positions are relative to the rest position of
+    /// the left scale's node.
     ///
     /// # Panics
     /// If `u` is shorter than [`Self::unknowns`].
@@ -207,7 +210,7 @@ impl GapMembrane {
             .collect()
     }
 
-    /// Returns the rest position of the `i`-th pose of the state, relative to the left node.
+    /// Returns the rest position of the `i`-th pose, relative to the left node.
     fn rest_position(&self, i: usize) -> Vec2 {
         let Span { half_base, axis_offset, .. } = self.span;
         if i == 0 {
@@ -219,7 +222,9 @@ impl GapMembrane {
         }
     }
 
-    /// Returns the poses of the two bodies joined by element `k`, with the origin at the first.
+    /// Returns the poses of the two bodies joined by element `k`.
+    ///
+    /// The origin is at the first body.
     fn bodies(&self, k: usize, u: &Ends) -> Ends {
         let at_rest = self.rest_position(k + 1) - self.rest_position(k);
         Ends::new(0.0, 0.0, u[2], at_rest.x + (u[3] - u[0]), at_rest.y + (u[4] - u[1]), u[5])

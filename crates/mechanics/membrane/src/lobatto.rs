@@ -5,10 +5,10 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::{DMatrix, DVector};
 
-/// Gauss–Lobatto–Legendre rule of order `n` on `[0, 1]`: `n + 1` points including the ends.
+/// Gauss–Lobatto–Legendre rule of order `n` on `[0, 1]`.
 ///
-/// With the Legendre polynomial `Pₙ`, the points are `ξᵢ = (1 + xᵢ)/2` with `x₀ = −1`, `xₙ = 1` and
-/// the roots of `Pₙ'` between them, and
+/// It has `n + 1` points including the ends. With the Legendre polynomial `Pₙ`, the points are
+/// `ξᵢ = (1 + xᵢ)/2` with `x₀ = −1`, `xₙ = 1` and the roots of `Pₙ'` between them, and
 ///
 /// ```text
 /// wᵢ = 1/(n (n+1) Pₙ(xᵢ)²)                              weights, exact to degree 2n − 1   (M15)
@@ -110,7 +110,9 @@ fn point(n: usize, i: usize) -> f64 {
     x
 }
 
-/// Iterations that reach round-off at every point: from two correct digits, each doubles them.
+/// Iterations that reach round-off at every point.
+///
+/// They start from two correct digits, and each doubles them.
 const NEWTON: usize = 6;
 
 #[cfg(test)]

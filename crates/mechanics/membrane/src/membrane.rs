@@ -5,7 +5,7 @@ use nalgebra::DVector;
 
 use crate::{Derivatives, Elastica, GapEnergies, GapMembrane, GapResponse};
 
-/// Membrane in one gap: co-rotational elements or their limit, the extensible elastica.
+/// Membrane in one gap: co-rotational elements or their limit, the elastica.
 ///
 /// Both models use the pose of the left scale as their frame. The state of a gap consists of its
 /// own unknowns and of the displacement and rotation of the right scale,
@@ -44,7 +44,9 @@ impl Membrane {
         }
     }
 
-    /// Returns the reference sizes of the entries of the gradient, in the order of the state.
+    /// Returns the reference sizes of the entries of the gradient.
+    ///
+    /// They are in the order of the state.
     pub fn units(&self) -> DVector<f64> {
         match self {
             Self::Elements(gap) => gap.units(),
@@ -83,9 +85,10 @@ impl Membrane {
         }
     }
 
-    /// Computes the deformed axis from base to base, relative to the node of the left scale.
+    /// Computes the deformed axis from base to base.
     ///
-    /// It has `intervals` intervals per element, or in the whole gap for an elastica.
+    /// It is relative to the node of the left scale. It has `intervals` intervals per element, or
+    /// in the whole gap for an elastica.
     pub fn axis(&self, z: &[f64], intervals: usize) -> Vec<Vec2> {
         match self {
             Self::Elements(gap) => gap.axis(&from_left(z), intervals),

@@ -9,7 +9,7 @@ pub(crate) fn positive(quantity: &'static str, value: f64) -> Result<f64, OutOfR
     Ok(value)
 }
 
-/// Rectangular section of depth `b` (out of the plane) and thickness `h`, both over `t`.
+/// Rectangular section of depth `b` (out of the plane) and thickness `h`, over `t`.
 ///
 /// With forces in units of `E_m t²`, the modulus is 1 and
 ///

@@ -1,4 +1,4 @@
-//! Run time of punctures: the reference study with calibration, and rows of any length.
+//! Run time of punctures: reference study with calibration, rows of any length.
 //!
 //! The study runs on all cores, one design on rows of 41 to 4001 scales. The cost of a row should
 //! grow at most linearly with its length.

@@ -77,8 +77,9 @@ pub(crate) struct Contacts {
     pub(crate) forces: Vec<usize>,
     /// Constraint numbers of the slip distances, which only grow.
     pub(crate) slip_distances: Vec<usize>,
-    /// Contacts with an anchor that differs from the anchor in the mode, and the difference. Set on
-    /// perturbed neighbours of a row only.
+    /// Contacts with an anchor that differs from the mode's, and the difference.
+    ///
+    /// Set on perturbed neighbours of a row only.
     anchor_shifts: Vec<(usize, f64)>,
 }
 
@@ -169,7 +170,7 @@ impl Contacts {
         (0..self.scales.len()).map(|scale| self.pose(z, scale)).collect()
     }
 
-    /// Returns the rotation unknown of the frame of a scale; `None` if the frame is fixed.
+    /// Returns the rotation unknown of a scale's frame; `None` if the frame is fixed.
     fn frame(&self, scale: usize) -> Option<usize> {
         let neighbour = scale.checked_sub(1).filter(|_| self.relative)?;
         Some(self.scales[neighbour]? + 2)
@@ -233,7 +234,9 @@ impl Contacts {
         self.friction_conditions(state, &state.z, HOLDS, values);
     }
 
-    /// Fills `values` like [`Self::conditions`], and `slopes` with their directional derivatives.
+    /// Fills `values` like [`Self::conditions`], and `slopes` with derivatives.
+    ///
+    /// The derivatives are directional.
     pub(crate) fn condition_slopes(
         &self,
         state: &SkinState,
@@ -275,7 +278,7 @@ impl Contacts {
         conditions[slot].map_or(HOLDS, |condition| condition.value)
     }
 
-    /// Evaluates the directional derivative of a condition; zero if the condition does not exist.
+    /// Evaluates the directional derivative of a condition; zero if it does not exist.
     pub(crate) fn slope(&self, state: &SkinState, constraint: usize, direction: &[f64]) -> f64 {
         let (contact, slot) = self.contact_of(constraint);
         if !self.is_whole(Self::pair_of(contact)) {

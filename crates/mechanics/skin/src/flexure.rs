@@ -70,8 +70,10 @@ pub struct FlexureParameters {
 }
 
 impl Default for FlexureParameters {
-    /// The values of Shafiei et al. (2021): scales of `E_ct = 3 GPa`, 8 mm thick, on a membrane of
-    /// `E_m = 4.5 MPa`, 1 mm thick.
+    /// The values of Shafiei et al. (2021).
+    ///
+    /// The scales have `E_ct = 3 GPa` and are 8 mm thick. The membrane has `E_m = 4.5 MPa` and is 1
+    /// mm thick.
     fn default() -> Self {
         Self {
             contact_modulus_over_membrane: 667.0,
@@ -129,20 +131,21 @@ impl Flexure {
         Some(curvatures.last().unwrap_or(start) - start)
     }
 
-    /// Returns the displacement (over `t`) and rotation (radians, counter-clockwise) of every
-    /// scale.
+    /// Returns the displacement (over `t`) and rotation of every scale.
     ///
-    /// The first scale is at rest. `None` if the path has no such point.
+    /// Rotations are counter-clockwise, in radians. The first scale is at rest. `None` if the path
+    /// has no such point.
     pub fn shape(&self, point: usize) -> Option<Vec<[f64; 3]>> {
         let frames = frames(self.steps.get(point)?, self.gaps, &self.row);
         Some(displacements(&frames, &self.row))
     }
 }
 
-/// Returns the number of gaps `n = L_whole/p` of a strip, or the given number; at least 1.
+/// Returns the number of gaps of a strip, at least 1.
 ///
-/// In pure bending every gap turns by the same angle, so the unit cell does not need an integer:
-/// the angle between its scales is `2 Φ/n`. Chains and imperfect strips have [`whole_gaps`].
+/// It is `n = L_whole/p` unless a number is given. In pure bending every gap turns by the same
+/// angle, so the unit cell does not need an integer: the angle between its scales is `2 Φ/n`.
+/// Chains and imperfect strips have [`whole_gaps`].
 pub fn gaps(row: &Row, parameters: &FlexureParameters) -> f64 {
     let by_length = parameters.membrane_length / row.pitch();
     parameters.gaps.map_or(by_length, |gaps| gaps as f64).max(1.0)

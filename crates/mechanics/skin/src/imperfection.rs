@@ -127,7 +127,7 @@ enum Stream {
 }
 
 impl Sample {
-    /// Builds the row with `left` scales on the left and `right` on the right of the centre.
+    /// Builds the row with `left` and `right` scales beside the centre.
     ///
     /// A longer row has the same scales in its middle.
     ///
@@ -171,7 +171,7 @@ impl Sample {
         Ok(side)
     }
 
-    /// Draws a scale beside `last` and the gap between them; `None` if they overlap (I3).
+    /// Draws a scale beside `last` and the gap; `None` if they overlap (I3).
     fn next(
         &self,
         random: &mut ChaCha8Rng,

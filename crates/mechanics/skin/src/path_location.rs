@@ -2,7 +2,9 @@
 
 use solver::{Bracket, Continuation, Equilibrium, State, System};
 
-/// A quantity has reached its value within this tolerance, relative to one plus its magnitude.
+/// Tolerance within which a quantity has reached its value.
+///
+/// It is relative to one plus the magnitude.
 const CLOSE: f64 = 1e-12;
 
 /// Evaluations after which a bracket is as narrow as an `f64` allows.
@@ -25,8 +27,9 @@ impl<S: System> PathLocation<S> {
         self.off(system, state).abs() <= CLOSE * (1.0 + self.value.abs())
     }
 
-    /// Solves for the equilibrium between two neighbouring points at which the quantity has its
-    /// value.
+    /// Solves for the equilibrium at which a quantity has its value.
+    ///
+    /// It lies between two neighbouring points.
     pub(crate) fn between(
         &self,
         path: &mut Continuation<S>,

@@ -114,7 +114,9 @@ pub struct PunctureParameters {
 }
 
 impl Default for PunctureParameters {
-    /// Values of Shafiei et al. (2021): `E_ct = 3 GPa` on a substrate of `E_s = 310 kPa`.
+    /// Values of Shafiei et al. (2021).
+    ///
+    /// `E_ct = 3 GPa` on a substrate of `E_s = 310 kPa`.
     fn default() -> Self {
         Self {
             poisson_ratio: 0.5,
@@ -140,12 +142,15 @@ pub struct Puncture {
     pub status: Status,
     /// The measures of the puncture.
     pub measures: PunctureMeasures,
-    /// Measures at each of [`PunctureParameters::tilts_deg()`]; `None` if the path did not reach
-    /// the tilt.
+    /// Measures at each of [`PunctureParameters::tilts_deg()`].
+    ///
+    /// `None` if the path did not reach the tilt.
     pub at_tilts: Vec<Option<TiltMeasures>>,
     /// Every equilibrium of the path, from rest.
     pub path: Vec<PuncturePoint>,
-    /// Instability at every point of the path, evaluated with the contacts of the outgoing branch.
+    /// Instability at every point of the path.
+    ///
+    /// It is evaluated with the contacts of the outgoing branch.
     pub instability: Vec<Instability>,
     /// Forces of a round tip at every point of the path; empty for other needles.
     pub tip_forces: Vec<TipForces>,
@@ -172,7 +177,7 @@ impl Puncture {
     }
 }
 
-/// Solves the puncture of the middle scale of a row, from rest to the critical tilt.
+/// Solves the puncture of the middle scale from rest to the critical tilt.
 ///
 /// The `substrate` is given by its [`Springs`](substrate::Springs) or by the stiffness of a whole
 /// row.
@@ -224,7 +229,7 @@ impl Rows<'_> {
 }
 
 impl PunctureParameters {
-    /// Iterates over the tilts at which measures are taken, degrees, with the critical one last.
+    /// Iterates over the measured tilts, degrees, with the critical one last.
     pub fn tilts_deg(&self) -> impl Iterator<Item = f64> {
         let before = self.tilts_before_deg.iter().flat_map(NumberList::as_slice).copied();
         before.chain(self.tilts_before_deg.map(|_| self.critical_tilt_deg))
@@ -272,7 +277,9 @@ struct Followed {
 }
 
 impl Followed {
-    /// Builds the result of the puncture; with `unload` also follows the unloading path.
+    /// Builds the result of the puncture.
+    ///
+    /// With `unload` also follows the unloading path.
     fn puncture(self, unload: bool) -> Puncture {
         let Self { watch, passage, mut path, status } = self;
         let PathObservers { record, needle, folds, passage: at_tip, tilts, depth, .. } = watch;
@@ -389,7 +396,7 @@ impl<'a> Problem<'a> {
         Ok(puncture.with_places(self.load_positions()?))
     }
 
-    /// Builds the initial system and returns it with the longest row that it may grow to.
+    /// Builds the initial system; returns it with the longest row it may grow to.
     ///
     /// A scale may touch up to `contact_reach` scales on its right.
     fn start(&self, contact_reach: usize) -> Result<(Chain, usize), OutOfRange> {
@@ -467,7 +474,9 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Follows the path of a row until it ends; the solved part may grow up to `longest`.
+    /// Follows the path of a row until it ends.
+    ///
+    /// The solved part may grow up to `longest`.
     fn follow_row(
         &self,
         chain: Chain,

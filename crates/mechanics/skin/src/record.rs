@@ -8,7 +8,7 @@ use solver::{Change, Continuation, Peak, Summit, System};
 
 use crate::contacts::{ContactChange, Contacts, SkinMode, SkinPoint, SkinState};
 
-/// Change of the state of a contact: it opens, closes, passes a corner, sticks or slips.
+/// Contact state change: it opens, closes, passes a corner, sticks or slips.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactEvent<P> {
     /// Path point of the event.
@@ -59,8 +59,7 @@ pub(crate) trait Skin: System<Mode = SkinMode> {
         self.contacts().has_friction()
     }
 
-    /// Computes the dissipation at a needle tip between two points, like
-    /// [`Contacts::friction_work`].
+    /// Computes the needle-tip dissipation, like [`Contacts::friction_work`].
     fn tip_work(&self, _from: &SkinPoint, _to: &SkinPoint, _spans: [f64; 2]) -> f64 {
         0.0
     }
@@ -76,16 +75,20 @@ pub(crate) trait Skin: System<Mode = SkinMode> {
     /// Returns the control parameter, degrees.
     fn angle_deg(&self, state: &SkinState) -> f64;
 
-    /// Computes the derivative of the load with respect to its displacement along a path direction.
+    /// Computes the derivative of the load with respect to its displacement.
+    ///
+    /// It is taken along a path direction.
     fn stiffness(&self, state: &SkinState, direction: &[f64]) -> f64;
 
     /// Returns the number of a scale in reports; `None` if all pairs behave alike.
     fn number(&self, scale: usize) -> Option<i64>;
 
-    /// Returns true if two scales that may touch overlap by more than their contact approach.
+    /// Returns true if scales that may touch overlap beyond their contact approach.
     fn interpenetrates(&self, state: &SkinState) -> bool;
 
-    /// Returns true if a contact is about to pass an end of its edge, where the model ends.
+    /// Returns true if a contact is about to pass an end of its edge.
+    ///
+    /// The model ends there.
     fn passes_an_end(&self, at: &SkinPoint) -> bool {
         self.contacts().off_edge(&at.state) || self.contacts().passes_an_end(at)
     }
@@ -265,7 +268,7 @@ impl<S: Skin> Record<S> {
         self.stiffness_summit.get_or_init(|| self.stiffness.summit(path, S::stiffness)).as_ref()
     }
 
-    /// Returns the largest value of a tracked function at the recorded points, and its location.
+    /// Returns the largest value of a tracked function at recorded points, and where.
     ///
     /// Extrema of the load are recorded points, so this suffices for the load.
     pub(crate) fn highest_point(&self, followed: usize) -> Option<Summit<S::Mode>> {

@@ -30,7 +30,9 @@ pub struct Derivative {
     pub value: f64,
     /// Derivative for a decreasing parameter; `None` if it does not exist.
     pub left: Option<f64>,
-    /// Derivative for an increasing parameter; differs from the left one only at a kink.
+    /// Derivative for an increasing parameter.
+    ///
+    /// It differs from the left one only at a kink.
     pub right: Option<f64>,
     /// Cause of a kink; `None` where the measure is smooth.
     pub kink: Option<String>,
@@ -194,7 +196,7 @@ impl<S: Skin> Linearised<'_, S> {
         Sides { left: self.side(neighbours, 0, moved, on_left), right }
     }
 
-    /// Computes the motion on one side, where `violated` is the first contact that must change.
+    /// Computes the motion on one side; `violated` is the first contact to change.
     fn side(
         &self,
         neighbours: &Neighbours<S>,
@@ -272,7 +274,9 @@ impl<S: Skin> MeasuredQuantity<S> {
         self.value_at(system, place).0
     }
 
-    /// Evaluates the quantity, and lists the indices that may become extreme next to the point.
+    /// Evaluates the quantity, and lists the indices that may become extreme.
+    ///
+    /// They become extreme next to the point.
     fn value_at(&self, system: &S, place: &AnchoredPoint<S::Mode>) -> (f64, Vec<usize>) {
         let count = self.extreme.map_or(1, |_| system.contacts().scales.len());
         let value = |number| (self.value)(system, &place.state, &place.direction, number);

@@ -8,24 +8,29 @@ use crate::record::Skin;
 /// Outcome of a puncture or of bending.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
-    /// The path reached its end (in a puncture on a row of sufficient length) and passed the audit.
+    /// The path reached its end and passed the audit.
+    ///
+    /// In a puncture the row was long enough.
     Complete,
     /// The path stopped before its end.
     Stopped(Termination),
-    /// Load, depth and tilt have all turned back, and the path stopped before any of them recovered
-    /// its maximum.
+    /// Load, depth and tilt have all turned back, and none recovered its maximum.
     LimitPoint,
-    /// [`RowLength::Auto`](crate::puncture::RowLength::Auto) would need a longer row than allowed.
+    /// A row of automatic length would need more scales than allowed.
+    ///
+    /// See [`RowLength::Auto`](crate::puncture::RowLength::Auto).
     RowLimit,
-    /// A guided needle pushed a scale straight down, to a bifurcation or to twice the thickness,
-    /// without a critical tilt.
+    /// A guided needle pushed a scale straight down without a critical tilt.
+    ///
+    /// The path ended at a bifurcation or at twice the thickness.
     Untilted,
     /// Two scales overlap by more than their contact law allows.
     Interpenetration,
     /// The scales of a strip lock: the moment grows while the rotation hardly changes.
     Locked,
-    /// A contact slid off the end of its edge, a corner passed that end, or a corner met a guided
-    /// needle from the side.
+    /// A contact slid off the end of its edge.
+    ///
+    /// Or a corner passed that end, or a corner met a guided needle from the side.
     OffEdge,
 }
 

@@ -203,7 +203,9 @@ fn common_samples_have_the_same_random_numbers_in_all_designs() {
     assert_ne!(gaps(&STEEP, 5), gaps(&STEEP, 6));
 }
 
-/// First contact occurs in the gap that closes first, by its tops or by sliding corners.
+/// First contact occurs in the gap that closes first.
+///
+/// It closes by tops or by sliding corners.
 #[test]
 fn a_strip_touches_where_its_first_gap_closes() {
     for (gap_cv, slant_sd_deg) in [(0.2, 0.0), (0.2, 0.5)] {

@@ -20,7 +20,9 @@ const BLOCK: usize = 7;
 /// Half-bandwidth: from the first unknown of a scale to the last displacement of the next.
 const HALF: usize = BLOCK + 3;
 
-/// Returns entries of a tangent with the pattern of a row of `scales` with all corners closed.
+/// Returns tangent entries in the pattern of a row with all corners closed.
+///
+/// The row has `scales` scales.
 fn entries(scales: usize) -> Vec<(usize, usize, f64)> {
     let size = BLOCK * scales;
     let mut entries = Vec::new();

@@ -8,7 +8,7 @@ use pulp::{Arch, NullaryFnOnce};
 
 use crate::block_matrix::{BlockMatrix, FARTHEST_LINK, LINK};
 
-/// Number of inner-link columns of a block with reach 1, and with the largest reach.
+/// Inner-link columns of a block with reach 1, and with the largest reach.
 const NARROW: usize = LINK;
 const WIDE: usize = LINK * FARTHEST_LINK;
 
@@ -48,7 +48,9 @@ pub struct UnsafeBlock {
 /// pivot reveals the singular block.
 #[derive(Clone, Debug, Default)]
 pub struct BlockElimination {
-    /// Matrix to be filled; after factorisation, `D` holds its factors and `C` the rows of `D⁻¹ C`.
+    /// Matrix to be filled.
+    ///
+    /// After factorisation, `D` holds its factors and `C` the rows of `D⁻¹ C`.
     pub matrix: BlockMatrix,
     /// By place: row exchanged for this one, within its block.
     exchanges: Vec<usize>,
@@ -61,7 +63,9 @@ pub struct BlockElimination {
 /// Update that elimination subtracts from the links of the inner neighbours.
 type Taken<const W: usize> = [[f64; W]; W];
 
-/// Calls a method with the block size and the number `W` of inner-link columns as constants.
+/// Calls a method with block size and column count `W` as constants.
+///
+/// `W` is the number of inner-link columns.
 macro_rules! with_size {
     ($size:expr, $self:ident . $method:ident ( $($argument:expr),* ) , $refused:expr) => {
         match $size {
@@ -80,7 +84,7 @@ macro_rules! with_size {
     };
 }
 
-/// Kernels for blocks of large reach, compiled for the widest registers of the processor.
+/// Kernels for blocks of large reach, compiled for the widest registers.
 struct WideFactorisation<'a>(&'a mut BlockElimination);
 struct WideSubstitution<'a>(&'a mut BlockElimination, [usize; 2]);
 
@@ -154,7 +158,7 @@ impl BlockElimination {
         with_size!(size, self.eliminate_block(block, taken), None).ok_or(refused)
     }
 
-    /// Factorises a block after subtracting the update `taken` from its outer neighbours.
+    /// Factorises a block after subtracting the update `taken` from outer blocks.
     ///
     /// Replaces `taken` by the update for the inner neighbours.
     #[inline(always)]
@@ -239,13 +243,13 @@ impl BlockElimination {
         self.matrix.reach.min(block.abs_diff(self.matrix.root))
     }
 
-    /// Returns the first place of the link of the inner neighbour `away` blocks further in.
+    /// Returns the first place of the link of the inner neighbour `away` blocks in.
     fn inner_link(&self, block: usize, away: usize) -> usize {
         let inner = if block < self.matrix.root { block + away } else { block - away };
         self.matrix.links[inner]
     }
 
-    /// Computes `y ← D⁻¹ y` in a block and updates the right-hand side of the inner blocks.
+    /// Computes `y ← D⁻¹ y` in a block and updates right-hand sides of inner blocks.
     #[inline(always)]
     fn forward<const N: usize, const W: usize>(&mut self, block: usize) {
         let start = self.matrix.starts[block];
@@ -324,7 +328,7 @@ impl BlockElimination {
     }
 }
 
-/// Replaces the update of a block by the update of its inner neighbours, including `B C`.
+/// Replaces a block's update by the update of its inner neighbours, with `B C`.
 ///
 /// Entries for links beyond the block are carried over. `c` holds the columns `D⁻¹ C`.
 #[inline(always)]

@@ -34,7 +34,7 @@ pub struct Blocks {
     pub links: Vec<usize>,
     /// Number of the block at which elimination from both ends meets.
     pub root: usize,
-    /// Number of inner neighbours with which a block is coupled: 1 to [`FARTHEST_LINK`].
+    /// Number of inner neighbours coupled with a block: 1 to [`FARTHEST_LINK`].
     pub reach: usize,
 }
 
@@ -62,9 +62,10 @@ pub struct BlockMatrix {
     pub(crate) places: Vec<usize>,
     /// Index of the first value of each block.
     pub(crate) at: Vec<usize>,
-    /// By place: offset of a row within its block; add the place of the column for the index.
+    /// By place: offset of a row within its block.
     ///
-    /// `coupling` holds the offset of a row in the inner links; add the link number of the column.
+    /// Add the place of the column for the index. `coupling` holds the offset of a row in the inner
+    /// links; add the link number of the column.
     within: Vec<usize>,
     coupling: Vec<usize>,
     /// By place: number of an unknown among all link unknowns, or [`LEFT_OUT`].
@@ -81,12 +82,12 @@ enum Part {
     Rows,
 }
 
-/// `D`, `C` and `Bᵀ` of a block of `N` unknowns coupled with `W` unknowns of inner links.
+/// `D`, `C` and `Bᵀ` of a block of `N` unknowns with `W` inner-link unknowns.
 pub(crate) type PartsMut<'a, const N: usize, const W: usize> =
     (&'a mut [[f64; N]; N], &'a mut [[f64; W]; N], &'a mut [[f64; W]; N]);
 
 impl BlockMatrix {
-    /// Sets the shape to `blocks` without the unknowns that are `left_out`, and all entries to 0.
+    /// Sets the shape to `blocks` without `left_out` unknowns, and all entries to 0.
     pub fn reshape(&mut self, blocks: &Blocks, left_out: &[bool]) {
         self.root = blocks.root;
         // Use one of two widths, so that elimination knows it as a constant.
@@ -193,7 +194,7 @@ impl BlockMatrix {
             || self.is_linked(column, row)
     }
 
-    /// Returns true if `inner` lies in the link of an inner neighbour of the block of `outer`.
+    /// Returns true if `inner` is in the link of an inner neighbour of `outer`'s block.
     fn is_linked(&self, outer: usize, inner: usize) -> bool {
         let (from, to) = (self.blocks[outer], self.blocks[inner]);
         let is_inward = if from < to { to <= self.root } else { to >= self.root };

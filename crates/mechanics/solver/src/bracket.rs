@@ -14,14 +14,17 @@ pub struct Bracket {
 }
 
 impl Bracket {
-    /// Creates a bracket with values of opposite signs that halves the other value every time.
+    /// Creates a bracket with values of opposite signs.
+    ///
+    /// It halves the other value every time.
     pub fn new(low: (f64, f64), high: (f64, f64)) -> Self {
         Self { ends: [low, high], last: None }
     }
 
-    /// Creates a bracket that halves the other value only after two replacements of the same end.
+    /// Creates a bracket that halves the other value with delay.
     ///
-    /// This is the rule of Dowell and Jarratt.
+    /// It does so only after two replacements of the same end. This is the rule of Dowell and
+    /// Jarratt.
     pub fn patient(low: (f64, f64), high: (f64, f64)) -> Self {
         Self { last: Some(1), ..Self::new(low, high) }
     }

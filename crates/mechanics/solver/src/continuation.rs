@@ -12,16 +12,18 @@ use crate::settings::Settings;
 use crate::system::{Control, State, System};
 use crate::termination::Termination;
 
-/// Least rate of the control parameter, per unit of arc length, at which it prescribes the step.
+/// Least rate of the control parameter at which it prescribes the step.
 ///
-/// Below this rate the control parameter is about to turn and the arc length prescribes the step: a
-/// step of the control parameter would be more than twenty times as long along the path.
+/// The rate is per unit of arc length. Below this rate the control parameter is about to turn and
+/// the arc length prescribes the step: a step of the control parameter would be more than twenty
+/// times as long along the path.
 const DRIVES: f64 = 0.05;
 
-/// Number of undone steps, each a third as long as the last, after which the path jumps.
+/// Number of undone steps after which the path jumps.
 ///
-/// If the change at the current point is undone at every length, shortening the step does not help.
-/// If the step was merely too long, fewer reductions suffice.
+/// Each is a third as long as the last. If the change at the current point is undone at every
+/// length, shortening the step does not help. If the step was merely too long, fewer reductions
+/// suffice.
 const UNDONE: usize = 5;
 
 /// Equilibrium of a path, with its directions.
@@ -75,7 +77,9 @@ pub struct Continuation<S: System> {
     pub(crate) settings: Settings,
     pub(crate) newton: Newton,
     pub(crate) point: Arc<Equilibrium<S::Mode>>,
-    /// Guards (N5) at `point` with its active set, and their slopes along the outgoing direction.
+    /// Guards (N5) at `point` with its active set, and their slopes.
+    ///
+    /// The slopes are along the outgoing direction.
     pub(crate) guards: Vec<f64>,
     pub(crate) slopes: Vec<f64>,
     /// Cached [`System::coordinates`].
@@ -84,7 +88,7 @@ pub struct Continuation<S: System> {
     pub(crate) is_positive: bool,
     /// False if some event had a second outgoing branch among those evaluated.
     pub(crate) is_unique: bool,
-    /// Reversals at friction events since the control parameter was last at its maximum.
+    /// Reversals at friction events since the control parameter peaked.
     pub(crate) reversals: usize,
     /// Number of steps from `point` that undid a change at zero rate.
     ///
@@ -92,7 +96,9 @@ pub struct Continuation<S: System> {
     pub(crate) undone: usize,
     /// Largest value of the control parameter so far.
     farthest: f64,
-    /// Sign of a load that only pushes; the path ends where such a load returns to zero.
+    /// Sign of a load that only pushes.
+    ///
+    /// The path ends where such a load returns to zero.
     pub(crate) pushes: Option<f64>,
     /// True after [`Continuation::turn_back`]: the path leads away from its target.
     pub(crate) is_back: bool,
@@ -194,9 +200,10 @@ impl<S: System> Continuation<S> {
         std::mem::take(&mut self.newton.history)
     }
 
-    /// Solves for the equilibrium at a fraction of the distance between two neighbouring points.
+    /// Solves for the equilibrium at a fraction of the way between two points.
     ///
-    /// Uses the active set and mode of the segment. `None` if Newton's method fails.
+    /// The points are neighbours. Uses the active set and mode of the segment. `None` if Newton's
+    /// method fails.
     pub fn between(
         &mut self,
         from: &Equilibrium<S::Mode>,
@@ -229,7 +236,9 @@ impl<S: System> Continuation<S> {
         (condition.measure(&to.state.z) - condition.value) / condition.measure(direction)
     }
 
-    /// Solves as [`Continuation::between`], starting from `near`, a point of the segment.
+    /// Solves as [`Continuation::between`], starting from `near`.
+    ///
+    /// `near` is a point of the segment.
     pub fn between_from(
         &mut self,
         from: &Equilibrium<S::Mode>,
@@ -274,7 +283,9 @@ impl<S: System> Continuation<S> {
         self.set_point(point);
     }
 
-    /// Restarts the path at a point, with the first step size and the point count at zero.
+    /// Restarts the path at a point.
+    ///
+    /// The step size is the first one and the point count zero.
     pub(crate) fn restart_at(&mut self, point: Equilibrium<S::Mode>) {
         self.step = self.settings.first_step.min(self.settings.max_step);
         self.points = 0;
@@ -294,7 +305,9 @@ impl<S: System> Continuation<S> {
         self.system.controls()[0]
     }
 
-    /// Computes the control parameter over its scale, which is 1 at the target by default.
+    /// Computes the control parameter over its scale.
+    ///
+    /// It is 1 at the target by default.
     pub(crate) fn progress(&self, z: &[f64]) -> f64 {
         z[self.control_parameter().index] / self.control_parameter().scale
     }
@@ -324,7 +337,9 @@ impl<S: System> Continuation<S> {
         Condition { stand_in: Some(row), ..Condition::through(arc, &point.state.z) }
     }
 
-    /// Solves for the equilibrium at a distance from a point, with its outgoing active set.
+    /// Solves for the equilibrium at a distance from a point.
+    ///
+    /// It has the outgoing active set of the point.
     pub(crate) fn step_to(
         &mut self,
         from: &Equilibrium<S::Mode>,
@@ -339,7 +354,7 @@ impl<S: System> Continuation<S> {
         Ok(candidate)
     }
 
-    /// Extrapolates along the outgoing direction of `near` to the state that meets `condition`.
+    /// Extrapolates along the outgoing direction of `near` to meet `condition`.
     fn extrapolate(near: &Equilibrium<S::Mode>, condition: &Condition) -> State<S::Mode> {
         let distance = condition.value - condition.measure(&near.state.z);
         let factor = distance / condition.measure(&near.leaving);
@@ -446,7 +461,7 @@ impl<S: System> Continuation<S> {
         self.first_event(from, candidate)
     }
 
-    /// Solves for the point between two points where the control parameter reaches its target.
+    /// Solves for the point between two points with the target control parameter.
     fn locate_target(
         &mut self,
         from: &Equilibrium<S::Mode>,

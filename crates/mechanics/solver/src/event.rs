@@ -13,10 +13,12 @@ const BACKWARD: f64 = 1e-9;
 /// Largest distance of a predicted event from the current point, in steps.
 const FARTHER: f64 = 1.5;
 
-/// Guards within this distance of zero at an event change sides together with the located one.
+/// Guards within this distance of zero change sides with the located event.
 const TOGETHER: f64 = 1e-10;
 
-/// Slopes below this are zero to first order: rates are near 1 and their round-off near 1e-11.
+/// Slopes below this are zero to first order.
+///
+/// Rates are near 1 and their round-off near 1e-11.
 pub(crate) const NO_RATE: f64 = 1e-6;
 
 /// Relative accuracy of the location of an extremum in its bracket.
@@ -83,7 +85,7 @@ impl<S: System> Continuation<S> {
         }
     }
 
-    /// Returns the constraint with the first zero of its guard, by linear extrapolation.
+    /// Returns the constraint with the first guard zero, by linear extrapolation.
     ///
     /// The second number is its distance in units of the outgoing direction.
     fn first_predicted(&self) -> Option<(usize, f64)> {
@@ -93,7 +95,7 @@ impl<S: System> Continuation<S> {
         places.min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// Returns the first event between the current point and `candidate`, or `candidate` itself.
+    /// Returns the first event up to `candidate`, or `candidate` itself.
     pub(crate) fn first_event(
         &mut self,
         from: &Equilibrium<S::Mode>,
@@ -117,7 +119,7 @@ impl<S: System> Continuation<S> {
         Ok(candidate)
     }
 
-    /// Returns the constraint that is violated first between the current guards and `after`.
+    /// Returns the constraint violated first between current guards and `after`.
     fn first_violated(&self, after: &[f64]) -> Option<usize> {
         let mut first = (f64::INFINITY, None);
         for (c, (&before, &after)) in self.guards.iter().zip(after).enumerate() {
@@ -235,7 +237,9 @@ impl<S: System> Continuation<S> {
         Ok(Candidate { state, direction: self.normalised(direction), event: None, is_positive })
     }
 
-    /// Makes the candidate an event at which `constraint` and simultaneous others change sides.
+    /// Makes the candidate an event at which constraints change sides.
+    ///
+    /// They are `constraint` and simultaneous others.
     fn mark_event(
         &self,
         located: Candidate<S::Mode>,
@@ -315,9 +319,9 @@ impl<S: System> Continuation<S> {
         self.pushes.is_some_and(|sign| sign * candidate.state.z[self.system.load()] < 0.0)
     }
 
-    /// Returns true if the load vanishes at an event, up to round-off, and would reverse.
+    /// Returns true if the load vanishes at an event and would reverse.
     ///
-    /// The contact that carries the load opens, so the path ends.
+    /// It vanishes up to round-off. The contact that carries the load opens, so the path ends.
     pub(crate) fn load_vanishes(&self, candidate: &Candidate<S::Mode>) -> bool {
         let load = self.system.load();
         matches!(candidate.event, Some(Event::Changed(_)))
@@ -345,7 +349,9 @@ impl<S: System> Continuation<S> {
     }
 }
 
-/// Returns the fraction at which the cubic through two values and slopes dips below zero.
+/// Returns the fraction at which a cubic dips below zero.
+///
+/// The cubic passes through two values with their slopes.
 pub fn dip([start, end]: [f64; 2], [falling, rising]: [f64; 2]) -> Option<f64> {
     if !(falling < 0.0 && rising > 0.0) {
         return None;

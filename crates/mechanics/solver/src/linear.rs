@@ -14,7 +14,9 @@ use pulp::{Simd, WithSimd};
 
 use crate::tangent::Tangent;
 
-/// Matrix without an LU factorisation in floating point: a column has no usable pivot.
+/// Matrix without an LU factorisation in floating point.
+///
+/// A column has no usable pivot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the matrix is singular: no pivot in column {column} of {size}")]
 pub struct SingularMatrix {
@@ -31,7 +33,9 @@ pub struct BandMatrix {
     half: usize,
     /// Row `i` holds the columns `i − half ..= i + half`.
     rows: Vec<f64>,
-    /// First written column of each row and one past the last; entries outside are zero.
+    /// First written column of each row and one past the last.
+    ///
+    /// Entries outside are zero.
     used: Vec<[usize; 2]>,
 }
 
@@ -168,7 +172,9 @@ pub struct BandLu {
     ends: Vec<usize>,
     /// Last row that reaches each column.
     reach: Vec<usize>,
-    /// Row `k`: multipliers of the elimination of column `k`, for rows `k + 1 ..= reach[k]`.
+    /// Row `k`: multipliers for eliminating column `k`.
+    ///
+    /// They are for rows `k + 1 ..= reach[k]`.
     lower: Vec<f64>,
     pivots: Vec<usize>,
     /// Inverse of the diagonal of the upper factor.
@@ -221,7 +227,9 @@ impl BandLu {
         }
     }
 
-    /// Factorises `matrix` without the `left_out` rows and columns; replaces earlier factors.
+    /// Factorises `matrix` without the `left_out` rows and columns.
+    ///
+    /// Replaces earlier factors.
     ///
     /// # Errors
     /// If a column has no finite, non-zero pivot.

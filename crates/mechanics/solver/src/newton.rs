@@ -116,7 +116,7 @@ impl Newton {
         Err(NewtonFailure::TooManyIterations)
     }
 
-    /// Moves `state` along the path to the point where a constraint is about to change sides.
+    /// Moves `state` along the path to where a constraint is about to change sides.
     ///
     /// There the unknown of an active constraint, or the equation of an inactive one, vanishes.
     /// `condition` only defines how the path is measured. Returns the direction of the path as
@@ -201,7 +201,9 @@ impl Newton {
         guards
     }
 
-    /// Replaces `guards` by the guards of a state, and `slopes` by their rates along a direction.
+    /// Replaces `guards` by the guards of a state, and `slopes` by their rates.
+    ///
+    /// The rates are along a direction.
     pub(crate) fn guard_slopes<S: System>(
         system: &S,
         state: &State<S::Mode>,
@@ -251,7 +253,7 @@ impl Newton {
         Ok(norm)
     }
 
-    /// Computes the direction along which the left-hand side of the condition grows by 1.
+    /// Computes the direction along which the condition's left-hand side grows by 1.
     fn direction<S: System>(&mut self, system: &S, condition: &Condition) -> Vec<f64> {
         let mut direction = self.solver.solve_unit(system.load(), system.size());
         if condition.stand_in.is_some() {

@@ -9,7 +9,7 @@ use crate::system::{State, System};
 /// Relative gain below which a search ends.
 const FLAT: f64 = 1e-11;
 
-/// Distance from a kink, as a fraction of the segment, at which a slope is evaluated.
+/// Distance from a kink at which to evaluate a slope, over the segment length.
 ///
 /// At the kink itself, a force that begins or ceases to act may have an infinite rate.
 const NEAR: f64 = 1e-4;
@@ -95,12 +95,12 @@ impl<M> Peak<M> {
         self.kinks.retain(|segment| segment.value >= least);
     }
 
-    /// Returns the visited point with the largest value, or `None` before the first visit.
+    /// Returns the visited point of largest value; `None` before the first visit.
     pub fn point(&self) -> Option<&Equilibrium<M>> {
         self.best.as_ref().map(|best| &*best.point)
     }
 
-    /// Replaces the stored points by points of another system with which the path continues.
+    /// Replaces the stored points by points of the system that continues the path.
     ///
     /// Call this before searching for maxima on that path.
     pub fn replace_points(&mut self, new: impl Fn(&Equilibrium<M>) -> Equilibrium<M>) {
@@ -118,7 +118,7 @@ impl<M> Peak<M> {
         }
     }
 
-    /// Returns the largest value at the visited points, or `None` before the first visit.
+    /// Returns the largest visited value; `None` before the first visit.
     pub fn at_points(&self) -> Option<Summit<M>> {
         let Best { value, before, point, .. } = self.best.as_ref()?;
         let (point, before) = (Arc::clone(point), before.clone());
@@ -306,7 +306,9 @@ where
         Some(self.sample(place, state, direction))
     }
 
-    /// Solves for the sample at an inner fraction, starting from the nearest solved point.
+    /// Solves for the sample at an inner fraction.
+    ///
+    /// It starts from the nearest solved point.
     fn inside(&mut self, place: f64) -> Option<SegmentSample> {
         let away = |known: &&(f64, Equilibrium<S::Mode>)| (known.0 - place).abs();
         let nearest = self.known.iter().min_by(|a, b| away(a).total_cmp(&away(b)));

@@ -12,15 +12,16 @@ use crate::termination::Termination;
 /// segments between events must be followed.
 const APART: f64 = 1e-10;
 
-/// Largest guard of a changed constraint at the restored equilibrium, relative to 1 plus its slope.
+/// Largest relative guard of a changed constraint at the restored equilibrium.
 ///
-/// If the guard exceeds this, Newton's method converged to a different equilibrium.
+/// It is relative to 1 plus its slope. If the guard exceeds this, Newton's method converged to a
+/// different equilibrium.
 const ELSEWHERE: f64 = 1e-4;
 
 /// Two directions are the same branch if their cosine differs from 1 by less.
 const SAME_BRANCH: f64 = 1e-6;
 
-/// Largest number of active sets evaluated at an event of a system with coupled constraints.
+/// Largest number of active sets evaluated at an event of a coupled system.
 const MOST_WITH_FRICTION: usize = 500;
 
 /// Largest number of reversals before the path is abandoned.
@@ -225,7 +226,9 @@ impl<S: System> Continuation<S> {
         Ok(direction)
     }
 
-    /// Applies all `changes` and returns state and direction, or `None` if one is violated.
+    /// Applies all `changes` and returns state and direction.
+    ///
+    /// `None` if a change is violated.
     fn pivot_together(
         &mut self,
         state: &State<S::Mode>,
@@ -380,7 +383,7 @@ impl<S: System> Continuation<S> {
         self.system.transition(state, change)
     }
 
-    /// Restores the equilibrium after a transition and solves for the outgoing direction.
+    /// Restores equilibrium after a transition and solves for the outgoing direction.
     ///
     /// The guard of the `orienting` constraint increases along the direction. Without one, the
     /// direction follows `arriving`.
@@ -431,7 +434,7 @@ impl<S: System> Continuation<S> {
         rows.map(|row| Condition::through(row, &state.z)).collect()
     }
 
-    /// Returns the constraints that a direction violates immediately, most violated first.
+    /// Returns the constraints that a direction violates at once, most violated first.
     ///
     /// Checks the given constraints and all active monotone ones.
     fn violated(
@@ -478,7 +481,9 @@ struct ActiveSetCandidate<M> {
     changes: Vec<Change>,
     /// Constraint with a guard that must increase along the outgoing direction.
     orienting: Option<usize>,
-    /// True if the path is turned back: its direction is given and no constraint orients it.
+    /// True if the path is turned back.
+    ///
+    /// Its direction is then given and no constraint orients it.
     turns_back: bool,
 }
 
@@ -499,7 +504,9 @@ fn opposite(direction: Vec<f64>) -> Vec<f64> {
     direction.into_iter().map(|x| -x).collect()
 }
 
-/// Adds a change, or removes the earlier change of the same constraint, which it undoes.
+/// Adds a change, or removes the earlier change that it undoes.
+///
+/// Both belong to the same constraint.
 fn toggle(changes: &mut Vec<Change>, change: Change) {
     match changes.iter().position(|earlier| earlier.constraint == change.constraint) {
         Some(undone) => drop(changes.remove(undone)),

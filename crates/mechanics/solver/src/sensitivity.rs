@@ -13,7 +13,7 @@ use differences::{difference, moved, rates, turning};
 pub use anchor::{AnchoredPoint, PathAnchor};
 pub(crate) use stationary::slope_along;
 
-/// System at two values of a parameter, `step` below and `step` above its current value.
+/// System at two values of a parameter, `step` below and above its current one.
 #[derive(Clone, Debug)]
 pub struct Neighbours<S> {
     /// System at the smaller value.
@@ -105,7 +105,7 @@ impl<M: Clone> Linearisation<M> {
         &self.place
     }
 
-    /// Predicts the point for the smaller and the larger value of a parameter, to first order.
+    /// Predicts the points for a smaller and a larger parameter, to first order.
     ///
     /// The directions of the path turn only if `turns`. Results are not finite if the path has a
     /// fold at the anchor.
@@ -211,7 +211,7 @@ impl<M: Clone> Linearisation<M> {
         -change / slope_along(system, &mut self.newton, state, direction, &rate)
     }
 
-    /// Returns the most violated constraint in the `moved` state, with its change of sides.
+    /// Returns the most violated constraint in the `moved` state, with its change.
     ///
     /// `None` if the active set remains valid on this side of the parameter.
     pub fn violated<S: System<Mode = M>>(
@@ -295,7 +295,7 @@ impl<M: Clone> Linearisation<M> {
 /// Maximum number of changes of friction at the closing of a contact.
 const MOST_CHANGES: usize = 8;
 
-/// Largest guard of an inactive constraint that the step of a difference may violate.
+/// Largest guard of an inactive constraint that a difference may violate.
 ///
 /// These steps are some millionths of a parameter.
 const NEAR: f64 = 1e-3;

@@ -3,7 +3,9 @@
 /// Step sizes of a path and tolerance of its equilibria.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// First step, as a fraction of the whole path (the target of the control parameter).
+    /// First step, as a fraction of the whole path.
+    ///
+    /// The whole path ends at the target of the control parameter.
     pub first_step: f64,
     /// Largest step, as a fraction of the whole path.
     pub max_step: f64,

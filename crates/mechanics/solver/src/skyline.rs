@@ -103,7 +103,9 @@ impl SkylineMatrix {
         (0..self.size()).filter(|&row| self.pivot(row) < 0.0).count()
     }
 
-    /// Solves in place with the factors: `x` holds the right-hand side, then the solution.
+    /// Solves in place with the factors: `x` becomes the solution.
+    ///
+    /// It holds the right-hand side before.
     pub fn solve(&self, x: &mut [f64]) {
         for row in 0..self.size() {
             let first = self.first[row];

@@ -50,7 +50,7 @@ pub trait System {
         None
     }
 
-    /// Returns true if the equations in this state couple unknowns only within the block structure.
+    /// Returns true if the equations couple unknowns within the block structure only.
     fn is_in_blocks(&self, _state: &State<Self::Mode>) -> bool {
         true
     }
@@ -58,7 +58,9 @@ pub trait System {
     /// Returns the index of the load, which is also the row without an equation.
     fn load(&self) -> usize;
 
-    /// Returns true if the load only pushes: the path then ends where the load returns to zero.
+    /// Returns true if the load only pushes.
+    ///
+    /// The path then ends where the load returns to zero.
     fn load_only_pushes(&self) -> bool {
         false
     }
@@ -102,11 +104,11 @@ pub trait System {
         std::iter::empty()
     }
 
-    /// Returns the numbers of the constraints with an unknown that only grows while active.
+    /// Returns the numbers of constraints with an unknown that only grows.
     ///
-    /// An example is the slip distance of a friction contact. Where such an unknown would decrease,
-    /// the constraint becomes inactive, and its transition stores the accumulated value in the
-    /// mode.
+    /// It grows while the constraint is active. An example is the slip distance of a friction
+    /// contact. Where such an unknown would decrease, the constraint becomes inactive, and its
+    /// transition stores the accumulated value in the mode.
     fn monotone(&self) -> &[usize] {
         &[]
     }
@@ -127,7 +129,9 @@ pub trait System {
     /// Returns the mode of the state of rest.
     fn mode_at_rest(&self) -> Self::Mode;
 
-    /// Returns true if the equations have the same form in two modes, whatever their history.
+    /// Returns true if the equations have the same form in two modes.
+    ///
+    /// Their history may differ.
     fn is_same_form(&self, one: &Self::Mode, other: &Self::Mode) -> bool {
         one == other
     }
@@ -154,10 +158,10 @@ pub trait System {
     /// Adds the part of `∂r/∂z` that is the same in every state.
     fn constant_tangent(&self, _matrix: &mut impl Tangent) {}
 
-    /// Evaluates the equations and adds `∂r/∂z` to a matrix that holds its constant part.
+    /// Evaluates the equations and adds `∂r/∂z` to the matrix.
     ///
-    /// A system may implement this function, which does both in one pass, instead of
-    /// [`System::residual`] and [`System::tangent`].
+    /// The matrix already holds its constant part. A system may implement this function, which does
+    /// both in one pass, instead of [`System::residual`] and [`System::tangent`].
     fn linearise(
         &self,
         state: &State<Self::Mode>,
@@ -178,7 +182,9 @@ pub trait System {
         values.extend(self.constraints().iter().map(|&index| residual.value[index]));
     }
 
-    /// Replaces `values` as [`System::conditions`], and `slopes` by derivatives along `direction`.
+    /// Replaces `values` as [`System::conditions`], and `slopes` by derivatives.
+    ///
+    /// The derivatives are along `direction`.
     fn condition_slopes(
         &self,
         state: &State<Self::Mode>,
@@ -214,7 +220,9 @@ pub trait System {
         (ahead - behind) / (2.0 * step)
     }
 
-    /// Evaluates a marker: a function that vanishes at a special point that is no event.
+    /// Evaluates a marker, a function that vanishes at a special point.
+    ///
+    /// The point is no event.
     fn marker(&self, _state: &State<Self::Mode>, _number: usize) -> f64 {
         f64::NAN
     }
@@ -275,7 +283,7 @@ impl Residual {
         self.size[row] += term.abs();
     }
 
-    /// Adds the products of `factors` and the first of `others`, from equation `row` on.
+    /// Adds the products of `factors` and the first of `others`, from `row` on.
     #[inline]
     pub fn add_products(&mut self, row: usize, factors: &[f64], others: &[f64]) {
         let rows = row..row + factors.len();

@@ -20,7 +20,7 @@ pub(crate) struct TangentSolver {
 #[derive(Clone, Debug, Default)]
 struct InBlocks {
     elimination: BlockElimination,
-    /// Flag of each unknown that the matrix leaves out; empty before the first assembly.
+    /// Flags of the unknowns that the matrix leaves out; empty before assembly.
     left_out: Vec<bool>,
     /// Values of the constant part of the matrix.
     constant: Vec<f64>,
@@ -97,7 +97,7 @@ impl TangentSolver {
         }
     }
 
-    /// Solves for a right-hand side of `size` entries that is 1 at the load and else zero.
+    /// Solves for a right-hand side of `size` entries, 1 at the load and else 0.
     pub(crate) fn solve_unit(&mut self, load: usize, size: usize) -> Vec<f64> {
         match &mut self.blocks {
             Some(blocks) if self.is_in_blocks => blocks.elimination.solve_unit(load),
@@ -111,9 +111,10 @@ impl TangentSolver {
     }
 }
 
-/// Evaluates the equations and adds the tangent to a `matrix` with its constant part.
+/// Evaluates the equations and adds the tangent to `matrix`.
 ///
-/// Puts `condition` into the row of the load, in which the system has no entries.
+/// `matrix` already holds its constant part. Puts `condition` into the row of the load, in which
+/// the system has no entries.
 fn assemble<S: System>(
     system: &S,
     state: &State<S::Mode>,

@@ -23,9 +23,10 @@ pub enum Termination {
     /// Constraints change sides repeatedly at one point without progress.
     #[error("cycling constraints")]
     Cycling,
-    /// The event has no outgoing branch among the evaluated changes of coupled constraints.
+    /// The event has no outgoing branch among the evaluated changes.
     ///
-    /// There is no quasi-static continuation; the real system jumps.
+    /// They are changes of coupled constraints. There is no quasi-static continuation; the real
+    /// system jumps.
     #[error("jumps")]
     Jumps,
     /// A residual is not a finite number.

@@ -1,4 +1,4 @@
-//! Cost of one calibration, and of all calibrations for the paper's sweep of 720 designs.
+//! Cost of one calibration, and of all for the paper's sweep of 720 designs.
 
 use std::hint::black_box;
 

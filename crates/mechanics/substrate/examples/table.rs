@@ -33,7 +33,9 @@ fn main() -> Result<(), Box<dyn Error>> {
 /// Values of the table as a function of the footprint.
 type Solve<'a> = &'a (dyn Fn(&Footprint) -> Result<Vec<f64>, Unresolved> + Sync);
 
-/// Computes the coefficients of polynomials through `nodes × nodes` points, by polynomial.
+/// Computes polynomial coefficients through `nodes × nodes` points.
+///
+/// They are ordered by polynomial.
 fn coefficients(nodes: usize, solve: Solve<'_>) -> Result<Vec<f64>, Unresolved> {
     let place = |number: usize| {
         let [gap, width] = [(number / nodes, GAPS), (number % nodes, WIDTHS)];
@@ -98,7 +100,7 @@ fn nearest(footprint: &Footprint) -> Result<Vec<f64>, Unresolved> {
     Ok(normal.into_iter().chain(direct).chain(coupling).collect())
 }
 
-/// Returns the additional values of a long row relative to a row of three, over `α`.
+/// Returns additional values of a long row over a row of three, over `α`.
 ///
 /// In `y` and then in `φ` the scale itself and its neighbours, then `c` over `√(α_y α_φ)`, then in
 /// `x` polynomials in `log(1 − ν)`.
@@ -128,7 +130,7 @@ fn row(footprint: &Footprint) -> Result<Vec<f64>, Unresolved> {
     Ok(numbers)
 }
 
-/// Computes the values of rows for the Poisson's ratios of the table, from three meshes.
+/// Computes row values for the table's Poisson's ratios, from three meshes.
 ///
 /// The error decreases with the third power of the cells, the remainder after extrapolation with
 /// the fourth.

@@ -55,19 +55,18 @@ pub struct CrossTerms {
 /// The middle rectangle has a unit displacement and the others are fixed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RowReactions {
-    /// Reactions on the middle rectangle, in the direction of the displacement: `x`, `y`, `φ`.
+    /// Reactions on the middle rectangle, in displacement direction: `x`, `y`, `φ`.
     pub direct: [f64; 3],
-    /// Reactions on the neighbours on the right, the nearest first, in the same directions.
+    /// Reactions on right neighbours, nearest first, in the same directions.
     pub neighbours: Vec<[f64; 3]>,
-    /// Coupling of the rotation of the middle rectangle and the normal displacement of each
-    /// neighbour.
+    /// Coupling of middle rotation and normal displacement of each neighbour.
     pub cross: Vec<CrossTerms>,
 }
 
-/// Computes the reactions (S6) of a row of rectangles on `n × n` cells per quarter (S5).
+/// Computes the reactions (S6) of a row of rectangles.
 ///
-/// The row has `neighbours ≥ 1` rectangles on each side of the middle one, which is displaced while
-/// the others are fixed.
+/// It uses `n × n` cells per quarter (S5). The row has `neighbours ≥ 1` rectangles on each side of
+/// the middle one, which is displaced while the others are fixed.
 ///
 /// Eqs. (2)–(3) of Shafiei et al. (doi 10.1016/j.jmps.2020.104176) treat normal and tangential
 /// tractions separately. This is exact at `ν = 0.5`, where neither displaces the surface in the
@@ -85,10 +84,10 @@ pub fn row_reactions(
     reactions.into_iter().next().ok_or(Unresolved { footprint: *footprint, cells: n })
 }
 
-/// Computes [`row_reactions`] for several Poisson's ratios in place of the footprint's own.
+/// Computes [`row_reactions`] for several Poisson's ratios.
 ///
-/// Normal tractions do not depend on the ratio, so each ratio takes one more matrix, whereas each
-/// footprint takes three.
+/// They take the place of the footprint's own. Normal tractions do not depend on the ratio, so each
+/// ratio takes one more matrix, whereas each footprint takes three.
 ///
 /// # Errors
 /// As [`row_reactions`].
@@ -123,14 +122,16 @@ impl RowReactions {
     }
 }
 
-/// Displacement of a rectangle, or lever arm of its tractions, as a function of `x`.
+/// Displacement of a rectangle, or its traction lever arm, as a function of `x`.
 pub(crate) type Profile = fn(f64) -> f64;
 
 pub(crate) const ONE: Profile = |_| 1.0;
 pub(crate) const ZERO: Profile = |_| 0.0;
 pub(crate) const ARM: Profile = |x| x;
 
-/// Load case: displacement of the middle rectangle, and an optional neighbour displaced by 1.
+/// Load case: displacement of the middle rectangle.
+///
+/// An optional neighbour is displaced by 1.
 pub(crate) struct Load {
     pub(crate) middle: Profile,
     pub(crate) neighbour: Option<usize>,
@@ -200,7 +201,7 @@ impl Mesh {
         }
     }
 
-    /// Returns the axes along `x` in the order of the unknowns: column by column, `z` fastest.
+    /// Returns axes along `x` in the order of unknowns, by column, `z` fastest.
     pub(crate) fn across(&self) -> impl Iterator<Item = &GradedAxis> + Clone {
         std::iter::once(&self.middle).chain(&self.neighbours)
     }
@@ -223,12 +224,16 @@ impl Mesh {
         })
     }
 
-    /// Returns `∬ p arm(x)` over the middle rectangle, four times the integral over its quarter.
+    /// Returns `∬ p arm(x)` over the middle rectangle.
+    ///
+    /// It is four times the integral over its quarter.
     pub(crate) fn middle_sum(&self, tractions: ColRef<'_, f64>, arm: impl Fn(f64) -> f64) -> f64 {
         4.0 * self.sum(&self.middle, 0, tractions, arm)
     }
 
-    /// Returns `∬ p arm(x)` over neighbour `k`, from 0, twice the integral over its half.
+    /// Returns `∬ p arm(x)` over neighbour `k`, from 0.
+    ///
+    /// It is twice the integral over its half.
     pub(crate) fn neighbour_sum(
         &self,
         k: usize,
@@ -239,7 +244,9 @@ impl Mesh {
         2.0 * self.sum(&self.neighbours[k], before * self.depth.cells(), tractions, arm)
     }
 
-    /// Returns `∬ p arm(x)` over the meshed part of the rectangle with the first unknown `first`.
+    /// Returns `∬ p arm(x)` over the meshed part of a rectangle.
+    ///
+    /// The rectangle has the first unknown `first`.
     fn sum(
         &self,
         axis: &GradedAxis,
@@ -282,7 +289,7 @@ impl Equations {
         equations
     }
 
-    /// Fills a row: sources on the right with their mirror images on the left, even or odd in `x`.
+    /// Fills a row: right sources with left mirror images, even or odd in `x`.
     fn fill_row(
         &mut self,
         row: usize,
@@ -302,7 +309,7 @@ impl Equations {
     }
 }
 
-/// Influence of columns of cells at one depth, each cell with its mirror image in `z`.
+/// Influence of cell columns at one depth, each with its mirror image in `z`.
 pub(crate) struct CellColumns {
     line: CornerLine,
     last: Vec<Influence>,
@@ -318,10 +325,10 @@ impl CellColumns {
         Self { line, last: blank.clone(), next: blank }
     }
 
-    /// Computes the influence at `x` of the cells on one `side` of the symmetry plane, by column.
+    /// Computes the influence at `x` of the cells on one `side`, by column.
     ///
-    /// The side is 1 (right) or −1 (left). On the left the edges descend and the influence is
-    /// negative.
+    /// The sides are sides of the symmetry plane. The side is 1 (right) or −1 (left). On the left
+    /// the edges descend and the influence is negative.
     pub(crate) fn on_side(&mut self, mesh: &Mesh, x: f64, side: f64) -> Vec<Influence> {
         let mut influence = Vec::with_capacity(mesh.unknowns());
         for axis in mesh.across() {

@@ -21,11 +21,13 @@ pub struct Calibrations {
 /// Number of variants of [`Coupling`], each with a cache.
 const COUPLINGS: usize = 2;
 
-/// Default capacity, in footprints: about 10 MB, more than any sweep needs at a time.
+/// Default capacity: about 10 MB, more footprints than a sweep needs at a time.
 const CAPACITY: usize = 1 << 16;
 
 impl Calibrations {
-    /// Creates a cache of at most `capacity` footprints (at least two) for each coupling.
+    /// Creates a cache of at most `capacity` footprints for each coupling.
+    ///
+    /// The capacity is at least two.
     pub fn with_capacity(capacity: usize) -> Self {
         Self {
             rows: [(); COUPLINGS].map(|()| BoundedCache::with_capacity(capacity)),

@@ -34,14 +34,16 @@ pub struct FarField {
     motion: FreeMotion,
 }
 
-/// Reduction of one stiffness block by free scales, in the units of [`RowStiffness`].
+/// Reduction of a stiffness block by free scales, in [`RowStiffness`] units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Relief {
     /// Scale with the force.
     pub force: usize,
     /// Scale with the displacement.
     pub displacement: usize,
-    /// Reduction of force along `x`, force along `y` and moment, each for the three displacements.
+    /// Reduction of force along `x`, force along `y` and moment.
+    ///
+    /// Each is for the three displacements.
     pub by: [[f64; 3]; 3],
 }
 

@@ -24,7 +24,7 @@ pub struct Footprint {
     gap_over_a: f64,
     width_over_a: f64,
     poisson_ratio: f64,
-    /// Substrate thickness over the half-width `a` of a base; infinite for a half-space.
+    /// Substrate thickness over the half-width `a`; infinite for a half-space.
     thickness_over_a: f64,
 }
 
@@ -76,7 +76,7 @@ impl Footprint {
         Ok(Self { gap_over_a, width_over_a, poisson_ratio, thickness_over_a: f64::INFINITY })
     }
 
-    /// Returns the same rectangles on a layer of thickness `h/a`, bonded to a rigid base.
+    /// Returns the same rectangles on a bonded layer of thickness `h/a`.
     ///
     /// # Errors
     /// If the layer is thinner than a quarter of the half-width `a`.

@@ -1,7 +1,8 @@
-//! Surface displacement of an elastic half-space under uniformly loaded rectangular cells.
+//! Surface displacement of a half-space under uniformly loaded cells.
 //!
-//! With `E* = E_s / (1 − ν²)` and the distance `r = √(x² + z²)` to a point load, a normal load
-//! displaces the surface normally, and a tangential load along `x` displaces it along `x`, by
+//! The cells are rectangles. With `E* = E_s / (1 − ν²)` and the distance `r = √(x² + z²)` to a
+//! point load, a normal load displaces the surface normally, and a tangential load along `x`
+//! displaces it along `x`, by
 //!
 //! ```text
 //! u_y = 1/(π E*) · P / r                            (S1, Boussinesq)
@@ -22,9 +23,9 @@
 use std::f64::consts::PI;
 use std::ops::{Add, Sub};
 
-/// Integrals of (S3): the effect of a unit traction on a cell, without elastic constants.
+/// Integrals of (S3): the effect of a unit traction on a cell.
 ///
-/// At a corner, the corner functions themselves.
+/// They contain no elastic constants. At a corner, the corner functions themselves.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Influence {
     /// `A`, `∬ z²/r³`.
@@ -39,7 +40,9 @@ impl Influence {
         (self.across + self.along) / PI
     }
 
-    /// Returns `E* u_x` for a unit tangential traction along `x`: `(A + B/(1 − ν))/π` (S2).
+    /// Returns `E* u_x` for a unit tangential traction along `x` (S2).
+    ///
+    /// It is `(A + B/(1 − ν))/π`.
     pub fn tangential(self, poisson_ratio: f64) -> f64 {
         (self.across + self.along / (1.0 - poisson_ratio)) / PI
     }
@@ -71,8 +74,9 @@ pub fn corner(x: f64, z: f64) -> Influence {
     Influence { across: half(x, z), along: half(z, x) }
 }
 
-/// Returns the influence of the cell `x[0] < x < x[1]`, `z[0] < z < z[1]` at the field point
-/// `(0, 0)` (S3).
+/// Returns the influence of a cell at the field point `(0, 0)` (S3).
+///
+/// The cell is `x[0] < x < x[1]`, `z[0] < z < z[1]`.
 pub fn cell(x: [f64; 2], z: [f64; 2]) -> Influence {
     corner(x[1], z[1]) - corner(x[0], z[1]) - corner(x[1], z[0]) + corner(x[0], z[0])
 }
@@ -118,7 +122,9 @@ impl CornerLine {
     }
 }
 
-/// Returns `ln|s|`, or 0 at `s = 0`, where the corner function vanishes with its factor `s`.
+/// Returns `ln|s|`, or 0 at `s = 0`.
+///
+/// There the corner function vanishes with its factor `s`.
 fn ln_or_zero(s: f64) -> f64 {
     if s == 0.0 { 0.0 } else { s.abs().ln() }
 }

@@ -1,4 +1,4 @@
-//! Surface displacement of an elastic layer on a rigid base, relative to the half-space.
+//! Displacement of a layer surface on a rigid base, relative to a half-space.
 //!
 //! A traction wave of wave number `k` displaces the surface of a layer of thickness `h`. With
 //! `x = k h`, `κ = 3 − 4ν` and `D = κ cosh 2x + 2x² + 5 − 12ν + 8ν²`, and over `G k`, the
@@ -39,7 +39,7 @@ const PER_UNIT: usize = 48;
 /// half-space.
 const FARTHEST: usize = 16;
 
-/// Number of quadrature intervals, up to where the integrands have decayed to 1e-12.
+/// Number of quadrature intervals, up to where integrands decay to 1e-12.
 ///
 /// Each has the width of an eighth of a unit, a third of a wave of `J(xρ)` at the largest `ρ`.
 const INTERVALS: u32 = 128;
@@ -53,7 +53,9 @@ const GAUSS: [[f64; 2]; 4] = [
     [0.861_136_311_594_052_6, 0.347_854_845_137_453_9],
 ];
 
-/// Returns `N`, `½(S + T)`, `½(S − T)` and `C` of (S19) at `x`, minus the half-space values.
+/// Returns `N`, `½(S + T)`, `½(S − T)` and `C` of (S19) at `x`.
+///
+/// The half-space values are subtracted.
 pub fn beside_half_space(poisson_ratio: f64, x: f64) -> Integrals {
     let (left, kappa) = (1.0 - poisson_ratio, 3.0 - 4.0 * poisson_ratio);
     // Divided by e^(2x), so that differences with the half-space keep their digits.
@@ -80,7 +82,9 @@ fn half_space(poisson_ratio: f64) -> Integrals {
 #[derive(Debug)]
 pub struct Layer {
     poisson_ratio: f64,
-    /// Values and derivatives of the four integrals of (S20), at equidistant distances `ρ` from 0.
+    /// Values and derivatives of the four integrals of (S20).
+    ///
+    /// They are at equidistant distances `ρ` from 0.
     nodes: Vec<[[f64; 2]; 4]>,
 }
 
@@ -118,7 +122,9 @@ impl Mul<f64> for Displacements {
 /// Recently used layers, one per Poisson's ratio; few are needed at a time.
 static RECENT: Mutex<Vec<Arc<Layer>>> = Mutex::new(Vec::new());
 
-/// Number of cached layers: enough for the differences by Poisson's ratio of several threads.
+/// Number of cached layers.
+///
+/// It is enough for the differences by Poisson's ratio of several threads.
 const KEPT: usize = 16;
 
 impl Layer {
@@ -164,9 +170,9 @@ impl Layer {
         Self { poisson_ratio, nodes: (0..=last).map(node).collect() }
     }
 
-    /// Returns the displacements of unit loads at the offset `(x, z)`, minus the half-space values.
+    /// Returns the displacements of unit loads at the offset `(x, z)`.
     ///
-    /// The layer has the given `thickness`.
+    /// The half-space values are subtracted. The layer has the given `thickness`.
     pub fn beside_half_space(&self, thickness: f64, x: f64, z: f64) -> Displacements {
         let square = x * x + z * z;
         let r = square.sqrt();

@@ -72,7 +72,7 @@ pub(crate) fn addition(
     })
 }
 
-/// Computes the derivatives of [`addition`] by gap, width, Poisson's ratio and thickness.
+/// Computes derivatives of [`addition`] by gap, width, Poisson's ratio, thickness.
 pub(crate) fn slopes(
     footprint: &Footprint,
     coupling: Coupling,
@@ -94,7 +94,9 @@ pub(crate) fn slopes(
 
 /// Reactions on one mesh, minus the half-space reactions.
 struct Added {
-    /// `K_x`, `K_y`, `K_φ`, `r_0` of the middle; `K_x`, `K_y`, `K_φ`, `c`, `l`, `r` per neighbour.
+    /// `K_x`, `K_y`, `K_φ`, `r_0` of the middle.
+    ///
+    /// Per neighbour `K_x`, `K_y`, `K_φ`, `c`, `l`, `r`.
     numbers: Vec<f64>,
     /// `K_x`, `K_y`, `K_φ` of the middle rectangle on the layer.
     sizes: [f64; 3],
@@ -188,7 +190,7 @@ impl Tractions<'_> {
         [push[0], lifted[1], turn[2], turn[1], lift, roll]
     }
 
-    /// Sums the tractions of a load on neighbour `k` to force along, force across and moment.
+    /// Sums the tractions on neighbour `k` to forces along and across, and moment.
     fn forces_on_neighbour(&self, k: usize, tractions: ColRef<'_, f64>) -> [f64; 3] {
         let n = self.mesh.unknowns();
         let centre = (k + 1) as f64 * self.pitch;
@@ -204,7 +206,7 @@ impl Tractions<'_> {
 /// Point of a cell with its weight, for the smooth part of the influence.
 type QuadraturePoint = [f64; 2];
 
-/// Quadrature points of a mesh: per column of cells along the row, per row of cells across it.
+/// Quadrature points of a mesh: by column along the row, by row across it.
 struct Quadrature {
     columns: Vec<Vec<QuadraturePoint>>,
     depth: Vec<Vec<QuadraturePoint>>,
@@ -250,7 +252,7 @@ impl Quadrature {
         systems
     }
 
-    /// Computes the smooth influence of each cell with its `z` image, and of their `x` images.
+    /// Computes the smooth influence of each cell with `z` image and `x` images.
     fn at(&self, layer: &Layer, thickness: f64, [x, z]: [f64; 2]) -> Vec<[Displacements; 2]> {
         let mut influences = Vec::with_capacity(self.columns.len() * self.depth.len());
         for column in &self.columns {
@@ -298,7 +300,9 @@ fn on_half_space(cell: Influence, poisson_ratio: f64) -> Displacements {
     Displacements { normal, shear, cross: 0.0 }
 }
 
-/// Fills the four entries of a cell; `signs` are the signs of `q` and `p` in the image.
+/// Fills the four entries of a cell.
+///
+/// `signs` are the signs of `q` and `p` in the image.
 fn fill(
     matrix: &mut Mat<f64>,
     n: usize,

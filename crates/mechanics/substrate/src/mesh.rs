@@ -1,4 +1,4 @@
-//! Cells graded towards the edges of the rectangles, where the tractions are singular.
+//! Cells graded towards the rectangle edges, where the tractions are singular.
 //!
 //! Under a rigid rectangle the traction grows like `s^(−1/2)` with decreasing distance `s` from an
 //! edge. If another rectangle lies beyond a gap `ε`, this holds only within about `ε`, and the
@@ -24,12 +24,16 @@ pub struct GradedAxis {
 }
 
 impl GradedAxis {
-    /// Creates `cells` cells over the interval `ends`, graded to the `layers` `ε` (S4) at its ends.
+    /// Creates `cells` cells over the interval `ends`.
+    ///
+    /// They are graded to the `layers` `ε` (S4) at its ends.
     pub fn graded(ends: [f64; 2], layers: [f64; 2], cells: usize) -> Self {
         Self::between(&Grading::new(ends, layers), 0.0, cells)
     }
 
-    /// Creates the upper half of a graded axis, with `cells` cells over `0 … half_length`.
+    /// Creates the upper half of a graded axis over `0 … half_length`.
+    ///
+    /// It has `cells` cells.
     pub fn upper_half(half_length: f64, layer: f64, cells: usize) -> Self {
         let grading = Grading::new([-half_length, half_length], [layer; 2]);
         let mut axis = Self::between(&grading, 0.5, cells);
@@ -71,14 +75,14 @@ impl GradedAxis {
         self.edges[k + 1] - self.edges[k]
     }
 
-    /// Returns the middle of cell `k`, where the resultant of its uniform traction acts.
+    /// Returns the middle of cell `k`, at the resultant of its uniform traction.
     pub fn middle(&self, k: usize) -> f64 {
         f64::midpoint(self.edges[k], self.edges[k + 1])
     }
 
-    /// Returns the edges of this axis and of its mirror image below 0, ascending, with 0 once.
+    /// Returns the edges of this axis and its mirror image below 0.
     ///
-    /// The result is a whole axis if this one is an upper half.
+    /// They ascend and contain 0 once. The result is a whole axis if this one is an upper half.
     pub fn mirrored_edges(&self) -> impl Iterator<Item = f64> + Clone + '_ {
         self.edges.iter().skip(1).rev().map(|e| -e).chain(self.edges.iter().copied())
     }
@@ -133,7 +137,7 @@ impl Mesh {
     }
 }
 
-/// Map from `0 … 1` to an interval with cells of equal width in (S4), from both ends.
+/// Map from `0 … 1` to an interval with equal cells in (S4), from both ends.
 struct Grading {
     ends: [f64; 2],
     /// `√(length/ε)` at the two ends.
@@ -181,7 +185,9 @@ impl Grading {
         (2.0 * (lower.asinh() - upper.asinh()), slope)
     }
 
-    /// Returns the point at an angle, measured from the nearer end to keep small cells exact.
+    /// Returns the point at an angle, measured from the nearer end.
+    ///
+    /// This keeps small cells exact.
     fn position(&self, angle: f64) -> f64 {
         let [low, high] = self.ends;
         let (sin, cos) = (0.5 * angle).sin_cos();
@@ -189,5 +195,7 @@ impl Grading {
     }
 }
 
-/// Bisection alone would need about this many iterations; Newton's method takes four to eight.
+/// Approximate number of iterations that bisection alone would need.
+///
+/// Newton's method takes four to eight.
 const MAX_ITERATIONS: usize = 60;

@@ -10,7 +10,9 @@ use crate::{Footprint, Springs, layered};
 /// Range of the coupling of scales through the substrate.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Coupling {
-    /// Nearest neighbours, force with displacement and moment with rotation: Eq. (1) of the paper.
+    /// Nearest neighbours, force with displacement and moment with rotation.
+    ///
+    /// This is Eq. (1) of the paper.
     #[default]
     Nearest,
     /// [`NEIGHBOURS`] neighbours on each side, including force with rotation.
@@ -47,7 +49,9 @@ pub const NEIGHBOURS: usize = 8;
 pub struct RowStiffness {
     /// Own stiffness `K_0` of a scale: force along `x`, force along `y`, moment.
     pub direct: [f64; 3],
-    /// `r_0`: force along the row from a unit rotation, and moment from a unit displacement.
+    /// `r_0`: force along the row from a unit rotation.
+    ///
+    /// It is also the moment from a unit displacement.
     ///
     /// 0 on the half-space.
     pub roll: f64,
@@ -65,12 +69,15 @@ pub struct RowStiffness {
 /// Coupling of two scales (S9), (S21).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Neighbour {
-    /// `K_x`, `K_y`, `K_φ`: force or moment on one scale from the same displacement of the other.
+    /// `K_x`, `K_y`, `K_φ`: force or moment on one scale from the other scale.
+    ///
+    /// The other scale is displaced in the same direction.
     pub direct: [f64; 3],
     /// `c`: vertical force on the right scale from a unit rotation of the left one.
     pub cross: f64,
-    /// `l`: vertical force on the right scale from a unit displacement of the left one along the
-    /// row.
+    /// `l`: vertical force on the right scale from the left one's unit displacement.
+    ///
+    /// The displacement is along the row.
     ///
     /// 0 on the half-space.
     pub lift: f64,
@@ -81,14 +88,14 @@ pub struct Neighbour {
 }
 
 impl Neighbour {
-    /// Returns true if each force depends only on the displacement in its own direction.
+    /// Returns true if each force depends only on its own direction.
     pub fn is_diagonal(&self) -> bool {
         [self.cross, self.lift, self.roll] == [0.0; 3]
     }
 
-    /// Returns forces on the left scale for unit displacements of the right one (S9), (S21).
+    /// Returns forces on the left scale for unit displacements of the right.
     ///
-    /// The forces on the right scale are the transpose.
+    /// See (S9) and (S21). The forces on the right scale are the transpose.
     pub fn on_left(&self) -> [[f64; 3]; 3] {
         let ([x, y, rotation], Self { cross, lift, roll, .. }) = (self.direct, *self);
         [[x, lift, roll], [-lift, y, -cross], [roll, cross, rotation]]
@@ -99,7 +106,7 @@ impl Neighbour {
 pub(crate) const SOLVES: bool = cfg!(feature = "boundary-elements");
 
 impl RowStiffness {
-    /// Returns the stiffness of a row, from the table or solved for a footprint outside it.
+    /// Returns the stiffness of a row, from the table or solved outside it.
     ///
     /// # Errors
     /// As [`Self::solve`].
@@ -242,10 +249,14 @@ const CELLS: [usize; 3] = [4, 6, 8];
 /// The smallest one that bounds the actual error for all reference values of the tests.
 pub(crate) const CAUTION: f64 = 0.3;
 
-/// Number of values per neighbour in `RowReactions::numbers`: three reactions, two cross terms.
+/// Number of values per neighbour: three reactions, two cross terms.
+///
+/// It counts for `RowReactions::numbers`.
 const PER_NEIGHBOUR: usize = 5;
 
-/// Returns the reference size for the error of each value of `RowReactions::numbers`.
+/// Returns the reference size for the error of each value.
+///
+/// `RowReactions::numbers` lists the values.
 fn sizes(numbers: &[f64]) -> Vec<f64> {
     let [x, y, turn] = [numbers[0], numbers[1], numbers[2]];
     let cross = (y * turn).sqrt();
@@ -255,7 +266,9 @@ fn sizes(numbers: &[f64]) -> Vec<f64> {
 }
 
 impl From<&Springs> for RowStiffness {
-    /// Converts the springs of Eq. (1): nearest neighbours, without force from rotation.
+    /// Converts the springs of Eq. (1).
+    ///
+    /// They couple nearest neighbours, without force from rotation.
     fn from(springs: &Springs) -> Self {
         let direct = springs.coupling.map(|beta| -beta);
         let nearest = Neighbour { direct, ..Neighbour::default() };
@@ -282,7 +295,7 @@ impl Mul<f64> for RowStiffness {
 impl Add for RowStiffness {
     type Output = Self;
 
-    /// Adds the stiffness of the same number of neighbours; keeps the error estimates of `self`.
+    /// Adds the stiffness of equally many neighbours; keeps error estimates of `self`.
     fn add(mut self, mut other: Self) -> Self {
         self.numbers_mut().zip(other.numbers_mut()).for_each(|(number, more)| *number += *more);
         self

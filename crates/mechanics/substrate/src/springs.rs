@@ -3,7 +3,7 @@
 use crate::boundary_element::{Unresolved, row_reactions};
 use crate::{Coupling, Footprint, RowStiffness};
 
-/// Direct (`α`) and coupling (`β`) stiffness of a row of bases on an elastic half-space.
+/// Direct (`α`) and coupling (`β`) stiffness of a row of bases on a half-space.
 ///
 /// Dimensionless (Eq. 1 of Shafiei et al., doi 10.1016/j.jmps.2020.104176).
 ///

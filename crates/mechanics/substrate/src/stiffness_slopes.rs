@@ -12,11 +12,11 @@ pub struct StiffnessSlopes {
     pub by_gap: RowStiffness,
     /// Derivative with respect to `b/a`.
     pub by_width: RowStiffness,
-    /// Derivative by the logarithm of all lengths over `a` together, as for a shrinking base.
+    /// Derivative by the logarithm of all lengths over `a`, as for shrinking bases.
     pub by_size: RowStiffness,
     /// Derivative with respect to `ν`.
     pub by_poisson_ratio: RowStiffness,
-    /// Derivative with respect to the thickness `h/a` of a layer; `None` for the half-space.
+    /// Derivative by the thickness `h/a` of a layer; `None` for the half-space.
     pub by_thickness: Option<RowStiffness>,
 }
 

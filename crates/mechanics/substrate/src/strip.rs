@@ -38,7 +38,7 @@ impl SurfaceStrip {
         self.stretch_by(right[0] - left[0], shortened(left[2]) + shortened(right[2]))
     }
 
-    /// Computes the stretch `g` from the relative displacement and the shortening of the bases.
+    /// Computes the stretch `g` from relative displacement and base shortening.
     ///
     /// The displacement is `x' − x`; `shortened` is `2 − cos φ − cos φ'`, in units of `a`.
     pub fn stretch_by(&self, apart: f64, shortened: f64) -> f64 {
@@ -56,7 +56,7 @@ impl SurfaceStrip {
     }
 }
 
-/// Returns the energy of a neo-Hookean bar per `k d²`, and its first two derivatives by `g`.
+/// Returns the neo-Hookean bar energy per `k d²`, and two derivatives by `g`.
 ///
 /// `k` is the stiffness at rest and `g` the stretch:
 ///

@@ -30,10 +30,12 @@ pub const WIDTHS: [f64; 2] = [0.25, 80.0];
 /// Orders of the polynomials of Eq. (1) in each length.
 pub const NEAREST: usize = 24;
 
-/// Orders of the additional polynomials of long rows, which are smaller and need fewer.
+/// Orders of the additional polynomials of long rows.
+///
+/// These are smaller and need fewer.
 pub const ROW: usize = 16;
 
-/// Orders of the polynomials in `log(1 − ν)`, in which `α_x` is smoother than in `ν`.
+/// Orders of the polynomials in `log(1 − ν)`, in which `α_x` is smoother.
 pub const RATIOS: usize = 5;
 
 /// Error bound of Eq. (1) over `α`; tests check it by solving between the nodes.

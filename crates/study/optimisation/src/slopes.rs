@@ -2,7 +2,9 @@
 
 use results::SlopeSide;
 
-/// Relative parameter step of finite differences of linearly extrapolated table rows.
+/// Relative step of finite differences of linearly extrapolated table rows.
+///
+/// It is relative to the parameter.
 const STEP: f64 = 1e-6;
 
 /// The derivatives of a value on both sides of a parameter.

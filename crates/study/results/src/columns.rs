@@ -108,7 +108,9 @@ pub struct TableLayout {
     pub columns: Vec<Column<DesignRow>>,
 }
 
-/// Returns the layouts of the tables of `sweep`: `designs.csv` and a table per requested measure.
+/// Returns the layouts of the tables of `sweep`.
+///
+/// They are `designs.csv` and a table per requested measure.
 pub fn tables(sweep: &Sweep) -> Vec<TableLayout> {
     let asked = MEASURE_TABLES.iter().filter(|(_, measure)| sweep.measures().contains(measure));
     let mut tables = vec![TableLayout {

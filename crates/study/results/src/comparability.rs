@@ -1,4 +1,6 @@
-//! Parameters that define how a value is measured; designs must share them to be compared.
+//! Parameters that define how a value is measured.
+//!
+//! Designs must share them to be compared.
 
 use sweep::{PARAMETERS, Sweep};
 
@@ -16,7 +18,7 @@ pub fn measurement_conditions(column: &str) -> Vec<&'static str> {
         .collect()
 }
 
-/// Returns a varied parameter that makes the designs of a sweep incomparable by a column.
+/// Returns a varied parameter that makes designs incomparable by a column.
 pub fn incomparable_by(sweep: &Sweep, column: &str) -> Option<&'static str> {
     measurement_conditions(column)
         .into_iter()

@@ -1,4 +1,4 @@
-//! The folder of results: an entry for every file that squama writes there, and safe writing.
+//! The folder of results: an entry for every file, and safe writing.
 
 use std::fs::{self, File};
 use std::io::{BufRead as _, BufReader};
@@ -194,7 +194,7 @@ impl ResultsFolder {
     pub const SENSITIVITY: &'static str = "sensitivity.csv";
     /// Table of the changes made by reruns.
     pub const RERUNS: &'static str = "reruns.csv";
-    /// Tables of a ranking: by fitness, the Pareto front, the winners, the winner at every weight.
+    /// Tables of a ranking: fitness, Pareto front, winners, winner at every weight.
     pub const RANKING: [&'static str; 4] =
         ["ranking.csv", "pareto.csv", "winners.csv", "quaternary.csv"];
     /// Preferences of a ranking: requirements, criteria, weights, scale.

@@ -4,7 +4,7 @@ use text::number::same;
 
 use crate::columns::Goal;
 
-/// Replaces values that are equal up to round-off by one of them, the best by `goal`.
+/// Replaces values equal up to round-off by one of them, the best by `goal`.
 ///
 /// Equality is tested against the best value of a group, not from one value to the next, so that
 /// many small steps do not make all values equal. Rankings group equal scores in the same way.

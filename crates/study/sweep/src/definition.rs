@@ -174,8 +174,7 @@ impl Sweep {
         }
     }
 
-    /// Returns a question about a suspicious value: a substrate modulus that seems to be in another
-    /// unit.
+    /// Returns a question about a substrate modulus that seems in another unit.
     pub fn question(&self) -> Option<String> {
         let written = |parameter: &Parameter| {
             // Check the largest value: one design with a wrong unit is enough.

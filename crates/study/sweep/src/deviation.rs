@@ -47,8 +47,7 @@ impl Deviation {
         self.parameter.key.to_owned()
     }
 
-    /// Returns the keys that must be given: the parameter, unless it has a default, and the
-    /// thickness.
+    /// Returns the required keys: the parameter without default, and the thickness.
     pub(crate) fn needs(&self) -> impl Iterator<Item = &'static str> {
         let own = (!self.parameter().is_given(&Case::default())).then_some(self.parameter().key);
         own.into_iter().chain(self.parameter.is_in_mm().then_some(key::THICKNESS))

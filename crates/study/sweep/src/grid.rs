@@ -1,4 +1,4 @@
-//! Grid of designs: all combinations of parameter values, numbered but never stored.
+//! Grid of designs: all combinations of values, numbered but never stored.
 
 use std::ops::RangeInclusive;
 
@@ -63,7 +63,7 @@ impl Axis {
     }
 }
 
-/// The designs of a sweep: all combinations of the values of its axes, the last axis fastest.
+/// The designs of a sweep: all combinations of axis values, last axis fastest.
 #[derive(Clone, Debug)]
 pub struct Grid {
     axes: Vec<Axis>,

@@ -4,7 +4,7 @@ use std::fs::{self, File};
 use std::io::{self, Read as _};
 use std::path::Path;
 
-/// Folders of the streams that a shell passes to a command, such as `/dev/stdin` and `<(...)`.
+/// Folders of the streams of a shell, such as `/dev/stdin` and `<(...)`.
 const STREAMS: [&str; 3] = ["/dev/stdin", "/dev/fd/", "/proc/self/fd/"];
 
 /// Reads the text at `path`, of at most `max_bytes` bytes.

@@ -11,8 +11,9 @@ pub struct Material {
     pub substrate_modulus_mpa: Option<f64>,
     /// Modulus `E_m` of the membrane, in `MPa`.
     pub membrane_modulus_mpa: Option<f64>,
-    /// Modulus `E_ct` of the scales in contact, in `MPa`: the ratios to the other two follow from
-    /// it.
+    /// Modulus `E_ct` of the scales in contact, in `MPa`.
+    ///
+    /// The ratios to the other two follow from it.
     pub scale_modulus_mpa: Option<f64>,
     /// Density `ρ` of the scales, kg/m³.
     pub scale_density_kg_m3: Option<f64>,

@@ -1,4 +1,4 @@
-//! The designs that a run solves: the grid, a random sample, or one shard of either.
+//! The designs that a run solves: the grid, a sample, or a shard of either.
 
 use std::collections::BTreeSet;
 use std::fmt;

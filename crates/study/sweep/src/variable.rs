@@ -1,4 +1,4 @@
-//! A variable: a parameter that is searched over or drawn, within bounds or from a list.
+//! A variable: a parameter searched over or drawn, within bounds or from a list.
 
 use crate::case::Case;
 use crate::parameter::{Parameter, Scalar};

@@ -16,10 +16,11 @@ pub fn same(a: f64, b: f64) -> bool {
     (a - b).abs() <= ROUND_OFF * a.abs().max(b.abs())
 }
 
-/// Returns the short decimal number that `value` equals up to its last digits, or else `value`.
+/// Returns the short decimal number that `value` equals, or else `value`.
 ///
-/// `0.3/3` is `0.09999999999999999` as an `f64`, and means `0.1`. `size` is the largest number in
-/// the computation of `value`, because a difference has the round-off of its operands.
+/// The two are equal up to the last digits. `0.3/3` is `0.09999999999999999` as an `f64`, and means
+/// `0.1`. `size` is the largest number in the computation of `value`, because a difference has the
+/// round-off of its operands.
 pub fn short_decimal(value: f64, size: f64) -> f64 {
     let short = format!("{value:.11e}").parse().unwrap_or(value);
     if (short - value).abs() <= 4.0 * f64::EPSILON * size.abs() { short } else { value }

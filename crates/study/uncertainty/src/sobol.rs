@@ -94,7 +94,7 @@ mod tests {
 
     use super::*;
 
-    /// Returns the test function of Ishigami & Homma on (−π, π)³, with a = 7 and b = 0.1.
+    /// Returns the Ishigami–Homma function on (−π, π)³, with a = 7 and b = 0.1.
     ///
     /// Ishigami & Homma 1990, doi 10.1109/ISUMA.1990.151285.
     fn ishigami(x: [f64; 3]) -> f64 {

@@ -42,12 +42,14 @@ const ACROSS: [(CornerEdge, CornerEdge); 3] = [
     (CornerEdge::BottomLeftOnBase, CornerEdge::TopRightOnTop),
 ];
 
-/// Returns the upper corner and edge that correspond to lower ones after a rotation by 180°.
+/// Returns the upper corner and edge for lower ones after a rotation by 180°.
 fn across(lower: CornerEdge) -> CornerEdge {
     ACROSS.into_iter().find(|(edge, _)| *edge == lower).unwrap().1
 }
 
-/// Evaluates a function for the lower corners of [`under_the_base`] and for the rotated pair.
+/// Evaluates a function for lower corners and for the rotated pair.
+///
+/// [`under_the_base`] defines the lower corners.
 fn at_both_levels<T>(
     turned: f64,
     inside: f64,
@@ -129,7 +131,7 @@ fn there_is_no_flush_contact_beyond_the_far_end_of_its_edge() {
     }
 }
 
-/// At a corner the force turns no further than to the normal of the neighbour's end.
+/// At a corner the force turns at most to the normal of the neighbour's end.
 ///
 /// Short of level it turns from the normal of the neighbour's side to the normal of the tip's side.
 #[test]
@@ -194,7 +196,7 @@ fn flush_edges_touch_at_both_ends() {
     assert_eq!(CornerEdge::TopRightOnLeftEdge.flush(), None);
 }
 
-/// If side and base lie flush, the approach does not depend on the distribution of the force.
+/// On flush side and base the approach is independent of the force distribution.
 #[test]
 fn flush_contacts_share_one_approach() {
     let law = soft();

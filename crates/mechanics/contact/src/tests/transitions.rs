@@ -1,4 +1,4 @@
-//! One test per row of the table of transitions, and one for everything outside the table.
+//! One test per row of the table of transitions, and one for all other cases.
 
 use geometry::Parallelogram;
 

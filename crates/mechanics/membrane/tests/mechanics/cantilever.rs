@@ -1,4 +1,4 @@
-//! Straight strip of unit length along x, clamped on the left and loaded at its tip.
+//! Straight strip of unit length, clamped on the left and loaded at its tip.
 
 use geometry::OutOfRange;
 use membrane::{GapMembrane, Section, Span};
@@ -6,16 +6,19 @@ use nalgebra::{DVector, Vector3};
 
 const MAX_ITERATIONS: usize = 60;
 
-/// Creates a cantilever of length 1 and bending stiffness 1; `thickness` sets `EA = 12/thickness²`.
+/// Creates a cantilever of length 1 and bending stiffness 1.
+///
+/// `thickness` sets `EA = 12/thickness²`.
 pub fn cantilever(elements: usize, thickness: f64) -> Result<GapMembrane, OutOfRange> {
     let section = Section::new(12.0 / thickness.powi(3), thickness)?;
     GapMembrane::new(section, Span { half_base: 0.0, gap: 1.0, axis_offset: 0.0 }, elements)
 }
 
-/// Solves for displacements under forces `(X, Y, M)` on the right scale, the left one clamped.
+/// Solves for displacements under forces `(X, Y, M)` on the right scale.
 ///
-/// Newton's method in `steps` equal load steps, each from a linear extrapolation of the last two. A
-/// strip is so much stiffer in tension than in bending that a step has to start near the path.
+/// The left scale is clamped. Newton's method in `steps` equal load steps, each from a linear
+/// extrapolation of the last two. A strip is so much stiffer in tension than in bending that a step
+/// has to start near the path.
 pub fn equilibrium(gap: &GapMembrane, load: Vector3<f64>, steps: u32) -> DVector<f64> {
     let mut last = DVector::zeros(gap.unknowns());
     let mut u = last.clone();

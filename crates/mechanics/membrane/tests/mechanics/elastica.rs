@@ -1,4 +1,4 @@
-//! Elastica of a gap: derivatives, closed forms, symmetries, and convergence of the elements to it.
+//! Elastica of a gap: derivatives, closed forms, symmetries, convergence to it.
 
 use analytical::elastica::tip;
 use geometry::OutOfRange;
@@ -19,7 +19,7 @@ fn elastica(span: Span, order: usize) -> Result<Elastica, OutOfRange> {
 /// Boundary condition of the right scale.
 #[derive(Clone, Copy)]
 enum Right {
-    /// Displacement of the right end of the membrane relative to the left end, and its rotation.
+    /// Displacement and rotation of the right end of the membrane against the left end.
     End(Span, Vector3<f64>),
     /// Force and moment on the right scale.
     Load(Vector3<f64>),
@@ -62,7 +62,7 @@ fn newton(gap: &Elastica, mut z: DVector<f64>, free: usize, load: Vector3<f64>) 
     panic!("no equilibrium under {load:?}");
 }
 
-/// Returns displacement and rotation of the scale that holds the right end of the membrane.
+/// Returns displacement and rotation of the scale at the right membrane end.
 fn held(span: Span, end: Vector3<f64>) -> Vector3<f64> {
     let (arm, (sin, cos)) = (Vector2::new(-span.half_base, -span.axis_offset), end[2].sin_cos());
     let turned = Vector2::new(cos * arm.x - sin * arm.y, sin * arm.x + cos * arm.y) - arm;
@@ -150,7 +150,7 @@ proptest! {
         }
     }
 
-    /// Rotated by 180°, the gap has its scales exchanged and its axis on the other side.
+    /// A gap rotated by 180° has its scales exchanged and its axis on the other side.
     ///
     /// Energies and force are unchanged.
     #[test]
@@ -229,7 +229,9 @@ fn pure_bending_is_a_circle() -> Result<(), OutOfRange> {
     Ok(())
 }
 
-/// A pull along the axis stretches it uniformly; an axis below the bases requires a couple `N e`.
+/// A pull along the axis stretches it uniformly.
+///
+/// An axis below the bases requires a couple `N e`.
 #[test]
 fn pure_stretching_is_uniform() -> Result<(), OutOfRange> {
     let (stretch, axis_offset) = (3.0, 0.0625);
@@ -246,7 +248,7 @@ fn pure_stretching_is_uniform() -> Result<(), OutOfRange> {
     Ok(())
 }
 
-/// Thin cantilever with a transverse tip load: the elliptic integrals tabulated by Mattiasson.
+/// Thin cantilever with a transverse tip load: elliptic integrals of Mattiasson.
 #[test]
 fn mattiasson_elastica() -> Result<(), OutOfRange> {
     let thickness = 1e-4_f64;
@@ -261,7 +263,7 @@ fn mattiasson_elastica() -> Result<(), OutOfRange> {
     Ok(())
 }
 
-/// Under a pull the error falls by a growing factor per increase of the order by two.
+/// Under a pull the error falls by a growing factor per two orders.
 ///
 /// The boundary layers have a thirtieth of the length of the gap. The error falls to round-off.
 #[test]
@@ -281,7 +283,7 @@ fn the_error_falls_faster_than_any_power() -> Result<(), OutOfRange> {
     Ok(())
 }
 
-/// A state at a higher order is the same polynomial: energies and axis are unchanged.
+/// A state at a higher order is the same polynomial, with equal energies and axis.
 #[test]
 fn a_state_is_transferred_to_another_order() -> Result<(), OutOfRange> {
     let span = Span { half_base: 0.5, gap: 1.0, axis_offset: 0.0 };

@@ -1,4 +1,4 @@
-//! Forces against gradients of the energy, and tangents against gradients of the force.
+//! Forces against energy gradients, and tangents against force gradients.
 
 use membrane::{Ends, NodePose, Response, RigidArm};
 use nalgebra::{DMatrix, DVector, Vector2};
@@ -26,7 +26,7 @@ fn derivative(
 /// Energy (as a vector of one), force and tangent at a state.
 type Parts = (DVector<f64>, DVector<f64>, DMatrix<f64>);
 
-/// Returns the largest errors of force and tangent, relative to their largest entries.
+/// Returns the largest errors of force and tangent, over their largest entries.
 fn errors(parts: impl Fn(&DVector<f64>) -> Parts, q: &DVector<f64>) -> [f64; 2] {
     let (_, force, tangent) = parts(q);
     let mut errors: [f64; 2] = [0.0; 2];
@@ -52,8 +52,7 @@ fn ends(q: &DVector<f64>) -> Ends {
     q.fixed_rows::<6>(0).into_owned()
 }
 
-/// Returns the largest difference between a matrix and its transpose, relative to its largest
-/// entry.
+/// Returns the largest asymmetry of a matrix, relative to its largest entry.
 fn asymmetry(tangent: &DMatrix<f64>) -> f64 {
     (tangent - tangent.transpose()).amax() / tangent.amax()
 }

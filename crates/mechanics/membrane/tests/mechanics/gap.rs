@@ -12,7 +12,9 @@ fn gap(span: Span, elements: usize) -> Result<GapMembrane, OutOfRange> {
     GapMembrane::new(Section::new(1.0, THICKNESS)?, span, elements)
 }
 
-/// A moment bends only the free length: `φ = M d/EI` for any bases, offset and mesh.
+/// A moment bends only the free length: `φ = M d/EI`.
+///
+/// This holds for any bases, offset and mesh.
 #[test]
 fn pure_bending_turns_the_scales_by_the_free_length() -> Result<(), OutOfRange> {
     let bending_stiffness = THICKNESS.powi(3) / 12.0;
@@ -40,8 +42,9 @@ fn a_gap_reports_its_mesh() -> Result<(), OutOfRange> {
     Ok(())
 }
 
-/// An axis below the bases is pulled there: the right scale is held by a counter-clockwise couple
-/// `N e`.
+/// An axis below the bases is pulled there.
+///
+/// A counter-clockwise couple `N e` holds the right scale.
 #[test]
 fn tension_acts_below_the_base_for_a_positive_offset() -> Result<(), OutOfRange> {
     let (stretch, axis_offset) = (0.01, 0.0625);

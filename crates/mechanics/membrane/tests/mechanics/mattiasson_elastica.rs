@@ -1,4 +1,4 @@
-//! Inextensible cantilever with a transverse tip load, against [`analytical::elastica`].
+//! Inextensible cantilever with a tip load, against [`analytical::elastica`].
 
 use analytical::elastica;
 use geometry::OutOfRange;
@@ -35,7 +35,7 @@ fn mattiasson_elastica() -> Result<(), OutOfRange> {
     Ok(())
 }
 
-/// The error from stretch decreases as `1/EA`, that is, with the square of the thickness.
+/// The error from stretch decreases as `1/EA`, with the square of the thickness.
 #[test]
 fn inextensible_limit() -> Result<(), OutOfRange> {
     let limit = computed(5.0, 8, INEXTENSIBLE)?;

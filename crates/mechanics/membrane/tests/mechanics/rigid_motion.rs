@@ -77,7 +77,7 @@ proptest! {
     }
 }
 
-/// An undeformed element rotated by multiples of 45°, through ±π and beyond, stays at rest.
+/// An element rotated by multiples of 45°, through ±π and beyond, stays at rest.
 #[test]
 fn a_rotated_rest_state_has_no_force() -> Result<(), OutOfRange> {
     let beam = CorotationalBeam::new(0.1, 1.0, 0.01)?;

@@ -8,7 +8,9 @@ use nalgebra::Vector3;
 
 use crate::cantilever::{cantilever, equilibrium};
 
-/// Checks rotation, energy and shape under a moment that rotates the tip by `half_turns`.
+/// Checks rotation, energy and shape under an end moment.
+///
+/// It rotates the tip by `half_turns`.
 fn check(elements: usize, half_turns: u32) -> Result<(), OutOfRange> {
     let angle = PI * f64::from(half_turns);
     let gap = cantilever(elements, 0.1)?;

@@ -16,7 +16,9 @@ pub fn beam() -> impl Strategy<Value = CorotationalBeam> {
 /// Position and rotation of the first node of a random chain.
 type Start = (f64, f64, f64);
 
-/// Element of a random chain: stretch, end rotations from its chord, full turns of the second end.
+/// Element of a random chain: stretch, end rotations, full turns.
+///
+/// The rotations are relative to the chord; the second end has the full turns.
 type Link = (f64, [f64; 2], i32);
 
 fn start() -> impl Strategy<Value = Start> {
@@ -50,7 +52,7 @@ pub fn bent_beam() -> impl Strategy<Value = (CorotationalBeam, Ends)> {
     })
 }
 
-/// Generates an element between two random arms, with poses of the bodies that hold it.
+/// Generates an element between two random arms, with poses of the bodies.
 pub fn bent_offset_beam() -> impl Strategy<Value = (OffsetBeam, Ends)> {
     let arm = || (-1.0..1.0, -1.0..1.0).prop_map(|(x, y)| RigidArm::new(Vector2::new(x, y)));
     (bent_beam(), arm(), arm()).prop_map(|((beam, ends), first, second)| {
@@ -83,7 +85,7 @@ pub fn bent_gap() -> impl Strategy<Value = (GapMembrane, DVector<f64>)> {
     })
 }
 
-/// Replaces the pose of an end of the membrane by the pose of its scale at `(x, −e)`.
+/// Replaces the pose of a membrane end by the pose of its scale at `(x, −e)`.
 fn hold(pose: &mut [f64; 3], x: f64, axis_offset: f64) {
     let lever = RigidArm::new(Vector2::new(x, -axis_offset)).lever(pose[2]);
     pose[0] -= lever.x;

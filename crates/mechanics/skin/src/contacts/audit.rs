@@ -18,9 +18,9 @@ const OFF_EDGE: f64 = 1e-6;
 /// Step sizes were reduced to 1e-9 before the path stopped.
 const AHEAD: [f64; 4] = [1e-8, 1e-7, 1e-6, 1e-5];
 
-/// Smallest jump of the penetration (over `t`) that indicates a passed end of an edge.
+/// Smallest jump of the penetration that indicates a passed edge end.
 ///
-/// The jump occurs within one of the steps [`AHEAD`].
+/// It is over `t`. The jump occurs within one of the steps [`AHEAD`].
 const BEHIND: f64 = 1e-3;
 
 impl Contacts {
@@ -116,7 +116,7 @@ impl Contacts {
         })
     }
 
-    /// Returns the distance in pitches of scales that overlap without a contact between them.
+    /// Returns the distance in pitches of overlapping scales without a contact.
     ///
     /// `None` for direct neighbours, and if a contact is so soft that a scale is pushed half
     /// through its neighbour: overlaps behind it are then not meaningful.
@@ -129,8 +129,9 @@ impl Contacts {
         self.overlapping(state).max().filter(|&pitches| pitches > self.reach && !is_soft)
     }
 
-    /// Iterates over the distances in pitches of scales that overlap by more than their contact
-    /// approach.
+    /// Iterates over the distances in pitches of scales that overlap.
+    ///
+    /// They overlap by more than their contact approach.
     pub(crate) fn overlapping(&self, state: &SkinState) -> impl Iterator<Item = usize> {
         let standing = |i| (self.arrangement.scale(i), self.arrangement.place(i));
         let found = overlaps(standing, &self.poses(&state.z));

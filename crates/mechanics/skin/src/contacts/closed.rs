@@ -36,7 +36,7 @@ impl Contacts {
         contacts.flat_map(|contact| self.closed_at(state, contact)).flatten().collect()
     }
 
-    /// Returns the closed contacts at one level of a pair: corner contact and flush contact.
+    /// Returns the corner contact and the flush contact closed at a level of a pair.
     fn closed_at(&self, state: &SkinState, contact: usize) -> [Option<Contact>; 2] {
         let [own, flush] = state.mode.contacts[contact].carrying();
         let [on_corners, on_flush] = self.forces_on_left(state, contact);
@@ -50,8 +50,9 @@ impl Contacts {
         })
     }
 
-    /// Returns the position of the touching corner, relative to the node of the first scale at
-    /// rest.
+    /// Returns the position of the touching corner.
+    ///
+    /// It is relative to the node of the first scale at rest.
     fn corner(&self, z: &[f64], contact: usize, corner_edge: CornerEdge) -> Vec2 {
         let of_right = usize::from(!corner_edge.corner_is_left());
         let pose = self.pair_poses(z, contact)[of_right];

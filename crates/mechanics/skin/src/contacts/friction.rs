@@ -59,7 +59,9 @@ pub(crate) enum FrictionState {
         /// `s` at the start of slip.
         start: f64,
     },
-    /// Locked with a constant ratio `T/Λ`: the corners coincide, or a needle tip is at the corner.
+    /// Locked with a constant ratio `T/Λ`.
+    ///
+    /// The corners coincide, or a needle tip is at the corner.
     Locked {
         /// `T/Λ`.
         ratio: f64,
@@ -93,7 +95,9 @@ impl FrictionState {
 
 /// Friction of a contact at a sticking needle tip.
 pub(crate) struct TipFriction {
-    /// Unknown `T + 2 μ Λ` of the contact; its row takes the equation that the tip adds.
+    /// Unknown `T + 2 μ Λ` of the contact.
+    ///
+    /// Its row takes the equation that the tip adds.
     pub(crate) unknown: usize,
     /// `T`.
     pub(crate) traction: f64,
@@ -105,7 +109,7 @@ pub(crate) struct TipFriction {
     pub(crate) normal_forces: Vec<usize>,
 }
 
-/// Friction of a closed contact: state, traction, and slip coordinate with derivatives.
+/// Friction of a closed contact: state, traction, slip coordinate with derivatives.
 struct Sliding {
     friction_state: FrictionState,
     traction: f64,
@@ -153,7 +157,7 @@ impl Contacts {
             && state.mode.friction_states[self.contact_of(constraint).0].acting() == [false, true]
     }
 
-    /// Iterates over the history variables of contacts: anchors, and ratios of locked contacts.
+    /// Iterates over history variables: anchors, and ratios of locked contacts.
     pub(crate) fn anchors(state: &SkinState) -> impl Iterator<Item = (usize, f64)> {
         let friction_states = state.mode.friction_states.iter().enumerate();
         friction_states.filter_map(|(contact, friction_state)| match friction_state {
@@ -259,7 +263,7 @@ impl Contacts {
         self.set_friction(state, carrier, multiplier, true);
     }
 
-    /// Evaluates the friction of a contact that sticks with the needle tip at its corner.
+    /// Evaluates the friction of a contact that sticks with the tip at its corner.
     pub(crate) fn friction_with_tip(
         &self,
         state: &SkinState,
@@ -418,7 +422,7 @@ impl Contacts {
         }
     }
 
-    /// Computes the frictional dissipation between two neighbouring path points, `∫ μ Λ |ds|`.
+    /// Computes the frictional dissipation `∫ μ Λ |ds|` between two path points.
     ///
     /// `spans` are the lengths of the segment in units of the outgoing direction at `from` and of
     /// the incoming direction at `to` ([`solver::Continuation::spans`]). With them both factors are
@@ -450,7 +454,7 @@ impl Contacts {
         slips.map(work).sum()
     }
 
-    /// Computes the frictional dissipation `−∫ T ds` of a contact with a needle tip at its corner.
+    /// Computes the dissipation `−∫ T ds` of a contact with a needle tip at its corner.
     ///
     /// Zero for other contacts.
     fn work_at_tip(
@@ -515,7 +519,7 @@ impl Contacts {
         std::iter::once(carrier).chain(shared)
     }
 
-    /// Computes the friction on the left scale at a contact with the given normal force.
+    /// Computes the friction on the left scale for a given normal force.
     pub(super) fn traction_on_left(
         &self,
         state: &SkinState,
@@ -579,8 +583,9 @@ impl Contacts {
         self.forces[self.slots * contact + slot]
     }
 
-    /// Iterates over the unknowns of the normal forces on the edge of a carrier, shared contact
-    /// included.
+    /// Iterates over the normal-force unknowns on the edge of a carrier.
+    ///
+    /// The shared contact is included.
     fn normal_force_unknowns(
         &self,
         mode: &SkinMode,
@@ -646,9 +651,9 @@ impl Contacts {
     }
 }
 
-/// Computes `∫ f dg` over a unit interval for cubics given by values and slopes at both ends.
+/// Computes `∫ f dg` over a unit interval for cubics.
 ///
-/// Exact with three Gauss points.
+/// They are given by values and slopes at both ends. Exact with three Gauss points.
 pub(crate) fn product_integral(
     [values, slopes]: [[f64; 2]; 2],
     [of_g, slopes_of_g]: [[f64; 2]; 2],

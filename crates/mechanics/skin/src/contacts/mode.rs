@@ -15,7 +15,9 @@ pub(crate) struct SkinMode {
 }
 
 impl SkinMode {
-    /// Returns true if contacts, friction states and needle agree, whatever their anchors.
+    /// Returns true if contacts, friction states and needle agree.
+    ///
+    /// Their anchors may differ.
     pub(crate) fn is_same_form(&self, other: &Self) -> bool {
         let friction_states = self.friction_states.iter().zip(&other.friction_states);
         self.contacts == other.contacts

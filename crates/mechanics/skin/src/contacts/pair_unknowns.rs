@@ -10,7 +10,9 @@ use super::Contacts;
 /// One number per coordinate of a pair.
 type OfEach = [f64; COORDINATES];
 
-/// Signed contribution of an unknown to a coordinate; a coordinate is the sum of such terms.
+/// Signed contribution of an unknown to a coordinate.
+///
+/// A coordinate is the sum of such terms.
 #[derive(Clone, Copy)]
 pub(super) struct Part {
     unknown: usize,
@@ -23,9 +25,13 @@ pub(super) struct Part {
 #[derive(Clone, Copy)]
 #[expect(clippy::large_enum_variant, reason = "one lives at a time, on the stack")]
 pub(super) enum PairUnknowns {
-    /// Row: each scale has three consecutive unknowns from this index, so whole blocks are added.
+    /// Row: each scale has three consecutive unknowns from this index.
+    ///
+    /// Whole blocks are added.
     Blocks([usize; 2]),
-    /// Strip: a rotation is the difference of two unknowns, so entries are added one by one.
+    /// Strip: a rotation is the difference of two unknowns.
+    ///
+    /// Entries are added one by one.
     Parts([Option<Part>; COORDINATES + 1]),
 }
 
@@ -56,7 +62,7 @@ impl Contacts {
 }
 
 impl PairUnknowns {
-    /// Computes the dot product of coordinate `factors` with the coordinates of the pair in `z`.
+    /// Computes the dot product of `factors` with the coordinates of the pair in `z`.
     pub(super) fn sum(self, factors: &OfEach, z: &[f64]) -> f64 {
         match self {
             Self::Blocks([left, right]) => {

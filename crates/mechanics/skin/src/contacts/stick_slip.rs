@@ -74,7 +74,7 @@ impl Contacts {
         }
     }
 
-    /// Returns the friction state that a contact inherits, on its edge in the state `now`.
+    /// Returns the friction that a contact inherits, on its edge in the state `now`.
     fn inherited_friction(
         &self,
         before: &SkinState,
@@ -98,7 +98,7 @@ impl Contacts {
         }
     }
 
-    /// Returns true if both contacts of a pair are between its sides, which then lie on each other.
+    /// Returns true if the sides of a pair lie on each other at both contacts.
     fn slide_along_one_line(state: &SkinState, contact: usize) -> bool {
         let is_side = |contact: usize| match state.mode.contacts[contact] {
             CornerContact::Edge(edge) => {

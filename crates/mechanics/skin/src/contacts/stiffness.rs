@@ -5,7 +5,9 @@ use contact::{CornerContact, FORCES};
 use super::{Contacts, SkinState};
 
 impl Contacts {
-    /// Iterates over the active contact forces (C8), which stay unknowns of the stiffness matrix.
+    /// Iterates over the active contact forces (C8).
+    ///
+    /// They stay unknowns of the stiffness matrix.
     pub(crate) fn forces_in_stiffness(&self, state: &SkinState) -> impl Iterator<Item = usize> {
         let contacts = state.mode.contacts.iter().enumerate();
         contacts.flat_map(|(contact, mode)| self.acting_unknowns(contact, *mode))

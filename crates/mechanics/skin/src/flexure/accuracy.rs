@@ -14,7 +14,9 @@ const NEGLIGIBLE: f64 = 1e-9;
 /// Moment, its slope, axial fraction of the energy, and largest strain.
 pub(super) type Quantities = [f64; 4];
 
-/// Returns the largest relative change against a finer membrane; `None` if not finite.
+/// Returns the largest relative change against a finer membrane.
+///
+/// `None` if not finite.
 pub(super) fn largest_change(ours: Quantities, finer: Quantities) -> Option<f64> {
     let changes = ours
         .into_iter()

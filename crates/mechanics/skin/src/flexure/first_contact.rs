@@ -1,4 +1,6 @@
-//! Curvature at which the scales of a strip first touch, independent of the end of the path.
+//! Curvature at which the scales of a strip first touch.
+//!
+//! It is independent of the end of the path.
 
 use std::f64::consts::PI;
 
@@ -16,9 +18,10 @@ const SAMPLES: u32 = 512;
 /// Largest rotation of a gap: beyond it the arc of the membrane turns back.
 const LARGEST_ROTATION: f64 = PI;
 
-/// Returns `κ₁*`, the curvature at which neighbours first touch in bending with the scales inside.
+/// Returns the curvature `κ₁*` at which neighbours first touch.
 ///
-/// `None` if the gap does not close before its membrane has turned by half a circle.
+/// The scales are on the inside of the bend. `None` if the gap does not close before its membrane
+/// has turned by half a circle.
 ///
 /// Before contact no force acts in the membrane, so it is an arc of length `d` whatever its
 /// stiffness. With the depth `z₀` of the axis below the bases and the rotation `θ`, the node of the
@@ -194,7 +197,9 @@ impl BareGap {
         None
     }
 
-    /// Bisects for the rotation between `open` and `closed` at which the neighbours touch.
+    /// Bisects for the rotation at which the neighbours touch.
+    ///
+    /// It is between `open` and `closed`.
     fn narrowed(&self, mut open: f64, mut closed: f64) -> f64 {
         loop {
             let middle = f64::midpoint(open, closed);

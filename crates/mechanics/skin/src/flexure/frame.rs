@@ -8,10 +8,10 @@ use crate::arrangement::Arrangement;
 /// Displacement and rotation of a scale relative to its left neighbour.
 pub(crate) type Step = [f64; 3];
 
-/// Computes the frames of all scales of a strip of `gaps` gaps that repeat the `steps`.
+/// Computes the frames of all scales of a strip of `gaps` gaps.
 ///
-/// The first scale is at rest. A frame holds the node position relative to the node of the first
-/// scale, and the rotation.
+/// The gaps repeat the `steps`. The first scale is at rest. A frame holds the node position
+/// relative to the node of the first scale, and the rotation.
 pub(crate) fn frames(steps: &[Step], gaps: usize, row: &Arrangement) -> Vec<Pose> {
     let first = Pose::new(0.0, 0.0, 0.0);
     let steps = steps.iter().cycle().take(gaps).enumerate();

@@ -16,7 +16,7 @@ use crate::contacts::Contacts;
 /// Tolerance of the moment: largest remaining relative correction.
 const CLOSE: f64 = 1e-12;
 
-/// The search for the largest stiffness stops when the predicted relative gain is below this.
+/// Predicted relative gain below which the search for the largest stiffness stops.
 const FLAT: f64 = 1e-11;
 
 /// Distance from the stiffest point at which the strip is checked to be softer.
@@ -37,7 +37,7 @@ const FARTHER: f64 = 2.0;
 /// Divisor of the step size of gaps with friction.
 const RUBBING: f64 = 4.0;
 
-/// Golden-section steps within a segment before the predicted stiffest point is solved for.
+/// Golden-section steps within a segment before the stiffest point is solved for.
 const SECTIONS: usize = 30;
 
 /// Result of bending a sample of an imperfect strip.
@@ -206,7 +206,9 @@ impl<'a> UnevenStrip<'a> {
         None
     }
 
-    /// Inverts (F8) for the moment of a rotation; returns `highest` if that moment is too small.
+    /// Inverts (F8) for the moment of a rotation.
+    ///
+    /// Returns `highest` if that moment is too small.
     fn moment_at(&self, rotation: f64, highest: f64) -> f64 {
         let off = |moment: f64| self.rotation(moment) - rotation;
         let at_highest = off(highest);
@@ -289,7 +291,9 @@ impl<'a> UnevenStrip<'a> {
         inside.filter(|(_, value)| *value < best.1 * (1.0 - FLAT)).fold(best, less)
     }
 
-    /// Minimises the compliance between two neighbouring breakpoints by golden sections.
+    /// Minimises the compliance between two breakpoints by golden sections.
+    ///
+    /// The breakpoints are neighbours.
     fn least_within(&self, [mut low, mut high]: [f64; 2]) -> (f64, f64) {
         let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
         let value = |moment: f64| (moment, self.compliance(moment, KinkSide::Before));

@@ -7,7 +7,7 @@ use crate::ContactChange;
 use crate::contacts::{SkinPoint, SkinState};
 use crate::record::{Skin, Work};
 
-/// Relative decrease of the moment between equilibria that still counts as round-off.
+/// Relative moment decrease between equilibria that still counts as round-off.
 const ROUND_OFF: f64 = 1e-12;
 
 /// Tolerance of Newton's method for states of a finer resolution.
@@ -23,7 +23,7 @@ pub(super) enum KinkSide {
     Behind,
 }
 
-/// Equilibrium of a gap, with moment and rotation counted in the direction of bending.
+/// Equilibrium of a gap; moment and rotation are positive in bending direction.
 #[derive(Debug)]
 pub(super) struct Knot {
     pub(super) point: SkinPoint,
@@ -117,7 +117,9 @@ impl GapCurve {
         }
     }
 
-    /// Solves for the equilibrium under a moment already covered; `None` if Newton's method fails.
+    /// Solves for the equilibrium under a moment already covered.
+    ///
+    /// `None` if Newton's method fails.
     pub(super) fn solve_at(&mut self, moment: f64) -> Option<()> {
         let next = self.knots.partition_point(|knot| knot.moment < moment);
         let [from, to] = [self.knots.get(next.checked_sub(1)?)?, self.knots.get(next)?];
@@ -200,7 +202,7 @@ impl GapCurve {
         knots.map(|knot| self.strip().largest_strain(&knot.point.state)).fold(0.0, f64::max)
     }
 
-    /// Solves the equilibrium under a moment again on a finer strip; `None` if that fails.
+    /// Solves the equilibrium under a moment again on a finer strip; `None` on failure.
     pub(super) fn resolved(&self, moment: f64, finer: &Strip, newton: &mut Newton) -> Option<Knot> {
         let mut state = self.strip().transferred(&self.knot(moment)?.point.state, finer)?;
         let condition = finer.under_moment(moment);

@@ -29,7 +29,7 @@ pub struct FlexureMeasures {
     pub max_moment: Option<f64>,
     /// Axial fraction of the elastic energy at the end of the path.
     pub axial_energy_share: Option<f64>,
-    /// Largest strain `|ε| + ½ h |κ|` at the surface of the membrane, anywhere on the path.
+    /// Largest strain `|ε| + ½ h |κ|` at the membrane surface, anywhere on the path.
     pub membrane_strain_max: Option<f64>,
     /// Estimated largest relative error of the measures by the membrane discretisation.
     ///
@@ -37,12 +37,14 @@ pub struct FlexureMeasures {
     pub error: Option<f64>,
     /// Number of gaps `n` of the strip, an integer in a chain.
     pub gaps: f64,
-    /// Frictional dissipation between scales at the end of the path, over `E_m t³`, for the whole
-    /// strip.
+    /// Frictional dissipation between scales at the end of the path, over `E_m t³`.
+    ///
+    /// It is for the whole strip.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction_work: Option<f64>,
-    /// `κ*` at which friction locks the strip: beyond it contacts stick and the rotation hardly
-    /// grows.
+    /// `κ*` at which friction locks the strip.
+    ///
+    /// Beyond it contacts stick and the rotation hardly grows.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub locking_curvature: Option<f64>,
     /// Residual state after unloading.
@@ -112,7 +114,9 @@ impl FlexureMeasures {
     }
 }
 
-/// Returns the curvature of the last contact change, if contacts then stick and lock the strip.
+/// Returns the curvature of the last contact change.
+///
+/// `None` unless contacts then stick and lock the strip.
 fn locking(record: &Record<Strip>, path: &Continuation<Strip>) -> Option<f64> {
     let [sticking, _] = Contacts::stick_slip_counts(&path.point().state);
     let (start, end) = record.path.first().zip(record.path.last())?;

@@ -21,8 +21,9 @@ pub struct FlexurePoint {
     pub axial_energy: f64,
     /// Energy of the contacts, over `E_m t³`.
     pub contact_energy: f64,
-    /// Frictional dissipation up to here, over `E_m t³`, for the whole strip; `None` without
-    /// friction.
+    /// Frictional dissipation up to here, over `E_m t³`, for the whole strip.
+    ///
+    /// `None` without friction.
     pub friction_work: Option<f64>,
     /// Closed contacts of the strip, scaled to the rounded number of gaps.
     pub contacts: usize,
@@ -83,7 +84,7 @@ impl Skin for Strip {
         (self.whole_gaps() == self.gaps()).then_some(scale as i64)
     }
 
-    /// Checks neighbours only, because a strip bent to a ring may overlap its other end.
+    /// Checks neighbours only, because a ring may overlap its other end.
     fn interpenetrates(&self, state: &SkinState) -> bool {
         self.contacts.neighbours_interpenetrate(state)
     }

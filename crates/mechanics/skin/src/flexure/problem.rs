@@ -116,7 +116,7 @@ impl<'a> FlexureProblem<'a> {
         self.end_rotation() / self.length()
     }
 
-    /// Returns the length of the strip between the nodes of the first and the last scale.
+    /// Returns the length of the strip between the first and the last node.
     pub(super) fn length(&self) -> f64 {
         self.gaps * self.row.mean_pitch()
     }
@@ -263,8 +263,9 @@ impl<'a> FlexureProblem<'a> {
         Flexure { status, measures, path: points, events, history, unloading, gaps, steps, row }
     }
 
-    /// Estimates the largest change of any measure with a finer resolution; `None` if there is
-    /// none.
+    /// Estimates the largest change of any measure with a finer resolution.
+    ///
+    /// `None` if there is none.
     fn error(
         &self,
         resolution: Resolution,
@@ -291,7 +292,7 @@ impl<'a> FlexureProblem<'a> {
     }
 }
 
-/// Stiffness relative to rest beyond which a strip counts as held by its scales alone.
+/// Stiffness relative to rest beyond which scales alone hold a strip.
 pub(super) const LOCKED: f64 = 100.0;
 
 /// Membrane strain beyond the validity of the small-strain law.

@@ -153,7 +153,7 @@ impl FlexureProblem<'_> {
         Ok(derivatives)
     }
 
-    /// Removes derivatives of the compliance if scales are about to touch at the end of bending.
+    /// Removes derivatives of the compliance if scales are about to touch at the end.
     ///
     /// The compliance jumps at contact, which its value at rest does not show.
     fn mark_touching(
@@ -245,7 +245,9 @@ fn differences(
     Ok(unknown)
 }
 
-/// Solves a strip with this resolution and returns its measures; none if its path is incomplete.
+/// Solves a strip with this resolution and returns its measures.
+///
+/// Returns none if its path is incomplete.
 fn measured(
     input: &FlexureInput,
     resolution: Resolution,

@@ -24,11 +24,11 @@ pub struct StripSnapshot {
     pub moment: f64,
     /// Rotation of each end, degrees.
     pub end_rotation_deg: f64,
-    /// Displacement (over `t`) and rotation (radians, counter-clockwise) of every scale.
+    /// Displacement (over `t`) and rotation of every scale.
     ///
-    /// The first scale is at rest.
+    /// Rotations are counter-clockwise, in radians. The first scale is at rest.
     pub scales: Vec<[f64; 3]>,
-    /// Deformed membrane axis in every gap, relative to the node of the first scale; over `t`.
+    /// Deformed membrane axis in every gap, relative to the first node; over `t`.
     pub membrane: Vec<Vec<[f64; 2]>>,
     /// Every closed contact; forces over `E_m t²`.
     pub contacts: Vec<Contact>,

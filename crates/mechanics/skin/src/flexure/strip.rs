@@ -56,7 +56,7 @@ impl StripLayout {
         self.block() * (force / self.pair) + force % self.pair
     }
 
-    /// Returns one block per free scale, with the contact forces towards the next scale.
+    /// Returns one block per free scale, with the forces towards the next scale.
     ///
     /// The first block also holds the contacts with the fixed scale. `None` with interior membrane
     /// unknowns, because blocks would become too large.
@@ -79,7 +79,7 @@ pub(crate) struct StripExtent {
     pub(crate) gaps: usize,
     /// Gaps of the whole strip per solved gap; an integer for a chain.
     pub(crate) repeats: f64,
-    /// Relative rotation (radians) of the ends of the solved part at which bending ends.
+    /// Relative rotation (radians) of the ends at which bending ends.
     pub(crate) rotation: f64,
     /// End of the path as a multiple of that rotation.
     ///
@@ -248,7 +248,9 @@ impl Strip {
         Condition::through(vec![(self.controls[0].index, 1.0)], &state.z)
     }
 
-    /// Returns the condition that a moment of this magnitude acts in the direction of bending.
+    /// Returns the condition that a moment of this magnitude acts.
+    ///
+    /// It acts in the direction of bending.
     pub(crate) fn under_moment(&self, size: f64) -> Condition {
         Condition::new(vec![(self.layout.moment(), self.direction())], size)
     }
@@ -275,8 +277,9 @@ impl Strip {
         if forces.contains(&true) { 0 } else { self.membrane(gap).vanishing() }
     }
 
-    /// Returns the membrane state of a gap in the frame of its left scale, without vanishing
-    /// unknowns.
+    /// Returns the membrane state of a gap in the frame of its left scale.
+    ///
+    /// Vanishing unknowns are omitted.
     fn acting(&self, state: &SkinState, gap: usize) -> Vec<f64> {
         let start = self.layout.membrane(gap);
         let end = start + self.layout.interior + 3;

@@ -11,7 +11,9 @@ use super::{FlexureParameters, Method};
 use crate::contacts::{SkinPoint, SkinState};
 use crate::{Base, Common, Design};
 
-/// Integrates `M dΦ` between two points by Boole's rule on five equilibria, equidistant in `Φ`.
+/// Integrates `M dΦ` between two points by Boole's rule.
+///
+/// It uses five equilibria, equidistant in `Φ`.
 fn work(path: &mut Continuation<Strip>, from: &SkinPoint, to: &SkinPoint) -> f64 {
     let inner = [0.25, 0.5, 0.75].map(|x| path.between(from, to, x).unwrap().state);
     let states = [&from.state, &inner[0], &inner[1], &inner[2], &to.state];

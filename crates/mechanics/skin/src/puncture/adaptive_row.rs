@@ -40,7 +40,9 @@ pub(super) struct AdaptiveRowPath<'a> {
 pub(super) struct Segment {
     pub(super) from: Arc<SkinPoint>,
     pub(super) to: SkinPoint,
-    /// First point before any extension of the row: after an extension the point is solved again.
+    /// First point before any extension of the row.
+    ///
+    /// After an extension the point is solved again.
     pub(super) left: Arc<SkinPoint>,
 }
 
@@ -77,7 +79,7 @@ impl<'a> AdaptiveRowPath<'a> {
         Ok(None)
     }
 
-    /// Continues the path from a point on a longer row, if an end is reached and there is room.
+    /// Continues the path on a longer row, if an end is reached and there is room.
     fn lengthen(&mut self, from: &SkinPoint, reach: [Reach; 2]) -> Result<(), OutOfRange> {
         if reach == [Reach::Short; 2] {
             return Ok(());
@@ -116,7 +118,7 @@ impl<'a> AdaptiveRowPath<'a> {
 /// Initial number of scales on each side of the punctured one, for an endless row.
 const FIRST_SCALES: usize = 4;
 
-/// Smallest growth of a row in scales, and divisor of its length for proportional growth.
+/// Smallest growth of a row in scales, and divisor for proportional growth.
 const GROWTH: usize = 4;
 const GROWTH_PART: usize = 8;
 
@@ -126,7 +128,9 @@ const DECAYED: f64 = 1e-3;
 const LONGEST_DECAY: usize = 50;
 
 impl RowLayout {
-    /// Chooses the initial row; a scale is coupled with `neighbours` scales on each side.
+    /// Chooses the initial row.
+    ///
+    /// A scale is coupled with `neighbours` scales on each side.
     pub(super) fn first(far: &FarField, neighbours: usize, law: SubstrateLaw) -> Self {
         // With full coupling the far field acts on as many scales at an end as a scale is coupled
         // with.

@@ -21,7 +21,7 @@ pub(super) fn classify(status: Status, path: &[PuncturePoint]) -> Status {
     }
 }
 
-/// Returns true if load, depth and tilt are all below their maxima at the end of a path.
+/// Returns true if load, depth and tilt all end below their maxima.
 fn has_turned_back(path: &[PuncturePoint]) -> bool {
     let below = |value: fn(&PuncturePoint) -> f64| {
         let largest = path.iter().map(value).reduce(f64::max);

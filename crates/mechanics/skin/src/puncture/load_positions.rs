@@ -26,12 +26,11 @@ const SAME: f64 = 1e-6;
 /// Result of a puncture at one of several load positions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadPosition {
-    /// Position on the top: 0 the left, 1 the right corner; beyond that for a round tip.
+    /// Position on the top: 0 left, 1 right corner; beyond for a round tip.
     pub position: f64,
     /// How its path ended.
     pub status: Status,
-    /// `F*` where the scale is critically tilted, in either direction, or a guided needle is
-    /// through.
+    /// `F*` at the critical tilt in either direction, or when the needle is through.
     pub force: Option<f64>,
     /// `u*` there.
     pub displacement: Option<f64>,
@@ -45,7 +44,9 @@ pub struct LoadPosition {
     pub borne: Option<f64>,
 }
 
-/// Smallest force over several load positions; empty if there are none or if one is inconclusive.
+/// Smallest force over several load positions.
+///
+/// It is empty if there are none or if one is inconclusive.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Weakest {
     /// `F*` at the weakest position.
@@ -82,7 +83,9 @@ fn tied(places: &[LoadPosition], force: f64) -> impl Iterator<Item = &LoadPositi
     places.iter().filter(move |place| place.force.is_some_and(|of| of <= force * (1.0 + TIE)))
 }
 
-/// Direction of tilt under a free load; a path ends at the critical tilt in one direction only.
+/// Direction of tilt under a free load.
+///
+/// A path ends at the critical tilt in one direction only.
 const CLOCKWISE: f64 = 1.0;
 const COUNTER_CLOCKWISE: f64 = -1.0;
 

@@ -43,7 +43,9 @@ pub struct PunctureMeasures {
     pub peak_tilt_deg: Option<f64>,
     /// True if the row is stable at the critical tilt under a constant load.
     pub stable_under_load: Option<bool>,
-    /// True if the row is stable at the critical tilt under a constant depth of the loaded point.
+    /// True if the row is stable at the critical tilt under constant depth.
+    ///
+    /// It is the depth of the loaded point.
     pub stable_under_depth: Option<bool>,
     /// `F*` up to which the path is stable under load control; `None` if all of it is.
     pub load_stability_force: Option<f64>,
@@ -89,7 +91,9 @@ pub struct PunctureMeasures {
 }
 
 impl PunctureMeasures {
-    /// Computes the measures of a completed path, with stiffness in `E_s t` and force in `E* t²`.
+    /// Computes the measures of a completed path.
+    ///
+    /// Stiffness is in `E_s t`, force in `E* t²`.
     pub(crate) fn new(
         record: &Record<Chain>,
         folds: &[Fold],
@@ -155,9 +159,10 @@ impl PunctureMeasures {
     }
 }
 
-/// Returns the first point of largest force; `None` if the path never left its start.
+/// Returns the first point of largest force.
 ///
-/// Extrema of the load are points of the path, so no search between points is needed.
+/// `None` if the path never left its start. Extrema of the load are points of the path, so no
+/// search between points is needed.
 fn peak(path: &[PuncturePoint]) -> Option<&PuncturePoint> {
     let highest = |best: &'_ PuncturePoint, point: &'_ PuncturePoint| point.force > best.force;
     path.iter().skip(1).reduce(|best, point| if highest(best, point) { point } else { best })

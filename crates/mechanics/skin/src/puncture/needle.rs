@@ -69,7 +69,7 @@ impl Needle {
     }
 }
 
-/// Number of scales on each side of the punctured one that a guided needle may reach.
+/// Number of scales on each side that a guided needle may reach.
 ///
 /// It moves by less than its own depth along the row.
 pub(super) const FARTHEST: usize = 8;
@@ -93,7 +93,9 @@ const FACE_END: usize = 4;
 /// They follow the constraints of all touches.
 const ENDINGS: usize = 2;
 
-/// Unknowns of a guided needle with a sharp tip, behind the load: depth, two touches, and endings.
+/// Unknowns of a guided needle with a sharp tip: depth, two touches, endings.
+///
+/// They follow the load.
 pub(super) const NEEDLE_UNKNOWNS: usize = 1 + SHARP_SLOTS * UNKNOWNS_PER_TOUCH + ENDINGS;
 
 /// A guided needle on a row.
@@ -102,7 +104,7 @@ pub(crate) struct GuidedNeedle {
     friction: f64,
     /// Radius of the tip; 0 for a sharp one.
     radius: f64,
-    /// Tip at rest, or centre of a round tip, relative to the node of the punctured scale.
+    /// Tip at rest, or centre of a round tip, relative to the punctured node.
     pub(super) tip: Vec2,
     critical_tilt: f64,
     /// First of its unknowns: the depth.
@@ -118,8 +120,9 @@ pub(crate) struct GuidedNeedle {
     /// For a round tip the condition on the position is last.
     unknowns_per_touch: usize,
     constraints_per_touch: usize,
-    /// Touches with an anchor that differs from the anchor in the mode, and the difference. Set on
-    /// perturbed neighbours of a row only.
+    /// Touches with an anchor that differs from the mode's, and the difference.
+    ///
+    /// Set on perturbed neighbours of a row only.
     anchor_shifts: Vec<(Touch, f64)>,
 }
 
@@ -166,12 +169,14 @@ impl GuidedNeedle {
         self.radius > 0.0
     }
 
-    /// Returns the lowest point of the tip, relative to the node of the punctured scale at rest.
+    /// Returns the lowest point of the tip.
+    ///
+    /// It is relative to the node of the punctured scale at rest.
     pub(super) fn lowest(&self, z: &[f64]) -> Vec2 {
         self.tip - Vec2::new(0.0, self.radius + z[self.depth])
     }
 
-    /// Returns the number of scales on each side of the punctured one that the tip may reach.
+    /// Returns the number of scales on each side that the tip may reach.
     pub(super) fn farthest(&self) -> usize {
         if self.is_round() { self.reach() } else { FARTHEST }
     }
@@ -198,7 +203,9 @@ impl GuidedNeedle {
             .collect()
     }
 
-    /// Returns the unknown of the normal force of a touch; the tangential force is the next one.
+    /// Returns the unknown of the normal force of a touch.
+    ///
+    /// The tangential force is the next one.
     fn normal_force(&self, touch: usize) -> usize {
         self.depth + 1 + self.unknowns_per_touch * touch
     }
@@ -343,7 +350,7 @@ impl Chain {
         }
     }
 
-    /// Returns true if a needle constraint is the first touch of a critically tilted scale.
+    /// Returns true if a constraint is the first touch of a critically tilted scale.
     fn meets_tilted(&self, needle: &GuidedNeedle, state: &SkinState, number: usize) -> bool {
         let slot = number / needle.constraints_per_touch;
         if number >= needle.tilt_number()
@@ -365,10 +372,10 @@ impl Chain {
         })
     }
 
-    /// Returns true if the top right corner of a scale lies on the left face of its right
-    /// neighbour.
+    /// Returns true if the top right corner of a scale lies on its right neighbour.
     ///
-    /// That face then stops the tip at the corner, so the tip does not pass over it.
+    /// It lies on the left face of that scale. That face then stops the tip at the corner, so the
+    /// tip does not pass over it.
     fn is_notched(&self, state: &SkinState, scale: i64) -> bool {
         let contact =
             self.corner_of_notch(scale).and_then(|contact| state.mode.contacts.get(contact));

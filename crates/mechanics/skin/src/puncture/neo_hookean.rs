@@ -1,4 +1,4 @@
-//! Neo-Hookean surface strips between the bases, in place of the springs along the row.
+//! Neo-Hookean surface strips between bases, in place of springs along the row.
 
 use solver::{Residual, Tangent};
 use substrate::{SurfaceStrip, neo_hookean};
@@ -67,7 +67,7 @@ impl Chain {
         }
     }
 
-    /// Computes the energy of the bars minus the energy of the springs that they replace.
+    /// Computes the energy of the bars minus the energy of the replaced springs.
     pub(super) fn bar_energy(&self, z: &[f64]) -> f64 {
         let Some(spring) = self.bars else { return 0.0 };
         (0..self.layout.scales() - 1)
@@ -80,10 +80,10 @@ impl Chain {
             .sum()
     }
 
-    /// Computes the largest excess force of bars with these `widths` over their springs.
+    /// Computes the largest excess force of bars over their springs.
     ///
-    /// The bars connect scales with the given `displacements`. The result is over the stiffness of
-    /// a scale, hence a displacement.
+    /// The bars have these `widths` and connect scales with the given `displacements`. The result is
+    /// over the stiffness of a scale, hence a displacement.
     pub(super) fn largest_excess(&self, displacements: &[[f64; 3]], widths: &[f64]) -> f64 {
         let Some(spring) = self.bars else { return 0.0 };
         displacements
@@ -118,7 +118,9 @@ impl Bar {
         }
     }
 
-    /// Adds forces and tangent of the bar; `places` are the first unknowns of its two scales.
+    /// Adds forces and tangent of the bar.
+    ///
+    /// `places` are the first unknowns of its two scales.
     pub(super) fn linearise(
         &self,
         places: [usize; 2],

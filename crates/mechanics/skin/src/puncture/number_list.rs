@@ -19,7 +19,7 @@ impl Serialize for NumberList {
 }
 
 impl NumberList {
-    /// Creates a list; `None` if there are too many numbers or they do not strictly ascend.
+    /// Creates a list; `None` if it is too long or does not strictly ascend.
     ///
     /// ```
     /// use skin::puncture::NumberList;

@@ -13,7 +13,9 @@ pub struct PuncturePoint {
     pub displacement: f64,
     /// `F*`.
     pub force: f64,
-    /// Force of a guided needle along the row, to the right, in units of `F*`; 0 for a free needle.
+    /// Force of a guided needle along the row; 0 for a free needle.
+    ///
+    /// It is in units of `F*` and positive to the right.
     pub lateral_force: f64,
     /// Tilt of the punctured scale, clockwise, degrees.
     pub tilt_deg: f64,
@@ -25,7 +27,9 @@ pub struct PuncturePoint {
     ///
     /// Without friction, substrate and contact energy add up to the work `∫ F du` of the load.
     pub contact_energy: f64,
-    /// Frictional dissipation between scales up to here, over `E* t³`; `None` without friction.
+    /// Frictional dissipation between scales up to here, over `E* t³`.
+    ///
+    /// `None` without friction.
     pub friction_work: Option<f64>,
     /// Stretch of the tightest and of the widest gap.
     ///

@@ -12,12 +12,14 @@ use crate::contacts::SkinState;
 /// Number of scales beyond an end with gaps to check; farther gaps hardly change.
 const LOOKED_AT: usize = 12;
 
-/// Largest excess force of bars beyond an end at which they are approximated by springs.
+/// Largest excess force at which exterior bars are approximated by springs.
 ///
 /// It is over the stiffness of a scale, hence a displacement (over `t`).
 const AS_SPRINGS: f64 = 1e-9;
 
-/// Closed fraction of the clearance to the next scale beyond which the row is extended early.
+/// Closed fraction of a clearance above which the row is extended early.
+///
+/// It is the clearance to the next scale.
 const EARLY: f64 = 0.5;
 
 /// Proximity of the deformation to an end of the solved part.
@@ -40,7 +42,9 @@ pub(super) struct Beyond {
     pub(super) scales: Option<usize>,
 }
 
-/// The row beyond the ends of the solved part; empty for a row that is solved as a whole.
+/// The row beyond the ends of the solved part.
+///
+/// Empty for a row that is solved as a whole.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct RowExterior {
     /// Beyond the left and the right end.
@@ -149,7 +153,7 @@ impl Chain {
         left + self.layout.scales() + right
     }
 
-    /// Returns the displacements of scales counted from an end, mirrored to a right end.
+    /// Returns displacements of scales counted from an end, mirrored to a right end.
     fn at_end<'a>(&'a self, z: &'a [f64], side: usize) -> impl Fn(usize) -> [f64; 3] + 'a {
         let last = self.layout.scales() - 1;
         let scale = move |k: usize| if side == 0 { k } else { last - k };

@@ -37,7 +37,7 @@ pub struct PunctureInput {
 const FOLLOWED: [PathFunction<Chain>; 1] = [|chain, state, _| chain.force(state)];
 const LOAD: usize = 0;
 
-/// Name of the force at the critical tilt; the weakest position has a critical force of its own.
+/// Name of the force at the critical tilt; the weakest position has its own.
 pub(super) const CRITICAL_FORCE: &str = "critical_force";
 
 /// Solves a puncture like [`solve`](super::solve), and differentiates its measures.
@@ -64,7 +64,7 @@ pub fn differentiate(
 const FORCE_OVER_DEPTH: Curve<Chain> =
     [|chain, state, _, _| chain.depth(&state.z), |chain, state, _, _| chain.force(state)];
 
-/// Computes the force at given `displacements`, with derivatives for each variation.
+/// Computes the force at given `displacements`, with derivatives by variation.
 ///
 /// Follows the path beyond the critical tilt if necessary. Each value belongs to the first point at
 /// that displacement; `None` if the path does not reach it.
@@ -256,8 +256,9 @@ fn group_by_history(spots: Vec<MeasuredPoint<Chain>>) -> Vec<Vec<MeasuredPoint<C
 }
 
 impl Chain {
-    /// Anchors the end of a path to its cause: the critical tilt, or a constraint of a guided
-    /// needle.
+    /// Anchors the end of a path to its cause.
+    ///
+    /// It is the critical tilt, or a constraint of a guided needle.
     fn end_of(&self, place: AnchoredPoint<SkinMode>) -> AnchoredPoint<SkinMode> {
         let ended = self.needle.as_ref().and_then(|n| n.ended_at(self, &place.state));
         AnchoredPoint { anchor: ended.map_or(place.anchor, PathAnchor::Guard), ..place }
@@ -277,7 +278,9 @@ impl Chain {
     }
 }
 
-/// Measures quantities at a point; at a smooth reversal they depend on the path direction.
+/// Measures quantities at a point.
+///
+/// At a smooth reversal they depend on the path direction.
 fn at_turn<const N: usize>(
     place: Option<AnchoredPoint<SkinMode>>,
     quantities: [MeasuredQuantity<Chain>; N],

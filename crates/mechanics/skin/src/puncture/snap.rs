@@ -8,12 +8,14 @@ use super::{At, PunctureMeasures, PuncturePoint};
 use crate::contacts::SkinPoint;
 use crate::record::Skin;
 
-/// Tolerance on the rate of the depth at its maximum, relative to the rates at both ends.
+/// Tolerance on the rate of the depth at its maximum, over the rates at the ends.
 const FLAT: f64 = 1e-9;
 /// Maximum number of evaluations in the search for a maximum of the depth.
 const EVALUATIONS: usize = 60;
 
-/// Halvings of a segment in which to search for a dip of the depth that starts at its first point.
+/// Halvings of a segment in which to search for an early dip of the depth.
+///
+/// The dip starts at the first point.
 const HALVINGS: i32 = 20;
 
 /// Snap-through under a monotonically descending needle.
@@ -24,7 +26,9 @@ const HALVINGS: i32 = 20;
 pub struct Snap {
     /// Equilibrium at which the depth turns back.
     pub point: PuncturePoint,
-    /// `F*` there minus `F*` where the depth is as large again; `None` if the path ends earlier.
+    /// `F*` there minus `F*` where the depth is as large again.
+    ///
+    /// `None` if the path ends earlier.
     pub drop: Option<f64>,
     /// Number of contact events before it.
     pub events_before: usize,
@@ -61,7 +65,9 @@ impl SnapObserver {
         self.follow_depth(path, from, to, events_before);
     }
 
-    /// Records the instability of `from`; at a singular point it is evaluated half-way to the next.
+    /// Records the instability of `from`.
+    ///
+    /// At a singular point it is evaluated half-way to the next.
     fn count(&mut self, path: &mut Continuation<Chain>, from: &SkinPoint, to: &SkinPoint) {
         if !self.has_unloaded {
             return self.instability.push(Instability::default());
@@ -117,7 +123,7 @@ impl SnapObserver {
         self.snaps.last_mut().filter(|snap| snap.drop.is_none())
     }
 
-    /// Adds the stability measures, and returns the instability of every point and the snaps.
+    /// Adds the stability measures; returns instabilities of all points and snaps.
     pub(super) fn finish(
         mut self,
         path: &Continuation<Chain>,
@@ -146,7 +152,7 @@ impl SnapObserver {
 }
 
 impl Snap {
-    /// Finds the point within a segment at which the depth is as large as at the snap again.
+    /// Finds the point within a segment at which the depth of the snap recurs.
     fn land(&mut self, path: &mut Continuation<Chain>, from: &SkinPoint, to: &SkinPoint) {
         let depth = self.point.displacement;
         let is_below = |path: &Continuation<Chain>, point: &SkinPoint| {

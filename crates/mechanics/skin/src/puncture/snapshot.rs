@@ -15,7 +15,7 @@ use crate::{Common, Design};
 /// Largest tilt to which a path is extended for a snapshot, degrees.
 const STEEPEST_DEG: f64 = 80.0;
 
-/// Raises the critical tilt if a completed path was too `short` for the requested points.
+/// Raises the critical tilt if a path was too `short` for the requested points.
 ///
 /// Returns true if the path should be followed again.
 pub(super) fn farther(tilt_deg: &mut f64, status: Status, short: bool) -> bool {
@@ -108,7 +108,7 @@ pub fn snapshots(
     }
 }
 
-/// Solves the puncture with snapshots, but ends the path where [`solve`](super::solve) does.
+/// Solves the puncture with snapshots, ending where [`solve`](super::solve) does.
 ///
 /// Points beyond that end are `None`.
 ///

@@ -22,7 +22,7 @@ pub struct GapStretch {
     pub max: f64,
 }
 
-/// Folding or unfolding of the substrate surface in a gap, where two bases pass each other (V2).
+/// Folding or unfolding of the surface in a gap, where two bases cross (V2).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fold {
     /// Path point at which the gap vanishes, located between recorded points.
@@ -133,7 +133,7 @@ fn is_folded(stretch: f64) -> bool {
 }
 
 impl FoldCrossing {
-    /// Solves for the equilibrium at which the gap vanishes, and its fraction of the segment.
+    /// Solves for the equilibrium with zero gap, and its fraction of the segment.
     ///
     /// If Newton's method fails, returns the last equilibrium found.
     fn locate(

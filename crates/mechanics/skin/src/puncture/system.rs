@@ -23,7 +23,7 @@ const TOPS: f64 = 4.0;
 /// Depth at which the path of a guided needle ends at the latest.
 const DEEPEST: f64 = 2.0;
 
-/// Number of the marker that vanishes at the requested depth; the other markers are gaps.
+/// Number of the marker that vanishes at the requested depth; others are gaps.
 pub(super) const DEPTH_MARK: usize = usize::MAX;
 
 /// Numbers of the rates that vanish where load and depth turn back.
@@ -47,7 +47,9 @@ pub(crate) struct RowLayout {
     pub(crate) right: usize,
     /// Unknowns of a guided needle, behind the load; 0 for a free needle.
     pub(crate) needle: usize,
-    /// Contact unknowns of a scale with those on its right: one pair, unless distant scales touch.
+    /// Contact unknowns of a scale with scales on its right.
+    ///
+    /// They are one pair, unless distant scales touch.
     pub(crate) contacts: usize,
 }
 
@@ -61,7 +63,9 @@ impl RowLayout {
         self.left + 1 + self.right
     }
 
-    /// Converts an index to the number counted from the punctured scale, positive to the right.
+    /// Converts an index to the number counted from the punctured scale.
+    ///
+    /// Numbers are positive to the right.
     pub(crate) fn number(self, scale: usize) -> i64 {
         (scale.cast_signed() - self.left.cast_signed()) as i64
     }
@@ -105,7 +109,9 @@ impl RowLayout {
         }
     }
 
-    /// Returns the units of the equations: the direct stiffness for balances, 1 elsewhere.
+    /// Returns the units of the equations.
+    ///
+    /// They are the direct stiffness for balances, 1 elsewhere.
     fn units(self, direct: [f64; 3]) -> Vec<f64> {
         let mut units = vec![1.0; self.size()];
         for scale in 0..self.scales() {
@@ -170,8 +176,9 @@ pub(crate) struct Chain {
     units: Vec<f64>,
 }
 
-/// Part of the substrate stiffness: consecutive entries along a diagonal, or a full block of two
-/// scales.
+/// Part of the substrate stiffness.
+///
+/// It is consecutive entries along a diagonal, or a full block of two scales.
 #[derive(Clone, Copy)]
 enum Part<'a> {
     Diagonal(&'a [f64]),
@@ -278,7 +285,7 @@ impl Chain {
         -(pose.displacement.y + pose.turn(self.load_arm).y - self.load_arm.y)
     }
 
-    /// Computes the deformed arm from the node of the punctured scale to the loaded point.
+    /// Computes the deformed arm from the punctured node to the loaded point.
     pub(crate) fn loaded_arm(&self, z: &[f64]) -> Vec2 {
         self.contacts.pose(z, self.layout.left).turn(self.load_arm)
     }
@@ -293,7 +300,7 @@ impl Chain {
         -(direction[at + 1] + arm.x * direction[at + 2])
     }
 
-    /// Computes the depth of the deeper base corner of a scale below its position at rest.
+    /// Computes the depth of a scale's deeper base corner below its rest position.
     pub(crate) fn base_depth(&self, z: &[f64], scale: usize) -> f64 {
         let [_, y, rotation] = self.displacement(z, scale);
         self.half_base * rotation.sin().abs() - y
@@ -305,8 +312,9 @@ impl Chain {
         depths.fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// Calls `part` for each part of the substrate stiffness, with row and column of its first
-    /// entry.
+    /// Calls `part` for each part of the substrate stiffness.
+    ///
+    /// It receives row and column of the first entry.
     fn for_spring_parts(&self, mut part: impl FnMut(usize, usize, Part)) {
         for i in 0..self.layout.scales() {
             let at = self.layout.scale(i);
@@ -338,7 +346,9 @@ impl Chain {
         }
     }
 
-    /// Returns the needle and the number of one of its constraints; `None` for contact constraints.
+    /// Returns the needle and the number of one of its constraints.
+    ///
+    /// `None` for contact constraints.
     fn of_needle(&self, constraint: usize) -> Option<(&GuidedNeedle, usize)> {
         self.needle.as_ref().zip(constraint.checked_sub(self.contacts.forces.len()))
     }
@@ -348,7 +358,9 @@ impl Chain {
         state.z[self.layout.load()] / self.length
     }
 
-    /// Computes the elastic energy of springs and bars, exterior included, over `E* t³`.
+    /// Computes the elastic energy of springs and bars over `E* t³`.
+    ///
+    /// The exterior is included.
     pub(crate) fn substrate_energy(&self, state: &SkinState) -> f64 {
         let mut twice = 0.0;
         self.constant_tangent(&mut |row: usize, column: usize, value: f64| {
@@ -386,7 +398,9 @@ impl System for Chain {
         self.layout.load()
     }
 
-    /// A guided needle ends by its constraints, or at twice the thickness without a critical tilt.
+    /// A guided needle ends by its constraints, or at twice the thickness.
+    ///
+    /// The latter applies without a critical tilt.
     fn target(&self) -> f64 {
         if self.needle.is_some() { DEEPEST / self.controls[0].scale } else { 1.0 }
     }
@@ -512,10 +526,9 @@ impl System for Chain {
         slopes[number]
     }
 
-    /// Evaluates a marker: the stretch of a gap, by its left scale, or the excess over the
-    /// requested depth.
+    /// Evaluates a marker: stretch of a gap, or excess over the requested depth.
     ///
-    /// A vanishing stretch means that the surface folds over.
+    /// A gap is numbered by its left scale. A vanishing stretch means that the surface folds over.
     fn marker(&self, state: &SkinState, number: usize) -> f64 {
         match number {
             DEPTH_MARK => self.marked_depth.map_or(f64::NAN, |depth| self.depth(&state.z) - depth),

@@ -1,4 +1,4 @@
-//! Unit tests of the puncture model: tangent, energy balance, growth of rows, stability.
+//! Unit tests of the puncture model: tangent, energy, growth of rows, stability.
 
 mod friction;
 mod layers;
@@ -32,7 +32,7 @@ const LIVELY: Design =
 const FOLDING: Design =
     Design { gap: 0.2, length: 2.8, slant_deg: 79.5, base: Base::TwoL, width: 1.0 };
 
-/// Steep row of short scales: a tip slides to the end of a base and on to the corner there.
+/// Steep row of short scales: a tip slides to a base end and on to its corner.
 const SLIDING: Design =
     Design { gap: 0.05, length: 0.2, slant_deg: 82.0, base: Base::TwoL, width: 1.0 };
 
@@ -428,7 +428,9 @@ fn negative_eigenvalues(stiffness: &DMatrix<f64>, held: Option<&DVector<f64>>) -
     eigenvalues.iter().filter(|value| (-RIGID..-1e-13 * largest).contains(*value)).count()
 }
 
-/// Compares half-way between points, because at load extrema an eigenvalue vanishes.
+/// Compares half-way between points.
+///
+/// At load extrema an eigenvalue vanishes.
 fn compare_instability(path: Continuation<Chain>, compared: &mut HashSet<(usize, usize, usize)>) {
     for_segments(path, |path, from, to| {
         let Some(point) = path.between(from, to, 0.5) else { return };

@@ -13,7 +13,9 @@ pub struct CurvePoint {
     pub value: f64,
     /// `dy/dx` along the curve.
     pub slope: f64,
-    /// `∂y/∂q` at constant `x` per variation, at a kink the mean of both sides; `None` if unknown.
+    /// `∂y/∂q` at constant `x` per variation; `None` if unknown.
+    ///
+    /// At a kink it is the mean of both sides.
     pub rates: Vec<Option<f64>>,
 }
 
@@ -23,7 +25,7 @@ pub(crate) type Curve<S> = [ValueOf<S>; 2];
 /// Fraction of a path unit over which the slope of a curve is differenced.
 const ALONG: f64 = 1e-5;
 
-/// Evaluates a curve at an equilibrium, with derivatives for the given `variations`.
+/// Evaluates a curve at an equilibrium, with derivatives for `variations`.
 pub(crate) fn curve_point<S: Skin>(
     system: &S,
     point: &SkinPoint,

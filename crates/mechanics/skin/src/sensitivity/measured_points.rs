@@ -26,7 +26,9 @@ pub(crate) fn end<S: System>(path: &Continuation<S>) -> AnchoredPoint<S::Mode> {
     AnchoredPoint { state, direction: leaving, anchor: PathAnchor::Target }
 }
 
-/// Returns the first contact: the end of the part of the path with all contacts open.
+/// Returns the first contact.
+///
+/// It ends the part of the path with all contacts open.
 pub(crate) fn first_contact<S: Skin>(
     system: &S,
     point: &SkinPoint,
@@ -53,7 +55,9 @@ pub(crate) fn first_contact<S: Skin>(
     Some(AnchoredPoint { state, direction, anchor: PathAnchor::Guard(constraint) })
 }
 
-/// Returns the point of the largest value of a function on a path, if its location is known.
+/// Returns the point of the largest value of a function on a path.
+///
+/// `None` if its location is unknown.
 pub(crate) fn summit<S: Skin>(
     summit: Option<&Summit<S::Mode>>,
     path: &mut Continuation<S>,
@@ -124,7 +128,7 @@ pub(crate) fn is_held<S: Skin>(system: &S, place: &AnchoredPoint<S::Mode>) -> bo
     }
 }
 
-/// Finds the constraint with a vanishing guard at an event, among the changed contacts.
+/// Finds the vanishing guard at an event, among the changed contacts.
 pub(crate) fn vanished<S: Skin>(
     system: &S,
     state: &SkinState,

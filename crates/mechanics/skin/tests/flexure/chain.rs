@@ -8,7 +8,9 @@ use skin::{Common, Design, Status};
 
 use crate::samples::{LAWS, forty, with_law};
 
-/// End rotations of the comparison, degrees: the whole path, with some just after the contacts.
+/// End rotations of the comparison in degrees, over the whole path.
+///
+/// Some are just after the contacts.
 const AT: [f64; 12] = [1.0, 5.0, 10.0, 20.0, 30.0, 45.0, 60.0, 90.0, 120.0, 150.0, 175.0, 180.0];
 
 fn compare(design: &Design, law: Law) -> usize {

@@ -1,4 +1,4 @@
-//! Bending before contact and up to the first contact, against [`analytical::upright_blocks`].
+//! Bending up to the first contact, against [`analytical::upright_blocks`].
 
 use analytical::upright_blocks::{
     CONTACT_MOMENT, contact_curvature, contact_moment_of_polygon, moment_over_curvature,

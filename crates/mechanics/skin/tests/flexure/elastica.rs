@@ -1,4 +1,4 @@
-//! Bending against reference strips with an extensible elastica, solved by collocation.
+//! Bending against reference strips, solved as extensible elastica by collocation.
 //!
 //! `tests/reference/elastica.csv` contains the values and describes their computation.
 

@@ -1,4 +1,4 @@
-//! Strips with friction, against two programs with penalty springs and return mapping.
+//! Strips with friction, against two penalty programs with return mapping.
 
 use approx::assert_relative_eq;
 use skin::flexure::{FlexureParameters, MembraneMesh, solve};

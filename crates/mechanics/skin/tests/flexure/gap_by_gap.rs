@@ -13,7 +13,7 @@ struct Uneven {
     imperfection: Imperfection,
 }
 
-/// Scales as long as thick, with gaps a tenth of that; nine gaps bent until all are closed.
+/// Scales as long as thick, gaps a tenth; nine gaps bent until all are closed.
 fn slanted() -> Uneven {
     let design = Design { gap: 0.1, length: 1.0, slant_deg: 60.0, base: Base::L, width: 1.0 };
     let parameters = FlexureParameters {
@@ -36,7 +36,7 @@ impl Uneven {
     }
 }
 
-/// Computes the largest relative difference of any measure except the frictional dissipation.
+/// Computes the largest relative difference of any measure but the dissipation.
 fn difference([gaps, chain]: [&BentSample; 2]) -> f64 {
     let values = |bent: &BentSample| {
         let m = bent.measures;

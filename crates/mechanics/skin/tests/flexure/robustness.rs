@@ -24,7 +24,7 @@ fn the_reference_study_completes_with_either_law() {
     }
 }
 
-/// Scales as long as a third of the strip rotate so far that a corner slides off the top of a side.
+/// Scales of a third of the strip rotate until a corner slides off a side's top.
 #[test]
 fn a_contact_beyond_its_edge_fails_the_audit() {
     let parameters = FlexureParameters { gaps: Some(3), ..FlexureParameters::default() };

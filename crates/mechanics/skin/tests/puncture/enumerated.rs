@@ -1,4 +1,4 @@
-//! Pairs of scales with friction, against a solver that enumerates contact patterns.
+//! Pairs of scales with friction, against enumeration of contact patterns.
 //!
 //! In small steps of the tilt, every contact is tried open, sticking, and slipping in either
 //! direction, until one pattern satisfies all its conditions. Where slip starts or stops within a
@@ -49,7 +49,7 @@ struct Pair {
     friction: f64,
 }
 
-/// Displacements and rotations of both scales, load, and `λ` and `T` of each contact.
+/// Displacements and rotations of both scales, load, `λ` and `T` per contact.
 type Unknowns = DVector<f64>;
 
 const LOAD: usize = 6;
@@ -105,7 +105,9 @@ impl Pair {
             + turned(z[3 * scale + 2], arm)
     }
 
-    /// Computes `(P − E)·v` for a direction of the edge, with derivatives: gap or slip coordinate.
+    /// Computes `(P − E)·v` with derivatives: gap or slip coordinate.
+    ///
+    /// `v` is a direction of the edge.
     fn along(&self, z: &Unknowns, touch: &Touch, direction: V) -> (f64, DVector<f64>) {
         let (corner, edge) = (touch.corner, touch.edge);
         let v = turned(z[3 * edge.0 + 2], direction);
@@ -243,7 +245,7 @@ impl Pair {
     }
 }
 
-/// Compares the loads with the solver: largest relative difference, and the patterns.
+/// Compares the loads with the solver: largest relative difference, patterns.
 fn difference(design: &Design, friction: f64, steps: usize) -> (f64, Vec<Vec<Stand>>) {
     let parameters = on_row(2);
     let common = Common { friction, ..Common::default() };

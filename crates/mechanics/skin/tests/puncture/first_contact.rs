@@ -13,7 +13,7 @@ use crate::samples::{design, on_row, solve_with, springs};
 
 const SCALES: usize = 41;
 
-/// Computes the depth of the loaded corner and the gap to the right neighbour at a tilt `ψ`.
+/// Computes depth of the loaded corner and gap to the right neighbour at tilt `ψ`.
 fn before_contact(design: &Design, springs: &Springs, psi: f64) -> [f64; 2] {
     let scale = *design.row().unwrap().scale();
     let a = scale.half_base();
@@ -42,9 +42,10 @@ fn first_contact(design: &Design, springs: &Springs) -> f64 {
     before_contact(design, springs, low)[0]
 }
 
-/// Fig. 6b of Shafiei et al. (2021) shows it at "about 0.08" for `L/t = 1`, `d/t = 0.1` and slants
-/// of 0° and 45°. With a base of `L` it is at 0.081 and 0.059, with a base of `2L` at 0.154 and
-/// 0.070.
+/// Fig. 6b of Shafiei et al. (2021) shows it at "about 0.08".
+///
+/// That is for `L/t = 1`, `d/t = 0.1` and slants of 0° and 45°. With a base of `L` it is at 0.081
+/// and 0.059, with a base of `2L` at 0.154 and 0.070.
 #[test]
 fn first_contact_matches_the_linear_chain() {
     let known = Calibrations::default();

@@ -9,7 +9,9 @@ use substrate::Calibrations;
 use crate::samples::{LAWS, design, domino, finer, on_row, settled, solve, solve_as};
 use crate::{complete, end};
 
-/// Designs of the reference study with a surface that folds over before 10°, in one gap or in many.
+/// Designs with a surface that folds over before 10°, in one gap or in many.
+///
+/// They belong to the reference study.
 fn folded() -> [Design; 5] {
     [
         domino(),
@@ -24,7 +26,7 @@ fn automatic() -> PunctureParameters {
     PunctureParameters { scales: RowLength::Auto, ..PunctureParameters::default() }
 }
 
-/// Computes the stretch of every gap at the end of a path from the corners of the bases.
+/// Computes the stretch of every gap at the path end from the base corners.
 fn stretches(design: &Design, puncture: &Puncture) -> Vec<f64> {
     let (a, pitch) = (design.half_base(), 2.0 * design.half_base() + design.gap);
     let width = |left: &skin::puncture::ScaleState, right: &skin::puncture::ScaleState| {

@@ -151,7 +151,7 @@ fn tip_and_corner_stick_together_in_a_notch() {
     }
 }
 
-/// Lists the punctures with this friction that are not complete, with their statuses.
+/// Lists the incomplete punctures with this friction and their statuses.
 fn incomplete(
     designs: impl IntoIterator<Item = Design>,
     friction: f64,

@@ -1,4 +1,4 @@
-//! Puncture of one scale without neighbours, against [`analytical::isolated_scale`].
+//! Puncture of one isolated scale, against [`analytical::isolated_scale`].
 
 use analytical::isolated_scale::IsolatedScale;
 use approx::assert_relative_eq;

@@ -19,8 +19,9 @@ fn solve(design: &Design, parameters: &PunctureParameters) -> Puncture {
     solve_as(&Calibrations::default(), design, &Common::default(), parameters)
 }
 
-/// Each position matches a separate puncture, and the weakest has the smallest force, to the last
-/// bit.
+/// Each position matches a separate puncture to the last bit.
+///
+/// The weakest has the smallest force.
 #[test]
 fn the_weakest_position_has_the_smallest_force_of_single_punctures() {
     let known = Calibrations::default();

@@ -63,7 +63,7 @@ fn random_designs_are_solved() {
     }
 }
 
-/// Computes the relative difference of the critical forces of both substrate laws at a tilt.
+/// Computes the relative difference of both laws' critical forces at a tilt.
 fn difference(design: &Design, tilt_deg: f64) -> f64 {
     let linear = PunctureParameters { critical_tilt_deg: tilt_deg, ..on_row(21) };
     let force = |parameters: PunctureParameters| {
@@ -104,8 +104,9 @@ fn steps_ten_times_smaller_give_the_same_measures() {
     }
 }
 
-/// The closed form of the far field assumes springs; it starts where bars differ from them by
-/// round-off.
+/// The closed form of the far field assumes springs.
+///
+/// It starts where bars differ from them by round-off.
 #[test]
 fn automatic_rows_match_longer_rows() {
     let known = Calibrations::default();

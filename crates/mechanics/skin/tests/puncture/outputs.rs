@@ -57,10 +57,10 @@ fn reactions_add_up_to_the_load() {
     }
 }
 
-/// Returns the contacts left closed by the events: their kinds at each level of each pair.
+/// Returns the kinds of the contacts that the events left closed.
 ///
-/// Flush edges have two at one level; one of them is removed where it is handed over to the other
-/// or the corner is reached.
+/// They are listed for each level of each pair. Flush edges have two at one level; one of them is
+/// removed where it is handed over to the other or the corner is reached.
 fn closed_by(
     events: &[ContactEvent<PuncturePoint>],
 ) -> HashMap<(i64, bool), HashSet<&'static str>> {

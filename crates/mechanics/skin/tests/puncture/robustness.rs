@@ -39,7 +39,9 @@ fn the_reference_study_is_solved_with_either_law() {
     }
 }
 
-/// Every seventh design: all gaps, lengths and slants occur, since 7 divides none of their counts.
+/// Every seventh design.
+///
+/// All gaps, lengths and slants occur, since 7 divides none of their counts.
 #[test]
 fn hard_and_soft_contacts_are_solved() {
     let known = Calibrations::default();
@@ -62,8 +64,9 @@ fn hard_and_soft_contacts_are_solved() {
     }
 }
 
-/// At 1/100 of the reference modulus the exchanged law allows an approach larger than the
-/// thickness.
+/// The exchanged law allows an approach larger than the thickness.
+///
+/// It does at 1/100 of the reference modulus.
 #[test]
 fn scales_too_soft_to_carry_the_load_fail_the_audit() {
     let design = design(0.1, 0.5, 75.0, skin::Base::L);
@@ -90,8 +93,7 @@ fn random_designs_are_solved() {
     }
 }
 
-/// At large tilts tips slide off the far ends of edges, or pass below the bases of their
-/// neighbours.
+/// At large tilts tips slide off far edge ends or pass below neighbouring bases.
 ///
 /// The model ends there, and the path must report a mechanical reason, not a numerical one. A
 /// hundred designs; a thousand in a long campaign.

@@ -13,8 +13,7 @@ use crate::{complete, end};
 
 const SMOOTH: Needle = Needle::Guided { friction: 0.0 };
 
-/// Designs with a sharp needle that stays on its top, and some with a needle that passes into the
-/// notch.
+/// Designs with a sharp needle on its top, some passing into the notch.
 const DESIGNS: [(f64, f64, f64); 7] = [
     (0.1, 1.0, 0.0),
     (0.5, 1.0, 0.0),
@@ -33,7 +32,7 @@ fn solve(design: &Design, parameters: &PunctureParameters) -> Puncture {
     solve_as(&Calibrations::default(), design, &Common::default(), parameters)
 }
 
-/// The difference from a sharp tip is proportional to the radius, in the notch, too.
+/// The difference from a sharp tip is proportional to the radius, also in a notch.
 #[test]
 fn small_radii_converge_to_a_sharp_tip() {
     for (gap, length, slant) in DESIGNS {
@@ -50,8 +49,7 @@ fn small_radii_converge_to_a_sharp_tip() {
     }
 }
 
-/// With friction: the tip sticks, slides in both directions, and passes over the corner into the
-/// notch.
+/// With friction the tip sticks, slides both ways and passes into the notch.
 #[test]
 fn small_radii_converge_to_a_sharp_tip_with_friction() {
     for ((gap, length, slant), friction, inside) in [
@@ -115,8 +113,9 @@ fn an_isolated_scale_matches_the_closed_form() {
     }
 }
 
-/// Tips on the left and the right of an upright scale are mirror images, also if they touch several
-/// scales.
+/// Tips on the left and right of an upright scale are mirror images.
+///
+/// This holds also if they touch several scales.
 #[test]
 fn mirrored_needles_have_mirrored_results() {
     for (radius, friction) in [(0.2, 0.0), (1.0, 0.0), (0.2, 0.1), (1.0, 0.3)] {
@@ -154,7 +153,7 @@ fn a_tip_between_two_scales_loads_both_equally() {
     }
 }
 
-/// Positions of a round tip cover one pitch, including the region between two scales.
+/// Positions of a round tip cover one pitch, including between two scales.
 ///
 /// They repeat after a pitch.
 #[test]

@@ -47,8 +47,9 @@ fn automatic_rows_grow_where_scales_touch() {
     assert!(right >= 4 * left, "{left} {right}");
 }
 
-/// The end scales and the scales beyond touch nothing: the last displacements decay as in an
-/// endless row.
+/// The end scales touch nothing, so displacements decay as in an endless row.
+///
+/// The scales beyond them touch nothing either.
 #[test]
 fn ends_of_automatic_rows_are_contact_free() {
     let known = Calibrations::default();
@@ -71,7 +72,9 @@ fn ends_of_automatic_rows_are_contact_free() {
     }
 }
 
-/// The domino effect does not stop on a short row, so its force differs from a long one.
+/// The domino effect spreads along the whole row.
+///
+/// On a short row its force therefore differs from the force on a long one.
 #[test]
 fn a_short_row_underestimates_the_force() {
     let force = |scales| complete(&solve(&domino(), &on_row(scales))).critical_force.unwrap();
@@ -79,7 +82,7 @@ fn a_short_row_underestimates_the_force() {
     assert_relative_eq!(force(201), force(401), max_relative = 1e-9);
 }
 
-/// These scales are computed in closed form, because only the substrate acts on them.
+/// These scales have a closed form, because only the substrate acts on them.
 #[test]
 fn scales_out_of_reach_of_contact_are_in_equilibrium() {
     for scales in [12, 20, 41, 401] {

@@ -12,7 +12,7 @@ use crate::samples::{LAWS, on_row, settled, solve_as, springs, with_law};
 /// Round-off plus the tolerance of the equilibria.
 const SAME: f64 = 1e-9;
 
-/// Solves on the springs of an incompressible substrate, whatever the Poisson's ratio.
+/// Solves on the springs of an incompressible substrate, for any Poisson's ratio.
 fn measured(design: &Design, parameters: &PunctureParameters) -> PunctureMeasures {
     let springs = springs(&settled(), &on_row(1), &Calibrations::default());
     complete(&puncture::solve(design, &springs, &Common::default(), parameters).unwrap())

@@ -40,7 +40,7 @@ fn intermediate_tilts_match_paths_that_end_there() {
     assert!(compared > 180, "{compared}");
 }
 
-/// Intermediate tilts do not change the path, and the last tilt has the final measures.
+/// Intermediate tilts do not change the path; the last has the final measures.
 #[test]
 fn intermediate_tilts_do_not_change_the_path() {
     let known = Calibrations::default();

@@ -1,4 +1,4 @@
-//! The pair of blocks of Fig. 3 of Shafiei et al. (2021): a kink in the curve at first contact.
+//! Blocks of Fig. 3 of Shafiei et al. (2021), with a kink at first contact.
 
 use skin::puncture::{Puncture, PuncturePoint};
 use skin::{Base, Common, ContactChange, Design};

@@ -1,4 +1,6 @@
-//! Random designs in the widest ranges of a definition: how many paths stop for a numerical reason.
+//! Random designs in the widest ranges of a definition.
+//!
+//! The test counts paths that stop for a numerical reason.
 
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};

@@ -28,12 +28,16 @@ pub fn blocks() -> Design {
     design(0.1, 1.0, 0.0, Base::L)
 }
 
-/// The longest domino chain of the reference study: dozens of slender, steep scales touch.
+/// Longest domino chain of the reference study.
+///
+/// Dozens of slender, steep scales touch.
 pub fn domino() -> Design {
     design(0.1, 0.1, 75.0, Base::L)
 }
 
-/// A design with contacts up to a dozen scales from the load; longer rows do not change its path.
+/// Design with contacts up to a dozen scales from the load.
+///
+/// Longer rows do not change its path.
 pub fn settled() -> Design {
     design(0.2, 0.5, 60.0, Base::L)
 }
@@ -105,7 +109,9 @@ pub fn random(count: usize, seed: u64) -> Vec<Design> {
         .collect()
 }
 
-/// Returns true if long campaigns are requested by `SQUAMA_CAMPAIGNS=long`, as in `scripts/check`.
+/// Returns true if `SQUAMA_CAMPAIGNS=long` requests long campaigns.
+///
+/// `scripts/check-all` sets it.
 pub fn long_campaigns() -> bool {
     std::env::var_os("SQUAMA_CAMPAIGNS").is_some_and(|value| value == "long")
 }

@@ -16,22 +16,23 @@ const STRAIGHT: f64 = 0.7;
 /// hardly change.
 const STRAIGHT_IN_ALL: f64 = 0.8;
 
-/// Cosine of the largest angle (3°) between a chord and the mean direction of its ends.
+/// Cosine of the largest angle (3°) between a chord and its ends' mean direction.
 ///
 /// On an arc, chord and mean direction agree up to the third order of the length. A chord to a
 /// neighbouring path makes angles of the same sign with both directions.
 const SYMMETRIC: f64 = 0.9986;
 
-/// Rate of all coordinates, per rate of the controls, above which the path is hidden.
+/// Rate of all coordinates above which the path is hidden.
 ///
-/// A hidden path has motion far from the load, such as a local instability. The arc length in all
-/// coordinates measures it.
+/// The rate is per rate of the controls. A hidden path has motion far from the load, such as a
+/// local instability. The arc length in all coordinates measures it.
 pub(super) const HIDDEN: f64 = 100.0;
 
-/// Step length, in scales of the controls, below which the angle of a step is round-off.
+/// Step length below which the angle of a step is round-off.
 ///
-/// If the initial stiffness of a contact is a thousand times its later stiffness, the path turns by
-/// a right angle within 1e-8 of contact closure and continues from there.
+/// It is in scales of the controls. If the initial stiffness of a contact is a thousand times its
+/// later stiffness, the path turns by a right angle within 1e-8 of contact closure and continues
+/// from there.
 pub(super) const SHORT: f64 = 1e-7;
 
 impl<S: System> Continuation<S> {
@@ -91,7 +92,7 @@ impl<S: System> Continuation<S> {
         candidate.is_positive != self.is_positive || self.bends(from, candidate)
     }
 
-    /// Returns true if outgoing direction, chord and incoming direction differ strongly.
+    /// Returns true if outgoing, chord and incoming directions differ strongly.
     ///
     /// The angles are those in all coordinates. If one is large, the candidate lies on another
     /// branch or beyond a bend that the step cuts off.

@@ -1,4 +1,4 @@
-//! Rates of unknowns and directions by differences between two neighbouring systems.
+//! Rates of unknowns and directions by differences of two neighbouring systems.
 
 use crate::newton::Newton;
 use crate::system::{State, System, inactive};
@@ -26,7 +26,9 @@ pub(super) fn turning<S: System>(
     rates(newton, sides[0], &states[0], change)
 }
 
-/// Solves `J x = −change`, with zero change in the section and at inactive constraints.
+/// Solves `J x = −change`.
+///
+/// The change is zero in the section and at inactive constraints.
 pub(super) fn rates<S: System>(
     newton: &mut Newton,
     system: &S,

@@ -10,7 +10,7 @@ use crate::system::{State, System};
 /// First step of the secant search, relative to [`reach`].
 const SECANT: f64 = 1e-3;
 
-/// Convergence tolerance of the secant search: largest last step, relative to [`reach`].
+/// Convergence tolerance of the secant search: largest last step over [`reach`].
 const SETTLED: f64 = 1e-8;
 
 /// Largest step of the secant search, as a fraction of the path.
@@ -19,7 +19,7 @@ const FARTHEST: f64 = 0.1;
 /// Lower bound of [`reach`], as a fraction of the path.
 const SHORTEST: f64 = 1e-6;
 
-/// Slope over the path, relative to the value, below which a function counts as constant.
+/// Slope over the path below which a function is constant, relative to its value.
 const FLAT: f64 = 1e-9;
 
 /// Limit on the steps of the secant search.
@@ -116,7 +116,9 @@ fn fastest<S: System>(
     ways.filter(|(_, way)| way.is_finite()).min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// Returns the distance over which no unknown changes by more than its own value, at most 1.
+/// Returns the distance over which no unknown changes by more than its value.
+///
+/// It is at most 1.
 fn reach<S: System>(system: &S, state: &State<S::Mode>, direction: &[f64]) -> f64 {
     fastest(system, state, direction).map_or(1.0, |(_, way)| way.clamp(SHORTEST, 1.0))
 }

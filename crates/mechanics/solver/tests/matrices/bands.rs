@@ -6,7 +6,9 @@ use faer::{Col, Mat};
 use proptest::prelude::*;
 use solver::{BandLu, BandMatrix, Tangent};
 
-/// Builds a band matrix from `entries`, row by row; numbers above 2 stand for zeros.
+/// Builds a band matrix from `entries`, row by row.
+///
+/// Numbers above 2 stand for zeros.
 fn matrix(size: usize, half: usize, entries: &[f64]) -> BandMatrix {
     let mut matrix = BandMatrix::new(size, half);
     let places = (0..size).flat_map(|i| matrix.columns(i).map(move |j| (i, j)));

@@ -50,9 +50,9 @@ impl Chain {
     }
 }
 
-/// Generates chains of at most eight blocks with up to three extra unknowns beside each link.
+/// Generates chains of at most eight blocks, with extra unknowns beside links.
 ///
-/// Chains of larger reach have their root at the end.
+/// Each link has up to three. Chains of larger reach have their root at the end.
 fn chains() -> impl Strategy<Value = Chain> {
     let extras = prop::collection::vec(prop::array::uniform2(0_usize..4), 1..8);
     (extras, 0_usize..8, prop_oneof![Just(1), 2..=FARTHEST_LINK]).prop_map(
@@ -158,7 +158,7 @@ proptest! {
         prop_assert_eq!(x, solver.solve_unit(unknown));
     }
 
-    /// The blocks after elimination have the number of negative eigenvalues of the matrix.
+    /// Blocks after elimination have as many negative eigenvalues as the matrix.
     ///
     /// This holds for symmetric matrices without extra unknowns. The sign of a block's determinant
     /// shows only whether its number is odd.
@@ -185,11 +185,10 @@ proptest! {
     }
 }
 
-/// Row of scales: springs under bases of half-width `a`, and stiff contacts between some
-/// neighbours.
+/// Row of scales: springs under bases and stiff contacts of some neighbours.
 ///
-/// The forces are numbered between the displacements of their scales, the load after the
-/// displacements of the root.
+/// The bases have half-width `a`. The forces are numbered between the displacements of their
+/// scales, the load after the displacements of the root.
 struct ContactRow {
     chain: Chain,
     dense: Mat<f64>,

@@ -85,7 +85,7 @@ fn a_thin_wall_within_one_step_is_not_missed() {
     }
 }
 
-/// The chord of the nearer wall's guard points to a position behind the farther wall.
+/// The chord of the nearer wall's guard points behind the farther wall.
 #[test]
 fn the_nearer_of_two_walls_is_met_first() {
     let near: fn(f64) -> [f64; 2] =
@@ -170,7 +170,9 @@ fn a_path_that_turns_back_at_an_event_goes_on() {
     assert_relative_eq!(end[1], 0.5 * (1.0 + 5.0_f64.sqrt()), max_relative = 1e-9);
 }
 
-/// On the reversed part of the corner's path, `p = u + 3c` with `u = 1 − c + c²` still increases.
+/// On the reversed path of the corner, `p = u + 3c` still increases.
+///
+/// There `u = 1 − c + c²`.
 #[test]
 fn a_turn_at_an_event_is_no_load_extremum() {
     let (points, _) = follow(corner(), Settings::default());

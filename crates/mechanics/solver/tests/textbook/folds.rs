@@ -58,7 +58,9 @@ fn a_snap_back_does_not_depend_on_the_steps() {
     }
 }
 
-/// Starts at the lowest point, uses arc length where `x` turns, and ends after a full turn.
+/// Starts at the lowest point and ends after a full turn.
+///
+/// Uses arc length where `x` turns.
 #[test]
 fn a_circle_is_followed_all_the_way_round() {
     let start = State { z: vec![0.0, -1.0], active: Vec::new(), mode: () };

@@ -7,11 +7,11 @@ use solver::{
 
 use crate::{follow, steps};
 
-/// Coefficient of friction, and the relative increase of the normal force with displacement.
+/// Friction coefficient, and relative normal-force increase with displacement.
 const FRICTION: f64 = 0.2;
 const WEDGE: f64 = 0.5;
 
-/// Block on a spring of stiffness 1, pushed by `f = 4 D (1 − D)` on a floor with friction.
+/// Block on a spring of stiffness 1, pushed by `f = 4 D (1 − D)` with friction.
 ///
 /// The friction force obeys `|T| ≤ μ (1 + c u)`.
 ///
@@ -133,7 +133,7 @@ fn a_block_sticks_slips_sticks_and_slips_back() {
     }
 }
 
-/// The tangent of a slipping block is unsymmetric, and both eliminations must handle it.
+/// The tangent of a slipping block is unsymmetric; both eliminations handle it.
 #[test]
 fn the_tangent_of_a_slipping_block_agrees_with_differences() {
     let (points, _) = follow(block(true), steps(0.05));

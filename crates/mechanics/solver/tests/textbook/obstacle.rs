@@ -24,8 +24,9 @@ fn a_loaded_string_settles_on_the_floor() {
     }
 }
 
-/// Nodes without contact have no force, whatever the initial iterate; nodes that just touch stay
-/// open.
+/// Nodes without contact have no force, whatever the initial iterate.
+///
+/// Nodes that just touch stay open.
 #[test]
 fn nodes_without_force_stay_open() {
     let string = StringOverFloor::whole(4, 1.0);

@@ -6,13 +6,15 @@ use solver::{Continuation, Equilibrium, Peak, State, System};
 use crate::problems::{arch, kink, step, two_laws};
 use crate::steps;
 
-/// Returns the largest slope `dp/du` of a path from rest, at its points and between them.
+/// Returns the largest slope `dp/du` from rest, at points and between them.
 fn steepest<S: System>(system: S, largest_step: f64) -> [f64; 2] {
     let load = system.load();
     largest(system, largest_step, |_, direction| direction[load] / direction[0])
 }
 
-/// Returns the maximum of a function of state and direction, at points and between them.
+/// Returns the maximum of a function of state and direction.
+///
+/// It is evaluated at points and between them.
 fn largest<S: System>(
     system: S,
     largest_step: f64,

@@ -241,7 +241,7 @@ pub struct StringOverFloor {
 pub const DEPTH: f64 = 0.1;
 
 impl StringOverFloor {
-    /// Creates a string of `intervals` elements (an even number), loaded up to `q = load`.
+    /// Creates a string of `intervals` (even) elements, loaded up to `q = load`.
     pub fn whole(intervals: usize, load: f64) -> Self {
         Self::new(intervals, load, false)
     }
@@ -359,7 +359,7 @@ impl System for StringOverFloor {
     }
 }
 
-/// System with one coordinate `u`, one constraint `0 ≤ c ⟂ r(u, c) ≥ 0` and `p = f(u, c)`.
+/// System with coordinate `u`, constraint `0 ≤ c ⟂ r(u, c) ≥ 0`, `p = f(u, c)`.
 ///
 /// Unknowns `u, c, p`; driven by `u`.
 #[derive(Clone)]
@@ -456,7 +456,7 @@ pub fn kink<const DECAY: u32>() -> OneConstraint {
     }
 }
 
-/// System with two laws, before and after the activation of a constraint at `u = 0.5`.
+/// System with two laws, before and after a constraint activates at `u = 0.5`.
 ///
 /// `p = u + 0.2 (tanh 10 (u − 0.2) + tanh 2)` before, and `p = u` plus a constant after. The first
 /// law has its maximum slope 3 at `u = 0.2`.

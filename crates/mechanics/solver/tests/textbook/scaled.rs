@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use solver::{BandMatrix, Change, Control, Residual, State, System, Tangent};
 
-/// System in other units: `factors` multiply the unknowns and the scales of the controls.
+/// System in other units: `factors` multiply unknowns and control scales.
 ///
 /// The path is the same.
 #[derive(Clone)]

@@ -9,13 +9,13 @@ use crate::RowStiffness;
 /// Number of blocks after which a row without convergence counts as non-decaying.
 const BLOCKS: usize = 400;
 
-/// Relative change of the reduction per block below which the row counts as infinite.
+/// Relative change of the reduction per block below which the row is infinite.
 const SETTLED: f64 = 1e-15;
 
-/// Infinite row of free scales coupled with `m` neighbours on each side, in blocks of `m`.
+/// Infinite row of free scales coupled with `m` neighbours per side.
 ///
-/// Each block has the stiffness `D` for itself and `U` for the next block. A block with `n` more
-/// behind it has the stiffness `D − R_n`,
+/// Its blocks have `m` scales. Each block has the stiffness `D` for itself and `U` for the next
+/// block. A block with `n` more behind it has the stiffness `D − R_n`,
 ///
 /// ```text
 /// R_0 = 0,   R_{n+1} = U (D − R_n)⁻¹ Uᵀ  →  R,      X_{j+1} = −(D − R)⁻¹ Uᵀ X_j         (S17)
@@ -86,7 +86,7 @@ impl CoupledRow {
     }
 }
 
-/// Returns the stiffness of a block for a block that begins `farther` scales to the right.
+/// Returns the stiffness of a block for the block `farther` scales to the right.
 ///
 /// It is `D` for 0.
 fn block(stiffness: &RowStiffness, farther: usize) -> Mat<f64> {

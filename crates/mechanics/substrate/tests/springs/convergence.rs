@@ -116,7 +116,9 @@ fn reactions_converge_with_third_order() {
     }
 }
 
-/// Returns the relative difference of the two cross terms, which are equal by Betti's theorem.
+/// Returns the relative difference of the two cross terms.
+///
+/// They are equal by Betti's theorem.
 fn reciprocity_defect(found: &RowReactions) -> f64 {
     let CrossTerms { force, moment } = found.cross[0];
     (force - moment).abs() / force.abs().max(moment.abs())
@@ -136,7 +138,9 @@ fn reciprocity() {
     }
 }
 
-/// Far outside the range the values remain usable, and the estimate states their accuracy.
+/// Far outside the range the values remain usable.
+///
+/// The estimate states their accuracy.
 #[test]
 fn extreme_footprints_have_larger_error_estimates() {
     for (gap, width) in [(1e-3, 2.0), (1e-6, 2.0), (1.0, 1e-2), (1.0, 1e4), (1e-3, 100.0)] {

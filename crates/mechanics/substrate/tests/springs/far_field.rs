@@ -11,7 +11,7 @@ fn springs(alpha: f64, ratio: f64) -> RowStiffness {
     RowStiffness::from(&Springs { direct, coupling, error: 0.0 })
 }
 
-/// Solves a row of free scales with its first scale displaced by 1, in direction `k`.
+/// Solves a row of free scales with its first scale displaced by 1 along `k`.
 ///
 /// Returns the displacements and the force on the first scale, by Thomas's algorithm from the far
 /// end.
@@ -119,7 +119,7 @@ fn dense(stiffness: &RowStiffness, scales: usize) -> Mat<f64> {
     matrix
 }
 
-/// With `m` couplings, the last `m` scales of an infinite row take the role of the last one.
+/// With `m` couplings, the last `m` scales of an infinite row act as its last.
 ///
 /// Compared with the static condensation of 400 scales.
 #[test]

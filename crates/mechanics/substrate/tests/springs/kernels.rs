@@ -32,7 +32,7 @@ fn cells_away_from_the_field_point() {
     }
 }
 
-/// In polar coordinates about a field point inside the cell, the integrand is regular.
+/// In polar coordinates about an inner field point the integrand is regular.
 ///
 /// `∬ x²/r³ = ∫ R(θ) cos²θ dθ` with the distance `R` to the boundary.
 #[test]

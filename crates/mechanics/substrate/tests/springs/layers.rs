@@ -60,7 +60,7 @@ fn wave(ratio: f64, k: f64) -> [[f64; 2]; 2] {
     [solution([0.0, 1.0]), solution([1.0, 0.0])]
 }
 
-/// The compliances, including the sign of the coupling, against a directly solved layer.
+/// The compliances, with the sign of the coupling, against a solved layer.
 #[test]
 fn compliances_agree_with_a_directly_solved_layer() {
     for ratio in [0.5, 0.3, 0.0] {
@@ -77,7 +77,9 @@ fn compliances_agree_with_a_directly_solved_layer() {
     }
 }
 
-/// In real space against the trapezoidal rule, with Bessel functions from their own integrals.
+/// In real space against the trapezoidal rule.
+///
+/// Bessel functions come from their own integrals.
 #[test]
 fn point_loads_are_hankel_transforms() {
     let bessel = |order: f64, z: f64| {
@@ -113,7 +115,7 @@ fn point_loads_are_hankel_transforms() {
     }
 }
 
-/// The contribution of a layer decreases with its thickness, the normal part as `1/h`.
+/// The contribution of a layer decreases with thickness, normal as `1/h`.
 #[test]
 fn thick_layers_approach_the_half_space() {
     for coupling in [Coupling::Nearest, Coupling::Full] {

@@ -12,13 +12,17 @@ fn springs(gap: f64, width: f64, poisson_ratio: f64) -> Springs {
     calibrate(&Footprint::new(gap, width, poisson_ratio).unwrap()).unwrap()
 }
 
-/// Compares with `printed`, rounded to `digits` decimals; the error estimate refers to `direct`.
+/// Compares with `printed`, rounded to `digits` decimals.
+///
+/// The error estimate refers to `direct`.
 fn assert_printed(found: f64, printed: f64, digits: i32, estimate: f64) {
     let allowed = 0.5 * 10_f64.powi(-digits) + estimate;
     assert!((found - printed).abs() <= allowed, "{found} is not {printed} within {allowed:.1e}");
 }
 
-/// Borodachev (1976): a rigid square punch of side `s` needs `P = 1.1523 E* s δ`; here `s = 2a`.
+/// Borodachev (1976): a rigid square punch needs `P = 1.1523 E* s δ`.
+///
+/// Its side is `s`; here `s = 2a`.
 #[test]
 fn borodachev_square_punch() {
     for poisson_ratio in [0.0, 0.3, 0.5] {
@@ -88,7 +92,9 @@ fn coupling_vanishes_with_distance() {
     assert!(last[0] < 4e-3 && last[1] < 4e-3 && last[2] < 1e-6, "{last:?}");
 }
 
-/// The limit of an isolated rectangle is smooth: the effect of the gap `d` decreases as `(a/p)²`.
+/// The limit of an isolated rectangle is smooth.
+///
+/// The effect of the gap `d` decreases as `(a/p)²`.
 #[test]
 fn isolated_limit() {
     let alone = extrapolated(&Footprint::new(ALONE, 2.0, 0.5).unwrap(), [16, 24]).unwrap();

@@ -85,7 +85,9 @@ fn rows_are_as_accurate_as_equation_1() {
     }
 }
 
-/// (S11): doubling the number of neighbours changes no value by more than the truncation error.
+/// (S11): doubling the number of neighbours changes values little.
+///
+/// No value changes by more than the truncation error.
 #[test]
 fn the_truncation_error_bounds_the_effect_of_more_neighbours() {
     for numbers in FOOTPRINTS {
@@ -98,7 +100,9 @@ fn the_truncation_error_bounds_the_effect_of_more_neighbours() {
     }
 }
 
-/// Returns the largest difference of the common stiffnesses of two rows, over `K_0`.
+/// Returns the largest difference of the common stiffnesses of two rows.
+///
+/// It is over `K_0`.
 fn largest_change(short: &RowStiffness, long: &RowStiffness) -> f64 {
     let pairs = short.neighbours.iter().zip(&long.neighbours).map(|(a, b)| (a.direct, b.direct));
     let changes = pairs

@@ -4,7 +4,7 @@ use substrate::boundary_element::row_reactions;
 use substrate::table::{GAPS, WIDTHS};
 use substrate::{Coupling, Footprint, NEIGHBOURS, RowStiffness, calibrate};
 
-/// Generates footprints over the whole range, by multiples of three irrational numbers.
+/// Generates footprints over the whole range, by multiples of three irrationals.
 fn footprints(count: usize) -> impl Iterator<Item = Footprint> {
     (1..=count).map(|k| {
         let part = |step: f64| (k as f64 * step).fract();
@@ -45,8 +45,9 @@ fn springs_agree_with_fine_meshes() {
     }
 }
 
-/// Long rows are less accurate than Eq. (1): the neglected coupling, the truncation, is sixty times
-/// as large.
+/// Long rows are less accurate than Eq. (1).
+///
+/// The neglected coupling, the truncation, is sixty times as large.
 #[test]
 fn long_rows_agree_with_boundary_elements() {
     for footprint in footprints(3) {
@@ -72,7 +73,9 @@ fn long_rows_agree_with_boundary_elements() {
     }
 }
 
-/// The range ends with the table; outside, boundary elements are solved and report a larger error.
+/// The range ends with the table.
+///
+/// Outside, boundary elements are solved and report a larger error.
 #[test]
 fn table_and_boundary_elements_agree_at_the_range_limits() {
     for [gap, width] in [[0.0125, 0.25], [0.0125, 80.0], [100.0, 0.25], [100.0, 80.0]] {

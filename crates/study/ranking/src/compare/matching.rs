@@ -66,7 +66,7 @@ fn common(first: &Results, second: &Results) -> Vec<&'static Parameter> {
     vary.filter(|p| knows(first, p) && knows(second, p)).collect()
 }
 
-/// A parameter by which designs are matched, and its different numbers in both runs.
+/// A parameter that matches designs, and its different numbers in both runs.
 struct CommonParameter {
     parameter: &'static Parameter,
     numbers: DistinctNumbers,

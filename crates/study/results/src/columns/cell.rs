@@ -9,7 +9,7 @@ use text::number;
 
 use crate::design::failure::finite;
 
-/// One cell of a table, before formatting: each output format writes it differently.
+/// One cell of a table before formatting, which depends on the output format.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Cell {

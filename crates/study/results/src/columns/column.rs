@@ -81,9 +81,10 @@ pub fn number<R>(cell: fn(&R) -> Cell) -> Column<R> {
     Column::new("design", "-", "position of the design in the grid of its sweep", cell)
 }
 
-/// Returns the header for a parameter: its key, unless a measured value has the same name. For
-/// example, the solved row may have more scales than `scales` requests, and the number of gaps
-/// follows from the length of the strip.
+/// Returns the header for a parameter.
+///
+/// It is its key, unless a measured value has the same name. For example, the solved row may have
+/// more scales than `scales` requests, and the number of gaps follows from the length of the strip.
 fn header(parameter: &Parameter) -> &'static str {
     match parameter.key {
         "scales" => "scales_asked",

@@ -26,7 +26,9 @@ pub(super) struct ValueColumn {
     pub(super) meaning: Cow<'static, str>,
 }
 
-/// Statistics over imperfect samples, in column order: suffix of the name, and description.
+/// Statistics over imperfect samples, in column order.
+///
+/// Each is the suffix of the name, and the description.
 const STATISTICS: [(&str, &str); 4] = [
     ("mean", "mean"),
     (QUANTILES[0].0, "5 % quantile"),
@@ -65,8 +67,9 @@ fn statistics_columns(value: &'static MeasuredValue) -> Vec<ValueColumn> {
     count.into_iter().chain(statistics).collect()
 }
 
-/// Returns the physical columns: leading values, limits of the skin, other values, statistics,
-/// mass.
+/// Returns the physical columns.
+///
+/// The order is leading values, limits of the skin, other values, statistics, mass.
 fn in_physical_units() -> impl Iterator<Item = ValueColumn> {
     let mut values: Vec<_> = VALUES.iter().collect();
     // Stable sort: each of the three groups keeps the order of `designs.csv`.

@@ -12,7 +12,7 @@ use crate::design::sample_statistics::{SampleStatistics, Statistics};
 use crate::folder::MEASURE_TABLES;
 use crate::quantity::Quantity;
 
-/// A measured value: everything that tables, rankings, derivatives and pages need to know about it.
+/// A measured value, with all that tables, rankings, derivatives and pages need.
 #[derive(Debug)]
 pub struct MeasuredValue {
     /// Header of the column.

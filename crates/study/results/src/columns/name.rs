@@ -1,6 +1,10 @@
-//! Names of the measured values that code refers to: tables, derivatives, rankings, pages.
+//! Names of the measured values that code refers to.
+//!
+//! Tables, derivatives, rankings and pages use them.
 
-/// Coverage: fraction of the scale layer that a vertical line crosses as solid scale.
+/// Coverage: fraction of the scale layer crossed as solid scale.
+///
+/// It is measured along a vertical line.
 pub const COVERAGE: &str = "coverage";
 /// Force at the critical tilt.
 pub const CRITICAL_FORCE: &str = "critical_force";

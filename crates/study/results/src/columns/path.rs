@@ -1,4 +1,4 @@
-//! The columns of the path tables of one design: paths, events, scales and iterations.
+//! The columns of a design's path tables: paths, events, scales, iterations.
 
 use skin::flexure;
 use skin::puncture::{
@@ -207,8 +207,9 @@ pub static FLEXURE_EVENTS: &[Column<ContactEvent<flexure::FlexurePoint>>] = &col
     "change", "-", |e| e.change.name(), "change of the contact";
 };
 
-/// A scale of a bent strip: index from the first (fixed) scale, displacement (`t`) and rotation
-/// (radians).
+/// A scale of a bent strip: index, displacement (`t`) and rotation (radians).
+///
+/// The index counts from the first (fixed) scale.
 pub type BentScale = (usize, [f64; 3]);
 
 /// The columns of `flexure_scales.csv`.

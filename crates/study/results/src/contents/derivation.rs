@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::verified_folder::VerifiedFolder;
 use crate::folder::ResultsFolder;
 
-/// A product of the tables of a results folder: a ranking, a workbook, figures, a page.
+/// A product of the tables of a results folder: ranking, workbook, figures, page.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Derivation {

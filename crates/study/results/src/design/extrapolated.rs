@@ -36,10 +36,10 @@ struct MovedParameter<'p> {
 }
 
 impl DesignRow {
-    /// Returns the row of a neighbouring case, extrapolated by the derivatives: `m + Σ Δq dm/dq`.
+    /// Returns the row of a neighbouring case, extrapolated by the derivatives.
     ///
-    /// Differences of these rows give the derivative of any column, whatever function of measures
-    /// and parameters it is.
+    /// It is `m + Σ Δq dm/dq`. Differences of these rows give the derivative of any column,
+    /// whatever function of measures and parameters it is.
     ///
     /// A measure that depends on a changed parameter has no value in the row if it has no
     /// derivatives, or if it is at a kink without the requested side. If it has derivatives but

@@ -1,4 +1,4 @@
-//! Failures as data: the measure without a value, the reason, and the end of the path.
+//! Failures as data: measure without value, reason, and end of the path.
 
 use serde::{Deserialize, Serialize};
 use skin::Iteration;

@@ -1,4 +1,4 @@
-//! Thins a long table: keeps rows at equal distances, and the best rows by some columns.
+//! Thins a long table to equidistant rows and the best rows by some columns.
 
 use super::table::Table;
 use crate::columns::{Goal, plain_goal};

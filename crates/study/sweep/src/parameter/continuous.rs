@@ -10,7 +10,7 @@ use crate::case::Case;
 const LEAST_FRICTION: f64 = 1e-4;
 
 impl Parameter {
-    /// Returns the value of this parameter in `case`, or `None` if an alternative key defines it.
+    /// Returns this parameter's value in `case`; `None` if another key defines it.
     fn written_value(&self, case: &Case) -> Option<Scalar> {
         let first = self.instead().map(|first| first.get(case));
         // A word such as `auto` or `none` leaves the value to this parameter.

@@ -20,7 +20,7 @@ pub enum Role {
     Scattered,
     /// The springs of the substrate depend on it.
     MovesSprings,
-    /// Defines the end of a puncture: a criterion of the study, without manufacturing deviations.
+    /// Ends a puncture: a criterion of the study, without manufacturing deviations.
     EndsPuncture,
     /// Defines the end of bending.
     EndsBending,

@@ -214,8 +214,9 @@ fn a_load_between_two_scales_requires_a_round_tip() {
     }
 }
 
-/// The largest of several critical tilts ends the puncture; frictions give tilts by their
-/// arctangents.
+/// The largest of several critical tilts ends the puncture.
+///
+/// Frictions give tilts by their arctangents.
 #[test]
 fn critical_tilts_are_given_in_degrees_or_by_friction() {
     let read = |text: &str| Sweep::parse(&format!("name = 'x'\n{text}"), "x.toml", &[]).unwrap();

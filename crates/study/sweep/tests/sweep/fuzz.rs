@@ -1,6 +1,6 @@
-//! Fuzz tests: random and nearly valid definitions and settings never cause a panic.
+//! Fuzz tests: random and nearly valid input never causes a panic.
 //!
-//! `scripts/fuzz` runs them for any length of time.
+//! Inputs are definitions and settings. `scripts/fuzz` runs them for any length of time.
 
 use proptest::collection::vec;
 use proptest::prelude::*;

@@ -13,14 +13,16 @@ use crate::puncture::system::Chain;
 /// It covers round-off and the approach of corners that lie on the face.
 const BESIDE: f64 = 1e-9;
 
-/// Distance (over `t`) within which the shortest steps approach an end that they cannot pass.
+/// Distance (over `t`) within which the shortest steps approach an end.
+///
+/// The steps cannot pass the end.
 const AT_AN_END: f64 = 1e-6;
 
 /// Step of the differences for slopes of conditions, relative to the largest rate.
 pub(super) const STEP: f64 = 1e-6;
 
 impl Chain {
-    /// Adds the equations of a guided needle: balance (L1), closed gaps, and friction laws (L2).
+    /// Adds the equations of a needle: balance (L1), closed gaps, friction (L2).
     pub(in crate::puncture) fn add_needle(
         &self,
         needle: &GuidedNeedle,
@@ -73,7 +75,7 @@ impl Chain {
         }
     }
 
-    /// Returns the touch on the face of a notch, and the friction of its sticking corner.
+    /// Returns the touch on a notch face, and the friction of its sticking corner.
     fn corner_friction(&self, state: &SkinState) -> Option<(usize, TipFriction)> {
         let [face, corner] = self.notch(state)?;
         Some((face, self.contacts.friction_with_tip(state, corner)?))
@@ -168,11 +170,11 @@ impl Chain {
         }
     }
 
-    /// Computes the gap to the face that the needle would meet next, if its foot is within that
-    /// face.
+    /// Computes the gap to the face that the needle would meet next.
     ///
-    /// A tip that sticks on a corner meets that face together with the corner and without pressing
-    /// on it: corner and face carry their force alone until the tip slides.
+    /// Its foot must be within that face. A tip that sticks on a corner meets that face together
+    /// with the corner and without pressing on it: corner and face carry their force alone until
+    /// the tip slides.
     fn gap_of_next(&self, state: &SkinState, touch: &Touch) -> f64 {
         let here = self.tip(&state.z, touch.scale, touch.place);
         if let (TipState::Stick { .. }, OutlinePart::Top, Some(here)) =
@@ -189,10 +191,10 @@ impl Chain {
         faced.map_or(HOLDS, |tip| tip.gap)
     }
 
-    /// Returns true if the end of the next face is about to pass over the tip from the side.
+    /// Returns true if the end of the next face is about to pass over the tip.
     ///
-    /// The tip is then already below that face and a corner meets the shaft, which the model does
-    /// not cover.
+    /// It comes from the side. The tip is then already below that face and a corner meets the
+    /// shaft, which the model does not cover.
     pub(in crate::puncture) fn is_met_from_the_side(&self, state: &SkinState) -> bool {
         if state.mode.needle.is_round() {
             return false;
@@ -258,7 +260,7 @@ impl Chain {
         unknowns
     }
 
-    /// Calls `entry` for each entry of the symmetric stiffness of a frictionless needle.
+    /// Calls `entry` for each stiffness entry of a frictionless needle.
     ///
     /// These are second derivatives of `−N g + T ξ`, with `N` and, while the tip sticks, `T` as
     /// unknowns.
@@ -296,7 +298,7 @@ impl Chain {
         touches.map(|(slot, _, _, at)| at.tip.force(needle.forces(&state.z, slot)).x).sum()
     }
 
-    /// Computes the frictional dissipation at the tip between two points, `∫ μ_n N |dξ|`.
+    /// Computes the dissipation `∫ μ_n N |dξ|` at the tip between two points.
     pub(in crate::puncture) fn taken_at_tip(
         &self,
         from: &SkinPoint,
@@ -404,7 +406,9 @@ impl GuidedNeedle {
     }
 }
 
-/// Adds the force of a touch to the balances of its scale and, with opposite sign, of the needle.
+/// Adds the force of a touch to the balances of its scale and of the needle.
+///
+/// The needle takes it with opposite sign.
 fn add_balance(
     meeting: &Meeting,
     rows: [usize; COORDINATES],
@@ -466,7 +470,7 @@ fn add_law(
     }
 }
 
-/// Adds `factor` times the slopes with respect to the coordinates of a touch to a row.
+/// Adds `factor` times the slopes by the coordinates of a touch to a row.
 pub(super) fn add_row(
     row: usize,
     columns: [usize; COORDINATES],

@@ -46,7 +46,7 @@ impl HistoryObserver {
     }
 }
 
-/// A history variable and its derivative with respect to each parameter; `None` if unknown.
+/// A history variable with its derivative by each parameter; `None` if unknown.
 pub(in crate::puncture) struct Anchor {
     kept: HistoryVariable,
     rates: Vec<Option<f64>>,
@@ -153,7 +153,9 @@ pub(in crate::puncture) fn event_before(
     Some(AnchoredPoint { state, direction, anchor })
 }
 
-/// Computes the perturbed equilibria at an event; `None` if the parameter changes the event.
+/// Computes the perturbed equilibria at an event.
+///
+/// `None` if the parameter changes the event.
 fn moved_to(
     chain: &Chain,
     here: &mut Linearisation<SkinMode>,

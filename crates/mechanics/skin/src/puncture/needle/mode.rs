@@ -1,6 +1,8 @@
 //! Discrete state of a guided needle: its touches and their friction states.
 
-/// Part of the outline of a scale, ordered from the left foot over the top to the right foot.
+/// Part of the outline of a scale.
+///
+/// The order is from the left foot over the top to the right foot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd)]
 pub(crate) enum OutlinePart {
     /// The left face.
@@ -32,7 +34,9 @@ impl OutlinePart {
 /// along the face.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum TipState {
-    /// Slides since `ξ` was `start`: `T = sign μ N` with the sign of `ξ̇`, 0 without friction.
+    /// Slides since `ξ` was `start`: `T = sign μ N` with the sign of `ξ̇`.
+    ///
+    /// 0 without friction.
     Slip { sign: f64, start: f64 },
     /// Sticks: `ξ = anchor`, and `T` is unknown.
     Stick { anchor: f64 },
@@ -60,7 +64,9 @@ impl Touch {
         matches!(self.tip_state, TipState::Locked { .. })
     }
 
-    /// Replaces the outline part, for comparison: a round tip rolls between parts without sliding.
+    /// Replaces the outline part, for comparison.
+    ///
+    /// A round tip rolls between parts without sliding.
     pub(crate) fn anywhere(&self) -> Self {
         Self { place: OutlinePart::Top, ..*self }
     }
@@ -70,7 +76,7 @@ impl Touch {
         matches!(self.tip_state, TipState::Stick { .. } | TipState::Passing { .. })
     }
 
-    /// Returns true if the equations depend on a history variable: an anchor or a locked ratio.
+    /// Returns true if the equations depend on an anchor or a locked ratio.
     pub(crate) fn has_history(&self) -> bool {
         matches!(self.tip_state, TipState::Stick { .. } | TipState::Locked { .. })
     }
@@ -92,7 +98,9 @@ impl NeedleMode {
         self.touches.len() > SHARP_SLOTS
     }
 
-    /// Returns the part of a scale that the tip touches; scales are counted from the punctured one.
+    /// Returns the part of a scale that the tip touches.
+    ///
+    /// Scales are counted from the punctured one.
     pub(super) fn place(&self, scale: i64) -> Option<OutlinePart> {
         self.all().find(|(_, touch)| touch.scale == scale).map(|(_, touch)| touch.place)
     }

@@ -67,7 +67,9 @@ pub(super) const TURN: usize = 2;
 const DEPTH: usize = 3;
 
 impl Tip {
-    /// Places the tip at a face; `away` is the tip relative to the node of the scale at rest.
+    /// Places the tip at a face.
+    ///
+    /// `away` is the tip relative to the node of the scale at rest.
     pub(super) fn new(face: &Face, pose: &Pose, away: Vec2) -> Self {
         let arm = away - pose.displacement;
         let along = pose.turn(face.along);

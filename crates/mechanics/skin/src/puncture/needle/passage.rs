@@ -1,4 +1,4 @@
-//! Passage of a guided needle: where it touches more than its face, and how its path ends.
+//! Passage of a guided needle: touches beyond its face, and the end of its path.
 
 use serde::{Deserialize, Serialize};
 
@@ -54,10 +54,12 @@ impl Passage {
     }
 }
 
-/// Scales touched by a round tip (0 is the punctured one), with the normal forces in units of `F*`.
+/// Scales touched by a round tip, with normal forces in units of `F*`.
+///
+/// 0 is the punctured scale.
 pub type TipForces = Vec<(i64, f64)>;
 
-/// Detects the first touch beyond the initial face, and records the forces of a round tip.
+/// Detects the first touch beyond the initial face; records round-tip forces.
 #[derive(Debug, Default)]
 pub(in crate::puncture) struct PassageObserver {
     /// One entry per point that the path has left.

@@ -20,7 +20,7 @@ use crate::puncture::system::Chain;
 /// Largest reach of a round tip, in scales on each side of the punctured one.
 pub(crate) const FARTHEST_TOUCH: usize = 64;
 
-/// Scales in reach in addition to those below the tip at rest, because rows move sideways.
+/// Scales in reach beyond those below the tip at rest, because rows move sideways.
 const PUSHED_ALONG: usize = 2;
 
 /// Gaps of scales touched at rest agree within this round-off.
@@ -33,13 +33,15 @@ const SETTLES: usize = 8;
 
 const FACES: [OutlinePart; 3] = [OutlinePart::Left, OutlinePart::Top, OutlinePart::Right];
 
-/// Returns the reach of a round tip in scales on each side; `None` if it is too large.
+/// Returns the reach of a round tip in scales on each side.
+///
+/// `None` if it is too large.
 pub(in crate::puncture) fn reach(radius: f64, pitch: f64) -> Option<usize> {
     let reach = (radius / pitch).ceil() as usize + PUSHED_ALONG;
     (reach <= FARTHEST_TOUCH).then_some(reach)
 }
 
-/// Counts the unknowns per scale in reach: normal force and a condition on the position.
+/// Counts the unknowns per scale in reach: normal force, condition on position.
 ///
 /// With friction also the tangential force and the forward and backward slip distances.
 pub(super) fn of_scale(rubs: bool) -> usize {
@@ -57,7 +59,7 @@ impl GuidedNeedle {
         self.slots / 2
     }
 
-    /// Iterates over the scales in reach: slot, and number counted from the punctured scale.
+    /// Iterates over the scales in reach: slot, and number from the punctured scale.
     fn scales(&self) -> impl Iterator<Item = (usize, i64)> + use<> {
         let reach = self.reach() as i64;
         (-reach..=reach).enumerate()
@@ -76,7 +78,7 @@ impl GuidedNeedle {
 }
 
 impl Chain {
-    /// Computes the centre of the tip at rest, where the circle comes to rest from above.
+    /// Computes the centre of the tip at rest, lowered until its circle touches.
     ///
     /// The position is relative to the node of the punctured scale.
     pub(in crate::puncture) fn centre_at_rest(&self, needle: &GuidedNeedle, x: f64) -> Vec2 {

@@ -102,7 +102,7 @@ impl Chain {
         self.share_friction(needle, state);
     }
 
-    /// Makes a sticking tip and the corner of its notch take equal fractions of their limits.
+    /// Makes a sticking tip and its notch corner take equal fractions of their limits.
     ///
     /// The sum of their friction stays as it is. Only the sum matters while both stick.
     fn share_friction(&self, needle: &GuidedNeedle, state: &mut SkinState) {
@@ -144,7 +144,9 @@ impl Chain {
         self.contacts.lock(state, corner, Some(if forward { 1.0 } else { -1.0 }));
     }
 
-    /// Makes the corner of a notch stick with the tip on the face of `slot`, after sliding.
+    /// Makes the corner of a notch stick with the tip, after sliding.
+    ///
+    /// The tip is on the face of `slot`.
     fn stick_corner(
         &self,
         needle: &GuidedNeedle,
@@ -209,7 +211,7 @@ impl Chain {
         Some(NORMAL)
     }
 
-    /// Finds the touch of the face of a notch, and the contact of the corner that lies on it.
+    /// Finds the touch of a notch face, and the contact of the corner on it.
     pub(super) fn notch(&self, state: &SkinState) -> Option<[usize; 2]> {
         let touches = &state.mode.needle.touches;
         let top = touches.iter().position(|touch| {

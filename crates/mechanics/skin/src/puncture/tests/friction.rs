@@ -1,4 +1,4 @@
-//! Friction equations against finite differences, mirror images and the friction cone.
+//! Friction equations against finite differences, mirror images, friction cone.
 
 use std::collections::BTreeSet;
 
@@ -79,7 +79,7 @@ fn forces_stay_within_the_friction_cone() {
     assert!(compared > 20, "{compared}");
 }
 
-/// A row leaning to the left with the needle on the left mirrors one leaning to the right.
+/// A row leaning left with a left needle mirrors a row leaning right.
 #[test]
 fn rows_with_friction_have_mirror_images() {
     for (gap, length, slant, needle) in

@@ -42,7 +42,9 @@ fn work_of_the_load_equals_stored_energy() {
     }
 }
 
-/// At rest only the substrate contributes: coupling of force and rotation is symmetric.
+/// At rest only the substrate contributes.
+///
+/// The coupling of force and rotation is symmetric.
 #[test]
 fn tangent_at_rest_is_symmetric() {
     for case in CASES {

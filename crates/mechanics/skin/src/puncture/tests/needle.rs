@@ -68,7 +68,7 @@ pub(super) fn integral(values: [[f64; 2]; 5]) -> f64 {
     (0..5).map(|k| weights[k] * values[k][0] * slopes[k]).sum::<f64>() / 90.0
 }
 
-/// Forces of an independent program for a frictionless needle that stays on its top.
+/// Forces of an independent program for a frictionless needle on its top.
 #[test]
 fn a_frictionless_needle_slides_inward() {
     for (gap, length, slant, expected) in [
@@ -90,7 +90,7 @@ fn a_frictionless_needle_slides_inward() {
     assert_relative_eq!(shift, 0.12, max_relative = 0.02);
 }
 
-/// A tip that never slides, on a top or on a corner that comes to rest on the neighbour.
+/// A tip that never slides, on a top or on a corner that lies on the neighbour.
 #[test]
 fn a_needle_that_never_slides_matches_references() {
     for (slant, expected) in [(0.0, 0.2804), (45.0, 0.4314)] {
@@ -100,8 +100,9 @@ fn a_needle_that_never_slides_matches_references() {
     }
 }
 
-/// The row pushes the scale back below the needle, which passes over the corner onto the
-/// neighbour's face.
+/// The row pushes the scale back below the needle.
+///
+/// The needle then passes over the corner onto the neighbour's face.
 #[test]
 fn a_needle_passes_into_the_notch() {
     for (slant, friction, inside, force, tilt) in [
@@ -231,7 +232,9 @@ fn needle_work_is_stored_or_dissipated() {
     assert!(most > 0.01, "{most}");
 }
 
-/// Computes the dissipated fraction of the work of a needle, and checks that the rest is stored.
+/// Computes the dissipated fraction of the work of a needle.
+///
+/// Checks that the rest is stored.
 fn dissipated_fraction(path: Continuation<Chain>) -> f64 {
     let (mut done, mut rubbed, mut off) = (0.0, 0.0, 0.0_f64);
     for_segments(path, |path, from, to| {
@@ -283,7 +286,7 @@ fn an_isolated_scale_matches_a_scalar_equation() {
     assert_relative_eq!(puncture.measures.critical_force.unwrap(), expected, max_relative = 1e-9);
 }
 
-/// A needle at the left corner of upright scales is the mirror image of one at the right corner.
+/// Needles at the left and the right corner of upright scales are mirror images.
 #[test]
 fn mirrored_needles_have_mirrored_results() {
     for friction in [0.0, 0.2] {
@@ -305,7 +308,9 @@ fn mirrored_needles_have_mirrored_results() {
     }
 }
 
-/// The tip slides down the left face of the next scale to its foot, between two bases.
+/// The tip slides down the left face of the next scale to its foot.
+///
+/// The foot is between two bases.
 #[test]
 fn a_needle_passes_through_between_bases() {
     for friction in [0.0, 0.3] {
@@ -329,7 +334,7 @@ fn a_needle_passes_through_between_bases() {
     }
 }
 
-/// A row leaning to the left with the needle on the left mirrors one leaning to the right.
+/// A row leaning left with a left needle mirrors a row leaning right.
 #[test]
 fn rows_leaning_left_mirror_rows_leaning_right() {
     for (gap, length, slant, friction, inside) in

@@ -70,7 +70,7 @@ fn at_rest_bars_match_the_springs() {
     }
 }
 
-/// A row leaning to the left deforms as the mirror image of one leaning to the right.
+/// A row leaning to the left deforms as the mirror image of one leaning right.
 #[test]
 fn mirrored_rows_have_mirrored_forces() {
     let layout = RowLayout { left: 3, right: 3, needle: 0, contacts: 6 };

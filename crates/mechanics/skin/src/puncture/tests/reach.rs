@@ -10,7 +10,7 @@ use crate::puncture::system::RowLayout;
 use crate::puncture::{Problem, Puncture, PunctureParameters, Rows};
 use crate::{Base, Common, Design, Status};
 
-/// Designs of the paper in which scales touch their second neighbours under full coupling.
+/// Paper designs in which scales touch second neighbours under full coupling.
 const MEETING: [Design; 2] =
     [DOMINO, Design { gap: 0.1, length: 0.4, slant_deg: 75.0, base: Base::L, width: 1.0 }];
 

@@ -51,7 +51,7 @@ fn tangent_of_a_round_tip_matches_finite_differences() {
     assert_eq!(rubs.len(), 4);
 }
 
-/// Compares derivatives by radius, position and length with differences of solutions.
+/// Compares derivatives by radius, position, length with solution differences.
 ///
 /// The tips are on a face, on a corner, and on two or three scales.
 #[test]
@@ -82,7 +82,9 @@ fn derivatives_of_a_round_tip_match_differences() {
     }
 }
 
-/// Starts the path of a row of 21 scales under a round tip: radius, friction and position.
+/// Starts the path of a row of 21 scales under a round tip.
+///
+/// The parameters are radius, friction and position.
 fn round_path(
     [gap, length, slant]: [f64; 3],
     [radius, friction, load_position]: [f64; 3],
