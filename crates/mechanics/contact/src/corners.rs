@@ -48,7 +48,7 @@ impl Level {
         }
     }
 
-    /// Returns the contact of the neighbour's corner with the side that ends in the tip.
+    /// Returns the contact of the neighbour's corner with the side ending in the tip.
     fn corner_on_side(self) -> CornerEdge {
         match self {
             Self::Upper => CornerEdge::TopLeftOnRightEdge,

@@ -223,7 +223,7 @@ impl Together {
         v.dot(&self.beyond)
     }
 
-    /// Evaluates the second condition of (C6) while the partner's force vanishes, `v = D`.
+    /// Evaluates the second condition of (C6), `v = D`, while the partner's force is 0.
     fn short_of_the_end(&self) -> Equation {
         let mut condition = Equation { value: -self.overrun(self.apart), ..Equation::default() };
         for (i, slope) in condition.by_coordinate.iter_mut().enumerate() {

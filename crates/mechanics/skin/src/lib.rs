@@ -19,7 +19,7 @@
 //! | [`puncture::RowLength`] | number of scales: given, or as many as contact reaches |
 //! | [`puncture::PerturbedScale`] | one perturbed scale in a row, for derivatives by single scales |
 //! | [`puncture::Snap`], [`puncture::Instability`] | snap-through and loss of stability along the path |
-//! | [`puncture::TiltMeasures`] | measures at intermediate tilts |
+//! | [`puncture::TiltMeasures`] | measures at one of several critical tilts |
 //! | [`puncture::LoadPosition`], [`puncture::Weakest`] | other load positions, and the weakest one |
 //! | [`puncture::Puncture`], [`puncture::PunctureMeasures`] | path, events, scales and measures |
 //! | [`puncture::Fold`], [`puncture::GapStretch`] | folds of the substrate surface; stretch of the gaps |

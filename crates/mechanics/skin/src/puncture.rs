@@ -95,9 +95,9 @@ pub struct PunctureParameters {
     pub critical_tilt_deg: f64,
     /// Constitutive law of the substrate surface between two bases.
     pub substrate_law: SubstrateLaw,
-    /// Intermediate tilts at which measures are taken, degrees.
+    /// Smaller critical tilts at which measures are also taken, degrees.
     ///
-    /// The critical tilt is added to them. `None`: no measures at tilts.
+    /// `critical_tilt_deg` is added to them. `None`: no measures at tilts.
     pub tilts_before_deg: Option<NumberList>,
     /// Constraint on the needle.
     pub needle: Needle,

@@ -24,7 +24,7 @@ pub enum Relation {
 }
 
 impl Relation {
-    /// All relations, those with two characters first, because others are their prefixes.
+    /// All relations; signs of two characters come first because others are prefixes.
     pub const ALL: [Self; 5] = [Self::AtLeast, Self::AtMost, Self::Equal, Self::Above, Self::Below];
 
     /// Returns the sign of the relation.

@@ -27,11 +27,11 @@ pub(super) struct Part {
 pub(super) enum PairUnknowns {
     /// Row: each scale has three consecutive unknowns from this index.
     ///
-    /// Whole blocks are added.
+    /// Whole blocks are therefore added.
     Blocks([usize; 2]),
     /// Strip: a rotation is the difference of two unknowns.
     ///
-    /// Entries are added one by one.
+    /// Entries are therefore added one by one.
     Parts([Option<Part>; COORDINATES + 1]),
 }
 

@@ -264,7 +264,7 @@ impl Chain {
         AnchoredPoint { anchor: ended.map_or(place.anchor, PathAnchor::Guard), ..place }
     }
 
-    /// Anchors the point of largest load to its vanishing rate, unless something else holds it.
+    /// Anchors the point of largest load to its zero load rate, unless it is held.
     fn extremum(&self, place: &AnchoredPoint<SkinMode>) -> AnchoredPoint<SkinMode> {
         let held = sensitivity::is_held(self, place);
         let anchor = if held { place.anchor } else { PathAnchor::Stationary(LOAD_RATE) };

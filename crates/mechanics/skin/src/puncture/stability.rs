@@ -67,7 +67,7 @@ impl Chain {
         Some(Instability { load, depth: held(depth), tilt: held(tilt) })
     }
 
-    /// Lists the unknowns of the stiffness: displacements, and forces of contacts and needle.
+    /// Lists the unknowns of the stiffness: displacements, contact and needle forces.
     ///
     /// Forces are kept because their contacts may be rigid.
     fn kept(&self, state: &SkinState) -> Vec<usize> {

@@ -428,9 +428,7 @@ fn negative_eigenvalues(stiffness: &DMatrix<f64>, held: Option<&DVector<f64>>) -
     eigenvalues.iter().filter(|value| (-RIGID..-1e-13 * largest).contains(*value)).count()
 }
 
-/// Compares half-way between points.
-///
-/// At load extrema an eigenvalue vanishes.
+/// Compares half-way between points, because eigenvalues vanish at load extrema.
 fn compare_instability(path: Continuation<Chain>, compared: &mut HashSet<(usize, usize, usize)>) {
     for_segments(path, |path, from, to| {
         let Some(point) = path.between(from, to, 0.5) else { return };

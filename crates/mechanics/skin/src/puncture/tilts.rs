@@ -1,15 +1,15 @@
-//! Measures at intermediate tilts of a path.
+//! Measures at each of several critical tilts of a path.
 //!
-//! The critical tilt ends the path elsewhere: it is the target of the solver in `system.rs`, or for a
-//! guided needle a constraint in `needle/forces.rs`. `Case::punctured` in `study/sweep` derives the
-//! tilts of a free needle from its friction.
+//! This module does not end the path. The largest critical tilt does: it is the target of the solver
+//! in `system.rs`, or for a guided needle a constraint in `needle/forces.rs`. `Case::punctured` in
+//! `study/sweep` derives the tilts of a free needle from its friction.
 
 use serde::{Deserialize, Serialize};
 
 use super::system::Chain;
 use crate::contacts::SkinState;
 
-/// Measures of a puncture at an intermediate tilt.
+/// Measures of a puncture at one of several critical tilts.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TiltMeasures {
     /// `F*`.

@@ -14,7 +14,7 @@
 //! | `layers` | tissue of finite thickness, against another program |
 //! | `outputs` | the meaning of measures, events and scales |
 //! | `ends` | paths beyond the largest force: unloading to zero, and snap-through |
-//! | `tilts` | measures at intermediate tilts, against paths that end there |
+//! | `tilts` | measures at several critical tilts, against paths that end there |
 //! | `load_positions` | the weakest of several load positions, against single punctures |
 //! | `friction` | friction between scales: independent programs, steps, work |
 //! | `enumerated` | friction of two scales, against enumerated contact patterns |

@@ -1,4 +1,4 @@
-//! Measures at intermediate tilts, against paths that end there.
+//! Measures at several critical tilts, against paths that end there.
 
 use approx::assert_relative_eq;
 use skin::Status;
@@ -40,7 +40,7 @@ fn intermediate_tilts_match_paths_that_end_there() {
     assert!(compared > 180, "{compared}");
 }
 
-/// Intermediate tilts do not change the path; the last has the final measures.
+/// Smaller critical tilts do not change the path; the last has the final measures.
 #[test]
 fn intermediate_tilts_do_not_change_the_path() {
     let known = Calibrations::default();

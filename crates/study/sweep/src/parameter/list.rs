@@ -6,7 +6,7 @@
 //!
 //! 1. Add a field with its default to [`Case`] or to the parameters of `skin` in it, for example
 //!    [`skin::puncture::PunctureParameters`].
-//! 2. Add an entry to [`PARAMETERS`] in its section: key, unit, roles ([`Role`]), kind with range and
+//! 2. Add an entry to [`PARAMETERS`] in its section: key, unit, roles (`Role`), kind with range and
 //!    field, meaning. A key that other code refers to is a constant in `key.rs`.
 //! 3. If it excludes or requires other parameters, add a check to `wrong_together` in
 //!    `definition/reader.rs`. A length in mm gets a second entry with [`InMm`] and a field in
