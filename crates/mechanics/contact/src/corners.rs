@@ -87,7 +87,7 @@ pub(crate) struct Angle {
 impl<'a> Corners<'a> {
     /// Selects the corners at a level of `pair`.
     ///
-    /// `poses` are the poses of the left and the right scale.
+    /// `poses` holds the poses of the left and the right scale.
     pub fn new(level: Level, pair: &'a Pair, poses: [&'a Pose; 2]) -> Self {
         Self { level, pair, poses }
     }

@@ -199,7 +199,7 @@ fn half_turn(slant: f64, q: &[f64; 6]) -> [f64; 6] {
 
 /// Two rotated blocks with a corner exactly at the end of the other's edge.
 ///
-/// It is a corner of the left block.
+/// The corner belongs to the left block.
 #[test]
 fn edge_and_corner_states_agree_at_their_transition() {
     let (alike, leaning) = ([-0.05, 0.03], [0.05, -0.03]);

@@ -105,7 +105,7 @@ impl SkylineMatrix {
 
     /// Solves in place with the factors: `x` becomes the solution.
     ///
-    /// It holds the right-hand side before.
+    /// On entry `x` holds the right-hand side.
     pub fn solve(&self, x: &mut [f64]) {
         for row in 0..self.size() {
             let first = self.first[row];

@@ -1,4 +1,4 @@
-//! Displacement of a layer surface on a rigid base, relative to a half-space.
+//! Surface displacement of a layer on a rigid base, relative to a half-space.
 //!
 //! A traction wave of wave number `k` displaces the surface of a layer of thickness `h`. With
 //! `x = k h`, `κ = 3 − 4ν` and `D = κ cosh 2x + 2x² + 5 − 12ν + 8ν²`, and over `G k`, the

@@ -88,7 +88,7 @@ pub struct Neighbour {
 }
 
 impl Neighbour {
-    /// Returns true if each force depends only on its own direction.
+    /// Returns true if each force depends only on displacement in its own direction.
     pub fn is_diagonal(&self) -> bool {
         [self.cross, self.lift, self.roll] == [0.0; 3]
     }
@@ -249,9 +249,9 @@ const CELLS: [usize; 3] = [4, 6, 8];
 /// The smallest one that bounds the actual error for all reference values of the tests.
 pub(crate) const CAUTION: f64 = 0.3;
 
-/// Number of values per neighbour: three reactions, two cross terms.
+/// Number of values per neighbour in `RowReactions::numbers`.
 ///
-/// It counts for `RowReactions::numbers`.
+/// They are three reactions and two cross terms.
 const PER_NEIGHBOUR: usize = 5;
 
 /// Returns the reference size for the error of each value.

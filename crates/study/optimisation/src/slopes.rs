@@ -2,9 +2,9 @@
 
 use results::SlopeSide;
 
-/// Relative step of finite differences of linearly extrapolated table rows.
+/// Relative parameter step of finite differences of extrapolated table rows.
 ///
-/// It is relative to the parameter.
+/// The extrapolation is linear.
 const STEP: f64 = 1e-6;
 
 /// The derivatives of a value on both sides of a parameter.

@@ -247,7 +247,7 @@ fn differences(
 
 /// Solves a strip with this resolution and returns its measures.
 ///
-/// Returns none if its path is incomplete.
+/// Empty if its path is incomplete.
 fn measured(
     input: &FlexureInput,
     resolution: Resolution,

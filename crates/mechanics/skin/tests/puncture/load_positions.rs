@@ -21,7 +21,7 @@ fn solve(design: &Design, parameters: &PunctureParameters) -> Puncture {
 
 /// Each position matches a separate puncture to the last bit.
 ///
-/// The weakest has the smallest force.
+/// The weakest position has the smallest force.
 #[test]
 fn the_weakest_position_has_the_smallest_force_of_single_punctures() {
     let known = Calibrations::default();

@@ -102,7 +102,7 @@ fn the_truncation_error_bounds_the_effect_of_more_neighbours() {
 
 /// Returns the largest difference of the common stiffnesses of two rows.
 ///
-/// It is over `K_0`.
+/// It is relative to `K_0`.
 fn largest_change(short: &RowStiffness, long: &RowStiffness) -> f64 {
     let pairs = short.neighbours.iter().zip(&long.neighbours).map(|(a, b)| (a.direct, b.direct));
     let changes = pairs

@@ -28,7 +28,7 @@ pub(super) struct ValueColumn {
 
 /// Statistics over imperfect samples, in column order.
 ///
-/// Each is the suffix of the name, and the description.
+/// Each entry holds the suffix of the name and the description.
 const STATISTICS: [(&str, &str); 4] = [
     ("mean", "mean"),
     (QUANTILES[0].0, "5 % quantile"),
