@@ -413,7 +413,12 @@ impl Contacts {
 
     /// Iterates over the pairs with both scales inside the row.
     fn whole_pairs(&self) -> impl Iterator<Item = usize> {
-        (0..self.reach * (self.scales.len() - 1)).filter(|&pair| self.is_whole(pair))
+        (0..self.count_pairs()).filter(|&pair| self.is_whole(pair))
+    }
+
+    /// Counts the pairs, including those with a right scale beyond the row.
+    fn count_pairs(&self) -> usize {
+        self.reach * (self.scales.len() - 1)
     }
 
     fn is_whole(&self, pair: usize) -> bool {

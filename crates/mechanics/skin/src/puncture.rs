@@ -1,7 +1,9 @@
 //! Puncture of a row of scales on an elastic half-space.
 
 mod adaptive_row;
+mod beam;
 mod ending;
+mod failure;
 mod load_positions;
 mod measures;
 mod needle;
@@ -38,6 +40,7 @@ use crate::contacts::pair_constraints;
 use crate::record::{ContactEvent, Iteration, PathFunction, Record};
 use crate::{Common, Design, Sample, Status, Unloading};
 
+pub use failure::{FailureMeasures, FailureMode, Strengths};
 pub use load_positions::{LoadPosition, Weakest, load_positions};
 pub use measures::PunctureMeasures;
 pub(crate) use needle::NeedleMode;
@@ -107,6 +110,8 @@ pub struct PunctureParameters {
     pub depth: Option<f64>,
     /// True to remove the load again at the end.
     pub unload: bool,
+    /// Strengths of scales and bonds, if the first failure is sought.
+    pub failure: Option<Strengths>,
     /// Number of load positions to compare, at least two.
     ///
     /// They span the top from its left to its right corner, or one pitch for a round tip.
@@ -130,6 +135,7 @@ impl Default for PunctureParameters {
             needle_radius: None,
             depth: None,
             unload: false,
+            failure: None,
             places: None,
         }
     }
@@ -282,11 +288,17 @@ impl Followed {
     /// With `unload` also follows the unloading path.
     fn puncture(self, unload: bool) -> Puncture {
         let Self { watch, passage, mut path, status } = self;
-        let PathObservers { record, needle, folds, passage: at_tip, tilts, depth, .. } = watch;
+        let PathObservers { record, needle, folds, failure, passage: at_tip, tilts, depth, .. } =
+            watch;
         let FoldObserver { folds, .. } = folds;
         let path = &mut path;
         let mut measures = PunctureMeasures::new(&record, &folds, path);
         measures.passage = passage;
+        if let Some(failure) = failure {
+            let at_end = passage.critical_event.map_or(FailureMode::Tilt, FailureMode::from);
+            let at_end = (status == Status::Complete).then_some(at_end);
+            measures.failure = failure.measures(path, at_end);
+        }
         // The outer option tells whether a depth was requested, the inner one whether it was
         // reached.
         let deep = depth.points.first().map(|found| found.as_ref().map(|deep| &deep.state));
@@ -529,9 +541,9 @@ impl<'a> Problem<'a> {
             }
         });
         let exterior = RowExterior::new(self.rows, layout, beyond)?;
-        let (row, length) = (self.rows.row(layout)?, self.design.length);
-        let Self { stiffness, law, parameters, .. } = self;
-        let mut chain = Chain::new(row, stiffness, *law, layout, exterior, parameters, length);
+        let row = self.rows.row(layout)?;
+        let Self { design, stiffness, law, parameters, .. } = self;
+        let mut chain = Chain::new(row, stiffness, *law, layout, exterior, parameters, design);
         chain.whole_path = self.whole_path;
         Ok(chain)
     }

@@ -83,16 +83,41 @@ impl<M> Peak<M> {
             let value = at(&here.arriving).max(f(&path.system, &from.state, &from.leaving));
             self.kinks.push(KinkSegment { from, to: Arc::clone(&here), value });
         }
-        if self.best.as_ref().is_none_or(|best| value > best.value) {
-            let (before, point) = (from.cloned(), Arc::clone(&here));
-            self.best = Some(Best { value, before, point, after: None });
-        } else if let Some(best) = &mut self.best {
-            best.after.get_or_insert_with(|| Arc::clone(&here));
-        }
+        self.compare(value, from, &here);
         let least = self.best.as_ref().map_or(0.0, |best| PROMISING * best.value);
         // Drop segments that a larger value has ruled out, or their number would grow with the
         // path.
         self.kinks.retain(|segment| segment.value >= least);
+    }
+
+    /// Takes the current point of `path` into account, with the `value` there.
+    ///
+    /// The function must be continuous and independent of the path direction.
+    /// Segments next to kinks are searched only next to the best point.
+    pub fn visit_value<S>(
+        &mut self,
+        path: &Continuation<S>,
+        from: Option<&Arc<Equilibrium<M>>>,
+        value: f64,
+    ) where
+        S: System<Mode = M>,
+    {
+        self.compare(value, from, &path.point);
+    }
+
+    /// Stores the point `here` if its value is the largest so far.
+    fn compare(
+        &mut self,
+        value: f64,
+        from: Option<&Arc<Equilibrium<M>>>,
+        here: &Arc<Equilibrium<M>>,
+    ) {
+        if self.best.as_ref().is_none_or(|best| value > best.value) {
+            let (before, point) = (from.cloned(), Arc::clone(here));
+            self.best = Some(Best { value, before, point, after: None });
+        } else if let Some(best) = &mut self.best {
+            best.after.get_or_insert_with(|| Arc::clone(here));
+        }
     }
 
     /// Returns the visited point of largest value; `None` before the first visit.

@@ -16,6 +16,7 @@ use sweep::{Case, Sweep, key};
 /// moment           M  = M* E_m I_m/t                                                   (U5)
 /// rigidity         E_m I_m/C_f*                                                        (U6)
 /// bend radius      R  = t/κ*                                                           (U7)
+/// stress           σ  = σ* E_s                                                         (U9)
 /// ```
 ///
 /// Lengths are in mm and moduli in `MPa`, so forces are in N.
@@ -35,11 +36,15 @@ pub enum Quantity {
     Rigidity,
     /// Bend radius, from a curvature.
     Radius,
+    /// Stress of a scale or a bond.
+    Stress,
+    /// Pressure on the tissue.
+    Pressure,
 }
 
 impl Quantity {
     /// All quantities.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 9] = [
         Self::Length,
         Self::Force,
         Self::ForcePerWidth,
@@ -47,6 +52,8 @@ impl Quantity {
         Self::Moment,
         Self::Rigidity,
         Self::Radius,
+        Self::Stress,
+        Self::Pressure,
     ];
 
     /// Returns the physical unit.
@@ -57,6 +64,8 @@ impl Quantity {
             Self::ForcePerWidth | Self::Stiffness => "N/mm",
             Self::Moment => "N mm",
             Self::Rigidity => "N mm^2",
+            Self::Stress => "MPa",
+            Self::Pressure => "kPa",
         }
     }
 
@@ -69,6 +78,8 @@ impl Quantity {
             // from N mm.
             Self::ForcePerWidth | Self::Stiffness | Self::Moment => "N_mm",
             Self::Rigidity => "N_mm2",
+            Self::Stress => "MPa",
+            Self::Pressure => "kPa",
         }
     }
 
@@ -85,6 +96,7 @@ impl Quantity {
                 &[key::THICKNESS, key::SUBSTRATE_MODULUS]
             }
             Self::Moment | Self::Rigidity => &[key::THICKNESS, key::MEMBRANE_MODULUS],
+            Self::Stress | Self::Pressure => &[key::SUBSTRATE_MODULUS],
         }
     }
 
@@ -112,6 +124,11 @@ impl Quantity {
     /// ```
     pub fn physical(self, value: f64, case: &Case) -> Option<f64> {
         let material = &case.material;
+        if let Self::Stress | Self::Pressure = self {
+            let stress = value * material.substrate_modulus_mpa?;
+            // 1 MPa is 1000 kPa.
+            return Some(if self == Self::Stress { stress } else { 1e3 * stress });
+        }
         let thickness = material.thickness_mm?;
         let physical = match self {
             Self::Length => value * thickness,
@@ -121,6 +138,7 @@ impl Quantity {
             Self::Moment => value * bending_stiffness(case)? / thickness,
             Self::Rigidity => bending_stiffness(case)? / value,
             Self::Radius => thickness / value,
+            Self::Stress | Self::Pressure => return None,
         };
         physical.is_finite().then_some(physical)
     }
@@ -196,6 +214,7 @@ mod tests {
             membrane_modulus_mpa: Some(4.5),
             scale_modulus_mpa: Some(3000.0),
             scale_density_kg_m3: Some(1200.0),
+            ..Material::default()
         };
         case
     }
@@ -218,6 +237,8 @@ mod tests {
         close(Quantity::Moment.physical(2.0, &case), 0.1875);
         close(Quantity::Rigidity.physical(0.5, &case), 0.375);
         close(Quantity::Radius.physical(0.25, &case), 8.0);
+        close(Quantity::Stress.physical(20.0, &case), 6.0);
+        close(Quantity::Pressure.physical(0.1, &case), 30.0);
         // 1200 kg/m³ · 0.5/0.6 · 0.002 m.
         close(areal_mass(&case), 2.0);
     }
@@ -244,11 +265,14 @@ mod tests {
                 substrate_modulus_mpa: stress(material.substrate_modulus_mpa),
                 membrane_modulus_mpa: stress(material.membrane_modulus_mpa),
                 scale_modulus_mpa: stress(material.scale_modulus_mpa),
+                scale_strength_mpa: None,
+                bond_strength_mpa: None,
                 scale_density_kg_m3: material.scale_density_kg_m3,
             };
             let dimensions = [
                 length, force, force / length, force / length, force * length,
-                force * length * length, length,
+                force * length * length, length, force / (length * length),
+                force / (length * length),
             ];
             for (quantity, dimension) in Quantity::ALL.into_iter().zip(dimensions) {
                 let values = [case(), other].map(|case| quantity.physical(value, &case).expect("a value"));

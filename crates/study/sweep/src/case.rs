@@ -2,7 +2,7 @@
 
 use geometry::OutOfRange;
 use skin::flexure;
-use skin::puncture::{self, Needle};
+use skin::puncture::{self, Needle, Strengths};
 use skin::{Base, Common, Design, Imperfection};
 use substrate::{Bases, Coupling, Footprint};
 
@@ -26,6 +26,10 @@ pub struct Case {
     ///
     /// `None` if `load_position` gives it.
     pub load_inset: Option<f64>,
+    /// Strengths over the modulus of the substrate.
+    pub strengths: Strengths,
+    /// Whether the first failure is sought even without a strength.
+    pub judge_failure: bool,
     /// Parameters of bending.
     pub flexure: flexure::FlexureParameters,
     /// Thickness of the substrate over the scale thickness. `None` for a half-space.
@@ -94,7 +98,10 @@ impl Case {
         let inside = |inset: f64| (1.0 - inset / top).max(0.5);
         let position = self.puncture.load_position.min(1.0 + self.design.gap / top);
         let load_position = self.load_inset.map_or(position, inside);
-        let mut punctured = puncture::PunctureParameters { load_position, ..self.puncture };
+        let seeks_failure = self.judge_failure || self.strengths != Strengths::default();
+        let failure = seeks_failure.then_some(self.strengths);
+        let mut punctured =
+            puncture::PunctureParameters { load_position, failure, ..self.puncture };
         match (self.needle_friction, &mut punctured.needle) {
             (Some(Scalar::Number(given)), Needle::Guided { friction }) => *friction = given,
             (Some(given), Needle::Free) => {
@@ -166,6 +173,8 @@ impl Default for Case {
             puncture: puncture::PunctureParameters::default(),
             needle_friction: None,
             load_inset: None,
+            strengths: Strengths::default(),
+            judge_failure: false,
             flexure: flexure::FlexureParameters::default(),
             tissue_thickness: None,
             coupling: Coupling::Nearest,

@@ -168,8 +168,11 @@ impl Sweep {
     pub fn has_followers(&self, parameter: &Parameter) -> bool {
         match parameter.key {
             key::THICKNESS => self.gives_millimetres(),
-            key::SUBSTRATE_MODULUS | key::MEMBRANE_MODULUS => self.gives(key::SCALE_MODULUS),
-            key::SCALE_MODULUS => true,
+            key::SUBSTRATE_MODULUS | key::MEMBRANE_MODULUS => PARAMETERS.iter().any(|above| {
+                let mut ratios = above.ratios();
+                ratios.any(|(_, below)| below == parameter.key) && self.gives(above.key)
+            }),
+            _ if parameter.ratios().next().is_some() => true,
             _ => parameter.is_in_mm(),
         }
     }

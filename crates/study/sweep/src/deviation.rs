@@ -68,16 +68,19 @@ impl Deviation {
     /// Returns the case with the parameter changed by `by`.
     ///
     /// `by` is in the unit of this deviation. The value may leave its bounds. A deviation of the
-    /// thickness keeps all other lengths in mm, and a deviation of a modulus keeps the modulus of
-    /// the scales.
+    /// thickness keeps all other lengths in mm, and a deviation of a modulus keeps modulus and
+    /// strengths of the scales.
     pub fn moved(&self, case: &Case, by: f64) -> Option<Case> {
         match self.parameter.key {
             key::THICKNESS => length::with_thickness(case, case.material.thickness_mm? + by),
             key::SUBSTRATE_MODULUS => {
                 let (mut moved, modulus) = (*case, case.material.substrate_modulus_mpa?);
                 moved.material.substrate_modulus_mpa = Some(modulus + by);
-                // Without `scale_modulus_MPa` only this ratio keeps the modulus of the scales.
-                moved.puncture.contact_modulus_over_substrate *= modulus / (modulus + by);
+                // Without values in MPa only these ratios keep modulus and strengths of the scales.
+                let factor = modulus / (modulus + by);
+                moved.puncture.contact_modulus_over_substrate *= factor;
+                moved.strengths.scale = moved.strengths.scale.map(|strength| strength * factor);
+                moved.strengths.bond = moved.strengths.bond.map(|strength| strength * factor);
                 Some(moved)
             }
             key::MEMBRANE_MODULUS => {

@@ -1,6 +1,6 @@
 //! The material of a skin, in physical units.
 
-/// Thickness, moduli and density of a skin, as far as they are given.
+/// Thickness, moduli, strengths and density of a skin, as far as they are given.
 ///
 /// The mechanics is dimensionless and needs none of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -15,6 +15,10 @@ pub struct Material {
     ///
     /// The ratios to the other two follow from it.
     pub scale_modulus_mpa: Option<f64>,
+    /// Bending strength of the scales, in `MPa`.
+    pub scale_strength_mpa: Option<f64>,
+    /// Strength of the bonds between scales and substrate, in `MPa`.
+    pub bond_strength_mpa: Option<f64>,
     /// Density `ρ` of the scales, kg/m³.
     pub scale_density_kg_m3: Option<f64>,
 }

@@ -1,5 +1,7 @@
 //! `squama design`.
 
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use anyhow::ensure;
@@ -11,7 +13,7 @@ use results::{
 };
 use run::Evaluator;
 use serde_json::{Map, Value, json};
-use skin::puncture::Weakest;
+use skin::puncture::{FailureMode, Weakest};
 use sweep::PARAMETERS;
 
 use super::selection::{SelectedDesign, Selection, select};
@@ -139,7 +141,7 @@ impl SolvedChoice {
         let rows: Vec<_> = rows.collect();
         let sensitivity = sensitivity(&self.solved.row.result.sensitivity);
         let (title, changes, table) = (self.title(), self.changes(), aligned(&rows));
-        format!("{title}\n{changes}\n{table}{}{sensitivity}", self.places())
+        format!("{title}\n{changes}\n{table}{}{}{sensitivity}", self.places(), self.judged())
     }
 
     /// Explains why the weakest load position is unknown; empty if it is known.
@@ -162,6 +164,36 @@ impl SolvedChoice {
             rounded(place.position),
             rounded(force)
         )
+    }
+
+    /// Lists the failure modes, each with the reason for which it was not judged, if any; empty
+    /// unless the first failure was sought.
+    fn failure_modes(&self) -> Vec<(&'static str, Option<&'static str>)> {
+        let parameters = self.design.case().punctured();
+        if parameters.failure.is_none() || self.solved.row.result.puncture.is_none() {
+            return Vec::new();
+        }
+        FailureMode::ALL.map(|mode| (mode.name(), mode.not_judged(&parameters))).into()
+    }
+
+    /// Reports the failure modes that were judged, and the reasons for the others.
+    fn judged(&self) -> String {
+        let modes = self.failure_modes();
+        if modes.is_empty() {
+            return String::new();
+        }
+        let (mut judged, mut others) = (Vec::new(), Vec::new());
+        for (mode, reason) in modes {
+            match reason {
+                None => judged.push(mode.to_owned()),
+                Some(reason) => others.push(format!("{mode} ({reason})")),
+            }
+        }
+        let mut text = format!("\nFailure modes judged: {}\n", judged.join(", "));
+        if !others.is_empty() {
+            let _ = writeln!(text, "Not judged: {}", others.join(", "));
+        }
+        text
     }
 
     fn title(&self) -> String {
@@ -192,7 +224,7 @@ impl SolvedChoice {
         let parameters = PARAMETERS.iter().map(|p| (p.path(), json!(p.get(&case))));
         let measures = self.measures().map(|(c, cell)| (c.name.to_string(), json!(cell)));
         let units = self.measures().map(|(c, _)| (c.name.to_string(), c.unit.into()));
-        json!({
+        let mut answer = json!({
             "sweep": self.design.sweep.name(),
             "design": self.design.number.map(|number| number.to_string()),
             "parameters": parameters.collect::<Map<_, _>>(),
@@ -201,7 +233,12 @@ impl SolvedChoice {
             "failed": self.solved.row.result.failed(),
             "folder": folder,
             "files": files,
-        })
+        });
+        let modes = self.failure_modes();
+        if !modes.is_empty() {
+            answer["failure_modes"] = json!(modes.into_iter().collect::<BTreeMap<_, _>>());
+        }
+        answer
     }
 }
 

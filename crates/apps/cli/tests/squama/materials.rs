@@ -101,3 +101,71 @@ fn suspicious_units_of_a_modulus_are_noted_and_the_scale_modulus_sets_contact_ra
     let by_modulus = force("--set material.scale_modulus_MPa=31");
     assert!((by_ratio - by_modulus).abs() < 1e-9 * by_ratio && by_ratio != force(""), "{by_ratio}");
 }
+
+#[test]
+fn strengths_add_the_columns_of_failure_and_change_no_other() {
+    let place = Place::with(FEW);
+    place.squama("run x.toml -q --out bare").assert().code(0);
+    place
+        .squama("run x.toml -q --out judged --set puncture.bond_strength_over_substrate=0.5")
+        .assert()
+        .code(0);
+    let (bare, judged) = (place.read("bare/designs.csv"), place.read("judged/designs.csv"));
+    let added: Vec<_> =
+        columns(&judged).filter(|name| columns(&bare).all(|other| other != *name)).collect();
+    assert_eq!(
+        added,
+        [
+            "failure_force",
+            "first_failure",
+            "scale_stress_max",
+            "scale_deflection_max",
+            "bond_stress_max",
+            "tissue_pressure_max",
+            "clearance"
+        ]
+    );
+    for name in columns(&bare) {
+        assert_eq!(cells(&bare, name), cells(&judged, name), "{name}");
+    }
+    // The strength in MPa is the same multiple of the modulus.
+    let in_mpa = "--set material.thickness_mm=2 --set material.substrate_modulus_MPa=0.3 \
+                  --set material.bond_strength_MPa=0.15";
+    place.squama(&format!("run x.toml -q --out given {in_mpa}")).assert().code(0);
+    let given = place.read("given/designs.csv");
+    assert_eq!(cells(&given, "first_failure"), cells(&judged, "first_failure"));
+    for (stress, in_mpa) in
+        numbers(&judged, "scale_stress_max").iter().zip(numbers(&given, "scale_stress_max_MPa"))
+    {
+        assert!((0.3 * stress - in_mpa).abs() <= 1e-9 * in_mpa, "{stress} {in_mpa}");
+    }
+    for (pressure, in_kpa) in numbers(&judged, "tissue_pressure_max")
+        .iter()
+        .zip(numbers(&given, "tissue_pressure_max_kPa"))
+    {
+        assert!((300.0 * pressure - in_kpa).abs() <= 1e-9 * in_kpa, "{pressure} {in_kpa}");
+    }
+    insta::assert_snapshot!(place.refused("check x.toml --set material.bond_strength_MPa=1"), @"error: --set material.bond_strength_MPa=1: material.bond_strength_MPa: needs material.substrate_modulus_MPa to be set");
+    let both = "check x.toml --set material.substrate_modulus_MPa=1 \
+                --set material.bond_strength_MPa=1 --set puncture.bond_strength_over_substrate=1";
+    insta::assert_snapshot!(place.refused(both), @"error: --set puncture.bond_strength_over_substrate=1: puncture.bond_strength_over_substrate: cannot be combined with material.bond_strength_MPa at --set material.bond_strength_MPa=1; keep one of the two");
+}
+
+#[test]
+fn design_states_which_failure_modes_were_judged() {
+    let place = Place::with(FEW);
+    let design = "design x.toml --design 1 --set material.thickness_mm=2 \
+                  --set material.substrate_modulus_MPa=0.3 --set material.scale_strength_MPa=40";
+    let told = place.prints(design);
+    let lines = told.lines().skip_while(|line| !line.starts_with("Failure modes"));
+    insta::assert_snapshot!(lines.take(2).collect::<Vec<_>>().join("\n"), @r"
+    Failure modes judged: tilt, fold, break, bend
+    Not judged: through (the needle is not guided), debond (the strength of the bond is not given), perforate (the needle has no radius)
+    ");
+    let json: serde_json::Value =
+        serde_json::from_str(&place.prints(&format!("{design} --json"))).expect("JSON");
+    let modes = &json["failure_modes"];
+    assert_eq!(modes["break"], serde_json::Value::Null);
+    assert_eq!(modes["through"], "the needle is not guided");
+    assert!(!place.prints("design x.toml --design 1 --json").contains("failure_modes"));
+}

@@ -50,6 +50,35 @@ impl Contacts {
         })
     }
 
+    /// Lists the contact forces on a scale of a row.
+    ///
+    /// Each entry holds the arm from the node, in the deformed state, and the force.
+    pub(crate) fn forces_on(&self, state: &SkinState, scale: usize) -> Vec<[Vec2; 2]> {
+        let node =
+            Vec2::new(self.arrangement.place(scale), 0.0) + self.pose(&state.z, scale).displacement;
+        let mut forces = Vec::new();
+        let first = scale.saturating_sub(self.reach);
+        for pair in self.reach * first..(self.reach * (scale + 1)).min(self.count_pairs()) {
+            let ends = self.ends(pair);
+            if !ends.contains(&scale) {
+                continue;
+            }
+            let sign = if ends[0] == scale { 1.0 } else { -1.0 };
+            for contact in Self::contacts_of(pair) {
+                let carrying = state.mode.contacts[contact].carrying();
+                if carrying == [None, None] {
+                    continue;
+                }
+                let on_left = self.forces_on_left(state, contact);
+                for (corner_edge, force) in carrying.into_iter().zip(on_left) {
+                    let Some(corner_edge) = corner_edge else { continue };
+                    forces.push([self.corner(&state.z, contact, corner_edge) - node, sign * force]);
+                }
+            }
+        }
+        forces
+    }
+
     /// Returns the position of the touching corner.
     ///
     /// It is relative to the node of the first scale at rest.

@@ -101,6 +101,7 @@ impl PunctureParameters {
             places: None,
             depth: None,
             unload: false,
+            failure: None,
             ..*self
         }
     }

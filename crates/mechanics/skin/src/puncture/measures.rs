@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 use solver::Continuation;
 
+use super::failure::FailureMeasures;
 use super::surface_fold::Fold;
 use super::system::Chain;
 use super::{Passage, PuncturePoint, Weakest};
@@ -85,6 +86,9 @@ pub struct PunctureMeasures {
     /// How a guided needle passed through the row.
     #[serde(default, skip_serializing_if = "is_default")]
     pub passage: Passage,
+    /// First failure and largest stresses, if requested.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub failure: FailureMeasures,
     /// The weakest of several load positions.
     #[serde(default, skip_serializing_if = "is_default")]
     pub weakest: Weakest,
@@ -153,6 +157,7 @@ impl PunctureMeasures {
             // Evaluated along the path and valid however the path ended later.
             force_at_depth: self.force_at_depth,
             unique: self.unique,
+            failure: self.failure.without_final_values(),
             passage: self.passage,
             ..Self::default()
         }

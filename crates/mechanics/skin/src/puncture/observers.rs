@@ -3,6 +3,7 @@
 use solver::Continuation;
 
 use super::adaptive_row::{AdaptiveRowPath, Segment};
+use super::failure::FailureObserver;
 use super::needle::{HistoryObserver, PassageObserver};
 use super::snap::SnapObserver;
 use super::surface_fold::FoldObserver;
@@ -17,6 +18,8 @@ pub(super) struct PathObservers {
     pub(super) record: Record<Chain>,
     pub(super) needle: SnapObserver,
     pub(super) folds: FoldObserver,
+    /// The first failure, if it is sought.
+    pub(super) failure: Option<FailureObserver>,
     pub(super) history: HistoryObserver,
     pub(super) passage: PassageObserver,
     pub(super) tilts: PointLocator<Chain>,
@@ -39,6 +42,7 @@ impl PathObservers {
             record: Record::new(path, functions),
             needle: SnapObserver::default(),
             folds: FoldObserver::default(),
+            failure: FailureObserver::new(path, parameters),
             history: HistoryObserver::default(),
             passage: PassageObserver::default(),
             tilts: PointLocator::new(path, tilts),
@@ -58,7 +62,11 @@ impl PathObservers {
         self.tilts.follow(path, from, to);
         self.depth.follow(path, from, to);
         self.requested.follow(path, from, to);
+        let is_open = self.folds.first.is_none();
         self.folds.follow(path, [from, to], events_before);
+        if let Some(failure) = &mut self.failure {
+            failure.follow(path, segment, self.folds.first.as_ref().filter(|_| is_open));
+        }
         self.record.visit(path, left, to);
     }
 
@@ -75,6 +83,9 @@ impl PathObservers {
         let segments = self.history.segments.iter_mut().chain(&mut self.passage.passed);
         for point in points.chain(segments.flatten()) {
             *point = longer(point);
+        }
+        if let Some(failure) = &mut self.failure {
+            failure.replace_points(longer);
         }
         self.record.replace_points(longer);
     }

@@ -4,6 +4,7 @@ use geometry::OutOfRange;
 use solver::{AnchoredPoint, Continuation, Neighbours, PathAnchor};
 use substrate::RowStiffness;
 
+use super::failure::MAXIMA;
 use super::needle::{HistoryVariable, anchors, event_before, history, with};
 use super::observers::PathObservers;
 use super::snapshot::farther;
@@ -39,6 +40,9 @@ const LOAD: usize = 0;
 
 /// Name of the force at the critical tilt; the weakest position has its own.
 pub(super) const CRITICAL_FORCE: &str = "critical_force";
+
+/// Name of the force at the first failure.
+const FAILURE_FORCE: &str = "failure_force";
 
 /// Solves a puncture like [`solve`](super::solve), and differentiates its measures.
 ///
@@ -175,7 +179,7 @@ impl Problem<'_> {
         watch: &PathObservers,
         path: &mut Continuation<Chain>,
     ) -> Vec<MeasuredPoint<Chain>> {
-        let PathObservers { record, needle, passage, depth: marked, .. } = watch;
+        let PathObservers { record, needle, passage, failure, depth: marked, .. } = watch;
         let FoldObserver { folds, first } = &watch.folds;
         let settings = &self.settings;
         let stiffest = record.stiffness_summit(path);
@@ -184,6 +188,11 @@ impl Problem<'_> {
         let highest = sensitivity::summit(highest.as_ref(), path, FOLLOWED[LOAD], settings);
         let passed = passage.passed.as_ref();
         let passed = passed.and_then(|[from, to]| event_before(path, [from, to]));
+        let maxima = failure.as_ref().map(|failure| failure.summits(path));
+        let maxima = maxima.into_iter().flatten().zip(MAXIMA);
+        let maxima: Vec<_> = maxima
+            .map(|(place, f)| sensitivity::summit(place.as_ref(), path, f, settings))
+            .collect();
         let chain = path.system();
         let peak = highest.as_ref().map(|place| chain.extremum(place));
         // A point that is no event has no guard to hold it when a parameter changes.
@@ -202,6 +211,18 @@ impl Problem<'_> {
         if !marked.points.is_empty() && deep.is_none() {
             end_quantities.push(force("force_at_depth"));
         }
+        let failed = failure.as_ref().and_then(|failure| failure.first.as_ref());
+        if failure.is_some() && failed.is_none() {
+            end_quantities.push(force(FAILURE_FORCE));
+        }
+        let failed = failed.and_then(|(mode, point)| {
+            let mark = chain.limit_mark(&point.state, *mode);
+            // A fold is anchored to its gap.
+            mark.map_or_else(
+                || folded.clone(),
+                |mark| Some(AnchoredPoint::arriving(point, PathAnchor::Marker(mark))),
+            )
+        });
         let mut passing =
             vec![force("passing_force"), depth("passing_displacement"), tilt("passing_tilt_deg")];
         if chain.needle.is_some() {
@@ -213,7 +234,15 @@ impl Problem<'_> {
         }
         let mut at_rest = rest(chain);
         at_rest.state = chain.at_rest();
-        vec![
+        let stresses = maxima.into_iter().zip(largest_stresses());
+        let stresses = stresses.map(|(place, quantity)| spot(place, vec![quantity]));
+        let mut resting = vec![stiffness("initial_stiffness")];
+        if failure.is_some() {
+            resting.push(quantity("clearance", |chain, _, _, _| {
+                chain.clearance().unwrap_or(f64::NAN)
+            }));
+        }
+        let mut points = vec![
             spot(Some(chain.end_of(end(path))), end_quantities),
             spot(folded, fold_quantities),
             spot(passed, passing),
@@ -223,9 +252,12 @@ impl Problem<'_> {
             at_turn(load_limit, [force("load_stability_force")]),
             at_turn(depth_limit, [force("depth_stability_force")]),
             spot(touching, vec![depth("first_contact_displacement")]),
-            spot(Some(at_rest), vec![stiffness("initial_stiffness")]),
+            spot(Some(at_rest), resting),
             spot(stiffest, vec![stiffness("max_stiffness")]),
-        ]
+            spot(failed, vec![force(FAILURE_FORCE)]),
+        ];
+        points.extend(stresses);
+        points
     }
 }
 
@@ -330,6 +362,20 @@ fn critical() -> Vec<MeasuredQuantity<Chain>> {
             f64::max,
         ),
     ]
+}
+
+/// Lists the largest stresses on the path, in the order of [`MAXIMA`].
+fn largest_stresses() -> [MeasuredQuantity<Chain>; MAXIMA.len()] {
+    let values: [(&'static str, ValueOf<Chain>); MAXIMA.len()] = [
+        ("scale_stress_max", |chain, state, _, i| chain.scale_values(state, i).tracked[0]),
+        ("scale_deflection_max", |chain, state, _, i| chain.scale_values(state, i).tracked[1]),
+        ("bond_stress_max", |chain, state, _, i| chain.scale_values(state, i).tracked[2]),
+        ("tissue_pressure_max", |chain, state, _, i| chain.scale_values(state, i).tracked[3]),
+    ];
+    values.map(|(measure, value)| MeasuredQuantity {
+        extreme: Some(f64::max),
+        ..quantity(measure, value)
+    })
 }
 
 /// Returns the stretch of a gap.

@@ -8,8 +8,10 @@ use solver::{Blocks, Change, Control, FARTHEST_LINK, Residual, System, Tangent};
 use substrate::{Neighbour, RowStiffness, SubstrateLaw};
 
 use super::PunctureParameters;
+use super::failure::Strengths;
 use super::needle::{GuidedNeedle, Needle, NeedleMode};
 use super::row_exterior::RowExterior;
+use crate::Design;
 use crate::arrangement::Arrangement;
 use crate::contacts::{Contacts, SkinMode, SkinState};
 
@@ -25,6 +27,9 @@ const DEEPEST: f64 = 2.0;
 
 /// Number of the marker that vanishes at the requested depth; others are gaps.
 pub(super) const DEPTH_MARK: usize = usize::MAX;
+
+/// Numbers of the markers that vanish where a strength is reached; smaller numbers are gaps.
+pub(super) const FIRST_LIMIT_MARK: usize = usize::MAX / 2;
 
 /// Numbers of the rates that vanish where load and depth turn back.
 pub(super) const LOAD_RATE: usize = 0;
@@ -140,6 +145,12 @@ pub(crate) struct Chain {
     pub(crate) contacts: Contacts,
     /// `L/t`.
     pub(crate) length: f64,
+    /// `b/t`.
+    pub(super) width: f64,
+    /// `E_c/E_s` of the scales as beams.
+    pub(super) scale_modulus: f64,
+    pub(super) strengths: Strengths,
+    pub(super) needle_radius: Option<f64>,
     /// `E*/E_s`, the unit conversion of stiffness.
     pub(crate) plane_modulus: f64,
     pub(super) half_base: f64,
@@ -186,7 +197,7 @@ enum Part<'a> {
 }
 
 impl Chain {
-    /// Assembles the solved part of a row; `length` is `L/t`.
+    /// Assembles the solved part of a row of this `design`.
     pub(crate) fn new(
         arrangement: Arrangement,
         stiffness: &RowStiffness,
@@ -194,7 +205,7 @@ impl Chain {
         layout: RowLayout,
         exterior: RowExterior,
         parameters: &PunctureParameters,
-        length: f64,
+        design: &Design,
     ) -> Self {
         let scale = arrangement.scale(layout.left);
         let a = scale.half_base();
@@ -242,7 +253,11 @@ impl Chain {
             layout,
             contacts,
             monotone,
-            length,
+            length: design.length,
+            width: design.width,
+            scale_modulus: parameters.contact_modulus_over_substrate,
+            strengths: parameters.failure.unwrap_or_default(),
+            needle_radius: parameters.needle_radius,
             plane_modulus: 1.0 / (1.0 - parameters.poisson_ratio.powi(2)),
             half_base: a,
             direct,
@@ -526,13 +541,14 @@ impl System for Chain {
         slopes[number]
     }
 
-    /// Evaluates a marker: stretch of a gap, or excess over the requested depth.
+    /// Evaluates a marker: stretch of a gap, or excess over the requested depth or a strength.
     ///
     /// A gap is numbered by its left scale. A vanishing stretch means that the surface folds over.
     fn marker(&self, state: &SkinState, number: usize) -> f64 {
         match number {
             DEPTH_MARK => self.marked_depth.map_or(f64::NAN, |depth| self.depth(&state.z) - depth),
-            pair => self.gap_stretch(state, pair),
+            pair if pair < FIRST_LIMIT_MARK => self.gap_stretch(state, pair),
+            limit => self.limit_marker(state, limit - FIRST_LIMIT_MARK),
         }
     }
 

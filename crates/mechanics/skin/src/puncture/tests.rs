@@ -1,5 +1,6 @@
 //! Unit tests of the puncture model: tangent, energy, growth of rows, stability.
 
+mod failure;
 mod friction;
 mod layers;
 mod needle;
@@ -88,7 +89,7 @@ fn whole(
     parameters: &PunctureParameters,
 ) -> Chain {
     let row = Arrangement::Even(design.row().unwrap());
-    Chain::new(row, stiffness, law, layout, RowExterior::default(), parameters, design.length)
+    Chain::new(row, stiffness, law, layout, RowExterior::default(), parameters, design)
 }
 
 /// Calls `show` for each segment of a path.
@@ -481,7 +482,7 @@ fn negative_eigenvalues_match_the_dense_stiffness() {
             let beyond = [(); 2].map(|()| Some(Beyond { far: far.clone(), scales: None }));
             let exterior = RowExterior::new(rows, layout, beyond).unwrap();
             let row = rows.row(layout).unwrap();
-            Chain::new(row, stiffness, law, layout, exterior, parameters, design.length)
+            Chain::new(row, stiffness, law, layout, exterior, parameters, &design)
         };
         for chain in [chain(&nearest), chain(&full), endless(&nearest), endless(&full)] {
             let rest = SkinState::at_rest(&chain);

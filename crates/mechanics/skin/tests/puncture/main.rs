@@ -10,6 +10,7 @@
 //! | `scaling` | changes of units, which must not change results |
 //! | `snapshots` | chosen points of the path, between recorded points and beyond its end |
 //! | `folds` | folding of the substrate surface |
+//! | `failure` | the first failure, and stresses of scales, bonds and tissue |
 //! | `neo_hookean` | a substrate with a surface that cannot fold over |
 //! | `layers` | tissue of finite thickness, against another program |
 //! | `outputs` | the meaning of measures, events and scales |
@@ -24,6 +25,7 @@
 
 mod ends;
 mod enumerated;
+mod failure;
 mod first_contact;
 mod folds;
 mod friction;

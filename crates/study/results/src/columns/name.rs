@@ -24,6 +24,8 @@ pub const WEAKEST_FORCE: &str = "weakest_force";
 pub const WEAKEST_PLACE: &str = "weakest_place";
 /// Depth of the load at the critical tilt.
 pub const CRITICAL_DISPLACEMENT: &str = "critical_displacement";
+/// Mode of the first failure.
+pub const FIRST_FAILURE: &str = "first_failure";
 /// Event that ended the path of a guided needle.
 pub const CRITICAL_EVENT: &str = "critical_event";
 /// Depth at first contact of scales.

@@ -16,7 +16,7 @@
 //! `skin/src/puncture/sensitivity.rs` or `skin/src/flexure/sensitivity.rs`.
 
 use skin::flexure::FlexureMeasures;
-use skin::puncture::{CriticalEvent, PunctureMeasures};
+use skin::puncture::{CriticalEvent, FailureMode, PunctureMeasures};
 
 use sweep::key;
 
@@ -27,7 +27,7 @@ use super::builders::{
 use super::cell::Cell;
 use super::measured_value::MeasuredValue;
 use super::measured_value::Place::{
-    Anywhere, Contact, End, Fold, FoldOrEnd, Instability, Peak, Rest,
+    Anywhere, Contact, End, Fold, FoldOrEnd, Instability, Nowhere, Peak, Rest,
 };
 use super::measured_value::Value::{ArealMass, Coverage, Samples, SamplesAlone};
 use super::name;
@@ -37,6 +37,15 @@ use crate::quantity::Quantity;
 
 /// Parameter that enables the search for the weakest load position.
 const PLACES: &[&str] = &[key::PLACES];
+
+/// Parameters that request the first failure.
+const FAILURE: &[&str] = &[
+    key::FAILURE,
+    key::SCALE_STRENGTH_OVER_SUBSTRATE,
+    key::BOND_STRENGTH_OVER_SUBSTRATE,
+    key::SCALE_STRENGTH,
+    key::BOND_STRENGTH,
+];
 
 /// Builds the list of measured values.
 ///
@@ -185,6 +194,26 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
     other("weakest_status", FORCE, |r| punctured(r, |p| p.weakest.map(Outcome::text)))
         .last().needing(PLACES):
         "complete, or why a load position that may be weaker has no force, so that the weakest is unknown";
+    force("failure_force", Anywhere, |m| &mut m.failure.force)
+        .large().first().needing(FAILURE):
+        "puncture force at the first failure: where a scale is critically tilted, breaks or bends by 5 deg, a bond fails, the needle is through or perforates a scale, or the surface folds";
+    other(name::FIRST_FAILURE, FORCE, |r| measured(r, |m| m.failure.mode.map(FailureMode::name)))
+        .at(Anywhere).then().needing(FAILURE):
+        "mode of the first failure: tilt, through, fold, break, bend, debond or perforate; modes without a strength are not judged";
+    number("scale_stress_max", Anywhere, |m| &mut m.failure.scale_stress)
+        .in_unit("E_s").physical(&[same(Quantity::Stress)]).small().then().needing(FAILURE):
+        "largest bending stress of any scale, as a beam, up to the end of the path";
+    depth("scale_deflection_max", Anywhere, |m| &mut m.failure.scale_deflection)
+        .small().needing(FAILURE):
+        "largest deflection of the tip of any scale, as a beam, up to the end of the path";
+    number("bond_stress_max", Anywhere, |m| &mut m.failure.bond_stress)
+        .in_unit("E_s").physical(&[same(Quantity::Stress)]).small().needing(FAILURE):
+        "largest traction at any base, in tension or mean shear, up to the end of the path";
+    number("tissue_pressure_max", Anywhere, |m| &mut m.failure.tissue_pressure)
+        .in_unit("E_s").physical(&[same(Quantity::Pressure)]).small().needing(FAILURE):
+        "largest mean pressure of any base on the substrate up to the end of the path";
+    depth("clearance", Nowhere, |m| &mut m.failure.clearance).needing(FAILURE):
+        "distance between the faces of two neighbours at rest";
     other(name::FRICTION_WORK, BOTH, |r| measured(r, |m| m.friction_work))
         .in_unit("E* t^3").at(End).needing(&[key::FRICTION]):
         "work dissipated by friction between scales up to the critical tilt";

@@ -27,13 +27,15 @@ const MODULI: [&str; 2] = ["contact_modulus_over_substrate", "contact_modulus_ov
 /// Returns the parameters of a path's derivatives, each with its variation.
 ///
 /// The prefactor of the contact law is omitted: forces depend on its product with the modulus only,
-/// so [`with_prefactor`] computes its derivatives from the derivatives for the modulus.
+/// so [`with_prefactor`] computes its derivatives from the derivatives for the modulus. If the
+/// first failure is sought, it is included, because the modulus also bends the scales.
 fn variations<P>(
     case: &Case,
     of: Measure,
     variation: impl Fn(&'static Parameter) -> Option<Neighbours<P>>,
 ) -> (Vec<&'static Parameter>, Vec<Neighbours<P>>) {
-    let solved = parameters(case, of).into_iter().filter(|p| p.key != PREFACTOR);
+    let bends = of == Measure::Puncture && case.punctured().failure.is_some();
+    let solved = parameters(case, of).into_iter().filter(|p| p.key != PREFACTOR || bends);
     solved.filter_map(|parameter| Some((parameter, variation(parameter)?))).unzip()
 }
 
@@ -49,9 +51,10 @@ fn with_prefactor(case: &Case, solved: &[ParameterDerivative]) -> Vec<ParameterD
     };
     let place = |of: &ParameterDerivative| PARAMETERS.iter().position(|p| p.key == of.parameter);
     let of_measure = |of: &[ParameterDerivative]| {
+        let is_known = of.iter().any(|derivative| derivative.parameter == PREFACTOR);
         let by_modulus = of.iter().find(|derivative| MODULI.contains(&derivative.parameter));
         let mut all = of.to_vec();
-        all.extend(by_modulus.map(by_prefactor));
+        all.extend(by_modulus.filter(|_| !is_known).map(by_prefactor));
         all.sort_by_key(place);
         all
     };

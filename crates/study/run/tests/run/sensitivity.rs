@@ -4,6 +4,7 @@ mod branches;
 mod curves;
 mod designs;
 mod differences;
+mod failure;
 mod kinks;
 mod places;
 mod scatter;

@@ -12,15 +12,14 @@ use text::number;
 
 /// Checks the parameter `given` in all designs of a grid and its variables.
 ///
-/// `given` is a length in mm, the modulus of the scales or the load position; all other parameters
-/// pass.
+/// `given` is a length in mm, a modulus or strength in `MPa` or the load position; all
+/// other parameters pass.
 pub(super) fn check(given: &Parameter, grid: &Grid, variables: &[Variable]) -> Result<(), Problem> {
     if given.key == key::LOAD_POSITION {
         return check_place(given, grid, variables);
     }
     let length = given.said_in(grid.base()).map(|of| (of, key::THICKNESS));
-    let ratios = Parameter::ratios().filter(|_| given.key == key::SCALE_MODULUS);
-    let mut all = length.into_iter().chain(ratios);
+    let mut all = length.into_iter().chain(given.ratios());
     all.try_for_each(|(of, unit)| check_one(given, (of, unit), grid, variables))
 }
 

@@ -168,7 +168,7 @@ impl Reader {
         let checked = [self.check_alternatives(), self.check_needle(), self.check_radius()];
         wrong.extend(checked.into_iter().filter_map(Result::err));
         wrong.extend(self.lengths_without_thickness());
-        wrong.extend(self.check_scale_modulus().err());
+        wrong.extend(self.ratios_without_modulus());
         // The default in place of a refused step says nothing about the other steps.
         if self.refused.is_empty() {
             wrong.extend(self.check_steps(file).err());
@@ -314,19 +314,17 @@ impl Reader {
         })
     }
 
-    /// Refuses a scale modulus without the modulus that a measure divides it by.
-    fn check_scale_modulus(&self) -> Result<(), InvalidDefinition> {
-        let mut written = self.written().filter(|(_, p, _)| p.key == key::SCALE_MODULUS);
-        let Some((key, _, place)) = written.next() else { return Ok(()) };
+    /// Returns an error for every modulus or strength of the scales without the modulus that a
+    /// measure divides it by.
+    fn ratios_without_modulus(&self) -> impl Iterator<Item = InvalidDefinition> {
         let measures = self.measures.as_deref().unwrap_or(&Measure::USUAL);
-        let matters = |of: &Parameter| measures.iter().any(|m| m.sections().contains(&of.section));
-        let mut needed = Parameter::ratios().filter(|(ratio, _)| matters(ratio));
-        match needed.find(|(_, below)| !self.says(below)) {
-            Some((_, below)) => {
-                Err(refuse(place, &key, Problem::Needs(format!("material.{below}"))))
-            }
-            None => Ok(()),
-        }
+        self.written().filter_map(move |(key, parameter, place)| {
+            let mut needed = parameter.ratios().filter(|(ratio, _)| {
+                measures.iter().any(|measure| measure.sections().contains(&ratio.section))
+            });
+            let (_, below) = needed.find(|(_, below)| !self.says(below))?;
+            Some(refuse(place, &key, Problem::Needs(format!("material.{below}"))))
+        })
     }
 
     /// Refuses a parameter with a value (`gives`) if an alternative has one too.

@@ -79,6 +79,21 @@ pub const CONTACT_OVER_SUBSTRATE: &str = "contact_modulus_over_substrate";
 /// Modulus of the scales in contact over the modulus of the membrane.
 pub const CONTACT_OVER_MEMBRANE: &str = "contact_modulus_over_membrane";
 
+/// Whether the first failure is sought without any strength.
+pub const FAILURE: &str = "failure";
+
+/// Strength of the scales over the modulus of the substrate.
+pub const SCALE_STRENGTH_OVER_SUBSTRATE: &str = "scale_strength_over_substrate";
+
+/// Strength of the bonds over the modulus of the substrate.
+pub const BOND_STRENGTH_OVER_SUBSTRATE: &str = "bond_strength_over_substrate";
+
+/// Strength of the scales.
+pub const SCALE_STRENGTH: &str = "scale_strength_MPa";
+
+/// Strength of the bonds.
+pub const BOND_STRENGTH: &str = "bond_strength_MPa";
+
 /// Modulus of the membrane.
 pub const MEMBRANE_MODULUS: &str = "membrane_modulus_MPa";
 

@@ -240,6 +240,15 @@ pub static PARAMETERS: &[Parameter] = parameters! {
         key::CONTACT_OVER_SUBSTRATE, "-", [Continuous, Made],
             number(STIFF, |c| &mut c.puncture.contact_modulus_over_substrate),
             "modulus of the scales in contact, E_ct, over the modulus of the substrate, E_s";
+        key::FAILURE, "-", [],
+            words!(judge_failure: "false" = false, "true" = true),
+            "whether to find the first failure and the largest stresses; a strength of scales or bonds requests them, too";
+        key::SCALE_STRENGTH_OVER_SUBSTRATE, "-", [Continuous, Made],
+            optional(POSITIVE, |c| &mut c.strengths.scale),
+            "strength of the scales over the modulus of the substrate, E_s; scales cannot break unless given";
+        key::BOND_STRENGTH_OVER_SUBSTRATE, "-", [Continuous, Made],
+            optional(POSITIVE, |c| &mut c.strengths.bond),
+            "strength of the bonds between scales and substrate over E_s; bonds cannot fail unless given";
     }
 
     "flexure" {
@@ -335,6 +344,12 @@ pub static PARAMETERS: &[Parameter] = parameters! {
         key::SCALE_MODULUS, "MPa", [Made],
             optional(POSITIVE, |c| &mut c.material.scale_modulus_mpa),
             "modulus E_ct of the scales in contact, instead of its ratios to the other two";
+        key::SCALE_STRENGTH, "MPa", [Made],
+            optional(POSITIVE, |c| &mut c.material.scale_strength_mpa),
+            "bending strength of the scales, instead of scale_strength_over_substrate";
+        key::BOND_STRENGTH, "MPa", [Made],
+            optional(POSITIVE, |c| &mut c.material.bond_strength_mpa),
+            "strength of the bonds between scales and substrate, instead of bond_strength_over_substrate";
         key::DENSITY, "kg/m^3", [Made],
             optional(POSITIVE, |c| &mut c.material.scale_density_kg_m3), "density of the scales";
     }

@@ -1,70 +1,95 @@
-//! The modulus of the scales, and the two contact ratios that follow from it.
+//! Moduli and strengths in `MPa`, and the ratios that follow from them.
 //!
-//! The solvers read only `E_ct/E_s` and `E_ct/E_m` of Eq. (5). The stiffness of a scale is a
-//! property of its material, not of its substrate. With `E_ct` in `MPa`, both ratios therefore
-//! follow from it, also when another modulus varies.
+//! The solvers read only the contact ratios `E_ct/E_s` and `E_ct/E_m` of Eq. (5), and the strengths
+//! over `E_s`. The stiffness and the strength of a scale are properties of its material, not of its
+//! substrate. If they are given in `MPa`, the ratios therefore follow from them, also when another
+//! modulus varies.
 
 use super::{Parameter, key};
 use crate::case::Case;
 
+/// Keys of a ratio, of its numerator and of its denominator.
+const RATIOS: [[&str; 3]; 4] = [
+    [key::CONTACT_OVER_SUBSTRATE, key::SCALE_MODULUS, key::SUBSTRATE_MODULUS],
+    [key::CONTACT_OVER_MEMBRANE, key::SCALE_MODULUS, key::MEMBRANE_MODULUS],
+    [key::SCALE_STRENGTH_OVER_SUBSTRATE, key::SCALE_STRENGTH, key::SUBSTRATE_MODULUS],
+    [key::BOND_STRENGTH_OVER_SUBSTRATE, key::BOND_STRENGTH, key::SUBSTRATE_MODULUS],
+];
+
 impl Parameter {
-    /// Returns the key of the modulus in the denominator of a contact ratio.
-    fn below_contact(&self) -> Option<&'static str> {
-        match self.key {
-            key::CONTACT_OVER_SUBSTRATE => Some(key::SUBSTRATE_MODULUS),
-            key::CONTACT_OVER_MEMBRANE => Some(key::MEMBRANE_MODULUS),
-            _ => None,
-        }
-    }
-
-    /// Returns true for a pair of the modulus of the scales and a contact ratio.
+    /// Returns true for a pair of a ratio and its numerator.
     pub(super) fn excludes(&self, other: &Self) -> bool {
-        let follows = |one: &Self, other: &Self| {
-            one.below_contact().is_some() && other.key == key::SCALE_MODULUS
-        };
-        follows(self, other) || follows(other, self)
+        RATIOS.iter().any(|[ratio, above, _]| {
+            [self.key, other.key] == [*ratio, *above] || [other.key, self.key] == [*ratio, *above]
+        })
     }
 
-    /// Returns true for a contact ratio that follows from the modulus of the scales.
+    /// Returns true for a ratio with its numerator given in `MPa`.
     pub(super) fn follows_modulus(&self, case: &Case) -> bool {
-        self.below_contact().is_some() && case.material.scale_modulus_mpa.is_some()
+        RATIOS
+            .iter()
+            .any(|[ratio, above, _]| *ratio == self.key && numerator(case, above).is_some())
     }
 
-    /// Returns the contact ratios, each with the key of its denominator.
-    pub(crate) fn ratios() -> impl Iterator<Item = (&'static Self, &'static str)> {
-        super::PARAMETERS.iter().filter_map(|ratio| Some((ratio, ratio.below_contact()?)))
+    /// Returns the ratios with this parameter as numerator, each with the key of its denominator.
+    pub(crate) fn ratios(&self) -> impl Iterator<Item = (&'static Self, &'static str)> {
+        let of_this = RATIOS.into_iter().filter(|[_, above, _]| *above == self.key);
+        of_this.filter_map(|[ratio, _, below]| Some((Self::named(ratio)?, below)))
     }
 
-    /// Returns true if contact ratios follow from this parameter.
+    /// Returns true if ratios follow from this parameter.
     pub(super) fn is_modulus(&self) -> bool {
-        let below = [key::SUBSTRATE_MODULUS, key::MEMBRANE_MODULUS];
-        self.key == key::SCALE_MODULUS || below.contains(&self.key)
+        RATIOS.iter().any(|[_, above, below]| [*above, *below].contains(&self.key))
     }
 }
 
-/// Returns the contact ratios with the moduli in their denominators.
-fn ratios(case: &mut Case) -> [(&mut f64, Option<f64>); 2] {
-    let material = case.material;
-    [
-        (&mut case.puncture.contact_modulus_over_substrate, material.substrate_modulus_mpa),
-        (&mut case.flexure.contact_modulus_over_membrane, material.membrane_modulus_mpa),
-    ]
+fn numerator(case: &Case, key: &str) -> Option<f64> {
+    let material = &case.material;
+    match key {
+        key::SCALE_MODULUS => material.scale_modulus_mpa,
+        key::SCALE_STRENGTH => material.scale_strength_mpa,
+        key::BOND_STRENGTH => material.bond_strength_mpa,
+        _ => None,
+    }
 }
 
-/// Computes the contact ratios from the modulus of the scales.
+/// Computes a ratio if both parts are given.
+///
+/// A sweep of bending alone may leave out the modulus of the substrate.
+fn ratio(above: Option<f64>, below: Option<f64>) -> Option<f64> {
+    Some(above? / below?)
+}
+
+/// Computes the ratios from the moduli and strengths in `MPa`.
 pub(super) fn settle(case: &mut Case) {
-    let Some(scales) = case.material.scale_modulus_mpa else { return };
-    for (ratio, below) in ratios(case) {
-        // A sweep of bending alone may leave out the modulus of the substrate.
-        *ratio = below.map_or(*ratio, |below| scales / below);
+    let material = case.material;
+    let below = material.substrate_modulus_mpa;
+    if let Some(ratio) = ratio(material.scale_modulus_mpa, below) {
+        case.puncture.contact_modulus_over_substrate = ratio;
     }
+    if let Some(ratio) = ratio(material.scale_modulus_mpa, material.membrane_modulus_mpa) {
+        case.flexure.contact_modulus_over_membrane = ratio;
+    }
+    let strengths = &mut case.strengths;
+    strengths.scale = ratio(material.scale_strength_mpa, below).or(strengths.scale);
+    strengths.bond = ratio(material.bond_strength_mpa, below).or(strengths.bond);
 }
 
-/// Updates the modulus of the scales after a change of the ratio `moved`.
+/// Updates the numerator in `MPa` after a change of the ratio `moved`.
 pub(super) fn restate(case: &mut Case, moved: &Parameter) {
-    let k = usize::from(moved.key == key::CONTACT_OVER_MEMBRANE);
-    let (&mut ratio, below) = ratios(case)[k];
-    if let (true, Some(below)) = (moved.follows_modulus(case), below) {
-        case.material.scale_modulus_mpa = Some(ratio * below);
+    if !moved.follows_modulus(case) {
+        return;
     }
+    let below = match moved.key {
+        key::CONTACT_OVER_MEMBRANE => case.material.membrane_modulus_mpa,
+        _ => case.material.substrate_modulus_mpa,
+    };
+    let (Some(ratio), Some(below)) = (moved.get(case).number(), below) else { return };
+    let material = &mut case.material;
+    let above = match moved.key {
+        key::SCALE_STRENGTH_OVER_SUBSTRATE => &mut material.scale_strength_mpa,
+        key::BOND_STRENGTH_OVER_SUBSTRATE => &mut material.bond_strength_mpa,
+        _ => &mut material.scale_modulus_mpa,
+    };
+    *above = Some(ratio * below);
 }

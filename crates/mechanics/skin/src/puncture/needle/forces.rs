@@ -1,5 +1,6 @@
 //! Equations of a guided needle, and their validity conditions.
 
+use geometry::Vec2;
 use solver::{Residual, Tangent};
 
 use super::mode::{OutlinePart, TipState, Touch};
@@ -296,6 +297,29 @@ impl Chain {
         let Some(needle) = &self.needle else { return 0.0 };
         let touches = self.touches(state);
         touches.map(|(slot, _, _, at)| at.tip.force(needle.forces(&state.z, slot)).x).sum()
+    }
+
+    /// Lists the forces of a guided needle on a scale.
+    ///
+    /// Each entry holds the arm from the node, in the deformed state, and the force.
+    pub(in crate::puncture) fn needle_forces_on(
+        &self,
+        state: &SkinState,
+        scale: usize,
+    ) -> Vec<[Vec2; 2]> {
+        let Some(needle) = &self.needle else { return Vec::new() };
+        let touches = self.touches(state).filter(|(_, _, number, _)| *number == scale);
+        let forces = touches.map(|(slot, _, _, at)| {
+            [at.contact_arm(), at.tip.force(needle.forces(&state.z, slot))]
+        });
+        forces.collect()
+    }
+
+    /// Returns the normal force of a guided needle on a scale.
+    pub(in crate::puncture) fn needle_push_on(&self, state: &SkinState, scale: usize) -> f64 {
+        let Some(needle) = &self.needle else { return 0.0 };
+        let touches = self.touches(state).filter(|(_, _, number, _)| *number == scale);
+        touches.map(|(slot, ..)| state.z[needle.normal_force(slot)]).fold(0.0, f64::max)
     }
 
     /// Computes the dissipation `∫ μ_n N |dξ|` at the tip between two points.

@@ -155,6 +155,11 @@ impl Meeting {
         Self { tip: if is_corner { tip.at_corner() } else { tip }, radius, is_corner, before }
     }
 
+    /// Returns the vector from the node of the scale to the point of contact.
+    pub(super) fn contact_arm(&self) -> Vec2 {
+        self.tip.arm - self.tip.gap * self.tip.normal
+    }
+
     /// Returns the gap between tip and scale.
     pub(super) fn gap(&self) -> f64 {
         self.tip.gap - self.radius

@@ -9,7 +9,7 @@ use super::*;
 use crate::puncture::needle::NEEDLE_UNKNOWNS;
 use crate::puncture::{self, CriticalEvent, Needle, Puncture, RowLength};
 
-fn design(gap: f64, length: f64, slant_deg: f64) -> Design {
+pub(super) fn design(gap: f64, length: f64, slant_deg: f64) -> Design {
     Design { gap, length, slant_deg, base: Base::L, width: 1.0 }
 }
 
@@ -30,7 +30,12 @@ fn guided(design: &Design, friction: f64, inside: f64) -> Puncture {
 }
 
 /// Starts the path of a row of 21 scales with steps limited to `step`.
-fn guided_path(design: &Design, friction: f64, inside: f64, step: f64) -> Continuation<Chain> {
+pub(super) fn guided_path(
+    design: &Design,
+    friction: f64,
+    inside: f64,
+    step: f64,
+) -> Continuation<Chain> {
     let layout = RowLayout { left: 10, right: 10, needle: NEEDLE_UNKNOWNS, contacts: 6 };
     let stiffness = (&springs(design)).into();
     let law = law(design, Law::PRINTED, HARD);
@@ -43,7 +48,7 @@ fn guided_path(design: &Design, friction: f64, inside: f64, step: f64) -> Contin
 /// Designs, frictions and positions of tips in all states.
 ///
 /// The tips stick, slide in both directions, and pass over the right or the left corner.
-const CASES: [(f64, f64, f64, f64, f64); 7] = [
+pub(super) const CASES: [(f64, f64, f64, f64, f64); 7] = [
     (0.1, 1.0, 0.0, 0.0, 0.0),
     (0.1, 1.0, 45.0, 0.0, 0.0),
     (0.1, 1.0, 60.0, 0.176, 0.0),

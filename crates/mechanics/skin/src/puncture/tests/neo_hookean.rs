@@ -84,7 +84,7 @@ fn mirrored_rows_have_mirrored_forces() {
         let parameters =
             PunctureParameters { substrate_law: of_substrate, ..PunctureParameters::default() };
         let beyond = RowExterior::default();
-        Chain::new(row, &stiffness, law, layout, beyond, &parameters, LIVELY.length)
+        Chain::new(row, &stiffness, law, layout, beyond, &parameters, &LIVELY)
     };
     let forces = |chain: &Chain, displacement: &dyn Fn(usize) -> [f64; 3]| {
         let (mut state, mut residual) = (SkinState::at_rest(chain), Residual::new(chain.size()));

@@ -1,0 +1,218 @@
+//! A scale as a beam that is clamped at its base: stress, bending and bond tractions (B1–B3).
+//!
+//! The axis of the beam rises from the node along `e = (sin α, cos α)`. Its length is `l = 1/cos α`,
+//! its depth `h = 2a cos α`, its width `b`; sections are perpendicular to `e`. Lengths are over `t`,
+//! forces over `E* t²`, stresses over `E*`.
+
+use geometry::{Parallelogram, Vec2};
+
+/// Poisson's ratio of a scale, for its shear modulus `G = E_c/(2 (1 + ν_c))`: glassy polymers have
+/// 0.35 to 0.4, ceramics 0.2 to 0.25. It only enters the small part of a deflection due to shear.
+const POISSON_RATIO: f64 = 0.35;
+
+/// Shear coefficient of a rectangular section.
+const SHEAR_COEFFICIENT: f64 = 5.0 / 6.0;
+
+/// Force of a contact or of the needle on a scale, in the frame of the scale.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Load {
+    /// Vector from the node to the loaded point.
+    pub(super) arm: Vec2,
+    pub(super) force: Vec2,
+}
+
+/// Resultant of the tractions of a bond or of its substrate.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct BaseTractions {
+    /// Largest normal traction that pulls at the bond: its mean plus the part due to bending; 0 if
+    /// the whole base is pressed.
+    pub(super) tension: f64,
+    /// Mean shear traction.
+    pub(super) shear: f64,
+    /// Mean pressure on the substrate; negative where the scale is lifted.
+    pub(super) pressure: f64,
+}
+
+/// Motion of the tip relative to the base, by bending of the scale.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct TipMotion {
+    /// Deflection perpendicular to the axis, by bending and shear, over `t`.
+    pub(super) deflection: f64,
+    /// Rotation of the section at the tip, radians, counter-clockwise.
+    pub(super) rotation: f64,
+}
+
+/// A scale as a beam.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Beam {
+    along: Vec2,
+    length: f64,
+    depth: f64,
+    width: f64,
+    half_base: f64,
+}
+
+impl Beam {
+    pub(super) fn new(scale: &Parallelogram, width: f64) -> Self {
+        let (sin, cos) = scale.slant().sin_cos();
+        let half_base = scale.half_base();
+        Self {
+            along: Vec2::new(sin, cos),
+            length: cos.recip(),
+            depth: 2.0 * half_base * cos,
+            width,
+            half_base,
+        }
+    }
+
+    /// Computes the largest bending stress of any section (B1).
+    pub(super) fn stress(&self, loads: &[Load]) -> f64 {
+        // The bending moment is linear between loads, so its extremes lie at loads and at the base.
+        let at_loads = loads.iter().map(|load| load.arm.dot(&self.along));
+        let inside = at_loads.filter(|s| (0.0..=self.length).contains(s));
+        // A load at a corner of the tip lies beyond the last section.
+        let sections = inside.chain([0.0, self.length]);
+        sections.map(|s| self.stress_below(loads, s)).fold(0.0, f64::max)
+    }
+
+    /// Computes the stress in the section at `s`, just below any load there.
+    fn stress_below(&self, loads: &[Load], s: f64) -> f64 {
+        // Loads at the base do not act on the section there.
+        let beyond = loads.iter().filter(|load| {
+            let at = load.arm.dot(&self.along);
+            at >= s && at > 0.0
+        });
+        let (mut moment, mut normal) = (0.0, 0.0);
+        for Load { arm, force } in beyond {
+            moment += (arm - s * self.along).perp(force);
+            normal += force.dot(&self.along);
+        }
+        let area = self.width * self.depth;
+        6.0 * moment.abs() / (area * self.depth) + normal.abs() / area
+    }
+
+    /// Computes the motion of the tip of a scale with this modulus (B2).
+    pub(super) fn tip_motion(&self, loads: &[Load], modulus: f64) -> TipMotion {
+        let bending = modulus * self.width * self.depth.powi(3) / 12.0;
+        let shear = modulus / (2.0 * (1.0 + POISSON_RATIO));
+        let shear = SHEAR_COEFFICIENT * shear * self.width * self.depth;
+        let length = self.length;
+        let mut tip = TipMotion::default();
+        for Load { arm, force } in loads {
+            // Up to the load the moment is `moment − across s`.
+            let (moment, across) = (arm.perp(force), self.along.perp(force));
+            let end = arm.dot(&self.along).clamp(0.0, length);
+            let (square, cube) = (end.powi(2) / 2.0, end.powi(3) / 3.0);
+            tip.rotation += (moment * end - across * square) / bending;
+            let bent = length * (moment * end - across * square) - moment * square + across * cube;
+            tip.deflection += bent / bending + across * end / shear;
+        }
+        tip
+    }
+
+    /// Computes the tractions at the base (B3), which balance the loads.
+    pub(super) fn base_tractions(&self, loads: &[Load]) -> BaseTractions {
+        let (mut force, mut moment) = (Vec2::zeros(), 0.0);
+        for load in loads {
+            force += load.force;
+            moment += load.arm.perp(&load.force);
+        }
+        let area = 2.0 * self.half_base * self.width;
+        let section_modulus = area * self.half_base / 3.0;
+        let mean = force.y / area;
+        BaseTractions {
+            tension: (mean + moment.abs() / section_modulus).max(0.0),
+            shear: force.x.abs() / area,
+            pressure: -mean,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+
+    const MODULUS: f64 = 7000.0;
+
+    fn beam(half_base: f64, slant_deg: f64, width: f64) -> Beam {
+        Beam::new(&Parallelogram::new(half_base, slant_deg).unwrap(), width)
+    }
+
+    /// Load at a distance along the axis and an offset from it, with parts along and across.
+    fn load(beam: &Beam, [s, offset]: [f64; 2], [along, across]: [f64; 2]) -> Load {
+        let side = Vec2::new(-beam.along.y, beam.along.x);
+        Load { arm: s * beam.along + offset * side, force: along * beam.along + across * side }
+    }
+
+    #[test]
+    fn a_cantilever_bends_as_in_closed_form() {
+        for slant in [0.0, 40.0, 75.0] {
+            let beam = beam(0.1, slant, 2.0);
+            let (length, area) = (beam.length, beam.width * beam.depth);
+            let bending = MODULUS * area * beam.depth.powi(2) / 12.0;
+            let shear = MODULUS / 2.7 * area / 1.2;
+            let tip = load(&beam, [length, 0.0], [0.0, 0.3]);
+            assert_relative_eq!(
+                beam.stress(&[tip]),
+                6.0 * 0.3 * length / (area * beam.depth),
+                max_relative = 1e-13
+            );
+            let motion = beam.tip_motion(&[tip], MODULUS);
+            assert_relative_eq!(
+                motion.rotation,
+                0.3 * length.powi(2) / (2.0 * bending),
+                max_relative = 1e-13
+            );
+            assert_relative_eq!(
+                motion.deflection,
+                0.3 * length.powi(3) / (3.0 * bending) + 0.3 * length / shear,
+                max_relative = 1e-13
+            );
+            // A force in the middle of the axis leaves the outer half straight.
+            let half = length / 2.0;
+            let motion = beam.tip_motion(&[load(&beam, [half, 0.0], [0.0, 0.3])], MODULUS);
+            let rotation = 0.3 * half.powi(2) / (2.0 * bending);
+            let at_load = 0.3 * half.powi(3) / (3.0 * bending) + 0.3 * half / shear;
+            assert_relative_eq!(motion.rotation, rotation, max_relative = 1e-13);
+            let deflection = at_load + rotation * half;
+            assert_relative_eq!(motion.deflection, deflection, max_relative = 1e-13);
+        }
+    }
+
+    #[test]
+    fn a_force_beside_the_axis_compresses_and_bends() {
+        let beam = beam(0.2, 30.0, 1.0);
+        let pushed = load(&beam, [0.7 * beam.length, beam.depth / 2.0], [-2.0, 0.0]);
+        // Four times the mean stress, as for a column loaded at its edge.
+        let stress = 4.0 * 2.0 / (beam.width * beam.depth);
+        assert_relative_eq!(beam.stress(&[pushed]), stress, max_relative = 1e-13);
+        // A balanced pair bends the beam between the loads alone, not at the base.
+        let pair = [
+            load(&beam, [0.8, 0.0], [0.0, 1.0]),
+            load(&beam, [0.5, 0.0], [0.0, -2.0]),
+            load(&beam, [0.2, 0.0], [0.0, 1.0]),
+        ];
+        let between = 6.0 * 0.3 / (beam.width * beam.depth.powi(2));
+        assert_relative_eq!(beam.stress(&pair), between, max_relative = 1e-12);
+        let base = beam.base_tractions(&pair);
+        assert!(base.tension.abs() < 1e-13 && base.shear.abs() < 1e-13, "{base:?}");
+    }
+
+    #[test]
+    fn tractions_of_the_base_are_linear_over_it() {
+        let beam = beam(0.5, 0.0, 2.0);
+        let area = 2.0;
+        let pressed = Load { arm: Vec2::new(0.1, 1.0), force: Vec2::new(0.0, -3.0) };
+        let base = beam.base_tractions(&[pressed]);
+        assert_relative_eq!(base.pressure, 3.0 / area, max_relative = 1e-14);
+        // Within the middle third nothing pulls.
+        assert_eq!((base.tension, base.shear), (0.0, 0.0));
+        let pushed = Load { arm: Vec2::new(0.0, 1.0), force: Vec2::new(3.0, 0.0) };
+        let base = beam.base_tractions(&[pushed]);
+        // 6 M/(b (2a)²) with a lever arm of 1.
+        assert_relative_eq!(base.tension, 6.0 * 3.0 / 2.0, max_relative = 1e-14);
+        assert_relative_eq!(base.shear, 1.5, max_relative = 1e-14);
+    }
+}

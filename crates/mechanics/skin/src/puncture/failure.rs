@@ -1,0 +1,386 @@
+//! First failure along the path, and the largest stresses of scales, bonds and tissue.
+
+use std::sync::Arc;
+
+use geometry::Vec2;
+use serde::{Deserialize, Serialize};
+use solver::{Continuation, Peak, Summit};
+use substrate::SubstrateLaw;
+
+use super::PunctureParameters;
+use super::adaptive_row::Segment;
+use super::beam::{BaseTractions, Beam, Load, TipMotion};
+use super::needle::CriticalEvent;
+use super::system::{Chain, FIRST_LIMIT_MARK};
+use crate::contacts::{SkinMode, SkinPoint, SkinState};
+use crate::path_location::PathLocation;
+use crate::record::PathFunction;
+
+/// Rotation of the tip of a scale relative to its base, by bending, above which the scale is not
+/// rigid; linear beam theory is accurate up to about this angle.
+const LARGEST_BEND_DEG: f64 = 5.0;
+
+/// Pressure of a rigid punch at which a ductile plate is perforated, over the strength.
+///
+/// An estimate: the indentation pressure of a rigid–plastic half-space is `3 σ_y`.
+const PERFORATION: f64 = 3.0;
+
+/// Strengths of a skin, over `E_s`. A mode without its strength is not judged.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Strengths {
+    /// Strength of the scales in bending; for perforation also their yield stress.
+    pub scale: Option<f64>,
+    /// Strength of the bond between a scale and the substrate.
+    pub bond: Option<f64>,
+}
+
+/// Mode of failure of a skin.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum FailureMode {
+    /// A scale reaches the critical tilt.
+    Tilt,
+    /// The needle reaches the soft surface between two bases.
+    Through,
+    /// The surface of the substrate folds over.
+    Fold,
+    /// The stress of a scale reaches its strength.
+    Break,
+    /// A scale bends too far to count as rigid.
+    Bend,
+    /// The traction at a base reaches the strength of the bond.
+    Debond,
+    /// A round tip perforates a scale.
+    Perforate,
+}
+
+impl FailureMode {
+    /// All modes.
+    pub const ALL: [Self; 7] = [
+        Self::Tilt,
+        Self::Through,
+        Self::Fold,
+        Self::Break,
+        Self::Bend,
+        Self::Debond,
+        Self::Perforate,
+    ];
+
+    /// Returns the short name used in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Tilt => "tilt",
+            Self::Through => "through",
+            Self::Fold => "fold",
+            Self::Break => "break",
+            Self::Bend => "bend",
+            Self::Debond => "debond",
+            Self::Perforate => "perforate",
+        }
+    }
+
+    /// Returns the reason for which a puncture with these parameters cannot fail in this mode, or
+    /// is not judged by it; `None` if it is judged.
+    pub fn not_judged(self, parameters: &PunctureParameters) -> Option<&'static str> {
+        let PunctureParameters { needle, needle_radius, substrate_law, failure, .. } = parameters;
+        let Strengths { scale, bond } = failure.unwrap_or_default();
+        let is_round = needle_radius.is_some_and(|radius| radius > 0.0);
+        match self {
+            Self::Through if !needle.is_guided() => Some("the needle is not guided"),
+            Self::Fold if *substrate_law == SubstrateLaw::NeoHookean => {
+                Some("a neo-hookean substrate cannot fold")
+            }
+            Self::Perforate if !is_round => Some("the needle has no radius"),
+            Self::Break | Self::Perforate if scale.is_none() => {
+                Some("the strength of the scales is not given")
+            }
+            Self::Debond if bond.is_none() => Some("the strength of the bond is not given"),
+            _ => None,
+        }
+    }
+}
+
+/// First failure, and the largest stresses on the path; empty unless requested.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct FailureMeasures {
+    /// Mode of the first failure on the path; `None` if the path ends before any.
+    pub mode: Option<FailureMode>,
+    /// `F*` at the first failure.
+    pub force: Option<f64>,
+    /// Largest bending stress of any scale up to the end of the path, over `E_s`.
+    pub scale_stress: Option<f64>,
+    /// Largest deflection of the tip of any scale, over `t`.
+    pub scale_deflection: Option<f64>,
+    /// Largest traction at the bond of any scale, in tension or shear, over `E_s`.
+    pub bond_stress: Option<f64>,
+    /// Largest mean pressure of any base on the substrate, over `E_s`.
+    pub tissue_pressure: Option<f64>,
+    /// Distance between the faces of two neighbours at rest, over `t`.
+    pub clearance: Option<f64>,
+}
+
+impl FailureMeasures {
+    /// Keeps the first failure of a path that ended early.
+    pub(super) fn without_final_values(self) -> Self {
+        Self { mode: self.mode, force: self.force, clearance: self.clearance, ..Self::default() }
+    }
+}
+
+/// Modes in which a scale reaches a limit, in the order of their markers.
+const LIMITS: [FailureMode; 4] =
+    [FailureMode::Break, FailureMode::Bend, FailureMode::Debond, FailureMode::Perforate];
+
+/// The largest fraction of each limit that any scale has reached.
+const FRACTIONS: [fn(&Chain, &SkinState) -> f64; LIMITS.len()] = [
+    |chain, state| chain.row_values(state).fractions[0],
+    |chain, state| chain.row_values(state).fractions[1],
+    |chain, state| chain.row_values(state).fractions[2],
+    |chain, state| chain.row_values(state).fractions[3],
+];
+
+/// Quantities with a tracked maximum along the path.
+pub(super) const MAXIMA: [PathFunction<Chain>; 4] = [
+    |chain, state, _| chain.row_values(state).tracked[0],
+    |chain, state, _| chain.row_values(state).tracked[1],
+    |chain, state, _| chain.row_values(state).tracked[2],
+    |chain, state, _| chain.row_values(state).tracked[3],
+];
+
+/// Step along the path direction, relative to its largest component, for the slope at its end.
+const STEP: f64 = 1e-6;
+
+/// Values of a scale, or the largest of a row.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct ScaleValues {
+    /// Bending stress, deflection, bond stress and tissue pressure, in the order of [`MAXIMA`].
+    pub(super) tracked: [f64; 4],
+    /// Fraction of each limit, in the order of [`LIMITS`].
+    fractions: [f64; LIMITS.len()],
+}
+
+/// Locates the first failure while a path is followed, and tracks the maxima.
+pub(super) struct FailureObserver {
+    /// Limits that are judged, by their index.
+    judged: Vec<usize>,
+    maxima: [Peak<SkinMode>; MAXIMA.len()],
+    /// Fraction of each limit at the last point.
+    fractions: [f64; LIMITS.len()],
+    /// First failure before the end of the path.
+    pub(super) first: Option<(FailureMode, SkinPoint)>,
+}
+
+impl FailureObserver {
+    /// Starts at the first point of a path; `None` if the first failure is not sought.
+    pub(super) fn new(path: &Continuation<Chain>, parameters: &PunctureParameters) -> Option<Self> {
+        parameters.failure?;
+        let mut observer = Self {
+            judged: (0..LIMITS.len())
+                .filter(|&limit| LIMITS[limit].not_judged(parameters).is_none())
+                .collect(),
+            maxima: Default::default(),
+            fractions: [0.0; LIMITS.len()],
+            first: None,
+        };
+        observer.visit(path, None);
+        Some(observer)
+    }
+
+    /// Searches a segment, in which the surface first folds at `fold` if it does.
+    pub(super) fn follow(
+        &mut self,
+        path: &mut Continuation<Chain>,
+        Segment { from, to, left }: &Segment,
+        fold: Option<&SkinPoint>,
+    ) {
+        let before = self.fractions;
+        self.visit(path, Some(left));
+        if self.first.is_some() {
+            return;
+        }
+        let fold = fold.map(|fold| (FailureMode::Fold, fold.clone()));
+        let mut found: Vec<_> = fold.into_iter().collect();
+        for &limit in &self.judged {
+            if before[limit] < 1.0 && self.fractions[limit] >= 1.0 {
+                let reached = PathLocation { quantity: FRACTIONS[limit], value: 1.0 };
+                found.extend(reached.between(path, from, to).map(|point| (LIMITS[limit], point)));
+            }
+        }
+        // Of several failures within one segment the first one counts.
+        self.first = found
+            .into_iter()
+            .min_by(|(_, a), (_, b)| path.spans(from, a)[0].total_cmp(&path.spans(from, b)[0]));
+    }
+
+    fn visit(&mut self, path: &Continuation<Chain>, from: Option<&Arc<SkinPoint>>) {
+        let values = path.system().row_values(&path.point().state);
+        self.fractions = values.fractions;
+        for (peak, value) in self.maxima.iter_mut().zip(values.tracked) {
+            peak.visit_value(path, from, value);
+        }
+    }
+
+    /// Extends the points to a longer row.
+    pub(super) fn replace_points(&mut self, new: impl Fn(&SkinPoint) -> SkinPoint) {
+        if let Some((_, point)) = &mut self.first {
+            *point = new(point);
+        }
+        for peak in &mut self.maxima {
+            peak.replace_points(&new);
+        }
+    }
+
+    /// Returns the largest value of each quantity on the path, and its location.
+    pub(super) fn summits(
+        &self,
+        path: &mut Continuation<Chain>,
+    ) -> [Option<Summit<SkinMode>>; MAXIMA.len()] {
+        std::array::from_fn(|k| {
+            let visited = self.maxima[k].at_points()?;
+            // Most quantities are largest at the end and still rise there. The search would solve
+            // for equilibria in the last segment only to confirm it.
+            let is_end = visited.point.state.z == path.point().state.z;
+            if is_end && rises(path.system(), &visited.point, MAXIMA[k]) {
+                return Some(visited);
+            }
+            self.maxima[k].summit(path, MAXIMA[k])
+        })
+    }
+
+    /// Computes the measures; `end` is the mode in which a completed path ended.
+    pub(super) fn measures(
+        &self,
+        path: &mut Continuation<Chain>,
+        end: Option<FailureMode>,
+    ) -> FailureMeasures {
+        let summits = self.summits(path);
+        let [scale_stress, scale_deflection, bond_stress, tissue_pressure] =
+            summits.map(|summit| summit.map(|summit| summit.value));
+        let (chain, last) = (path.system(), path.point());
+        let first = self.first.as_ref().map(|(mode, point)| (*mode, point));
+        let first = first.or_else(|| Some((end?, last)));
+        FailureMeasures {
+            mode: first.map(|(mode, _)| mode),
+            force: first.map(|(_, point)| chain.force(&point.state)),
+            scale_stress,
+            scale_deflection,
+            bond_stress,
+            tissue_pressure,
+            clearance: chain.clearance(),
+        }
+    }
+}
+
+/// Computes the fraction of a strength; 0 without one.
+fn fraction(stress: f64, strength: Option<f64>) -> f64 {
+    strength.map_or(0.0, |strength| stress / strength)
+}
+
+/// Returns true if a function rises along the path where it arrives at a point.
+fn rises(chain: &Chain, point: &SkinPoint, f: PathFunction<Chain>) -> bool {
+    let direction = &point.arriving;
+    let largest = direction.iter().fold(f64::MIN_POSITIVE, |max, x| max.max(x.abs()));
+    let before = point.state.moved(-STEP / largest, direction);
+    f(chain, &point.state, direction) > f(chain, &before, direction)
+}
+
+impl From<CriticalEvent> for FailureMode {
+    fn from(event: CriticalEvent) -> Self {
+        match event {
+            CriticalEvent::Tilt => Self::Tilt,
+            CriticalEvent::Through => Self::Through,
+        }
+    }
+}
+
+impl Chain {
+    /// Lists the forces of neighbours and needle on a scale, in its frame.
+    pub(super) fn loads(&self, state: &SkinState, scale: usize) -> Vec<Load> {
+        let mut forces = self.contacts.forces_on(state, scale);
+        if self.needle.is_some() {
+            forces.extend(self.needle_forces_on(state, scale));
+        } else if scale == self.layout.left {
+            let load = Vec2::new(0.0, -state.z[self.layout.load()]);
+            forces.push([self.loaded_arm(&state.z), load]);
+        }
+        let back = contact::Pose::new(0.0, 0.0, -self.displacement(&state.z, scale)[2]);
+        let loads = forces.into_iter();
+        loads.map(|[arm, force]| Load { arm: back.turn(arm), force: back.turn(force) }).collect()
+    }
+
+    /// Computes the values of a scale with these loads.
+    fn values_under(&self, state: &SkinState, scale: usize, loads: &[Load]) -> ScaleValues {
+        let beam = Beam::new(&self.contacts.arrangement.scale(scale), self.width);
+        // Forces are over `E*`, moduli and stresses over `E_s`.
+        let TipMotion { deflection, rotation } =
+            beam.tip_motion(loads, self.scale_modulus / self.plane_modulus);
+        let BaseTractions { tension, shear, pressure } = beam.base_tractions(loads);
+        let [stress, bond_stress, pressure] =
+            [beam.stress(loads), tension.max(shear), pressure].map(|x| self.plane_modulus * x);
+        let Strengths { scale: strength, bond } = self.strengths;
+        let perforated = self.needle_radius.map_or(0.0, |radius| {
+            let punch = std::f64::consts::PI * radius.powi(2) * PERFORATION;
+            fraction(self.plane_modulus * self.needle_push_on(state, scale) / punch, strength)
+        });
+        ScaleValues {
+            tracked: [stress, deflection.abs(), bond_stress, pressure],
+            fractions: [
+                fraction(stress, strength),
+                rotation.abs().to_degrees() / LARGEST_BEND_DEG,
+                fraction(bond_stress, bond),
+                perforated,
+            ],
+        }
+    }
+
+    /// Computes the values of a scale.
+    pub(super) fn scale_values(&self, state: &SkinState, scale: usize) -> ScaleValues {
+        self.values_under(state, scale, &self.loads(state, scale))
+    }
+
+    /// Computes the largest values of any scale.
+    fn row_values(&self, state: &SkinState) -> ScaleValues {
+        let mut largest = ScaleValues::default();
+        for scale in 0..self.layout.scales() {
+            let loads = self.loads(state, scale);
+            // Most scales of a row touch nothing.
+            if loads.is_empty() {
+                continue;
+            }
+            let ScaleValues { tracked, fractions } = self.values_under(state, scale, &loads);
+            for (most, value) in largest.tracked.iter_mut().zip(tracked) {
+                *most = most.max(value);
+            }
+            for (most, value) in largest.fractions.iter_mut().zip(fractions) {
+                *most = most.max(value);
+            }
+        }
+        largest
+    }
+
+    /// Computes the distance between the faces of the punctured scale and its right neighbour at
+    /// rest (B5), over `t`.
+    ///
+    /// `None` for a single scale and at the end of a row.
+    pub(super) fn clearance(&self) -> Option<f64> {
+        let (arrangement, scale) = (&self.contacts.arrangement, self.layout.left);
+        let slant = arrangement.scale(scale).slant();
+        (self.layout.right > 0).then(|| arrangement.gap(scale) * slant.cos())
+    }
+
+    /// Evaluates the marker of a limit of a scale: the excess of its fraction over 1.
+    pub(super) fn limit_marker(&self, state: &SkinState, number: usize) -> f64 {
+        let (scale, limit) = (number / LIMITS.len(), number % LIMITS.len());
+        self.scale_values(state, scale).fractions[limit] - 1.0
+    }
+
+    /// Returns the number of the marker that vanishes where a limit is reached.
+    ///
+    /// `None` for a mode that is no limit of a scale.
+    pub(super) fn limit_mark(&self, state: &SkinState, mode: FailureMode) -> Option<usize> {
+        let limit = LIMITS.iter().position(|other| *other == mode)?;
+        let fractions = (0..self.layout.scales())
+            .map(|scale| (scale, self.scale_values(state, scale).fractions[limit]));
+        let (scale, _) = fractions.max_by(|a, b| a.1.total_cmp(&b.1))?;
+        Some(FIRST_LIMIT_MARK + LIMITS.len() * scale + limit)
+    }
+}

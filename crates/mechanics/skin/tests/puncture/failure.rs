@@ -1,0 +1,193 @@
+//! First failure of a row, and the largest stresses along its path.
+
+use approx::assert_relative_eq;
+use skin::puncture::{
+    FailureMeasures, FailureMode, Needle, PunctureParameters, RowLength, Strengths,
+};
+use skin::{Base, Common, Design};
+use substrate::{Calibrations, SubstrateLaw};
+
+use crate::complete;
+use crate::samples::{design, solve_as};
+
+/// Modulus of the polyurethane of the reference study, `MPa`.
+const SUBSTRATE_MPA: f64 = 0.31;
+
+fn parameters(strengths: Strengths) -> PunctureParameters {
+    PunctureParameters {
+        scales: RowLength::Auto,
+        failure: Some(strengths),
+        ..PunctureParameters::default()
+    }
+}
+
+fn failure(design: &Design, parameters: &PunctureParameters) -> FailureMeasures {
+    let known = Calibrations::default();
+    complete(&solve_as(&known, design, &Common::default(), parameters)).failure
+}
+
+/// An independent program found these largest stresses (`MPa`).
+#[test]
+fn strong_designs_of_the_reference_study_would_break_or_bend() {
+    for (gap, length, slant, stress, mode) in [
+        (0.1, 0.1, 75.0, 4900.0, FailureMode::Bend),
+        (0.1, 0.2, 75.0, 2100.0, FailureMode::Bend),
+        (0.1, 0.4, 60.0, 17.0, FailureMode::Fold),
+    ] {
+        let design = design(gap, length, slant, Base::L);
+        let failure = failure(&design, &parameters(Strengths::default()));
+        let stress_mpa = SUBSTRATE_MPA * failure.scale_stress.unwrap();
+        assert_relative_eq!(stress_mpa, stress, max_relative = 0.05);
+        assert_eq!(failure.mode, Some(mode));
+        // The slender scales would deflect by many times their thickness.
+        let deflection = failure.scale_deflection.unwrap();
+        assert_eq!(deflection > 10.0, mode == FailureMode::Bend, "{deflection}");
+    }
+}
+
+/// An isolated scale: every value follows from the load and its arm.
+#[test]
+fn stresses_of_an_isolated_scale_follow_from_its_load() {
+    let upright = Design { width: 2.0, ..design(100.0, 0.5, 0.0, Base::L) };
+    let parameters =
+        PunctureParameters { scales: RowLength::Scales(1), ..parameters(Strengths::default()) };
+    let known = Calibrations::default();
+    let measures = complete(&solve_as(&known, &upright, &Common::default(), &parameters));
+    let failure = measures.failure;
+    // F over E_s t²; the tilted scale carries parts of it along and across its axis.
+    let force = measures.critical_force.unwrap() * upright.length / 0.75;
+    let (sin, cos) = 10_f64.to_radians().sin_cos();
+    let (depth, area) = (0.5, 1.0);
+    let moment = force * (cos * depth / 2.0 + sin);
+    assert_relative_eq!(
+        failure.scale_stress.unwrap(),
+        6.0 * moment / (area * depth) + force * cos / area,
+        max_relative = 1e-10
+    );
+    assert_relative_eq!(failure.tissue_pressure.unwrap(), force * cos / area, max_relative = 1e-10);
+    assert_relative_eq!(
+        failure.bond_stress.unwrap(),
+        6.0 * moment / (area * depth) - force * cos / area,
+        max_relative = 1e-10
+    );
+    let bending = 9677.0 * area * depth.powi(2) / 12.0;
+    let shear = 9677.0 / 2.7 * area / 1.2;
+    let bent = force * (cos * depth / 4.0 + sin / 3.0) / bending + force * sin / shear;
+    assert_relative_eq!(failure.scale_deflection.unwrap(), bent, max_relative = 1e-10);
+    assert_eq!(failure.clearance, None);
+    assert_eq!((failure.mode, failure.force), (Some(FailureMode::Tilt), measures.critical_force));
+}
+
+/// At half of a largest stress, the path has an earlier failure with exactly that stress.
+#[test]
+fn failures_are_located_where_a_strength_is_reached() {
+    let known = Calibrations::default();
+    let design = design(0.3, 0.6, 45.0, Base::L);
+    let whole = failure(&design, &parameters(Strengths::default()));
+    let solved =
+        complete(&solve_as(&known, &design, &Common::default(), &parameters(Strengths::default())));
+    assert_eq!((whole.mode, whole.force), (Some(FailureMode::Tilt), solved.critical_force));
+    assert_relative_eq!(whole.clearance.unwrap(), 0.3 * 0.5_f64.sqrt(), max_relative = 1e-14);
+    let [scale, bond] =
+        [whole.scale_stress, whole.bond_stress].map(|stress| stress.map(|stress| stress / 2.0));
+    for (strengths, mode) in [
+        (Strengths { scale, bond: None }, FailureMode::Break),
+        (Strengths { scale: None, bond }, FailureMode::Debond),
+    ] {
+        let failed = failure(&design, &parameters(strengths));
+        assert_eq!(failed.mode, Some(mode));
+        assert!(failed.force < solved.critical_force, "{failed:?}");
+        // A path to the tilt of the failure has this largest stress.
+        let place = skin::puncture::At::Force(failed.force.unwrap());
+        let springs = substrate::calibrate(&design.footprint(0.5).unwrap()).unwrap();
+        let at = skin::puncture::snapshots(
+            &design,
+            &springs,
+            &Common::default(),
+            &parameters(Strengths::default()),
+            &[place],
+        );
+        let at = at.unwrap().at[0].clone().unwrap();
+        let to_there = PunctureParameters {
+            critical_tilt_deg: at.tilt_deg,
+            ..parameters(Strengths::default())
+        };
+        let there = failure(&design, &to_there);
+        let (reached, strength) = match mode {
+            FailureMode::Break => (there.scale_stress, scale),
+            _ => (there.bond_stress, bond),
+        };
+        assert_relative_eq!(reached.unwrap(), strength.unwrap(), max_relative = 1e-8);
+    }
+    // Requests for failures change nothing else.
+    let plain = PunctureParameters { failure: None, ..parameters(Strengths::default()) };
+    let plain = complete(&solve_as(&known, &design, &Common::default(), &plain));
+    let without =
+        skin::puncture::PunctureMeasures { failure: FailureMeasures::default(), ..solved };
+    assert_eq!(plain, without);
+}
+
+#[test]
+fn the_first_of_several_failures_counts() {
+    // This surface folds over before 10°, and its slender scales bend before that.
+    let folding = design(0.1, 0.2, 75.0, Base::L);
+    let failed = failure(&folding, &parameters(Strengths::default()));
+    assert_eq!(failed.mode, Some(FailureMode::Bend));
+    // Scales of another material are stiffer; then the fold comes first, at the same force.
+    let stiff = PunctureParameters {
+        contact_modulus_over_substrate: 1e9,
+        ..parameters(Strengths::default())
+    };
+    let known = Calibrations::default();
+    let measures = complete(&solve_as(&known, &folding, &Common::default(), &stiff));
+    assert_eq!(measures.failure.mode, Some(FailureMode::Fold));
+    assert_eq!(measures.failure.force, measures.fold_force);
+    let rubber = PunctureParameters { substrate_law: SubstrateLaw::NeoHookean, ..stiff };
+    assert_eq!(failure(&folding, &rubber).mode, Some(FailureMode::Tilt));
+}
+
+/// A round needle on scales of this strength.
+fn round(strength: f64) -> PunctureParameters {
+    PunctureParameters {
+        needle: Needle::Guided { friction: 0.3 },
+        needle_radius: Some(0.05),
+        load_position: 0.95,
+        ..parameters(Strengths { scale: Some(strength), bond: None })
+    }
+}
+
+#[test]
+fn a_round_tip_perforates_a_weak_scale() {
+    let design = design(0.3, 1.0, 60.0, Base::L);
+    let whole = failure(&design, &round(1e6));
+    assert_eq!(whole.mode, Some(FailureMode::Tilt));
+    // 3 σ π r² at a third of the last force; the scales themselves do not break at this strength.
+    let force = whole.force.unwrap() * design.length / 0.75 / 3.0;
+    let strength = force / (3.0 * std::f64::consts::PI * 0.05_f64.powi(2));
+    assert!(strength > whole.scale_stress.unwrap(), "{strength} {whole:?}");
+    let failed = failure(&design, &round(strength));
+    assert_eq!(failed.mode, Some(FailureMode::Perforate));
+    // The needle pushes obliquely: its force exceeds its vertical part.
+    assert!(failed.force.unwrap() > whole.force.unwrap() / 4.0, "{failed:?} {whole:?}");
+    assert!(failed.force.unwrap() < whole.force.unwrap() / 3.0 * 1.2, "{failed:?} {whole:?}");
+}
+
+/// Lists the modes that are judged with these parameters.
+fn judged(parameters: &PunctureParameters) -> Vec<FailureMode> {
+    let modes = FailureMode::ALL.into_iter();
+    modes.filter(|mode| mode.not_judged(parameters).is_none()).collect()
+}
+
+#[test]
+fn modes_that_are_not_judged_state_the_reason() {
+    let bare = PunctureParameters::default();
+    assert_eq!(judged(&bare), [FailureMode::Tilt, FailureMode::Fold, FailureMode::Bend]);
+    let all = PunctureParameters {
+        needle: Needle::Guided { friction: 0.0 },
+        needle_radius: Some(0.5),
+        ..parameters(Strengths { scale: Some(100.0), bond: Some(1.0) })
+    };
+    assert_eq!(judged(&all), FailureMode::ALL);
+    let reason = FailureMode::Break.not_judged(&bare).unwrap();
+    assert_eq!(reason, "the strength of the scales is not given");
+}

@@ -1,0 +1,57 @@
+//! The first failure, and the largest stresses.
+
+use results::ParameterDerivative;
+use run::Evaluator;
+use skin::puncture::{FailureMeasures, FailureMode, Strengths};
+use sweep::{Case, Measure};
+
+use super::designs::{number, random_case};
+use super::differences::Differences;
+use super::{compare_components, derivatives};
+
+const MEASURES: [&str; 6] = [
+    "failure_force",
+    "scale_stress_max",
+    "scale_deflection_max",
+    "bond_stress_max",
+    "tissue_pressure_max",
+    "clearance",
+];
+
+fn failure(case: &Case) -> FailureMeasures {
+    let solved = Evaluator::new(&[Measure::Puncture]).solve(number(), case);
+    solved.row.result.puncture.unwrap().measures.failure
+}
+
+/// Random designs that break, that lose a bond, and that end otherwise.
+#[test]
+fn derivatives_of_the_first_failure_are_those_of_whole_solutions() {
+    let mut modes = Vec::new();
+    for number in 0..9 {
+        let mut case = random_case(number);
+        case.judge_failure = true;
+        let whole = failure(&case);
+        case.strengths = match number % 3 {
+            0 => Strengths { scale: whole.scale_stress.map(|stress| 0.6 * stress), bond: None },
+            1 => Strengths { scale: None, bond: whole.bond_stress.map(|stress| 0.4 * stress) },
+            _ => Strengths::default(),
+        };
+        let mode = failure(&case).mode;
+        modes.extend(mode);
+        let mut derivatives: Vec<ParameterDerivative> = derivatives(&case);
+        derivatives.retain(|derivative| MEASURES.contains(&derivative.measure));
+        let compared = compare_components(&case, &derivatives, &Differences::of(&case));
+        assert!(compared >= 30, "{compared} {case:?}");
+        // A strength alone moves the point of its failure.
+        let by_strength = derivatives
+            .iter()
+            .find(|d| d.measure == "failure_force" && d.parameter.contains("strength"));
+        let slope = by_strength.and_then(ParameterDerivative::derivative);
+        let moves = matches!(mode, Some(FailureMode::Break | FailureMode::Debond));
+        assert_eq!(slope.is_some_and(|slope| slope > 0.0), moves, "{by_strength:?} {mode:?}");
+    }
+    assert!(
+        modes.contains(&FailureMode::Break) && modes.contains(&FailureMode::Debond),
+        "{modes:?}"
+    );
+}
