@@ -57,7 +57,9 @@ impl Parameter {
             Some(_) => self.millimetres(case)?.abs(),
             None => self.written_value(case)?.number()?.abs(),
         };
-        if self.key == key::FRICTION && value < LEAST_FRICTION {
+        let is_friction = self.key == key::FRICTION
+            || (self.key == key::NEEDLE_FRICTION && case.puncture.needle.is_guided());
+        if is_friction && value < LEAST_FRICTION {
             // A path without friction has no slip directions, so it cannot predict the effect of a
             // small friction.
             return None;

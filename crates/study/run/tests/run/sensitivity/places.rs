@@ -1,12 +1,13 @@
 //! The weakest of several load positions.
 
 use results::ParameterDerivative;
+use run::Evaluator;
 use skin::puncture::Needle;
-use sweep::{Case, Parameter, Scalar};
+use sweep::{Case, Measure, Parameter, Scalar};
 
-use super::designs::random_case;
+use super::designs::{self, random_case};
 use super::differences::Differences;
-use super::{TOLERANCE, compare_components, derivatives};
+use super::{TOLERANCE, compare, compare_components, derivatives};
 
 fn of_weakest(case: &Case) -> Vec<ParameterDerivative> {
     let mut derivatives = derivatives(case);
@@ -51,4 +52,31 @@ fn equally_weak_positions_have_one_sided_derivatives() {
         assert!(off.unwrap() <= TOLERANCE, "{off:?} {derivative:?}");
         assert!(!is_slant || derivative.left > derivative.right, "{derivative:?}");
     }
+}
+
+/// A frictionless round tip has derivatives with respect to everything but its friction.
+#[test]
+fn a_frictionless_round_tip_has_derivatives() {
+    let mut case = random_case(4);
+    case.puncture.needle = Needle::Guided { friction: 0.0 };
+    case.needle_friction = Some(Scalar::Number(0.0));
+    for (radius, load_position) in [(0.2, 0.9), (0.05, 1.3)] {
+        case.puncture.needle_radius = Some(radius);
+        case.puncture.load_position = load_position;
+        (case.design.gap, case.design.slant_deg) = (0.8, 0.3);
+        let mut of_force = derivatives(&case);
+        of_force.retain(|derivative| derivative.measure == "critical_force");
+        assert!(of_force.iter().all(|d| d.parameter != "needle_friction"));
+        assert!(compare_components(&case, &of_force, &Differences::of(&case)) > 7);
+    }
+}
+
+/// A load left of the middle tilts an upright scale to the left.
+#[test]
+fn a_load_left_of_the_middle_has_derivatives() {
+    let mut case = random_case(0);
+    (case.design.slant_deg, case.puncture.load_position) = (3.0, 0.1);
+    let solved = Evaluator::new(&[Measure::Puncture]).solve(designs::number(), &case);
+    assert!(solved.puncture.unwrap().path.last().unwrap().tilt_deg < -1.0);
+    assert!(compare(&case) > 50);
 }
