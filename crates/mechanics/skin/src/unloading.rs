@@ -37,6 +37,16 @@ impl<P> Unloading<P> {
         path: &mut Continuation<S>,
         mut work: Work,
     ) -> Self {
+        if path.point().state.z[path.system().load()] == 0.0 {
+            // A needle that is through at rest carries no load.
+            let point = Self::noted(path.system(), path.point(), &work);
+            let loop_work = path.system().repeats() * work.taken();
+            return Self {
+                path: vec![point],
+                stop: Termination::Unloaded,
+                loop_work: Some(loop_work),
+            };
+        }
         path.turn_back();
         // The first point repeats the end of the loading path, with the unloading stiffness.
         let mut points = vec![Self::noted(path.system(), path.point(), &work)];

@@ -44,7 +44,8 @@ pub struct Equilibrium<M = ()> {
 /// Path of equilibria of a system.
 ///
 /// The path starts at a given equilibrium. It ends where the control parameter over its scale
-/// reaches the target, or where the load of a system that only pushes returns to zero.
+/// reaches the target in either direction, where a constraint ends it, or where the load of a
+/// system that only pushes returns to zero.
 ///
 /// Between events the active set is fixed and the equations are smooth. A predictor along the
 /// tangent is followed by Newton's method for the point at a given distance,
@@ -117,7 +118,9 @@ pub(crate) struct Candidate<M> {
 }
 
 impl<S: System> Continuation<S> {
-    /// Creates a path from the equilibrium `start` along increasing control parameter.
+    /// Creates a path from the equilibrium `start`.
+    ///
+    /// The control parameter increases at first, unless the load would then have to pull.
     pub fn new(system: S, start: State<S::Mode>, settings: Settings) -> Self {
         let nowhere = vec![0.0; system.size()];
         let point =
@@ -143,6 +146,9 @@ impl<S: System> Continuation<S> {
         };
         path.pushes = path.system.load_only_pushes().then_some(1.0);
         path.set_start(point);
+        if path.ends_at_start() {
+            path.termination = Some(Termination::Reached);
+        }
         path
     }
 
@@ -273,7 +279,10 @@ impl<S: System> Continuation<S> {
         let control = self.control_parameter();
         let condition = Condition::new(vec![(control.index, 1.0 / control.scale)], 0.0);
         match self.newton.tangent(&self.system, &point.state, &condition) {
-            Ok(direction) => {
+            Ok(mut direction) => {
+                if self.pushes.is_some_and(|sign| sign * direction[self.system.load()] < 0.0) {
+                    direction.iter_mut().for_each(|rate| *rate = -*rate);
+                }
                 self.is_positive = self.newton.is_positive(&condition, &direction);
                 point.leaving = self.normalised(direction);
                 point.arriving.clone_from(&point.leaving);
@@ -281,6 +290,13 @@ impl<S: System> Continuation<S> {
             Err(failure) => self.termination = Some(Termination::from(failure)),
         }
         self.set_point(point);
+    }
+
+    /// Returns true if a constraint that ends the path vanishes at the start already.
+    fn ends_at_start(&self) -> bool {
+        let guards = self.guards.iter().enumerate();
+        let mut vanishing = guards.filter(|(_, guard)| **guard <= FLOOR);
+        vanishing.any(|(constraint, _)| self.system.ends(&self.point.state, constraint))
     }
 
     /// Restarts the path at a point.
@@ -398,9 +414,9 @@ impl<S: System> Continuation<S> {
     /// Returns the length of the next step, at most the distance to the target.
     fn distance(&self) -> f64 {
         let drive = self.progress(&self.point.leaving);
-        let left = self.system.target() - self.progress(&self.point.state.z);
-        // The target limits the step only if the control parameter measures it and increases.
-        if drive >= DRIVES { self.step.min(left) } else { self.step }
+        let left = self.system.target() - drive.signum() * self.progress(&self.point.state.z);
+        // The target limits the step only if the control parameter measures it.
+        if drive.abs() >= DRIVES { self.step.min(left) } else { self.step }
     }
 
     fn shorten_step(&mut self, distance: f64, stop: Termination) -> Result<(), Termination> {
@@ -455,7 +471,7 @@ impl<S: System> Continuation<S> {
         distance: f64,
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let mut candidate = self.step_to(from, distance)?;
-        if self.progress(&candidate.state.z) > self.system.target() {
+        if self.progress(&candidate.state.z).abs() > self.system.target() {
             candidate = self.locate_target(from, &candidate)?;
         }
         self.first_event(from, candidate)
@@ -470,7 +486,7 @@ impl<S: System> Continuation<S> {
         let (start, end) = (self.progress(&from.state.z), self.progress(&beyond.state.z));
         // Prescribe the control parameter even if the arc length measured the step, so that the
         // target is met to the last bit.
-        let (target, control) = (self.system.target(), self.control_parameter());
+        let (target, control) = (end.signum() * self.system.target(), self.control_parameter());
         let state = from.state.interpolated(&beyond.state, (target - start) / (end - start));
         let condition = Condition::new(vec![(control.index, 1.0 / control.scale)], target);
         self.correct(state, &condition)
@@ -504,7 +520,7 @@ impl<S: System> Continuation<S> {
     }
 
     fn at_target(&self, state: &State<S::Mode>) -> bool {
-        !self.is_back && (self.progress(&state.z) - self.system.target()).abs() <= FLOOR
+        !self.is_back && (self.progress(&state.z).abs() - self.system.target()).abs() <= FLOOR
     }
 }
 
@@ -523,7 +539,7 @@ impl<S: System> Iterator for Continuation<S> {
         self.points += 1;
         match self.advance() {
             Ok(point) => {
-                let progress = self.progress(&point.state.z);
+                let progress = self.progress(&point.state.z).abs();
                 if progress > self.farthest + FLOOR {
                     (self.farthest, self.reversals) = (progress, 0);
                 }

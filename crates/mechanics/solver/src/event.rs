@@ -69,7 +69,7 @@ impl<S: System> Continuation<S> {
         let condition = self.condition(from);
         let reached = condition.measure(&located.state.z) - condition.value;
         let within = (0.0..=FARTHER * distance).contains(&reached)
-            && self.progress(&located.state.z) <= self.system.target();
+            && self.progress(&located.state.z).abs() <= self.system.target();
         // The prediction is of first order. With a curved guard the zero may lie far beyond, or
         // Newton's method may have converged to another zero.
         if !within || self.turns_sharply(from, &located) {

@@ -65,7 +65,7 @@ pub trait System {
         false
     }
 
-    /// Returns the control parameter, over its scale, at which the path ends.
+    /// Returns the magnitude of the control parameter, over its scale, at which the path ends.
     ///
     /// Infinite if only a constraint ends the path.
     fn target(&self) -> f64 {

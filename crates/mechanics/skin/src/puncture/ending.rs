@@ -28,7 +28,9 @@ fn has_turned_back(path: &[PuncturePoint]) -> bool {
         // A quantity at its maximum has recovered, or never turned back.
         path.last().map(value) < largest
     };
-    below(|point| point.force) && below(|point| point.displacement) && below(|point| point.tilt_deg)
+    below(|point| point.force)
+        && below(|point| point.displacement)
+        && below(|point| point.tilt_deg.abs())
 }
 
 #[cfg(test)]

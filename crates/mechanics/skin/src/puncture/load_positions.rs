@@ -5,12 +5,12 @@
 
 use geometry::OutOfRange;
 use serde::{Deserialize, Serialize};
-use solver::{Neighbours, Termination};
+use solver::Neighbours;
 use substrate::RowStiffness;
 
 use super::needle::CriticalEvent;
 use super::sensitivity::{CRITICAL_FORCE, PunctureInput};
-use super::{At, Problem, Puncture, PunctureParameters, Rows};
+use super::{Problem, Puncture, PunctureParameters, Rows};
 use crate::record::Skin;
 use crate::sensitivity::Derivative;
 use crate::{Common, Design, Status};
@@ -83,19 +83,11 @@ fn tied(places: &[LoadPosition], force: f64) -> impl Iterator<Item = &LoadPositi
     places.iter().filter(move |place| place.force.is_some_and(|of| of <= force * (1.0 + TIE)))
 }
 
-/// Direction of tilt under a free load.
-///
-/// A path ends at the critical tilt in one direction only.
-const CLOCKWISE: f64 = 1.0;
-const COUNTER_CLOCKWISE: f64 = -1.0;
-
 impl PunctureParameters {
-    /// Returns the parameters for another load position and direction of tilt.
-    fn at_place(&self, position: f64, sense: f64) -> Self {
+    /// Returns the parameters for another load position.
+    fn at_place(&self, position: f64) -> Self {
         Self {
             load_position: position,
-            // A negative tilt inverts the control parameter and with it the end of the path.
-            critical_tilt_deg: sense * self.critical_tilt_deg,
             // Only the force at the end is compared, so drop all other requests.
             tilts_before_deg: None,
             places: None,
@@ -145,33 +137,10 @@ impl Problem<'_> {
     }
 
     fn at_place(&self, position: f64) -> Result<LoadPosition, OutOfRange> {
-        let clockwise = self.pushed(position, CLOCKWISE)?;
-        // A load left of the middle may tilt the scale counter-clockwise from the start; driven
-        // clockwise it would have to pull.
-        let pulls = clockwise.status == Status::Stopped(Termination::Unloaded);
-        if pulls && clockwise.borne <= Some(0.0) {
-            return self.pushed(position, COUNTER_CLOCKWISE);
-        }
-        Ok(clockwise)
-    }
-
-    fn pushed(&self, position: f64, sense: f64) -> Result<LoadPosition, OutOfRange> {
-        let parameters = self.parameters.at_place(position, sense);
-        // Skip the range check: users may not specify a negative tilt.
-        let problem = self.with(&parameters);
-        // The path may first reach the critical tilt in the other direction. A guided needle ends
-        // the path in either case.
-        let other_way = [At::Tilt(-parameters.critical_tilt_deg)];
-        let markers = if parameters.needle.is_guided() { &[][..] } else { &other_way };
-        let followed = problem.follow(&[], markers)?;
-        let (points, path) = (&followed.watch.record.path, &followed.path);
-        let tilted = followed.watch.requested.points.first().and_then(Option::as_ref);
-        // The path continued beyond that point, so its status describes another state.
-        let status = match tilted {
-            Some(point) => Status::audited(path.system(), &point.state),
-            None => followed.status,
-        };
-        let end = path.system().path_point(tilted.unwrap_or(path.point()));
+        let parameters = self.parameters.at_place(position);
+        let followed = self.with(&parameters).follow(&[], &[])?;
+        let (points, path, status) = (&followed.watch.record.path, &followed.path, followed.status);
+        let end = path.system().path_point(path.point());
         let end = (status == Status::Complete).then_some(end);
         let tilts_nothing = status == Status::Untilted && points.len() == 1;
         Ok(LoadPosition {
@@ -224,11 +193,9 @@ impl Problem<'_> {
         place: &LoadPosition,
         variations: &[Neighbours<PunctureInput>],
     ) -> Result<Vec<Derivative>, OutOfRange> {
-        let is_other_way = !self.parameters.needle.is_guided() && place.tilt_deg < Some(0.0);
-        let sense = if is_other_way { COUNTER_CLOCKWISE } else { CLOCKWISE };
-        let parameters = self.parameters.at_place(place.position, sense);
+        let parameters = self.parameters.at_place(place.position);
         let moved = |input: &PunctureInput| {
-            let parameters = input.parameters.at_place(place.position, sense);
+            let parameters = input.parameters.at_place(place.position);
             Ok::<_, OutOfRange>(PunctureInput { parameters, ..input.clone() })
         };
         let variations = Neighbours::map_all(variations, moved)?;

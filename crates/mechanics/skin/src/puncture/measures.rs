@@ -123,8 +123,10 @@ impl PunctureMeasures {
             scales: chain.row_length(),
             initial_stiffness: Some(modulus * record.initial_stiffness),
             max_stiffness: max_stiffness.map(|stiffness| modulus * stiffness),
-            // `F*` is divided by `L`, a stiffness is not.
-            secant_stiffness: Some(modulus * end.force * chain.length / end.displacement),
+            // `F*` is divided by `L`, a stiffness is not. A needle that is through at rest has no
+            // secant.
+            secant_stiffness: Some(modulus * end.force * chain.length / end.displacement)
+                .filter(|stiffness| stiffness.is_finite()),
             peak_displacement: peak.map(|point| point.displacement),
             peak_tilt_deg: peak.map(|point| point.tilt_deg),
             gap_stretch_min: stretch.map(|stretch| stretch.min),

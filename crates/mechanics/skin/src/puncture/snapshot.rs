@@ -34,7 +34,7 @@ pub enum At {
     Displacement(f64),
     /// Where the load has first reached this `F*`.
     Force(f64),
-    /// Where the punctured scale has first tilted by this angle, clockwise, degrees.
+    /// Where the punctured scale has first tilted by this angle in either direction, degrees.
     Tilt(f64),
 }
 
@@ -44,9 +44,12 @@ impl At {
         let quantity: fn(&Chain, &SkinState) -> f64 = match self {
             Self::Displacement(_) => |chain, state| chain.depth(&state.z),
             Self::Force(_) => |chain, state| chain.force(state),
-            Self::Tilt(_) => |chain, state| chain.angle_deg(state),
+            Self::Tilt(_) => |chain, state| chain.angle_deg(state).abs(),
         };
-        let (Self::Displacement(value) | Self::Force(value) | Self::Tilt(value)) = self;
+        let value = match self {
+            Self::Displacement(value) | Self::Force(value) => value,
+            Self::Tilt(tilt) => tilt.abs(),
+        };
         PathLocation { quantity, value }
     }
 }

@@ -68,7 +68,7 @@ pub(crate) fn summit<S: Skin>(
     let Equilibrium { state, arriving, leaving, event } = &*summit.point;
     let control = path.system().controls()[0];
     // At the end of the path the target anchors the point instead of an extremum.
-    let is_target = (state.z[control.index] / control.scale - 1.0).abs() < VANISHED;
+    let is_target = ((state.z[control.index] / control.scale).abs() - 1.0).abs() < VANISHED;
     let at = |direction: &Vec<f64>, anchor| {
         Some(AnchoredPoint { state: state.clone(), direction: direction.clone(), anchor })
     };

@@ -1,7 +1,9 @@
 //! Several load positions, and the weakest of them.
 
 use approx::assert_relative_eq;
-use skin::puncture::{self, LoadPosition, Needle, Puncture, PunctureParameters, Weakest};
+use skin::puncture::{
+    self, LoadPosition, Needle, NumberList, Puncture, PunctureParameters, Weakest,
+};
 use skin::{Base, Common, Design, Status};
 use solver::Termination;
 use substrate::{Calibrations, SubstrateLaw};
@@ -117,4 +119,52 @@ fn a_single_load_position_is_rejected() {
     let springs = substrate::calibrate(&design.footprint(0.5).unwrap()).unwrap();
     let solved = puncture::solve(&design, &springs, &Common::default(), &parameters(FREE, 1));
     assert!(solved.unwrap_err().to_string().contains("number of places"));
+}
+
+/// A load left of the middle of an upright scale gives the mirror image of a load on the right, in
+/// all measures and intermediate tilts.
+#[test]
+fn a_load_on_the_left_gives_the_mirror_image_of_a_load_on_the_right() {
+    let known = Calibrations::default();
+    for (needle, friction) in [(FREE, 0.0), (FREE, 0.3), (GUIDED, 0.0)] {
+        for (gap, length) in [(0.3, 0.6), (0.05, 1.0), (0.1, 0.3)] {
+            let upright = design(gap, length, 0.0, Base::L);
+            let common = Common { friction, ..Common::default() };
+            for right in [1.0, 0.7] {
+                let at = |load_position: f64| {
+                    let parameters = PunctureParameters {
+                        load_position,
+                        needle,
+                        tilts_before_deg: NumberList::new(&[5.0]),
+                        unload: true,
+                        ..PunctureParameters::default()
+                    };
+                    solve_as(&known, &upright, &common, &parameters)
+                };
+                let (left, right) = (at(1.0 - right), at(right));
+                assert_eq!((left.status, right.status), (Status::Complete, Status::Complete));
+                let end = |puncture: &Puncture| puncture.path.last().unwrap().tilt_deg;
+                assert_relative_eq!(end(&left), -end(&right), max_relative = 1e-9);
+                let unloading = |puncture: &Puncture| puncture.unloading.as_ref().unwrap().stop;
+                assert_eq!(unloading(&left), unloading(&right));
+                let measures = |puncture: &Puncture| {
+                    let m = puncture.measures;
+                    let at_tilt = puncture.at_tilts[0].unwrap();
+                    [
+                        m.critical_force.unwrap(),
+                        m.critical_displacement.unwrap(),
+                        m.penetration.unwrap(),
+                        m.max_stiffness.unwrap(),
+                        m.peak_force.unwrap(),
+                        at_tilt.force,
+                        at_tilt.displacement,
+                        m.remains.displacement.unwrap_or_default(),
+                    ]
+                };
+                for (left, right) in measures(&left).into_iter().zip(measures(&right)) {
+                    assert_relative_eq!(left, right, max_relative = 1e-6, epsilon = 1e-9);
+                }
+            }
+        }
+    }
 }

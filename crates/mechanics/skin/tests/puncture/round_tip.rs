@@ -268,3 +268,31 @@ fn a_radius_needs_a_guided_needle() {
         assert_eq!(refused.unwrap_err().quantity, "needle radius");
     }
 }
+
+/// A tip narrower than the gap touches nothing: it is through without a force, with and without
+/// friction, and its position is the weakest.
+#[test]
+fn a_tip_that_fits_into_a_gap_is_through_without_a_force() {
+    let wide = design(0.8612, 0.2262, 0.34, Base::L);
+    for friction in [0.0, 0.3] {
+        let needle = Needle::Guided { friction };
+        let tip = PunctureParameters { needle, ..parameters(Some(0.2)) };
+        let between =
+            PunctureParameters { load_position: 2.5, unload: true, depth: Some(0.1), ..tip };
+        let puncture = solve(&wide, &between);
+        let measures = complete(&puncture);
+        assert_eq!(
+            (measures.critical_force, measures.critical_displacement),
+            (Some(0.0), Some(0.0))
+        );
+        assert_eq!(measures.passage.critical_event, Some(CriticalEvent::Through));
+        assert_eq!((measures.secant_stiffness, measures.force_at_depth), (None, Some(0.0)));
+        let unloading = puncture.unloading.as_ref().unwrap();
+        assert_eq!((unloading.stop, unloading.loop_work), (Termination::Unloaded, Some(0.0)));
+
+        let places = solve(&wide, &PunctureParameters { places: Some(11), ..tip });
+        let weakest = places.measures.weakest;
+        assert_eq!((weakest.force, weakest.place), (Some(0.0), Some(places.places[5].position)));
+        assert!(places.places.iter().all(|place| place.status == Status::Complete));
+    }
+}

@@ -12,7 +12,7 @@ pub enum PathAnchor {
     ///
     /// At rest, or at a smooth maximum, where motion along the path has no first-order effect.
     Still,
-    /// The control parameter is at its target.
+    /// The control parameter is at its target, in either direction.
     Target,
     /// The guard (N5) of this constraint keeps its value: at an event it vanishes.
     Guard(usize),
@@ -46,7 +46,7 @@ impl PathAnchor {
         let control = system.controls()[0];
         match self {
             Self::Still | Self::Stationary(_) => 0.0,
-            Self::Target => state.z[control.index] / control.scale - 1.0,
+            Self::Target => (state.z[control.index] / control.scale).abs() - 1.0,
             Self::Guard(constraint) => guard(system, state, constraint),
             Self::Marker(number) => system.marker(state, number),
         }
@@ -62,7 +62,10 @@ impl PathAnchor {
         let control = system.controls()[0];
         match self {
             Self::Still | Self::Stationary(_) => 0.0,
-            Self::Target => direction[control.index] / control.scale,
+            Self::Target => {
+                let sign = (state.z[control.index] / control.scale).signum();
+                sign * direction[control.index] / control.scale
+            }
             Self::Guard(constraint) => guard_slope(system, state, constraint, direction),
             Self::Marker(number) => {
                 // A system provides only the value of a marker, so use a difference.

@@ -80,9 +80,10 @@ impl GuidedNeedle {
 impl Chain {
     /// Computes the centre of the tip at rest, lowered until its circle touches.
     ///
-    /// The position is relative to the node of the punctured scale.
+    /// A tip that fits between two scales rests on the soft surface between their bases. The
+    /// position is relative to the node of the punctured scale.
     pub(in crate::puncture) fn centre_at_rest(&self, needle: &GuidedNeedle, x: f64) -> Vec2 {
-        let mut highest = f64::NEG_INFINITY;
+        let mut highest = needle.radius;
         for (_, scale) in needle.scales() {
             let Some(number) = self.scale_numbered(scale) else { continue };
             let away = self.contacts.arrangement.place(number)
