@@ -1,10 +1,12 @@
 //! Path continuation: an iterator over the equilibria of a path.
 
 mod direction;
+mod returns;
 
 use std::sync::Arc;
 
 use self::direction::{HIDDEN, SHORT};
+use self::returns::Returns;
 use crate::event::Event;
 use crate::newton::{Condition, FLOOR, Newton, NewtonFailure};
 use crate::progress;
@@ -95,8 +97,12 @@ pub struct Continuation<S: System> {
     ///
     /// An example is slip that ended as its rate vanished.
     pub(crate) undone: usize,
-    /// Largest value of the control parameter so far.
+    /// Largest magnitude of the control parameter so far.
+    ///
+    /// For a path that is turned back, the smallest one with the opposite sign.
     farthest: f64,
+    /// Events since then.
+    returns: Returns,
     /// Sign of a load that only pushes.
     ///
     /// The path ends where such a load returns to zero.
@@ -138,6 +144,7 @@ impl<S: System> Continuation<S> {
             reversals: 0,
             undone: 0,
             farthest: 0.0,
+            returns: Returns::default(),
             pushes: None,
             is_back: false,
             step: settings.first_step.min(settings.max_step),
@@ -281,7 +288,9 @@ impl<S: System> Continuation<S> {
         match self.newton.tangent(&self.system, &point.state, &condition) {
             Ok(mut direction) => {
                 if self.pushes.is_some_and(|sign| sign * direction[self.system.load()] < 0.0) {
-                    direction.iter_mut().for_each(|rate| *rate = -*rate);
+                    for rate in &mut direction {
+                        *rate = -*rate;
+                    }
                 }
                 self.is_positive = self.newton.is_positive(&condition, &direction);
                 point.leaving = self.normalised(direction);
@@ -305,6 +314,8 @@ impl<S: System> Continuation<S> {
     pub(crate) fn restart_at(&mut self, point: Equilibrium<S::Mode>) {
         self.step = self.settings.first_step.min(self.settings.max_step);
         self.points = 0;
+        self.farthest = f64::NEG_INFINITY;
+        self.returns.clear();
         self.set_point(point);
     }
 
@@ -471,8 +482,13 @@ impl<S: System> Continuation<S> {
         distance: f64,
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let mut candidate = self.step_to(from, distance)?;
-        if self.progress(&candidate.state.z).abs() > self.system.target() {
+        // A path that is turned back starts at its target, up to round-off.
+        let round_off = if self.is_back { FLOOR } else { 0.0 };
+        if self.progress(&candidate.state.z).abs() > self.system.target() + round_off {
             candidate = self.locate_target(from, &candidate)?;
+            if self.is_back {
+                candidate.event = Some(Event::Target);
+            }
         }
         self.first_event(from, candidate)
     }
@@ -540,8 +556,10 @@ impl<S: System> Iterator for Continuation<S> {
         match self.advance() {
             Ok(point) => {
                 let progress = self.progress(&point.state.z).abs();
-                if progress > self.farthest + FLOOR {
-                    (self.farthest, self.reversals) = (progress, 0);
+                let far = if self.is_back { -progress } else { progress };
+                if far > self.farthest + FLOOR {
+                    (self.farthest, self.reversals) = (far, 0);
+                    self.returns.clear();
                 }
                 if point.event == Some(Event::Target) || self.at_target(&point.state) {
                     // An unloading path that returns to the loading target has reversed at an event
@@ -555,6 +573,11 @@ impl<S: System> Iterator for Continuation<S> {
                     let has_turned = self.reversals > 0 && is_at_rest && !self.is_back;
                     self.termination =
                         Some(if has_turned { Termination::Jumps } else { Termination::Unloaded });
+                } else if point.event.is_some() {
+                    let load = point.state.z[self.system.load()];
+                    if self.returns.add([progress, load], self.guards.len()) {
+                        self.termination = Some(Termination::NoProgress);
+                    }
                 }
                 self.set_point(point.clone());
                 Some(point)

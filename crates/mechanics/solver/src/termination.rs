@@ -29,6 +29,9 @@ pub enum Termination {
     /// system jumps.
     #[error("jumps")]
     Jumps,
+    /// The path returns to the same points again and again without progress.
+    #[error("no progress")]
+    NoProgress,
     /// A residual is not a finite number.
     #[error("not finite")]
     NotFinite,
@@ -39,7 +42,14 @@ impl Termination {
     ///
     /// The caller may know a mechanical reason for such a failure.
     pub fn is_numerical(self) -> bool {
-        matches!(self, Self::NoConvergence | Self::Singular | Self::Cycling | Self::NotFinite)
+        matches!(
+            self,
+            Self::NoConvergence
+                | Self::Singular
+                | Self::Cycling
+                | Self::NoProgress
+                | Self::NotFinite
+        )
     }
 }
 

@@ -4,7 +4,7 @@ use approx::assert_relative_eq;
 use contact::Law;
 use rayon::prelude::*;
 use skin::flexure::{FlexureParameters, Method, StripSnapshot, snapshots, solve, whole_gaps};
-use skin::{Common, Design, Status};
+use skin::{Base, Common, Design, Status};
 
 use crate::samples::{LAWS, forty, with_law};
 
@@ -62,4 +62,25 @@ fn chain_and_unit_cell_have_equal_measures() {
             }
         }
     }
+}
+
+/// Gaps of a chain far above its membrane snap back and forth one by one, without progress.
+#[test]
+fn a_chain_that_goes_to_and_fro_ends() {
+    let design = Design {
+        gap: 0.02826751914626948,
+        length: 1.347354718232657,
+        slant_deg: 47.10908300402973,
+        base: Base::TwoL,
+        width: 2.597055556846208,
+    };
+    let parameters = FlexureParameters {
+        method: Method::Chain,
+        membrane_thickness: 0.3257707366000173,
+        membrane_axis_offset: 2.184566791659762,
+        ..FlexureParameters::default()
+    };
+    let flexure = solve(&design, &Common::default(), &parameters).unwrap();
+    assert_eq!(flexure.status, Status::Locked);
+    assert!(flexure.path.len() < 600, "{}", flexure.path.len());
 }

@@ -47,6 +47,16 @@ fn a_path_without_end_has_too_many_points() {
     assert_eq!(path.termination(), Some(Termination::TooManyPoints));
 }
 
+/// The circle passes its two load extrema again and again.
+#[test]
+fn a_path_that_goes_to_and_fro_makes_no_progress() {
+    let start = State { z: vec![0.0, -1.0], active: Vec::new(), mode: () };
+    let mut path = Continuation::new(circle(), start, Settings::default());
+    let points = path.by_ref().count();
+    assert_eq!(path.termination(), Some(Termination::NoProgress));
+    assert!((100..10_000).contains(&points), "{points}");
+}
+
 #[test]
 fn a_path_outside_the_domain_of_its_equations_is_not_finite() {
     let start = State { z: vec![0.0, 0.5_f64.sqrt()], active: Vec::new(), mode: () };

@@ -42,7 +42,8 @@ pub enum Outcome {
     Untilted,
     /// The scales of a strip locked.
     Locked,
-    /// Friction leaves no quasi-static continuation by sticking or slipping.
+    /// No quasi-static continuation: contacts can neither stick nor slip, or the path goes to and
+    /// fro without progress.
     Jumps,
 }
 
@@ -109,7 +110,7 @@ impl Outcome {
                 "the scales of a strip lock: the moment grows, and only the membrane still deforms, beyond the range of its law"
             }
             Self::Jumps => {
-                "friction leaves no quasi-static continuation by sticking or slipping: the skin jumps"
+                "no quasi-static continuation: contacts can neither stick nor slip, or the path goes to and fro without progress; the skin jumps"
             }
             Self::Calibration => "the calibration of the substrate springs failed",
             Self::Internal => "an error of the program; please report the design",
@@ -152,7 +153,7 @@ impl From<Termination> for Outcome {
             Termination::Singular => Self::Singular,
             Termination::TooManyPoints => Self::TooManyPoints,
             Termination::Cycling => Self::Cycling,
-            Termination::Jumps => Self::Jumps,
+            Termination::Jumps | Termination::NoProgress => Self::Jumps,
             Termination::NotFinite => Self::NotFinite,
             Termination::Unloaded => Self::Unloaded,
             // A path that reached its target has not stopped early, so this is an internal error.
