@@ -185,10 +185,10 @@ pub static PARAMETERS: &[Parameter] = parameters! {
         key::LOAD_POSITION, "-", [Continuous, Made],
             number(Range::closed(0.0, 1e6), |c| &mut c.puncture.load_position),
             "load position on the top of the punctured scale: 0 the left corner, 1 the right; for a round tip up to 1 + gap/base, the left corner of the next scale";
-        key::LOAD_INSET, "t", [InsteadOf(key::LOAD_POSITION)],
+        key::LOAD_INSET, "t", [Continuous, Made, InsteadOf(key::LOAD_POSITION)],
             optional(Range::closed(0.0, 1e6), |c| &mut c.load_inset),
             "distance of the load from the right corner of the top, inward, at most to the middle; instead of load_position";
-        "load_inset_mm", "mm", [InMm(key::LOAD_INSET)],
+        "load_inset_mm", "mm", [InMm(key::LOAD_INSET), Made],
             optional(ANY, |c| &mut c.in_mm.load_inset),
             in_mm!("load_inset", "distance of the load from the right corner of the top");
         key::NEEDLE, "-", [EndsPuncture],

@@ -109,6 +109,22 @@ fn load_position_and_depth_are_written_back_in_their_notation() {
     assert!(both.contains("cannot be combined"), "{both}");
 }
 
+#[test]
+fn the_inset_of_the_load_may_deviate_in_either_unit() {
+    let text = "name = 'x'\npuncture.load_inset_over_t = 0.05\nmaterial.thickness_mm = 2\n\
+        tolerance = { load_inset_over_t = { batch_sd = 0.02 }, load_inset_mm = { batch_sd = 0.04 } }";
+    let one = text.replace(", load_inset_mm = { batch_sd = 0.04 }", "");
+    let other = text.replace("load_inset_over_t = { batch_sd = 0.02 }, ", "");
+    let moved = [one, other].map(|text| {
+        let sweep = Sweep::parse(&text, "x.toml", &[]).unwrap();
+        let (case, deviation) = (sweep.grid().case(0), &sweep.deviations()[0]);
+        // Beyond the corner the load is not on the scale.
+        assert_eq!(deviation.applied(&case, -0.2), None);
+        deviation.applied(&case, 0.02).unwrap().load_inset.unwrap()
+    });
+    assert!((moved[0] - 0.07).abs() < 1e-15 && (moved[1] - 0.06).abs() < 1e-15, "{moved:?}");
+}
+
 /// Tilt and friction of a guided needle are independent, in any order.
 ///
 /// A friction of 0 is allowed.

@@ -80,3 +80,23 @@ fn a_load_left_of_the_middle_has_derivatives() {
     assert!(solved.puncture.unwrap().path.last().unwrap().tilt_deg < -1.0);
     assert!(compare(&case) > 50);
 }
+
+/// A free load and a needle with friction, given by their distance from the corner.
+#[test]
+fn the_inset_of_the_load_has_derivatives() {
+    for number in 0..4 {
+        let mut case = random_case(number);
+        case.load_inset = Some(0.3 * case.design.half_base());
+        if number % 2 == 1 {
+            case.puncture.needle = Needle::Guided { friction: 0.0 };
+            case.needle_friction = Some(Scalar::Number(0.3));
+        }
+        let mut of_force = derivatives(&case);
+        of_force.retain(|d| ["critical_force", "peak_force"].contains(&d.measure));
+        assert!(of_force.iter().all(|d| d.parameter != "load_position"));
+        let inset: Vec<_> =
+            of_force.iter().filter(|d| d.parameter == "load_inset_over_t").collect();
+        assert!(inset.len() == 2 && inset.iter().all(|d| d.derivative() != Some(0.0)), "{inset:?}");
+        assert!(compare_components(&case, &of_force, &Differences::of(&case)) > 12);
+    }
+}
