@@ -1,6 +1,7 @@
 //! Runs: independent rows, damaged journals, derivatives and reference results.
 
 mod fuzz;
+mod hunt;
 mod journals;
 mod reference;
 mod rows;

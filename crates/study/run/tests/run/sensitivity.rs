@@ -2,7 +2,7 @@
 
 mod branches;
 mod curves;
-mod designs;
+pub mod designs;
 mod differences;
 mod failure;
 mod kinks;
