@@ -194,6 +194,8 @@ impl Problem<'_> {
             .map(|(place, f)| sensitivity::summit(place.as_ref(), path, f, settings))
             .collect();
         let chain = path.system();
+        let [highest, stiffest] =
+            [highest, stiffest].map(|place| place.map(|place| chain.end_of_target(place)));
         let peak = highest.as_ref().map(|place| chain.extremum(place));
         // A point that is no event has no guard to hold it when a parameter changes.
         let load_limit = needle.load_limit.as_ref().filter(|point| point.event.is_some());
@@ -294,6 +296,11 @@ impl Chain {
     fn end_of(&self, place: AnchoredPoint<SkinMode>) -> AnchoredPoint<SkinMode> {
         let ended = self.needle.as_ref().and_then(|n| n.ended_at(self, &place.state));
         AnchoredPoint { anchor: ended.map_or(place.anchor, PathAnchor::Guard), ..place }
+    }
+
+    /// Anchors a point like the end of the path if it is there.
+    fn end_of_target(&self, place: AnchoredPoint<SkinMode>) -> AnchoredPoint<SkinMode> {
+        if place.anchor == PathAnchor::Target { self.end_of(place) } else { place }
     }
 
     /// Anchors the point of largest load to its zero load rate, unless it is held.

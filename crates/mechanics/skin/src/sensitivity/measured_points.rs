@@ -67,8 +67,10 @@ pub(crate) fn summit<S: Skin>(
     let summit = summit?;
     let Equilibrium { state, arriving, leaving, event } = &*summit.point;
     let control = path.system().controls()[0];
-    // At the end of the path the target anchors the point instead of an extremum.
-    let is_target = ((state.z[control.index] / control.scale).abs() - 1.0).abs() < VANISHED;
+    // At the end of the path the target, or a constraint that ends it, anchors the point instead of
+    // an extremum.
+    let is_target = *event == Some(Event::Target)
+        || ((state.z[control.index] / control.scale).abs() - 1.0).abs() < VANISHED;
     let at = |direction: &Vec<f64>, anchor| {
         Some(AnchoredPoint { state: state.clone(), direction: direction.clone(), anchor })
     };

@@ -68,16 +68,16 @@ fn chain_and_unit_cell_have_equal_measures() {
 #[test]
 fn a_chain_that_goes_to_and_fro_ends() {
     let design = Design {
-        gap: 0.02826751914626948,
-        length: 1.347354718232657,
-        slant_deg: 47.10908300402973,
+        gap: 0.028_267_519_146_269_48,
+        length: 1.347_354_718_232_657,
+        slant_deg: 47.109_083_004_029_73,
         base: Base::TwoL,
-        width: 2.597055556846208,
+        width: 2.597_055_556_846_208,
     };
     let parameters = FlexureParameters {
         method: Method::Chain,
-        membrane_thickness: 0.3257707366000173,
-        membrane_axis_offset: 2.184566791659762,
+        membrane_thickness: 0.325_770_736_600_017_3,
+        membrane_axis_offset: 2.184_566_791_659_762,
         ..FlexureParameters::default()
     };
     let flexure = solve(&design, &Common::default(), &parameters).unwrap();

@@ -2,9 +2,9 @@
 
 use contact::Law;
 use rayon::prelude::*;
-use skin::Design;
 use skin::Status;
-use skin::puncture::{Puncture, PunctureParameters};
+use skin::puncture::{Needle, Puncture, PunctureParameters};
+use skin::{Base, Design};
 use solver::Termination;
 use substrate::Calibrations;
 
@@ -141,4 +141,40 @@ fn scales_steeper_than_the_study_are_solved() {
     {
         assert_eq!(puncture.status, Status::Complete, "{design:?}");
     }
+}
+
+/// Without any friction a skin is elastic, so unloading retraces the loading path; the needle also
+/// leaves its notch.
+#[test]
+fn a_frictionless_skin_unloads_along_its_loading_path() {
+    let known = Calibrations::default();
+    let needle = Needle::Guided { friction: 0.0 };
+    let wide = Design { width: 0.718_475, ..design(0.030_111_5, 0.741_038, 30.2871, Base::TwoL) };
+    let steep = Design { width: 0.289_1, ..design(0.041_111_6, 0.050_850_9, 59.4158, Base::TwoL) };
+    let soft = Law { c1: 3.707_42, c2: 1.033_08 };
+    let mut notches = 0;
+    for (design, law, load_position, ratio, poisson_ratio) in [
+        (wide, soft, 1.0, 2463.56, 0.327_968),
+        (steep, Law::PRINTED, 0.295_15, 61.833_6, 0.137_307),
+        (design(0.1, 1.0, 75.0, Base::L), Law::PRINTED, 1.0, 9677.0, 0.5),
+        (design(0.3, 0.5, 45.0, Base::L), Law::PRINTED, 0.9, 9677.0, 0.5),
+        (design(0.1, 0.2, 60.0, Base::L), Law::EXCHANGED, 1.0, 9677.0, 0.5),
+    ] {
+        let parameters = PunctureParameters {
+            needle,
+            load_position,
+            poisson_ratio,
+            contact_modulus_over_substrate: ratio,
+            unload: true,
+            ..PunctureParameters::default()
+        };
+        let puncture = solve_as(&known, &design, &with_law(law), &parameters);
+        assert_eq!(puncture.status, Status::Complete, "{design:?}");
+        let unloading = puncture.unloading.unwrap();
+        assert_eq!(unloading.stop, Termination::Unloaded, "{design:?}");
+        let energy = puncture.path.last().unwrap().substrate_energy;
+        assert!(unloading.loop_work.unwrap().abs() < 1e-9 * energy, "{unloading:?}");
+        notches += usize::from(puncture.measures.passage.passing_force.is_some());
+    }
+    assert!(notches >= 3, "{notches}");
 }

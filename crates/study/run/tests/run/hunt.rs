@@ -91,43 +91,17 @@ fn is_numeric(outcome: Outcome) -> bool {
     matches!(outcome, Cycling | Internal | NoConvergence | NotFinite | Singular | TooManyPoints)
 }
 
+/// At most one path in a hundred ends for a numeric reason, and no design takes more than 10 s.
 #[test]
-#[ignore = "a long campaign"]
-fn hunt() {
+#[ignore = "takes minutes; SQUAMA_HUNT=FROM..TO selects other seeds"]
+fn few_mixed_designs_end_numerically() {
     let solved: Vec<(Vec<(&str, Outcome)>, Duration)> = seeds()
         .into_par_iter()
         .map(|seed| {
             let case = mixed_case(seed);
             let begun = processor_time();
             let evaluator = Evaluator::new(&[Measure::Puncture, Measure::Flexure]);
-            let solved = evaluator.solve(number(), &case);
-            let result = solved.row.result;
-            if let Some(path) = &solved.puncture {
-                let far: Vec<f64> = path
-                    .path
-                    .iter()
-                    .map(|p| {
-                        if case.puncture.needle.is_guided() {
-                            p.displacement
-                        } else {
-                            p.tilt_deg.abs()
-                        }
-                    })
-                    .collect();
-                let (mut best, mut since, mut longest) = (0.0, 0, 0);
-                for f in far {
-                    if f > best {
-                        best = f;
-                        since = 0
-                    } else {
-                        since += 1;
-                        longest = longest.max(since)
-                    }
-                }
-                if longest > 30 {
-                    println!("{seed}: stretch {longest} of {} {:?}", path.path.len(), path.status);
-                }
-            }
+            let result = evaluator.row(number(), &case).result;
             let mut outcomes = Vec::new();
             if let Some(puncture) = result.puncture {
                 outcomes.push(("puncture", puncture.outcome));
@@ -138,8 +112,10 @@ fn hunt() {
                 outcomes.push(("flexure", flexure.outcome));
                 outcomes.extend(flexure.way_back.map(|outcome| ("unbending", outcome)));
             }
-            let (time, numeric) =
-                (processor_time() - begun, outcomes.iter().any(|(_, of)| is_numeric(*of)));
+            let (time, numeric) = (
+                processor_time().saturating_sub(begun),
+                outcomes.iter().any(|(_, of)| is_numeric(*of)),
+            );
             if numeric || time > Duration::from_secs(5) {
                 println!("{seed}: {time:.1?} {outcomes:?}");
             }
@@ -151,61 +127,10 @@ fn hunt() {
         *counts.entry((*measure, outcome.text())).or_insert(0) += 1;
     }
     println!("{counts:#?}");
-}
-
-#[test]
-#[ignore = "temporary"]
-fn show() {
-    let seed = seeds().start;
-    let mut case = mixed_case(seed);
-    let points: usize = std::env::var("POINTS").map_or(400, |n| n.parse().unwrap());
-    case.common.solver.max_points = points;
-    println!("{case:#?}");
-    let which = std::env::var("WHICH").unwrap_or_default();
-    let measure = if which.starts_with('p') { Measure::Puncture } else { Measure::Flexure };
-    let begun = processor_time();
-    let solved = Evaluator::new(&[measure]).solve(number(), &case);
-    println!("{:?}", processor_time() - begun);
-    if let Some(p) = &solved.puncture {
-        let path = match which.as_str() {
-            "pu" => &p.unloading.as_ref().unwrap().path,
-            _ => &p.path,
-        };
-        println!("{:?} {:?}", p.status, p.unloading.as_ref().map(|u| u.stop));
-        for (k, p) in path.iter().enumerate() {
-            println!(
-                "{k} {:.12} {:.12} {:.12} {} {:e}",
-                p.displacement, p.force, p.tilt_deg, p.contacts, p.contact_energy
-            );
-        }
-        for e in &p.events {
-            println!(
-                "{:.12} {:.9} {:?} {:?} {:?} {:?}",
-                e.point.displacement,
-                e.point.force,
-                e.left_scale,
-                e.right_scale,
-                e.corner_edge,
-                e.change
-            );
-        }
-    }
-    if let Some(p) = &solved.flexure {
-        let path = match which.as_str() {
-            "fu" => &p.unloading.as_ref().unwrap().path,
-            _ => &p.path,
-        };
-        println!("{:?} {:?}", p.status, p.unloading.as_ref().map(|u| u.stop));
-        for (k, p) in path.iter().enumerate() {
-            println!(
-                "{k} {:.12} {:.12} {:.12} {} {:e} {:e}",
-                p.end_rotation_deg,
-                p.moment,
-                p.stiffness,
-                p.contacts,
-                p.contact_energy,
-                p.membrane_strain
-            );
-        }
-    }
+    let all: usize = counts.values().sum();
+    let numeric =
+        solved.iter().flat_map(|(outcomes, _)| outcomes).filter(|(_, of)| is_numeric(*of));
+    assert!(100 * numeric.count() <= all, "{counts:#?}");
+    let longest = solved.iter().map(|(_, time)| *time).max();
+    assert!(longest < Some(Duration::from_secs(10)), "{longest:?}");
 }

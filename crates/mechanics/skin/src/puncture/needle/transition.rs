@@ -233,6 +233,10 @@ impl Chain {
             return Some(needle.number(slot, NORMAL));
         }
         self.come_to_rest(needle, state, 1 - slot);
+        if needle.friction == 0.0 {
+            // The tip slides inward on the top, away from the face.
+            return Some(needle.number(slot, NORMAL));
+        }
         // The corner stays on the face and the tip at the corner, so no gap opens. The sign of the
         // saturated friction determines the outgoing branch.
         let is_forward = state.z[needle.normal_force(1 - slot) + 1] >= 0.0;

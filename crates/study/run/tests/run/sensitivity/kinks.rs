@@ -65,10 +65,10 @@ fn one_sided_derivatives_at_a_closing_contact_with_friction_match_differences() 
     let mut closings = 0;
     for number in 0..12 {
         let mut case = random_case(number);
-        if number == 7 && std::env::var("C2").is_err() {
-            // With an exponent of 1.1 the contact stiffness grows from 0 as the step of a difference to
-            // the power of 0.1, so differences do not converge to the derivative: those of this
-            // soft contact are 0.1 % off at any step.
+        if number == 7 {
+            // With an exponent of 1.1 the stiffness of a contact grows from 0 as the step of a
+            // difference to the power of 0.1, so differences do not converge to the derivative on
+            // the side where it closes: of this soft contact they are 0.1 to 0.2 % off.
             case.common.law.c2 = 1.0;
         }
         case.common.friction = [0.05, 0.2, 0.5][number as usize % 3];
@@ -91,13 +91,6 @@ fn one_sided_derivatives_at_a_closing_contact_with_friction_match_differences() 
                         &[(parameter, side)],
                         ours * side,
                     );
-                    if std::env::var("C2").is_ok() {
-                        println!(
-                            "{number} {} {side} {off:?} {}",
-                            derivative.parameter, case.puncture.contact_modulus_over_substrate
-                        );
-                        continue;
-                    }
                     assert!(off.unwrap() <= TOLERANCE, "{off:?} {side} {derivative:?} {case:?}");
                     closings += 1;
                 }
