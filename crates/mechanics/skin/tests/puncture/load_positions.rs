@@ -121,49 +121,53 @@ fn a_single_load_position_is_rejected() {
     assert!(solved.unwrap_err().to_string().contains("number of places"));
 }
 
+/// Lists the critical tilt without its sign, and measures that a mirror image shares.
+fn mirrored_measures(puncture: &Puncture) -> [f64; 9] {
+    let (measures, at_tilt) = (puncture.measures, puncture.at_tilts[0].unwrap());
+    [
+        puncture.path.last().unwrap().tilt_deg.abs(),
+        measures.critical_force.unwrap(),
+        measures.critical_displacement.unwrap(),
+        measures.penetration.unwrap(),
+        measures.max_stiffness.unwrap(),
+        measures.peak_force.unwrap(),
+        at_tilt.force,
+        at_tilt.displacement,
+        measures.remains.displacement.unwrap_or_default(),
+    ]
+}
+
 /// A load left of the middle of an upright scale gives the mirror image of a load on the right, in
 /// all measures and intermediate tilts.
 #[test]
 fn a_load_on_the_left_gives_the_mirror_image_of_a_load_on_the_right() {
     let known = Calibrations::default();
     for (needle, friction) in [(FREE, 0.0), (FREE, 0.3), (GUIDED, 0.0)] {
-        for (gap, length) in [(0.3, 0.6), (0.05, 1.0), (0.1, 0.3)] {
+        for (gap, length, position) in
+            [(0.3, 0.6, 1.0), (0.3, 0.6, 0.7), (0.05, 1.0, 1.0), (0.05, 1.0, 0.7), (0.1, 0.3, 1.0)]
+        {
             let upright = design(gap, length, 0.0, Base::L);
             let common = Common { friction, ..Common::default() };
-            for right in [1.0, 0.7] {
-                let at = |load_position: f64| {
-                    let parameters = PunctureParameters {
-                        load_position,
-                        needle,
-                        tilts_before_deg: NumberList::new(&[5.0]),
-                        unload: true,
-                        ..PunctureParameters::default()
-                    };
-                    solve_as(&known, &upright, &common, &parameters)
+            let [left, right] = [1.0 - position, position].map(|load_position| {
+                let parameters = PunctureParameters {
+                    load_position,
+                    needle,
+                    tilts_before_deg: NumberList::new(&[5.0]),
+                    unload: true,
+                    ..PunctureParameters::default()
                 };
-                let (left, right) = (at(1.0 - right), at(right));
-                assert_eq!((left.status, right.status), (Status::Complete, Status::Complete));
-                let end = |puncture: &Puncture| puncture.path.last().unwrap().tilt_deg;
-                assert_relative_eq!(end(&left), -end(&right), max_relative = 1e-9);
-                let unloading = |puncture: &Puncture| puncture.unloading.as_ref().unwrap().stop;
-                assert_eq!(unloading(&left), unloading(&right));
-                let measures = |puncture: &Puncture| {
-                    let m = puncture.measures;
-                    let at_tilt = puncture.at_tilts[0].unwrap();
-                    [
-                        m.critical_force.unwrap(),
-                        m.critical_displacement.unwrap(),
-                        m.penetration.unwrap(),
-                        m.max_stiffness.unwrap(),
-                        m.peak_force.unwrap(),
-                        at_tilt.force,
-                        at_tilt.displacement,
-                        m.remains.displacement.unwrap_or_default(),
-                    ]
-                };
-                for (left, right) in measures(&left).into_iter().zip(measures(&right)) {
-                    assert_relative_eq!(left, right, max_relative = 1e-6, epsilon = 1e-9);
-                }
+                solve_as(&known, &upright, &common, &parameters)
+            });
+            assert_eq!((left.status, right.status), (Status::Complete, Status::Complete));
+            let tilts = [&left, &right].map(|puncture| puncture.path.last().unwrap().tilt_deg);
+            assert!(tilts[0] * tilts[1] < 0.0, "{tilts:?}");
+            assert_eq!(
+                left.unloading.as_ref().unwrap().stop,
+                right.unloading.as_ref().unwrap().stop
+            );
+            for (left, right) in mirrored_measures(&left).into_iter().zip(mirrored_measures(&right))
+            {
+                assert_relative_eq!(left, right, max_relative = 1e-6, epsilon = 1e-9);
             }
         }
     }

@@ -33,12 +33,12 @@ impl Returns {
     ///
     /// Returns true if the path makes no progress.
     pub(super) fn add(&mut self, event: [f64; 2], constraints: usize) -> bool {
-        let is_same = |other: &[f64; 2]| {
-            let near = |a: f64, b: f64| (a - b).abs() <= SAME * (a.abs() + b.abs());
-            near(event[0], other[0]) && near(event[1], other[1])
-        };
         let first = self.events.len().saturating_sub(COMPARED);
-        match self.events[first..].iter().rposition(is_same).map(|found| first + found) {
+        match self.events[first..]
+            .iter()
+            .rposition(|other| is_same(event, *other))
+            .map(|found| first + found)
+        {
             Some(found) if found == self.last => self.stays += 1,
             Some(found) => (self.last, self.stays, self.repeated) = (found, 0, self.repeated + 1),
             None => {
@@ -53,4 +53,9 @@ impl Returns {
     pub(super) fn clear(&mut self) {
         *self = Self::default();
     }
+}
+
+/// Returns true if two events have the same coordinates up to round-off.
+fn is_same(one: [f64; 2], other: [f64; 2]) -> bool {
+    (0..2).all(|k| (one[k] - other[k]).abs() <= SAME * (one[k].abs() + other[k].abs()))
 }

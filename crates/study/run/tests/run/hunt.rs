@@ -16,59 +16,72 @@ use sweep::{Case, Measure};
 
 use super::sensitivity::designs::number;
 
+/// Random numbers of one design.
+struct Draw(ChaCha8Rng);
+
+impl Draw {
+    fn even(&mut self, low: f64, high: f64) -> f64 {
+        self.0.random_range(low..high)
+    }
+
+    fn is_likely(&mut self, probability: f64) -> bool {
+        self.even(0.0, 1.0) < probability
+    }
+}
+
 /// Draws a design with a random choice of features; each has its default in some designs.
 pub fn mixed_case(seed: u64) -> Case {
-    let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let mut even = |low: f64, high: f64| random.random_range(low..high);
+    let mut draw = Draw(ChaCha8Rng::seed_from_u64(seed));
     let mut case = Case::default();
-    case.design.gap = even(-4.0, 0.7).exp();
-    case.design.length = even(-3.0, 1.4).exp();
-    case.design.slant_deg = if even(0.0, 1.0) < 0.2 { 0.0 } else { even(0.0, 80.0) };
-    case.design.base = if even(0.0, 1.0) < 0.5 { Base::L } else { Base::TwoL };
-    case.design.width = even(-2.0, 1.1).exp();
-    if even(0.0, 1.0) < 0.3 {
-        case.common.friction = even(0.0, 0.6);
+    case.design.gap = draw.even(-4.0, 0.7).exp();
+    case.design.length = draw.even(-3.0, 1.4).exp();
+    case.design.slant_deg = if draw.is_likely(0.2) { 0.0 } else { draw.even(0.0, 80.0) };
+    case.design.base = if draw.is_likely(0.5) { Base::L } else { Base::TwoL };
+    case.design.width = draw.even(-2.0, 1.1).exp();
+    if draw.is_likely(0.3) {
+        case.common.friction = draw.even(0.0, 0.6);
     }
-    if even(0.0, 1.0) < 0.5 {
-        (case.common.law.c1, case.common.law.c2) = (even(-1.0, 1.5).exp(), even(0.2, 1.5));
+    if draw.is_likely(0.5) {
+        (case.common.law.c1, case.common.law.c2) =
+            (draw.even(-1.0, 1.5).exp(), draw.even(0.2, 1.5));
     }
     let puncture = &mut case.puncture;
-    puncture.poisson_ratio = even(0.0, 0.5);
-    puncture.contact_modulus_over_substrate = even(1.0, 9.0).exp();
-    puncture.critical_tilt_deg = if even(0.0, 1.0) < 0.5 { 10.0 } else { even(1.0, 89.0) };
-    puncture.load_position = if even(0.0, 1.0) < 0.5 { 1.0 } else { even(0.0, 1.0) };
-    if even(0.0, 1.0) < 0.2 {
-        puncture.scales = RowLength::Scales(even(1.0, 60.0) as usize);
+    puncture.poisson_ratio = draw.even(0.0, 0.5);
+    puncture.contact_modulus_over_substrate = draw.even(1.0, 9.0).exp();
+    puncture.critical_tilt_deg = if draw.is_likely(0.5) { 10.0 } else { draw.even(1.0, 89.0) };
+    puncture.load_position = if draw.is_likely(0.5) { 1.0 } else { draw.even(0.0, 1.0) };
+    if draw.is_likely(0.2) {
+        puncture.scales = RowLength::Scales(draw.even(1.0, 60.0) as usize);
     }
-    if even(0.0, 1.0) < 0.3 {
+    if draw.is_likely(0.3) {
         puncture.substrate_law = SubstrateLaw::NeoHookean;
     }
-    if even(0.0, 1.0) < 0.6 {
-        let friction = if even(0.0, 1.0) < 0.3 { 0.0 } else { even(0.0, 0.6) };
+    if draw.is_likely(0.6) {
+        let friction = if draw.is_likely(0.3) { 0.0 } else { draw.even(0.0, 0.6) };
         puncture.needle = Needle::Guided { friction };
-        if even(0.0, 1.0) < 0.4 {
-            puncture.needle_radius = Some(even(-3.0, 1.0).exp());
+        if draw.is_likely(0.4) {
+            puncture.needle_radius = Some(draw.even(-3.0, 1.0).exp());
         }
     }
-    puncture.unload = even(0.0, 1.0) < 0.4;
-    if even(0.0, 1.0) < 0.2 {
-        puncture.places = Some(even(2.0, 12.0) as usize);
+    puncture.unload = draw.is_likely(0.4);
+    if draw.is_likely(0.2) {
+        puncture.places = Some(draw.even(2.0, 12.0) as usize);
     }
-    if even(0.0, 1.0) < 0.3 {
-        case.tissue_thickness = Some(even(-0.7, 3.0).exp());
+    if draw.is_likely(0.3) {
+        case.tissue_thickness = Some(draw.even(-0.7, 3.0).exp());
     }
-    if even(0.0, 1.0) < 0.2 {
+    if draw.is_likely(0.2) {
         case.coupling = Coupling::Full;
     }
     let flexure = &mut case.flexure;
-    flexure.contact_modulus_over_membrane = even(1.0, 8.0).exp();
-    flexure.membrane_thickness = even(-3.0, 0.0).exp();
-    flexure.membrane_axis_offset = if even(0.0, 1.0) < 0.5 { 0.0 } else { even(-0.5, 0.5) };
-    if even(0.0, 1.0) < 0.3 {
+    flexure.contact_modulus_over_membrane = draw.even(1.0, 8.0).exp();
+    flexure.membrane_thickness = draw.even(-3.0, 0.0).exp();
+    flexure.membrane_axis_offset = if draw.is_likely(0.5) { 0.0 } else { draw.even(-0.5, 0.5) };
+    if draw.is_likely(0.3) {
         flexure.method = Method::Chain;
-        flexure.membrane_length = even(2.0, 40.0);
+        flexure.membrane_length = draw.even(2.0, 40.0);
     }
-    flexure.unload = even(0.0, 1.0) < 0.3;
+    flexure.unload = draw.is_likely(0.3);
     case
 }
 
