@@ -107,7 +107,7 @@ export default ({ page, text, texts, run, results, open }) => {
       assert.deepEqual((await texts("#weights output")).map(Number).reduce((a, b) => a + b, 0).toFixed(9), "1.000000000");
       assert.match(await command(), /--criteria max:coverage,max:critical_force,min:penetration,max:compliance,min:sink --weights/);
       assert.match(await text("#tetrahedron p"), /shows four criteria/);
-      for (const name of ["small penetration", "large compliance", "large coverage"]) await page.locator(`button[aria-label="Leave out ${name}"]`).click();
+      for (const name of ["small penetration of the bases", "large compliance", "large coverage"]) await page.locator(`button[aria-label="Leave out ${name}"]`).click();
       await page.locator("#scale").selectOption("linear");
       const rows = table(results, "designs.csv").filter((row) => row.sink !== "" && row.critical_force !== "");
       const scaled = (column, sign) => {

@@ -183,6 +183,21 @@ export default ({ openFile, open, place, results, run, problems }) => {
       assert.ok([0.1, 0.2, 0.3, 0.4].includes(closest.gap_over_t) && [15, 30].includes(closest.slant_deg));
       for (const one of [page, other]) await one.close();
     },
+    async "cards show a radius and both depths, with and without a thickness in mm"() {
+      for (const [file, unit, radius] of [["explore.html", "mm", (own) => own.bend_radius_mm], ["plain.html", "t", (own) => 1 / own.contact_curvature]]) {
+        const page = await openFile(join(place, file));
+        await settled(page);
+        const own = await values(page), card = (name) => page.locator(`#live-cards [data-measure=${name}]`).textContent();
+        const written = (number) => `${Number(number.toPrecision(4))} ${unit}`;
+        assert.ok((await card("contact_curvature")).includes(`Bends freely to${written(radius(own))}`), await card("contact_curvature"));
+        const depth = (name) => own[`${name}_mm`] ?? own[name];
+        assert.ok((await card("penetration")).includes(`Penetration of bases${written(depth("penetration"))}`), await card("penetration"));
+        assert.ok((await card("critical_displacement")).includes(`Needle depth${written(depth("critical_displacement"))}`), await card("critical_displacement"));
+        // Arrows cannot improve a measure without a goal.
+        assert.equal(await page.locator("#live-cards div[data-measure=critical_displacement]").count(), 1);
+        await page.close();
+      }
+    },
     async "requirements are updated, and the handles move along both paths"() {
       const page = await explore(SIZES[0]);
       assert.equal(await page.locator("#live-required li").count(), 2);

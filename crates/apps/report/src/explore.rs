@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use results::columns::name;
+use results::columns::{name, plain_goal};
 use serde::Serialize;
 use serde_json::Value;
 use sweep::{Axis, Parameter, Scalar, Sweep, Variable, key};
@@ -103,41 +103,59 @@ struct Shown {
     physical: &'static str,
     /// A short explanation.
     words: &'static str,
+    /// True if the column is a curvature, which the page shows as a radius.
+    is_curvature: bool,
+    /// True if one direction is better, so that arrows can show how to improve it.
+    has_goal: bool,
 }
 
-const fn shown(
+fn shown(
     name: &'static str,
     label: &'static str,
     physical: &'static str,
     words: &'static str,
 ) -> Shown {
-    Shown { name, label, physical, words }
+    let has_goal = plain_goal(name).is_some();
+    Shown { name, label, physical, words, is_curvature: name == name::CONTACT_CURVATURE, has_goal }
 }
 
-/// The displayed measures.
-const SHOWN: [Shown; 6] = [
-    shown(name::COVERAGE, "Coverage", "", "fraction of the scale layer that is solid scale"),
-    shown(
-        name::CRITICAL_FORCE,
-        "Critical force",
-        "critical_force_N",
-        "force at which a scale tilts over",
-    ),
-    shown(name::PENETRATION, "Penetration", "penetration_mm", "depth at the critical force"),
-    shown(name::COMPLIANCE, "Flexibility", "", "1: bends as easily as the membrane alone"),
-    shown(
-        name::CONTACT_CURVATURE,
-        "Bends freely to",
-        "bend_radius_mm",
-        "radius or curvature at which scales touch",
-    ),
-    shown(
-        name::SOUND_FORCE,
-        "Valid up to",
-        "sound_force_N",
-        "beyond it the modelled surface folds",
-    ),
-];
+/// Returns the displayed measures.
+fn measures() -> [Shown; 7] {
+    [
+        shown(name::COVERAGE, "Coverage", "", "fraction of the scale layer that is solid scale"),
+        shown(
+            name::CRITICAL_FORCE,
+            "Critical force",
+            "critical_force_N",
+            "force at which a scale tilts over",
+        ),
+        shown(
+            name::PENETRATION,
+            "Penetration of bases",
+            "penetration_mm",
+            "how far scales sink into the tissue at the critical force",
+        ),
+        shown(
+            name::CRITICAL_DISPLACEMENT,
+            "Needle depth",
+            "critical_displacement_mm",
+            "how far the needle moves down up to the critical force",
+        ),
+        shown(name::COMPLIANCE, "Flexibility", "", "1: bends as easily as the membrane alone"),
+        shown(
+            name::CONTACT_CURVATURE,
+            "Bends freely to",
+            "bend_radius_mm",
+            "radius at which scales touch",
+        ),
+        shown(
+            name::SOUND_FORCE,
+            "Valid up to",
+            "sound_force_N",
+            "beyond it the modelled surface folds",
+        ),
+    ]
+}
 
 /// The data for the scripts.
 #[derive(Serialize)]
@@ -148,7 +166,7 @@ struct Data<'a> {
     /// Thickness of the scales, mm, if known.
     thickness: Option<f64>,
     controls: Vec<Control>,
-    measures: &'static [Shown],
+    measures: [Shown; 7],
     requirements: &'a [String],
 }
 
@@ -176,7 +194,7 @@ impl Explorer {
                 .map_or_else(String::new, |parameter| parameter.get(base).to_string()),
             thickness: base.material.thickness_mm,
             controls: OFFERED.iter().filter_map(|offered| self.control(offered)).collect(),
-            measures: &SHOWN,
+            measures: measures(),
             requirements: &self.requirements,
         };
         fill(out, SECTION, |out, place| match place {

@@ -3,10 +3,15 @@
 (() => {
   const { element, at, live } = squama;
   const named = (answer, name) => answer?.values.find((value) => value.name === name);
+  /** Converts a dimensionless curvature κt to a radius, in thicknesses of a scale. */
+  const radius = (value, { words }) => value && { value: value.value > 0 ? 1 / value.value : null, unit: "t", meaning: words };
   /** Returns a measure in physical units if the material is known, otherwise dimensionless. */
-  const shown = (answer, { name, physical }) => named(answer, physical) ?? named(answer, name);
-  // Dimensionless units are hidden: their symbols are explained only in theory.md.
-  const unitOf = (value) => (/^(N|mm)/.test(value.unit) ? value.unit : "");
+  const shown = (answer, measure) => {
+    const plain = named(answer, measure.name);
+    return named(answer, measure.physical) ?? (measure.is_curvature ? radius(plain, measure) : plain);
+  };
+  // Other dimensionless units are hidden: their symbols are explained only in theory.md.
+  const unitOf = (value) => (/^(N|mm|t$)/.test(value.unit) ? value.unit : "");
 
   const compared = (value, measure) => {
     const before = live.pinned ? shown(live.pinned.answer, measure)?.value : null;
@@ -17,8 +22,10 @@
 
   const card = (measure) => {
     const value = shown(live.answer, measure), pressed = live.chosen === measure.name;
-    return element("button", { type: "button", class: "card", "data-measure": measure.name, "aria-pressed": String(pressed), title: value?.meaning ?? measure.label,
-      onclick: () => { live.chosen = measure.name; live.show(); at("live-cards").querySelector('[aria-pressed="true"]').focus(); } },
+    const choose = () => { live.chosen = measure.name; live.show(); at("live-cards").querySelector('[aria-pressed="true"]').focus(); };
+    // Arrows cannot improve a measure without a goal, so its card is no button.
+    const [tag, choice] = measure.has_goal ? ["button", { type: "button", "aria-pressed": String(pressed), onclick: choose }] : ["div", {}];
+    return element(tag, { class: "card", "data-measure": measure.name, title: value?.meaning ?? measure.label, ...choice },
     element("span", { class: "name" }, measure.label), element("span", { class: "value" }, value ? live.digits(value.value) : "–", element("small", {}, ` ${value ? unitOf(value) : ""}`)),
     element("span", { class: "other" }, compared(value, measure) || measure.words));
   };

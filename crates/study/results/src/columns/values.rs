@@ -84,7 +84,8 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
         "largest puncture force up to the critical tilt, or up to the end of the path";
     depth(name::CRITICAL_DISPLACEMENT, End, |m| &mut m.critical_displacement)
         .within(BOTH)
-        .at_tilts("displacement of the punctured point where the path first reaches the tilt, or the friction, in the name", |m| m.displacement):
+        .at_tilts("displacement of the punctured point where the path first reaches the tilt, or the friction, in the name", |m| m.displacement)
+        .first():
         "downward displacement of the punctured point at the critical tilt";
     depth("sink", End, |m| &mut m.sink).within(DEPTH).small():
         "depth of the deepest midpoint of a base at the critical tilt";

@@ -95,12 +95,15 @@ squama.physical = (name) => (squama.unitOf(name)?.[0] ?? "deg") !== "deg";
 // Labels of parameters with symbols.
 const SYMBOLS = { gap_over_t: "gap d/t", length_over_t: "length L/t", width_over_t: "width b/t", slant_deg: "slant α" };
 
+// Two depths that are easily confused: the needle goes deeper than the bases of the scales.
+const DEPTHS = { penetration: "penetration of the bases", critical_displacement: "needle depth" };
+
 /** Returns the label of a column. */
 squama.label = (name) => {
   if (SYMBOLS[name]) return SYMBOLS[name];
   const unit = squama.unitOf(name);
   const plain = unit ? name.slice(0, -unit[0].length - 1) : name;
-  return plain.replaceAll("_over_t", "/t").replaceAll("_", " ") + (unit ? ` (${unit[1]})` : "");
+  return (DEPTHS[plain] ?? plain).replaceAll("_over_t", "/t").replaceAll("_", " ") + (unit ? ` (${unit[1]})` : "");
 };
 
 /** Returns the unit of a column; empty for lengths over t, and if the label contains it. */

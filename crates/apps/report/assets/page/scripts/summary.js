@@ -36,7 +36,7 @@
   facts("summary-list", [
     ...best("best coverage", squama.coverage, "max"),
     ...best("largest critical force", squama.criticalForce, "max"),
-    ...best("least penetration", squama.penetration, "min"),
+    ...best("least penetration of the bases", squama.penetration, "min"),
     ...best("largest compliance", squama.compliance, "max"),
     ...physical(),
     ["covered designs", String(squama.numbers(squama.coverage).filter((value) => value > 0).length)],
