@@ -25,10 +25,20 @@ const PARTS: u64 = 10_000;
 pub const RESUMED: &str =
     "ending after the designs in progress; a second signal ends at once; --resume continues";
 
+/// Completed fraction from which the remaining time is extrapolated.
+const ENOUGH: f64 = 0.05;
+
+/// Number of advances after which the remaining time is extrapolated from a smaller fraction.
+// The work of one design varies by a factor of ten and more, so a few designs say little.
+const ADVANCES: usize = 30;
+
 /// Work with observable progress.
 pub trait Watched: Send + Sync + 'static {
-    /// Returns the completed fraction and a description of the progress after `elapsed`.
-    fn look(&self, elapsed: Duration) -> (f64, String);
+    /// Returns the completed fraction, from 0 to 1.
+    fn share(&self) -> f64;
+
+    /// Describes the progress after `elapsed`; `left` is the remaining time.
+    fn text(&self, left: &str, elapsed: Duration) -> String;
 
     /// Returns new messages, each printed on its own line.
     fn news(&self) -> Vec<String> {
@@ -96,11 +106,13 @@ impl<W> Drop for Display<W> {
 }
 
 impl Watched for SearchProgress {
-    fn look(&self, elapsed: Duration) -> (f64, String) {
+    fn share(&self) -> f64 {
+        self.share()
+    }
+
+    fn text(&self, left: &str, _: Duration) -> String {
         let (part, done, tasks) = self.progress();
-        let share = self.share();
-        let left = left(share, elapsed);
-        (share, format!("{}: {done}/{tasks}  {} designs{left}", part.words(), self.designs()))
+        format!("{}: {done}/{tasks}  {} designs{left}", part.words(), self.designs())
     }
 
     fn news(&self) -> Vec<String> {
@@ -109,9 +121,12 @@ impl Watched for SearchProgress {
 }
 
 impl Watched for WorkMeter {
-    fn look(&self, elapsed: Duration) -> (f64, String) {
-        let share = self.share();
-        (share, format!("{:.0} %{}", 100.0 * share, left(share, elapsed)))
+    fn share(&self) -> f64 {
+        self.share()
+    }
+
+    fn text(&self, left: &str, _: Duration) -> String {
+        format!("{:.0} %{left}", 100.0 * self.share())
     }
 
     fn news(&self) -> Vec<String> {
@@ -148,6 +163,7 @@ fn watch(watched: &dyn Watched, interrupt: &Interrupt, ending: &str, ended: &Rec
         bar.set_style(style);
     }
     let begun = Instant::now();
+    let mut remaining = Remaining::default();
     let mut is_ending = false;
     // Waiting on the channel, unlike sleeping, returns as soon as the work ends.
     while ended.recv_timeout(PAUSE) == Err(RecvTimeoutError::Timeout) {
@@ -159,27 +175,19 @@ fn watch(watched: &dyn Watched, interrupt: &Interrupt, ending: &str, ended: &Rec
             // Suspended, because printing over the bar would garble the line.
             bar.suspend(|| eprintln!("{line}"));
         }
-        let (share, text) = watched.look(begun.elapsed());
+        let (share, elapsed) = (watched.share(), begun.elapsed());
         bar.set_position((share * PARTS as f64) as u64);
-        bar.set_message(text);
+        bar.set_message(watched.text(&remaining.text(share, elapsed), elapsed));
     }
     bar.finish_and_clear();
 }
 
 impl Watched for Counts {
-    fn look(&self, elapsed: Duration) -> (f64, String) {
-        let share = self.work.share();
-        (share, self.text(share, elapsed))
+    fn share(&self) -> f64 {
+        self.work.share()
     }
 
-    fn news(&self) -> Vec<String> {
-        self.work.take_slow()
-    }
-}
-
-impl Counts {
-    /// Describes the progress of a run that completed the fraction `share` in `elapsed`.
-    fn text(&self, share: f64, elapsed: Duration) -> String {
+    fn text(&self, left: &str, elapsed: Duration) -> String {
         // Relaxed: the counts are only displayed.
         let [designs, before, done, failed] =
             [&self.designs, &self.before, &self.done, &self.failed]
@@ -188,17 +196,41 @@ impl Counts {
         let rate = done as f64 / elapsed.as_secs_f64();
         // A rate below 1 would be printed as 0/s.
         let rate = if rate >= 1.0 { format!("  {rate:.0}/s") } else { String::new() };
-        let left = left(share, elapsed);
         format!("{}/{designs} designs{rate}{left}  {failed} failed", before + done)
+    }
+
+    fn news(&self) -> Vec<String> {
+        self.work.take_slow()
     }
 }
 
-/// Extrapolates the remaining time; empty before any work is done.
-fn left(share: f64, elapsed: Duration) -> String {
-    let left = elapsed.as_secs_f64() * (1.0 - share) / share;
-    // Before any work is done this is infinite or NaN, which `Duration` rejects.
-    let left = Duration::try_from_secs_f64(left.ceil()).ok();
-    left.map_or(String::new(), |left| format!("  {} left", time(left)))
+/// Extrapolates the remaining time from the last advance of the completed fraction.
+#[derive(Debug, Default)]
+struct Remaining {
+    share: f64,
+    /// Time of the last advance.
+    at: Duration,
+    advances: usize,
+}
+
+impl Remaining {
+    /// Formats the remaining time; empty until there is enough progress to extrapolate from.
+    fn text(&mut self, share: f64, elapsed: Duration) -> String {
+        if share > self.share {
+            (self.share, self.at) = (share, elapsed);
+            self.advances += 1;
+        }
+        if self.share < ENOUGH && self.advances < ADVANCES {
+            return String::new();
+        }
+        // Between advances the time counts down, but not to zero while a slow design is solved.
+        let waited = elapsed.saturating_sub(self.at).as_secs_f64();
+        let expected = self.at.as_secs_f64() * (1.0 - self.share) / self.share;
+        let left = if self.share < 1.0 { (expected - waited).max(waited) } else { 0.0 };
+        // A fraction near zero may give more seconds than `Duration` can hold.
+        let left = Duration::try_from_secs_f64(left.ceil()).ok();
+        left.map_or(String::new(), |left| format!("  {} left", time(left)))
+    }
 }
 
 #[cfg(test)]
@@ -210,12 +242,34 @@ mod tests {
         let counts = Counts::default();
         counts.designs.store(12, Ordering::Relaxed);
         counts.before.store(2, Ordering::Relaxed);
-        let text = |share, seconds| counts.text(share, Duration::from_secs(seconds));
+        let text = |share, seconds| {
+            let elapsed = Duration::from_secs(seconds);
+            counts.text(&Remaining::default().text(share, elapsed), elapsed)
+        };
         assert_eq!(text(0.0, 3), "2/12 designs  0 failed");
         counts.done.store(8, Ordering::Relaxed);
         counts.failed.store(1, Ordering::Relaxed);
         // 10 of 12 designs, but a tenth of the work.
         assert_eq!(text(0.1, 20), "10/12 designs  3m left  1 failed");
         assert_eq!(text(0.5, 2), "10/12 designs  4/s  2.00 s left  1 failed");
+    }
+
+    #[test]
+    fn remaining_time_needs_progress_and_counts_down_between_advances() {
+        let mut remaining = Remaining::default();
+        let mut text = |share, seconds| remaining.text(share, Duration::from_secs(seconds));
+        // A fraction of 0.002 after 4 s would be 33 minutes, and 100 minutes 8 s later.
+        assert_eq!(text(0.002, 4), "");
+        assert_eq!(text(0.002, 12), "");
+        assert_eq!(text(0.2, 40), "  2m 40s left");
+        assert_eq!(text(0.2, 70), "  2m 10s left");
+        // A stalled design takes at least as long as it has taken.
+        assert_eq!(text(0.2, 240), "  3m 20s left");
+        assert_eq!(text(1.0, 250), "  0.00 s left");
+        let mut remaining = Remaining::default();
+        for k in 1..=30_u32 {
+            let text = remaining.text(f64::from(k) * 1e-3, Duration::from_secs(k.into()));
+            assert_eq!(text.is_empty(), k < 30, "{text}");
+        }
     }
 }

@@ -16,7 +16,8 @@ const PLACES: u64 = 8;
 const NEIGHBOURS: u64 = 6;
 
 /// Order of the positions; every prefix of it is spread over the grid.
-const ORDER: [u64; PLACES as usize] = [0, 4, 2, 6, 1, 5, 3, 7];
+// The middle first, because the first designs of a grid are often the costliest.
+const ORDER: [u64; PLACES as usize] = [4, 1, 6, 3, 0, 5, 2, 7];
 
 /// Maximum time of an estimate, plus the design in progress.
 const PATIENCE: Duration = Duration::from_secs(2);
@@ -55,8 +56,9 @@ impl Estimate {
 /// Selects neighbouring designs at a few positions of a grid.
 fn spread(designs: u64) -> impl Iterator<Item = u64> {
     let first = move |place: u64| (2 * place + 1) * (designs / (2 * PLACES));
-    let neighbours = move |place| (0..NEIGHBOURS).map(move |neighbour| first(place) + neighbour);
-    ORDER.into_iter().flat_map(neighbours).filter(move |index| *index < designs)
+    // All positions before any neighbours, because slow designs leave time for only a few.
+    let all = (0..NEIGHBOURS).flat_map(move |next| ORDER.map(|place| first(place) + next));
+    all.filter(move |index| *index < designs)
 }
 
 /// Returns the bytes of a design in journal and tables.
@@ -79,9 +81,8 @@ mod tests {
     fn designs_of_all_parts_of_a_grid_are_solved() {
         let chosen: Vec<_> = spread(16_000).collect();
         assert_eq!(chosen.len(), 48);
-        let mut places: Vec<_> = chosen.iter().map(|index| index / 2000).collect();
-        places.dedup();
-        assert_eq!(places.len(), 8);
+        // Slow designs leave time for only a few, so the first ones are from different parts.
+        let mut places: Vec<_> = chosen[..8].iter().map(|index| index / 2000).collect();
         places.sort_unstable();
         assert_eq!(places, [0, 1, 2, 3, 4, 5, 6, 7]);
     }

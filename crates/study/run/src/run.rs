@@ -12,6 +12,7 @@ use crate::options::Options;
 use crate::progress::{Finished, Progress, RunError};
 use crate::run_journal::{self, Journal, JournalEntry, Line, SessionStart};
 use crate::solve::groups::Groups;
+use crate::solve::interleaved::interleaved;
 use crate::solve::task::Task;
 use crate::solve::workers;
 use crate::tables::run_info::RunInfo;
@@ -50,7 +51,7 @@ pub fn run(
         folder.remove_results();
     }
     let mut run = Run::new(journal, folder, options, RunInfo::new(program, options, clock));
-    let designs = missing.into_iter().flatten().map(|position| subset.design(position));
+    let designs = interleaved(missing).map(|position| subset.design(position));
     let mut designs = designs.peekable();
     if designs.peek().is_some() {
         let task = Task::new(sweep, String::new(), 0, clock, options.work);

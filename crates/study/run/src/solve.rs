@@ -3,6 +3,7 @@
 pub mod curve;
 pub mod evaluator;
 pub mod groups;
+pub mod interleaved;
 mod samples;
 mod scatter;
 mod sensitivity;
