@@ -18,6 +18,7 @@ use crate::goal::DesignGoal;
 use crate::progress::SearchProgress;
 use crate::sample::{SampleJudge, Samples};
 use crate::space::{DesignSpace, Interval, SpacePoint};
+pub(crate) use evaluation_journal::read_journal;
 use evaluation_journal::{EvaluationKey, JournalLine, Known, PointKey, SamplesLine, SolvedLine};
 
 /// Offset of sample numbers in a search.

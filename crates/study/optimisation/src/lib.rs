@@ -25,6 +25,7 @@
 //! | [`Confirmation`], [`Estimate`] | check of statistics with independent samples |
 //! | [`optimise`], [`SearchOptions`] | runs a search |
 //! | [`SearchProgress`], [`SearchPart`] | progress of a search |
+//! | [`SearchStatus`] | status of a search, from its journal |
 //! | [`Found`], [`Answer`], [`BestDesign`], [`Front`] | results of a search |
 //! | [`LeftOutDesigns`] | numbers of designs without a valid judgement |
 //! | [`Candidate`], [`SearchStage`], [`Target`] | evaluated design, stage and target of its search |
@@ -84,6 +85,7 @@ mod slopes;
 mod space;
 mod space_filling;
 mod statistic;
+mod status;
 mod tables;
 
 pub use answer::Answer;
@@ -102,6 +104,7 @@ pub use sampled::confirmation::{Confirmation, Estimate};
 pub use search::{Found, LeftOutDesigns, SearchOptions, optimise};
 pub use space::{Choice, DesignSpace, Interval, SpacePoint};
 pub use statistic::Statistic;
+pub use status::SearchStatus;
 pub use tables::{
     FRONT, GOAL, HISTORY, NEAREST_DEFINITION, OPTIMUM, OPTIMUM_DEFINITION, history_columns,
     optimum_columns, write_found,

@@ -41,7 +41,7 @@ pub enum Maker {
 
 impl Maker {
     /// Returns the name of the record of this maker.
-    pub(crate) fn key(self) -> &'static str {
+    pub fn key(self) -> &'static str {
         self.names().0
     }
 

@@ -1,9 +1,10 @@
 //! `squama status`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::Args;
+use optimisation::SearchStatus;
 use results::Derivation;
 use serde_json::{Value, json};
 use sweep::DesignNumber;
@@ -20,11 +21,12 @@ Examples:
   squama status results/paper
   squama status results/paper --json
 
-Works while the run is going on. Verifies the checksum of every table, and lists the rankings, figures and
+Works while the run or the search is going on. Verifies the checksum of every table, and lists the rankings, figures and
 pages that were made from tables which have changed since.
-Exit code: 0 done, 1 some designs failed or are missing, or a table was changed, 2 bad input.")]
+Exit code: 0 done, 1 some designs failed or are missing, a search has not ended, or a table was changed,
+2 bad input.")]
 pub struct Arguments {
-    /// Results folder of a run, or its definition
+    /// Results folder of a run or a search, or its definition
     #[arg(value_name = "RESULTS")]
     pub results: PathBuf,
 
@@ -33,9 +35,14 @@ pub struct Arguments {
     pub json: bool,
 }
 
-/// Shows the status of a run.
+/// Shows the status of a run or a search.
 pub fn status(arguments: &Arguments) -> anyhow::Result<u8> {
-    let status = run::RunStatus::read(&results_folder(&arguments.results)?)?;
+    let path = &arguments.results;
+    let folder = if SearchStatus::is_search(path) { path.clone() } else { results_folder(path)? };
+    if SearchStatus::is_search(&folder) {
+        return search_status(&folder, arguments.json);
+    }
+    let status = run::RunStatus::read(&folder)?;
     if arguments.json {
         json::print(&as_json(&status))?;
     } else {
@@ -44,6 +51,44 @@ pub fn status(arguments: &Arguments) -> anyhow::Result<u8> {
     let complete = status.failed == 0 && status.archive.missing().is_empty();
     let complete = complete && status.problems.is_empty();
     Ok(if complete { DONE } else { INCOMPLETE })
+}
+
+/// Shows the status of a search.
+fn search_status(folder: &Path, json: bool) -> anyhow::Result<u8> {
+    let status = SearchStatus::read(folder)?;
+    if json {
+        json::print(&json!({
+            "goal": status.goal,
+            "is_running": status.in_use,
+            "is_complete": status.is_complete,
+            "designs": status.designs,
+            "sample_sets": status.sample_sets,
+            "program": status.program,
+            "goal_sha256": status.goal_sha256,
+            "problems": status.problems,
+        }))?;
+    } else {
+        print(&search_report(&status))?;
+    }
+    let is_done = status.is_complete && status.problems.is_empty();
+    Ok(if is_done { DONE } else { INCOMPLETE })
+}
+
+fn search_report(status: &SearchStatus) -> String {
+    let state = match (status.in_use, status.is_complete) {
+        (true, _) => "search, running",
+        (_, true) => "search, done",
+        _ => "search, not finished; squama optimise --resume continues it",
+    };
+    let rows = [
+        row("solved", counted(status.designs as u64, "design")),
+        row("sample sets", status.sample_sets.to_string()),
+        row("program", format!("squama {}", status.program)),
+        row("goal", format!("sha256 {}", status.goal_sha256)),
+    ];
+    let problems = status.problems.iter().map(|problem| [problem.clone()]);
+    let problems = titled("problems", &problems.collect::<Vec<_>>());
+    format!("{}: {state}\n{}{problems}", status.goal, aligned(&rows))
 }
 
 fn report(status: &run::RunStatus) -> String {

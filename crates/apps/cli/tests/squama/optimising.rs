@@ -71,6 +71,31 @@ fn tables_do_not_depend_on_threads_or_interruptions() {
 }
 
 #[test]
+fn the_status_of_a_search_counts_its_designs() {
+    let place = Place::with(GOAL);
+    place.squama("optimise x.toml --out done -q").assert().code(0);
+    let text = place.prints("status done");
+    assert!(text.starts_with("light: search, done\n"), "{text}");
+    let journal = place.read("done/evaluations.jsonl");
+    std::fs::create_dir(place.path("cut")).expect("a folder");
+    let cut: String = journal.split_inclusive('\n').take(11).collect();
+    std::fs::write(place.path("cut/evaluations.jsonl"), cut).expect("writable");
+    let assert = place.squama("status cut").assert().code(1);
+    let text = String::from_utf8_lossy(&assert.get_output().stdout).into_owned();
+    assert!(text.starts_with("light: search, not finished; squama optimise --resume"), "{text}");
+    assert!(text.contains("solved") && text.contains("10 designs"), "{text}");
+    let assert = place.squama("status cut --json").assert().code(1);
+    let json: serde_json::Value =
+        serde_json::from_slice(&assert.get_output().stdout).expect("JSON");
+    assert_eq!((&json["designs"], &json["is_complete"]), (&10.into(), &false.into()));
+    // A changed table is a problem.
+    std::fs::write(place.path("done/history.csv"), "design\n").expect("writable");
+    let assert = place.squama("status done").assert().code(1);
+    let text = String::from_utf8_lossy(&assert.get_output().stdout).into_owned();
+    assert!(text.contains("problems\n") && text.contains("history.csv"), "{text}");
+}
+
+#[test]
 fn json_output_contains_the_optimum() {
     let place = Place::with(GOAL);
     let text = place.prints("optimise x.toml --json");

@@ -8,7 +8,7 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
-use journal::{Journal, Records, lock_journal};
+use journal::{Journal, JournalError, Records, lock_journal};
 use results::{Claim, DesignResult, Maker, ResultsFolder};
 use run::{JournalHeader, Program, Start};
 use serde::{Deserialize, Serialize};
@@ -21,7 +21,7 @@ use crate::space::SpacePoint;
 /// A line of the journal after the header.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub(super) enum JournalLine {
+pub(crate) enum JournalLine {
     Solved(Box<SolvedLine>),
     Samples(SamplesLine),
 }
@@ -29,7 +29,7 @@ pub(super) enum JournalLine {
 /// A solved point.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct SolvedLine {
+pub(crate) struct SolvedLine {
     /// True if the result includes derivatives.
     pub differentiated: bool,
     /// Number of the sample; `None` for the nominal design.
@@ -48,7 +48,7 @@ pub(super) struct SolvedLine {
 /// Samples of the design at a point.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct SamplesLine {
+pub(crate) struct SamplesLine {
     /// Number of the first sample.
     pub first: u64,
     /// Fractions of the intervals.
@@ -61,7 +61,7 @@ pub(super) struct SamplesLine {
 
 /// Identifies a solved point.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub(super) struct EvaluationKey {
+pub(crate) struct EvaluationKey {
     pub differentiated: bool,
     /// Number of the sample; `None` for the nominal design.
     pub sample: Option<u64>,
@@ -70,7 +70,7 @@ pub(super) struct EvaluationKey {
 
 /// Identifies a point by the bits of its fractions.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub(super) struct PointKey {
+pub(crate) struct PointKey {
     shares: Vec<u64>,
     chosen: Vec<usize>,
 }
@@ -87,7 +87,7 @@ impl PointKey {
 }
 
 /// Results in the journal.
-pub(super) struct Known {
+pub(crate) struct Known {
     header: JournalHeader,
     pub solved: HashMap<EvaluationKey, Arc<DesignResult>>,
     pub sampled: HashMap<SamplesKey, Arc<Samples>>,
@@ -127,6 +127,13 @@ impl Records for Known {
     fn is_empty(&self) -> bool {
         self.solved.is_empty() && self.sampled.is_empty()
     }
+}
+
+/// Reads the journal at `path` without a lock; a search may be writing to it.
+///
+/// Returns `None` if the first line is incomplete.
+pub(crate) fn read_journal(path: &Path) -> Result<Option<Known>, JournalError> {
+    journal::read(path)
 }
 
 /// Opens the journal in `folder` for the search of `goal`.
