@@ -275,6 +275,7 @@ impl CurveTable<'_> {
             let key = if self.entry("from").is_some() { "from" } else { "to" };
             return Err(self.wrong(key, "a range with points of the file in it"));
         }
+        self.require_load(&curve)?;
         // Machines record thousands of points, and the noise of neighbouring points is correlated.
         let part = curve.points.len().div_ceil(MOST_POINTS);
         let mean = |points: &[[f64; 2]]| {
@@ -282,6 +283,23 @@ impl CurveTable<'_> {
         };
         curve.points = curve.points.chunks(part).map(mean).collect();
         Ok(curve)
+    }
+
+    /// Refuses a constant force or moment, which determines no parameter.
+    fn require_load(&self, curve: &MeasuredCurve) -> Result<(), InvalidFit> {
+        let first = curve.points[0][1];
+        let is_constant = curve.points.iter().all(|point| point[1] == first);
+        if !is_constant || (curve.points.len() == 1 && first != 0.0) {
+            return Ok(());
+        }
+        let [_, (load, _)] = curve.test.axes();
+        let count = curve.points.len();
+        let expected = format!(
+            "a {load} that varies: it is {first} at all {count} points, so check the load cell, from and to"
+        );
+        // The file has been read, so its key exists.
+        let place = self.entry("file").map_or(&self.0[0].place, |entry| &entry.place);
+        Err(not_accepted(place, "curve.file", &curve.file, &expected))
     }
 
     /// Returns the parameters that this specimen sets itself, with their values.

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use results::{Quantity, bending_units, puncture_units};
-use sweep::{Case, read_input};
+use sweep::{Case, read_input_bytes};
 use text::reason;
 
 /// Kind of test in which a curve was measured.
@@ -21,14 +21,20 @@ pub enum Test {
 /// `M*`), as in the tables of `squama design`.
 type Column = (&'static str, Test, usize, Option<f64>);
 
-const COLUMNS: [Column; 15] = [
+const COLUMNS: [Column; 21] = [
     ("displacement_mm", Test::Puncture, 0, Some(1.0)),
     ("displacement_um", Test::Puncture, 0, Some(1e-3)),
+    ("displacement_cm", Test::Puncture, 0, Some(10.0)),
     ("displacement_m", Test::Puncture, 0, Some(1e3)),
+    ("displacement_in", Test::Puncture, 0, Some(25.4)),
     ("displacement", Test::Puncture, 0, None),
     ("force_N", Test::Puncture, 1, Some(1.0)),
     ("force_mN", Test::Puncture, 1, Some(1e-3)),
+    ("force_cN", Test::Puncture, 1, Some(1e-2)),
     ("force_kN", Test::Puncture, 1, Some(1e3)),
+    ("force_gf", Test::Puncture, 1, Some(9.806_65e-3)),
+    ("force_kgf", Test::Puncture, 1, Some(9.806_65)),
+    ("force_lbf", Test::Puncture, 1, Some(4.448_221_615_260_5)),
     ("force", Test::Puncture, 1, None),
     ("curvature_per_mm", Test::Bending, 0, Some(1.0)),
     ("curvature_per_m", Test::Bending, 0, Some(1e-3)),
@@ -110,13 +116,14 @@ impl MeasuredCurve {
     /// If the file cannot be read, no two columns belong to one test, or a cell is not a number.
     pub fn read(path: &Path, columns: Option<&[String]>) -> Result<Self, InvalidMeasured> {
         let file = path.display().to_string();
-        match read_input(path, MAX_BYTES) {
-            Ok(text) => Self::parse(&text, &file, columns),
-            Err(error) => {
-                let problem = format!("cannot be read ({}), expected a CSV file", reason(&error));
-                Err(InvalidMeasured { file, line: None, problem })
-            }
-        }
+        let wrong = |problem| InvalidMeasured { file: file.clone(), line: None, problem };
+        let bytes = read_input_bytes(path, MAX_BYTES).map_err(|error| {
+            wrong(format!("cannot be read ({}), expected a CSV file", reason(&error)))
+        })?;
+        let text = decoded(bytes).ok_or_else(|| {
+            wrong("is no text in UTF-8, UTF-16 or Windows-1252, expected a CSV file".to_owned())
+        })?;
+        Self::parse(&text, &file, columns)
     }
 
     /// Reads the curve from the `text` of `file`; see [`Self::read`].
@@ -133,7 +140,14 @@ impl MeasuredCurve {
             |line, problem: String| InvalidMeasured { file: file.to_owned(), line, problem };
         let (rows, separator) = rows(text);
         let rows = rows.map_err(|error| wrong(None, error.to_string()))?;
-        let header = Header::find(&rows, columns, separator);
+        let decimal = decimal(&rows, separator);
+        // An open quote takes the rest of the file into one cell.
+        let last = rows.last().filter(|row| row.iter().any(|cell| cell.contains('\n')));
+        if let Some(row) = last.filter(|_| text.matches('"').count() % 2 == 1) {
+            let line = row.position().map(csv::Position::line);
+            return Err(wrong(line, "a quote (\") is not closed, expected it in pairs".to_owned()));
+        }
+        let header = Header::find(Rows { all: &rows, decimal }, columns);
         let Header { names, lines, unnamed } = header;
         let [(x, of_x), (y, of_y)] = pair(&names).map_err(|problem| wrong(None, problem))?;
         let (mut points, mut left_out) = (Vec::new(), 0);
@@ -155,7 +169,7 @@ impl MeasuredCurve {
             }
             let read = |column: usize, worth: Option<f64>| {
                 let text = cell(column);
-                let read = number(text, separator).map(|number| number * worth.unwrap_or(1.0));
+                let read = number(text, decimal).map(|number| number * worth.unwrap_or(1.0));
                 let expected = "is not accepted, expected a number";
                 read.ok_or_else(|| wrong(line, format!("{}: {text:?} {expected}", names[column])))
             };
@@ -167,6 +181,41 @@ impl MeasuredCurve {
         let (test, is_physical) = (of_x.1, of_x.3.is_some());
         let x_unit = of_x.3.unwrap_or(1.0);
         Ok(Self { file: file.to_owned(), test, is_physical, x_unit, left_out, points })
+    }
+}
+
+/// Characters of Windows-1252 for the bytes 0x80 to 0x9f; undefined bytes stand for themselves.
+const WINDOWS_1252: [char; 32] = [
+    '€', '\u{81}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{8d}', 'Ž', '\u{8f}',
+    '\u{90}', '‘', '’', '“', '”', '•', '–', '—', '˜', '™', 'š', '›', 'œ', '\u{9d}', 'ž', 'Ÿ',
+];
+
+/// Decodes UTF-8, UTF-16 with a byte-order mark, or otherwise Windows-1252.
+///
+/// `None` for bytes that are no text.
+fn decoded(bytes: Vec<u8>) -> Option<String> {
+    match bytes.as_slice() {
+        [0xff, 0xfe, text @ ..] => return utf_16(text, u16::from_le_bytes),
+        [0xfe, 0xff, text @ ..] => return utf_16(text, u16::from_be_bytes),
+        _ => {}
+    }
+    // Texts hold no zero bytes, pictures and workbooks do.
+    let bytes = (!bytes.contains(&0)).then_some(bytes)?;
+    // Text in Windows-1252 with a letter beyond ASCII is almost never valid UTF-8.
+    let text = String::from_utf8(bytes)
+        .unwrap_or_else(|error| error.as_bytes().iter().copied().map(windows_1252).collect());
+    Some(text)
+}
+
+fn utf_16(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> Option<String> {
+    let units = bytes.chunks_exact(2).map(|two| unit([two[0], two[1]]));
+    char::decode_utf16(units).collect::<Result<_, _>>().ok()
+}
+
+fn windows_1252(byte: u8) -> char {
+    match byte {
+        0x80..=0x9f => WINDOWS_1252[usize::from(byte - 0x80)],
+        _ => char::from(byte),
     }
 }
 
@@ -186,28 +235,77 @@ impl Header {
     /// Finds the header: the given names, or the first line with two columns of a test.
     ///
     /// Units in the line below are appended to the names.
-    fn find(rows: &[csv::StringRecord], given: Option<&[String]>, separator: char) -> Self {
-        let is_text = |row: &csv::StringRecord| row.iter().all(|c| number(c, separator).is_none());
-        let texts = |from: usize| from + rows[from..].iter().take_while(|row| is_text(row)).count();
+    fn find(rows: Rows<'_>, given: Option<&[String]>) -> Self {
         if let Some(names) = given {
-            return Self { names: names.to_vec(), lines: texts(0), unnamed: true };
+            return Self { names: names.to_vec(), lines: rows.numbers(), unnamed: true };
         }
-        let candidates = (0..rows.len().min(LONGEST_PREAMBLE)).flat_map(|i| {
-            let units = rows.get(i + 1).filter(|row| is_text(row));
-            // Try with units first: `Force` above `(N)` is in newtons, but alone it has no unit.
-            [units.map(|units| (i, Some(units))), Some((i, None))].into_iter().flatten()
+        for i in 0..rows.all.len().min(LONGEST_PREAMBLE) {
+            let header = Self::at(rows, i, rows.units(i));
+            if pair(&header.names).is_ok() {
+                return header;
+            }
+            // A row of text below `force_N` is a remark. Below `force` it holds units, which must
+            // not be ignored.
+            let header = Self::at(rows, i, None);
+            if pair(&header.names).is_ok_and(|[(_, x), _]| x.3.is_some()) {
+                return header;
+            }
+        }
+        // The error message shows the line above the numbers.
+        let end = rows.numbers();
+        let has_units = end >= 2 && rows.units(end - 2).is_some() && rows.is_text(end - 2);
+        match end.checked_sub(if has_units { 2 } else { 1 }) {
+            Some(i) => Self::at(rows, i, rows.units(i)),
+            None => Self { names: Vec::new(), lines: 0, unnamed: false },
+        }
+    }
+
+    /// Returns the header in row `i`, with `units` from the row below.
+    fn at(rows: Rows<'_>, i: usize, units: Option<&csv::StringRecord>) -> Self {
+        let mut names = Vec::new();
+        for (k, name) in rows.all[i].iter().enumerate() {
+            let unit = units.and_then(|row| row.get(k)).unwrap_or_default();
+            names.push(spelled(&format!("{name} {unit}")));
+        }
+        Self { names, lines: rows.end_of_texts(i), unnamed: false }
+    }
+}
+
+/// Rows of a file, with their decimal sign.
+#[derive(Clone, Copy)]
+struct Rows<'a> {
+    all: &'a [csv::StringRecord],
+    decimal: char,
+}
+
+impl<'a> Rows<'a> {
+    /// Returns true if no cell of a row is a number.
+    fn is_text(self, row: usize) -> bool {
+        self.all[row].iter().all(|cell| number(cell, self.decimal).is_none())
+    }
+
+    /// Returns the end of the rows of text that begin at `row`.
+    fn end_of_texts(self, row: usize) -> usize {
+        (row..self.all.len()).find(|row| !self.is_text(*row)).unwrap_or(self.all.len())
+    }
+
+    /// Returns the row below `row` if it is text, because it may hold units.
+    fn units(self, row: usize) -> Option<&'a csv::StringRecord> {
+        self.all.get(row + 1).filter(|_| self.is_text(row + 1))
+    }
+
+    /// Returns the index of the first row of the table of numbers.
+    ///
+    /// A preamble may contain numbers, so a table begins with two rows of equally many cells with
+    /// at least two numbers each.
+    fn numbers(self) -> usize {
+        let mut counts = self.all.iter().map(|row| {
+            let numbers = row.iter().filter(|cell| number(cell, self.decimal).is_some()).count();
+            (row.len(), numbers >= 2)
         });
-        let mut named = candidates.map(|(i, units)| {
-            let unit = |k: usize| units.and_then(|row| row.get(k)).unwrap_or_default();
-            let cells = rows[i].iter().enumerate();
-            let names = cells.map(|(k, cell)| spelled(&format!("{cell} {}", unit(k)))).collect();
-            Self { names, lines: texts(i), unnamed: false }
-        });
-        // If no line names two columns, the error message shows the first line.
-        named.find(|header| pair(&header.names).is_ok()).unwrap_or_else(|| {
-            let first = rows.first().filter(|row| is_text(row)).into_iter().flatten();
-            Self { names: first.map(str::to_owned).collect(), lines: texts(0), unnamed: false }
-        })
+        let mut before = counts.next();
+        let first = counts.position(|count| before.replace(count) == Some(count) && count.1);
+        first.unwrap_or_else(|| self.end_of_texts(0))
     }
 }
 
@@ -241,10 +339,27 @@ fn rows(text: &str) -> (Result<Vec<csv::StringRecord>, csv::Error>, char) {
     (reader.into_records().collect(), separator)
 }
 
+/// Returns the decimal sign of a file with this separator: a comma or a point.
+fn decimal(rows: &[csv::StringRecord], separator: char) -> char {
+    // In quotes a comma is no separator.
+    let is_comma = separator != ',' || rows.iter().flatten().any(has_decimal_comma);
+    if is_comma { ',' } else { '.' }
+}
+
+/// Returns true for a number with a comma that does not separate thousands.
+fn has_decimal_comma(cell: &str) -> bool {
+    let Some((whole, fraction)) = cell.trim_start_matches('-').split_once(',') else {
+        return false;
+    };
+    let is_thousands = fraction.len() == 3 && whole != "0";
+    let mut digits = whole.bytes().chain(fraction.bytes());
+    !is_thousands && !whole.is_empty() && digits.all(|byte| byte.is_ascii_digit())
+}
+
 /// Returns the number in a cell.
-fn number(cell: &str, separator: char) -> Option<f64> {
+fn number(cell: &str, decimal: char) -> Option<f64> {
     // In a cell with a point, a comma may separate thousands. Such a cell is refused.
-    let is_comma = separator != ',' && !cell.contains('.');
+    let is_comma = decimal == ',' && !cell.contains('.');
     let cell = if is_comma { cell.replace(',', ".") } else { cell.to_owned() };
     cell.parse().ok().filter(|number: &f64| number.is_finite())
 }
@@ -275,7 +390,10 @@ fn pair(names: &[String]) -> Result<[(usize, &'static Column); 2], String> {
     found.ok_or_else(|| {
         let all = COLUMNS.map(|(name, ..)| name).join(" ");
         let names = if names.is_empty() { "none".to_owned() } else { names.join(" ") };
-        format!("its columns are {names}, expected two of one test: {all}")
+        format!(
+            "its columns are {names}, expected two of one test: {all}; \
+             columns = [...] in [[curve]], or --measured-columns, names the columns otherwise"
+        )
     })
 }
 
@@ -312,12 +430,65 @@ mod tests {
     }
 
     #[test]
+    fn an_open_quote_is_refused_at_its_line() {
+        let told = refused("displacement_mm,force_N\n0,0\n\"1,2\n3,4\n5,6\n");
+        assert_eq!(told, "a.csv:3: a quote (\") is not closed, expected it in pairs");
+        // Quoted line ends in a header, and inch marks in a preamble, are no mistakes.
+        let curve = parsed("3\" needle\n\"Displacement\n[mm]\",\"Force\n[N]\"\n0,0\n1,2\n");
+        assert_eq!(curve.points, [[0.0, 0.0], [1.0, 2.0]]);
+    }
+
+    #[test]
     fn the_definition_may_name_the_columns() {
         let names = ["displacement_mm", "force_N"].map(str::to_owned);
         for text in ["Weg,Kraft\n0.5,2\n", "0.5,2\n"] {
             let curve = MeasuredCurve::parse(text, "a.csv", Some(&names)).expect("a curve");
             assert_eq!(curve.points, [[0.5, 2.0]]);
         }
+    }
+
+    #[test]
+    fn units_in_their_own_row_are_converted_or_refused() {
+        let curve = parsed("Displacement,Force\n(in),(lbf)\n1,1\n");
+        assert_eq!((curve.is_physical, curve.points[0]), (true, [25.4, 4.448_221_615_260_5]));
+        assert_eq!(parsed("Displacement,Force\n(mm),(cN)\n1,50\n").points, [[1.0, 0.5]]);
+        let told = refused("Displacement,Force\n(ft),(oz)\n1,2\n3,4\n");
+        assert!(told.starts_with("a.csv: its columns are displacement_ft force_oz,"), "{told}");
+        // A row without units is no row of units.
+        assert!(!parsed("displacement,force\n,\n1,2\n").is_physical);
+    }
+
+    #[test]
+    fn preambles_with_numbers_are_skipped() {
+        let text =
+            "Rate,2.0,mm/min\nDiameter,2.0,mm\nTime,Extension,Load\n(sec),(mm),(N)\n0,1,2\n1,3,4\n";
+        let told = refused(text);
+        assert!(told.contains("its columns are time_sec extension_mm load_N,"), "{told}");
+        let names = ["time", "displacement_mm", "force_N"].map(str::to_owned);
+        let curve = MeasuredCurve::parse(text, "a.csv", Some(&names)).expect("a curve");
+        assert_eq!(curve.points, [[1.0, 2.0], [3.0, 4.0]]);
+    }
+
+    #[test]
+    fn decimal_commas_in_quotes_are_read() {
+        let curve = parsed("\"displacement_mm\",\"force_N\"\n\"0,5\",\"-0,25\"\n\"1,125\",\"2\"\n");
+        assert_eq!(curve.points, [[0.5, -0.25], [1.125, 2.0]]);
+        assert!(refused("displacement_mm,force_N\n\"1,000\",2\n").contains("expected a"));
+    }
+
+    #[test]
+    fn texts_of_other_encodings_are_decoded() {
+        let text = "Prüfling;–\nDisplacement;Force\n(µm);(N)\n500;2\n";
+        let utf_16: Vec<u16> = std::iter::once(0xfeff).chain(text.encode_utf16()).collect();
+        let big: Vec<u8> = utf_16.iter().flat_map(|unit| unit.to_be_bytes()).collect();
+        let little: Vec<u8> = utf_16.iter().flat_map(|unit| unit.to_le_bytes()).collect();
+        let windows = b"Pr\xfcfling;\x96\nDisplacement;Force\n(\xb5m);(N)\n500;2\n".to_vec();
+        for bytes in [text.as_bytes().to_vec(), big, little, windows] {
+            assert_eq!(decoded(bytes).as_deref(), Some(text));
+        }
+        assert_eq!(parsed(text).points, [[0.5, 2.0]]);
+        assert_eq!(decoded(b"\x89PNG\0".to_vec()), None);
+        assert_eq!(decoded(b"\xff\xfe\0\xd8".to_vec()), None);
     }
 
     #[test]

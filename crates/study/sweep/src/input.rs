@@ -9,21 +9,32 @@ const STREAMS: [&str; 3] = ["/dev/stdin", "/dev/fd/", "/proc/self/fd/"];
 
 /// Reads the text at `path`, of at most `max_bytes` bytes.
 ///
-/// Named pipes and devices are refused because reading one may never end; the streams of a shell are accepted.
+/// Named pipes and devices are refused because reading one may never end; the streams of a shell
+/// are accepted.
 ///
 /// # Errors
 /// If the file cannot be read, is too long or is not UTF-8.
 pub fn read_input(path: &Path, max_bytes: u64) -> io::Result<String> {
+    String::from_utf8(read_input_bytes(path, max_bytes)?).map_err(|_| {
+        io::Error::new(io::ErrorKind::InvalidData, "stream did not contain valid UTF-8")
+    })
+}
+
+/// Reads the file at `path`, of at most `max_bytes` bytes; see [`read_input`].
+///
+/// # Errors
+/// If the file cannot be read or is too long.
+pub fn read_input_bytes(path: &Path, max_bytes: u64) -> io::Result<Vec<u8>> {
     let is_stream = STREAMS.iter().any(|stream| path.to_string_lossy().starts_with(stream));
     if !is_stream && !fs::metadata(path)?.is_file() {
         return Err(io::Error::other("it is not a regular file"));
     }
-    let mut text = String::new();
+    let mut bytes = Vec::new();
     // One byte more than is accepted shows that the file is too long.
-    File::open(path)?.take(max_bytes + 1).read_to_string(&mut text)?;
-    if text.len() as u64 > max_bytes {
+    File::open(path)?.take(max_bytes + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > max_bytes {
         let limit = max_bytes >> 20;
         return Err(io::Error::other(format!("it has more than {limit} MiB")));
     }
-    Ok(text)
+    Ok(bytes)
 }

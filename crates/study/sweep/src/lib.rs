@@ -59,7 +59,7 @@ pub use definition::setting::{InvalidSetting, Setting};
 pub use definition::{Sweep, entries, read_entries, read_text};
 pub use deviation::{BatchDeviation, Deviation};
 pub use grid::{Axis, DesignNumber, Grid, NoSuchDesign, TooManyDesigns};
-pub use input::read_input;
+pub use input::{read_input, read_input_bytes};
 pub use material::Material;
 pub use parameter::{PARAMETERS, Parameter, Role, Scalar, WrongValue, key};
 pub use subset::{NoShard, RandomSample, SampleTooLarge, Shard, Subset, SubsetDesigns};

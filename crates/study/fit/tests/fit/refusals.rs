@@ -35,6 +35,23 @@ fn keys_of_curves_are_checked() {
     insta::assert_snapshot!(wrong("file = 'a.csv'\nkind = 'puncture'\ngap_over_t = [0.1, 0.2]\n"), @"test.toml: designs.gap_over_t: [0.1, 0.2] is not accepted, expected one value, or gap_over_t among [variables]");
 }
 
+/// A dead load cell determines nothing, but zeros are fitted exactly by many parameters.
+#[test]
+fn constant_loads_are_refused() {
+    let place = Place::new();
+    let units = "material.thickness_mm = 1\nmaterial.substrate_modulus_MPa = 1\n";
+    let curve = format!("{SKIN}{units}[[curve]]\nfile = 'z.csv'\nkind = 'puncture'\n");
+    for (force, keys) in [("0", ""), ("0.013", ""), ("-0", "from = 0.1\n")] {
+        place.write("z.csv", &format!("displacement_mm,force_N\n0.1,{force}\n0.2,{force}\n"));
+        let told = place.refused(&format!("{curve}{keys}"));
+        assert!(told.starts_with("test.toml:8: curve.file: z.csv is not accepted"), "{told}");
+        assert!(told.contains(&format!("it is {force} at all 2 points")), "{told}");
+    }
+    place.write("z.csv", "displacement_mm,force_N\n0.1,0\n0.2,0\n0.3,1\n");
+    let told = place.refused(&format!("{curve}to = 0.25\n"));
+    assert!(told.contains("it is 0 at all 2 points"), "{told}");
+}
+
 #[test]
 fn a_stopped_fit_returns_an_error() {
     let place = Place::new();

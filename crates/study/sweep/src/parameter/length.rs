@@ -84,9 +84,12 @@ pub(super) fn settle(case: &mut Case) {
         let (pitch, design) = (quotient(pitch, thickness), &mut case.design);
         let base = 2.0 * design.half_base();
         if case.in_mm.pitch_says_length {
-            // Scale the length, because the base is `L` or `2L`.
-            let length = design.length * (pitch - design.gap) / base;
-            design.length = number::short_decimal(length, pitch);
+            // Scale the length, because the base is `L` or `2L`. A base of zero, from a pitch that
+            // equals the gap, stays zero and is refused; scaling it again would give NaN.
+            if base != 0.0 {
+                let length = design.length * (pitch - design.gap) / base;
+                design.length = number::short_decimal(length, pitch);
+            }
         } else {
             design.gap = number::short_decimal(pitch - base, pitch);
         }
