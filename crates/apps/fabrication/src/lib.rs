@@ -61,3 +61,43 @@ impl Format {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use geometry::{Parallelogram, Row};
+
+    use super::*;
+
+    #[test]
+    fn files_have_finite_numbers_at_every_legal_size() {
+        let sizes = [1e-9, 1e-6, 1e-3, 1.0, 1e3, 1e6, 1e12];
+        let mut made = 0;
+        for (slant, thickness) in
+            [0.0, 60.0, 89.999_999].into_iter().flat_map(|s| sizes.map(|t| (s, t)))
+        {
+            for width in sizes {
+                let row = Row::new(Parallelogram::new(0.5, slant).expect("a scale"), 0.3);
+                let lengths = [width, 0.1 * width, 0.3 * width];
+                let patch = Patch::new(row.expect("a row"), thickness, lengths, [2, 2]);
+                let Some(patch) = patch.ok() else { continue };
+                for (kerf, template) in [(0.0, 0.0), (0.1, 1.0), (1e5, 1e6)] {
+                    let Ok(sheet) = Sheet::new(&patch, kerf, template) else { continue };
+                    assert!(sheet.web().is_finite());
+                    for format in [Format::Step, Format::Dxf, Format::Svg] {
+                        let text = String::from_utf8(format.bytes(&patch, &sheet)).expect("text");
+                        let words = text.split(|c: char| !c.is_ascii_alphanumeric());
+                        let wrong = words.filter(|word| ["NaN", "inf"].contains(word)).count();
+                        assert_eq!(wrong, 0, "{format:?} of {patch:?}");
+                    }
+                    let stl = Format::Stl.bytes(&patch, &sheet);
+                    for bytes in stl[84..].chunks(50).flat_map(|facet| facet[..48].chunks(4)) {
+                        let number = f32::from_le_bytes(bytes.try_into().expect("four"));
+                        assert!(number.is_finite(), "{patch:?}");
+                    }
+                    made += 1;
+                }
+            }
+        }
+        assert!(made > 30, "{made}");
+    }
+}

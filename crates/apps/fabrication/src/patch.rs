@@ -5,6 +5,10 @@ use geometry::Row;
 /// Maximum number of scales, at which files reach some 100 MB.
 const MOST_SCALES: usize = 20_000;
 
+/// Range of every length of a patch, mm.
+// Single-precision numbers of an STL file keep lengths of this range apart from zero and infinity.
+pub(crate) const LENGTHS: [f64; 2] = [1e-6, 1e6];
+
 /// A patch of skin: equal scales in rows on a membrane.
 ///
 /// All lengths are in millimetres.
@@ -25,8 +29,8 @@ pub struct Patch {
 /// Errors of a patch.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum NoPatch {
-    /// A length is not positive.
-    #[error("{0} is {1} mm, expected a positive length")]
+    /// A length is out of range.
+    #[error("{0} is {1} mm, expected a length from {low:e} to {high:e}", low = LENGTHS[0], high = LENGTHS[1])]
     Length(&'static str, f64),
     /// No scale, or too many.
     #[error("{0}x{1} scales: out of range, expected at least 1x1 and at most {MOST_SCALES} in all")]
@@ -49,31 +53,39 @@ impl Patch {
     /// across.
     ///
     /// # Errors
-    /// If a length is not positive, or the number of scales is out of range.
+    /// If a length is out of range, or the number of scales is out of range.
     pub fn new(
         row: Row,
         thickness: f64,
         [width, membrane, gap_across]: [f64; 3],
         scales: [usize; 2],
     ) -> Result<Self, NoPatch> {
-        let lengths = [
-            ("the thickness of the scales", thickness),
-            ("the width of the scales", width),
-            ("the thickness of the membrane", membrane),
-            ("the gap across", gap_across),
-        ];
-        for (name, length) in lengths {
-            if !(length > 0.0 && length.is_finite()) {
-                return Err(NoPatch::Length(name, length));
-            }
-        }
         let [along, across] = scales;
         // Checked, because two large counts could overflow to a small product.
         match along.checked_mul(across) {
             Some(1..=MOST_SCALES) => {}
             _ => return Err(NoPatch::Scales(along, across)),
         }
-        Ok(Self { row, thickness, width, membrane, scales, gap_across })
+        let [low, high] = LENGTHS;
+        let patch = Self { row, thickness, width, membrane, scales, gap_across };
+        let [length, breadth, _] = patch.membrane_size();
+        let lengths = [
+            ("the length of the membrane", length),
+            ("the width of the membrane", breadth),
+            ("the thickness of the scales", thickness),
+            ("the width of the scales", width),
+            ("the thickness of the membrane", membrane),
+            ("the gap across", gap_across),
+            ("the gap along", patch.gaps()[0]),
+            ("the base of the scales", patch.base()),
+            // Upright scales have no shift.
+            ("the shift of the top of the scales", patch.shift().abs().max(low)),
+        ];
+        // Written so that NaN is refused.
+        if let Some(&(name, length)) = lengths.iter().find(|(_, l)| !(low..=high).contains(l)) {
+            return Err(NoPatch::Length(name, length));
+        }
+        Ok(patch)
     }
 
     /// Returns the number of scales along and across.

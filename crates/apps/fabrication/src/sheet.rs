@@ -1,6 +1,7 @@
 //! Outlines for laser cutters: profiles of the scales, and a template for gluing them.
 
 use crate::Patch;
+use crate::patch::LENGTHS;
 
 /// Distance between parts on a sheet, mm.
 const SPACING: f64 = 2.0;
@@ -33,8 +34,8 @@ pub struct Sheet {
 /// Errors of a sheet.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum NoSheet {
-    /// A length is negative or not a number.
-    #[error("{0} is {1} mm, expected a length of at least 0")]
+    /// A length is out of range.
+    #[error("{0} is {1} mm, expected a length from 0 to {high:e}", high = LENGTHS[1])]
     Length(&'static str, f64),
     /// The beam is as wide as a hole.
     #[error("a kerf of {0} mm leaves no hole in the template, which needs holes of {1:.4} mm")]
@@ -50,10 +51,10 @@ impl Sheet {
     /// The laser removes a line of width `kerf`; `template` is the thickness of the template sheet.
     ///
     /// # Errors
-    /// If a length is negative, or the kerf is as wide as a hole.
+    /// If a length is out of range, or the kerf is as wide as a hole.
     pub fn new(patch: &Patch, kerf: f64, template: f64) -> Result<Self, NoSheet> {
         for (name, length) in [("the kerf", kerf), ("the thickness of the template", template)] {
-            if !(length >= 0.0 && length.is_finite()) {
+            if !(0.0..=LENGTHS[1]).contains(&length) {
                 return Err(NoSheet::Length(name, length));
             }
         }

@@ -19,7 +19,8 @@ pub(crate) fn write(patch: &Patch) -> Vec<u8> {
         for triangle in triangles() {
             let [a, b, c] = triangle.map(|k| corners[k]);
             let [u, v] = [b, c].map(|to| (to - a).map(f64::from));
-            let normal = u.cross(&v).normalize().map(|part| part as f32);
+            // Rounding may flatten a facet. Readers compute a normal that is given as zero.
+            let normal = u.cross(&v).try_normalize(0.0).unwrap_or_default().map(|part| part as f32);
             for value in [normal, a, b, c].iter().flatten() {
                 facets.extend(value.to_le_bytes());
             }

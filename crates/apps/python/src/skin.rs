@@ -10,7 +10,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use pyo3::exceptions::PyAttributeError;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
-use pyo3::types::{IntoPyDict as _, PyDict, PyString, PyTuple};
+use pyo3::types::{IntoPyDict as _, PyDict, PyList, PyString, PyTuple};
 use report::drawings::PunctureDrawing;
 use results::columns::measure_of;
 use run::Evaluator;
@@ -191,16 +191,16 @@ impl Skin {
 
     /// Returns the number of designs of a definition, and all skins or the one at an index.
     #[staticmethod]
-    fn _designs(
-        py: Python<'_>,
-        definition: &Bound<'_, PyAny>,
+    fn _designs<'py>(
+        py: Python<'py>,
+        definition: &Bound<'py, PyAny>,
         index: Option<u64>,
-    ) -> PyResult<(u64, Vec<Self>)> {
+    ) -> PyResult<(u64, Bound<'py, PyList>)> {
         let sweep = Self::definition(py, definition, &[])?;
         let count = sweep.grid().len();
         if let Some(index) = index {
             let skin = (index < count).then(|| Self::new(&sweep, index));
-            return Ok((count, skin.into_iter().collect()));
+            return Ok((count, list(py, skin.into_iter().collect())?));
         }
         if count > MAX_SKINS {
             let message = format!(
@@ -209,11 +209,11 @@ impl Skin {
             );
             return Err(error::refused_definition(py, &message));
         }
-        let skins = watched(py, None, move |watch| {
+        let skins: Vec<Self> = watched(py, None, move |watch| {
             let goes_on = |_: &u64| !watch.stop.load(Ordering::Relaxed);
             (0..count).take_while(goes_on).map(|index| Self::new(&sweep, index)).collect()
         })?;
-        Ok((count, skins))
+        Ok((count, list(py, skins)?))
     }
 
     /// Returns a complete definition of the skin, for `squama run` and `Skin.from_toml`.
@@ -291,4 +291,20 @@ impl Skin {
         given.collect::<BTreeMap<_, _>>().hash(&mut hasher);
         hasher.finish()
     }
+}
+
+/// Number of objects created before other threads may run, which takes milliseconds.
+const PORTION: usize = 1024;
+
+/// Creates a list of skins. Other threads run and signals are handled in between.
+fn list(py: Python<'_>, skins: Vec<Skin>) -> PyResult<Bound<'_, PyList>> {
+    let all = PyList::empty(py);
+    for (k, skin) in skins.into_iter().enumerate() {
+        all.append(Bound::new(py, skin)?)?;
+        if (k + 1) % PORTION == 0 {
+            py.detach(std::thread::yield_now);
+            py.check_signals()?;
+        }
+    }
+    Ok(all)
 }

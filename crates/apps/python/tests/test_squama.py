@@ -560,7 +560,8 @@ def test_numbers_of_threads_out_of_range_are_refused(threads, tmp_path):
 
 def test_functions_reject_points_of_another_length():
     f, jac = squama.function(SKIN, ["gap_over_t", "slant_deg"], "coverage")
-    for point in ([], [0.2], [0.2, 60, 99], [[0.2, 60]]):
+    texts = ("ab", [0.2, b"6"], [0.2, "6"], [0.2, [60]], [None, 1], {0.2: 60, 3: 4}, {0.2, 60.0}, (v for v in (0.2, 60)))
+    for point in ([], [0.2], [0.2, 60, 99], [[0.2, 60]], *texts):
         for call in (f, jac):
             with pytest.raises(squama.InvalidParameter, match="x: .* expected 2 numbers: gap_over_t, slant_deg"):
                 call(point)

@@ -119,13 +119,18 @@ impl Preferences {
         parts.collect::<Vec<_>>().join(", ")
     }
 
-    /// Reads `ranking.toml` in `folder`; `None` if there is no such file.
+    /// Reads `ranking.toml` in `folder`; `None` if the folder holds no ranking.
     ///
     /// # Errors
     ///
-    /// If the file cannot be read, or was edited after `squama rank` wrote it.
+    /// If the file cannot be read, was edited after `squama rank` wrote it, or is missing beside
+    /// the tables of a ranking.
     pub fn read(folder: &VerifiedFolder) -> Result<Option<Self>, InvalidPreferences> {
         if !folder.holds(ResultsFolder::PREFERENCES) {
+            // A fitness has no meaning without its criteria and weights.
+            if ResultsFolder::RANKING.iter().any(|table| folder.holds(table)) {
+                return Err(folder.missing(ResultsFolder::PREFERENCES).into());
+            }
             return Ok(None);
         }
         let text = folder.text(ResultsFolder::PREFERENCES)?;

@@ -322,8 +322,8 @@ fn read_table(
     let mut count = 0;
     let mut row = csv::StringRecord::new();
     while csv.read_record(&mut row)? {
-        // Convert decimals to points here, so that all readers of cells see one format.
-        if format == CsvFormat::ExcelEu {
+        // Convert decimals and marked texts here, so that all readers of cells see one format.
+        if format == CsvFormat::ExcelEu || row.iter().any(|cell| CsvFormat::text(cell) != cell) {
             row = row.iter().map(|cell| plain(format, cell)).collect();
         }
         kept.visit(count, &row);
@@ -352,7 +352,7 @@ fn count_rows(file: &File) -> io::Result<usize> {
 /// Returns the text of a cell in the plain format.
 fn plain(format: CsvFormat, cell: &str) -> String {
     let decimal = format.number(cell).filter(|_| cell.contains(','));
-    decimal.map_or_else(|| cell.to_owned(), number::text)
+    decimal.map_or_else(|| CsvFormat::text(cell).to_owned(), number::text)
 }
 
 /// Returns a one-line message for a table that cannot be read.

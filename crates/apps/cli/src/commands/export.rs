@@ -8,6 +8,7 @@ use report::OtherTable;
 use results::{Column, FileEntry, Maker, VerifiedFolder};
 use uncertainty::{INDEX_COLUMNS, SOURCE_COLUMNS, TOLERANCE_COLUMNS, YIELD_COLUMNS};
 
+use super::figure_file::utf8_name;
 use super::fit::{ESTIMATES, FILES, POINTS};
 use super::own_files::require_own;
 use super::source::{Partial, require_folder_of, verified_folder};
@@ -43,6 +44,7 @@ pub fn export(arguments: &Arguments) -> anyhow::Result<u8> {
     // A full disk is reported as an error, not as the panic of a library.
     std::panic::set_hook(Box::new(|_| ()));
     require_folder_of("--xlsx", &arguments.xlsx)?;
+    let name = utf8_name(&arguments.xlsx)?;
     require_own(&arguments.xlsx)?;
     let (path, completeness) = (&arguments.results, arguments.partial.completeness());
     // `verified_folder` would reject folders of searches and analyses.
@@ -54,8 +56,7 @@ pub fn export(arguments: &Arguments) -> anyhow::Result<u8> {
         verified_folder(path, completeness)?
     };
     let exported = report::export(&results, &others(&results)?, &arguments.xlsx)?;
-    let (folder, name) = (arguments.xlsx.parent(), arguments.xlsx.file_name());
-    let name = name.unwrap_or_default().to_string_lossy();
+    let folder = arguments.xlsx.parent();
     derivation::record(&results, "workbook", folder.unwrap_or(Path::new("")), &[name])?;
     let row = |(table, rows): &(String, u32)| [table.clone(), counted(u64::from(*rows), "row")];
     let rows: Vec<_> = exported.tables.iter().map(row).collect();

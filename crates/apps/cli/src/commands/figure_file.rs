@@ -198,11 +198,13 @@ pub fn write(
 pub fn write_file(file: &Path, bytes: &[u8]) -> anyhow::Result<()> {
     let folder = file.parent().unwrap_or(Path::new(""));
     results::make_folder(folder)?;
-    let name = file.file_name().unwrap_or_default();
-    let name = name.to_str().with_context(|| {
-        format!("{}: cannot be written, expected a name in UTF-8", file.display())
-    })?;
-    write(folder, name, |file| file.write_all(bytes))
+    write(folder, utf8_name(file)?, |file| file.write_all(bytes))
+}
+
+/// Returns the name of an output file, which must be UTF-8.
+pub fn utf8_name(file: &Path) -> anyhow::Result<&str> {
+    let name = file.file_name().unwrap_or_default().to_str();
+    name.with_context(|| format!("{}: cannot be written, expected a name in UTF-8", file.display()))
 }
 
 #[cfg(test)]

@@ -17,7 +17,7 @@ use sweep::Case;
 use text::shell_word;
 
 use super::draw::substrate;
-use super::figure_file::write;
+use super::figure_file::{utf8_name, write};
 use super::folder_contents::FolderContents;
 use super::source::{Partial, require_folder_of, verified_folder};
 use super::{DONE, PROGRAM, derivation};
@@ -80,13 +80,13 @@ pub fn report(arguments: &Arguments) -> anyhow::Result<u8> {
     let front = arguments.front.as_deref().map(|folder| front::front(folder, &results));
     let page = Page { front: front.transpose()?, ..page(&results)? };
     let folder = out.parent().map_or_else(PathBuf::new, PathBuf::from);
-    let name = out.with_extension("html");
-    let name = name.file_name().unwrap_or_default().to_string_lossy();
+    let file = out.with_extension("html");
+    let name = utf8_name(&file)?;
     // Also removes partial pages of killed processes.
     results::make_folder(&folder)?;
-    write(&folder, &name, |file| page.write(file))?;
-    derivation::record(results.verified(), "page", &folder, &[&name])?;
-    print(&format!("{}\n", folder.join(&*name).display()))?;
+    write(&folder, name, |file| page.write(file))?;
+    derivation::record(results.verified(), "page", &folder, &[name])?;
+    print(&format!("{}\n", folder.join(name).display()))?;
     Ok(DONE)
 }
 

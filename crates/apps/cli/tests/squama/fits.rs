@@ -49,7 +49,7 @@ fn incompatible_measured_curves_are_rejected() {
         |files: &str| place.refused(&format!("plot curves x.toml --design 1 {files} --out o"));
     insta::assert_snapshot!(plot("--measured a.csv"), @"error: x.toml: a.csv is in mm and N; to overlay it, the definition needs material.thickness_mm and material.substrate_modulus_MPa");
     insta::assert_snapshot!(plot("--measured a.csv --measured b.csv"), @"error: b.csv: differs from a.csv in its test or units; overlay curves of one test in the same units");
-    insta::assert_snapshot!(plot("--measured c.csv"), @"error: c.csv: its columns are displacement_mm force, expected two of one test: displacement_mm displacement_um displacement_m displacement force_N force_mN force_kN force curvature_per_mm curvature_per_m curvature moment_N_mm moment_mN_m moment_N_m moment");
+    insta::assert_snapshot!(plot("--measured c.csv"), @"error: c.csv: its columns are displacement_mm force, expected two of one test: displacement_mm displacement_um displacement_cm displacement_m displacement_in displacement force_N force_mN force_cN force_kN force_gf force_kgf force_lbf force curvature_per_mm curvature_per_m curvature moment_N_mm moment_mN_m moment_N_m moment; columns = [...] in [[curve]], or --measured-columns, names the columns otherwise");
     insta::assert_snapshot!(plot("--measured d.csv"), @"error: d.csv: cannot be read (No such file or directory), expected a CSV file");
     assert!(!place.path("o").exists());
 }

@@ -62,3 +62,30 @@ fn impossible_patches_are_rejected() {
     insta::assert_snapshot!([refused.concat(), unknown.concat()].concat());
     assert_eq!(place.list("."), "x.toml y.toml", "nothing is written");
 }
+
+/// Another name would replace a file that nobody named.
+#[cfg(target_os = "linux")]
+#[test]
+fn names_that_are_not_utf_8_are_refused() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt as _;
+
+    let place = Place::with(
+        "name = 'x'\nmaterial.thickness_mm = 2\n\
+         designs = { gap_over_t = 0.3, length_over_t = 0.5, slant_deg = 30 }\n",
+    );
+    place.squama("run x.toml -q --out r").assert().code(0);
+    let commands = [
+        ("make x.toml --out", "stl"),
+        ("explore x.toml --no-open --out", "html"),
+        ("report r --out", "html"),
+        ("export r --xlsx", "xlsx"),
+    ];
+    for (command, kind) in commands {
+        let name = [b"sk\xffin.", kind.as_bytes()].concat();
+        let assert = place.squama(command).arg(OsStr::from_bytes(&name)).assert().code(2);
+        let told = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
+        assert!(told.contains("expected a name in UTF-8"), "{command}: {told}");
+    }
+    assert_eq!(place.list("."), "r x.toml");
+}

@@ -20,6 +20,20 @@ fn a_run_becomes_a_workbook() {
     assert_eq!(place.list("out"), "x.xlsx");
 }
 
+/// A fitness has no meaning without its criteria and weights.
+#[test]
+fn rankings_without_preferences_are_rejected() {
+    let place = Place::with(FEW);
+    place.squama("run x.toml -q --out r").assert().code(0);
+    place.prints("rank r");
+    std::fs::remove_file(place.path("r/ranking.toml")).expect("a file");
+    let told = place.refused("export r --xlsx x.xlsx");
+    assert!(told.contains("ranking.toml: is missing") && told.contains("squama rank r"), "{told}");
+    assert!(!place.path("x.xlsx").exists());
+    place.prints("rank r");
+    place.prints("export r --xlsx x.xlsx");
+}
+
 #[test]
 fn searches_and_tolerances_are_exported_and_rejected_elsewhere() {
     let place = Place::with(

@@ -59,9 +59,15 @@ class _Solution:
         self.x, self.found, self.has_folded = None, None, False
 
     def at(self, x):
-        x = np.atleast_1d(np.asarray(x, dtype=float))
-        if x.shape != (len(self.keys),):
-            raise InvalidParameter("x", x.tolist(), f"{len(self.keys)} numbers: {', '.join(self.keys)}")
+        try:
+            point = np.atleast_1d(np.asarray(x))
+        except ValueError:
+            # Lists of different lengths form no array.
+            point = np.array(None)
+        # Without this check texts and bytes would be converted to numbers.
+        if point.dtype.kind not in "iuf" or point.shape != (len(self.keys),):
+            raise InvalidParameter("x", x, f"{len(self.keys)} numbers: {', '.join(self.keys)}")
+        x = point.astype(float)
         if self.x is None or not np.array_equal(x, self.x):
             skin = self.skin.replace(**dict(zip(self.keys, x.tolist())))
             *self.found, fold = _gradient(skin, self.measures, self.keys, self.at_kinks, 4, not self.has_folded)

@@ -145,7 +145,8 @@ impl Sheet {
                 None if column.says_failed(cell) => {
                     page.write_string_with_format(self.rows, place, cell, &formats.failed)?
                 }
-                None => page.write_string(self.rows, place, cell)?,
+                // A workbook stores the type of a cell, so a text is never a formula.
+                None => page.write_string(self.rows, place, CsvFormat::text(cell))?,
             };
         }
         if let Some(chart) = &mut self.chart {

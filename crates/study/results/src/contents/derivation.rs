@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Component, Path};
+use std::path::{Component, Path, PathBuf};
 
 use journal::{OutputError, read_text, sha256};
 use serde::{Deserialize, Serialize};
@@ -55,9 +55,13 @@ impl Derivation {
 
     /// Reads the product with the name `record` from `folder`.
     pub fn read(folder: &ResultsFolder, record: &str) -> Option<Self> {
-        let path = folder.file(ResultsFolder::DERIVED).join(format!("{record}.toml"));
         // Ignore a damaged record.
-        toml::from_str(&read_text(&path).ok()?).ok()
+        toml::from_str(&read_text(&Self::path(folder, record)).ok()?).ok()
+    }
+
+    /// Returns the path of the record `record` of `folder`.
+    pub(super) fn path(folder: &ResultsFolder, record: &str) -> PathBuf {
+        folder.file(ResultsFolder::DERIVED).join(format!("{record}.toml"))
     }
 
     /// Returns all products of `folder`, in the order of their records.

@@ -211,9 +211,20 @@ impl VerifiedFolder {
         }
     }
 
+    /// Returns the record `name` of derived files, if there is one.
+    fn derivation(&self, name: &str) -> Result<Option<Derivation>, InvalidFolder> {
+        let path = Derivation::path(&self.folder, name);
+        match read_text(&path) {
+            Err(error) if error.kind() != ErrorKind::NotFound => {
+                Err(InvalidFolder::unreadable(&path, &reason(&error)))
+            }
+            _ => Ok(Derivation::read(&self.folder, name)),
+        }
+    }
+
     /// Returns the recorded SHA-256 of a file of the ranking.
     fn ranked(&self, name: &str, contents: &Contents) -> Result<String, InvalidFolder> {
-        let ranking = Derivation::read(&self.folder, ResultsFolder::RANKING_RECORD);
+        let ranking = self.derivation(ResultsFolder::RANKING_RECORD)?;
         let unrecorded = || {
             let problem =
                 "no record in derived says that squama rank wrote it; move it out of the folder";
@@ -234,7 +245,7 @@ impl VerifiedFolder {
     ///
     /// A folder with neither the journal nor the record of a search holds tables alone.
     fn claimed(&self, file: &FileEntry) -> Result<Option<String>, InvalidFolder> {
-        let made = Derivation::read(&self.folder, file.maker.key());
+        let made = self.derivation(file.maker.key())?;
         // A search writes its journal from the start and its record with its results. A journal
         // without a record therefore means that the search was interrupted.
         if made.is_none() && !self.folder.file(ResultsFolder::EVALUATIONS).exists() {
@@ -261,6 +272,12 @@ impl VerifiedFolder {
             _ => "the same command".to_owned(),
         };
         InvalidFolder::new(self.folder.file(name), format!("{problem}; {again} writes it again"))
+    }
+
+    /// Returns the error of a missing file, with the command that writes it again.
+    pub fn missing(&self, name: &str) -> InvalidFolder {
+        let maker = FileEntry::named(name).map_or(Maker::Run, |entry| entry.maker);
+        self.refusal(name, maker, "is missing, but files beside it were made with it")
     }
 
     fn changed(&self, name: &str) -> InvalidFolder {
@@ -297,8 +314,10 @@ pub fn verify_record(path: &Path) -> Result<(), InvalidFolder> {
     let is_record = name == ResultsFolder::RUN_INFO && path.is_file();
     let stated = is_record.then(|| Contents::stated_in(&ResultsFolder::new(folder))).flatten();
     let expected = stated.and_then(|contents| contents.files.get(ResultsFolder::RUN_INFO).cloned());
-    let found = expected.is_some().then(|| fs::read(path).map(sha256).ok()).flatten();
-    if found == expected {
+    let Some(expected) = expected else { return Ok(()) };
+    // A file that cannot be read may be intact.
+    let found = fs::read(path).map_err(|error| InvalidFolder::unreadable(path, &reason(&error)))?;
+    if sha256(found) == expected {
         return Ok(());
     }
     let mend = mend(folder);
@@ -322,7 +341,9 @@ fn read(folder: &ResultsFolder) -> Result<Option<Contents>, InvalidFolder> {
             return Err(InvalidFolder::new(folder.path(), problem));
         }
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
-        Err(error) => Err(reason(&error)),
+        Err(error) if error.kind() == ErrorKind::InvalidData => Err(reason(&error)),
+        // A file that cannot be opened may be intact.
+        Err(error) => return Err(InvalidFolder::unreadable(&path, &reason(&error))),
     };
     let changed = |problem| {
         let problem =
@@ -353,7 +374,7 @@ fn is_behind(folder: &ResultsFolder, extent: &JournalExtent) -> Result<bool, Inv
     }
     // A resumed run appends to the journal, so only the stated extent must be unchanged.
     let found = JournalExtent::read(&path, extent.bytes, extent.lines);
-    let found = found.map_err(|error| refuse(&reason(&error)))?;
+    let found = found.map_err(|error| InvalidFolder::unreadable(&path, &reason(&error)))?;
     if found != *extent {
         return Err(refuse("its beginning has changed"));
     }
@@ -375,6 +396,43 @@ mod tests {
         let contents = Contents { program, designs: 0, done: 0, journal, files };
         contents.write(&folder).expect("writable");
         folder
+    }
+
+    /// A folder in place of a file cannot be read, even by root.
+    #[test]
+    fn unreadable_files_are_not_called_changed() {
+        let records = [
+            ResultsFolder::CONTENTS.to_owned(),
+            ResultsFolder::RUN_INFO.to_owned(),
+            format!("{}/ranking.toml", ResultsFolder::DERIVED),
+        ];
+        for name in records {
+            let place = tempfile::tempdir().expect("a folder");
+            let written = BTreeMap::from([(ResultsFolder::RUN_INFO.to_owned(), sha256("name"))]);
+            let folder = folder(place.path(), written);
+            fs::write(folder.file("ranking.csv"), "rank").expect("writable");
+            let _ = fs::remove_file(folder.file(&name));
+            fs::create_dir_all(folder.file(&name)).expect("writable");
+            let opened = VerifiedFolder::open(folder.path(), Completeness::Whole);
+            let read = opened.and_then(|folder| {
+                folder.text(ResultsFolder::RUN_INFO).and_then(|_| folder.text("ranking.csv"))
+            });
+            let told = read.expect_err("unreadable").to_string();
+            assert!(told.contains("cannot be read"), "{name}: {told}");
+            assert!(!told.contains("changed") && !told.contains("no record"), "{name}: {told}");
+        }
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_record_that_cannot_be_read_is_not_called_edited() {
+        let place = tempfile::tempdir().expect("a folder");
+        let written = BTreeMap::from([(ResultsFolder::RUN_INFO.to_owned(), sha256("name"))]);
+        let record = folder(place.path(), written).file(ResultsFolder::RUN_INFO);
+        // Reading address zero is an error, even for root.
+        std::os::unix::fs::symlink("/proc/self/mem", &record).expect("writable");
+        let told = verify_record(&record).expect_err("unreadable").to_string();
+        assert!(told.contains("cannot be read") && !told.contains("edited"), "{told}");
     }
 
     #[test]

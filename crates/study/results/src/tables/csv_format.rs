@@ -30,6 +30,10 @@ pub struct UnknownCsvFormat(String);
 /// Byte-order mark of UTF-8.
 const MARK: &[u8] = "\u{feff}".as_bytes();
 
+/// First character of a marked text.
+// The convention of spreadsheets. Other programs show it, so numbers never have it.
+const TEXT_MARK: char = '\'';
+
 impl CsvFormat {
     /// All formats.
     pub const ALL: [Self; 2] = [Self::Plain, Self::ExcelEu];
@@ -65,10 +69,21 @@ impl CsvFormat {
     }
 
     /// Returns the text of a cell in a file of this format.
+    ///
+    /// An apostrophe marks texts that a spreadsheet would evaluate as formulas. [`Self::text`]
+    /// removes it.
     pub fn cell(self, cell: &str) -> Cow<'_, str> {
+        if needs_mark(cell) {
+            return format!("{TEXT_MARK}{cell}").into();
+        }
         // Texts keep their points: `solver.max_step=0,01` would not be a valid setting.
         let is_decimal = self == Self::ExcelEu && cell.contains('.') && is_number(cell);
         if is_decimal { cell.replace('.', ",").into() } else { cell.into() }
+    }
+
+    /// Returns the text that [`Self::cell`] wrote as `cell`.
+    pub fn text(cell: &str) -> &str {
+        cell.strip_prefix(TEXT_MARK).filter(|text| needs_mark(text)).unwrap_or(cell)
     }
 
     /// Detects the format from the first bytes of a file, and the offset of its text.
@@ -105,6 +120,13 @@ fn is_number(cell: &str) -> bool {
     cell.ends_with(|c: char| c.is_ascii_digit()) && cell.parse::<f64>().is_ok_and(f64::is_finite)
 }
 
+/// Returns true for a text that a spreadsheet evaluates, or that reads as a marked text.
+fn needs_mark(cell: &str) -> bool {
+    let text = cell.trim_start_matches(TEXT_MARK);
+    // A sign alone is a text: `-` stands for no unit.
+    text.len() > 1 && text.starts_with(['=', '+', '-', '@', '\t', '\r']) && !is_number(text)
+}
+
 impl FromStr for CsvFormat {
     type Err = UnknownCsvFormat;
 
@@ -133,6 +155,23 @@ mod tests {
             ["0,3", "1e-7", "1,5e-12", "0417", "solver.max_step=0.01", "complete", ""]
         );
         assert_eq!(cells.map(|cell| CsvFormat::Plain.cell(cell).into_owned()), cells);
+    }
+
+    #[test]
+    fn texts_that_spreadsheets_evaluate_are_marked_and_read_back() {
+        for text in ["=1+1", "+cmd", "-x", "@sum", "\t=1", "\r=1", "'=1", "''-x", "-1.5 to 2"] {
+            for format in CsvFormat::ALL {
+                let written = format.cell(text).into_owned();
+                assert_eq!(written, format!("'{text}"));
+                assert_eq!(CsvFormat::text(&written), text);
+            }
+        }
+        for text in ["", "-", "-0.5", "+3", "-1e-7", "'tis", "a=b", "=", "'", "x"] {
+            assert_eq!(CsvFormat::Plain.cell(text), text);
+            assert_eq!(CsvFormat::text(text), text);
+        }
+        assert_eq!(CsvFormat::ExcelEu.cell("-0.5"), "-0,5");
+        assert_eq!(CsvFormat::text("-0,5"), "-0,5");
     }
 
     #[test]
