@@ -120,12 +120,13 @@ pub struct Gap {
     pub normal: Vec2,
 }
 
-/// Two neighbouring scales at a pitch.
+/// Two neighbouring scales at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pair {
     /// Left and right scale.
     scales: [Parallelogram; 2],
-    pitch: f64,
+    /// Node of the right scale at rest, relative to the node of the left one.
+    offset: Vec2,
     /// Undeformed corner and edge of each contact, in the order of [`CornerEdge`].
     meetings: [(Vec2, Edge); 6],
 }
@@ -184,18 +185,19 @@ pub fn quarter(v: Vec2) -> Vec2 {
 impl Pair {
     /// Creates a pair of equal scales with nodes `pitch` apart (over `t`).
     pub fn new(scale: Parallelogram, pitch: f64) -> Self {
-        Self::between([scale; 2], pitch)
+        Self::between([scale; 2], Vec2::new(pitch, 0.0))
     }
 
-    /// Creates a pair of a left and a right scale with nodes `pitch` apart (over `t`).
-    pub fn between(scales: [Parallelogram; 2], pitch: f64) -> Self {
+    /// Creates a pair of a left and a right scale; `offset` leads from the left to the right node
+    /// (over `t`).
+    pub fn between(scales: [Parallelogram; 2], offset: Vec2) -> Self {
         let meeting = |corner_edge: CornerEdge| {
             let [left, right] = &scales;
             let (a, b) = if corner_edge.corner_is_left() { (left, right) } else { (right, left) };
             let (_, corner, edge) = corner_edge.parts();
             (a.corner(corner), edge(b))
         };
-        Self { scales, pitch, meetings: CornerEdge::ALL.map(meeting) }
+        Self { scales, offset, meetings: CornerEdge::ALL.map(meeting) }
     }
 
     /// Returns the shapes of the left and the right scale.
@@ -203,9 +205,9 @@ impl Pair {
         self.scales
     }
 
-    /// Returns the distance of the nodes at rest, over `t`.
-    pub fn pitch(&self) -> f64 {
-        self.pitch
+    /// Returns the right node relative to the left one, at rest, over `t`.
+    pub fn offset(&self) -> Vec2 {
+        self.offset
     }
 
     /// Returns the outward normal, at rest, of the edge that a corner meets.
@@ -269,15 +271,15 @@ impl Pair {
     #[inline]
     fn meeting(&self, corner_edge: CornerEdge, left: &Pose, right: &Pose) -> Meeting {
         let (corner_pose, edge_pose, offset) = if corner_edge.corner_is_left() {
-            (left, right, -self.pitch)
+            (left, right, -self.offset)
         } else {
-            (right, left, self.pitch)
+            (right, left, self.offset)
         };
         let (corner, edge) = &self.meetings[corner_edge as usize];
         let arm = corner_pose.turn(*corner);
         // Relative positions, so that the position of the pair in a long row costs no digits.
         let to_corner =
-            Vec2::new(offset, 0.0) + (corner_pose.displacement - edge_pose.displacement) + arm;
+            offset + (corner_pose.displacement - edge_pose.displacement) + arm;
         let normal = edge_pose.turn(edge.normal);
         let gap = to_corner.dot(&normal) - edge.distance;
         let foot = (to_corner - edge_pose.turn(edge.start)).dot(&edge_pose.turn(edge.along));

@@ -24,8 +24,9 @@ pub struct Overlap {
 
 /// Finds all overlapping pairs of scales of a row, neighbours or not.
 ///
-/// `standing(i)` returns the shape of scale `i` and the position of its node at rest.
-pub fn overlaps(standing: impl Fn(usize) -> (Parallelogram, f64), poses: &[Pose]) -> Vec<Overlap> {
+/// `standing(i)` returns the shape of scale `i` and its node at rest. Poses are in the frame of these
+/// nodes.
+pub fn overlaps(standing: impl Fn(usize) -> (Parallelogram, Vec2), poses: &[Pose]) -> Vec<Overlap> {
     let extents: Vec<Extents> = poses
         .iter()
         .enumerate()
@@ -65,7 +66,7 @@ struct Extents {
 }
 
 impl Extents {
-    fn new(scale: &Parallelogram, pose: &Pose, place: f64) -> Self {
+    fn new(scale: &Parallelogram, pose: &Pose, place: Vec2) -> Self {
         let slant = scale.slant();
         let corners = corners(scale, pose, place);
         let across = extent(&corners, Vec2::new(slant.cos(), -slant.sin()));
@@ -87,16 +88,16 @@ pub fn overlap_polygon(scale: &Parallelogram, offset: f64, left: &Pose, right: &
     let points = |pose, at| corners(scale, pose, at).map(|v| Vector::new(v.x, v.y));
     let mut polygon = Vec::new();
     // For drawings only: this function is unreliable for edges that lie on each other.
-    convex_polygons_intersection_points(&points(left, 0.0), &points(right, offset), &mut polygon);
+    convex_polygons_intersection_points(&points(left, Vec2::zeros()), &points(right, Vec2::new(offset, 0.0)), &mut polygon);
     polygon.iter().map(|v| Vec2::new(v.x, v.y)).collect()
 }
 
-fn depth(scales: [&Parallelogram; 2], offset: f64, poses: [&Pose; 2]) -> Option<f64> {
+fn depth(scales: [&Parallelogram; 2], offset: Vec2, poses: [&Pose; 2]) -> Option<f64> {
     let polygon = |scale, pose, at| {
         let points = corners(scale, pose, at).map(|v| Vector::new(v.x, v.y));
         ConvexPolygon::from_convex_polyline_unmodified(points.to_vec())
     };
-    let first = polygon(scales[0], poses[0], 0.0)?;
+    let first = polygon(scales[0], poses[0], Vec2::zeros())?;
     let second = polygon(scales[1], poses[1], offset)?;
     // The corners are already in place.
     let here = Placement::IDENTITY;
@@ -104,8 +105,8 @@ fn depth(scales: [&Parallelogram; 2], offset: f64, poses: [&Pose; 2]) -> Option<
     (contact.dist < 0.0).then_some(-contact.dist)
 }
 
-fn corners(scale: &Parallelogram, pose: &Pose, at: f64) -> [Vec2; 4] {
-    scale.corners().map(|corner| Vec2::new(at, 0.0) + pose.displacement + pose.turn(corner))
+fn corners(scale: &Parallelogram, pose: &Pose, at: Vec2) -> [Vec2; 4] {
+    scale.corners().map(|corner| at + pose.displacement + pose.turn(corner))
 }
 
 fn extent(points: &[Vec2], direction: Vec2) -> (f64, f64) {
@@ -132,7 +133,7 @@ mod tests {
         let scale = Parallelogram::new(0.5, 0.0).unwrap();
         let poses =
             [Pose::new(0.0, 0.0, 0.0), Pose::new(-0.25, 0.02, 0.0), Pose::new(0.0, 0.0, 0.0)];
-        let found = overlaps(|i| (scale, 1.1 * i as f64), &poses);
+        let found = overlaps(|i| (scale, Vec2::new(1.1 * i as f64, 0.0)), &poses);
         assert_eq!(found.len(), 1);
         assert_eq!((found[0].left, found[0].right), (0, 1));
         assert_relative_eq!(found[0].depth, 0.15, epsilon = 1e-9);
@@ -143,7 +144,7 @@ mod tests {
         let scale = Parallelogram::new(0.1, 45.0).unwrap();
         let rest = Pose::new(0.0, 0.0, 0.0);
         let poses = [Pose::new(0.55, 0.0, 0.0), rest, rest];
-        let found = overlaps(|i| (scale, 0.3 * i as f64), &poses);
+        let found = overlaps(|i| (scale, Vec2::new(0.3 * i as f64, 0.0)), &poses);
         assert_eq!(found.iter().map(|o| (o.left, o.right)).collect::<Vec<_>>(), [(0, 2)]);
     }
 
@@ -152,7 +153,7 @@ mod tests {
         let scale = Parallelogram::new(0.1, 0.0).unwrap();
         // The two scales between are displaced far to the right.
         let poses = [0.0, 0.9, 0.9, -0.85].map(|x| Pose::new(x, 0.0, 0.0));
-        let found = overlaps(|i| (scale, 0.3 * i as f64), &poses);
+        let found = overlaps(|i| (scale, Vec2::new(0.3 * i as f64, 0.0)), &poses);
         assert_eq!(found.iter().map(|o| (o.left, o.right)).collect::<Vec<_>>(), [(0, 3)]);
         assert_relative_eq!(found[0].depth, 0.15, epsilon = 1e-9);
     }
@@ -179,10 +180,10 @@ mod tests {
                 std::array::from_fn(|i| Parallelogram::leaning(half_bases[i], slants[i]).unwrap());
             let poses: [_; 3] =
                 std::array::from_fn(|i| Pose::new(q[3 * i], q[3 * i + 1], q[3 * i + 2]));
-            let standing = |i: usize| (scales[i], 1.5 * i as f64);
+            let standing = |i: usize| (scales[i], Vec2::new(1.5 * i as f64, 0.0));
             let found = overlaps(standing, &poses);
             let placed: [_; 3] =
-                std::array::from_fn(|i| corners(&scales[i], &poses[i], 1.5 * i as f64));
+                std::array::from_fn(|i| corners(&scales[i], &poses[i], Vec2::new(1.5 * i as f64, 0.0)));
             for (left, right) in [(0, 1), (0, 2), (1, 2)] {
                 let depth = overlap(&placed[left], &placed[right]);
                 let ours = found.iter().find(|o| (o.left, o.right) == (left, right));

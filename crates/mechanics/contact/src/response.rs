@@ -208,7 +208,7 @@ impl Together {
         let [of_left, of_right] = pair.scales();
         let arms = [left.turn(of_left.corner(p)), right.turn(of_right.corner(q))];
         let apart = (left.displacement - right.displacement) + (arms[0] - arms[1])
-            - Vec2::new(pair.pitch(), 0.0);
+            - pair.offset();
         let [(normal, turn), (other_normal, other_turn)] =
             [own, partner].map(|edge| edge.normal(pair, poses));
         // A normal that points left, turned clockwise, points up its edge. The tip leaves the

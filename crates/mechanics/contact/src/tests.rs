@@ -257,7 +257,7 @@ fn a_corner_short_of_the_end_of_its_edge_keeps_its_partner_at_rest() {
 #[test]
 fn sides_are_parallel_where_their_directions_agree() {
     let scales = [50.0, 30.0].map(|slant| Parallelogram::new(0.4, slant).unwrap());
-    let pair = Pair::between(scales, 1.0);
+    let pair = Pair::between(scales, Vec2::new(1.0, 0.0));
     // The left scale leans by 20° more, and turns back by the same angle.
     let parallel = |left: f64, right: f64| {
         let poses = [left, right].map(|degrees| Pose::new(0.3, 0.1, degrees.to_radians()));

@@ -17,6 +17,7 @@
 //! | [`Row`] | identical scales at a constant gap: pitch, coverage |
 //! | [`RowChange`] | rates at which the lengths of a row change, for the rate of its coverage |
 //! | [`UnevenRow`] | scales of unequal slants at unequal gaps |
+//! | [`Body`], [`Frame`] | a curved body under a row, and its tangent frames |
 //! | [`OutOfRange`] | error of a parameter out of range, with the accepted values |
 //!
 //! ```
@@ -28,12 +29,14 @@
 //! # Ok::<(), geometry::OutOfRange>(())
 //! ```
 
+mod body;
 mod coverage;
 mod out_of_range;
 mod parallelogram;
 mod row;
 mod uneven_row;
 
+pub use body::{Body, Frame};
 pub use out_of_range::OutOfRange;
 pub use parallelogram::{Corner, Parallelogram};
 pub use row::{Row, RowChange};

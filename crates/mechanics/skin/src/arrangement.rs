@@ -1,7 +1,7 @@
 //! The scales of a row at rest.
 
 use contact::Pair;
-use geometry::{OutOfRange, Parallelogram, Row, UnevenRow, clearance};
+use geometry::{Body, Frame, OutOfRange, Parallelogram, Row, UnevenRow, Vec2, clearance};
 
 /// Equal scales at a constant gap, or scales with individual slants and gaps.
 #[derive(Clone, Debug)]
@@ -51,9 +51,14 @@ impl Arrangement {
         }
     }
 
-    /// Bounds the distance between scales `i` and `i + 1` from below.
-    pub(crate) fn clearance(&self, i: usize) -> f64 {
+    /// Bounds the distance between scales `i` and `i + 1` on a body from below.
+    pub(crate) fn clearance(&self, i: usize, body: Body) -> f64 {
         let [left, right] = [self.scale(i), self.scale(i + 1)];
+        if !body.is_flat() {
+            let frame = body.frame(self.pitch(i));
+            let corners = right.corners().map(|corner| frame.origin + frame.outward(corner));
+            return polygon_distance(&left.corners(), &corners);
+        }
         // The distance along the row times the cosine of a side is the distance across it; the
         // steeper side gives the lower bound. Single scales may lean to the left.
         let steepest = left.slant().abs().max(right.slant().abs());
@@ -78,19 +83,24 @@ impl Arrangement {
         }
     }
 
-    /// Lists the pairs of scales up to `reach` pitches apart.
+    /// Lists the pairs of scales up to `reach` pitches apart, on a body.
     ///
     /// Pairs are ordered by left scale, then by distance. An even row has one entry per distance.
-    pub(crate) fn pairs(&self, reach: usize) -> Vec<Pair> {
+    /// Each comes with the tangent frame of the right scale in the frame of the left one.
+    pub(crate) fn pairs(&self, reach: usize, body: Body) -> Vec<(Pair, Frame)> {
+        let between = |scales: [Parallelogram; 2], distance: f64| {
+            let frame = body.frame(distance);
+            (Pair::between(scales, frame.origin), frame)
+        };
         match self {
             Self::Even(row) => (1..=reach)
-                .map(|pitches| Pair::new(*row.scale(), pitches as f64 * row.pitch()))
+                .map(|pitches| between([*row.scale(); 2], pitches as f64 * row.pitch()))
                 .collect(),
             Self::Uneven(row) => {
                 let last = row.gaps().len();
                 let pair = |left: usize, right: usize| {
-                    let pitch = (left..right).map(|i| row.pitch(i)).sum();
-                    Pair::between([row.scales()[left], row.scales()[right]], pitch)
+                    let distance = (left..right).map(|i| row.pitch(i)).sum();
+                    between([row.scales()[left], row.scales()[right]], distance)
                 };
                 // Pairs that reach beyond the end get the last scale as a placeholder. They are
                 // never evaluated.
@@ -102,4 +112,19 @@ impl Arrangement {
             }
         }
     }
+}
+
+/// Computes the distance of two polygons that do not overlap.
+fn polygon_distance(one: &[Vec2; 4], other: &[Vec2; 4]) -> f64 {
+    let mut least = f64::INFINITY;
+    for (corners, edges) in [(one, other), (other, one)] {
+        for corner in corners {
+            for (k, start) in edges.iter().enumerate() {
+                let (along, to_corner) = (edges[(k + 1) % 4] - start, corner - start);
+                let foot = (to_corner.dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
+                least = least.min((to_corner - foot * along).norm());
+            }
+        }
+    }
+    least
 }

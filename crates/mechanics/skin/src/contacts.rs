@@ -20,6 +20,7 @@ pub(crate) use mode::SkinMode;
 use contact::{
     ContactLaw, CornerContact, CornerEdge, Corners, Equation, FORCES, Force, Level, Pair, Pose,
 };
+use geometry::{Body, Frame};
 use solver::Change;
 
 use crate::arrangement::Arrangement;
@@ -58,8 +59,12 @@ pub(crate) type SkinPoint = solver::Equilibrium<SkinMode>;
 #[derive(Clone, Debug)]
 pub(crate) struct Contacts {
     pub(crate) arrangement: Arrangement,
+    /// Body under the row; displacements are in the tangent frame of each scale.
+    pub(crate) body: Body,
     /// One shape per pair, or one per distance if all scales are equal.
-    pair_shapes: Vec<Pair>,
+    ///
+    /// Each comes with the tangent frame of the right scale in the frame of the left one.
+    pair_shapes: Vec<(Pair, Frame)>,
     /// Number of scales on its right that a scale may touch.
     ///
     /// It is 1 unless the row was found to need more.
@@ -86,6 +91,7 @@ pub(crate) struct Contacts {
 impl Contacts {
     pub(crate) fn new(
         arrangement: Arrangement,
+        body: Body,
         law: ContactLaw,
         scales: Vec<Option<usize>>,
         forces: Vec<usize>,
@@ -96,11 +102,12 @@ impl Contacts {
         // A single scale has no pairs to divide by, and its reach does not matter.
         let reach = forces.len().checked_div(neighbours).unwrap_or(1);
         debug_assert_eq!(forces.len(), reach * neighbours);
-        let pair_shapes = arrangement.pairs(reach);
+        let pair_shapes = arrangement.pairs(reach, body);
         let slip_distances = (0..forces.len()).filter(|number| number % slots == SLIP_DISTANCE);
         let slip_distances = slip_distances.collect();
         Self {
             arrangement,
+            body,
             pair_shapes,
             reach,
             law,
@@ -166,8 +173,26 @@ impl Contacts {
     }
 
     /// Returns the poses of all scales, each in the frame in which it is placed.
+    ///
+    /// On a curved body all are in the tangent frame of the first scale.
     pub(crate) fn poses(&self, z: &[f64]) -> Vec<Pose> {
-        (0..self.scales.len()).map(|scale| self.pose(z, scale)).collect()
+        let scales = 0..self.scales.len();
+        scales.map(|scale| self.seen(self.pose(z, scale), || self.frame_at(scale))).collect()
+    }
+
+    /// Returns the tangent frame of a scale in the frame of the first scale.
+    pub(crate) fn frame_at(&self, scale: usize) -> Frame {
+        self.body.frame(self.arrangement.place(scale))
+    }
+
+    /// Transforms a pose to the frame in which `frame` is given; no change on a flat body.
+    fn seen(&self, pose: Pose, frame: impl FnOnce() -> Frame) -> Pose {
+        if self.body.is_flat() {
+            return pose;
+        }
+        let frame = frame();
+        let displacement = frame.outward(pose.displacement);
+        Pose::new(displacement.x, displacement.y, pose.rotation - frame.angle)
     }
 
     /// Returns the rotation unknown of a scale's frame; `None` if the frame is fixed.
@@ -368,6 +393,11 @@ impl Contacts {
     }
 
     fn pair(&self, pair: usize) -> &Pair {
+        &self.pair_and_frame(pair).0
+    }
+
+    /// Returns the shape of a pair, and the frame of its right scale in the frame of the left one.
+    fn pair_and_frame(&self, pair: usize) -> &(Pair, Frame) {
         match self.pair_shapes.as_slice() {
             // An uneven row of two scales has as many shapes as an even row. Both index rules give
             // the same shape there.
@@ -395,10 +425,10 @@ impl Contacts {
 
     /// Returns the poses of the two scales of a contact.
     ///
-    /// Both are in the frame of the left scale if poses are relative, else in the frame of the row.
+    /// Both are in the frame of the left scale if poses are relative or the body is curved, else in
+    /// the frame of the row.
     fn pair_poses(&self, z: &[f64], contact: usize) -> [Pose; 2] {
-        let [left, right] = self.ends(Self::pair_of(contact));
-        [self.left_pose(z, left), self.pose(z, right)]
+        self.poses_of(z, Self::pair_of(contact), &mut None)
     }
 
     fn left_pose(&self, z: &[f64], scale: usize) -> Pose {
@@ -438,6 +468,6 @@ impl Contacts {
         };
         let of_right = self.pose(z, right);
         *turned = Some((right, of_right));
-        [of_left, of_right]
+        [of_left, self.seen(of_right, || self.pair_and_frame(pair).1)]
     }
 }

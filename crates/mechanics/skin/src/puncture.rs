@@ -25,7 +25,7 @@ mod tilts;
 
 use adaptive_row::AdaptiveRowPath;
 use contact::ContactLaw;
-use geometry::{OutOfRange, Row};
+use geometry::{Body, OutOfRange, Row};
 use needle::NEEDLE_UNKNOWNS;
 use observers::PathObservers;
 use point::scales;
@@ -116,6 +116,8 @@ pub struct PunctureParameters {
     ///
     /// They span the top from its left to its right corner, or one pitch for a round tip.
     pub places: Option<usize>,
+    /// Curvature `t/R` of the body below: positive for a convex one, 0 for a flat one.
+    pub curvature: f64,
 }
 
 impl Default for PunctureParameters {
@@ -137,6 +139,7 @@ impl Default for PunctureParameters {
             unload: false,
             failure: None,
             places: None,
+            curvature: 0.0,
         }
     }
 }
@@ -235,6 +238,11 @@ impl Rows<'_> {
 }
 
 impl PunctureParameters {
+    /// Returns the body below the row.
+    pub(crate) fn body(&self) -> Body {
+        Body { curvature: self.curvature }
+    }
+
     /// Iterates over the measured tilts, degrees, with the critical one last.
     pub fn tilts_deg(&self) -> impl Iterator<Item = f64> {
         let before = self.tilts_before_deg.iter().flat_map(NumberList::as_slice).copied();
@@ -251,6 +259,7 @@ impl PunctureParameters {
         let depth = self.depth.unwrap_or(1.0);
         let radius = self.needle_radius.unwrap_or(0.0);
         let places = self.places.unwrap_or(2) as f64;
+        let curvature = self.curvature;
         // Each rule states the valid range, so that NaN violates it.
         let rules = [
             (tilt > 0.0 && tilt < 90.0, "critical tilt", tilt, "an angle between 0° and 90°"),
@@ -266,6 +275,7 @@ impl PunctureParameters {
             ),
             (places >= 2.0, "number of places", places, "at least 2"),
             (scales >= 1.0, "number of scales", scales, "at least 1"),
+            (curvature.is_finite(), "curvature of the body", curvature, "a number"),
         ];
         let mut rules = rules.into_iter();
         rules.try_for_each(|(holds, quantity, value, expected)| {
@@ -443,21 +453,32 @@ impl<'a> Problem<'a> {
     ///
     /// `None` for other needles.
     fn reach(&self) -> Option<usize> {
-        let pitch = 2.0 * self.design.half_base() + self.design.gap;
-        self.parameters.needle_radius.and_then(|radius| needle::reach(radius, pitch))
+        self.parameters.needle_radius.and_then(|radius| needle::reach(radius, self.pitch()))
+    }
+
+    /// Returns the distance of two nodes along the body, over `t`.
+    fn pitch(&self) -> f64 {
+        2.0 * self.design.half_base() + self.design.gap
     }
 
     /// Returns the layout of a whole finite row.
+    ///
+    /// A row ends at the latest where a curved body turns away.
     fn whole(&self) -> Option<RowLayout> {
-        match self.parameters.scales {
+        let on_body = self.parameters.body().scales_beside(self.pitch());
+        let sides = match self.parameters.scales {
             RowLength::Scales(scales) => {
                 // With an even number one more scale is on the right.
                 let left = (scales - 1) / 2;
-                let (needle, contacts) = (self.needle_unknowns(), 0);
-                Some(RowLayout { left, right: scales - 1 - left, needle, contacts })
+                let right = scales - 1 - left;
+                let on_body = on_body.unwrap_or(scales);
+                Some([left.min(on_body), right.min(on_body)])
             }
-            RowLength::Auto => None,
-        }
+            // A body with more scales than the longest row counts as endless.
+            RowLength::Auto => on_body.filter(|side| 2 * side < LONGEST_ROW).map(|side| [side; 2]),
+        };
+        let (needle, contacts) = (self.needle_unknowns(), 0);
+        sides.map(|[left, right]| RowLayout { left, right, needle, contacts })
     }
 
     /// Follows the path until it ends, and locates the points requested in `places`.
@@ -540,9 +561,9 @@ impl<'a> Problem<'a> {
                 Some(Beyond { far: self.far_field(scales)?, scales })
             }
         });
-        let exterior = RowExterior::new(self.rows, layout, beyond)?;
-        let row = self.rows.row(layout)?;
         let Self { design, stiffness, law, parameters, .. } = self;
+        let exterior = RowExterior::new(self.rows, layout, beyond, parameters.body())?;
+        let row = self.rows.row(layout)?;
         let mut chain = Chain::new(row, stiffness, *law, layout, exterior, parameters, design);
         chain.whole_path = self.whole_path;
         Ok(chain)

@@ -57,8 +57,8 @@ proptest! {
         let corner_edge = CornerEdge::ALL[corner_edge];
         let scales: [_; 2] =
             std::array::from_fn(|i| Parallelogram::new(half_bases[i], slants[i]).unwrap());
-        let pair = Pair::between(scales, 7.0);
-        prop_assert_eq!(pair.pitch(), 7.0);
+        let pair = Pair::between(scales, Vec2::new(7.0, 0.0));
+        prop_assert_eq!(pair.offset().x, 7.0);
         let (a, b) = if corner_edge.corner_is_left() { (0, 1) } else { (1, 0) };
         // From the base up, or from left to right.
         let (start, end, outward) = match corner_edge {

@@ -133,7 +133,7 @@ impl Contacts {
     ///
     /// They overlap by more than their contact approach.
     pub(crate) fn overlapping(&self, state: &SkinState) -> impl Iterator<Item = usize> {
-        let standing = |i| (self.arrangement.scale(i), self.arrangement.place(i));
+        let standing = |i| (self.arrangement.scale(i), self.frame_at(i).origin);
         let found = overlaps(standing, &self.poses(&state.z));
         found.into_iter().filter_map(|Overlap { left, right, depth }| {
             let pitches = right - left;
@@ -152,7 +152,7 @@ impl Contacts {
         self.pairs(&state.z).any(|(pair, poses)| {
             let allowed = self.pair_approach(state, pair) + AUDIT_TOLERANCE;
             let pair = self.pair(pair);
-            let standing = |i: usize| (pair.scales()[i], i as f64 * pair.pitch());
+            let standing = |i: usize| (pair.scales()[i], i as f64 * pair.offset());
             overlaps(standing, &poses).iter().any(|overlap| overlap.depth > allowed)
         })
     }

@@ -16,7 +16,8 @@ pub struct Contact {
     pub corner_edge: CornerEdge,
     /// Position of the touching corner in the deformed state, over `t`.
     ///
-    /// It is relative to the node of the first scale at rest.
+    /// It is relative to the node of the first scale at rest, on a curved body in its tangent
+    /// frame.
     pub point: [f64; 2],
     /// Force on the left scale; the right scale carries the opposite force.
     pub force: [f64; 2],
@@ -46,16 +47,18 @@ impl Contacts {
             let corner_edge = corner_edge?;
             let point = self.corner(&state.z, contact, corner_edge).into();
             let [left, right] = self.ends(Self::pair_of(contact));
+            let force = if self.body.is_flat() { force } else { self.frame_at(left).outward(force) };
             Some(Contact { left, right, corner_edge, point, force: force.into(), approach, slips })
         })
     }
 
     /// Lists the contact forces on a scale of a row.
     ///
-    /// Each entry holds the arm from the node, in the deformed state, and the force.
+    /// Each entry holds the arm from the node, in the deformed state, and the force, both in the
+    /// tangent frame of the scale.
     pub(crate) fn forces_on(&self, state: &SkinState, scale: usize) -> Vec<[Vec2; 2]> {
-        let node =
-            Vec2::new(self.arrangement.place(scale), 0.0) + self.pose(&state.z, scale).displacement;
+        let frame = self.frame_at(scale);
+        let node = frame.origin + frame.outward(self.pose(&state.z, scale).displacement);
         let mut forces = Vec::new();
         let first = scale.saturating_sub(self.reach);
         for pair in self.reach * first..(self.reach * (scale + 1)).min(self.count_pairs()) {
@@ -72,7 +75,14 @@ impl Contacts {
                 let on_left = self.forces_on_left(state, contact);
                 for (corner_edge, force) in carrying.into_iter().zip(on_left) {
                     let Some(corner_edge) = corner_edge else { continue };
-                    forces.push([self.corner(&state.z, contact, corner_edge) - node, sign * force]);
+                    let arm = self.corner(&state.z, contact, corner_edge) - node;
+                    // Contact forces are in the frame of the left scale of the pair.
+                    let force = if ends[1] == scale && !self.body.is_flat() {
+                        self.pair_and_frame(pair).1.inward(force)
+                    } else {
+                        force
+                    };
+                    forces.push([frame.inward(arm), sign * force]);
                 }
             }
         }
@@ -88,13 +98,17 @@ impl Contacts {
         let pair = Self::pair_of(contact);
         let (ends, pair) = (self.ends(pair), self.pair(pair));
         let arm = pose.turn(pair.scales()[of_right].corner(corner_edge.corner()));
+        let from_left = |place: Vec2| place + pose.displacement + arm;
         // With relative poses, positions count from the left scale of the pair instead of the first
         // scale.
-        let place = if self.relative {
-            of_right as f64 * pair.pitch()
-        } else {
-            self.arrangement.place(ends[of_right])
-        };
-        Vec2::new(place, 0.0) + pose.displacement + arm
+        if self.relative || !self.body.is_flat() {
+            let corner = from_left(of_right as f64 * pair.offset());
+            if self.relative {
+                return corner;
+            }
+            let frame = self.frame_at(ends[0]);
+            return frame.origin + frame.outward(corner);
+        }
+        from_left(Vec2::new(self.arrangement.place(ends[of_right]), 0.0))
     }
 }

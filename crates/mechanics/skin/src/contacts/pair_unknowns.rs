@@ -3,6 +3,7 @@
 use std::array;
 
 use contact::COORDINATES;
+use geometry::{Frame, Vec2};
 use solver::{Residual, Tangent};
 
 use super::Contacts;
@@ -29,6 +30,8 @@ pub(super) enum PairUnknowns {
     ///
     /// Whole blocks are therefore added.
     Blocks([usize; 2]),
+    /// Row on a curved body: the frame of the right scale is rotated from the left one.
+    Curved([usize; 2], Frame),
     /// Strip: a rotation is the difference of two unknowns.
     ///
     /// Entries are therefore added one by one.
@@ -46,7 +49,12 @@ impl Contacts {
         // With relative poses the left scale is the origin, so it has no unknowns here.
         let left = self.scales[ends[0]].filter(|_| !self.relative);
         if let (Some(left), Some(right)) = (left, right) {
-            return PairUnknowns::Blocks([left, right]);
+            return if self.body.is_flat() {
+                PairUnknowns::Blocks([left, right])
+            } else {
+                let (_, frame) = self.pair_and_frame(Self::pair_of(contact));
+                PairUnknowns::Curved([left, right], *frame)
+            };
         }
         PairUnknowns::Parts(array::from_fn(|k| match k {
             0..3 => Some(Part { unknown: left? + k, coordinate: k, sign: 1.0 }),
@@ -61,6 +69,12 @@ impl Contacts {
     }
 }
 
+/// Rotates the derivatives by the right displacement to the tangent frame of the right scale.
+fn local(&[lx, ly, turn, x, y, right_turn]: &OfEach, frame: &Frame) -> OfEach {
+    let right = frame.inward(Vec2::new(x, y));
+    [lx, ly, turn, right.x, right.y, right_turn]
+}
+
 impl PairUnknowns {
     /// Computes the dot product of `factors` with the coordinates of the pair in `z`.
     pub(super) fn sum(self, factors: &OfEach, z: &[f64]) -> f64 {
@@ -69,6 +83,7 @@ impl PairUnknowns {
                 let z = z[left..left + 3].iter().chain(&z[right..right + 3]);
                 factors.iter().zip(z).map(|(factor, z)| factor * z).sum()
             }
+            Self::Curved(scales, frame) => Self::Blocks(scales).sum(&local(factors, &frame), z),
             Self::Parts(parts) => {
                 let parts = parts.into_iter().flatten();
                 parts.map(|part| part.sign * factors[part.coordinate] * z[part.unknown]).sum()
@@ -83,6 +98,9 @@ impl PairUnknowns {
                 for (i, row) in scales.into_iter().enumerate() {
                     (0..3).for_each(|k| residual.add(row + k, balance[3 * i + k]));
                 }
+            }
+            Self::Curved(scales, frame) => {
+                Self::Blocks(scales).add_balance(residual, &local(balance, &frame));
             }
             Self::Parts(parts) => {
                 for part in parts.into_iter().flatten() {
@@ -104,6 +122,14 @@ impl PairUnknowns {
                     }
                 }
             }
+            Self::Curved(scales, frame) => {
+                let by_local = slopes.map(|row| local(&row, &frame));
+                let transposed = array::from_fn(|l| array::from_fn(|k| by_local[k][l]));
+                let columns: [OfEach; COORDINATES] = transposed;
+                let columns = columns.map(|column| local(&column, &frame));
+                let slopes = array::from_fn(|k| array::from_fn(|l| columns[l][k]));
+                Self::Blocks(scales).add_square(matrix, &slopes);
+            }
             Self::Parts(parts) => {
                 for row in parts.into_iter().flatten() {
                     for column in parts.into_iter().flatten() {
@@ -123,6 +149,9 @@ impl PairUnknowns {
                     matrix.add_block(row, column, &[[x], [y], [turn]]);
                 }
             }
+            Self::Curved(scales, frame) => {
+                Self::Blocks(scales).add_column(matrix, column, &local(slopes, &frame));
+            }
             Self::Parts(parts) => {
                 for part in parts.into_iter().flatten() {
                     matrix.add(part.unknown, column, part.sign * slopes[part.coordinate]);
@@ -138,6 +167,9 @@ impl PairUnknowns {
                 for (column, three) in scales.into_iter().zip(slopes.as_chunks::<3>().0) {
                     matrix.add_block(row, column, &[*three]);
                 }
+            }
+            Self::Curved(scales, frame) => {
+                Self::Blocks(scales).add_row(matrix, row, &local(slopes, &frame));
             }
             Self::Parts(parts) => {
                 for part in parts.into_iter().flatten() {

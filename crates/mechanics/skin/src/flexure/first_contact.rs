@@ -5,7 +5,7 @@
 use std::f64::consts::PI;
 
 use contact::{CornerEdge, Corners, Level, Pair, Pose};
-use geometry::{OutOfRange, Parallelogram, Row, UnevenRow};
+use geometry::{OutOfRange, Parallelogram, Row, UnevenRow, Vec2};
 use solver::Neighbours;
 
 use super::problem::FlexureProblem;
@@ -41,7 +41,7 @@ pub fn contact_curvature(
     parameters: &FlexureParameters,
 ) -> Result<Option<f64>, OutOfRange> {
     let gap = BareGap::from_row(&design.row()?, parameters);
-    Ok(gap.closing_rotation(LARGEST_ROTATION).map(|rotation| rotation / gap.pair.pitch()))
+    Ok(gap.closing_rotation(LARGEST_ROTATION).map(|rotation| rotation / gap.pair.offset().x))
 }
 
 /// Returns the curvature at which the first gap of an imperfect strip closes.
@@ -70,7 +70,7 @@ pub(super) fn touches(input: &FlexureInput) -> Result<bool, OutOfRange> {
     let end = FlexureProblem::of_row(row, design, common, parameters)?.end_curvature();
     Ok(gap
         .closing_rotation(LARGEST_ROTATION)
-        .is_some_and(|rotation| rotation / gap.pair.pitch() <= end))
+        .is_some_and(|rotation| rotation / gap.pair.offset().x <= end))
 }
 
 /// Returns the derivatives of [`contact_curvature`] from the gap `g(θ, q)` that vanishes there:
@@ -96,7 +96,7 @@ pub(super) fn curvature_derivatives(
             // For upright scales corners meet corners, and neither may face an edge.
             let own = gap.meeting(rotation).unwrap_or(CornerEdge::TopRightOnLeftEdge);
             let meetings = neighbours.each_ref().map(|side| side.meeting(rotation).unwrap_or(own));
-            let (measure, value) = ("contact_curvature", rotation / gap.pair.pitch());
+            let (measure, value) = ("contact_curvature", rotation / gap.pair.offset().x);
             let kink = || "another corner meets an edge".to_owned();
             Ok(Derivative::sided(
                 (measure, parameter),
@@ -131,7 +131,7 @@ impl BareGap {
         parameters: &FlexureParameters,
     ) -> Self {
         let offset = parameters.membrane_axis_offset;
-        Self { pair: Pair::between(scales, pitch), width, offset }
+        Self { pair: Pair::between(scales, Vec2::new(pitch, 0.0)), width, offset }
     }
 
     fn from_row(row: &Row, parameters: &FlexureParameters) -> Self {
@@ -158,9 +158,9 @@ impl BareGap {
             / (2.0 * turn);
         let [below, above] = neighbours.each_ref().map(|gap| gap.opening(meeting, rotation));
         let turned = -(above - below) / (2.0 * step) / by_rotation;
-        let [below, above] = neighbours.each_ref().map(|gap| gap.pair.pitch());
+        let [below, above] = neighbours.each_ref().map(|gap| gap.pair.offset().x);
         // `κ₁* = θ₁/p`, and the pitch depends on the parameter, too.
-        let pitch = self.pair.pitch();
+        let pitch = self.pair.offset().x;
         (turned - rotation / pitch * (above - below) / (2.0 * step)) / pitch
     }
 
@@ -237,6 +237,6 @@ impl BareGap {
         let chord = self.width / rotation;
         let x = a + chord * sin + cos * a - sin * z0;
         let y = -z0 + chord * versine + sin * a + cos * z0;
-        Pose::new(x - self.pair.pitch(), y, rotation)
+        Pose::new(x - self.pair.offset().x, y, rotation)
     }
 }

@@ -1,7 +1,7 @@
 //! A bent strip of membrane and scales, as a mixed complementarity system.
 
 use contact::ContactLaw;
-use geometry::Vec2;
+use geometry::{Body, Vec2};
 use membrane::{Derivatives, GapEnergies, Membrane, Section};
 use solver::{Blocks, Change, Condition, Control, Residual, System, Tangent};
 
@@ -143,7 +143,7 @@ impl Strip {
             repeats,
             pitch: row.mean_pitch(),
             bending_stiffness: section.bending_stiffness(),
-            contacts: Contacts::new(row, law, scales, forces, true),
+            contacts: Contacts::new(row, Body::default(), law, scales, forces, true),
             blocks: layout.blocks(),
             // The rotation comes first, because it is the control parameter that bending must
             // reach.

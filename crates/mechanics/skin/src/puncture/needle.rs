@@ -25,7 +25,7 @@ mod transition;
 use std::ops::Range;
 
 use contact::{CornerContact, CornerEdge};
-use geometry::Vec2;
+use geometry::{Frame, Vec2};
 use solver::{Condition, Newton};
 
 use super::PunctureParameters;
@@ -303,11 +303,17 @@ impl Chain {
     fn tip(&self, z: &[f64], scale: i64, place: OutlinePart) -> Option<Tip> {
         let needle = self.needle.as_ref()?;
         let number = self.scale_numbered(scale)?;
-        let away = self.contacts.arrangement.place(number)
-            - self.contacts.arrangement.place(self.layout.left);
+        let frame = self.from_punctured(number);
         let face = Face::new(&self.contacts.arrangement.scale(number), place);
-        let at = needle.tip - Vec2::new(away, z[needle.depth]);
-        Some(Tip::new(&face, &self.contacts.pose(z, number), at))
+        let at = needle.tip - Vec2::new(0.0, z[needle.depth]) - frame.origin;
+        let upward = frame.inward(Vec2::y());
+        Some(Tip::new(&face, &self.contacts.pose(z, number), frame.inward(at), upward))
+    }
+
+    /// Returns the tangent frame of a scale in the frame of the punctured one.
+    pub(super) fn from_punctured(&self, scale: usize) -> Frame {
+        let place = |scale: usize| self.contacts.arrangement.place(scale);
+        self.contacts.body.frame(place(scale) - place(self.layout.left))
     }
 
     /// Computes the contact of the tip with a part of a scale.

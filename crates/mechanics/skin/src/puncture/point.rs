@@ -42,9 +42,9 @@ pub struct PuncturePoint {
 pub struct ScaleState {
     /// Number of the scale: 0 is the punctured one, positive to the right.
     pub scale: i64,
-    /// Displacement of the node, over `t`.
+    /// Displacement of the node, over `t`: along the body and normal to it.
     pub displacement: [f64; 2],
-    /// Rotation, counter-clockwise, degrees.
+    /// Rotation from rest, counter-clockwise, degrees.
     pub rotation_deg: f64,
     /// Vertical reaction of the substrate on the scale, upward, over `E* t²`.
     pub reaction: f64,

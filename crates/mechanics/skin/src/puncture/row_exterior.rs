@@ -2,7 +2,7 @@
 
 use std::array;
 
-use geometry::{Corner, OutOfRange, Vec2};
+use geometry::{Body, Corner, OutOfRange, Vec2};
 use substrate::{FarField, Relief, SurfaceStrip};
 
 use super::Rows;
@@ -80,6 +80,7 @@ impl RowExterior {
         rows: Rows,
         layout: RowLayout,
         beyond: [Option<Beyond>; 2],
+        body: Body,
     ) -> Result<Self, OutOfRange> {
         let looked_at = |side: &Option<Beyond>| {
             let scales = side.as_ref().map_or(Some(0), |beyond| beyond.scales);
@@ -98,7 +99,7 @@ impl RowExterior {
             Some(ExteriorSide {
                 beyond: beyond?,
                 gaps: pairs.iter().map(|&pair| row.gap(pair)).collect(),
-                clearances: pairs.iter().map(|&pair| row.clearance(pair)).collect(),
+                clearances: pairs.iter().map(|&pair| row.clearance(pair, body)).collect(),
             })
         };
         let [first, last] = pairs;

@@ -140,6 +140,7 @@ pub fn snapshots_to_end(
 fn snapshot(chain: &Chain, pitch: f64, state: &SkinState) -> RowSnapshot {
     // Contacts count from the first solved scale, snapshots from the first scale of the row.
     let [before, _] = chain.exterior.scales_to_ends();
+    let frame = chain.contacts.body.frame(before as f64 * pitch);
     RowSnapshot {
         displacement: chain.depth(&state.z),
         force: chain.force(state),
@@ -151,12 +152,12 @@ fn snapshot(chain: &Chain, pitch: f64, state: &SkinState) -> RowSnapshot {
             .closed_contacts(state)
             .into_iter()
             .map(|contact| {
-                let [x, y] = contact.point;
-                let point = [x + before as f64 * pitch, y];
+                let point = frame.outward(contact.point.into()) + frame.origin;
                 Contact {
                     left: contact.left + before,
                     right: contact.right + before,
-                    point,
+                    point: point.into(),
+                    force: frame.outward(contact.force.into()).into(),
                     ..contact
                 }
             })

@@ -241,7 +241,8 @@ impl Chain {
             // Couplings are stored as `−β`, but the stiffness of a bar is positive.
             SubstrateLaw::NeoHookean => neighbours.first().map(|nearest| -nearest.direct[0]),
         };
-        let contacts = Contacts::new(arrangement, law, scales, forces, false);
+        let body = parameters.body();
+        let contacts = Contacts::new(arrangement, body, law, scales, forces, false);
         let of_needle = needle.iter().flat_map(|needle| needle.slip_distances.iter().copied());
         let monotone = contacts.slip_distances.iter().copied().chain(of_needle).collect();
         // A round tip couples several scales across blocks, and contacts may reach farther than the

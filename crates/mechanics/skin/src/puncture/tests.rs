@@ -11,6 +11,7 @@ use std::collections::HashSet;
 
 use approx::assert_relative_eq;
 use contact::{ContactLaw, CornerContact, FORCES, Law};
+use geometry::Body;
 use nalgebra::{DMatrix, DVector};
 use solver::{BandMatrix, Continuation, Settings, System, check_tangent};
 use substrate::{Coupling, RowStiffness, calibrate};
@@ -480,7 +481,7 @@ fn negative_eigenvalues_match_the_dense_stiffness() {
         let endless = |stiffness: &RowStiffness| {
             let far = stiffness.with_lengths_over(design.half_base()).far_field(None).unwrap();
             let beyond = [(); 2].map(|()| Some(Beyond { far: far.clone(), scales: None }));
-            let exterior = RowExterior::new(rows, layout, beyond).unwrap();
+            let exterior = RowExterior::new(rows, layout, beyond, Body::default()).unwrap();
             let row = rows.row(layout).unwrap();
             Chain::new(row, stiffness, law, layout, exterior, parameters, &design)
         };

@@ -14,6 +14,7 @@
 //! | `neo_hookean` | a substrate with a surface that cannot fold over |
 //! | `layers` | tissue of finite thickness, against another program |
 //! | `outputs` | the meaning of measures, events and scales |
+//! | `curved_body` | rows on convex and concave bodies, against independent programs |
 //! | `ends` | paths beyond the largest force: unloading to zero, and snap-through |
 //! | `tilts` | measures at several critical tilts, against paths that end there |
 //! | `load_positions` | the weakest of several load positions, against single punctures |
@@ -23,6 +24,7 @@
 //! | `robustness` | the 720 designs of the reference study and random ones |
 //! | `widest` | random designs in the widest ranges of a definition |
 
+mod curved_body;
 mod ends;
 mod enumerated;
 mod failure;

@@ -296,7 +296,12 @@ impl Chain {
     pub(in crate::puncture) fn lateral_force(&self, state: &SkinState) -> f64 {
         let Some(needle) = &self.needle else { return 0.0 };
         let touches = self.touches(state);
-        touches.map(|(slot, _, _, at)| at.tip.force(needle.forces(&state.z, slot)).x).sum()
+        touches
+            .map(|(slot, _, scale, at)| {
+                let force = at.tip.force(needle.forces(&state.z, slot));
+                self.from_punctured(scale).outward(force).x
+            })
+            .sum()
     }
 
     /// Lists the forces of a guided needle on a scale.

@@ -46,12 +46,15 @@ impl Face {
 ///
 /// ```text
 /// g = (P − E)·n        ξ = (P − E)·t                                                   (L4)
-/// ∂g = −n, −r·t, −n_y        ∂ξ = −t, r·n, −t_y          for O, φ and the depth D of the tip
+/// ∂g = −n, −r·t, −n·v        ∂ξ = −t, r·n, −t·v          for O, φ and the depth D of the tip
 /// ```
+///
+/// All vectors are in the tangent frame of the scale, `v` is the upward direction of the needle.
 pub(super) struct Tip {
     arm: Vec2,
     normal: Vec2,
     along: Vec2,
+    upward: Vec2,
     /// `g`.
     pub(super) gap: f64,
     /// `ξ`.
@@ -69,15 +72,16 @@ const DEPTH: usize = 3;
 impl Tip {
     /// Places the tip at a face.
     ///
-    /// `away` is the tip relative to the node of the scale at rest.
-    pub(super) fn new(face: &Face, pose: &Pose, away: Vec2) -> Self {
+    /// `away` is the tip relative to the node of the scale at rest, `upward` the direction against
+    /// which the needle moves.
+    pub(super) fn new(face: &Face, pose: &Pose, away: Vec2, upward: Vec2) -> Self {
         let arm = away - pose.displacement;
         let along = pose.turn(face.along);
         // The outline runs from left to right over the top, so the outward normal is to its left.
         let normal = Vec2::new(-along.y, along.x);
         let from_origin = arm - pose.turn(face.origin);
         let (gap, xi) = (from_origin.dot(&normal), from_origin.dot(&along));
-        Self { arm, normal, along, gap, xi, length: face.length }
+        Self { arm, normal, along, upward, gap, xi, length: face.length }
     }
 
     /// Rotates the frame so that its normal points from the corner to the tip.
@@ -97,11 +101,11 @@ impl Tip {
     }
 
     pub(super) fn gap_slopes(&self) -> [f64; COORDINATES] {
-        [-self.normal.x, -self.normal.y, -self.arm.dot(&self.along), -self.normal.y]
+        [-self.normal.x, -self.normal.y, -self.arm.dot(&self.along), -self.normal.dot(&self.upward)]
     }
 
     pub(super) fn xi_slopes(&self) -> [f64; COORDINATES] {
-        [-self.along.x, -self.along.y, self.arm.dot(&self.normal), -self.along.y]
+        [-self.along.x, -self.along.y, self.arm.dot(&self.normal), -self.along.dot(&self.upward)]
     }
 
     /// Computes the second derivatives of `−N g + T ξ`.
@@ -111,7 +115,7 @@ impl Tip {
     ) -> [[f64; COORDINATES]; COORDINATES] {
         let mut curvature = [[0.0; COORDINATES]; COORDINATES];
         let turning = -normal_force * self.along - tangential_force * self.normal;
-        for (i, value) in [(0, turning.x), (1, turning.y), (DEPTH, turning.y)] {
+        for (i, value) in [(0, turning.x), (1, turning.y), (DEPTH, turning.dot(&self.upward))] {
             curvature[i][TURN] = value;
             curvature[TURN][i] = value;
         }

@@ -86,11 +86,16 @@ impl Chain {
         let mut highest = needle.radius;
         for (_, scale) in needle.scales() {
             let Some(number) = self.scale_numbered(scale) else { continue };
-            let away = self.contacts.arrangement.place(number)
-                - self.contacts.arrangement.place(self.layout.left);
+            let frame = self.from_punctured(number);
             for place in FACES {
                 let face = Face::new(&self.contacts.arrangement.scale(number), place);
-                highest = highest.max(height_above(&face, x - away, needle.radius));
+                let face = Face {
+                    origin: frame.outward(face.origin),
+                    along: frame.outward(face.along),
+                    ..face
+                };
+                let above_node = height_above(&face, x - frame.origin.x, needle.radius);
+                highest = highest.max(frame.origin.y + above_node);
             }
         }
         Vec2::new(x, highest)
@@ -226,7 +231,8 @@ impl Chain {
         for (_, scale) in needle.scales() {
             let foot = |scale: i64, place: OutlinePart, at_end: bool| {
                 let tip = self.tip(&state.z, scale, place)?;
-                Some(tip.to_end(if at_end { tip.length } else { 0.0 }))
+                let frame = self.from_punctured(self.scale_numbered(scale)?);
+                Some(frame.outward(tip.to_end(if at_end { tip.length } else { 0.0 })))
             };
             let from = foot(scale, OutlinePart::Right, true);
             let to = foot(scale + 1, OutlinePart::Left, false);

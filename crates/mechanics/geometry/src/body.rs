@@ -1,0 +1,109 @@
+//! Cylindrical body on which a row of scales lies.
+
+use crate::Vec2;
+
+/// Largest angle (radians) between the normals of the punctured scale and of any other scale.
+///
+/// Scales farther around a body face away from the load.
+const FARTHEST_ANGLE: f64 = 80.0 * std::f64::consts::PI / 180.0;
+
+/// A body of constant curvature; the default is flat.
+///
+/// Nodes lie on a circle of radius `R` at equal arc lengths, and scales stand along its normals.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Body {
+    /// `t/R`: positive for a convex body, negative for a concave one, 0 for a flat one.
+    pub curvature: f64,
+}
+
+impl Body {
+    /// Returns true if the body is flat.
+    pub fn is_flat(&self) -> bool {
+        self.curvature == 0.0
+    }
+
+    /// Returns the tangent frame at an arc length (over `t`) to the right, seen from the one at 0.
+    pub fn frame(&self, arc: f64) -> Frame {
+        let angle = arc * self.curvature;
+        let (sin, cos) = angle.sin_cos();
+        // `R sin θ` and `R (cos θ − 1)`, without division by the curvature.
+        let half = 0.5 * angle;
+        let origin = Vec2::new(arc * sinc(angle), -arc * sinc(half) * half.sin());
+        Frame { origin, angle, cos, sin }
+    }
+
+    /// Counts the scales on each side of the punctured one before the body turns away; `None`
+    /// for a flat body.
+    pub fn scales_beside(&self, pitch: f64) -> Option<usize> {
+        let step = pitch * self.curvature.abs();
+        // A body of vanishing curvature has more scales than an integer can count; the conversion
+        // saturates.
+        (step > 0.0).then(|| ((FARTHEST_ANGLE / step).ceil() as usize).saturating_sub(1))
+    }
+}
+
+/// `sin x / x`.
+fn sinc(x: f64) -> f64 {
+    if x == 0.0 { 1.0 } else { x.sin() / x }
+}
+
+/// Tangent frame of a body at the node of a scale, relative to another tangent frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// Position of the node in the other frame, over `t`.
+    pub origin: Vec2,
+    /// Angle `θ` by which the frame is rotated, clockwise, radians.
+    pub angle: f64,
+    cos: f64,
+    sin: f64,
+}
+
+impl Frame {
+    /// Rotates a vector of this frame to the other frame.
+    pub fn outward(&self, v: Vec2) -> Vec2 {
+        Vec2::new(self.cos * v.x + self.sin * v.y, self.cos * v.y - self.sin * v.x)
+    }
+
+    /// Rotates a vector of the other frame to this frame.
+    pub fn inward(&self, v: Vec2) -> Vec2 {
+        Vec2::new(self.cos * v.x - self.sin * v.y, self.cos * v.y + self.sin * v.x)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Body;
+    use crate::Vec2;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn frames_lie_on_a_circle_and_add_up() {
+        let body = Body { curvature: 0.25 };
+        let [first, second, both] = [0.7, 1.2, 1.9].map(|arc| body.frame(arc));
+        let centre = Vec2::new(0.0, -4.0);
+        assert_relative_eq!((both.origin - centre).norm(), 4.0, epsilon = 1e-14);
+        let origin = first.origin + first.outward(second.origin);
+        assert_relative_eq!(origin, both.origin, epsilon = 1e-14);
+        assert_relative_eq!(first.inward(first.outward(origin)), origin, epsilon = 1e-14);
+        // The normal points away from the centre of the circle.
+        let normal = both.outward(Vec2::y());
+        assert_relative_eq!(normal, (both.origin - centre) / 4.0, epsilon = 1e-14);
+    }
+
+    #[test]
+    fn a_flat_body_is_the_limit_of_a_vanishing_curvature() {
+        let flat = Body::default().frame(1.3);
+        assert_eq!((flat.origin, flat.angle), (Vec2::new(1.3, 0.0), 0.0));
+        let nearly = Body { curvature: 1e-9 }.frame(1.3);
+        assert_relative_eq!(nearly.origin.y, -0.5 * 1e-9 * 1.3 * 1.3, max_relative = 1e-12);
+        assert_relative_eq!(nearly.origin.x, 1.3, epsilon = 1e-15);
+    }
+
+    #[test]
+    fn a_row_stops_before_the_body_turns_away() {
+        let body = Body { curvature: -0.25 };
+        // Five pitches of 1.1 span 78.8°, six 94.5°.
+        assert_eq!(body.scales_beside(1.1), Some(5));
+        assert_eq!(Body::default().scales_beside(1.1), None);
+    }
+}
