@@ -278,8 +278,7 @@ impl Pair {
         let (corner, edge) = &self.meetings[corner_edge as usize];
         let arm = corner_pose.turn(*corner);
         // Relative positions, so that the position of the pair in a long row costs no digits.
-        let to_corner =
-            offset + (corner_pose.displacement - edge_pose.displacement) + arm;
+        let to_corner = offset + (corner_pose.displacement - edge_pose.displacement) + arm;
         let normal = edge_pose.turn(edge.normal);
         let gap = to_corner.dot(&normal) - edge.distance;
         let foot = (to_corner - edge_pose.turn(edge.start)).dot(&edge_pose.turn(edge.along));

@@ -88,7 +88,11 @@ pub fn overlap_polygon(scale: &Parallelogram, offset: f64, left: &Pose, right: &
     let points = |pose, at| corners(scale, pose, at).map(|v| Vector::new(v.x, v.y));
     let mut polygon = Vec::new();
     // For drawings only: this function is unreliable for edges that lie on each other.
-    convex_polygons_intersection_points(&points(left, Vec2::zeros()), &points(right, Vec2::new(offset, 0.0)), &mut polygon);
+    convex_polygons_intersection_points(
+        &points(left, Vec2::zeros()),
+        &points(right, Vec2::new(offset, 0.0)),
+        &mut polygon,
+    );
     polygon.iter().map(|v| Vec2::new(v.x, v.y)).collect()
 }
 

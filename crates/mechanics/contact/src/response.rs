@@ -207,8 +207,7 @@ impl Together {
         let [p, q] = level.corners();
         let [of_left, of_right] = pair.scales();
         let arms = [left.turn(of_left.corner(p)), right.turn(of_right.corner(q))];
-        let apart = (left.displacement - right.displacement) + (arms[0] - arms[1])
-            - pair.offset();
+        let apart = (left.displacement - right.displacement) + (arms[0] - arms[1]) - pair.offset();
         let [(normal, turn), (other_normal, other_turn)] =
             [own, partner].map(|edge| edge.normal(pair, poses));
         // A normal that points left, turned clockwise, points up its edge. The tip leaves the

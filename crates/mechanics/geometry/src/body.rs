@@ -32,6 +32,18 @@ impl Body {
         Frame { origin, angle, cos, sin }
     }
 
+    /// Returns the height of the surface at a distance `x` along the tangent at 0.
+    ///
+    /// Beyond the sides of a convex body it is the height of its centre.
+    pub fn height(&self, x: f64) -> f64 {
+        let squared = (self.curvature * x).powi(2);
+        if squared < 1.0 {
+            -self.curvature * x * x / (1.0 + (1.0 - squared).sqrt())
+        } else {
+            -self.curvature.recip()
+        }
+    }
+
     /// Counts the scales on each side of the punctured one before the body turns away; `None`
     /// for a flat body.
     pub fn scales_beside(&self, pitch: f64) -> Option<usize> {
@@ -73,7 +85,7 @@ impl Frame {
 #[cfg(test)]
 mod tests {
     use super::Body;
-    use crate::Vec2;
+    use crate::{Parallelogram, Row, Vec2};
     use approx::assert_relative_eq;
 
     #[test]
@@ -97,6 +109,23 @@ mod tests {
         let nearly = Body { curvature: 1e-9 }.frame(1.3);
         assert_relative_eq!(nearly.origin.y, -0.5 * 1e-9 * 1.3 * 1.3, max_relative = 1e-12);
         assert_relative_eq!(nearly.origin.x, 1.3, epsilon = 1e-15);
+    }
+
+    #[test]
+    fn coverage_on_a_nearly_flat_body_is_the_flat_coverage() {
+        for (slant, gap) in [(60.0, 0.3), (45.0, 0.1), (75.0, 0.2), (20.0, 0.4), (0.0, 0.2)] {
+            let row = Row::new(Parallelogram::new(0.35, slant).unwrap(), gap).unwrap();
+            let nearly = row.coverage_on(Body { curvature: 1e-9 });
+            assert_relative_eq!(nearly, row.coverage(), epsilon = 1e-7);
+        }
+    }
+
+    #[test]
+    fn a_convex_body_opens_the_scales_and_a_concave_one_closes_them() {
+        let row = Row::new(Parallelogram::new(0.5, 60.0).unwrap(), 0.3).unwrap();
+        let [convex, flat, concave] =
+            [0.1, 0.0, -0.05].map(|curvature| row.coverage_on(Body { curvature }));
+        assert!(convex < flat && flat < concave, "{convex} {flat} {concave}");
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Rows of identical scales at a constant gap.
 
-use crate::{OutOfRange, Parallelogram, coverage};
+use crate::{Body, Corner, OutOfRange, Parallelogram, Vec2, coverage};
 
 /// Row of identical scales with the gap `d` at the base.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,6 +44,26 @@ impl Row {
         coverage::coverage(self.scale.shift(), 2.0 * self.scale.half_base(), self.pitch())
     }
 
+    /// Returns the coverage of the row on a curved body.
+    ///
+    /// The line runs along the normal of the scale from its top right corner to the surface of the
+    /// body, through the neighbours on the right, which stand along their own normals. The
+    /// coverage is the fraction of the line inside them.
+    pub fn coverage_on(&self, body: Body) -> f64 {
+        let corner = self.scale.corner(Corner::TopRight);
+        let line = [corner, Vec2::new(corner.x, body.height(corner.x))];
+        let length = line[0].y - line[1].y;
+        // A neighbour of a tall slanted scale begins at most one shift away.
+        let farthest = (2.0 * corner.x.abs().max(1.0) / self.pitch()).ceil() as usize + 1;
+        let on_body = body.scales_beside(self.pitch()).unwrap_or(farthest);
+        let inside = (1..=farthest.min(on_body)).map(|k| {
+            let frame = body.frame(k as f64 * self.pitch());
+            let corners = self.scale.corners().map(|c| frame.origin + frame.outward(c));
+            length_inside(line, &corners)
+        });
+        (inside.sum::<f64>() / length).min(1.0)
+    }
+
     /// Returns the one-sided rate of the coverage under changes of the row's lengths.
     ///
     /// The coverage has a kink where the number of crossed scales changes; the rate is the one on
@@ -64,4 +84,27 @@ pub struct RowChange {
     pub half_base: f64,
     /// Rate of the gap.
     pub gap: f64,
+}
+
+/// Returns the length of a vertical line inside a convex polygon; both run in the order given.
+///
+/// The line runs down, the corners counter-clockwise.
+fn length_inside([top, bottom]: [Vec2; 2], corners: &[Vec2; 4]) -> f64 {
+    let (mut high, mut low) = (top.y, bottom.y);
+    for (k, start) in corners.iter().enumerate() {
+        let along = corners[(k + 1) % 4] - start;
+        // The polygon is to the left of each edge: `along × (point − start) ≥ 0`.
+        let crossing = if along.x == 0.0 {
+            None
+        } else {
+            Some(start.y + along.y / along.x * (top.x - start.x))
+        };
+        match crossing {
+            None if along.y * (start.x - top.x) < 0.0 => return 0.0,
+            None => {}
+            Some(y) if along.x > 0.0 => low = low.max(y),
+            Some(y) => high = high.min(y),
+        }
+    }
+    (high - low).max(0.0)
 }

@@ -47,7 +47,10 @@ impl Design {
     /// Returns the undeformed row, also for a negative slant.
     ///
     /// Perturbing an upright design gives negative slants.
-    pub(crate) fn leaning_row(&self) -> Result<Row, OutOfRange> {
+    ///
+    /// # Errors
+    /// If a length is not positive or the slant is outside `(−90°, 90°)`.
+    pub fn leaning_row(&self) -> Result<Row, OutOfRange> {
         Row::new(Parallelogram::leaning(self.half_base(), self.slant_deg)?, self.gap)
     }
 

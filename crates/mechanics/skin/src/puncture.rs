@@ -24,7 +24,7 @@ mod tests;
 mod tilts;
 
 use adaptive_row::AdaptiveRowPath;
-use contact::ContactLaw;
+use contact::{ContactLaw, Pose, overlaps};
 use geometry::{Body, OutOfRange, Row};
 use needle::NEEDLE_UNKNOWNS;
 use observers::PathObservers;
@@ -219,6 +219,20 @@ pub fn solve_sample(
     Problem::new(Rows::Sample(sample), design, substrate.into(), common, parameters)?.solve()
 }
 
+/// Returns true if neighbouring scales overlap at rest on a concave body.
+///
+/// # Errors
+/// If a length of the design is not positive, or its slant is out of range.
+pub fn overlaps_at_rest(design: &Design, body: Body) -> Result<bool, OutOfRange> {
+    if body.curvature >= 0.0 {
+        return Ok(false);
+    }
+    let row = design.leaning_row()?;
+    let frames = [0.0, row.pitch()].map(|arc| body.frame(arc));
+    let poses = frames.map(|frame| Pose::new(0.0, 0.0, -frame.angle));
+    Ok(!overlaps(|i| (*row.scale(), frames[i].origin), &poses).is_empty())
+}
+
 /// Source of rows of any length.
 #[derive(Clone, Copy)]
 enum Rows<'a> {
@@ -379,6 +393,10 @@ impl<'a> Problem<'a> {
         parameters: &'a PunctureParameters,
     ) -> Result<Self, OutOfRange> {
         parameters.check()?;
+        let (curvature, overlap) =
+            (parameters.curvature, overlaps_at_rest(design, parameters.body())?);
+        let expected = "a curvature at which neighbouring scales do not overlap at rest";
+        OutOfRange::unless(!overlap, "curvature of the body", curvature, expected)?;
         Self::unchecked(rows, design, stiffness, common, parameters)
     }
 

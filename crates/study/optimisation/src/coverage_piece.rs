@@ -45,8 +45,9 @@ struct Lengths {
 }
 
 impl Lengths {
+    /// `None` for an impossible row and on a curved body, where branches have no closed form.
     fn of(case: &Case) -> Option<Self> {
-        let row = case.design.row().ok()?;
+        let row = case.design.row().ok().filter(|_| case.body().is_flat())?;
         Some(Self { reach: row.scale().shift(), gap: row.gap(), pitch: row.pitch() })
     }
 
@@ -113,7 +114,7 @@ pub(crate) fn place(case: &Case) -> Option<f64> {
 ///
 /// `None` for an impossible row.
 pub(crate) fn open_share(case: &Case) -> Option<f64> {
-    Lengths::of(case).map(|lengths| lengths.gap / lengths.pitch)
+    case.design.row().ok().map(|row| row.gap() / row.pitch())
 }
 
 /// Continues the compliance `d/p` of strips without contact beyond contact.

@@ -1,6 +1,6 @@
 //! The case of one design: all parameters of its solution.
 
-use geometry::OutOfRange;
+use geometry::{Body, OutOfRange};
 use skin::flexure;
 use skin::puncture::{self, Needle, Strengths};
 use skin::{Base, Common, Design, Imperfection};
@@ -34,6 +34,9 @@ pub struct Case {
     pub flexure: flexure::FlexureParameters,
     /// Thickness of the substrate over the scale thickness. `None` for a half-space.
     pub tissue_thickness: Option<f64>,
+    /// Radius of the body below the skin over the scale thickness, negative for a concave body.
+    /// `None` if the curvature is given.
+    pub body_radius: Option<f64>,
     /// Neighbours coupled to a scale by the substrate.
     pub coupling: Coupling,
     /// Scatter of gaps and slants.
@@ -65,6 +68,8 @@ pub struct Millimetres {
     pub load_inset: Option<f64>,
     /// Radius of the tip of a guided needle.
     pub needle_radius: Option<f64>,
+    /// Radius of the body below the skin.
+    pub radius: Option<f64>,
     /// Additional depth at which the force is measured.
     pub depth: Option<f64>,
     /// Length of the membrane.
@@ -100,8 +105,13 @@ impl Case {
         let load_position = self.load_inset.map_or(position, inside);
         let seeks_failure = self.judge_failure || self.strengths != Strengths::default();
         let failure = seeks_failure.then_some(self.strengths);
-        let mut punctured =
-            puncture::PunctureParameters { load_position, failure, ..self.puncture };
+        let curvature = self.body().curvature;
+        let mut punctured = puncture::PunctureParameters {
+            load_position,
+            failure,
+            curvature,
+            ..self.puncture
+        };
         match (self.needle_friction, &mut punctured.needle) {
             (Some(Scalar::Number(given)), Needle::Guided { friction }) => *friction = given,
             (Some(given), Needle::Free) => {
@@ -110,6 +120,21 @@ impl Case {
             _ => {}
         }
         punctured
+    }
+
+    /// Returns the body below the skin. Lengths are over the thickness.
+    pub fn body(&self) -> Body {
+        Body { curvature: self.body_radius.map_or(self.puncture.curvature, f64::recip) }
+    }
+
+    /// Returns the coverage of the row on its body.
+    ///
+    /// # Errors
+    ///
+    /// If a length of the design is not positive, or its slant is out of range.
+    pub fn coverage(&self) -> Result<f64, OutOfRange> {
+        let (row, body) = (self.design.row()?, self.body());
+        Ok(if body.is_flat() { row.coverage() } else { row.coverage_on(body) })
     }
 
     /// Returns true if the load is on a top or has a round tip.
@@ -177,6 +202,7 @@ impl Default for Case {
             judge_failure: false,
             flexure: flexure::FlexureParameters::default(),
             tissue_thickness: None,
+            body_radius: None,
             coupling: Coupling::Nearest,
             imperfection: Imperfection::default(),
             samples: Samples { count: 100, seed: 1 },

@@ -1,7 +1,7 @@
 //! A row of scales on its substrate, at rest and punctured.
 
 use contact::Pose;
-use geometry::{Corner, OutOfRange, Row, Vec2};
+use geometry::{Body, Corner, Frame, OutOfRange, Row, Vec2};
 use results::puncture_units;
 use skin::puncture::{RowSnapshot, ScaleState};
 use sweep::Case;
@@ -84,6 +84,7 @@ fn load(case: &Case, state: &RowSnapshot) -> f64 {
 struct RowSheet<'a> {
     case: &'a Case,
     row: Row,
+    body: Body,
     /// Indices of the first and last scale shown.
     first: i64,
     last: i64,
@@ -106,16 +107,22 @@ impl<'a> RowSheet<'a> {
         let (a, shift, pitch) = (row.scale().half_base(), row.scale().shift(), row.pitch());
         let width = (last - first) as f64 * pitch + 2.0 * a + shift;
         let scale = ((WIDTH - 4.0 * MARGIN) / width).min(LARGEST);
+        // On a curved body the row rises or falls from the punctured scale.
+        let body = case.body();
+        let rest = Pose::new(0.0, 0.0, 0.0);
+        let heights = (first..=last).flat_map(|i| corners(&row, body, i as f64, &rest));
+        let (low, high) =
+            heights.fold((0.0_f64, 1.0_f64), |(low, high), [_, y]| (low.min(y), high.max(y)));
         // A corner of a tilted base is deeper than its middle.
         let deepest = states
             .iter()
             .flat_map(|state| &state.scales)
             .map(|s| a * s.rotation_deg.to_radians().sin().abs() - s.displacement[1]);
-        let deepest = scale * deepest.fold(0.0, f64::max) + SUBSTRATE;
+        let deepest = scale * (deepest.fold(0.0, f64::max) - low) + SUBSTRATE;
         // Centre the row on the paper.
         let middle = first as f64 * pitch - a + 0.5 * width;
-        let view = View { scale, origin: [0.5 * WIDTH - scale * middle, AIR + scale] };
-        let bars = AIR + scale + deepest + 18.0;
+        let view = View { scale, origin: [0.5 * WIDTH - scale * middle, AIR + scale * high] };
+        let bars = AIR + scale * high + deepest + 18.0;
         let largest = states.iter().map(|s| contacts::largest(&s.contacts).max(load(case, s)));
         let reactions = states.iter().flat_map(|state| {
             let load = load(case, state);
@@ -127,6 +134,7 @@ impl<'a> RowSheet<'a> {
         Ok(Self {
             case,
             row,
+            body,
             first,
             last,
             view,
@@ -148,24 +156,28 @@ impl<'a> RowSheet<'a> {
     fn at_rest(&self) -> DrawingPanel {
         let rest = Pose::new(0.0, 0.0, 0.0);
         let poses: Vec<_> = self.numbers().map(|i| (i, rest)).collect();
-        let bottom = AIR + self.view.scale + SUBSTRATE;
+        let lowest = |(i, pose): &(i64, Pose)| {
+            corners(&self.row, self.body, *i as f64, pose).map(|corner| self.place(corner)[1])
+        };
+        let bottom = poses.iter().flat_map(lowest).fold(0.0, f64::max) + SUBSTRATE;
         let mut inside = vec![self.substrate(&poses, bottom), self.scales(&poses)];
         inside.extend(self.coverage_line());
         let within_substrate = [WIDTH - 2.0 * MARGIN, bottom - 6.0];
         inside.extend(scale_bar(&self.view, self.case.material.thickness_mm, within_substrate));
-        let caption = format!("at rest, coverage $λ$ = {:.3}", self.row.coverage());
+        let caption =
+            format!("at rest, coverage $λ$ = {:.3}", self.case.coverage().unwrap_or_default());
         // Without load and reactions the panel needs less height.
         lifted(AIR - 14.0, bottom + 10.0, caption, inside)
     }
 
     /// Returns the height of the empty area at the top of the panel of a state, px.
     fn free(&self, state: &RowSnapshot) -> f64 {
-        let view = self.measured_from_left(state);
-        let arrow = |contact: &skin::Contact| {
-            view.place(contact.point)[1] - self.force * contact.force[1].abs()
+        let arrow = |contact: skin::Contact| {
+            self.place(contact.point)[1] - self.force * contact.force[1].abs()
         };
         let load = self.load_arrow(state).map(|[from, _]| from[1] - 16.0);
-        let highest = state.contacts.iter().map(arrow).chain(load).fold(AIR, f64::min);
+        let highest =
+            self.placed_contacts(state).into_iter().map(arrow).chain(load).fold(AIR, f64::min);
         (highest - 8.0).max(0.0)
     }
 
@@ -177,7 +189,7 @@ impl<'a> RowSheet<'a> {
             self.substrate(&poses, self.bars - 18.0),
             self.ghosts(),
             self.scales(&poses),
-            surface::folds(&self.row, &self.view, &poses),
+            surface::folds(&self.row, self.body, &self.view, &poses),
             self.overlaps(state),
             self.contacts(state),
             self.load(state),
@@ -217,7 +229,7 @@ impl<'a> RowSheet<'a> {
     /// Returns the substrate with its surface bonded to the bases.
     fn substrate(&self, poses: &[(i64, Pose)], bottom: f64) -> Element {
         let surface = poses.iter().flat_map(|(i, pose)| {
-            let [left, right, ..] = corners(&self.row, *i as f64, pose);
+            let [left, right, ..] = corners(&self.row, self.body, *i as f64, pose);
             [left, right]
         });
         let mut top: Vec<Spot> = surface.map(|point| self.place(point)).collect();
@@ -235,7 +247,7 @@ impl<'a> RowSheet<'a> {
     fn scales(&self, poses: &[(i64, Pose)]) -> Element {
         let scale = |(i, pose): &(i64, Pose)| {
             let fill = if *i == 0 { "#8fb3cf" } else { "#d5dee6" };
-            polygon(&self.view.all(&corners(&self.row, *i as f64, pose)))
+            polygon(&self.view.all(&corners(&self.row, self.body, *i as f64, pose)))
                 .with("fill", fill)
                 .with("fill-opacity", "0.92")
         };
@@ -257,7 +269,8 @@ impl<'a> RowSheet<'a> {
     /// Returns the outlines of the scales at rest.
     fn ghosts(&self) -> Element {
         let rest = Pose::new(0.0, 0.0, 0.0);
-        let ghost = |i: i64| polygon(&self.view.all(&corners(&self.row, i as f64, &rest)));
+        let ghost =
+            |i: i64| polygon(&self.view.all(&corners(&self.row, self.body, i as f64, &rest)));
         Element::group("at-rest")
             .with("fill", "none")
             .with("stroke", "#9aa5ad")
@@ -268,28 +281,43 @@ impl<'a> RowSheet<'a> {
 
     fn overlaps(&self, state: &RowSnapshot) -> Element {
         let poses: Vec<_> = state.scales.iter().map(pose).collect();
-        contacts::overlaps(&self.measured_from_left(state), &overlaps(&self.row, &poses))
+        let frame = self.first_frame(state);
+        let mut polygons = overlaps(&self.row, self.body, &poses);
+        for point in polygons.iter_mut().flat_map(|(_, points)| points) {
+            *point = (frame.origin + frame.outward((*point).into())).into();
+        }
+        contacts::overlaps(&self.view, &polygons)
     }
 
     fn contacts(&self, state: &RowSnapshot) -> Element {
-        let view = self.measured_from_left(state);
         let radius = (0.09 * self.view.scale).clamp(4.0, 9.0);
         let first = state.scales.first().map_or(0, |scale| scale.scale);
-        let shown = |contact: &&skin::Contact| {
+        let shown = |contact: &skin::Contact| {
             let left = first + contact.left as i64;
             self.first <= left && left < self.last
         };
-        let shown: Vec<_> = state.contacts.iter().filter(shown).copied().collect();
+        let shown: Vec<_> = self.placed_contacts(state).into_iter().filter(shown).collect();
         Element::group("contact").containing([
-            contacts::halos(&view, &shown, radius),
-            contacts::forces(&view, &shown, self.force),
+            contacts::halos(&self.view, &shown, radius),
+            contacts::forces(&self.view, &shown, self.force),
         ])
     }
 
-    /// Returns the view for coordinates measured from the left end of the row.
-    fn measured_from_left(&self, state: &RowSnapshot) -> View {
+    /// Returns the tangent frame of the first scale of the row, from the punctured one.
+    fn first_frame(&self, state: &RowSnapshot) -> Frame {
         let first = state.scales.first().map_or(0, |scale| scale.scale);
-        View { origin: self.place([first as f64 * self.row.pitch(), 0.0]), ..self.view }
+        self.body.frame(first as f64 * self.row.pitch())
+    }
+
+    /// Returns the contacts with points and forces in the frame of the punctured scale.
+    fn placed_contacts(&self, state: &RowSnapshot) -> Vec<skin::Contact> {
+        let frame = self.first_frame(state);
+        let placed = state.contacts.iter().map(|contact| skin::Contact {
+            point: (frame.origin + frame.outward(contact.point.into())).into(),
+            force: frame.outward(contact.force.into()).into(),
+            ..*contact
+        });
+        placed.collect()
     }
 
     /// Returns the current position of the loaded point of the punctured scale; `None` without a
@@ -361,7 +389,8 @@ impl<'a> RowSheet<'a> {
         let Some(punctured) = state.scales.iter().find(|s| s.scale == 0) else {
             return Element::group("tilt");
         };
-        let [left, right, ..] = corners(&self.row, 0.0, &pose(punctured)).map(|c| self.place(c));
+        let [left, right, ..] =
+            corners(&self.row, self.body, 0.0, &pose(punctured)).map(|c| self.place(c));
         let along = (right[0] - left[0]).hypot(right[1] - left[1]);
         let reach = (1.25 * along).max(34.0);
         let tilt = state.tilt_deg.to_radians();
@@ -384,7 +413,8 @@ impl<'a> RowSheet<'a> {
         let zero = self.bars + BARS + unit * low;
         let width = (0.86 * 2.0 * self.row.scale().half_base() * self.view.scale).max(2.0);
         let bar = |state: &&ScaleState| {
-            let x = self.place([state.scale as f64 * self.row.pitch(), 0.0])[0];
+            let node = self.body.frame(state.scale as f64 * self.row.pitch()).origin;
+            let x = self.place(node.into())[0];
             let height = if load > 0.0 { unit * state.reaction / load } else { 0.0 };
             rect([x - 0.5 * width, zero - height.max(0.0)], [width, height.abs()])
         };
@@ -412,9 +442,13 @@ impl<'a> RowSheet<'a> {
         (shift > 1e-9).then(|| {
             let x = a + shift;
             let mut parts = vec![
-                line(self.place([x, 1.0]), self.place([x, 0.0]), "#b34700", 1.2)
+                line(self.place([x, 1.0]), self.place([x, self.body.height(x)]), "#b34700", 1.2)
                     .with("stroke-dasharray", "4 3"),
             ];
+            // The thick parts are in closed form on a flat body only.
+            if !self.body.is_flat() {
+                return Element::group("coverage").containing(parts);
+            }
             // A base is shorter than a pitch, so scales beyond these cannot reach the line.
             let neighbours = 1..=(shift / pitch).ceil() as i64 + 1;
             parts.extend(neighbours.filter_map(|k| {

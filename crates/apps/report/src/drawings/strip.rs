@@ -1,7 +1,7 @@
 //! A strip of membrane with scales, bent.
 
 use contact::Pose;
-use geometry::{OutOfRange, Row};
+use geometry::{Body, OutOfRange, Row};
 use results::bending_units;
 use skin::Contact;
 use skin::flexure::StripSnapshot;
@@ -168,7 +168,8 @@ struct Shape {
 impl Shape {
     fn upright(row: &Row, state: &StripSnapshot) -> Self {
         let poses = poses(state);
-        let bodies = poses.iter().enumerate().map(|(i, pose)| corners(row, i as f64, pose));
+        let bodies =
+            poses.iter().enumerate().map(|(i, pose)| corners(row, Body::default(), i as f64, pose));
         let shape = Self {
             bodies: bodies.collect(),
             membrane: state.membrane.clone(),
@@ -186,9 +187,11 @@ impl Shape {
         let pair: Vec<Pose> = poses(state)[left..left + 2].to_vec();
         // A pair is measured from its left scale, a strip from its first scale.
         let along = left as f64 * row.pitch();
-        let bodies = (0..2).map(|i| corners(row, (left + i) as f64, &pair[i]));
+        let bodies = (0..2).map(|i| corners(row, Body::default(), (left + i) as f64, &pair[i]));
         let shift = |points: Vec<[f64; 2]>| points.iter().map(|p| [p[0] + along, p[1]]).collect();
-        let overlaps = overlaps(row, &pair).into_iter().map(|(_, points)| (left, shift(points)));
+        let overlaps = overlaps(row, Body::default(), &pair)
+            .into_iter()
+            .map(|(_, points)| (left, shift(points)));
         let contacts = state.contacts.iter().filter(|contact| contact.left == left);
         let turn = -0.5 * (pair[0].rotation + pair[1].rotation);
         let shape = Self {

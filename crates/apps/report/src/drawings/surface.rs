@@ -1,7 +1,7 @@
 //! Folds of the substrate surface, where two neighbouring bases cross.
 
 use contact::Pose;
-use geometry::Row;
+use geometry::{Body, Row};
 
 use super::bodies::corners;
 use super::view::View;
@@ -11,14 +11,14 @@ use crate::svg::{Element, line};
 /// Draws the folded strips of the surface in red.
 ///
 /// Each strip runs from the right end of a base back to the left end of the next base.
-pub(super) fn folds(row: &Row, view: &View, poses: &[(i64, Pose)]) -> Element {
+pub(super) fn folds(row: &Row, body: Body, view: &View, poses: &[(i64, Pose)]) -> Element {
     let strip = |[from, to]: [[f64; 2]; 2]| line(view.place(from), view.place(to), RED, 2.6);
-    Element::group("folds").containing(folded(row, poses).map(strip))
+    Element::group("folds").containing(folded(row, body, poses).map(strip))
 }
 
 /// Formats the number of gaps with a fold; empty if there is none.
 pub(super) fn folds_label(row: &Row, poses: &[(i64, Pose)]) -> String {
-    match folded(row, poses).count() {
+    match folded(row, Body::default(), poses).count() {
         0 => String::new(),
         1 => ",  surface folded over in 1 gap".to_owned(),
         count => format!(",  surface folded over in {count} gaps"),
@@ -26,10 +26,20 @@ pub(super) fn folds_label(row: &Row, poses: &[(i64, Pose)]) -> String {
 }
 
 /// Returns the ends of the folded strips: the right base begins left of the end of the left base.
-fn folded<'a>(row: &'a Row, poses: &'a [(i64, Pose)]) -> impl Iterator<Item = [[f64; 2]; 2]> + 'a {
-    poses.windows(2).filter_map(|pair| {
-        let [[_, from, ..], [to, ..]] =
-            [&pair[0], &pair[1]].map(|(i, pose)| corners(row, *i as f64, pose));
-        (to[0] <= from[0]).then_some([from, to])
+///
+/// On a curved body the displacements along the surface decide, as in the mechanics.
+fn folded<'a>(
+    row: &'a Row,
+    body: Body,
+    poses: &'a [(i64, Pose)],
+) -> impl Iterator<Item = [[f64; 2]; 2]> + 'a {
+    poses.windows(2).filter_map(move |pair| {
+        let ends = |body: Body| {
+            let [[_, from, ..], [to, ..]] =
+                [&pair[0], &pair[1]].map(|(i, pose)| corners(row, body, *i as f64, pose));
+            [from, to]
+        };
+        let [from, to] = ends(Body::default());
+        (to[0] <= from[0]).then(|| ends(body))
     })
 }

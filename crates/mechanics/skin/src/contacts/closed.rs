@@ -47,7 +47,8 @@ impl Contacts {
             let corner_edge = corner_edge?;
             let point = self.corner(&state.z, contact, corner_edge).into();
             let [left, right] = self.ends(Self::pair_of(contact));
-            let force = if self.body.is_flat() { force } else { self.frame_at(left).outward(force) };
+            let force =
+                if self.body.is_flat() { force } else { self.frame_at(left).outward(force) };
             Some(Contact { left, right, corner_edge, point, force: force.into(), approach, slips })
         })
     }

@@ -30,6 +30,8 @@ pub enum Outcome {
     Interpenetration,
     /// A contact slid off a corner.
     OffEdge,
+    /// Neighbouring scales overlap at rest on a concave body.
+    Overlapping,
     /// The calibration of the substrate springs failed.
     Calibration,
     /// Internal error of the program.
@@ -49,7 +51,7 @@ pub enum Outcome {
 
 impl Outcome {
     /// All outcomes.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 17] = [
         Self::Complete,
         Self::NoConvergence,
         Self::Singular,
@@ -59,6 +61,7 @@ impl Outcome {
         Self::RowLimit,
         Self::Interpenetration,
         Self::OffEdge,
+        Self::Overlapping,
         Self::Calibration,
         Self::Internal,
         Self::Unloaded,
@@ -79,6 +82,7 @@ impl Outcome {
             Self::NotFinite => "not finite",
             Self::RowLimit => "row limit",
             Self::Interpenetration => "interpenetration",
+            Self::Overlapping => "overlap at rest",
             Self::OffEdge => "off the edge",
             Self::Locked => "locked",
             Self::Jumps => "jumps",
@@ -102,6 +106,9 @@ impl Outcome {
             Self::RowLimit => "the row needs more scales than its maximum",
             Self::Interpenetration => {
                 "two scales overlap by more than the range of the contact law"
+            }
+            Self::Overlapping => {
+                "neighbouring scales overlap at rest, because the body below them is too concave"
             }
             Self::OffEdge => {
                 "a contact slid off a corner, or a corner reaches a guided needle from the side"

@@ -156,6 +156,9 @@ impl Evaluator {
         case: &Case,
         sensitivity: &mut Vec<ParameterDerivative>,
     ) -> Result<(PunctureResult, Puncture), Outcome> {
+        if solved(|| puncture::overlaps_at_rest(&case.design, case.body()))? {
+            return Err(Outcome::Overlapping);
+        }
         if self.differentiates() {
             let slopes = guarded(|| self.slopes(case)).flatten()?;
             let error = slopes.stiffness.estimated_error();
@@ -244,7 +247,7 @@ pub(super) fn without_path(case: &Case) -> Case {
 }
 
 fn coverage(case: &Case) -> Option<f64> {
-    let coverage = guarded(|| case.design.row().ok().map(|row| row.coverage()));
+    let coverage = guarded(|| case.coverage().ok());
     coverage.ok().flatten().and_then(finite)
 }
 

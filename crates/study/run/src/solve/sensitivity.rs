@@ -87,13 +87,17 @@ pub(super) fn flexure(case: &Case) -> Result<(Flexure, Vec<ParameterDerivative>)
 pub(super) fn coverage(case: &Case) -> Vec<ParameterDerivative> {
     let Ok(row) = case.design.row() else { return Vec::new() };
     let parameters = parameters(case, Measure::Coverage);
+    if !case.body().is_flat() {
+        return coverage_on_body(case, &parameters);
+    }
     let half_base = case.design.half_base() / case.design.length;
     let shift = row.scale().slant().cos().powi(-2) * 1.0_f64.to_radians();
     let derivative = |(parameter, key): (usize, &str)| {
         let change = match key {
             "gap_over_t" => RowChange { gap: 1.0, ..RowChange::default() },
             "length_over_t" => RowChange { half_base, ..RowChange::default() },
-            _ => RowChange { shift, ..RowChange::default() },
+            "slant_deg" => RowChange { shift, ..RowChange::default() },
+            _ => return coverage_difference(case, parameter, parameters[parameter]),
         };
         let RowChange { gap, half_base, shift } = change;
         let back = RowChange { gap: -gap, half_base: -half_base, shift: -shift };
@@ -112,6 +116,37 @@ pub(super) fn coverage(case: &Case) -> Vec<ParameterDerivative> {
     };
     let keys = parameters.iter().map(|parameter| parameter.key).enumerate();
     named(case, &parameters, keys.map(derivative).collect())
+}
+
+/// Returns the derivatives of the coverage on a curved body.
+fn coverage_on_body(case: &Case, parameters: &[&'static Parameter]) -> Vec<ParameterDerivative> {
+    let derivatives = parameters.iter().enumerate();
+    let derivatives = derivatives.map(|(index, of)| coverage_difference(case, index, of));
+    named(case, parameters, derivatives.collect())
+}
+
+/// Differentiates the coverage on a curved body by one-sided differences of second order.
+fn coverage_difference(case: &Case, index: usize, parameter: &Parameter) -> Derivative {
+    let coverage = |by: f64| {
+        let moved = parameter.moved(case, by)?;
+        Some(moved.design.leaning_row().ok()?.coverage_on(moved.body()))
+    };
+    let step = parameter.size(case).map(|size| STEP * size);
+    let rate = |sign: f64| {
+        let at = |steps: f64| coverage(sign * steps * step?);
+        Some(sign * (4.0 * at(1.0)? - at(2.0)? - 3.0 * at(0.0)?) / (2.0 * step?))
+    };
+    let (left, right) = (rate(-1.0), rate(1.0));
+    // Round-off of the coverage over the step.
+    let smooth = left.zip(right).is_none_or(|(left, right)| (left - right).abs() <= 1e-7);
+    Derivative {
+        measure: name::COVERAGE,
+        parameter: index,
+        value: coverage(0.0).unwrap_or(f64::NAN),
+        left,
+        right: if smooth { left } else { right },
+        kink: (!smooth).then(|| "another scale under the line".to_owned()),
+    }
 }
 
 /// Adds names and values of the parameters to derivatives.

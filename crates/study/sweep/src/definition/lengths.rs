@@ -18,6 +18,9 @@ pub(super) fn check(given: &Parameter, grid: &Grid, variables: &[Variable]) -> R
     if given.key == key::LOAD_POSITION {
         return check_place(given, grid, variables);
     }
+    if given.is_or_says(key::RADIUS) {
+        check_radius(given, grid, variables)?;
+    }
     let length = given.said_in(grid.base()).map(|of| (of, key::THICKNESS));
     let mut all = length.into_iter().chain(given.ratios());
     all.try_for_each(|(of, unit)| check_one(given, (of, unit), grid, variables))
@@ -35,6 +38,23 @@ fn check_place(given: &Parameter, grid: &Grid, variables: &[Variable]) -> Result
         })),
         None => Ok(()),
     }
+}
+
+/// Refuses a radius of zero, and ranges that contain it.
+fn check_radius(given: &Parameter, grid: &Grid, variables: &[Variable]) -> Result<(), Problem> {
+    let axis = grid.axes().iter().find(|axis| axis.parameter() == given);
+    let radii = axis.map_or_else(|| vec![given.get(grid.base())], |axis| ends(axis, variables));
+    let signs: Vec<_> =
+        radii.iter().filter_map(|radius| radius.number()).map(f64::signum).collect();
+    let vanishes = radii.iter().any(|radius| radius.number() == Some(0.0));
+    if vanishes || signs.iter().any(|sign| *sign != signs[0]) {
+        let found = radii.iter().map(ToString::to_string).collect::<Vec<_>>().join(" to ");
+        let expected = "a radius above 0 for a convex body or below 0 for a concave one; \
+                        curvature_times_t may pass through 0, a flat body";
+        let expected = expected.to_owned();
+        return Err(Problem::Value(WrongValue::OutOfRange { found, expected }));
+    }
+    Ok(())
 }
 
 /// Checks the parameter `of` that follows from `given` and the parameter `unit`.

@@ -47,8 +47,8 @@ impl Measure {
     /// Returns the sections with continuous parameters that the measure depends on.
     pub fn sections(self) -> &'static [&'static str] {
         match self {
-            Self::Coverage => &["designs"],
-            Self::Puncture => &["designs", "scale", "substrate", "contact", "puncture"],
+            Self::Coverage => &["designs", "body"],
+            Self::Puncture => &["designs", "scale", "substrate", "body", "contact", "puncture"],
             Self::Flexure => &["designs", "scale", "contact", "flexure"],
             Self::Sensitivity => &[],
         }

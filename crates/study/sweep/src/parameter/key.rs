@@ -14,6 +14,12 @@ pub const SLANT: &str = "slant_deg";
 
 /// Radius of the needle tip.
 pub const NEEDLE_RADIUS: &str = "needle_radius_over_t";
+/// Curvature of the body.
+pub const CURVATURE: &str = "curvature_times_t";
+
+/// Radius of the body.
+pub const RADIUS: &str = "radius_over_t";
+
 /// Width of the scales.
 pub const WIDTH: &str = "width_over_t";
 

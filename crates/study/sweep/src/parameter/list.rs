@@ -158,6 +158,17 @@ pub static PARAMETERS: &[Parameter] = parameters! {
             "response of the substrate in the gap between two bases: linear springs, or rubber, which cannot fold over";
     }
 
+    "body" {
+        key::CURVATURE, "1/t", [Continuous, Made],
+            number(Range::closed(-1.0, 1.0), |c| &mut c.puncture.curvature),
+            "curvature 1/R of the body below the skin: positive for a convex body, such as a finger, negative for a concave one";
+        key::RADIUS, "t", [Continuous, Made, InsteadOf(key::CURVATURE)],
+            optional(ANY, |c| &mut c.body_radius),
+            "radius R of the body below the skin, instead of the curvature; negative for a concave body";
+        "radius_mm", "mm", [InMm(key::RADIUS), Made],
+            optional(ANY, |c| &mut c.in_mm.radius), in_mm!("radius", "radius of the body below the skin");
+    }
+
     "contact" {
         "c1", "-", [Continuous, Made],
             number(Range::closed(1e-3, 1e3), |c| &mut c.common.law.c1), "prefactor C1 of the contact law";
