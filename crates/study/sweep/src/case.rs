@@ -106,12 +106,8 @@ impl Case {
         let seeks_failure = self.judge_failure || self.strengths != Strengths::default();
         let failure = seeks_failure.then_some(self.strengths);
         let curvature = self.body().curvature;
-        let mut punctured = puncture::PunctureParameters {
-            load_position,
-            failure,
-            curvature,
-            ..self.puncture
-        };
+        let mut punctured =
+            puncture::PunctureParameters { load_position, failure, curvature, ..self.puncture };
         match (self.needle_friction, &mut punctured.needle) {
             (Some(Scalar::Number(given)), Needle::Guided { friction }) => *friction = given,
             (Some(given), Needle::Free) => {
