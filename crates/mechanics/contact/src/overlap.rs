@@ -24,8 +24,8 @@ pub struct Overlap {
 
 /// Finds all overlapping pairs of scales of a row, neighbours or not.
 ///
-/// `standing(i)` returns the shape of scale `i` and its node at rest. Poses are in the frame of these
-/// nodes.
+/// `standing(i)` returns the shape of scale `i` and its node at rest. Displacements count from
+/// these nodes.
 pub fn overlaps(standing: impl Fn(usize) -> (Parallelogram, Vec2), poses: &[Pose]) -> Vec<Overlap> {
     let extents: Vec<Extents> = poses
         .iter()

@@ -88,19 +88,15 @@ impl Arrangement {
     /// Pairs are ordered by left scale, then by distance. An even row has one entry per distance.
     /// Each comes with the tangent frame of the right scale in the frame of the left one.
     pub(crate) fn pairs(&self, reach: usize, body: Body) -> Vec<(Pair, Frame)> {
-        let between = |scales: [Parallelogram; 2], distance: f64| {
-            let frame = body.frame(distance);
-            (Pair::between(scales, frame.origin), frame)
-        };
         match self {
             Self::Even(row) => (1..=reach)
-                .map(|pitches| between([*row.scale(); 2], pitches as f64 * row.pitch()))
+                .map(|pitches| pair_on(body, [*row.scale(); 2], pitches as f64 * row.pitch()))
                 .collect(),
             Self::Uneven(row) => {
                 let last = row.gaps().len();
                 let pair = |left: usize, right: usize| {
                     let distance = (left..right).map(|i| row.pitch(i)).sum();
-                    between([row.scales()[left], row.scales()[right]], distance)
+                    pair_on(body, [row.scales()[left], row.scales()[right]], distance)
                 };
                 // Pairs that reach beyond the end get the last scale as a placeholder. They are
                 // never evaluated.
@@ -112,6 +108,12 @@ impl Arrangement {
             }
         }
     }
+}
+
+/// Creates a pair of scales on a body, with the frame of the right one in the frame of the left.
+fn pair_on(body: Body, scales: [Parallelogram; 2], distance: f64) -> (Pair, Frame) {
+    let frame = body.frame(distance);
+    (Pair::between(scales, frame.origin), frame)
 }
 
 /// Computes the distance of two polygons that do not overlap.

@@ -99,17 +99,17 @@ impl Contacts {
         let pair = Self::pair_of(contact);
         let (ends, pair) = (self.ends(pair), self.pair(pair));
         let arm = pose.turn(pair.scales()[of_right].corner(corner_edge.corner()));
-        let from_left = |place: Vec2| place + pose.displacement + arm;
+        let moved = pose.displacement + arm;
         // With relative poses, positions count from the left scale of the pair instead of the first
         // scale.
         if self.relative || !self.body.is_flat() {
-            let corner = from_left(of_right as f64 * pair.offset());
+            let corner = of_right as f64 * pair.offset() + moved;
             if self.relative {
                 return corner;
             }
             let frame = self.frame_at(ends[0]);
             return frame.origin + frame.outward(corner);
         }
-        from_left(Vec2::new(self.arrangement.place(ends[of_right]), 0.0))
+        Vec2::new(self.arrangement.place(ends[of_right]), 0.0) + moved
     }
 }

@@ -30,7 +30,7 @@ use solver::{Condition, Newton};
 
 use super::PunctureParameters;
 use super::system::{Chain, RowLayout};
-use crate::contacts::SkinState;
+use crate::contacts::{Contacts, SkinState};
 
 pub(super) use history::{HistoryObserver, HistoryVariable, anchors, event_before, history, with};
 pub(crate) use mode::NeedleMode;
@@ -312,8 +312,8 @@ impl Chain {
 
     /// Returns the tangent frame of a scale in the frame of the punctured one.
     pub(super) fn from_punctured(&self, scale: usize) -> Frame {
-        let place = |scale: usize| self.contacts.arrangement.place(scale);
-        self.contacts.body.frame(place(scale) - place(self.layout.left))
+        let Contacts { arrangement, body, .. } = &self.contacts;
+        body.frame(arrangement.place(scale) - arrangement.place(self.layout.left))
     }
 
     /// Computes the contact of the tip with a part of a scale.

@@ -127,26 +127,31 @@ fn coverage_on_body(case: &Case, parameters: &[&'static Parameter]) -> Vec<Param
 
 /// Differentiates the coverage on a curved body by one-sided differences of second order.
 fn coverage_difference(case: &Case, index: usize, parameter: &Parameter) -> Derivative {
-    let coverage = |by: f64| {
-        let moved = parameter.moved(case, by)?;
-        Some(moved.design.leaning_row().ok()?.coverage_on(moved.body()))
-    };
-    let step = parameter.size(case).map(|size| STEP * size);
-    let rate = |sign: f64| {
-        let at = |steps: f64| coverage(sign * steps * step?);
-        Some(sign * (4.0 * at(1.0)? - at(2.0)? - 3.0 * at(0.0)?) / (2.0 * step?))
-    };
-    let (left, right) = (rate(-1.0), rate(1.0));
+    let [left, right] = [-1.0, 1.0].map(|side| coverage_rate(case, parameter, side));
     // Round-off of the coverage over the step.
     let smooth = left.zip(right).is_none_or(|(left, right)| (left - right).abs() <= 1e-7);
     Derivative {
         measure: name::COVERAGE,
         parameter: index,
-        value: coverage(0.0).unwrap_or(f64::NAN),
+        value: coverage_beside(case, parameter, 0.0).unwrap_or(f64::NAN),
         left,
         right: if smooth { left } else { right },
         kink: (!smooth).then(|| "another scale under the line".to_owned()),
     }
+}
+
+/// Computes the derivative of the coverage on one side, −1 or 1.
+fn coverage_rate(case: &Case, parameter: &Parameter, side: f64) -> Option<f64> {
+    let step = side * STEP * parameter.size(case)?;
+    let [here, next, second] =
+        [0.0, 1.0, 2.0].map(|steps| coverage_beside(case, parameter, steps * step));
+    Some((4.0 * next? - second? - 3.0 * here?) / (2.0 * step))
+}
+
+/// Computes the coverage after a change of a parameter.
+fn coverage_beside(case: &Case, parameter: &Parameter, by: f64) -> Option<f64> {
+    let moved = parameter.moved(case, by)?;
+    Some(moved.design.leaning_row().ok()?.coverage_on(moved.body()))
 }
 
 /// Adds names and values of the parameters to derivatives.

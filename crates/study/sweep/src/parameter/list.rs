@@ -166,7 +166,8 @@ pub static PARAMETERS: &[Parameter] = parameters! {
             optional(ANY, |c| &mut c.body_radius),
             "radius R of the body below the skin, instead of the curvature; negative for a concave body";
         "radius_mm", "mm", [InMm(key::RADIUS), Made],
-            optional(ANY, |c| &mut c.in_mm.radius), in_mm!("radius", "radius of the body below the skin");
+            optional(ANY, |c| &mut c.in_mm.radius),
+            in_mm!("radius", "radius of the body below the skin");
     }
 
     "contact" {
