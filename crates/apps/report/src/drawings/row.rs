@@ -156,10 +156,9 @@ impl<'a> RowSheet<'a> {
     fn at_rest(&self) -> DrawingPanel {
         let rest = Pose::new(0.0, 0.0, 0.0);
         let poses: Vec<_> = self.numbers().map(|i| (i, rest)).collect();
-        let lowest = |(i, pose): &(i64, Pose)| {
-            corners(&self.row, self.body, *i as f64, pose).map(|corner| self.place(corner)[1])
-        };
-        let bottom = poses.iter().flat_map(lowest).fold(0.0, f64::max) + SUBSTRATE;
+        let corners = self.numbers().flat_map(|i| corners(&self.row, self.body, i as f64, &rest));
+        let lowest = corners.map(|corner| self.place(corner)[1]).fold(0.0, f64::max);
+        let bottom = lowest + SUBSTRATE;
         let mut inside = vec![self.substrate(&poses, bottom), self.scales(&poses)];
         inside.extend(self.coverage_line());
         let within_substrate = [WIDTH - 2.0 * MARGIN, bottom - 6.0];
