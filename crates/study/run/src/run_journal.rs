@@ -8,6 +8,7 @@
 mod archive;
 mod edited;
 mod entry;
+mod extension;
 mod index;
 
 use journal::{JournalError, Program, Start};
@@ -40,7 +41,11 @@ pub(crate) fn begin(
     start: Start,
 ) -> Result<Journal, JournalError> {
     folder.require_own(Maker::Run, start)?;
-    let journal = Journal::begin(&folder.journal(), header, start)?;
+    let adopted = if start == Start::Resume { extension::adopt(folder, &header)? } else { None };
+    let mut journal = Journal::begin(&folder.journal(), header, start)?;
+    if let Some(note) = adopted {
+        journal.note(note);
+    }
     // A fresh start has discarded the lines.
     if start == Start::Fresh { Ok(journal) } else { checked(journal, folder) }
 }

@@ -108,3 +108,40 @@ fn further_axes_have_a_column() {
     assert_eq!(rows[1], "0001,1,0.2,0,0,L");
     assert_eq!(rows[3], "0003,1,0.2,0,0,2L");
 }
+
+/// Returns the number of designs in the journal of `r`.
+fn solved(place: &Place) -> usize {
+    place.read("r/journal.jsonl").matches("\"design\":{").count()
+}
+
+/// A definition with more designs reuses the solved ones and gives the tables of a fresh run.
+#[test]
+fn a_resumed_run_reuses_the_designs_of_a_shorter_axis() {
+    let place = Place::with(FEW);
+    let longer = FEW.replace("[0, 45]", "{ from = 0, to = 45, step = 15 }");
+    let longer = longer.replace("[0.1, 0.5]", "[0.05, 0.1, 0.5]");
+    std::fs::write(place.path("longer.toml"), &longer).expect("writable");
+    let list = longer.replace("{ from = 0, to = 45, step = 15 }", "[0, 15, 30, 45]");
+    std::fs::write(place.path("list.toml"), list).expect("writable");
+    place.squama("run x.toml -q --out r").assert().code(0);
+    let resume = |definition: &str| {
+        let run = place.squama(&format!("run {definition} -q --out r --resume")).assert().code(0);
+        String::from_utf8(run.get_output().stderr.clone()).expect("text")
+    };
+    let message = resume("longer.toml");
+    assert!(message.contains("8 solved designs are in both and stay"), "{message}");
+    assert_eq!(solved(&place), 24, "the other 16 are solved");
+    place.squama("run longer.toml -q --out fresh").assert().code(0);
+    for table in ["designs.csv", "critical_force.csv", "compliance.csv", "failures.csv"] {
+        assert_eq!(place.read(&format!("r/{table}")), place.read(&format!("fresh/{table}")));
+    }
+    let message = resume("list.toml");
+    assert!(message.contains("24 solved designs are in both and stay"), "{message}");
+    assert_eq!(solved(&place), 24, "nothing is solved again");
+    assert_eq!(place.read("r/designs.csv"), place.read("fresh/designs.csv"));
+    // Solved designs are never dropped, and other parameters give other designs.
+    assert!(place.refused("run x.toml --out r --resume").contains("is of another definition"));
+    let other = "run list.toml --out r --resume --set scale.width_over_t=2";
+    assert!(place.refused(other).contains("is of another definition"));
+    assert_eq!(solved(&place), 24);
+}
