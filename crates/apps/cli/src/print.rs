@@ -34,6 +34,15 @@ pub fn note(text: &str) {
     let _ = writeln!(io::stderr(), "note: {}", text::visible(text));
 }
 
+/// Marks a design under which the surface of the substrate folds.
+pub const FOLDED: char = '⚠';
+
+/// Prints a warning to stderr.
+pub fn warning(text: &str) {
+    // As for a note, there is nobody to tell if stderr is closed.
+    let _ = writeln!(io::stderr(), "warning: {}", text::visible(text));
+}
+
 /// Aligns the columns of `rows` and indents each line by two spaces.
 pub fn aligned<R: AsRef<[String]>>(rows: &[R]) -> String {
     let mut widths = Vec::new();

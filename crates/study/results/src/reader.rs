@@ -4,8 +4,7 @@ pub(crate) mod table;
 mod thinning;
 
 use std::borrow::Cow;
-use std::fs::File;
-use std::io::{self, BufRead as _, BufReader, Seek as _};
+use std::io::{self, BufRead as _, BufReader, Read, Seek as _};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -13,7 +12,7 @@ use crate::columns::{parameter_of, physical_source, tells_apart};
 use sweep::{Parameter, Sweep};
 use text::{has_part, nearest, number, reason};
 
-use crate::contents::verified_folder::{Completeness, InvalidFolder, VerifiedFolder};
+use crate::contents::verified_folder::{Completeness, InvalidFolder, TableText, VerifiedFolder};
 use crate::folder::ResultsFolder;
 use crate::tables::csv_format::CsvFormat;
 use table::Table;
@@ -143,7 +142,7 @@ impl Results {
         is_read: impl Fn(&str) -> bool,
     ) -> Result<Self, InvalidResults> {
         let path = folder.path().join(file);
-        let read = read_table(folder.file(file).map_err(InvalidResults::Folder)?, most, is_read);
+        let read = read_table(folder.table(file).map_err(InvalidResults::Folder)?, most, is_read);
         let (format, table, in_table) = read.map_err(|error| InvalidResults::Unreadable {
             file: path.display().to_string(),
             reason: words(error),
@@ -306,12 +305,12 @@ fn definition(folder: &VerifiedFolder) -> Result<Option<Sweep>, InvalidFolder> {
 ///
 /// Returns the format, the cells, and the number of rows in the file.
 fn read_table(
-    mut file: File,
+    mut file: Box<dyn TableText>,
     most: usize,
     is_read: impl Fn(&str) -> bool,
 ) -> Result<(CsvFormat, Table, usize), csv::Error> {
     // Counting reads the whole file once more, so count only if rows are left out.
-    let in_table = if most == usize::MAX { 0 } else { count_rows(&file)? };
+    let in_table = if most == usize::MAX { 0 } else { count_rows(&mut file)? };
     file.rewind()?;
     let mut file = BufReader::new(file);
     let (format, start) = CsvFormat::detect(file.fill_buf()?);
@@ -333,7 +332,7 @@ fn read_table(
 }
 
 /// Counts the rows of a table. Cells contain no line ends.
-fn count_rows(file: &File) -> io::Result<usize> {
+fn count_rows(file: impl Read) -> io::Result<usize> {
     let mut lines = 0;
     let mut file = BufReader::new(file);
     loop {

@@ -2,4 +2,5 @@
 
 pub mod csv_file;
 pub mod csv_format;
+pub mod resaved;
 pub mod written_table;

@@ -1,7 +1,9 @@
 //! Definitions and results folders: commands accept either, and find the other.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 
 use anyhow::{bail, ensure};
 use clap::Args;
@@ -9,7 +11,7 @@ use optimisation::DesignGoal;
 use results::{Completeness, ResultsFolder, VerifiedFolder, verify_record};
 use sweep::{InvalidSetting, Setting, Sweep, entries, read_text};
 
-use crate::print::note;
+use crate::print::{note, warning};
 
 /// The option `--partial`.
 #[derive(Debug, Args)]
@@ -184,7 +186,15 @@ fn refuse_folder_of_runs(path: &Path) -> anyhow::Result<()> {
 
 /// Opens and verifies the results of `path`.
 pub fn verified_folder(path: &Path, completeness: Completeness) -> anyhow::Result<VerifiedFolder> {
-    Ok(VerifiedFolder::open(&results_folder(path)?, completeness)?)
+    Ok(VerifiedFolder::open(&results_folder(path)?, completeness)?.warning(warn_once))
+}
+
+/// Prints a warning about a table, although several steps of a command read it.
+fn warn_once(text: &str) {
+    static PRINTED: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+    if PRINTED.lock().is_ok_and(|mut printed| printed.insert(text.to_owned())) {
+        warning(text);
+    }
 }
 
 /// Returns the results folder of `sweep`: `out`, or the default.

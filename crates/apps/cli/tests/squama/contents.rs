@@ -359,3 +359,34 @@ fn lost_lines_of_a_journal_are_detected() {
     assert!(said.starts_with("note: r/journal.jsonl: 1 of the 12 lines are missing"), "{said}");
     place.prints("rank r");
 }
+
+/// A spreadsheet that saves `designs.csv` again changes its bytes, but not its values.
+#[test]
+fn a_table_saved_again_with_equal_values_is_read_with_a_warning() {
+    let place = Place::with(FEW);
+    place.squama("run x.toml -q --out r").assert().code(0);
+    let printed = place.prints("rank r --out ranked");
+    let written = place.read("r/designs.csv");
+    let spreadsheet = written.replace("\r\n000", "\r\n").replace("complete", " \"complete\"");
+    let spreadsheet =
+        spreadsheet.replace(" \"complete\"", "\"complete\" ").replace(",0.1,", ", 0.10 ,");
+    for text in [written.replace("\r\n", "\n"), written.replace(",0.1,", ", 0.1,"), spreadsheet] {
+        assert_ne!(text, written);
+        fs::write(place.path("r/designs.csv"), &text).expect("writable");
+        for command in ["rank r --out ranked", "compare r r", "plot r --out figures"] {
+            let output = place.squama(command).assert().code(0).get_output().clone();
+            let message = String::from_utf8(output.stderr).expect("text");
+            assert_eq!(
+                message,
+                "warning: r/designs.csv: was saved again by another program; its values have not changed\n",
+                "{command}"
+            );
+            if command.starts_with("rank") {
+                assert_eq!(String::from_utf8(output.stdout).expect("text"), printed);
+            }
+        }
+    }
+    fs::write(place.path("r/designs.csv"), written.replace(",0.5,", ", 0.6,")).expect("writable");
+    let message = place.refused("rank r");
+    assert!(message.contains("was changed after squama wrote it"), "{message}");
+}

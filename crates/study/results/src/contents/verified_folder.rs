@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::fs::{self, File};
-use std::io::{ErrorKind, Read as _, Seek as _};
+use std::io::{Cursor, ErrorKind, Read, Seek};
 use std::path::{Path, PathBuf};
 
 use journal::{read_text, sha256, sha256_of};
@@ -11,6 +11,7 @@ use text::reason;
 use super::derivation::Derivation;
 use super::{Contents, JournalExtent};
 use crate::folder::{FileEntry, Maker, ResultsFolder};
+use crate::tables::resaved;
 use text::shell_word;
 
 /// Whether incomplete results are accepted.
@@ -32,7 +33,14 @@ pub struct VerifiedFolder {
     contents: Option<Contents>,
     /// Whether the journal is longer than stated in the contents.
     behind: bool,
+    /// Receives the warnings about tables that were saved again.
+    warn: Option<fn(&str)>,
 }
+
+/// Text of a table: its file, or the bytes as squama wrote them.
+pub(crate) trait TableText: Read + Seek {}
+
+impl<T: Read + Seek> TableText for T {}
 
 /// A results folder that contradicts its contents.
 ///
@@ -80,7 +88,7 @@ impl VerifiedFolder {
             Some(contents) => is_behind(&folder, &contents.journal)?,
             None => false,
         };
-        let opened = Self { folder, contents, behind };
+        let opened = Self { folder, contents, behind, warn: None };
         if completeness == Completeness::Whole {
             opened.require_whole()?;
         }
@@ -174,6 +182,32 @@ impl VerifiedFolder {
             file.rewind().map_err(unreadable)?;
         }
         Ok(file)
+    }
+
+    /// Accepts tables that a spreadsheet saved again with the same values, and reports them to
+    /// `warn`.
+    #[must_use]
+    pub fn warning(self, warn: fn(&str)) -> Self {
+        Self { warn: Some(warn), ..self }
+    }
+
+    /// Opens the table `name` after verifying its bytes or, if warnings are reported, its values.
+    pub(crate) fn table(&self, name: &str) -> Result<Box<dyn TableText>, InvalidFolder> {
+        let refusal = match self.file(name) {
+            Ok(file) => return Ok(Box::new(file)),
+            Err(refusal) => refusal,
+        };
+        let path = self.folder.file(name);
+        let Some(warn) = self.warn.filter(|_| path.is_file()) else { return Err(refusal) };
+        let (Some(digest), Ok(bytes)) = (self.expected(name)?, fs::read(&path)) else {
+            return Err(refusal);
+        };
+        let Some(written) = resaved::as_written(&bytes, &digest) else { return Err(refusal) };
+        warn(&format!(
+            "{}: was saved again by another program; its values have not changed",
+            path.display()
+        ));
+        Ok(Box::new(Cursor::new(written)))
     }
 
     /// Returns the text of the file `name` after verifying its bytes.
