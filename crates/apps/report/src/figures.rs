@@ -14,8 +14,7 @@ use std::borrow::Cow;
 
 use ranking::{RankedDesign, Ranking, Weights};
 use results::Quantity::{Force, Length, Moment, Stiffness};
-use results::columns::{measure_of, name, physical_source};
-use sweep::Measure;
+use results::columns::{is_invalid_after_fold, name, physical_source};
 
 pub(crate) use names::in_words;
 use names::with_value;
@@ -64,7 +63,7 @@ impl Quantity {
 
 /// Returns true if a column depends on the surface of the substrate, as punctures do.
 pub(crate) fn is_touched_by_folds(column: &str) -> bool {
-    measure_of(column) == Some(Measure::Puncture)
+    is_invalid_after_fold(column)
 }
 
 /// Returns the title suffix that marks figures of the perfect designs in a sweep with random gaps.

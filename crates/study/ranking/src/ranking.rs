@@ -8,7 +8,7 @@ use std::fs::File;
 use std::path::Path;
 
 use rayon::prelude::*;
-use results::columns::{name, parameter_of};
+use results::columns::{is_invalid_after_fold, name, parameter_of};
 use results::{
     Claim, InvalidResults, Maker, OutputError, Results, ResultsFolder, VerifiedFolder, write_rows,
 };
@@ -255,6 +255,10 @@ impl<'r> Ranking<'r> {
     /// design, or if the table has no column of fold forces.
     pub fn best_unfolded(&self) -> Option<RankedDesign<'_>> {
         let fold = self.results.column(name::FOLD_FORCE).ok()?;
+        let criteria = self.preferences.criteria.iter().map(|criterion| &criterion.column);
+        let required = self.preferences.requirements.iter().map(|required| &*required.column);
+        let mut columns = criteria.map(|column| &**column).chain(required);
+        columns.find(|column| is_invalid_after_fold(column))?;
         // The cell of the fold force is empty if the surface does not fold.
         let is_open = |design: &RankedDesign<'_>| self.results.table().is_empty(design.row(), fold);
         let best = self.winner(self.preferences.weights);

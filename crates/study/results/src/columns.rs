@@ -70,6 +70,15 @@ pub fn measure_of(name: &str) -> Option<Measure> {
     ValueColumn::named(name)?.value.measure()
 }
 
+/// Returns true if a column is not valid once the surface of the substrate folds.
+pub fn is_invalid_after_fold(name: &str) -> bool {
+    about(name).is_some_and(|(value, _)| {
+        // The fold itself, and the force up to it, are valid.
+        let is_about_fold = value.name == name::SOUND_FORCE || value.name.starts_with("fold_");
+        value.measure() == Some(Measure::Puncture) && !is_about_fold
+    })
+}
+
 /// Returns the value and quantity of a column.
 ///
 /// The name may also be a derived one, such as a quantile.

@@ -5,6 +5,7 @@ use std::sync::atomic::AtomicBool;
 use results::columns::parameter_of;
 use run::{Evaluator, Program};
 use sweep::{Case, Sweep};
+use text::number;
 
 use crate::analysis::header;
 use crate::analysis_error::AnalysisError;
@@ -34,8 +35,10 @@ pub struct GlobalAnalysis<'a> {
 pub struct GlobalSensitivity {
     /// Keys of the variables.
     pub variables: Vec<&'static str>,
-    /// Indices of each measure.
+    /// Indices of each measure that varies.
     pub measures: Vec<MeasureIndices>,
+    /// Column names of the measures that are constant.
+    pub constant: Vec<String>,
 }
 
 /// Sobol' indices of one measure.
@@ -84,9 +87,16 @@ impl GlobalAnalysis<'_> {
         let samples = store.samples(label, &columns, self.samples, self.stop, solve)?;
         let is_measure = |(_, name): &(usize, String)| parameter_of(name).is_none();
         let measures = names.iter().cloned().enumerate().filter(is_measure);
-        let measures = measures.filter_map(|(k, name)| indices(name, k, names.len(), &samples));
+        let (mut varied, mut constant) = (Vec::new(), Vec::new());
+        for (k, name) in measures {
+            if is_constant(k, names.len(), &samples) {
+                constant.push(name);
+            } else {
+                varied.extend(indices(name, k, names.len(), &samples));
+            }
+        }
         let variables = self.sweep.variables().iter().map(|v| v.parameter().key).collect();
-        Ok(GlobalSensitivity { variables, measures: measures.collect() })
+        Ok(GlobalSensitivity { variables, measures: varied, constant })
     }
 
     /// Returns the names of the points of a sample.
@@ -110,6 +120,13 @@ impl GlobalAnalysis<'_> {
         }
         case
     }
+}
+
+/// Returns true if column `k` has the same value at all points up to round-off.
+fn is_constant(k: usize, columns: usize, samples: &[SolvedSample]) -> bool {
+    let points = samples.iter().flat_map(|sample| sample.values.chunks(columns));
+    let mut values = points.filter_map(|point| point[k]);
+    values.next().is_some_and(|first| values.all(|value| number::same(value, first)))
 }
 
 /// Computes the indices of column `k`.

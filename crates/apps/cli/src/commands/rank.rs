@@ -1,5 +1,6 @@
 //! `squama rank`.
 
+mod checks;
 mod gap_changes;
 mod record;
 mod report;
@@ -19,6 +20,7 @@ use super::requirement_args::RequirementArgs;
 use super::source::{Partial, verified_folder};
 use super::{DONE, INCOMPLETE, derivation};
 use crate::json;
+use checks::Checks;
 use gap_changes::{couplings, gap_changes};
 use record::{ranking_record, unmet_record};
 use report::{RankReport, unmet_report};
@@ -128,14 +130,24 @@ fn ranked(arguments: &Arguments, results: &Results, ranking: &Ranking<'_>) -> an
     drop(lock);
     let changes = gap_changes(results, ranking);
     let couplings = couplings(results, ranking);
+    let checks = Checks::new(results, ranking);
     let top = arguments.top as usize;
     let record = || {
         let mut record = ranking_record(results, ranking, top);
         record["gap_changes"] = json!(changes);
         record["full_coupling"] = json!(couplings);
+        record["fail_checks"] = json!(checks.failed);
+        record["best_that_passes_checks"] = json!(checks.best.map(|best| best.design().to_owned()));
         record
     };
-    let report = RankReport { results, ranking, top, changes: &changes, couplings: &couplings };
+    let report = RankReport {
+        results,
+        ranking,
+        top,
+        changes: &changes,
+        couplings: &couplings,
+        checks: &checks,
+    };
     json::answer(arguments.json, record, || report.text(), (folder, &files))?;
     Ok(DONE)
 }

@@ -7,15 +7,16 @@ use std::time::Duration;
 
 use clap::Args;
 use results::columns::name::{FOLD_FORCE, SOUND_FORCE};
+use results::round_off::Leader;
 use results::{Completeness, VerifiedFolder};
 use run::{Best, Finished, Options, Progress};
-use sweep::{RandomSample, Subset, Sweep};
+use sweep::{DesignNumber, RandomSample, Subset, Sweep};
 
 use super::options::{EarlierResults, RunOptions, TableFormat, whole};
 use super::source::{Definition, folder_of, read};
 use super::{DONE, INCOMPLETE, PROGRAM, audit};
 use crate::interrupt::Interrupt;
-use crate::print::{aligned, counted, note, print, time};
+use crate::print::{FOLDED, aligned, counted, note, print, time};
 use crate::progress::{ProgressDisplay, RESUMED};
 
 /// Reads a part of the designs.
@@ -219,16 +220,29 @@ fn folded_row(finished: &Finished) -> Option<[String; 2]> {
 }
 
 fn best_rows(finished: &Finished) -> impl Iterator<Item = [String; 2]> {
-    let row = |Best { what, leader, apart }: Best| {
-        if let Some(parameter) = apart {
-            let text = format!("not comparable between designs of different {parameter}");
-            return [what.to_owned(), text];
+    finished.summary.best().map(|best| [best.what.to_owned(), best_text(&best)])
+}
+
+/// Formats the best value of a measure, and the best valid one if the surface folds.
+fn best_text(best: &Best) -> String {
+    if let Some(parameter) = best.apart {
+        return format!("not comparable between designs of different {parameter}");
+    }
+    let text = leader_text(&best.leader);
+    match (best.is_folded, &best.unfolded) {
+        (false, _) => text,
+        (true, None) => format!("{text} {FOLDED} not valid, the surface folds"),
+        (true, Some(unfolded)) => {
+            let unfolded = leader_text(unfolded);
+            format!("{text} {FOLDED} not valid, the surface folds; without a fold {unfolded}")
         }
-        let ties = match leader.ties {
-            0 => String::new(),
-            ties => format!(", and {ties} more"),
-        };
-        [what.to_owned(), format!("{:.6} (design {}{ties})", leader.value, leader.first)]
+    }
+}
+
+fn leader_text(leader: &Leader<DesignNumber>) -> String {
+    let ties = match leader.ties {
+        0 => String::new(),
+        ties => format!(", and {ties} more"),
     };
-    finished.summary.best().map(row)
+    format!("{:.6} (design {}{ties})", leader.value, leader.first)
 }

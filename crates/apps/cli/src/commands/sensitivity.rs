@@ -115,7 +115,24 @@ fn report(sweep: &Sweep, found: &GlobalSensitivity, samples: usize) -> String {
         let rows: Vec<_> = found.variables.iter().zip(&measure.indices).map(row).collect();
         text.push_str(&aligned(&rows));
     }
-    text
+    text + &constant(found)
+}
+
+/// Names the main measures that do not depend on the variables.
+fn constant(found: &GlobalSensitivity) -> String {
+    let constant: Vec<&str> = MEASURE_TABLES
+        .iter()
+        .map(|(table, _)| *table)
+        .filter(|table| found.constant.iter().any(|name| name == table))
+        .collect();
+    let variables = found.variables.join(", ");
+    if found.measures.is_empty() {
+        return format!("\nNothing varies: no measure depends on {variables}.\n");
+    }
+    if constant.is_empty() {
+        return String::new();
+    }
+    format!("\nConstant, because they do not depend on {variables}: {}\n", constant.join(", "))
 }
 
 /// Formats an index in percent, with its interval.
@@ -146,6 +163,7 @@ fn record(sweep: &Sweep, found: &GlobalSensitivity, folder: &Path) -> Value {
     json!({
         "sweep": sweep.name(),
         "measures": found.measures.iter().map(measure).collect::<Vec<_>>(),
+        "constant": found.constant,
         "folder": folder.to_string_lossy(),
         "files": [TABLE],
     })

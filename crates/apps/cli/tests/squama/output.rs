@@ -171,3 +171,17 @@ fn a_closed_pipe_is_no_error() {
     assert_eq!(output.status.code(), Some(0));
     assert_eq!(String::from_utf8_lossy(&output.stderr), "");
 }
+
+/// The strongest design of the paper has a fold at a fifth of its critical force.
+#[test]
+fn a_folded_best_design_is_marked_in_the_summary() {
+    let folding = FEW.replace("[0.1, 0.5]", "0.1").replace("[0, 45]", "[45, 75]");
+    let text = Place::with(&folding).prints("run x.toml --threads 1");
+    let line = text.lines().find(|line| line.contains("largest critical force")).expect("a line");
+    assert!(
+        line.contains("(design 0004) ⚠ not valid, the surface folds; without a fold"),
+        "{text}"
+    );
+    let coverage = text.lines().find(|line| line.contains("best coverage")).expect("a line");
+    assert!(!coverage.contains('⚠'), "coverage does not depend on the substrate: {text}");
+}

@@ -221,3 +221,31 @@ fn round_off_is_not_a_difference() {
     let text = String::from_utf8_lossy(&text.get_output().stdout).into_owned();
     assert!(text.lines().any(|line| line.trim_start().starts_with("critical_force ")), "{text}");
 }
+
+/// The surface of the best design folds with full coupling; the next one keeps the requirement.
+#[test]
+fn the_best_design_that_passes_all_checks_is_listed() {
+    let place = Place::with(
+        "name = 'x'\n[designs]\ngap_over_t = [0.1, 0.2]\nlength_over_t = [0.4, 0.6]\n\
+         slant_deg = [45, 60]\n[puncture]\nneedle = 'guided'\nneedle_friction = 0.3\n\
+         load_inset_over_t = 0.05\n[material]\nthickness_mm = 2\nsubstrate_modulus_MPa = 1\n",
+    );
+    place.squama("run x.toml -q --out x").assert().code(0);
+    let rank = |limit: &str, format: &str| {
+        let requirement = format!("critical_force_N >= {limit}");
+        let mut command = place.squama(&format!("rank x {format}"));
+        let output = command.args(["--require", &requirement]).assert().code(0);
+        String::from_utf8(output.get_output().stdout.clone()).expect("text")
+    };
+    let printed = rank("1", "");
+    let (_, best) = printed.split_once("Best design that passes all\n").expect("a check fails");
+    assert!(best.lines().nth(1).is_some_and(|row| row.contains("0003 ")), "{printed}");
+    let (_, rejected) = printed.split_once("Best by coverage").expect("a ranking");
+    assert!(rejected.lines().nth(2).is_some_and(|row| row.contains("0002✗")), "{printed}");
+    assert!(printed.contains("✗ fails a check"), "{printed}");
+    let record: serde_json::Value = serde_json::from_str(&rank("1", "--json")).expect("JSON");
+    assert_eq!(record["fail_checks"], serde_json::json!(["0002"]));
+    assert_eq!(record["best_that_passes_checks"], "0003");
+    assert!(rank("2", "").contains("Of the first 3 designs none passes all checks."));
+    assert!(!rank("0.5", "").contains('✗'), "the best design passes");
+}

@@ -73,21 +73,23 @@ fn many_designs_have_a_short_name() {
     assert!(place.list("c").contains("force-displacement-curves-of-0001-to-0045-45-designs.svg"));
 }
 
+/// Returns a definition with gaps and lengths in a unit.
+fn with_lengths(unit: &str, gaps: &str, lengths: &str) -> String {
+    format!(
+        "name = \"{unit}\"\nmeasures = [\"coverage\", \"flexure\"]\n[designs]\n\
+         gap_{unit} = {gaps}\nlength_{unit} = {lengths}\nslant_deg = [30, 45]\n"
+    )
+}
+
 /// A design is the same in mm and in units of the thickness, although `0.3/3` is not 0.1.
 #[test]
 fn a_design_in_mm_is_the_design_over_the_thickness() {
     let place = Place::with(FEW);
-    let axes = |unit: &str, gaps: &str, lengths: &str| {
-        format!(
-            "name = \"{unit}\"\nmeasures = [\"coverage\", \"flexure\"]\n[designs]\n\
-             gap_{unit} = {gaps}\nlength_{unit} = {lengths}\nslant_deg = [30, 45]\n"
-        )
-    };
-    let in_mm = axes("mm", "{ from = 0.3, to = 3, step = 0.3 }", "[0.9, 2.1]");
+    let in_mm = with_lengths("mm", "{ from = 0.3, to = 3, step = 0.3 }", "[0.9, 2.1]");
     let write =
         |file: &str, text: String| std::fs::write(place.path(file), text).expect("writable");
     write("mm.toml", in_mm + "[material]\nthickness_mm = 3\n");
-    write("t.toml", axes("over_t", "{ from = 0.1, to = 1, step = 0.1 }", "[0.3, 0.7]"));
+    write("t.toml", with_lengths("over_t", "{ from = 0.1, to = 1, step = 0.1 }", "[0.3, 0.7]"));
     place.squama("run mm.toml -q --out mm").assert().code(0);
     place.squama("run t.toml -q --out t").assert().code(0);
     for table in ["mm/designs.csv", "mm/compliance.csv"] {

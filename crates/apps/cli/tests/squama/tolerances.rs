@@ -75,6 +75,26 @@ fn global_sensitivity_is_the_same_for_any_number_of_threads() {
     assert_eq!(of_force.count(), 3, "{table}");
 }
 
+/// The coverage of upright scales is 0, whatever their width and friction.
+#[test]
+fn constant_measures_are_named() {
+    let constant = "name = 'constant'\nmeasures = ['coverage']\n[designs]\ngap_over_t = 0.1\n\
+                    length_over_t = 0.5\nslant_deg = 0\n[variables]\n\
+                    width_over_t = { from = 0.5, to = 2 }\nfriction = { from = 0, to = 0.5 }\n";
+    let place = Place::with(constant);
+    let text = place.prints("sensitivity --global x.toml --samples 8 --out all");
+    let nothing = "Nothing varies: no measure depends on width_over_t, friction.";
+    assert!(text.contains(nothing), "{text}");
+    let json = place.prints("sensitivity --global x.toml --samples 8 --out all --json");
+    let record: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    assert_eq!(record["constant"], serde_json::json!(["coverage"]));
+    let goal = format!("{constant}[goal]\nmaximize = ['coverage']\n");
+    std::fs::write(place.path("goal.toml"), goal).expect("writable");
+    let text = place.prints("optimise goal.toml --out found");
+    assert!(text.contains("coverage is 0 in every evaluated design"), "{text}");
+    assert!(!text.contains("limited by") && !text.contains("no better design"), "{text}");
+}
+
 #[test]
 fn bad_input_gives_one_line_of_error() {
     let place = Place::with(DESIGNS);

@@ -3,11 +3,11 @@
 use std::collections::HashSet;
 
 use ranking::{CRITERIA, Criterion, Goal, Preferences};
-use results::columns::{measure_of, name};
+use results::columns::{is_invalid_after_fold, name};
 use results::round_off::Leader;
 use results::{CsvFormat, ResultsFolder, VerifiedFolder, incomparable_by};
 use rust_xlsxwriter::{Format, FormatAlign, Worksheet, XlsxError};
-use sweep::{Measure, PARAMETERS, Sweep};
+use sweep::{PARAMETERS, Sweep};
 
 use super::ExportError;
 use super::explanation::explained;
@@ -61,8 +61,7 @@ impl BestValues {
 
     /// Returns the warning for a best design if a fold invalidates this measure.
     fn doubt(&self, design: &str, measure: &str) -> &'static str {
-        let is_touched = measure_of(measure) == Some(Measure::Puncture);
-        if is_touched && self.folded.contains(design) { DOUBT } else { "" }
+        if is_invalid_after_fold(measure) && self.folded.contains(design) { DOUBT } else { "" }
     }
 
     /// Records a row.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use results::columns::{MeasuredValue, measured_value, name};
+use results::columns::{MeasuredValue, is_invalid_after_fold, measured_value, name};
 use results::round_off::Leader;
 use results::{DesignRow, Outcome, incomparable_by};
 use sweep::{DesignNumber, Measure, Sweep};
@@ -30,6 +30,10 @@ pub struct Best {
     pub leader: Leader<DesignNumber>,
     /// Parameter that makes the value incomparable between designs, if any.
     pub apart: Option<&'static str>,
+    /// Whether the value is not valid, because the surface of the substrate folds.
+    pub is_folded: bool,
+    /// The best value of the designs without a fold, if the best of all is not valid.
+    pub unfolded: Option<Leader<DesignNumber>>,
 }
 
 /// A measure with its best value so far.
@@ -38,7 +42,11 @@ struct Contest {
     what: &'static str,
     value: &'static MeasuredValue,
     best: Option<Leader<DesignNumber>>,
+    /// Best value of the designs without a fold.
+    unfolded: Option<Leader<DesignNumber>>,
     apart: Option<&'static str>,
+    /// Whether a fold of the surface invalidates the measure.
+    is_invalid_after_fold: bool,
 }
 
 /// Measures of the summary: labels and column names.
@@ -55,7 +63,8 @@ impl Summary {
     pub(crate) fn new(sweep: &Sweep) -> Self {
         let contest = |(what, name)| {
             let (value, apart) = (measured_value(name)?, incomparable_by(sweep, name));
-            Some(Contest { what, value, best: None, apart })
+            let is_invalid_after_fold = is_invalid_after_fold(name);
+            Some(Contest { what, value, best: None, unfolded: None, apart, is_invalid_after_fold })
         };
         Self { contests: TOLD.into_iter().filter_map(contest).collect(), ..Self::default() }
     }
@@ -72,14 +81,17 @@ impl Summary {
             .into_iter()
             .chain(flexure)
             .for_each(|(measure, outcome)| self.count(measure, outcome));
-        for Contest { value, best, .. } in &mut self.contests {
-            if let Some((number, goal)) = value.number(&row.result).zip(value.good) {
-                Leader::enter(best, row.number, number, goal);
-            }
-        }
         // Folded designs have measures, too, but the largest of these may be meaningless.
         let fold = row.result.puncture.and_then(|puncture| puncture.measures.fold_force);
         self.folded += u64::from(fold.is_some());
+        for contest in &mut self.contests {
+            let value = contest.value;
+            let Some((number, goal)) = value.number(&row.result).zip(value.good) else { continue };
+            Leader::enter(&mut contest.best, row.number, number, goal);
+            if fold.is_none() || !contest.is_invalid_after_fold {
+                Leader::enter(&mut contest.unfolded, row.number, number, goal);
+            }
+        }
     }
 
     fn count(&mut self, measure: Measure, outcome: Outcome) {
@@ -91,8 +103,11 @@ impl Summary {
         // Without folds, the force before a fold equals the critical force and would repeat it.
         let is_told =
             |contest: &&Contest| contest.value.name != name::SOUND_FORCE || self.folded > 0;
-        self.contests.iter().filter(is_told).filter_map(|&Contest { what, best, apart, .. }| {
-            Some(Best { what, leader: best?, apart })
+        self.contests.iter().filter(is_told).filter_map(|contest| {
+            let (leader, unfolded) = (contest.best?, contest.unfolded);
+            let is_folded = unfolded.is_none_or(|unfolded| unfolded.first != leader.first);
+            let unfolded = unfolded.filter(|_| is_folded);
+            Some(Best { what: contest.what, leader, apart: contest.apart, is_folded, unfolded })
         })
     }
 }
@@ -134,6 +149,13 @@ mod tests {
             ("largest force before a fold", "0001", 0),
         ];
         assert_eq!(best, expected.map(|(what, design, ties)| (what, design.to_owned(), ties)));
+        let folds: Vec<_> = summary
+            .best()
+            .map(|best| (best.is_folded, best.unfolded.map(|leader| leader.first.to_string())))
+            .collect();
+        // The penetration of the third design is the least, but its surface folds.
+        let unfolded = Some("0001".to_owned());
+        assert_eq!(folds, [(false, None), (true, unfolded), (false, None)]);
         let apart = of_tilts.best().next();
         assert_eq!(apart.and_then(|best| best.apart), Some("critical_tilt_deg"));
     }

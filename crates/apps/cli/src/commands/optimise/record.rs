@@ -5,7 +5,7 @@ use ranking::Requirement;
 use results::columns::design_columns;
 use serde_json::{Map, Value, json};
 
-use super::report::unmet;
+use super::report::{constant_objectives, unmet};
 
 /// Returns the result of a search as JSON.
 pub fn record(goal: &DesignGoal, found: &Found) -> Value {
@@ -28,6 +28,8 @@ pub fn record(goal: &DesignGoal, found: &Found) -> Value {
         Answer::Infeasible(nearest) => ("infeasible", infeasible(goal, &words, found, *nearest)),
     };
     record[key] = answer;
+    let constant = constant_objectives(goal, found).into_iter();
+    record["constant"] = constant.map(|(column, _)| column).collect();
     if goal.fitness.is_some() {
         let ends = found.rescaled.iter();
         let ends = ends.map(|ends| (ends.column.clone(), json!([ends.worst, ends.best])));

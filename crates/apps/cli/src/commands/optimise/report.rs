@@ -8,14 +8,15 @@ use optimisation::{
 };
 use ranking::{Requirement, Unmet};
 use results::Outcome;
-use results::columns::{Cell, design_columns};
+use results::columns::{Cell, design_columns, is_invalid_after_fold};
 use run::CouplingChange;
+use text::number::same;
 
 use super::super::couplings::{couplings_report, measured};
 use super::super::rank::obstacle;
 use super::samples;
 use super::weakest_place::weakest_place_note;
-use crate::print::{aligned, counted, digits, rounded, time};
+use crate::print::{FOLDED, aligned, counted, digits, rounded, time};
 
 /// Formats the result of a search.
 pub struct SearchReport<'a> {
@@ -77,6 +78,11 @@ impl SearchReport<'_> {
         let mut rows: Vec<[String; 2]> = self.variables(&best.candidate);
         rows.extend(self.values(best));
         let mut text = format!("The best design\n{}", aligned(&rows));
+        text += &self.folded(best);
+        let constant = constant_objectives(self.goal, self.found);
+        if !constant.is_empty() {
+            return text + &constant_text(&constant);
+        }
         let covered = self.coverage_of_search();
         let _ = write!(text, "\nThe search found no better design{covered}{}.", agreement(best));
         if best.bindings.is_empty() {
@@ -93,6 +99,17 @@ impl SearchReport<'_> {
         text += &weakest_place_note(self.goal, &best.candidate).unwrap_or_default();
         text += &self.coupled(&best.candidate);
         text + &best.confirmation.as_ref().map(samples::text).unwrap_or_default()
+    }
+
+    /// Warns if the surface folds in the best design and the goal depends on it.
+    fn folded(&self, best: &BestDesign) -> String {
+        match fold_force(self.goal, best) {
+            Some(force) => format!(
+                "\n{FOLDED} The surface of the substrate folds at a force of {}: values at the critical tilt are not valid.\n",
+                digits(force)
+            ),
+            None => String::new(),
+        }
     }
 
     /// Reports the effect of full substrate coupling on the columns of the goal.
@@ -195,13 +212,19 @@ impl SearchReport<'_> {
                 .filter(|binding| matches!(binding.limit, optimisation::Limit::Floor(_)));
             let prices: Vec<_> = floors.filter_map(|b| words.price(b, &best.target)).collect();
             row.push(prices.join("; "));
+            if fold_force(self.goal, best).is_some() {
+                row[0].push(FOLDED);
+            }
             row
         }));
         let is_unknown = rows[1..].iter().all(|row| row.last().is_some_and(String::is_empty));
         let unknown =
             "  Prices are unknown: at a kink no multipliers satisfy the optimality conditions\n";
         let prices = if is_unknown { unknown } else { "" };
-        title + &aligned(&rows) + prices + &samples::of_all(designs)
+        let is_folded = designs.iter().any(|best| fold_force(self.goal, best).is_some());
+        let folded = if is_folded { FOLDED_MEANS } else { "" };
+        let constant = constant_text(&constant_objectives(self.goal, self.found));
+        title + &aligned(&rows) + folded + prices + &samples::of_all(designs) + &constant
     }
 
     fn infeasible(&self, nearest: Option<usize>) -> String {
@@ -222,6 +245,49 @@ impl SearchReport<'_> {
         }
         text
     }
+}
+
+const FOLDED_MEANS: &str =
+    "  ⚠ the surface of the substrate folds: values at the critical tilt are not valid\n";
+
+/// Returns the force at which the surface folds, if that invalidates a column of the goal.
+fn fold_force(goal: &DesignGoal, best: &BestDesign) -> Option<f64> {
+    let objectives = goal.objectives.iter().map(|objective| &*objective.column);
+    let required = goal.requirements.iter().map(|requirement| &*requirement.column);
+    let fitness = goal.fitness.iter().flat_map(|fitness| &fitness.criteria);
+    let mut columns = objectives.chain(required).chain(fitness.map(|criterion| &*criterion.column));
+    columns.find(|column| is_invalid_after_fold(column))?;
+    best.row.result.puncture?.measures.fold_force
+}
+
+/// Returns the objectives that had the same value in all evaluated designs, with the value.
+pub fn constant_objectives<'a>(goal: &'a DesignGoal, found: &Found) -> Vec<(&'a str, f64)> {
+    let mut constant = Vec::new();
+    for objective in &goal.objectives {
+        let column = &*objective.column;
+        let mut values = found.history.iter().filter_map(|candidate| match &candidate.verdict {
+            Judgement::Judged(worth) => {
+                goal.values(worth).find(|(name, _)| *name == column).map(|(_, value)| value)
+            }
+            _ => None,
+        });
+        // A single design cannot show that the objective is constant.
+        let (Some(first), Some(second)) = (values.next(), values.next()) else { continue };
+        if same(first, second) && values.all(|value| same(first, value)) {
+            constant.push((column, first));
+        }
+    }
+    constant
+}
+
+fn constant_text(constant: &[(&str, f64)]) -> String {
+    let lines = constant.iter().map(|(column, value)| {
+        let value = digits(*value);
+        format!(
+            "\n{column} is {value} in every evaluated design: the variables do not change it.\n"
+        )
+    });
+    lines.collect()
 }
 
 /// Reports how many local searches agree on the best design.

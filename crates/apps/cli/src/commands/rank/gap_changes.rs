@@ -44,7 +44,7 @@ pub fn couplings(results: &Results, ranking: &Ranking<'_>) -> Vec<CouplingChange
 }
 
 /// Returns the measured columns among the criteria and requirements.
-fn measured_columns(preferences: &Preferences) -> Vec<&str> {
+pub fn measured_columns(preferences: &Preferences) -> Vec<&str> {
     let criteria = preferences.criteria.iter().map(|criterion| criterion.column.as_ref());
     measured(criteria.chain(preferences.requirements.iter().map(|r| r.column.as_str())))
 }

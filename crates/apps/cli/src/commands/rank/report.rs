@@ -4,18 +4,24 @@ use std::fmt::Write as _;
 
 use ranking::{Preferences, RankedDesign, Ranking, Scale, Unmet, UnmetRequirement, Weights};
 use results::Results;
-use results::columns::{name, parameter_of};
+use results::columns::{is_invalid_after_fold, name, parameter_of};
 use run::{CouplingChange, GapChange};
 
 use super::super::couplings::couplings_report;
+use super::checks::Checks;
 use super::gap_changes::gap_changes_report;
-use crate::print::{aligned, counted, digits, shortfall};
+use crate::print::{FOLDED, aligned, counted, digits, shortfall};
 
-/// Marks a design under which the surface of the substrate folds.
-const FOLDED: char = '⚠';
+/// Marks a design that fails a check.
+const FAILED: char = '✗';
 
 /// Maximum number of listed designs.
 const LISTED: usize = 10;
+
+const FOLDED_MEANS: &str =
+    "⚠ the surface of the substrate folds: the critical force is not valid\n";
+const FAILED_MEANS: &str = "✗ fails a check: with full substrate coupling or a gap 10 % smaller or \
+    larger, a requirement is missed or the surface folds\n";
 
 /// Formats the ranking of a run.
 pub struct RankReport<'a> {
@@ -27,6 +33,8 @@ pub struct RankReport<'a> {
     pub changes: &'a [GapChange],
     /// Changes of the best designs with full substrate coupling.
     pub couplings: &'a [CouplingChange],
+    /// Checks of the best designs against the requirements.
+    pub checks: &'a Checks<'a>,
 }
 
 impl RankReport<'_> {
@@ -34,6 +42,7 @@ impl RankReport<'_> {
         let mut text = self.title();
         let _ = write!(text, "\n{}", self.best());
         text.push_str(&self.unfolded());
+        text.push_str(&self.checked());
         if self.preferences().criteria.len() > 1 {
             let _ = write!(text, "\nBest by one criterion alone\n{}", self.corners());
         }
@@ -44,11 +53,15 @@ impl RankReport<'_> {
             let _ = write!(text, "\n{}", self.winners());
         }
         let _ = write!(text, "\n{}", self.front());
+        let mut legend = String::new();
         if text.contains(FOLDED) {
-            let _ = writeln!(
-                text,
-                "\n{FOLDED} the surface of the substrate folds: the critical force is not valid"
-            );
+            legend.push_str(FOLDED_MEANS);
+        }
+        if text.contains(FAILED) {
+            legend.push_str(FAILED_MEANS);
+        }
+        if !legend.is_empty() {
+            let _ = write!(text, "\n{legend}");
         }
         text
     }
@@ -103,6 +116,21 @@ impl RankReport<'_> {
         let title =
             "The surface of the substrate folds under the best design. Best design without a fold";
         format!("\n{title}\n{}", self.table(&[best], "fitness", fitness))
+    }
+
+    /// Shows the best design that passes all checks, if the winner fails one.
+    fn checked(&self) -> String {
+        let count = self.checks.failed.len();
+        match self.checks.best {
+            Some(best) => {
+                let table = self.table(&[best], "fitness", fitness);
+                format!("\nThe best design fails a check. Best design that passes all\n{table}")
+            }
+            None if count > 0 => {
+                format!("\nOf the first {} none passes all checks.\n", designs(count))
+            }
+            None => String::new(),
+        }
     }
 
     /// Lists the best design by each criterion.
@@ -181,6 +209,10 @@ impl RankReport<'_> {
     fn row(&self, standing: &RankedDesign<'_>, first: String) -> Vec<String> {
         let mut row = vec![first];
         row.extend(shown_cells(self.results, self.preferences(), standing.row()));
+        if self.checks.fails(standing.design()) {
+            // The first cell of the design is its number.
+            row[1].push(FAILED);
+        }
         row
     }
 }
@@ -201,14 +233,13 @@ fn shown_columns(results: &Results, preferences: &Preferences) -> Vec<String> {
 }
 
 /// Returns true if the surface of the substrate folds before the puncture ends.
-fn is_folded(results: &Results, row: usize) -> bool {
+pub fn is_folded(results: &Results, row: usize) -> bool {
     results.column(name::FOLD_FORCE).is_ok_and(|fold| !results.table().is_empty(row, fold))
 }
 
 fn shown_cells(results: &Results, preferences: &Preferences, row: usize) -> Vec<String> {
     let columns = shown_columns(results, preferences);
-    // Only the critical force is invalid after a fold.
-    let is_doubtful = columns.iter().any(|column| column.starts_with(name::CRITICAL_FORCE));
+    let is_doubtful = columns.iter().any(|column| is_invalid_after_fold(column));
     let cell = |column: &String| {
         let text = results.column(column).map_or_else(|_| "".into(), |of| results.text(row, of));
         match text.parse::<f64>() {
