@@ -24,7 +24,6 @@ pub(super) struct Part {
 
 /// The unknowns that form the coordinates of a pair.
 #[derive(Clone, Copy)]
-#[expect(clippy::large_enum_variant, reason = "one lives at a time, on the stack")]
 pub(super) enum PairUnknowns {
     /// Row: each scale has three consecutive unknowns from this index.
     ///

@@ -303,7 +303,7 @@ impl Chain {
     fn tip(&self, z: &[f64], scale: i64, place: OutlinePart) -> Option<Tip> {
         let needle = self.needle.as_ref()?;
         let number = self.scale_numbered(scale)?;
-        let frame = self.from_punctured(number);
+        let frame = self.frame_from_punctured(number);
         let face = Face::new(&self.contacts.arrangement.scale(number), place);
         let at = needle.tip - Vec2::new(0.0, z[needle.depth]) - frame.origin;
         let upward = frame.inward(Vec2::y());
@@ -311,7 +311,7 @@ impl Chain {
     }
 
     /// Returns the tangent frame of a scale in the frame of the punctured one.
-    pub(super) fn from_punctured(&self, scale: usize) -> Frame {
+    pub(super) fn frame_from_punctured(&self, scale: usize) -> Frame {
         let Contacts { arrangement, body, .. } = &self.contacts;
         body.frame(arrangement.place(scale) - arrangement.place(self.layout.left))
     }

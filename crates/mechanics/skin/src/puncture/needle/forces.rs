@@ -299,7 +299,7 @@ impl Chain {
         touches
             .map(|(slot, _, scale, at)| {
                 let force = at.tip.force(needle.forces(&state.z, slot));
-                self.from_punctured(scale).outward(force).x
+                self.frame_from_punctured(scale).outward(force).x
             })
             .sum()
     }

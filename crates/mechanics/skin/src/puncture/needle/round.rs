@@ -86,7 +86,7 @@ impl Chain {
         let mut highest = needle.radius;
         for (_, scale) in needle.scales() {
             let Some(number) = self.scale_numbered(scale) else { continue };
-            let frame = self.from_punctured(number);
+            let frame = self.frame_from_punctured(number);
             for place in FACES {
                 let face = Face::new(&self.contacts.arrangement.scale(number), place);
                 let face = Face {
@@ -231,7 +231,7 @@ impl Chain {
         for (_, scale) in needle.scales() {
             let foot = |scale: i64, place: OutlinePart, at_end: bool| {
                 let tip = self.tip(&state.z, scale, place)?;
-                let frame = self.from_punctured(self.scale_numbered(scale)?);
+                let frame = self.frame_from_punctured(self.scale_numbered(scale)?);
                 Some(frame.outward(tip.to_end(if at_end { tip.length } else { 0.0 })))
             };
             let from = foot(scale, OutlinePart::Right, true);
