@@ -40,21 +40,27 @@ fn check_place(given: &Parameter, grid: &Grid, variables: &[Variable]) -> Result
     }
 }
 
-/// Refuses a radius of zero, and ranges that contain it.
+/// Refuses a radius of zero, and a variable with a range that contains it.
 fn check_radius(given: &Parameter, grid: &Grid, variables: &[Variable]) -> Result<(), Problem> {
     let axis = grid.axes().iter().find(|axis| axis.parameter() == given);
-    let radii = axis.map_or_else(|| vec![given.get(grid.base())], |axis| ends(axis, variables));
-    let signs: Vec<_> =
-        radii.iter().filter_map(|radius| radius.number()).map(f64::signum).collect();
-    let vanishes = radii.iter().any(|radius| radius.number() == Some(0.0));
-    if vanishes || signs.iter().any(|sign| *sign != signs[0]) {
-        let found = radii.iter().map(ToString::to_string).collect::<Vec<_>>().join(" to ");
-        let expected = "a radius above 0 for a convex body or below 0 for a concave one; \
-                        curvature_times_t may pass through 0, a flat body";
-        let expected = expected.to_owned();
-        return Err(Problem::Value(WrongValue::OutOfRange { found, expected }));
-    }
-    Ok(())
+    let variable = variables.iter().find(|variable| variable.parameter() == given);
+    let found = match (variable.map(Variable::values), axis) {
+        (Some(VariableValues::Between(from, to)), _) if from * to <= 0.0 => {
+            Some(format!("{} to {}", number::text(*from), number::text(*to)))
+        }
+        (Some(VariableValues::Between(..)), _) => None,
+        (_, Some(axis)) => {
+            let mut radii = (0..axis.len()).map(|index| axis.value(index));
+            radii.find(|radius| radius.number() == Some(0.0)).map(|radius| radius.to_string())
+        }
+        _ => {
+            Some(given.get(grid.base())).filter(|r| r.number() == Some(0.0)).map(|r| r.to_string())
+        }
+    };
+    let Some(found) = found else { return Ok(()) };
+    let expected = "a radius above 0 for a convex body or below 0 for a concave one; \
+                    curvature_times_t may pass through 0, a flat body";
+    Err(Problem::Value(WrongValue::OutOfRange { found, expected: expected.to_owned() }))
 }
 
 /// Checks the parameter `of` that follows from `given` and the parameter `unit`.
