@@ -42,7 +42,7 @@ use crate::{Common, Design, Sample, Status, Unloading};
 
 pub use failure::{FailureMeasures, FailureMode, Strengths};
 pub use load_positions::{LoadPosition, Weakest, load_positions};
-pub use measures::PunctureMeasures;
+pub use measures::{AcrossMeasures, PunctureMeasures};
 pub(crate) use needle::NeedleMode;
 pub use needle::{CriticalEvent, Needle, Passage, TipForces};
 pub use number_list::{MOST_NUMBERS, NumberList};

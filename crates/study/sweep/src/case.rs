@@ -30,6 +30,10 @@ pub struct Case {
     pub strengths: Strengths,
     /// Whether the first failure is sought even without a strength.
     pub judge_failure: bool,
+    /// Whether the row across is solved.
+    pub across: bool,
+    /// Gap across the row over the thickness. `None`: the gap along the row.
+    pub gap_across: Option<f64>,
     /// Parameters of bending.
     pub flexure: flexure::FlexureParameters,
     /// Thickness of the substrate over the scale thickness. `None` for a half-space.
@@ -66,6 +70,8 @@ pub struct Millimetres {
     pub tissue_thickness: Option<f64>,
     /// Distance of the load from the right corner of the top.
     pub load_inset: Option<f64>,
+    /// Gap between neighbouring scales across the row.
+    pub gap_across: Option<f64>,
     /// Radius of the tip of a guided needle.
     pub needle_radius: Option<f64>,
     /// Radius of the body below the skin.
@@ -133,6 +139,48 @@ impl Case {
         Ok(if body.is_flat() { row.coverage() } else { row.coverage_on(body) })
     }
 
+    /// Returns the row across this one, if it is to be solved.
+    ///
+    /// It consists of upright blocks: the width of the scales is their base, the base of the scales
+    /// their width. Needle, tissue and friction are the same, with the load at the same distance
+    /// from the edge. The slant, which shifts the tops along the row, has no effect, and the tilt
+    /// along the row is not coupled with the one across. The body counts as flat.
+    pub fn across(&self) -> Option<Self> {
+        if !self.across && self.gap_across.is_none() {
+            return None;
+        }
+        let design = Design {
+            gap: self.gap_across.unwrap_or(self.design.gap),
+            length: self.design.width,
+            slant_deg: 0.0,
+            base: Base::L,
+            width: 2.0 * self.design.half_base(),
+        };
+        // Only the critical force is of interest, and lengths in mm refer to the row along.
+        let mut puncture = self.puncture;
+        (puncture.tilts_before_deg, puncture.depth, puncture.places) = (None, None, None);
+        puncture.unload = false;
+        puncture.curvature = 0.0;
+        Some(Self {
+            design,
+            puncture,
+            strengths: Strengths::default(),
+            judge_failure: false,
+            across: false,
+            gap_across: None,
+            body_radius: None,
+            imperfection: Imperfection::default(),
+            in_mm: Millimetres::default(),
+            ..*self
+        })
+    }
+
+    /// Returns the factor from `F*` of the row across to `F*` of this row, which is over another
+    /// length.
+    pub fn across_factor(&self) -> f64 {
+        self.design.width / self.design.length
+    }
+
     /// Returns true if the load is on a top or has a round tip.
     ///
     /// A round tip may be between two scales.
@@ -196,6 +244,8 @@ impl Default for Case {
             load_inset: None,
             strengths: Strengths::default(),
             judge_failure: false,
+            across: false,
+            gap_across: None,
             flexure: flexure::FlexureParameters::default(),
             tissue_thickness: None,
             body_radius: None,

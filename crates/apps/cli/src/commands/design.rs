@@ -169,11 +169,12 @@ impl SolvedChoice {
     /// Lists the failure modes, each with the reason for which it was not judged, if any; empty
     /// unless the first failure was sought.
     fn failure_modes(&self) -> Vec<(&'static str, Option<&'static str>)> {
-        let parameters = self.design.case().punctured();
+        let case = self.design.case();
+        let (parameters, across) = (case.punctured(), case.across().is_some());
         if parameters.failure.is_none() || self.solved.row.result.puncture.is_none() {
             return Vec::new();
         }
-        FailureMode::ALL.map(|mode| (mode.name(), mode.not_judged(&parameters))).into()
+        FailureMode::ALL.map(|mode| (mode.name(), mode.not_judged(&parameters, across))).into()
     }
 
     /// Reports the failure modes that were judged, and the reasons for the others.

@@ -53,7 +53,7 @@ pub struct Arguments {
     #[arg(long, value_name = "ALONGxACROSS", default_value = "5x4", value_parser = along_and_across)]
     pub scales: [usize; 2],
 
-    /// Gap between neighbouring rows, mm [default: the gap of the design]
+    /// Gap between neighbouring rows, mm [default: the gap across of the design, or its gap]
     #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = decimal)]
     pub gap_across_mm: Option<f64>,
 
@@ -146,7 +146,8 @@ fn patch(case: &Case, arguments: &Arguments) -> anyhow::Result<Patch> {
         format!("{path}: has no thickness in mm; add --set material.thickness_mm=2, for scales 2 mm thick")
     })?;
     let membrane = case.flexure.membrane_thickness * thickness;
-    let across = arguments.gap_across_mm.unwrap_or(case.design.gap * thickness);
+    let across = case.gap_across.unwrap_or(case.design.gap) * thickness;
+    let across = arguments.gap_across_mm.unwrap_or(across);
     let lengths = [case.design.width * thickness, membrane, across];
     Ok(Patch::new(case.design.row()?, thickness, lengths, arguments.scales)?)
 }

@@ -160,7 +160,7 @@ fn design_states_which_failure_modes_were_judged() {
     let lines = told.lines().skip_while(|line| !line.starts_with("Failure modes"));
     insta::assert_snapshot!(lines.take(2).collect::<Vec<_>>().join("\n"), @r"
     Failure modes judged: tilt, fold, break, bend
-    Not judged: through (the needle is not guided), debond (the strength of the bond is not given), perforate (the needle has no radius)
+    Not judged: through (the needle is not guided), debond (the strength of the bond is not given), perforate (the needle has no radius), across (the gap across the row is not given)
     ");
     let json: serde_json::Value =
         serde_json::from_str(&place.prints(&format!("{design} --json"))).expect("JSON");

@@ -52,11 +52,13 @@ pub enum FailureMode {
     Debond,
     /// A round tip perforates a scale.
     Perforate,
+    /// A scale tilts across the row under a load at its side.
+    Across,
 }
 
 impl FailureMode {
     /// All modes.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Tilt,
         Self::Through,
         Self::Fold,
@@ -64,6 +66,7 @@ impl FailureMode {
         Self::Bend,
         Self::Debond,
         Self::Perforate,
+        Self::Across,
     ];
 
     /// Returns the short name used in tables.
@@ -76,12 +79,15 @@ impl FailureMode {
             Self::Bend => "bend",
             Self::Debond => "debond",
             Self::Perforate => "perforate",
+            Self::Across => "across",
         }
     }
 
     /// Returns the reason for which a puncture with these parameters cannot fail in this mode, or
     /// is not judged by it; `None` if it is judged.
-    pub fn not_judged(self, parameters: &PunctureParameters) -> Option<&'static str> {
+    ///
+    /// The row across is another puncture, and `across` tells whether it is solved.
+    pub fn not_judged(self, parameters: &PunctureParameters, across: bool) -> Option<&'static str> {
         let PunctureParameters { needle, needle_radius, substrate_law, failure, .. } = parameters;
         let Strengths { scale, bond } = failure.unwrap_or_default();
         let is_round = needle_radius.is_some_and(|radius| radius > 0.0);
@@ -90,6 +96,7 @@ impl FailureMode {
             Self::Fold if *substrate_law == SubstrateLaw::NeoHookean => {
                 Some("a neo-hookean substrate cannot fold")
             }
+            Self::Across if !across => Some("the gap across the row is not given"),
             Self::Perforate if !is_round => Some("the needle has no radius"),
             Self::Break | Self::Perforate if scale.is_none() => {
                 Some("the strength of the scales is not given")
@@ -175,7 +182,7 @@ impl FailureObserver {
         parameters.failure?;
         let mut observer = Self {
             judged: (0..LIMITS.len())
-                .filter(|&limit| LIMITS[limit].not_judged(parameters).is_none())
+                .filter(|&limit| LIMITS[limit].not_judged(parameters, false).is_none())
                 .collect(),
             maxima: Default::default(),
             fractions: [0.0; LIMITS.len()],

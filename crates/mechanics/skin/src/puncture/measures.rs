@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use solver::Continuation;
 
-use super::failure::FailureMeasures;
+use super::failure::{FailureMeasures, FailureMode};
 use super::surface_fold::Fold;
 use super::system::Chain;
 use super::{Passage, PuncturePoint, Weakest};
@@ -89,12 +89,43 @@ pub struct PunctureMeasures {
     /// First failure and largest stresses, if requested.
     #[serde(default, skip_serializing_if = "is_default")]
     pub failure: FailureMeasures,
+    /// Critical force across the row, if requested.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub across: AcrossMeasures,
     /// The weakest of several load positions.
     #[serde(default, skip_serializing_if = "is_default")]
     pub weakest: Weakest,
 }
 
+/// Critical forces across the row and in the weaker direction; empty unless requested.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct AcrossMeasures {
+    /// `F*` at the critical tilt across the row, over the `L` of the row along.
+    pub force: Option<f64>,
+    /// The smaller of this force and the one along the row.
+    pub any_direction: Option<f64>,
+}
+
 impl PunctureMeasures {
+    /// Adds the critical force `across` the row.
+    ///
+    /// `along` is the one at the weakest position along it. Both are `None` if a path did not reach
+    /// its end; the first failure is then unknown, too.
+    #[must_use]
+    pub fn with_across(mut self, across: Option<f64>, along: Option<f64>) -> Self {
+        let any_direction = across.zip(along).map(|(across, along)| across.min(along));
+        self.across = AcrossMeasures { force: across, any_direction };
+        match (across, self.failure.force) {
+            (Some(across), Some(along)) if across < along => {
+                (self.failure.mode, self.failure.force) = (Some(FailureMode::Across), Some(across));
+            }
+            // An unknown force across may be the smaller one.
+            (None, _) => (self.failure.mode, self.failure.force) = (None, None),
+            _ => {}
+        }
+        self
+    }
+
     /// Computes the measures of a completed path.
     ///
     /// Stiffness is in `E_s t`, force in `E* t²`.

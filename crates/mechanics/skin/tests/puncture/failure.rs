@@ -175,7 +175,9 @@ fn a_round_tip_perforates_a_weak_scale() {
 /// Lists the modes that are judged with these parameters.
 fn judged(parameters: &PunctureParameters) -> Vec<FailureMode> {
     let modes = FailureMode::ALL.into_iter();
-    modes.filter(|mode| mode.not_judged(parameters).is_none()).collect()
+    modes
+        .filter(|mode| mode.not_judged(parameters, parameters.needle_radius.is_some()).is_none())
+        .collect()
 }
 
 #[test]
@@ -188,6 +190,6 @@ fn modes_that_are_not_judged_state_the_reason() {
         ..parameters(Strengths { scale: Some(100.0), bond: Some(1.0) })
     };
     assert_eq!(judged(&all), FailureMode::ALL);
-    let reason = FailureMode::Break.not_judged(&bare).unwrap();
+    let reason = FailureMode::Break.not_judged(&bare, false).unwrap();
     assert_eq!(reason, "the strength of the scales is not given");
 }

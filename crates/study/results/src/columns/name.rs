@@ -24,6 +24,12 @@ pub const WEAKEST_FORCE: &str = "weakest_force";
 pub const WEAKEST_PLACE: &str = "weakest_place";
 /// Depth of the load at the critical tilt.
 pub const CRITICAL_DISPLACEMENT: &str = "critical_displacement";
+/// Force at the first failure.
+pub const FAILURE_FORCE: &str = "failure_force";
+/// Critical force across the row.
+pub const FORCE_ACROSS: &str = "force_across";
+/// Smaller critical force of both directions.
+pub const FORCE_ANY_DIRECTION: &str = "force_any_direction";
 /// Mode of the first failure.
 pub const FIRST_FAILURE: &str = "first_failure";
 /// Event that ended the path of a guided needle.

@@ -38,6 +38,9 @@ use crate::quantity::Quantity;
 /// Parameter that enables the search for the weakest load position.
 const PLACES: &[&str] = &[key::PLACES];
 
+/// Parameters that request the row across.
+const ACROSS: &[&str] = &[key::ACROSS, key::GAP_ACROSS, key::GAP_ACROSS_MM];
+
 /// Parameters that request the first failure.
 const FAILURE: &[&str] = &[
     key::FAILURE,
@@ -195,12 +198,21 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
     other("weakest_status", FORCE, |r| punctured(r, |p| p.weakest.map(Outcome::text)))
         .last().needing(PLACES):
         "complete, or why a load position that may be weaker has no force, so that the weakest is unknown";
-    force("failure_force", Anywhere, |m| &mut m.failure.force)
+    force(name::FORCE_ACROSS, End, |m| &mut m.across.force)
+        .large().first().needing(ACROSS):
+        "puncture force at the critical tilt across the row, with the load at the side of a scale";
+    force(name::FORCE_ANY_DIRECTION, End, |m| &mut m.across.any_direction)
+        .large().first().needing(ACROSS):
+        "smaller puncture force of both directions; along the row the weakest_force, if load positions are compared, otherwise the critical_force";
+    other("across_status", FORCE, |r| punctured(r, |p| p.across.map(Outcome::text)))
+        .last().needing(ACROSS):
+        "complete, or why the row across has no critical force";
+    force(name::FAILURE_FORCE, Anywhere, |m| &mut m.failure.force)
         .large().first().needing(FAILURE):
-        "puncture force at the first failure: where a scale is critically tilted, breaks or bends by 5 deg, a bond fails, the needle is through or perforates a scale, or the surface folds";
+        "puncture force at the first failure: where a scale is critically tilted, breaks or bends by 5 deg, a bond fails, the needle is through or perforates a scale, or the surface folds; or the force across the row, if that is smaller";
     other(name::FIRST_FAILURE, FORCE, |r| measured(r, |m| m.failure.mode.map(FailureMode::name)))
         .at(Anywhere).then().needing(FAILURE):
-        "mode of the first failure: tilt, through, fold, break, bend, debond or perforate; modes without a strength are not judged";
+        "mode of the first failure: tilt, through, fold, break, bend, debond, perforate or across; modes without a strength are not judged";
     number("scale_stress_max", Anywhere, |m| &mut m.failure.scale_stress)
         .in_unit("E_s").physical(&[same(Quantity::Stress)]).small().then().needing(FAILURE):
         "largest bending stress of any scale, as a beam, up to the end of the path";

@@ -75,6 +75,9 @@ pub struct PunctureResult {
     /// Outcome of the search for the weakest load position, if it was requested.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub weakest: Option<Outcome>,
+    /// Outcome of the puncture across the row, if it was requested.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub across: Option<Outcome>,
     /// Outcome of unloading, if it was requested.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub way_back: Option<Outcome>,
@@ -90,6 +93,7 @@ impl PunctureResult {
             iterations: 0,
             calibration_error: None,
             weakest: None,
+            across: None,
             way_back: None,
         }
     }
@@ -119,6 +123,7 @@ impl PunctureResult {
             iterations: puncture.history.len(),
             calibration_error: finite(calibration_error),
             weakest: (!puncture.places.is_empty()).then(weakest),
+            across: None,
             way_back: puncture.unloading.as_ref().map(back_to_zero),
         }
     }

@@ -123,7 +123,10 @@ impl Evaluator {
         let punctured = || {
             samples::common(case, sample).and_then(|row| samples::punctured(case, &substrate, &row))
         };
-        guarded(punctured)?.ok_or(Outcome::Internal)
+        let mut result = guarded(punctured)?.ok_or(Outcome::Internal)?;
+        // The row across has no scatter.
+        self.puncture_across(case, &mut result);
+        Ok(result)
     }
 
     /// Returns the derivatives of measures for deviations of single scales.
@@ -162,15 +165,38 @@ impl Evaluator {
         if self.differentiates() {
             let slopes = guarded(|| self.slopes(case)).flatten()?;
             let error = slopes.stiffness.estimated_error();
-            let (puncture, derivatives) = solved(|| sensitivity::puncture(case, &slopes))?;
+            let (puncture, mut derivatives) = solved(|| sensitivity::puncture(case, &slopes))?;
+            let mut result = PunctureResult::new(&puncture, error);
+            if let Some(across) = case.across() {
+                let punctured = guarded(|| self.slopes(&across)).flatten().and_then(|slopes| {
+                    let (puncture, of_across) = solved(|| sensitivity::across(case, &slopes))?;
+                    derivatives.extend(of_across);
+                    Ok(puncture)
+                });
+                add_across(case, &mut result, &punctured);
+                sensitivity::choose_direction(&result.measures, &mut derivatives);
+            }
             sensitivity.extend(derivatives);
-            return Ok((PunctureResult::new(&puncture, error), puncture));
+            return Ok((result, puncture));
         }
         let substrate = guarded(|| self.substrate(case)).flatten()?;
         let Case { design, common, .. } = case;
         let parameters = case.punctured();
         let puncture = solved(|| puncture::solve(design, &*substrate, common, &parameters))?;
-        Ok((PunctureResult::new(&puncture, substrate.estimated_error()), puncture))
+        let mut result = PunctureResult::new(&puncture, substrate.estimated_error());
+        self.puncture_across(case, &mut result);
+        Ok((result, puncture))
+    }
+
+    /// Punctures the row across, if requested, and adds its force to a result.
+    fn puncture_across(&self, case: &Case, result: &mut PunctureResult) {
+        let Some(across) = case.across() else { return };
+        let Case { design, common, .. } = &without_path(&across);
+        let parameters = across.punctured();
+        let punctured = guarded(|| self.substrate(&across)).flatten().and_then(|substrate| {
+            solved(|| puncture::solve(design, &*substrate, common, &parameters))
+        });
+        add_across(case, result, &punctured);
     }
 
     /// Bends the design of `case`.
@@ -257,6 +283,19 @@ fn chain_fits(case: &Case) -> Result<(), Outcome> {
     if gaps > LONGEST_CHAIN { Err(Outcome::RowLimit) } else { Ok(()) }
 }
 
+/// Adds the critical force of the row across to the result of the row along.
+fn add_across(case: &Case, result: &mut PunctureResult, across: &Result<Puncture, Outcome>) {
+    let punctured = across.as_ref().map(|puncture| PunctureResult::new(puncture, 0.0));
+    result.across = Some(punctured.as_ref().map_or_else(|outcome| **outcome, |p| p.outcome));
+    let force = punctured.ok().and_then(|puncture| puncture.measures.critical_force);
+    let measures = &mut result.measures;
+    let along = match case.puncture.places {
+        Some(_) => measures.weakest.force,
+        None => measures.critical_force,
+    };
+    *measures = measures.with_across(force.map(|force| force * case.across_factor()), along);
+}
+
 fn bent_sample(case: &Case, sample: u64) -> Result<FlexureResult, Outcome> {
     chain_fits(case)?;
     let bent = || samples::common(case, sample).and_then(|row| samples::bent(case, &row));
@@ -290,7 +329,11 @@ fn failure(measure: Measure, solved: &SolvedDesign) -> Option<Failure> {
         Measure::Sensitivity => return None,
         Measure::Puncture => {
             let puncture = result.puncture?;
-            match [puncture.weakest, puncture.way_back].into_iter().flatten().find(is_missing) {
+            match [puncture.weakest, puncture.across, puncture.way_back]
+                .into_iter()
+                .flatten()
+                .find(is_missing)
+            {
                 // The missing value belongs to unloading, or to another load position without a
                 // stored path.
                 Some(other) if puncture.outcome == Outcome::Complete => (other, None),

@@ -4,7 +4,7 @@ use geometry::{OutOfRange, RowChange};
 use results::ParameterDerivative;
 use results::columns::name;
 use skin::flexure::{self, Flexure, FlexureInput};
-use skin::puncture::{self, Puncture, PunctureInput};
+use skin::puncture::{self, FailureMode, Puncture, PunctureInput, PunctureMeasures};
 use skin::{Derivative, Neighbours};
 use substrate::{RowStiffness, StiffnessSlopes};
 use sweep::{Case, Measure, PARAMETERS, Parameter, Role};
@@ -72,6 +72,68 @@ pub(super) fn puncture(
     let input = punctured(case, slopes.stiffness.clone());
     let (puncture, derivatives) = puncture::differentiate(&input, &variations)?;
     Ok((puncture, with_prefactor(case, &named(case, &parameters, derivatives))))
+}
+
+/// Punctures the row across the one of `case`, and differentiates its force.
+pub(super) fn across(
+    case: &Case,
+    slopes: &StiffnessSlopes,
+) -> Result<(Puncture, Vec<ParameterDerivative>), OutOfRange> {
+    let varied = |parameter| Varied { case, parameter, slopes: Some(slopes) };
+    let (parameters, variations) =
+        variations(case, Measure::Puncture, |p| varied(p).variation(Varied::punctured_across));
+    let across = case.across().unwrap_or(*case);
+    let input = punctured(&across, slopes.stiffness.clone());
+    let (puncture, mut derivatives) = puncture::differentiate(&input, &variations)?;
+    derivatives.retain(|derivative| derivative.measure == name::CRITICAL_FORCE);
+    let factor = case.across_factor();
+    for derivative in &mut derivatives {
+        let rate = varied(parameters[derivative.parameter]).factor_rate();
+        let by_factor = rate * derivative.value;
+        derivative.left = derivative.left.map(|slope| factor * slope + by_factor);
+        derivative.right = derivative.right.map(|slope| factor * slope + by_factor);
+        derivative.value *= factor;
+        derivative.measure = name::FORCE_ACROSS;
+    }
+    Ok((puncture, with_prefactor(case, &named(case, &parameters, derivatives))))
+}
+
+/// Relative difference below which two forces count as equal.
+const TIE: f64 = 1e-7;
+
+/// Adds the derivatives of the force in the weaker direction, and of a first failure across.
+pub(super) fn choose_direction(
+    measures: &PunctureMeasures,
+    derivatives: &mut Vec<ParameterDerivative>,
+) {
+    let (Some(across), Some(least)) = (measures.across.force, measures.across.any_direction) else {
+        return;
+    };
+    let along = match measures.weakest.force {
+        Some(_) => name::WEAKEST_FORCE,
+        None => name::CRITICAL_FORCE,
+    };
+    let both = [along, name::FORCE_ACROSS].map(|measure| -> Vec<ParameterDerivative> {
+        derivatives.iter().filter(|d| d.measure == measure).cloned().collect()
+    });
+    let along = both[0].first().map_or(f64::INFINITY, |derivative| derivative.value);
+    let is_tie = (along - across).abs() <= TIE * least.abs();
+    let weaker = both[usize::from(across < along)].iter().map(|derivative| ParameterDerivative {
+        measure: name::FORCE_ANY_DIRECTION,
+        // The slopes of the other direction differ.
+        kink: derivative.kink.clone().or(is_tie.then(|| "the other direction is as weak".into())),
+        left: derivative.left.filter(|_| !is_tie),
+        right: derivative.right.filter(|_| !is_tie),
+        ..derivative.clone()
+    });
+    let weaker: Vec<_> = weaker.collect();
+    if measures.failure.mode == Some(FailureMode::Across) {
+        derivatives.retain(|derivative| derivative.measure != name::FAILURE_FORCE);
+        let failing = both[1].iter().cloned();
+        derivatives
+            .extend(failing.map(|of| ParameterDerivative { measure: name::FAILURE_FORCE, ..of }));
+    }
+    derivatives.extend(weaker);
 }
 
 /// Bends the design of `case`, and differentiates its measures.
@@ -198,6 +260,20 @@ impl Varied<'_> {
     pub(super) fn punctured(&self, by: f64) -> Option<PunctureInput> {
         let moved = self.parameter.moved(self.case, by)?;
         Some(punctured(&moved, self.stiffness(&moved)?))
+    }
+
+    /// Returns the input of the row across.
+    fn punctured_across(&self, by: f64) -> Option<PunctureInput> {
+        let moved = self.parameter.moved(self.case, by)?.across()?;
+        let here = self.case.across()?;
+        Some(punctured(&moved, self.slopes?.moved(&here.bases(), &moved.bases())))
+    }
+
+    /// Computes the derivative of the factor from the force across to the one along.
+    fn factor_rate(&self) -> f64 {
+        let factors = self
+            .variation(|varied, by| Some(varied.parameter.moved(varied.case, by)?.across_factor()));
+        factors.map_or(0.0, |of| (of.above - of.below) / (2.0 * of.step))
     }
 
     pub(super) fn bent(&self, by: f64) -> Option<FlexureInput> {

@@ -1,5 +1,6 @@
 //! Runs: independent rows, damaged journals, derivatives and reference results.
 
+mod across;
 mod fuzz;
 mod hunt;
 mod journals;

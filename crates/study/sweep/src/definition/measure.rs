@@ -48,7 +48,9 @@ impl Measure {
     pub fn sections(self) -> &'static [&'static str] {
         match self {
             Self::Coverage => &["designs", "body"],
-            Self::Puncture => &["designs", "scale", "substrate", "body", "contact", "puncture"],
+            Self::Puncture => {
+                &["designs", "scale", "substrate", "body", "contact", "puncture", "array"]
+            }
             Self::Flexure => &["designs", "scale", "contact", "flexure"],
             Self::Sensitivity => &[],
         }

@@ -100,6 +100,14 @@ pub const SCALE_STRENGTH: &str = "scale_strength_MPa";
 /// Strength of the bonds.
 pub const BOND_STRENGTH: &str = "bond_strength_MPa";
 
+/// Whether the row across is solved with the gap of the row along.
+pub const ACROSS: &str = "across";
+
+/// Gap between neighbouring scales across the row.
+pub const GAP_ACROSS: &str = "gap_across_over_t";
+/// The same gap in mm.
+pub const GAP_ACROSS_MM: &str = "gap_across_mm";
+
 /// Modulus of the membrane.
 pub const MEMBRANE_MODULUS: &str = "membrane_modulus_MPa";
 

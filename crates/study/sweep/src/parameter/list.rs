@@ -263,6 +263,18 @@ pub static PARAMETERS: &[Parameter] = parameters! {
             "strength of the bonds between scales and substrate over E_s; bonds cannot fail unless given";
     }
 
+    "array" {
+        key::ACROSS, "-", [],
+            words!(across: "false" = false, "true" = true),
+            "whether to puncture the row across, too; a gap across requests it as well";
+        key::GAP_ACROSS, "t", [Continuous, Made],
+            optional(LENGTH, |c| &mut c.gap_across),
+            "gap between neighbouring scales across the row; the gap along it unless given";
+        key::GAP_ACROSS_MM, "mm", [InMm(key::GAP_ACROSS), Made],
+            optional(POSITIVE, |c| &mut c.in_mm.gap_across),
+            in_mm!("gap_across", "gap between neighbouring scales across the row");
+    }
+
     "flexure" {
         "method", "-", [],
             words!(flexure.method: "unit-cell" = Method::UnitCell, "chain" = Method::Chain),

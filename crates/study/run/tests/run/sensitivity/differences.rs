@@ -139,6 +139,8 @@ pub fn value(result: &DesignResult, name: &str) -> Option<f64> {
         "depth_stability_force" => puncture.depth_stability_force,
         "weakest_force" => puncture.weakest.force,
         "failure_force" => puncture.failure.force,
+        "force_across" => puncture.across.force,
+        "force_any_direction" => puncture.across.any_direction,
         "scale_stress_max" => puncture.failure.scale_stress,
         "scale_deflection_max" => puncture.failure.scale_deflection,
         "bond_stress_max" => puncture.failure.bond_stress,

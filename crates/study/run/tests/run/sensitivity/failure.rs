@@ -55,3 +55,21 @@ fn derivatives_of_the_first_failure_are_those_of_whole_solutions() {
         "{modes:?}"
     );
 }
+
+/// With the gap across given, and with the gap along in both directions.
+#[test]
+fn derivatives_of_the_force_across_are_those_of_whole_solutions() {
+    for number in 0..4 {
+        let mut case = random_case(number);
+        case.judge_failure = true;
+        case.across = true;
+        if number % 2 == 0 {
+            case.gap_across = Some(0.7 * case.design.gap);
+        }
+        let mut derivatives = derivatives(&case);
+        let names = ["force_across", "force_any_direction", "failure_force"];
+        derivatives.retain(|derivative| names.contains(&derivative.measure));
+        let compared = compare_components(&case, &derivatives, &Differences::of(&case));
+        assert!(compared >= 20, "{compared} {case:?}");
+    }
+}

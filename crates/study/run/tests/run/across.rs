@@ -1,0 +1,85 @@
+//! The row across, against isolated values and the counts of another program.
+
+use rayon::prelude::*;
+use results::DesignResult;
+use run::Evaluator;
+use skin::puncture::FailureMode;
+use sweep::{Measure, Sweep};
+
+/// Solves all designs of a definition in order.
+fn results(text: &str) -> Vec<DesignResult> {
+    let sweep = Sweep::parse(text, "x.toml", &[]).expect("a valid sweep");
+    let evaluator = Evaluator::new(&[Measure::Puncture]);
+    let numbers: Vec<_> = (0..sweep.grid().len()).collect();
+    let solve =
+        |index: &u64| evaluator.row(sweep.grid().number(*index), &sweep.grid().case(*index)).result;
+    numbers.par_iter().map(solve).collect()
+}
+
+/// Returns the critical forces along and across the row.
+fn forces(result: &DesignResult) -> (Option<f64>, Option<f64>) {
+    let measures = result.puncture.expect("a puncture").measures;
+    (measures.critical_force, measures.across.force)
+}
+
+/// `F` over `E* t²` at 10°, for a width of `t`.
+#[test]
+fn an_isolated_scale_tilts_across_at_known_forces() {
+    for (length, force) in [(0.1, 0.0170), (0.2, 0.0237), (0.5, 0.0412), (1.0, 0.0682)] {
+        let text = format!(
+            "name = 'x'\nmeasures = 'puncture'\n[designs]\ngap_over_t = 500\n\
+             length_over_t = {length}\nslant_deg = 60\n[array]\nacross = true"
+        );
+        let (_, across) = forces(&results(&text)[0]);
+        let found = across.expect("a force") * length;
+        assert!((found - force).abs() < 1e-4, "{length}: {found}");
+    }
+}
+
+#[test]
+fn the_weaker_direction_is_the_smaller_force() {
+    let text = "name = 'x'\nmeasures = 'puncture'\n[designs]\ngap_over_t = 0.3\nlength_over_t = 1\n\
+                slant_deg = [0, 60]\n[array]\nacross = true\n[puncture]\nfailure = true\n\
+                needle = 'guided'\nneedle_friction = 0.3\nload_inset_over_t = 0.05";
+    let all = results(text);
+    let (along, across) = forces(&all[1]);
+    let (along, across) = (along.expect("a force"), across.expect("a force"));
+    assert!((along - 0.45).abs() < 0.005 && (across - 0.27).abs() < 0.005, "{along} {across}");
+    let measures = all[1].puncture.expect("a puncture").measures;
+    assert_eq!(measures.across.any_direction, Some(across));
+    assert_eq!(
+        (measures.failure.mode, measures.failure.force),
+        (Some(FailureMode::Across), Some(across))
+    );
+    // An upright square scale is as strong in both directions.
+    let (along, across) = forces(&all[0]);
+    let (along, across) = (along.expect("a force"), across.expect("a force"));
+    assert!((along / across - 1.0).abs() < 1e-9, "{along} {across}");
+}
+
+const PAPER: &str = "name = 'x'\nmeasures = 'puncture'\n[designs]\n\
+    gap_over_t = { from = 0.1, to = 1, step = 0.1 }\n\
+    length_over_t = [0.025, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1]\n\
+    slant_deg = { from = 0, to = 75, step = 15 }\n[array]\nacross = true\n";
+
+/// Counts the designs with both forces and those that are weaker across the row.
+fn counts(text: &str) -> (usize, usize) {
+    let both: Vec<_> = results(text)
+        .iter()
+        .filter_map(|result| {
+            let (along, across) = forces(result);
+            Some((along?, across?))
+        })
+        .collect();
+    // Upright square scales are as strong in both directions.
+    let weaker = both.iter().filter(|(along, across)| *across < along * (1.0 - 1e-9));
+    (both.len(), weaker.count())
+}
+
+#[test]
+fn many_designs_of_the_reference_study_are_weaker_across() {
+    assert_eq!(counts(PAPER), (720, 127));
+    let advised =
+        "[puncture]\nneedle = 'guided'\nneedle_friction = 0.3\nload_inset_over_t = 0.05\n";
+    assert_eq!(counts(&format!("{PAPER}{advised}")), (688, 219));
+}
