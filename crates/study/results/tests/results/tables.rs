@@ -33,8 +33,9 @@ fn every_parameter_may_be_an_axis_with_a_column_of_its_own() {
     };
     let axis = |p: &sweep::Parameter| format!("{} = {}\n", p.key, value(p));
     // These parameters exclude each other: length and number of gaps, critical tilt and friction,
-    // the two units of a depth. A radius needs a guided needle without friction.
-    let names_without = |needle: &str, others: [&str; 4], in_mm: bool| {
+    // the two units of a depth, radius and curvature. A round tip needs a guided needle without
+    // friction.
+    let names_without = |needle: &str, others: [&str; 5], in_mm: bool| {
         // A length is given in one unit. None in mm can be combined with parameters that define the
         // same length in other ways.
         let is_other = |p: &sweep::Parameter| {
@@ -56,18 +57,24 @@ fn every_parameter_may_be_an_axis_with_a_column_of_its_own() {
     };
     let mut names = names_without(
         "",
-        ["gaps", "needle_friction", "load_inset_over_t", "needle_radius_over_t"],
+        ["gaps", "needle_friction", "load_inset_over_t", "needle_radius_over_t", "radius_over_t"],
         false,
     );
     assert!(names.iter().any(|name| name == "membrane_length_over_t"));
     let others = names_without(
         "",
-        ["membrane_length_mm", "critical_tilt_deg", "load_position", "needle_radius_mm"],
+        [
+            "membrane_length_mm",
+            "critical_tilt_deg",
+            "load_position",
+            "needle_radius_mm",
+            "curvature_times_t",
+        ],
         true,
     );
     let guided = names_without(
         "puncture.needle = 'guided'\n",
-        ["gaps", "needle_friction", "load_inset_over_t", "needle"],
+        ["gaps", "needle_friction", "load_inset_over_t", "needle", "curvature_times_t"],
         false,
     );
     assert!(guided.iter().any(|name| name == "needle_radius_over_t"));

@@ -40,27 +40,37 @@ fn check_place(given: &Parameter, grid: &Grid, variables: &[Variable]) -> Result
     }
 }
 
-/// Refuses a radius of zero, and a variable with a range that contains it.
+/// Least radius of a body, over the thickness or in mm.
+///
+/// The thickness is the largest curvature of a body; a radius in mm may belong to a thin scale.
+const LEAST_RADIUS: [f64; 2] = [1.0, 1e-3];
+
+/// Refuses a radius near zero, and a variable with a range that contains zero.
 fn check_radius(given: &Parameter, grid: &Grid, variables: &[Variable]) -> Result<(), Problem> {
     let axis = grid.axes().iter().find(|axis| axis.parameter() == given);
     let variable = variables.iter().find(|variable| variable.parameter() == given);
+    let least = LEAST_RADIUS[usize::from(given.is_in_mm())];
+    let is_short = |radius: &Scalar| radius.number().is_some_and(|radius| radius.abs() < least);
     let found = match (variable.map(Variable::values), axis) {
-        (Some(VariableValues::Between(from, to)), _) if from * to <= 0.0 => {
+        (Some(VariableValues::Between(from, to)), _)
+            if from * to <= 0.0 || from.abs().min(to.abs()) < least =>
+        {
             Some(format!("{} to {}", number::text(*from), number::text(*to)))
         }
         (Some(VariableValues::Between(..)), _) => None,
         (_, Some(axis)) => {
             let mut radii = (0..axis.len()).map(|index| axis.value(index));
-            radii.find(|radius| radius.number() == Some(0.0)).map(|radius| radius.to_string())
+            radii.find(is_short).map(|radius| radius.to_string())
         }
-        _ => {
-            Some(given.get(grid.base())).filter(|r| r.number() == Some(0.0)).map(|r| r.to_string())
-        }
+        _ => Some(given.get(grid.base())).filter(is_short).map(|radius| radius.to_string()),
     };
     let Some(found) = found else { return Ok(()) };
-    let expected = "a radius above 0 for a convex body or below 0 for a concave one; \
-                    curvature_times_t may pass through 0, a flat body";
-    Err(Problem::Value(WrongValue::OutOfRange { found, expected: expected.to_owned() }))
+    let expected = format!(
+        "a radius of at least {least} {} for a convex body, or of at most -{least} for a concave \
+         one; curvature_times_t may pass through 0, a flat body",
+        given.unit
+    );
+    Err(Problem::Value(WrongValue::OutOfRange { found, expected }))
 }
 
 /// Checks the parameter `of` that follows from `given` and the parameter `unit`.
