@@ -80,6 +80,10 @@ impl LocalSearch<'_> {
             _ if is_elastic => return Ok(()),
             _ => None,
         };
+        // A design without a value for a requirement has no finite shortfall to minimise.
+        if missed.is_some_and(|missed: f64| !missed.is_finite()) {
+            return Ok(());
+        }
         let Some(problem) = LocalProblem::new(self, SearchStage::Gradient, piece, missed) else {
             return Ok(());
         };
