@@ -43,7 +43,8 @@ impl Parameter {
 
     /// Returns the reference size for changes of this numeric parameter in `case`.
     ///
-    /// The size is the magnitude of the value. If the range includes zero, it is at least 1. `None`
+    /// The size is the magnitude of the value. If the range includes zero, it is at least 1, or
+    /// 0.05 for a curvature. `None`
     /// if the parameter is not a number, not given, or follows from its alternative.
     pub fn size(&self, case: &Case) -> Option<f64> {
         let (ParameterKind::Number { range, .. }
@@ -70,6 +71,8 @@ impl Parameter {
             Excluded(low) => low < 0.0,
             Included(low) => low <= 0.0,
         };
-        Some(if may_vanish { value.max(1.0) } else { value })
+        // The curvature of a forearm: much smaller changes already close the gap of two scales.
+        let least = if self.key == key::CURVATURE { 0.05 } else { 1.0 };
+        Some(if may_vanish { value.max(least) } else { value })
     }
 }
