@@ -153,6 +153,9 @@ class Skin:
         tissue_thickness_mm: float | None = None,
         coupling: str | None = None,
         law: str | None = None,
+        curvature_times_t: float | None = None,
+        radius_over_t: float | None = None,
+        radius_mm: float | None = None,
         c1: float | None = None,
         c2: float | None = None,
         friction: float | None = None,
@@ -170,6 +173,12 @@ class Skin:
         depth_mm: float | None = None,
         places: int | str | None = None,
         contact_modulus_over_substrate: float | None = None,
+        failure: bool | None = None,
+        scale_strength_over_substrate: float | None = None,
+        bond_strength_over_substrate: float | None = None,
+        across: bool | None = None,
+        gap_across_over_t: float | None = None,
+        gap_across_mm: float | None = None,
         method: str | None = None,
         membrane_length_over_t: float | None = None,
         membrane_length_mm: float | None = None,
@@ -196,6 +205,8 @@ class Skin:
         substrate_modulus_MPa: float | None = None,
         membrane_modulus_MPa: float | None = None,
         scale_modulus_MPa: float | None = None,
+        scale_strength_MPa: float | None = None,
+        bond_strength_MPa: float | None = None,
         scale_density_kg_m3: float | None = None,
     ) -> None: ...
     @property
@@ -226,6 +237,12 @@ class Skin:
     def coupling(self) -> str: ...
     @property
     def law(self) -> str: ...
+    @property
+    def curvature_times_t(self) -> float: ...
+    @property
+    def radius_over_t(self) -> float | None: ...
+    @property
+    def radius_mm(self) -> float | None: ...
     @property
     def c1(self) -> float: ...
     @property
@@ -260,6 +277,18 @@ class Skin:
     def places(self) -> int | str: ...
     @property
     def contact_modulus_over_substrate(self) -> float: ...
+    @property
+    def failure(self) -> bool: ...
+    @property
+    def scale_strength_over_substrate(self) -> float | None: ...
+    @property
+    def bond_strength_over_substrate(self) -> float | None: ...
+    @property
+    def across(self) -> bool: ...
+    @property
+    def gap_across_over_t(self) -> float | None: ...
+    @property
+    def gap_across_mm(self) -> float | None: ...
     @property
     def method(self) -> str: ...
     @property
@@ -312,6 +341,10 @@ class Skin:
     def membrane_modulus_MPa(self) -> float | None: ...
     @property
     def scale_modulus_MPa(self) -> float | None: ...
+    @property
+    def scale_strength_MPa(self) -> float | None: ...
+    @property
+    def bond_strength_MPa(self) -> float | None: ...
     @property
     def scale_density_kg_m3(self) -> float | None: ...
     @property
