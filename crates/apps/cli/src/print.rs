@@ -39,7 +39,7 @@ pub const FOLDED: char = '⚠';
 
 /// Prints a warning to stderr.
 pub fn warning(text: &str) {
-    // As for a note, there is nobody to tell if stderr is closed.
+    // A write to a closed stderr fails; ignore it, because no other channel is left for messages.
     let _ = writeln!(io::stderr(), "warning: {}", text::visible(text));
 }
 

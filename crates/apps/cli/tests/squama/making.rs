@@ -63,7 +63,7 @@ fn impossible_patches_are_rejected() {
     assert_eq!(place.list("."), "x.toml y.toml", "nothing is written");
 }
 
-/// Another name would replace a file that nobody named.
+/// A lossy conversion of the name could overwrite an unrelated file.
 #[cfg(target_os = "linux")]
 #[test]
 fn names_that_are_not_utf_8_are_refused() {

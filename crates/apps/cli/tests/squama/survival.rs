@@ -1,6 +1,6 @@
 //! A run that is killed, interrupted, or meets a full disk loses no completed design.
 //!
-//! After resuming, its tables equal those of an undisturbed run.
+//! After `--resume`, its tables are identical to the tables of an uninterrupted run.
 
 use std::time::Duration;
 

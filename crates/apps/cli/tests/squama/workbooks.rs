@@ -53,7 +53,7 @@ fn searches_and_tolerances_are_exported_and_rejected_elsewhere() {
       tolerance          1 row
       tolerance_sources  1 row
     ");
-    // Every column is explained, including those of single tables.
+    // The sheet `columns` explains every column of every sheet.
     for book in ["f.xlsx", "t.xlsx"] {
         let mut book: calamine::Xlsx<_> =
             calamine::open_workbook(place.path(book)).expect("a workbook");

@@ -16,7 +16,7 @@ use crate::figures::{MULTIPLES, PARTS, Quantity, map, multiples, pareto, sheet, 
 use crate::packed::write_packed;
 use crate::svg::untitled;
 
-/// Maximum number of measures with a figure, besides those of the paper.
+/// Maximum number of measures with a figure, in addition to the paper's criteria.
 const MEASURES: usize = 24;
 /// Approximate maximum number of marks in all their figures.
 const MARKS: usize = 60_000;
@@ -48,7 +48,7 @@ impl<W: Write> FigureWriter<'_, W> {
         Ok(())
     }
 
-    /// Writes a figure of which there is at most one.
+    /// Writes the figure of a kind that has at most one.
     fn only(&mut self, kind: &str, choice: &str, svg: Option<String>) -> io::Result<()> {
         svg.map_or(Ok(()), |svg| self.add(kind, choice, &Map::new(), &svg))
     }
@@ -102,7 +102,9 @@ pub(super) fn write(out: &mut impl Write, page: &Page) -> io::Result<Vec<Value>>
     Ok(figures.written)
 }
 
-/// Returns the measures with a figure besides those of the paper; large tables have fewer.
+/// Returns the measures with a figure in addition to the paper's criteria.
+///
+/// Large tables have fewer.
 fn measures(designs: &Designs) -> Vec<String> {
     let is_shown = |header: &&String| {
         let is_papers = MULTIPLES.iter().any(|(measure, _)| header == measure);

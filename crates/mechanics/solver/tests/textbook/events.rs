@@ -106,9 +106,9 @@ fn the_nearer_of_two_walls_is_met_first() {
     }
 }
 
-/// Two walls at one position, one of which takes over the force of the other.
+/// Two walls at one position: one carries the force and shields the other.
 ///
-/// The other never acts, whichever is evaluated first.
+/// The shielded wall never acts, in either order of evaluation.
 #[test]
 fn a_shielded_wall_stays_open() {
     let wall: fn(f64) -> [f64; 2] = |u| [0.5 - u, -1.0];

@@ -18,7 +18,7 @@ use text::toml_source::{KeyValue, KeyValues, Place, Value};
 
 /// Maximum number of refused keys.
 ///
-/// The rest is not read, because nobody corrects more at once.
+/// Reading stops there, so that a file in another format does not print thousands of errors.
 const MOST: usize = 50;
 
 /// A reader of definitions, with the accepted keys and the errors so far.

@@ -44,8 +44,8 @@ impl Parameter {
     /// Returns the reference size for changes of this numeric parameter in `case`.
     ///
     /// The size is the magnitude of the value. If the range includes zero, it is at least 1, or
-    /// 0.05 for a curvature. `None`
-    /// if the parameter is not a number, not given, or follows from its alternative.
+    /// 0.05 for a curvature. `None` if the parameter is not a number, not given, or follows from
+    /// its alternative.
     pub fn size(&self, case: &Case) -> Option<f64> {
         let (ParameterKind::Number { range, .. }
         | ParameterKind::SignedNumber { size: range, .. }

@@ -1,5 +1,5 @@
-// The table of designs, sorted by its headers and filtered by its second line. Of many rows only
-// the visible ones are elements.
+// The table of designs. Its headers sort it and its second line filters it. Long tables have
+// elements for the visible rows only.
 
 (() => {
   const { state, filters } = squama;
