@@ -20,6 +20,7 @@
 //! | [`Variable`], [`VariableValues`] | a parameter that is searched over or drawn, of `[variables]` |
 //! | [`Deviation`], [`BatchDeviation`] | manufacturing deviations, of `[tolerance]` |
 //! | [`Material`] | thickness, moduli and density of the skin, in physical units |
+//! | [`NamedMaterial`], [`SCALE_MATERIALS`], [`TISSUE_MATERIALS`] | materials that a definition may name |
 //! | [`Subset`], [`RandomSample`], [`Shard`], [`SubsetDesigns`] | the designs that a run solves |
 //!
 //! ```
@@ -61,6 +62,7 @@ pub use deviation::{BatchDeviation, Deviation};
 pub use grid::{Axis, DesignNumber, Grid, NoSuchDesign, TooManyDesigns};
 pub use input::{read_input, read_input_bytes};
 pub use material::Material;
+pub use material::named::{NamedMaterial, SCALE_MATERIALS, TISSUE_MATERIALS};
 pub use parameter::{PARAMETERS, Parameter, Role, Scalar, WrongValue, key};
 pub use subset::{NoShard, RandomSample, SampleTooLarge, Shard, Subset, SubsetDesigns};
 pub use variable::{Variable, VariableValues};

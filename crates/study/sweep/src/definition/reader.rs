@@ -11,7 +11,8 @@ use crate::case::Case;
 use crate::definition::Sweep;
 use crate::deviation::Deviation;
 use crate::grid::{Axis, Grid};
-use crate::parameter::{Parameter, Scalar, WrongValue, key};
+use crate::material::named::{NAMES, NamedMaterial};
+use crate::parameter::{Parameter, Scalar, WrongValue, any_of, key};
 use crate::variable::{Variable, VariableValues};
 use text::number;
 use text::toml_source::{KeyValue, KeyValues, Place, Value};
@@ -28,6 +29,7 @@ pub(crate) struct Reader {
     measures: Option<Vec<Measure>>,
     case: Case,
     shared: Vec<(&'static Parameter, Place)>,
+    materials: Vec<(&'static NamedMaterial, Place)>,
     axes: Vec<WrittenAxis>,
     variables: Vec<(Variable, Place)>,
     deviations: Vec<(Deviation, Place)>,
@@ -52,6 +54,10 @@ impl Reader {
             "measures" => self.read_measures(entry),
             suggestion::VARIABLES => self.entries(entry, Self::read_variable),
             suggestion::TOLERANCE => self.entries(entry, Self::read_deviation),
+            // `material = "PLA"` names the material of the scales.
+            suggestion::MATERIAL if matches!(entry.value, Value::Text(_)) => {
+                self.read_material("scale", entry)
+            }
             section if suggestion::is_section(section) => self.section(section, entry),
             _ => Err(unknown("", entry)),
         };
@@ -70,6 +76,38 @@ impl Reader {
         let measures = Measure::read_list(&entry.value);
         self.measures = Some(measures.map_err(|p| refuse(&entry.place, &entry.key, p))?);
         Ok(())
+    }
+
+    /// Reads the name of a material, of the scales or of the tissue (`of`).
+    fn read_material(&mut self, of: &str, entry: &KeyValue) -> Result<(), InvalidDefinition> {
+        let known = NAMES.iter().filter(|(name, _)| *name == of).flat_map(|(_, known)| *known);
+        let named = match &entry.value {
+            Value::Text(name) => known.clone().find(|known| known.name.eq_ignore_ascii_case(name)),
+            _ => None,
+        };
+        let Some(named) = named else {
+            let names: Vec<_> = known.map(|known| known.name).collect();
+            let wrong = WrongValue::not_accepted(&entry.value, any_of(&names));
+            return Err(refuse(&entry.place, &format!("{}.{of}", suggestion::MATERIAL), wrong));
+        };
+        self.materials.push((named, entry.place.clone()));
+        Ok(())
+    }
+
+    /// Sets the values of the named materials that the definition does not give otherwise.
+    fn supply_materials(&mut self) {
+        for (named, place) in std::mem::take(&mut self.materials) {
+            for (key, value) in named.values {
+                let Some(parameter) = Parameter::named(key) else { continue };
+                let is_given = self.says(key)
+                    || parameter.others_in(&self.case).any(|other| self.says(other.key));
+                if is_given {
+                    continue;
+                }
+                parameter.set(&mut self.case, Scalar::Number(*value));
+                self.shared.push((parameter, place.clone()));
+            }
+        }
     }
 
     fn section(&mut self, section: &str, entry: &KeyValue) -> Result<(), InvalidDefinition> {
@@ -119,6 +157,9 @@ impl Reader {
 
     fn parameter(&mut self, section: &str, entry: &KeyValue) -> Result<(), InvalidDefinition> {
         let key = format!("{section}.{}", entry.key);
+        if section == suggestion::MATERIAL && NAMES.iter().any(|(name, _)| *name == entry.key) {
+            return self.read_material(&entry.key, entry);
+        }
         // Any parameter may be an axis, whatever its section.
         let belongs = |p: &&Parameter| section == "designs" || section == p.section;
         let Some(parameter) = Parameter::named(&entry.key).filter(belongs) else {
@@ -138,6 +179,7 @@ impl Reader {
 
     /// Returns the sweep after all keys of `file` have been read, or all errors.
     pub fn finish(mut self, file: &Place) -> Result<Sweep, InvalidDefinition> {
+        self.supply_materials();
         // In addition to a gap, the pitch determines the length of a scale.
         self.case.in_mm.pitch_says_length = self.says(key::PITCH) && self.says(key::GAP);
         let wrong_together = self.wrong_together(file);

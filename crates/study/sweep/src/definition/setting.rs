@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::suggestion::VARIABLES;
+use super::suggestion::{MATERIAL, VARIABLES};
 use crate::case::Case;
 use crate::parameter::{Parameter, key};
 use text::toml_source::{self, KeyValue, KeyValues, Place, Value};
@@ -60,7 +60,7 @@ impl Setting {
         // Split at the first `=`: a table or a text may contain more of them.
         let (key, value) =
             text.split_once('=').ok_or_else(|| refuse("there is no `=`".to_owned()))?;
-        let path: Vec<_> = key.split('.').map(|part| part.trim().to_owned()).collect();
+        let mut path: Vec<_> = key.split('.').map(|part| part.trim().to_owned()).collect();
         if path.iter().any(String::is_empty) {
             return Err(refuse(format!("`{}` is not a key", key.trim())));
         }
@@ -73,6 +73,10 @@ impl Setting {
         let value = toml_source::parse_argument(value, &place).map_err(|message| {
             refuse(format!("`{}` is not a TOML value ({message})", value.trim()))
         })?;
+        // `material=PLA` must not replace the section.
+        if path == [MATERIAL] && matches!(value, Value::Text(_)) {
+            path.push("scale".to_owned());
+        }
         Ok(Self { path, value, place })
     }
 

@@ -2,6 +2,7 @@
 
 use text::nearest;
 
+use crate::material::named::NAMES;
 use crate::parameter::{PARAMETERS, Parameter, key};
 
 /// Section of the axes.
@@ -12,6 +13,9 @@ pub(crate) const VARIABLES: &str = "variables";
 
 /// Section of the manufacturing deviations.
 pub(crate) const TOLERANCE: &str = "tolerance";
+
+/// Section of the material.
+pub(crate) const MATERIAL: &str = "material";
 
 /// Keys outside the sections of parameters.
 const TOP: [&str; 4] = ["name", "measures", VARIABLES, TOLERANCE];
@@ -65,7 +69,8 @@ fn keys_of(section: &str) -> Vec<&'static str> {
     let belongs = |parameter: &&Parameter| {
         section == DESIGNS || section == VARIABLES || section == parameter.section
     };
-    PARAMETERS.iter().filter(belongs).map(|parameter| parameter.key).collect()
+    let names = NAMES.iter().map(|(name, _)| *name).filter(|_| section == MATERIAL);
+    PARAMETERS.iter().filter(belongs).map(|parameter| parameter.key).chain(names).collect()
 }
 
 #[cfg(test)]
