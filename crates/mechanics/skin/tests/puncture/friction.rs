@@ -301,7 +301,8 @@ fn loop_work_is_the_area_of_the_loop_for_random_designs() {
             load_position: 0.9,
             ..Default::default()
         };
-        let solver = Settings { first_step: 0.001, max_step: 0.01, ..Settings::default() };
+        // The error of the trapezoidal rule decreases with the square of the step.
+        let solver = Settings { first_step: 0.001, max_step: 0.002, ..Settings::default() };
         let common = Common { solver, ..with_friction(friction) };
         let puncture = solve_as(&known, &design, &common, &parameters);
         let (Some(loop_work), Some(back)) =
@@ -311,10 +312,35 @@ fn loop_work_is_the_area_of_the_loop_for_random_designs() {
         };
         let there = work_of(&puncture.path, design.length);
         let area = there + work_of(&back.path, design.length);
-        assert!((loop_work - area).abs() < 2e-3 * there, "{design:?} {loop_work} {area} {there}");
+        assert!((loop_work - area).abs() < 1e-3 * there, "{design:?} {loop_work} {area} {there}");
         closed += 1;
     }
     assert!(closed > count * 4 / 5, "{closed} of {count}");
+}
+
+/// A tip that slides to a corner does work on the face up to the corner.
+///
+/// Beyond it the force is resolved along another normal. The value is converged.
+#[test]
+fn friction_works_up_to_the_corner() {
+    let design = design(0.348_434, 0.074_856, 12.225_76, Base::TwoL);
+    let parameters = PunctureParameters {
+        needle: Needle::Guided { friction: 0.1 },
+        unload: true,
+        load_position: 0.9,
+        ..Default::default()
+    };
+    let small = Settings { first_step: 1e-4, max_step: 2e-4, ..Settings::default() };
+    let [coarse, fine] = [Settings::default(), small].map(|solver| {
+        let common = Common { solver, ..Common::default() };
+        solve_as(&Calibrations::default(), &design, &common, &parameters)
+    });
+    let back = fine.unloading.as_ref().unwrap();
+    let area = work_of(&fine.path, design.length) + work_of(&back.path, design.length);
+    for puncture in [&coarse, &fine] {
+        let loop_work = puncture.measures.remains.loop_work.unwrap();
+        assert_relative_eq!(loop_work, area, max_relative = 1e-4);
+    }
 }
 
 /// A tip leaves a notch as the load decreases, or contacts close where others open.

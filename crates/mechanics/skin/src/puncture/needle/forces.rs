@@ -348,8 +348,14 @@ impl Chain {
                     needle.normal_force(slot) + 1 + if sign > 0.0 { FORWARD } else { BACKWARD };
                 let normal_force = needle.normal_force(slot);
                 let along = |of: usize| [spans[0] * from.leaving[of], spans[1] * to.arriving[of]];
+                // At a corner the force of the second point is resolved along another normal.
+                let after = self.touches(&to.state).find(|(other, ..)| *other == slot);
+                let push = after.map_or(to.state.z[normal_force], |(.., meeting)| {
+                    let force = meeting.tip.force(needle.forces(&to.state.z, slot));
+                    end.tip.parts(force)[0]
+                });
+                let pushes = [from.state.z[normal_force], push];
                 // The tip may have stopped at the second point, so compute its slip from the poses.
-                let pushes = [from.state.z[normal_force], to.state.z[normal_force]];
                 let ways = [from.state.z[slid], sign * (end.xi() - start)];
                 needle.friction
                     * product_integral([pushes, along(normal_force)], [ways, along(slid)])
