@@ -3,7 +3,8 @@
 use std::io;
 use std::path::Path;
 
-use serde_json::Value;
+use serde_json::{Map, Value};
+use sweep::JudgedModes;
 
 /// Prints `value` as JSON.
 pub fn print(value: &Value) -> io::Result<()> {
@@ -23,4 +24,13 @@ pub fn answer(
     }
     let files: Vec<_> = files.iter().map(AsRef::as_ref).collect();
     crate::print::print(&format!("{}\n{}: {}\n", text(), folder.display(), files.join(" ")))
+}
+
+/// Returns the failure modes as JSON: each with the reason for which it is not judged, or null.
+pub fn failure_modes(modes: &JudgedModes) -> Value {
+    modes
+        .reasons()
+        .map(|(mode, reason)| (mode.to_owned(), reason.into()))
+        .collect::<Map<_, _>>()
+        .into()
 }

@@ -228,6 +228,14 @@ impl Skin {
         given.collect::<PyResult<Vec<_>>>()?.into_py_dict(py)
     }
 
+    /// Returns the failure modes, each with the reason for which it is not judged; `None` unless
+    /// the first failure is sought.
+    #[getter]
+    fn failure_modes<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
+        let modes = self.case().judged_modes();
+        modes.map(|modes| modes.reasons().into_py_dict(py)).transpose()
+    }
+
     fn __getattr__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let no_such = || PyAttributeError::new_err(format!("a Skin has no {name}"));
         let parameter = Parameter::named(name).ok_or_else(no_such)?;

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use results::columns::{name, plain_goal};
+use results::columns::{mode_column, name, plain_goal};
 use serde::Serialize;
 use serde_json::Value;
 use sweep::{Axis, Parameter, Scalar, Sweep, Variable, key};
@@ -107,6 +107,8 @@ struct Shown {
     is_curvature: bool,
     /// True if one direction is better, so that arrows can show how to improve it.
     has_goal: bool,
+    /// The column with the failure mode of a force.
+    mode: Option<&'static str>,
 }
 
 fn shown(
@@ -116,12 +118,13 @@ fn shown(
     words: &'static str,
 ) -> Shown {
     let has_goal = plain_goal(name).is_some();
-    Shown { name, label, physical, words, is_curvature: name == name::CONTACT_CURVATURE, has_goal }
+    let (is_curvature, mode) = (name == name::CONTACT_CURVATURE, mode_column(name));
+    Shown { name, label, physical, words, is_curvature, has_goal, mode }
 }
 
-/// Returns the displayed measures.
-fn measures() -> [Shown; 7] {
-    [
+/// Returns the displayed measures, with the failure force if it is sought.
+fn measures(seeks_failure: bool) -> Vec<Shown> {
+    let mut measures = vec![
         shown(name::COVERAGE, "Coverage", "", "fraction of the scale layer that is solid scale"),
         shown(
             name::CRITICAL_FORCE,
@@ -154,7 +157,12 @@ fn measures() -> [Shown; 7] {
             "sound_force_N",
             "beyond it the modelled surface folds",
         ),
-    ]
+    ];
+    if seeks_failure {
+        let words = "force at the first failure";
+        measures.insert(2, shown(name::FAILURE_FORCE, "Failure force", "failure_force_N", words));
+    }
+    measures
 }
 
 /// The data for the scripts.
@@ -166,7 +174,7 @@ struct Data<'a> {
     /// Thickness of the scales, mm, if known.
     thickness: Option<f64>,
     controls: Vec<Control>,
-    measures: [Shown; 7],
+    measures: Vec<Shown>,
     requirements: &'a [String],
 }
 
@@ -194,7 +202,7 @@ impl Explorer {
                 .map_or_else(String::new, |parameter| parameter.get(base).to_string()),
             thickness: base.material.thickness_mm,
             controls: OFFERED.iter().filter_map(|offered| self.control(offered)).collect(),
-            measures: measures(),
+            measures: measures(self.sweep.grid().case(0).judged_modes().is_some()),
             requirements: &self.requirements,
         };
         fill(out, SECTION, |out, place| match place {

@@ -189,7 +189,11 @@ impl<'r> Ranking<'r> {
         Results::with_columns(folder, |column| {
             // Parameters are printed, and are the conditions that decide on comparability.
             let is_always = column == name::FOLD_FORCE || parameter_of(column).is_some();
-            is_always || is_criterion(column) || is_required(column)
+            // A failure mode is printed beside its force.
+            is_always
+                || is_criterion(column)
+                || is_required(column)
+                || column == name::FIRST_FAILURE
         })
     }
 

@@ -73,10 +73,19 @@ pub fn measure_of(name: &str) -> Option<Measure> {
 /// Returns true if a column is not valid once the surface of the substrate folds.
 pub fn is_invalid_after_fold(name: &str) -> bool {
     about(name).is_some_and(|(value, _)| {
-        // The fold itself, and the force up to it, are valid.
-        let is_about_fold = value.name == name::SOUND_FORCE || value.name.starts_with("fold_");
+        // The fold itself, and forces up to it, are valid. A fold is a failure, too.
+        let before_fold = [name::SOUND_FORCE, name::FAILURE_FORCE, name::FIRST_FAILURE];
+        let is_about_fold = before_fold.contains(&value.name) || value.name.starts_with("fold_");
         value.measure() == Some(Measure::Puncture) && !is_about_fold
     })
+}
+
+/// Returns the column that names the failure mode of a force, if the force is a failure force.
+///
+/// Every answer shows the two together, also for quantiles and in physical units.
+pub fn mode_column(name: &str) -> Option<&'static str> {
+    let (value, _) = about(name)?;
+    (value.name == name::FAILURE_FORCE).then_some(name::FIRST_FAILURE)
 }
 
 /// Returns the value and quantity of a column.

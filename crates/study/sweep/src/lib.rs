@@ -20,6 +20,7 @@
 //! | [`Variable`], [`VariableValues`] | a parameter that is searched over or drawn, of `[variables]` |
 //! | [`Deviation`], [`BatchDeviation`] | manufacturing deviations, of `[tolerance]` |
 //! | [`Material`] | thickness, moduli and density of the skin, in physical units |
+//! | [`JudgedModes`] | the failure modes that a puncture is judged by |
 //! | [`NamedMaterial`], [`SCALE_MATERIALS`], [`TISSUE_MATERIALS`] | materials that a definition may name |
 //! | [`Subset`], [`RandomSample`], [`Shard`], [`SubsetDesigns`] | the designs that a run solves |
 //!
@@ -48,6 +49,7 @@ mod definition;
 mod deviation;
 mod grid;
 mod input;
+mod judged_modes;
 mod material;
 mod parameter;
 mod subset;
@@ -61,6 +63,7 @@ pub use definition::{Sweep, entries, read_entries, read_text};
 pub use deviation::{BatchDeviation, Deviation};
 pub use grid::{Axis, DesignNumber, Grid, NoSuchDesign, TooManyDesigns};
 pub use input::{read_input, read_input_bytes};
+pub use judged_modes::JudgedModes;
 pub use material::Material;
 pub use material::named::{NamedMaterial, SCALE_MATERIALS, TISSUE_MATERIALS};
 pub use parameter::{PARAMETERS, Parameter, Role, Scalar, WrongValue, key};

@@ -101,6 +101,12 @@ fn report(sweep: &Sweep, path: &Path) -> String {
     if sweep.measures().contains(&Measure::Puncture) {
         rows.push(row("calibrations", &calibrations(sweep).to_string()));
     }
+    if let Some(modes) = grid.case(0).judged_modes() {
+        for (title, is_judged) in [("failure modes", true), ("not judged", false)] {
+            let listed = modes.reasons().filter(|(_, reason)| reason.is_none() == is_judged);
+            rows.push(row(title, &listed.map(|(mode, _)| mode).collect::<Vec<_>>().join(", ")));
+        }
+    }
     if let Some(moduli) = contact_moduli(sweep) {
         rows.push(row("contact modulus", &moduli));
     }
@@ -132,6 +138,7 @@ fn as_json(sweep: &Sweep) -> Value {
         "output": folder_of(sweep, None).to_string_lossy(),
         "axes": sweep.grid().axes().iter().map(axis).collect::<Vec<_>>(),
         "parameters": sweep.shared().map(parameter).collect::<Map<_, _>>(),
+        "failure_modes": sweep.grid().case(0).judged_modes().map(|modes| json::failure_modes(&modes)),
     })
 }
 

@@ -1,7 +1,5 @@
 //! `squama design`.
 
-use std::collections::BTreeMap;
-use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use anyhow::ensure;
@@ -13,8 +11,8 @@ use results::{
 };
 use run::Evaluator;
 use serde_json::{Map, Value, json};
-use skin::puncture::{FailureMode, Weakest};
-use sweep::PARAMETERS;
+use skin::puncture::Weakest;
+use sweep::{JudgedModes, PARAMETERS};
 
 use super::selection::{SelectedDesign, Selection, select};
 use super::source::{Definition, folder_within};
@@ -166,35 +164,15 @@ impl SolvedChoice {
         )
     }
 
-    /// Lists the failure modes, each with the reason for which it was not judged, if any; empty
-    /// unless the first failure was sought.
-    fn failure_modes(&self) -> Vec<(&'static str, Option<&'static str>)> {
-        let case = self.design.case();
-        let (parameters, across) = (case.punctured(), case.across().is_some());
-        if parameters.failure.is_none() || self.solved.row.result.puncture.is_none() {
-            return Vec::new();
-        }
-        FailureMode::ALL.map(|mode| (mode.name(), mode.not_judged(&parameters, across))).into()
+    /// Returns the judged failure modes; `None` unless the first failure was sought.
+    fn failure_modes(&self) -> Option<JudgedModes> {
+        self.solved.row.result.puncture?;
+        self.design.case().judged_modes()
     }
 
     /// Reports the failure modes that were judged, and the reasons for the others.
     fn judged(&self) -> String {
-        let modes = self.failure_modes();
-        if modes.is_empty() {
-            return String::new();
-        }
-        let (mut judged, mut others) = (Vec::new(), Vec::new());
-        for (mode, reason) in modes {
-            match reason {
-                None => judged.push(mode.to_owned()),
-                Some(reason) => others.push(format!("{mode} ({reason})")),
-            }
-        }
-        let mut text = format!("\nFailure modes judged: {}\n", judged.join(", "));
-        if !others.is_empty() {
-            let _ = writeln!(text, "Not judged: {}", others.join(", "));
-        }
-        text
+        self.failure_modes().map_or_else(String::new, |modes| format!("\n{modes}"))
     }
 
     fn title(&self) -> String {
@@ -235,9 +213,8 @@ impl SolvedChoice {
             "folder": folder,
             "files": files,
         });
-        let modes = self.failure_modes();
-        if !modes.is_empty() {
-            answer["failure_modes"] = json!(modes.into_iter().collect::<BTreeMap<_, _>>());
+        if let Some(modes) = self.failure_modes() {
+            answer["failure_modes"] = json::failure_modes(&modes);
         }
         answer
     }

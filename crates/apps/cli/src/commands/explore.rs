@@ -23,7 +23,7 @@ use crate::print::{note, print};
 #[command(after_help = "\
 Examples:
   squama explore sweeps/glove.toml
-  squama explore sweeps/glove.toml --require 'coverage >= 0.6' --require 'critical_force_N >= 2'
+  squama explore sweeps/glove.toml --require 'coverage >= 0.6' --require 'failure_force_N >= 1.2'
   squama explore sweeps/goals/strong-and-covered.toml --out goal.html --no-open
 
 Drag a scale or a slider, and the page solves the design. It is one file that contains the solver; it needs

@@ -6,8 +6,10 @@ use anyhow::{Context as _, bail, ensure};
 use clap::Args;
 use fabrication::{Format, Patch, Sheet};
 use ranking::CRITERIA;
-use results::columns::{measure_name, name};
-use sweep::Case;
+use results::Quantity;
+use results::columns::{measure_name, mode_column, name};
+use run::Evaluator;
+use sweep::{Case, Measure};
 use uncertainty::{Analysis, SampleStore};
 
 use super::figure_file::write_file;
@@ -110,6 +112,7 @@ pub fn make(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> 
         note(&missing);
         list = format!("{list}\n{missing}\n");
     }
+    list.push_str(&first_failure(design));
     // Analyse before writing, because the analysis may fail.
     list.push_str(&tolerances(design, out, interrupt)?);
     // Write the list first: if it fails, the previous part stays unchanged.
@@ -200,6 +203,24 @@ fn no_template(sheet: &Sheet, template: f64) -> String {
     )
 }
 
+/// States the first failure of a design, its force, and the failure modes that are judged; empty
+/// unless the definition seeks them.
+fn first_failure(design: &SelectedDesign) -> String {
+    let case = design.case();
+    let Some(modes) = case.judged_modes() else { return String::new() };
+    let solved = Evaluator::new(&[Measure::Puncture]).solve(design.sweep.grid().number(0), &case);
+    let failure = solved.row.result.puncture.map(|puncture| puncture.measures.failure);
+    let first = failure.and_then(|failure| Some((failure.mode?.name(), failure.force?)));
+    let first = first.map_or_else(
+        || "First failure unknown: the puncture could not be solved\n".to_owned(),
+        |(mode, force)| match Quantity::Force.physical(force, &case) {
+            Some(newton) => format!("First failure: {mode}, at {} N\n", rounded(newton)),
+            None => format!("First failure: {mode}, at a force of {}\n", rounded(force)),
+        },
+    );
+    format!("\n{first}{modes}")
+}
+
 /// Lists the effect of the deviations in `[tolerance]` on the main measures, from derivatives.
 fn tolerances(
     design: &SelectedDesign,
@@ -228,9 +249,11 @@ fn tolerances(
     ))
 }
 
-/// Returns true for the four criteria, the mass and the bend radius.
+/// Returns true for the four criteria, the failure force, the mass and the bend radius.
 fn is_for_a_maker(measure: &str) -> bool {
     let is_criterion =
         || CRITERIA.iter().any(|criterion| criterion.column == measure_name(measure));
-    is_criterion() || ["bend_radius_mm", name::AREAL_MASS].contains(&measure)
+    is_criterion()
+        || mode_column(measure).is_some()
+        || ["bend_radius_mm", name::AREAL_MASS].contains(&measure)
 }

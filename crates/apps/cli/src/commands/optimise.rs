@@ -34,7 +34,7 @@ use report::SearchReport;
 Examples:
   squama optimise sweeps/goals/strong-and-covered.toml
   squama optimise glove.toml --set 'goal.require=[\"coverage >= 0.6\"]' --out results/glove-60
-  squama optimise sweeps/goals/pin.toml --require 'critical_force_N >= 5' --require 'gap_mm >= 0.4'
+  squama optimise sweeps/goals/pin.toml --require 'failure_force_N >= 5' --require 'gap_mm >= 0.4'
   squama optimise glove.toml --set goal.seed=1 --fresh
   squama optimise glove.toml --resume
 

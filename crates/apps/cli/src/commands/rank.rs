@@ -23,7 +23,7 @@ use crate::json;
 use checks::Checks;
 use gap_changes::{couplings, gap_changes};
 use record::{ranking_record, unmet_record};
-use report::{RankReport, unmet_report};
+use report::{RankReport, judged_modes, unmet_report};
 
 pub(super) use report::{distance, obstacle};
 use std::path::PathBuf;
@@ -134,6 +134,9 @@ fn ranked(arguments: &Arguments, results: &Results, ranking: &Ranking<'_>) -> an
     let top = arguments.top as usize;
     let record = || {
         let mut record = ranking_record(results, ranking, top);
+        if let Some(modes) = judged_modes(results, ranking) {
+            record["failure_modes"] = json::failure_modes(&modes);
+        }
         record["gap_changes"] = json!(changes);
         record["full_coupling"] = json!(couplings);
         record["fail_checks"] = json!(checks.failed);

@@ -8,12 +8,12 @@ use anyhow::ensure;
 use clap::Args;
 use ranking::{CRITERIA, Preferences, Ranking, Weights};
 use rayon::prelude::*;
-use report::{Explorer, GapFactors, Page, PageDesign, drawings};
+use report::{Explorer, Fact, GapFactors, Page, PageDesign, drawings};
 use results::columns::design_columns;
 use results::{bending_units, puncture_units};
 use run::{GapChange, MeasureChange};
 use skin::{flexure, puncture};
-use sweep::Case;
+use sweep::{Case, Sweep};
 use text::shell_word;
 
 use super::draw::substrate;
@@ -119,7 +119,7 @@ fn page(results: &FolderContents) -> anyhow::Result<Page> {
         folder: results.folder.display().to_string(),
         axes: grid.axes().iter().map(|axis| axis.parameter().key.to_owned()).collect(),
         columns: results.designs.headers().iter().map(column).collect(),
-        run: results.run.clone(),
+        run: [results.run.clone(), judged_modes(sweep)].concat(),
         shared: shared.collect(),
         is_physical: [puncture_units, bending_units].map(|units| units(&grid.case(0)).is_some()),
         solved: solved(results, &rankings),
@@ -128,6 +128,18 @@ fn page(results: &FolderContents) -> anyhow::Result<Page> {
         designs: results.designs.clone(),
         front: None,
     })
+}
+
+/// Returns the failure modes that the designs are judged by, and those that are not, as facts.
+fn judged_modes(sweep: &Sweep) -> Vec<Fact> {
+    let Some(modes) = sweep.grid().case(0).judged_modes() else { return Vec::new() };
+    let facts = modes.reasons().map(|(mode, reason)| {
+        (
+            format!("failure mode {mode}"),
+            reason.map_or("judged".to_owned(), |reason| format!("not judged: {reason}")),
+        )
+    });
+    facts.collect()
 }
 
 /// Formats the preferences of the last ranking for the address of the page.

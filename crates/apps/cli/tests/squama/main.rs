@@ -8,6 +8,7 @@ mod clusters;
 mod contents;
 mod couplings;
 mod design;
+mod failure;
 mod fits;
 mod fronts;
 mod images;

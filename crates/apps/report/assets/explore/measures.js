@@ -22,12 +22,13 @@
 
   const card = (measure) => {
     const value = shown(live.answer, measure), pressed = live.chosen === measure.name;
+    const mode = measure.mode ? named(live.answer, measure.mode)?.text : null, words = mode ? `first failure: ${mode}` : measure.words;
     const choose = () => { live.chosen = measure.name; live.show(); at("live-cards").querySelector('[aria-pressed="true"]').focus(); };
     // Arrows cannot improve a measure without a goal, so its card is no button.
     const [tag, choice] = measure.has_goal ? ["button", { type: "button", "aria-pressed": String(pressed), onclick: choose }] : ["div", {}];
     return element(tag, { class: "card", "data-measure": measure.name, title: value?.meaning ?? measure.label, ...choice },
     element("span", { class: "name" }, measure.label), element("span", { class: "value" }, value ? live.digits(value.value) : "–", element("small", {}, ` ${value ? unitOf(value) : ""}`)),
-    element("span", { class: "other" }, compared(value, measure) || measure.words));
+    element("span", { class: "other" }, compared(value, measure) || words));
   };
 
   /** Formats a requirement such as `critical_force_N >= 2` in words. */

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::io::{self, Write};
 
 use ranking::{CRITERIA, Criterion};
-use results::columns::{Goal, Shown, name, plain_goal, shown};
+use results::columns::{Goal, Shown, mode_column, name, plain_goal, shown};
 use results::measurement_conditions;
 use serde_json::{Value, json};
 use text::shell_word;
@@ -70,6 +70,8 @@ pub(super) fn of(page: &Page, figures: &[Value]) -> Value {
         "fold": name::FOLD_FORCE,
         "tightest": name::GAP_STRETCH_MIN,
         "strain": name::MEMBRANE_STRAIN,
+        "failureForce": name::FAILURE_FORCE,
+        "modes": headers.iter().filter_map(|header| Some((header, mode_column(header)?))).collect::<BTreeMap<_, _>>(),
         "stiffnesses": [name::MAX_STIFFNESS, name::SECANT_STIFFNESS],
         "mass": name::AREAL_MASS,
         "shown": {"first": shown(Shown::First), "last": last},

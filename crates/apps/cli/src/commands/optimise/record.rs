@@ -5,7 +5,8 @@ use ranking::Requirement;
 use results::columns::design_columns;
 use serde_json::{Map, Value, json};
 
-use super::report::{constant_objectives, unmet};
+use super::report::{constant_objectives, judged_modes, unmet};
+use crate::json;
 
 /// Returns the result of a search as JSON.
 pub fn record(goal: &DesignGoal, found: &Found) -> Value {
@@ -62,6 +63,9 @@ fn design(goal: &DesignGoal, words: &BindingText<'_>, best: &BestDesign) -> Valu
         "values": measures,
         "binding": best.bindings.iter().map(binding).collect::<Vec<_>>(),
     });
+    if let Some(modes) = judged_modes(goal, &best.candidate) {
+        design["failure_modes"] = json::failure_modes(&modes);
+    }
     if let Some(of) = best.agreement {
         design["agreement"] =
             json!({ "searches": of.searches, "agreeing": of.agreeing, "spread": of.spread });

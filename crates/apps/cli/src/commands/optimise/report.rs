@@ -8,8 +8,9 @@ use optimisation::{
 };
 use ranking::{Requirement, Unmet};
 use results::Outcome;
-use results::columns::{Cell, design_columns, is_invalid_after_fold};
+use results::columns::{Cell, design_columns, is_invalid_after_fold, mode_column};
 use run::CouplingChange;
+use sweep::JudgedModes;
 use text::number::same;
 
 use super::super::couplings::{couplings_report, measured};
@@ -98,6 +99,9 @@ impl SearchReport<'_> {
         }
         text += &weakest_place_note(self.goal, &best.candidate).unwrap_or_default();
         text += &self.coupled(&best.candidate);
+        if let Some(modes) = judged_modes(self.goal, &best.candidate) {
+            let _ = write!(text, "\n{modes}");
+        }
         text + &best.confirmation.as_ref().map(samples::text).unwrap_or_default()
     }
 
@@ -155,7 +159,16 @@ impl SearchReport<'_> {
             }
         }
         self.add_criteria(best, &mut rows);
+        self.add_mode(best, &mut rows);
         rows
+    }
+
+    /// Adds the first failure if the goal names a failure force.
+    fn add_mode(&self, best: &BestDesign, rows: &mut Vec<[String; 2]>) {
+        let Some(mode) = goal_columns(self.goal).find_map(mode_column) else { return };
+        let columns = design_columns(self.goal.space.sweep());
+        let column = columns.iter().find(|column| column.name == mode);
+        rows.extend(column.map(|column| [mode.to_owned(), column.cell(&best.row).to_string()]));
     }
 
     /// Adds the criteria of the fitness that are not listed yet.
@@ -252,12 +265,22 @@ const FOLDED_MEANS: &str =
 
 /// Returns the force at which the surface folds, if that invalidates a column of the goal.
 fn fold_force(goal: &DesignGoal, best: &BestDesign) -> Option<f64> {
+    goal_columns(goal).find(|column| is_invalid_after_fold(column))?;
+    best.row.result.puncture?.measures.fold_force
+}
+
+/// Returns the columns of objectives, requirements and fitness.
+fn goal_columns(goal: &DesignGoal) -> impl Iterator<Item = &str> {
     let objectives = goal.objectives.iter().map(|objective| &*objective.column);
     let required = goal.requirements.iter().map(|requirement| &*requirement.column);
     let fitness = goal.fitness.iter().flat_map(|fitness| &fitness.criteria);
-    let mut columns = objectives.chain(required).chain(fitness.map(|criterion| &*criterion.column));
-    columns.find(|column| is_invalid_after_fold(column))?;
-    best.row.result.puncture?.measures.fold_force
+    objectives.chain(required).chain(fitness.map(|criterion| &*criterion.column))
+}
+
+/// Returns the failure modes that a design is judged by, if the goal names a failure force.
+pub fn judged_modes(goal: &DesignGoal, best: &Candidate) -> Option<JudgedModes> {
+    goal_columns(goal).find_map(mode_column)?;
+    goal.space.case(&best.point).judged_modes()
 }
 
 /// Returns the objectives that had the same value in all evaluated designs, with the value.

@@ -2,6 +2,7 @@
 
 use ranking::{RankedDesign, Ranking, Unmet, UnmetRequirement, Weights};
 use results::Results;
+use results::columns::mode_column;
 use serde_json::{Map, Value, json};
 
 /// Returns the ranking as JSON, with the `top` designs by fitness.
@@ -13,13 +14,13 @@ pub fn ranking_record(results: &Results, ranking: &Ranking<'_>, top: usize) -> V
     let best: Vec<_> = ranking.by_fitness(preferences.weights).take(top).collect();
     let alone = criteria.iter().zip(Weights::alone_among(criteria.len()));
     let alone = alone.map(|(criterion, weights)| {
-        let mut winner = design(ranking, &ranking.winner(weights));
+        let mut winner = design(results, ranking, &ranking.winner(weights));
         winner["criterion"] = criterion.column.as_ref().into();
         winner["equally_good"] = ranking.equals(weights).into();
         winner
     });
     let designs = |all: &[RankedDesign<'_>]| -> Vec<_> {
-        all.iter().map(|standing| design(ranking, standing)).collect()
+        all.iter().map(|standing| design(results, ranking, standing)).collect()
     };
     json!({
         "folder": results.folder().to_string_lossy(),
@@ -40,14 +41,23 @@ pub fn ranking_record(results: &Results, ranking: &Ranking<'_>, top: usize) -> V
 }
 
 /// Returns a design with its ranks and criteria.
-fn design(ranking: &Ranking<'_>, standing: &RankedDesign<'_>) -> Value {
+fn design(results: &Results, ranking: &Ranking<'_>, standing: &RankedDesign<'_>) -> Value {
     let criteria = ranking.preferences().criteria.iter().enumerate();
     let values = criteria.map(|(c, own)| (own.column.to_string(), standing.value(c).into()));
+    let mut values: Map<String, Value> = values.collect();
+    let preferences = ranking.preferences();
+    let required = preferences.requirements.iter().map(|requirement| requirement.column.as_str());
+    let columns = preferences.criteria.iter().map(|own| own.column.as_ref()).chain(required);
+    for mode in columns.filter_map(mode_column) {
+        if let Ok(column) = results.column(mode) {
+            values.insert(mode.to_owned(), results.text(standing.row(), column).into());
+        }
+    }
     json!({
         "design": standing.design(),
         "fitness": standing.fitness,
         "share_of_weights": standing.share(),
-        "values": values.collect::<Map<_, _>>(),
+        "values": values,
     })
 }
 

@@ -4,8 +4,9 @@ use std::fmt::Write as _;
 
 use ranking::{Preferences, RankedDesign, Ranking, Scale, Unmet, UnmetRequirement, Weights};
 use results::Results;
-use results::columns::{is_invalid_after_fold, name, parameter_of};
+use results::columns::{is_invalid_after_fold, mode_column, name, parameter_of};
 use run::{CouplingChange, GapChange};
+use sweep::JudgedModes;
 
 use super::super::couplings::couplings_report;
 use super::checks::Checks;
@@ -49,6 +50,9 @@ impl RankReport<'_> {
         let requirements = &self.preferences().requirements;
         text.push_str(&gap_changes_report(self.changes, requirements));
         text.push_str(&couplings_report(self.couplings, requirements));
+        if let Some(modes) = judged_modes(self.results, self.ranking) {
+            let _ = write!(text, "\n{modes}");
+        }
         if !self.ranking.winners().is_empty() {
             let _ = write!(text, "\n{}", self.winners());
         }
@@ -225,11 +229,23 @@ fn shown_columns(results: &Results, preferences: &Preferences) -> Vec<String> {
     let criteria = preferences.criteria.iter().map(|criterion| criterion.column.to_string());
     let required = preferences.requirements.iter().map(|requirement| requirement.column.clone());
     for column in criteria.chain(required) {
-        if !columns.contains(&column) {
-            columns.push(column);
+        let mode = mode_column(&column).map(str::to_owned);
+        for column in std::iter::once(column).chain(mode) {
+            if !columns.contains(&column) {
+                columns.push(column);
+            }
         }
     }
     columns
+}
+
+/// Returns the failure modes that the best design is judged by, if a failure force is shown.
+pub fn judged_modes(results: &Results, ranking: &Ranking<'_>) -> Option<JudgedModes> {
+    let preferences = ranking.preferences();
+    shown_columns(results, preferences).iter().find_map(|column| mode_column(column))?;
+    let best = ranking.winner(preferences.weights);
+    let grid = results.definition()?.grid();
+    grid.case(grid.parse_number(best.design()).ok()?).judged_modes()
 }
 
 /// Returns true if the surface of the substrate folds before the puncture ends.

@@ -8,21 +8,27 @@ use uncertainty::{
     DesignTolerance, DeviationLevel, MeasureTolerance, RequirementYield, SourceShare,
 };
 
+use super::report::first_failure;
+use crate::json;
+
 /// Returns all results except the samples.
 pub fn record(sweep: &Sweep, all: &[DesignTolerance], folder: &Path, files: &[String]) -> Value {
     json!({
         "sweep": sweep.name(),
-        "designs": all.iter().map(design).collect::<Vec<_>>(),
+        "designs": all.iter().map(|one| design(sweep, one)).collect::<Vec<_>>(),
         "folder": folder.to_string_lossy(),
         "files": files,
     })
 }
 
-fn design(design: &DesignTolerance) -> Value {
+fn design(sweep: &Sweep, design: &DesignTolerance) -> Value {
+    let modes = sweep.grid().case(design.nominal.number.index()).judged_modes();
     json!({
         "design": design.nominal.number.to_string(),
         "measures": design.measures.iter().map(measure).collect::<Vec<_>>(),
         "yields": design.yields.iter().map(yielded).collect::<Vec<_>>(),
+        "first_failure": first_failure(design),
+        "failure_modes": modes.map(|modes| json::failure_modes(&modes)),
     })
 }
 

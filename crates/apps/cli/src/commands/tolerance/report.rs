@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 use ranking::Requirement;
 use results::MEASURE_TABLES;
-use results::columns::measure_name;
 use results::columns::name::{AREAL_MASS, FOLD_FORCE, GAP_STRETCH_MIN};
+use results::columns::{measure_name, mode_column};
 use sweep::Sweep;
 use uncertainty::{
     DesignTolerance, MeasureTolerance, Proportion, RequirementYield, SampledSpread, SolvedSample,
@@ -51,7 +51,18 @@ fn one(sweep: &Sweep, requirements: &[Requirement], design: &DesignTolerance) ->
         let _ = write!(text, "\nYield\n{}", aligned(&rows));
     }
     text.push_str(&folded(design).unwrap_or_default());
+    if let Some(mode) = first_failure(design) {
+        let _ = writeln!(text, "\nFirst failure of the nominal design: {mode}");
+    }
+    if let Some(modes) = sweep.grid().case(design.nominal.number.index()).judged_modes() {
+        let _ = write!(text, "\n{modes}");
+    }
     text
+}
+
+/// Returns the first failure of the nominal design, if it was sought.
+pub fn first_failure(design: &DesignTolerance) -> Option<&'static str> {
+    Some(design.nominal.result.puncture?.measures.failure.mode?.name())
 }
 
 /// Warns of samples with a fold, which count as failed only with a requirement on it.
@@ -66,11 +77,14 @@ fn folded(design: &DesignTolerance) -> Option<String> {
     (count > 0).then_some(line)
 }
 
-/// Returns true for the main measures, the mass, and required columns.
+/// Returns true for the main measures, the failure force, the mass, and required columns.
 pub fn is_shown(name: &str, requirements: &[Requirement]) -> bool {
     let measure = measure_name(name);
     let leads = MEASURE_TABLES.iter().any(|(table, _)| *table == measure);
-    leads || name == AREAL_MASS || requirements.iter().any(|requirement| requirement.column == name)
+    leads
+        || name == AREAL_MASS
+        || mode_column(name).is_some()
+        || requirements.iter().any(|requirement| requirement.column == name)
 }
 
 fn measure_row(measure: &MeasureTolerance) -> Vec<String> {

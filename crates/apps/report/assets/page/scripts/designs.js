@@ -23,6 +23,12 @@ squama.cell = (row, name) => {
   return Number.isNaN(value) ? null : value;
 };
 
+/** Returns the failure mode beside a failure force, such as ", across"; empty for other columns. */
+squama.failing = (name, row) => {
+  const mode = squama.modes[name] ? squama.cell(row, squama.modes[name]) : null;
+  return mode === null ? "" : `, ${mode}`;
+};
+
 /** Returns the cells of a column, from the top. */
 squama.cells = (name) => (squama.has(name) ? squama.rows.map((row) => squama.cell(row, name)) : []);
 

@@ -15,7 +15,7 @@
     if (first === null) return [];
     const ties = rows.filter((row) => squama.ranking.same(numbers[row], numbers[first])).length - 1;
     const sound = squama.folded(first) && column.startsWith(squama.criticalForce) ? leader(rows.filter((row) => !squama.folded(row))) : null;
-    return [[name, `${squama.short(numbers[first])}  `, button(first), ties > 0 ? ` and ${ties} ${ties > 1 ? "others" : "other"} as good` : "",
+    return [[name, `${squama.short(numbers[first])}${squama.failing(column, first)}  `, button(first), ties > 0 ? ` and ${ties} ${ties > 1 ? "others" : "other"} as good` : "",
       ...(sound === null ? [] : [squama.element("br"), `without a fold: ${squama.short(numbers[sound])}  `, button(sound)])]];
   };
 
@@ -30,12 +30,13 @@
   };
 
   const folds = () => (squama.foldedRows.length > 0 ? [["valid critical force", `${squama.count - squama.foldedRows.length} designs; of ${squama.foldedRows.length}, marked ⚠, the surface folds before the critical tilt, so their critical force is not valid`]] : []);
-  const physical = () => [[`${squama.criticalForce}_N`, "largest critical force, N", "max"], ["bend_radius_mm", "smallest bend radius, mm", "min"], [squama.mass, "least areal mass, kg/m²", "min"]]
+  const physical = () => [[`${squama.criticalForce}_N`, "largest critical force, N", "max"], [`${squama.failureForce}_N`, "largest failure force, N", "max"], ["bend_radius_mm", "smallest bend radius, mm", "min"], [squama.mass, "least areal mass, kg/m²", "min"]]
     .filter(([column]) => squama.numeric.includes(column)).flatMap(([column, name, goal]) => best(name, column, goal));
 
   facts("summary-list", [
     ...best("best coverage", squama.coverage, "max"),
     ...best("largest critical force", squama.criticalForce, "max"),
+    ...best("largest failure force", squama.failureForce, "max"),
     ...best("least penetration of the bases", squama.penetration, "min"),
     ...best("largest compliance", squama.compliance, "max"),
     ...physical(),

@@ -1,0 +1,162 @@
+//! Failure modes in the answers of the commands.
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::table::cells;
+use crate::{FEW, Place};
+
+const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../..");
+
+/// Strengths, for a sweep of a few designs.
+const JUDGED: &str = "[array]\nacross = true\n[material]\nthickness_mm = 2\nscale = 'PLA'\n\
+                      tissue = 'polyurethane'\nmembrane_modulus_MPa = 4.5\n[tolerance]\n\
+                      gap_mm = { batch_sd = 0.01 }\n";
+
+fn json(text: &str) -> Value {
+    serde_json::from_str(text).expect("JSON")
+}
+
+fn number(json: &Value, name: &str) -> f64 {
+    json["measures"][name].as_f64().expect("a number")
+}
+
+#[test]
+fn answers_name_the_mode_beside_a_failure_force() {
+    let place = Place::with(&format!("{FEW}{JUDGED}"));
+    place.squama("run x.toml -q --out r").assert().code(0);
+    let table = place.read("r/designs.csv");
+    let first = cells(&table, "first_failure")[0].to_owned();
+    let modes = "Failure modes judged: tilt, fold, break, bend, debond, across\nNot judged: ";
+
+    let rank = "rank r --maximize failure_force_N --require coverage>=0";
+    let told = place.prints(rank);
+    assert!(told.contains(modes) && told.contains("failure_force_N  first_failure"), "{told}");
+    let ranked = json(&place.prints(&format!("{rank} --json")));
+    let best = &ranked["best"][0];
+    let row = cells(&table, "design").iter().position(|own| *own == best["design"]);
+    let expected = cells(&table, "first_failure")[row.expect("a design")].to_owned();
+    assert_eq!(best["values"]["first_failure"], expected.as_str());
+    assert_eq!(ranked["failure_modes"]["across"], Value::Null);
+    // A ranking without the failure force does not name modes.
+    assert!(!place.prints("rank r --maximize coverage").contains("Failure modes"));
+
+    let tolerance = "tolerance x.toml --design 1 --samples 0 --out t";
+    let told = place.prints(tolerance);
+    let line = format!("First failure of the nominal design: {first}\n\n{modes}");
+    assert!(told.contains(&line) && told.contains("failure_force_N  "), "{told}");
+    let told = place.prints("make x.toml --design 1 --out skin.stl");
+    assert!(
+        told.contains(&format!("First failure: {first}, at ")) && told.contains(modes),
+        "{told}"
+    );
+    let told = place.prints("check x.toml");
+    assert!(told.contains("failure modes  tilt, fold, break, bend, debond, across\n"), "{told}");
+    place.squama("report r").assert().code(0);
+    let page = place.read("r/report.html");
+    assert!(page.contains("\"failure_force_N\":\"first_failure\""));
+    assert!(page.contains("not judged: the needle is not guided"));
+}
+
+/// Searches like the goal for a strong skin, and checks every mode in a run of its own.
+#[test]
+fn the_advised_skin_fails_in_no_mode_below_its_failure_force() {
+    let place = Place::new();
+    let goal = Path::new(ROOT).join("sweeps/goals/strong-under-a-needle.toml");
+    let goal = goal.display();
+    let search = format!("optimise {goal} --out found --set goal.samples=16");
+    let told = place.prints(&search);
+    assert!(told.contains("first_failure    across\n"), "{told}");
+
+    let solved = json(&place.prints("design found/optimum.toml --design 1 --json"));
+    let force = number(&solved, "failure_force_N");
+    // The row along ends by a tilt at a larger force. Up to there no limit is reached.
+    assert!(number(&solved, "critical_force_N") > force);
+    assert!(number(&solved, "scale_stress_max_MPa") < 50.0);
+    assert!(number(&solved, "bond_stress_max_MPa") < 0.3);
+    let length =
+        number(&json(&place.prints("design found/optimum.toml --design 1 --json")), "length_mm");
+    // The tip deflects by less than it would at a rotation of 5°, which is 1.5 times the chord.
+    assert!(number(&solved, "scale_deflection_max_mm") < length * 5.0_f64.to_radians() / 1.5);
+    assert_eq!(solved["measures"]["fold_force"], Value::Null);
+
+    // The row across is a row of upright blocks.
+    let gap = solved["parameters"]["designs.gap_over_t"].as_f64().expect("a gap");
+    let base = solved["parameters"]["designs.length_over_t"].as_f64().expect("a length");
+    let across = format!(
+        "design found/optimum.toml --json --gap {gap} --length 1 --slant 0 --set scale.width_over_t={base} \
+         --set array.across=false --out across"
+    );
+    let across = json(&place.prints(&across));
+    assert!((number(&across, "critical_force_N") / force - 1.0).abs() < 1e-6, "{across} {force}");
+}
+
+/// Runs the commands of the page and compares its tables with their results.
+#[test]
+fn the_page_on_failure_quotes_values_of_its_commands() {
+    let page = std::fs::read_to_string(Path::new(ROOT).join("docs/failure.md")).expect("a page");
+    let place = Place::new();
+    std::fs::create_dir(place.path("sweeps")).expect("a folder");
+    let name = "sweeps/first-failure.toml";
+    std::fs::copy(Path::new(ROOT).join(name), place.path(name)).expect("a copy");
+    let mut printed = String::new();
+    let blocks: Vec<&str> = page.split("```").collect();
+    for line in blocks.iter().filter_map(|block| block.strip_prefix("sh\n")).flat_map(str::lines) {
+        let Some(arguments) = line.strip_prefix("squama ") else { continue };
+        let arguments: Vec<String> =
+            arguments.split(' ').map(|word| word.trim_matches('\'').to_owned()).collect();
+        // Upright scales that are pushed straight down have no critical force.
+        let code = i32::from(arguments[0] == "run");
+        let output = place.squama_with(&arguments).assert().code(code).get_output().stdout.clone();
+        printed.push_str(&String::from_utf8_lossy(&output));
+    }
+    let quoted = blocks.iter().filter_map(|block| block.strip_prefix("text\n"));
+    let quoted: Vec<&str> = quoted.flat_map(str::lines).filter(|line| !line.is_empty()).collect();
+    assert!(quoted.len() > 5, "{quoted:?}");
+    for line in quoted {
+        assert!(printed.contains(line), "{line}\n{printed}");
+    }
+    // The strongest skins by the critical tilt.
+    let table = place.read("results/first-failure/designs.csv");
+    let modes = cells(&table, "first_failure");
+    let forces = ["critical_force", "failure_force"].map(|column| -> Vec<f64> {
+        cells(&table, &format!("{column}_N"))
+            .iter()
+            .map(|cell| cell.parse().unwrap_or(0.0))
+            .collect()
+    });
+    let strongest = forces.each_ref().map(|forces| {
+        let mut rows: Vec<usize> = (0..forces.len()).collect();
+        rows.sort_by(|a, b| forces[*b].total_cmp(&forces[*a]));
+        rows.truncate(20);
+        rows
+    });
+    let [by_tilt, by_failure] = &strongest;
+    let counted =
+        ["across", "bend"].map(|mode| by_tilt.iter().filter(|row| modes[**row] == mode).count());
+    let common = by_tilt.iter().filter(|row| by_failure.contains(row)).count();
+    assert_eq!((counted[0], counted[1], common), (11, 9, 4));
+    let mut shares: Vec<f64> =
+        by_tilt.iter().map(|row| forces[1][*row] / forces[0][*row]).collect();
+    shares.sort_by(f64::total_cmp);
+    let median = 50.0 * (shares[9] + shares[10]);
+    assert!(page.contains(&format!("{median:.1} %")), "{median}");
+    // First failures by slant.
+    for (folder, title) in [("first-failure", "width `t`"), ("wide", "width `3 t`")] {
+        let table = place.read(&format!("results/{folder}/designs.csv"));
+        let (slants, modes) = (cells(&table, "slant_deg"), cells(&table, "first_failure"));
+        for slant in ["0", "15", "30", "45", "60", "75"] {
+            let counts = ["tilt", "across", "bend", ""].map(|mode| {
+                let own = slants.iter().zip(&modes).filter(|(s, m)| **s == slant && **m == mode);
+                own.count().to_string()
+            });
+            assert_eq!(
+                counts.iter().map(|n| n.parse::<usize>().expect("a number")).sum::<usize>(),
+                120
+            );
+            let row = format!("| {title}, {slant}° | {} |", counts.join(" | "));
+            assert!(page.contains(&row), "{row}");
+        }
+    }
+}
