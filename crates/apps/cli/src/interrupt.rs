@@ -1,6 +1,6 @@
 //! Termination signals.
 //!
-//! A run completes the designs in progress and writes its tables; every other command removes its
+//! A run discards the designs in progress and writes its tables; every other command removes its
 //! partial files and exits.
 
 use std::io;
@@ -54,6 +54,7 @@ mod system {
     use std::time::{Duration, Instant};
 
     use results::exit_without_partial_files;
+    use run::interrupt_paths;
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
     use signal_hook::iterator::Signals;
 
@@ -89,7 +90,12 @@ mod system {
                     Ordering::Relaxed,
                     Ordering::Relaxed,
                 );
-                first.is_ok().then(|| interrupt.stop.store(true, Ordering::Relaxed));
+                if first.is_ok() {
+                    // Request the end first, so that a worker takes no further design after an
+                    // interrupted one.
+                    interrupt.stop.store(true, Ordering::SeqCst);
+                    interrupt_paths();
+                }
             }
         };
         thread::Builder::new().name("signals".to_owned()).spawn(attend).map(|_| ())

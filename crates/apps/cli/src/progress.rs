@@ -23,7 +23,7 @@ const PARTS: u64 = 10_000;
 
 /// Message after the first signal, for work that `--resume` continues.
 pub const RESUMED: &str =
-    "ending after the designs in progress; a second signal ends at once; --resume continues";
+    "ending without the designs in progress; a second signal ends at once; --resume continues";
 
 /// Completed fraction from which the remaining time is extrapolated.
 const ENOUGH: f64 = 0.05;
@@ -165,11 +165,16 @@ fn watch(watched: &dyn Watched, interrupt: &Interrupt, ending: &str, ended: &Rec
     let begun = Instant::now();
     let mut remaining = Remaining::default();
     let mut is_ending = false;
-    // Waiting on the channel, unlike sleeping, returns as soon as the work ends.
-    while ended.recv_timeout(PAUSE) == Err(RecvTimeoutError::Timeout) {
+    loop {
+        // Waiting on the channel, unlike sleeping, returns as soon as the work ends.
+        let is_done = ended.recv_timeout(PAUSE) != Err(RecvTimeoutError::Timeout);
+        // Before the end, because interrupted work may end within the pause.
         if interrupt.exit_code().is_some() && !is_ending {
             is_ending = true;
             bar.suspend(|| eprintln!("{ending}"));
+        }
+        if is_done {
+            break;
         }
         for line in watched.news() {
             // Suspended, because printing over the bar would garble the line.

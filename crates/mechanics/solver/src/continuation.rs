@@ -8,6 +8,7 @@ use std::sync::Arc;
 use self::direction::{HIDDEN, SHORT};
 use self::returns::Returns;
 use crate::event::Event;
+use crate::interruption::is_interrupted;
 use crate::newton::{Condition, FLOOR, Newton, NewtonFailure};
 use crate::progress;
 use crate::settings::Settings;
@@ -402,6 +403,9 @@ impl<S: System> Continuation<S> {
     /// Takes one step and returns the next point, or the reason why the path ends.
     fn advance(&mut self) -> Result<Equilibrium<S::Mode>, Termination> {
         loop {
+            if is_interrupted() {
+                return Err(Termination::Interrupted);
+            }
             progress::report_if_due(self.points, self.progress(&self.point.state.z));
             let distance = self.distance();
             let before = self.newton.history.len();

@@ -32,6 +32,9 @@ pub enum Termination {
     /// The path returns to the same points again and again without progress.
     #[error("no progress")]
     NoProgress,
+    /// The process was asked to end ([`interrupt_paths`](crate::interrupt_paths)).
+    #[error("interrupted")]
+    Interrupted,
     /// A residual is not a finite number.
     #[error("not finite")]
     NotFinite,

@@ -8,7 +8,7 @@ use basin::{
     BoundedLevenbergMarquardt, BoxBounds, ConstraintDescription, ConstraintSet,
     ConstraintSolveError, Constraints, DenseMatrix, Executor, Jacobian, PointState, Residual,
 };
-use run::{Evaluator, WorkMeter, WorkPiece};
+use run::{Evaluator, WorkMeter, WorkPiece, uninterrupted};
 
 use crate::definition::FitDefinition;
 use crate::fit_result::FitError;
@@ -122,7 +122,8 @@ impl<'a> Residuals<'a> {
             Some(piece) => piece.count(1),
             None => self.work.count(1),
         }
-        let solved = self.definition.model(self.evaluator, &self.values(shares)).ok().map(Rc::new);
+        let model = uninterrupted(|| self.definition.model(self.evaluator, &self.values(shares)));
+        let solved = model.ok_or(FitError::Stopped)?.ok().map(Rc::new);
         *self.last.borrow_mut() = Some((shares.to_vec(), solved.clone()));
         Ok(solved)
     }

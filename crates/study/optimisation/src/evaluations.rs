@@ -9,7 +9,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use journal::Journal;
 use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
 use results::{DesignResult, DesignRow, OutputError};
-use run::{Evaluator, Program};
+use run::{Evaluator, Program, uninterrupted};
 use sweep::{Case, DesignNumber, Measure};
 use uncertainty::Sampler;
 
@@ -160,7 +160,8 @@ impl<'a> Evaluations<'a> {
         self.go_on()?;
         // Solved without the lock: two threads may solve the same point and append the same line.
         let solve = || evaluator.row(self.number(0), case);
-        let mut result = self.progress.slow().track("a design of the search", solve).result;
+        let row = uninterrupted(|| self.progress.slow().track("a design of the search", solve));
+        let mut result = row.ok_or(Halt::Interrupted)?.result;
         // Keep all derivatives where one variable changes other parameters: lengths in mm,
         // followers, and samples with varying material.
         let has_material = self.space.parameters().any(|p| p.section == "material");
@@ -202,7 +203,9 @@ impl<'a> Evaluations<'a> {
         let values = (first..last).into_par_iter().map(|sample| {
             self.go_on()?;
             let solve = || self.sampler.solve(self.number(0), &case, BEFORE + sample);
-            let sampled = self.progress.slow().track("a sample of the search", solve);
+            let sampled =
+                uninterrupted(|| self.progress.slow().track("a sample of the search", solve));
+            let sampled = sampled.ok_or(Halt::Interrupted)?;
             Ok(sampled.map_or_else(|| judge.no_values(), |sampled| judge.values(&sampled.row)))
         });
         let values: Vec<Vec<Option<f64>>> = values.collect::<Result<_, Halt>>()?;

@@ -86,5 +86,6 @@ pub use run_journal::{Archive, JournalEntry, JournalHeader, LatestSession, Line,
 pub use solve::curve::CurvePoints;
 pub use solve::evaluator::Evaluator;
 pub use solve::work::{WorkMeter, WorkPiece, report_slow};
+pub use solver::{interrupt_paths, uninterrupted};
 pub use status::RunStatus;
 pub use tables::summary::{Best, Summary};

@@ -5,7 +5,7 @@ use std::sync::atomic::AtomicBool;
 use ranking::Requirement;
 use results::DesignRow;
 use results::columns::{measure_name, name, parameter_of};
-use run::{Evaluator, JournalHeader, Program};
+use run::{Evaluator, JournalHeader, Program, uninterrupted};
 use skin::Imperfection;
 use sweep::{Case, Measure, Subset, Sweep};
 
@@ -124,7 +124,7 @@ impl<'a> Analysis<'a> {
         let nominal = self.nominal(index, store)?;
         let columns = self.columns(&nominal.measured);
         let samples = self.samples(&nominal, &columns, store)?;
-        let measures = self.measures(&nominal, &samples);
+        let measures = self.measures(&nominal, &samples)?;
         let yields = self.yields(&nominal, &measures, &samples);
         Ok(DesignTolerance { nominal: nominal.row, measures, yields, columns, samples })
     }
@@ -135,7 +135,8 @@ impl<'a> Analysis<'a> {
         // Imperfections only matter for samples; the nominal design is solved without them.
         let straight = Case { imperfection: Imperfection::default(), ..case };
         let solve = || self.differentiating.row(number, &straight);
-        let row = store.work().track(&format!("design {number}"), solve);
+        let row = uninterrupted(|| store.work().track(&format!("design {number}"), solve));
+        let row = row.ok_or_else(|| self.stopped())?;
         let measured = MeasuredColumns::of(self.sweep, &row);
         let asked = self.sweep.measures();
         let place = |r: &Requirement| measured.required(&r.column, &row, asked);
@@ -169,6 +170,11 @@ impl<'a> Analysis<'a> {
         store.samples((&number, header), columns, self.samples, self.stop, solve)
     }
 
+    /// Returns the error of an analysis that is interrupted outside its samples.
+    fn stopped(&self) -> AnalysisError {
+        AnalysisError::Stopped { done: 0, of: self.samples }
+    }
+
     /// Returns the values of a column in all samples. Deviations precede the columns.
     fn values(&self, column: usize, samples: &[SolvedSample]) -> Vec<Option<f64>> {
         let place = self.sweep.deviations().len() + column;
@@ -176,15 +182,23 @@ impl<'a> Analysis<'a> {
     }
 
     /// Returns the spread of every measure that has derivatives or a requirement.
-    fn measures(&self, nominal: &Nominal, samples: &[SolvedSample]) -> Vec<MeasureTolerance> {
+    fn measures(
+        &self,
+        nominal: &Nominal,
+        samples: &[SolvedSample],
+    ) -> Result<Vec<MeasureTolerance>, AnalysisError> {
         let deviations = self.sweep.deviations();
         let mut scattered = DesignRow { case: nominal.case, ..nominal.row.clone() };
         draw::scatter(&mut scattered.case, deviations);
         // Skip this without scatter: derivatives for single scales cost a solution for each kind of
         // scale.
         let scatters = !scattered.case.imperfection.is_none();
-        let single =
-            if scatters { self.differentiating.scatter(&nominal.case) } else { Vec::new() };
+        let single = if scatters {
+            uninterrupted(|| self.differentiating.scatter(&nominal.case))
+        } else {
+            Some(Vec::new())
+        };
+        let single = single.ok_or_else(|| self.stopped())?;
         let gradients = Gradients { design: &scattered, deviations, single: &single };
         let mut measures = Vec::new();
         for (place, column) in nominal.measured.iter().enumerate() {
@@ -208,7 +222,7 @@ impl<'a> Analysis<'a> {
                 failed: values.len() - known.len(),
             });
         }
-        measures
+        Ok(measures)
     }
 
     /// Returns the yield of every requirement, then of all together.

@@ -3,7 +3,7 @@
 use std::sync::atomic::AtomicBool;
 
 use results::columns::parameter_of;
-use run::{Evaluator, Program};
+use run::{Evaluator, Program, uninterrupted};
 use sweep::{Case, Sweep};
 use text::number;
 
@@ -68,7 +68,8 @@ impl GlobalAnalysis<'_> {
         let evaluator = Evaluator::new(self.sweep.measures());
         let (number, case) = (self.sweep.grid().number(0), self.sweep.grid().case(0));
         // Only used to find columns with text.
-        let middle = evaluator.row(number, &case);
+        let middle = uninterrupted(|| evaluator.row(number, &case));
+        let middle = middle.ok_or(AnalysisError::Stopped { done: 0, of: self.samples })?;
         let measured = MeasuredColumns::of(self.sweep, &middle);
         let names: Vec<String> = measured.iter().map(|column| column.name.to_string()).collect();
         let points = self.points();

@@ -10,7 +10,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use journal::{Journal, Records};
 use rayon::prelude::*;
 use results::{Cell, Column, ResultsFolder, WrittenTable, write_rows};
-use run::{JournalError, JournalHeader, Start, WorkMeter};
+use run::{JournalError, JournalHeader, Start, WorkMeter, uninterrupted};
 use serde::{Deserialize, Serialize};
 use sweep::Subset;
 
@@ -119,7 +119,10 @@ impl SampleStore {
             // Samples are reproducible, so solving again shows whether the journal or the table was
             // edited.
             let kept = lock().records().values[&number].clone();
-            if !stop.load(Ordering::Relaxed) && solve(number) != kept {
+            if stop.load(Ordering::Relaxed) {
+                break;
+            }
+            if uninterrupted(|| solve(number)).is_some_and(|again| again != kept) {
                 let (line, again) = (format!("sample {number}"), "by removing the journal");
                 return Err(JournalError::Edited { path, line, table, again }.into());
             }
@@ -128,14 +131,19 @@ impl SampleStore {
         missing.retain(|number| !lock().records().values.contains_key(number));
         self.work.leave_out((count - missing.len()) as u64);
         missing.into_par_iter().try_for_each(|number| {
-            // Return no error here: running samples are stored first, and missing ones are counted
+            // Return no error here: completed samples are stored first, and missing ones are counted
             // below.
             if stop.load(Ordering::Relaxed) {
                 return Ok(());
             }
-            let values = self.work.track(&format!("{label}, sample {number}"), || solve(number));
-            self.work.count(1);
-            lock().append(SolvedSample { number, values })
+            let sample = format!("{label}, sample {number}");
+            match uninterrupted(|| self.work.track(&sample, || solve(number))) {
+                Some(values) => {
+                    self.work.count(1);
+                    lock().append(SolvedSample { number, values })
+                }
+                None => Ok(()),
+            }
         })?;
         let mut journal = lock();
         journal.sync()?;

@@ -60,7 +60,7 @@ pub struct Arguments {
 pub(super) const FILES: [&str; 4] = ["fit.csv", "residuals.csv", "residuals.svg", "fitted.toml"];
 
 /// Message after the first signal.
-const ENDING: &str = "ending after the solution in progress, without a fit";
+const ENDING: &str = "ending without a fit";
 
 /// Smallest correlation that is reported.
 const STRONG: f64 = 0.9;

@@ -40,7 +40,7 @@ Writes designs.csv, a table for each measure, failures.csv and run.toml. A journ
 soon as it is solved, so that --resume can continue an interrupted run. The tables do not depend on the
 number of threads or on interruptions. contents.toml is written last and lists the tables with their
 checksums, which every command that reads the folder verifies. The first SIGINT, SIGTERM or SIGHUP ends the
-run after the designs in progress; a second one, at least a second later, ends it at once.
+run without the designs in progress; a second one, at least a second later, does not wait for the tables.
 Exit code: 0 done, 1 some designs failed or are missing, 2 bad input or a disk error, 130, 143 or 129 ended by
 SIGINT, SIGTERM or SIGHUP.")]
 pub struct Arguments {

@@ -26,7 +26,7 @@ pub struct SampleArgs {
 }
 
 /// Message after the first signal.
-const ENDING: &str = "ending after the samples in progress; a second signal ends at once; to continue, run the same command again";
+const ENDING: &str = "ending without the samples in progress; a second signal ends at once; to continue, run the same command again";
 
 /// The results folder of a command that solves samples.
 pub struct SampleFolder<'a> {

@@ -86,19 +86,6 @@ impl Running {
         self.end_within(PATIENCE).expect("the process ends")
     }
 
-    /// Sends a signal repeatedly until the process ends; returns the exit status.
-    #[cfg(unix)]
-    pub fn end_by(&mut self, signal: i32) -> ExitStatus {
-        let begun = Instant::now();
-        loop {
-            self.send(signal);
-            if let Some(status) = self.end_within(Duration::from_millis(200)) {
-                return status;
-            }
-            assert!(begun.elapsed() < PATIENCE, "sent in vain for {PATIENCE:?}");
-        }
-    }
-
     /// Kills the process.
     ///
     /// The exit status has a code only if the process had ended before.

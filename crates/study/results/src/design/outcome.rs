@@ -163,8 +163,9 @@ impl From<Termination> for Outcome {
             Termination::Jumps | Termination::NoProgress => Self::Jumps,
             Termination::NotFinite => Self::NotFinite,
             Termination::Unloaded => Self::Unloaded,
-            // A path that reached its target has not stopped early, so this is an internal error.
-            Termination::Reached => Self::Internal,
+            // A path that reached its target has not stopped early, and results of interrupted paths
+            // are discarded, so these are internal errors.
+            Termination::Reached | Termination::Interrupted => Self::Internal,
         }
     }
 }

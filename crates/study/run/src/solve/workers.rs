@@ -6,6 +6,8 @@ use std::sync::mpsc::{SyncSender, sync_channel};
 use std::sync::{Mutex, PoisonError};
 use std::thread::{self, Scope};
 
+use solver::uninterrupted;
+
 use crate::progress::RunError;
 
 /// Maximum number of results that wait for the journal.
@@ -15,9 +17,9 @@ const WAITING: usize = 1024;
 /// Solves `groups` on `threads` threads, and passes each result to `sink`.
 ///
 /// Results arrive in any order. The first error of `sink` ends the work. After `stop` is set,
-/// started designs are finished. A thread takes one group at a time, because the designs of a group
-/// share a calibration that is slow to compute. When no group is left, threads take designs from
-/// each other.
+/// started designs are finished, unless their paths are interrupted. A thread takes one group at a
+/// time, because the designs of a group share a calibration that is slow to compute. When no group
+/// is left, threads take designs from each other.
 ///
 /// # Errors
 ///
@@ -63,8 +65,10 @@ fn start<'s>(scope: &'s Scope<'s, '_>, work: impl FnOnce() + Send + 's) -> std::
 /// Runs one thread: solves designs until none is left.
 fn work<T>(next: impl Fn() -> Option<u64>, solve: impl Fn(u64) -> T, sender: &SyncSender<T>) {
     while let Some(design) = next() {
+        // An interrupted design counts as not solved, and `stop` is set.
+        let Some(solved) = uninterrupted(|| solve(design)) else { return };
         // The receiver is only gone if the work was abandoned.
-        if sender.send(solve(design)).is_err() {
+        if sender.send(solved).is_err() {
             return;
         }
     }
