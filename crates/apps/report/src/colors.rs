@@ -51,3 +51,20 @@ pub(crate) fn mixed(steps: &[[u8; 3]], fraction: f64) -> String {
     });
     format!("#{r:02x}{g:02x}{b:02x}")
 }
+
+/// Colours of failure modes, from the colour-blind safe palette of Okabe and Ito.
+pub(crate) const FAILURES: [(&str, &str); 8] = [
+    ("tilt", "#0072b2"),
+    ("through", "#56b4e9"),
+    ("fold", "#009e73"),
+    ("break", "#d55e00"),
+    ("bend", "#e69f00"),
+    ("debond", "#cc79a7"),
+    ("perforate", "#3c3c3c"),
+    ("across", "#f0e442"),
+];
+
+/// Returns the colour of a failure mode.
+pub(crate) fn failure_color(mode: &str) -> &'static str {
+    FAILURES.iter().find(|(name, _)| *name == mode).map_or(FAINT, |(_, color)| color)
+}

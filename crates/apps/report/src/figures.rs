@@ -159,6 +159,11 @@ fn of_part(name: &str, designs: &Designs) -> Vec<(String, String)> {
         figures
             .push(("coverage-maps-by-slant".into(), map::by_slant(name, designs, name::COVERAGE)));
     }
+    let has_modes =
+        (0..designs.count()).any(|row| !designs.text(name::FIRST_FAILURE, row).is_empty());
+    if has_modes {
+        figures.push(("first-failure-by-gap-slant".into(), map::of_failures(name, designs)));
+    }
     figures
 }
 

@@ -75,7 +75,8 @@ pub struct MapArguments {
     #[arg(long, value_name = "COLUMN")]
     pub y: String,
 
-    /// Column to plot, of numbers; the colours are logarithmic if its values span decades
+    /// Column to plot, of numbers or failure modes; the colours are logarithmic if its values span
+    /// decades
     #[arg(long, value_name = "COLUMN")]
     pub of: String,
 

@@ -42,6 +42,20 @@ fn answers_name_the_mode_beside_a_failure_force() {
     // A ranking without the failure force does not name modes.
     assert!(!place.prints("rank r --maximize coverage").contains("Failure modes"));
 
+    // A map has a coloured cell for every design with a mode, and a legend.
+    let map = "plot map r --x gap_over_t --y slant_deg --of first_failure --at length_over_t=1";
+    place.squama(&format!("{map} --out f")).assert().code(0);
+    let map = "f/map-of-first-failure-over-gap-over-t-and-slant-deg-length-over-t-1.svg";
+    let map = place.read(map);
+    let lengths = cells(&table, "length_over_t");
+    let firsts = cells(&table, "first_failure");
+    let own =
+        lengths.iter().zip(&firsts).filter(|(length, mode)| **length == "1" && !mode.is_empty());
+    assert_eq!(map.matches("data-design").count(), own.clone().count());
+    assert!(own.into_iter().all(|(_, mode)| map.contains(&format!(">{mode}<"))), "{map}");
+    place.squama("plot r --out f").assert().code(0);
+    assert!(place.path("f/first-failure-by-gap-slant.svg").is_file());
+
     let tolerance = "tolerance x.toml --design 1 --samples 0 --out t";
     let told = place.prints(tolerance);
     let line = format!("First failure of the nominal design: {first}\n\n{modes}");

@@ -1,6 +1,6 @@
 //! Maps of a column over two parameters: one for each value of the others, with contours.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 use results::columns::name;
 use text::number::{self, DistinctNumbers};
@@ -10,7 +10,7 @@ use super::names::{axis_label, in_short, in_words, with_value};
 use super::{Figure, columns, is_touched_by_folds, sheet};
 use crate::axis::ChartAxis;
 use crate::chart::{Area, NAME};
-use crate::colors::{FAINT, INK, RED, map_color};
+use crate::colors::{FAILURES, FAINT, INK, RED, failure_color, map_color};
 use crate::designs::{AxisValues, Designs};
 use crate::label::{Anchor, label, upright};
 use crate::svg::{Element, line, rect};
@@ -106,7 +106,8 @@ pub fn map(name: &str, designs: &Designs, request: &MapRequest) -> Result<Figure
         return Err(InvalidMap::Twice(request.y.clone()));
     }
     // The number of a design is numeric, but not a quantity.
-    if !designs.has(&request.of) || request.of == "design" {
+    let is_shown = designs.has(&request.of) || request.of == name::FIRST_FAILURE;
+    if !is_shown || !designs.headers().contains(&request.of) || request.of == "design" {
         return Err(InvalidMap::NoNumbers(request.of.clone()));
     }
     let held = held(designs, &request.at)?;
@@ -137,6 +138,15 @@ pub(crate) fn by_slant(name: &str, designs: &Designs, of: &str) -> String {
         _ => ChartAxis::fit(&label, designs.numbers(of)),
     };
     let title = format!("{name}: {} by gap, aspect ratio and slant", in_words(of));
+    MapSubject { x, y, of, scale }.figure(&title, &designs.parts_by(&[x, y]))
+}
+
+/// Draws the first failure over gap and slant, a map for each aspect ratio.
+pub(crate) fn of_failures(sweep: &str, designs: &Designs) -> String {
+    let (x, y, of) = ("gap_over_t", "slant_deg", name::FIRST_FAILURE);
+    // The scale of numbers is not used.
+    let scale = ChartAxis::exact("", 0.0, 1.0);
+    let title = format!("{sweep}: first failure by gap, slant and aspect ratio");
     MapSubject { x, y, of, scale }.figure(&title, &designs.parts_by(&[x, y]))
 }
 
@@ -208,7 +218,8 @@ impl MapSubject<'_> {
             .push(label(&across, [middle, bottom + 38.0], NAME, Anchor::Middle).with("fill", INK));
         let up = axis_label(self.y);
         inside.push(upright(&up, [20.0, 0.5 * (TOP + bottom)], NAME).with("fill", INK));
-        inside.push(self.bar(bottom - TOP));
+        let scale = if self.is_of_modes() { self.modes(parts) } else { self.bar(bottom - TOP) };
+        inside.push(scale);
         if self.marks_folds() && parts.iter().any(|(_, part)| part.any_folded()) {
             inside.push(
                 label(
@@ -226,6 +237,41 @@ impl MapSubject<'_> {
     /// Returns true if a fold of the substrate surface invalidates the column.
     fn marks_folds(&self) -> bool {
         is_touched_by_folds(self.of)
+    }
+
+    /// Returns true for a map of failure modes, which are words.
+    fn is_of_modes(&self) -> bool {
+        self.of == name::FIRST_FAILURE
+    }
+
+    /// Returns the colour of a design; `None` without a value.
+    fn color_of(&self, designs: &Designs, row: usize) -> Option<String> {
+        if self.is_of_modes() {
+            let mode = designs.text(self.of, row);
+            return (!mode.is_empty()).then(|| failure_color(&mode).to_owned());
+        }
+        self.color(designs.number(self.of, row)?)
+    }
+
+    /// Returns the legend of the failure modes that occur.
+    fn modes(&self, parts: &[(AxisValues<'_>, Designs)]) -> Element {
+        let cells = parts.iter().map(|(_, part)| part.texts(self.of));
+        let occurring: BTreeSet<_> = cells.flatten().collect();
+        let left = WIDTH - RIGHT + 22.0;
+        let all = FAILURES.into_iter().chain([("", "#fff")]);
+        let entries = all.filter(|(mode, _)| occurring.contains(*mode)).enumerate();
+        let drawn = entries.flat_map(|(k, (mode, color))| {
+            let y = TOP + 24.0 * k as f64;
+            let text = label(
+                if mode.is_empty() { "none" } else { mode },
+                [left + 24.0, y + 13.0],
+                12.0,
+                Anchor::Start,
+            );
+            let square = rect([left, y], [16.0, 16.0]).with("fill", color).with("stroke", INK);
+            [square.at("stroke-width", 0.8), text.with("fill", INK)]
+        });
+        Element::group("legend").containing(drawn.collect::<Vec<_>>())
     }
 
     fn color(&self, value: f64) -> Option<String> {
@@ -312,8 +358,7 @@ impl Map<'_> {
         let [columns, rows] = self.size();
         for (i, j) in (0..columns).flat_map(|i| (0..rows).map(move |j| (i, j))) {
             let Some(&row) = at.get(&[i, j]) else { continue };
-            let value = self.designs.number(self.subject.of, row);
-            let Some(color) = value.and_then(|value| self.subject.color(value)) else { continue };
+            let Some(color) = self.subject.color_of(self.designs, row) else { continue };
             let [left, top] =
                 [self.area.left + i as f64 * width, self.area.bottom() - (j + 1) as f64 * height];
             // Slightly wider than a cell, so that no seams show.
