@@ -211,7 +211,7 @@ impl Pair {
     }
 
     /// Returns the outward normal, at rest, of the edge that a corner meets.
-    pub(crate) fn normal(&self, corner_edge: CornerEdge) -> Vec2 {
+    pub fn normal(&self, corner_edge: CornerEdge) -> Vec2 {
         self.meetings[corner_edge as usize].1.normal
     }
 

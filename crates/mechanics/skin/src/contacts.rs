@@ -9,6 +9,7 @@ mod mode;
 mod pair_unknowns;
 mod stick_slip;
 mod stiffness;
+mod touching;
 
 pub use change::ContactChange;
 pub use closed::Contact;
@@ -16,6 +17,7 @@ pub(crate) use friction::TipFriction;
 pub(crate) use friction::product_integral;
 use friction::{FrictionState, SLIP_DISTANCE};
 pub(crate) use mode::SkinMode;
+pub(crate) use touching::{PairCoordinate, TouchingEdge};
 
 use contact::{
     ContactLaw, CornerContact, CornerEdge, Corners, Equation, FORCES, Force, Level, Pair, Pose,

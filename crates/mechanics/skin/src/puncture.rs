@@ -2,6 +2,7 @@
 
 mod adaptive_row;
 mod beam;
+mod bending;
 mod ending;
 mod failure;
 mod load_positions;
@@ -24,6 +25,7 @@ mod tests;
 mod tilts;
 
 use adaptive_row::AdaptiveRowPath;
+use bending::BENDING_UNKNOWNS;
 use contact::{ContactLaw, Pose, overlaps};
 use geometry::{Body, OutOfRange, Row};
 use needle::NEEDLE_UNKNOWNS;
@@ -67,6 +69,18 @@ pub const LONGEST_ROW: usize = 4001;
 ///
 /// None beyond 3 were observed, and each pitch adds six unknowns per scale.
 const FARTHEST_CONTACT: usize = 8;
+
+/// Response of the scales to the forces on them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Bending {
+    /// Scales are rigid, as in the paper.
+    #[default]
+    Rigid,
+    /// Scales bend as linear beams with the modulus `E_ct`.
+    ///
+    /// The path ends where a tip has turned by 5° relative to its base.
+    Elastic,
+}
 
 /// Number of scales in the row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -118,6 +132,8 @@ pub struct PunctureParameters {
     pub places: Option<usize>,
     /// Curvature `t/R` of the body below: positive for a convex one, 0 for a flat one.
     pub curvature: f64,
+    /// Rigid or elastic scales.
+    pub bending: Bending,
 }
 
 impl Default for PunctureParameters {
@@ -140,6 +156,7 @@ impl Default for PunctureParameters {
             failure: None,
             places: None,
             curvature: 0.0,
+            bending: Bending::Rigid,
         }
     }
 }
@@ -320,7 +337,11 @@ impl Followed {
         measures.passage = passage;
         if let Some(failure) = failure {
             let at_end = passage.critical_event.map_or(FailureMode::Tilt, FailureMode::from);
-            let at_end = (status == Status::Complete).then_some(at_end);
+            let at_end = match status {
+                Status::Complete => Some(at_end),
+                Status::Bent => Some(FailureMode::Bend),
+                _ => None,
+            };
             measures.failure = failure.measures(path, at_end);
         }
         // The outer option tells whether a depth was requested, the inner one whether it was
@@ -397,6 +418,18 @@ impl<'a> Problem<'a> {
             (parameters.curvature, overlaps_at_rest(design, parameters.body())?);
         let expected = "a curvature at which neighbouring scales do not overlap at rest";
         OutOfRange::unless(!overlap, "curvature of the body", curvature, expected)?;
+        let is_rigid = parameters.bending == Bending::Rigid;
+        let friction = common.friction;
+        let expected = "0 for elastic scales";
+        OutOfRange::unless(is_rigid || friction == 0.0, "friction of scales", friction, expected)?;
+        let guided = f64::from(u8::from(parameters.needle.is_guided()));
+        let expected = "0, a free needle";
+        OutOfRange::unless(
+            is_rigid || guided == 0.0,
+            "guided needle on elastic scales",
+            guided,
+            expected,
+        )?;
         Self::unchecked(rows, design, stiffness, common, parameters)
     }
 
@@ -463,6 +496,7 @@ impl<'a> Problem<'a> {
         match self.reach() {
             Some(reach) => needle::unknowns(reach, self.parameters.needle.has_friction()),
             None if self.parameters.needle.is_guided() => NEEDLE_UNKNOWNS,
+            None if self.parameters.bending == Bending::Elastic => BENDING_UNKNOWNS,
             None => 0,
         }
     }
@@ -537,8 +571,17 @@ impl<'a> Problem<'a> {
     ) -> Result<Followed, OutOfRange> {
         let mut growing = AdaptiveRowPath::new(self, chain, longest);
         let mut watch = PathObservers::new(&growing.path, self.parameters, functions, places);
-        while let Some(segment) = growing.next()? {
+        let mut is_bent = false;
+        while let Some(mut segment) = growing.next()? {
+            if let Some(bent) = failure::bent_within(&mut growing.path, &segment) {
+                let chain = growing.path.system().clone();
+                growing.path.continue_with(chain, bent.clone());
+                (segment.to, is_bent) = (bent, true);
+            }
             watch.follow(&mut growing.path, &segment);
+            if is_bent {
+                break;
+            }
         }
         // Extend the points recorded on shorter rows, because they are evaluated on the final row
         // from here on.
@@ -551,6 +594,10 @@ impl<'a> Problem<'a> {
         let status = match Status::of(&path, path.termination().unwrap_or(Termination::Reached)) {
             // A row that should have grown further has no valid end.
             _ if !growing.has_room => Status::RowLimit,
+            _ if is_bent => Status::Bent,
+            Status::Complete if path.system().ends_at_a_corner(&path.point().state) => {
+                Status::OffEdge
+            }
             // An upright scale loaded in its middle does not tilt even in the first step.
             Status::Stopped(Termination::Singular) if watch.record.path.len() == 1 => {
                 Status::Untilted

@@ -24,6 +24,8 @@ pub enum Status {
     ///
     /// The path ended at a bifurcation or at twice the thickness.
     Untilted,
+    /// The tip of an elastic scale turned so far that linear bending ends.
+    Bent,
     /// Two scales overlap by more than their contact law allows.
     Interpenetration,
     /// The scales of a strip lock: the moment grows while the rotation hardly changes.

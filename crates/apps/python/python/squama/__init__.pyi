@@ -148,6 +148,7 @@ class Skin:
         base: str | None = None,
         width_over_t: float | None = None,
         width_mm: float | None = None,
+        bending: str | None = None,
         poisson_ratio: float | None = None,
         tissue_thickness_over_t: float | None = None,
         tissue_thickness_mm: float | None = None,
@@ -227,6 +228,8 @@ class Skin:
     def width_over_t(self) -> float: ...
     @property
     def width_mm(self) -> float | None: ...
+    @property
+    def bending(self) -> str: ...
     @property
     def poisson_ratio(self) -> float: ...
     @property

@@ -126,23 +126,36 @@ impl Contacts {
         let mut contacts = 0..state.mode.contacts.len();
         let is_soft = contacts.any(|contact| self.approach(state, contact) > half_breadth);
         // Use the largest distance: a contact reach that covers it covers all shorter ones.
-        self.overlapping(state).max().filter(|&pitches| pitches > self.reach && !is_soft)
+        let overlapping = self.overlapping(state, |_| 0.0).into_iter();
+        overlapping.max().filter(|&pitches| pitches > self.reach && !is_soft)
     }
 
-    /// Iterates over the distances in pitches of scales that overlap.
+    /// Lists the distances in pitches of scales that overlap.
     ///
-    /// They overlap by more than their contact approach.
-    pub(crate) fn overlapping(&self, state: &SkinState) -> impl Iterator<Item = usize> {
+    /// They overlap by more than their contact approach and the `slack` of their pair.
+    pub(crate) fn overlapping(
+        &self,
+        state: &SkinState,
+        slack: impl Fn(usize) -> f64,
+    ) -> Vec<usize> {
         let standing = |i| (self.arrangement.scale(i), self.frame_at(i).origin);
         let found = overlaps(standing, &self.poses(&state.z));
-        found.into_iter().filter_map(|Overlap { left, right, depth }| {
+        let mut distances = Vec::new();
+        for Overlap { left, right, depth } in found {
             let pitches = right - left;
             // Inverse of the pair numbering in `ends`.
             let pair = self.reach * left + pitches - 1;
             // Scales beyond the reach have no contact, so no overlap is allowed.
-            let allowed = if pitches <= self.reach { self.pair_approach(state, pair) } else { 0.0 };
-            (depth > allowed + AUDIT_TOLERANCE).then_some(pitches)
-        })
+            let allowed = if pitches <= self.reach {
+                self.pair_approach(state, pair) + slack(pair)
+            } else {
+                0.0
+            };
+            if depth > allowed + AUDIT_TOLERANCE {
+                distances.push(pitches);
+            }
+        }
+        distances
     }
 
     /// Returns true if two neighbours overlap by more than their contact approach.

@@ -69,9 +69,17 @@ impl Contacts {
 }
 
 /// Rotates the derivatives by the right displacement to the tangent frame of the right scale.
-fn local(&[lx, ly, turn, x, y, right_turn]: &OfEach, frame: &Frame) -> OfEach {
+pub(super) fn local(&[lx, ly, turn, x, y, right_turn]: &OfEach, frame: &Frame) -> OfEach {
     let right = frame.inward(Vec2::new(x, y));
     [lx, ly, turn, right.x, right.y, right_turn]
+}
+
+/// Rotates second derivatives like [`local`].
+pub(super) fn local_square(square: &[OfEach; COORDINATES], frame: &Frame) -> [OfEach; COORDINATES] {
+    let by_local = square.map(|row| local(&row, frame));
+    let columns: [OfEach; COORDINATES] = array::from_fn(|l| array::from_fn(|k| by_local[k][l]));
+    let columns = columns.map(|column| local(&column, frame));
+    array::from_fn(|k| array::from_fn(|l| columns[l][k]))
 }
 
 impl PairUnknowns {
@@ -122,12 +130,7 @@ impl PairUnknowns {
                 }
             }
             Self::Curved(scales, frame) => {
-                let by_local = slopes.map(|row| local(&row, &frame));
-                let transposed = array::from_fn(|l| array::from_fn(|k| by_local[k][l]));
-                let columns: [OfEach; COORDINATES] = transposed;
-                let columns = columns.map(|column| local(&column, &frame));
-                let slopes = array::from_fn(|k| array::from_fn(|l| columns[l][k]));
-                Self::Blocks(scales).add_square(matrix, &slopes);
+                Self::Blocks(scales).add_square(matrix, &local_square(slopes, &frame));
             }
             Self::Parts(parts) => {
                 for row in parts.into_iter().flatten() {

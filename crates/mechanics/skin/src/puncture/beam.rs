@@ -45,9 +45,9 @@ pub(super) struct TipMotion {
 /// A scale as a beam.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Beam {
-    along: Vec2,
-    length: f64,
-    depth: f64,
+    pub(super) along: Vec2,
+    pub(super) length: f64,
+    pub(super) depth: f64,
     width: f64,
     half_base: f64,
 }
@@ -91,11 +91,16 @@ impl Beam {
         6.0 * moment.abs() / (area * self.depth) + normal.abs() / area
     }
 
-    /// Computes the motion of the tip of a scale with this modulus (B2).
-    pub(super) fn tip_motion(&self, loads: &[Load], modulus: f64) -> TipMotion {
+    /// Computes the stiffness of a section in bending and in shear.
+    pub(super) fn stiffness(&self, modulus: f64) -> [f64; 2] {
         let bending = modulus * self.width * self.depth.powi(3) / 12.0;
         let shear = modulus / (2.0 * (1.0 + POISSON_RATIO));
-        let shear = SHEAR_COEFFICIENT * shear * self.width * self.depth;
+        [bending, SHEAR_COEFFICIENT * shear * self.width * self.depth]
+    }
+
+    /// Computes the motion of the tip of a scale with this modulus (B2).
+    pub(super) fn tip_motion(&self, loads: &[Load], modulus: f64) -> TipMotion {
+        let [bending, shear] = self.stiffness(modulus);
         let length = self.length;
         let mut tip = TipMotion::default();
         for Load { arm, force } in loads {

@@ -156,6 +156,21 @@ pub(super) const MAXIMA: [PathFunction<Chain>; 4] = [
 /// Step along the path direction, relative to its largest component, for the slope at its end.
 const STEP: f64 = 1e-6;
 
+/// Returns the point of a segment at which linear bending of elastic scales ends.
+pub(super) fn bent_within(
+    path: &mut Continuation<Chain>,
+    Segment { from, to, .. }: &Segment,
+) -> Option<SkinPoint> {
+    let bend = FRACTIONS[1];
+    if !path.system().is_elastic || bend(path.system(), &to.state) < 1.0 {
+        return None;
+    }
+    let reached = PathLocation { quantity: bend, value: 1.0 };
+    let point = reached.between(path, from, to).unwrap_or_else(|| to.clone());
+    // The point is no event, even if the segment ends at one.
+    Some(SkinPoint { event: None, ..point })
+}
+
 /// Values of a scale, or the largest of a row.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ScaleValues {

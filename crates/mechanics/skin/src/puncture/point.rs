@@ -23,7 +23,7 @@ pub struct PuncturePoint {
     pub contacts: usize,
     /// Elastic energy of the substrate, over `E* t³`.
     pub substrate_energy: f64,
-    /// Elastic energy of the contacts, over `E* t³`.
+    /// Elastic energy of the contacts and of the bending of elastic scales, over `E* t³`.
     ///
     /// Without friction, substrate and contact energy add up to the work `∫ F du` of the load.
     pub contact_energy: f64,
@@ -66,7 +66,7 @@ impl Skin for Chain {
             tilt_deg: self.angle_deg(state),
             contacts: Contacts::closed(state),
             substrate_energy: self.substrate_energy(state),
-            contact_energy: self.contacts.energy(state),
+            contact_energy: self.energy_of_scales(state),
             friction_work: None,
             gap_stretch: self.whole_path.then(|| self.gap_stretches(state)).flatten(),
         }
@@ -81,7 +81,7 @@ impl Skin for Chain {
     }
 
     fn stored(&self, state: &SkinState) -> f64 {
-        self.substrate_energy(state) + self.contacts.energy(state)
+        self.substrate_energy(state) + self.energy_of_scales(state)
     }
 
     fn note_friction(&self, point: &mut PuncturePoint, work: f64) {
@@ -89,7 +89,9 @@ impl Skin for Chain {
     }
 
     fn angle_deg(&self, state: &SkinState) -> f64 {
-        -self.displacement(&state.z, self.layout.left)[2].to_degrees()
+        let rotation = self.layout.scale(self.layout.left) + 2;
+        let tilt = self.bending_unknowns().map_or(rotation, |[_, tilt]| tilt);
+        -state.z[tilt].to_degrees()
     }
 
     /// Tangent stiffness `dF/du` of the punctured point, over `E* t`.
@@ -102,7 +104,14 @@ impl Skin for Chain {
     }
 
     fn interpenetrates(&self, state: &SkinState) -> bool {
-        self.contacts.overlapping(state).next().is_some()
+        if self.is_elastic {
+            // The shapes are those of rigid scales, and bending opens their contacts.
+            let openings = self.openings(state);
+            let overlapping =
+                self.contacts.overlapping(state, |pair| Contacts::pair_slack(&openings, pair));
+            return !overlapping.is_empty();
+        }
+        !self.contacts.overlapping(state, |_| 0.0).is_empty()
     }
 
     fn passes_an_end(&self, at: &SkinPoint) -> bool {
@@ -110,6 +119,13 @@ impl Skin for Chain {
         contacts.off_edge(&at.state)
             || contacts.passes_an_end(at)
             || self.is_met_from_the_side(&at.state)
+    }
+}
+
+impl Chain {
+    /// Computes the elastic energy of contacts and scales.
+    fn energy_of_scales(&self, state: &SkinState) -> f64 {
+        self.contacts.energy(state) + self.bending_energy(state)
     }
 }
 

@@ -45,7 +45,7 @@ impl Chain {
         let compliance = |loads: &[(usize, f64)]| {
             let mut x = vec![0.0; kept.len()];
             for &(unknown, load) in loads {
-                x[places[unknown]] = load;
+                x[places[unknown]] += load;
             }
             factors.solve(&mut x);
             loads.iter().map(|&(unknown, load)| load * x[places[unknown]]).sum::<f64>()
@@ -59,11 +59,15 @@ impl Chain {
         let held = |compliance: f64| load.saturating_sub(usize::from(compliance < 0.0));
         let at = self.layout.scale(self.layout.left);
         let arm = self.loaded_arm(&state.z);
-        let depth = match &self.needle {
-            Some(needle) => compliance(&[(needle.depth, 1.0)]),
-            None => compliance(&[(at + 1, 1.0), (at + 2, arm.x)]),
+        let [mut depth, mut tilt] = match &self.needle {
+            Some(needle) => [vec![(needle.depth, 1.0)], vec![(at + 2, 1.0)]],
+            None => [vec![(at + 1, 1.0), (at + 2, arm.x)], vec![(at + 2, 1.0)]],
         };
-        let tilt = compliance(&[(at + 2, 1.0)]);
+        let mut of_beam = [0.0; 2];
+        if self.is_elastic {
+            [(depth, of_beam[0]), (tilt, of_beam[1])] = self.bending_loads(state);
+        }
+        let [depth, tilt] = [compliance(&depth) + of_beam[0], compliance(&tilt) + of_beam[1]];
         Some(Instability { load, depth: held(depth), tilt: held(tilt) })
     }
 
@@ -92,7 +96,8 @@ impl Chain {
             let turn = self.layout.scale(self.layout.left) + 2;
             entry(turn, turn, -state.z[self.layout.load()] * self.loaded_arm(&state.z).y);
         }
-        self.contacts.for_stiffness(state, entry);
+        self.contacts.for_stiffness(state, &mut entry);
+        self.for_bending_stiffness(state, entry);
         let mut first: Vec<usize> = (0..size).collect();
         for &(row, column, _) in &entries {
             first[row] = first[row].min(column);

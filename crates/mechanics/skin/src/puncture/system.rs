@@ -7,10 +7,10 @@ use geometry::{Corner, Vec2};
 use solver::{Blocks, Change, Control, FARTHEST_LINK, Residual, System, Tangent};
 use substrate::{Neighbour, RowStiffness, SubstrateLaw};
 
-use super::PunctureParameters;
 use super::failure::Strengths;
 use super::needle::{GuidedNeedle, Needle, NeedleMode};
 use super::row_exterior::RowExterior;
+use super::{Bending, PunctureParameters};
 use crate::Design;
 use crate::arrangement::Arrangement;
 use crate::contacts::{Contacts, SkinMode, SkinState};
@@ -43,14 +43,14 @@ pub(super) const DEPTH_RATE: usize = 1;
 /// ```
 ///
 /// With friction each contact also has a stick multiplier and a slip distance. The unknowns of a
-/// guided needle follow the load.
+/// guided needle follow the load; for a free needle on elastic scales depth and total tilt.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct RowLayout {
     /// Scales to the left of the punctured one.
     pub(crate) left: usize,
     /// Scales to the right of the punctured one.
     pub(crate) right: usize,
-    /// Unknowns of a guided needle, behind the load; 0 for a free needle.
+    /// Unknowns of a guided needle, behind the load; 0 for a free needle on rigid scales.
     pub(crate) needle: usize,
     /// Contact unknowns of a scale with scales on its right.
     ///
@@ -149,6 +149,8 @@ pub(crate) struct Chain {
     pub(super) width: f64,
     /// `E_c/E_s` of the scales as beams.
     pub(super) scale_modulus: f64,
+    /// True if the scales bend under the forces on them.
+    pub(super) is_elastic: bool,
     pub(super) strengths: Strengths,
     pub(super) needle_radius: Option<f64>,
     /// `E*/E_s`, the unit conversion of stiffness.
@@ -170,7 +172,7 @@ pub(crate) struct Chain {
     /// The row beyond the ends, if this is a part of a longer row; same units.
     pub(super) exterior: RowExterior,
     /// Vector from the node of the punctured scale to the loaded point.
-    load_arm: Vec2,
+    pub(super) load_arm: Vec2,
     /// Additional depth at which the force is measured.
     marked_depth: Option<f64>,
     /// `None` for a free needle, which is a load.
@@ -228,6 +230,10 @@ impl Chain {
             }
         };
         let mut controls = vec![control(2, -critical_tilt), control(0, 1.0), control(1, 1.0)];
+        if parameters.bending == Bending::Elastic {
+            // The load acts on the bent tip, so its rotation is part of the tilt.
+            controls[0].index = layout.load() + 2;
+        }
         if needle.is_some() {
             // A guided needle is controlled by its depth; scales may tilt in either direction, or
             // not at all.
@@ -257,6 +263,7 @@ impl Chain {
             length: design.length,
             width: design.width,
             scale_modulus: parameters.contact_modulus_over_substrate,
+            is_elastic: parameters.bending == Bending::Elastic,
             strengths: parameters.failure.unwrap_or_default(),
             needle_radius: parameters.needle_radius,
             plane_modulus: 1.0 / (1.0 - parameters.poisson_ratio.powi(2)),
@@ -296,6 +303,11 @@ impl Chain {
         if let Some(needle) = &self.needle {
             return z[needle.depth];
         }
+        self.bending_unknowns().map_or_else(|| self.rigid_depth(z), |[depth, _]| z[depth])
+    }
+
+    /// Computes the depth of the loaded point without the bending of its scale.
+    pub(super) fn rigid_depth(&self, z: &[f64]) -> f64 {
         // Depth is positive downward, `y` upward.
         let pose = self.contacts.pose(z, self.layout.left);
         -(pose.displacement.y + pose.turn(self.load_arm).y - self.load_arm.y)
@@ -310,6 +322,9 @@ impl Chain {
     pub(crate) fn depth_slope(&self, z: &[f64], direction: &[f64]) -> f64 {
         if let Some(needle) = &self.needle {
             return direction[needle.depth];
+        }
+        if let Some([depth, _]) = self.bending_unknowns() {
+            return direction[depth];
         }
         let at = self.layout.scale(self.layout.left);
         let arm = self.loaded_arm(z);
@@ -397,7 +412,8 @@ impl System for Chain {
         // Distance from x of a scale to φ of the last scale coupled with it, with the load in
         // between. A guided needle is coupled with all scales in reach.
         let coupled = self.needle.as_ref().map_or(0, GuidedNeedle::farthest);
-        let coupled = self.neighbours.len().max(self.contacts.reach).max(coupled);
+        let touched = if self.is_elastic { 2 } else { 1 } * self.contacts.reach;
+        let coupled = self.neighbours.len().max(touched).max(coupled);
         self.layout.block() * coupled + 3 + self.layout.needle
     }
 
@@ -406,7 +422,12 @@ impl System for Chain {
     }
 
     /// A guided needle fits the blocks as long as it touches only the punctured scale.
+    ///
+    /// An elastic scale couples the neighbours on both of its sides as soon as they touch it.
     fn is_in_blocks(&self, state: &SkinState) -> bool {
+        if self.is_elastic && Contacts::closed(state) > 0 {
+            return false;
+        }
         state.mode.needle.touches.iter().flatten().all(|touch| touch.scale == 0)
     }
 
@@ -422,6 +443,10 @@ impl System for Chain {
     }
 
     fn ends(&self, state: &SkinState, constraint: usize) -> bool {
+        // At the end of an edge both corners would carry force, and an elastic scale would jump.
+        if self.is_elastic && self.contacts.contact_of_own_force(constraint).is_none() {
+            return true;
+        }
         self.needle.as_ref().is_some_and(|needle| needle.ends(self, state, constraint))
     }
 
@@ -500,10 +525,16 @@ impl System for Chain {
             matrix.add(at + 2, at + 2, -z[load] * arm.y);
         }
         self.contacts.linearise(state, residual, matrix);
+        if self.is_elastic {
+            self.add_bending(state, residual, matrix);
+        }
     }
 
     fn conditions(&self, state: &SkinState, values: &mut Vec<f64>) {
         self.contacts.conditions(state, values);
+        if self.is_elastic {
+            self.add_openings(state, values);
+        }
         // Needle constraints follow contact constraints, so append their values.
         if let Some(needle) = &self.needle {
             self.needle_conditions(needle, state, values);
@@ -518,6 +549,10 @@ impl System for Chain {
         slopes: &mut Vec<f64>,
     ) {
         self.contacts.condition_slopes(state, direction, values, slopes);
+        if self.is_elastic {
+            self.add_openings(state, values);
+            self.add_opening_slopes(state, direction, slopes);
+        }
         if let Some(needle) = &self.needle {
             self.needle_conditions(needle, state, values);
             self.needle_slopes(needle, state, direction, slopes);
@@ -526,7 +561,8 @@ impl System for Chain {
 
     fn condition(&self, state: &SkinState, constraint: usize) -> f64 {
         let Some((needle, number)) = self.of_needle(constraint) else {
-            return self.contacts.condition(state, constraint);
+            let value = self.contacts.condition(state, constraint);
+            return value + self.opening_of(state, constraint, None);
         };
         let mut values = Vec::new();
         self.needle_conditions(needle, state, &mut values);
@@ -535,7 +571,8 @@ impl System for Chain {
 
     fn slope(&self, state: &SkinState, constraint: usize, direction: &[f64]) -> f64 {
         let Some((needle, number)) = self.of_needle(constraint) else {
-            return self.contacts.slope(state, constraint, direction);
+            let slope = self.contacts.slope(state, constraint, direction);
+            return slope + self.opening_of(state, constraint, Some(direction));
         };
         let mut slopes = Vec::new();
         self.needle_slopes(needle, state, direction, &mut slopes);

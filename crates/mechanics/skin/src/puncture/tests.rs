@@ -1,5 +1,6 @@
 //! Unit tests of the puncture model: tangent, energy, growth of rows, stability.
 
+mod bending;
 mod failure;
 mod friction;
 mod layers;

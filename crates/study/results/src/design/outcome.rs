@@ -42,6 +42,8 @@ pub enum Outcome {
     LimitPoint,
     /// A needle pushed a scale straight down and tilted none critically.
     Untilted,
+    /// An elastic scale bent so far that linear bending ends.
+    Bent,
     /// The scales of a strip locked.
     Locked,
     /// No quasi-static continuation: contacts can neither stick nor slip, or the path goes to and
@@ -51,7 +53,7 @@ pub enum Outcome {
 
 impl Outcome {
     /// All outcomes.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 18] = [
         Self::Complete,
         Self::NoConvergence,
         Self::Singular,
@@ -67,6 +69,7 @@ impl Outcome {
         Self::Unloaded,
         Self::LimitPoint,
         Self::Untilted,
+        Self::Bent,
         Self::Locked,
         Self::Jumps,
     ];
@@ -91,6 +94,7 @@ impl Outcome {
             Self::Unloaded => "unloaded",
             Self::LimitPoint => "limit point",
             Self::Untilted => "no critical tilt",
+            Self::Bent => "bent",
         }
     }
 
@@ -128,6 +132,7 @@ impl Outcome {
                 "load, depth and tilt decreased together, and the path ends before any of them recovers"
             }
             Self::Untilted => "a needle pushes a scale straight down and tilts none critically",
+            Self::Bent => "an elastic scale bends by more than 5°, where linear bending ends",
         }
     }
 }
@@ -148,6 +153,7 @@ impl From<Status> for Outcome {
             Status::Locked => Self::Locked,
             Status::LimitPoint => Self::LimitPoint,
             Status::Untilted => Self::Untilted,
+            Status::Bent => Self::Bent,
             Status::Stopped(stop) => stop.into(),
         }
     }

@@ -207,7 +207,12 @@ impl Reader {
         let mut wrong: Vec<_> = self.contradictions().collect();
         wrong.extend(self.fixed_variables());
         wrong.extend(self.deviations_without_unit());
-        let checked = [self.check_alternatives(), self.check_needle(), self.check_radius()];
+        let checked = [
+            self.check_alternatives(),
+            self.check_needle(),
+            self.check_radius(),
+            self.check_bending(),
+        ];
         wrong.extend(checked.into_iter().filter_map(Result::err));
         wrong.extend(self.lengths_without_thickness());
         wrong.extend(self.ratios_without_modulus());
@@ -344,6 +349,27 @@ impl Reader {
         }
         let needed = r#"puncture.needle = "guided""#.to_owned();
         Err(refuse(place, &key, Problem::Needs(needed)))
+    }
+
+    /// Returns true if a parameter has a value of a kind.
+    fn may_be(&self, key: &str, kind: fn(&Scalar) -> bool) -> bool {
+        self.values(key).is_some_and(|(values, ..)| values.iter().any(kind))
+    }
+
+    /// Refuses elastic scales with friction or a guided needle, which their model does not cover.
+    fn check_bending(&self) -> Result<(), InvalidDefinition> {
+        let Some((bending, path, place)) = self.values(key::BENDING) else { return Ok(()) };
+        if !bending.contains(&Scalar::Word("elastic")) {
+            return Ok(());
+        }
+        let needed = if self.may_be(key::NEEDLE, |needle| *needle == Scalar::Word("guided")) {
+            r#"puncture.needle = "free""#
+        } else if self.may_be(key::FRICTION, |friction| friction.number() != Some(0.0)) {
+            "contact.friction = 0"
+        } else {
+            return Ok(());
+        };
+        Err(refuse(place, &path, Problem::Needs(needed.to_owned())))
     }
 
     /// Returns an error for every length in mm without a scale thickness.

@@ -23,6 +23,9 @@ pub const RADIUS: &str = "radius_over_t";
 /// Width of the scales.
 pub const WIDTH: &str = "width_over_t";
 
+/// Rigid or elastic scales.
+pub const BENDING: &str = "bending";
+
 /// Poisson's ratio of the substrate.
 pub const POISSON_RATIO: &str = "poisson_ratio";
 

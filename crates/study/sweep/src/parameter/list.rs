@@ -20,7 +20,7 @@
 
 use skin::Base;
 use skin::flexure::{MembraneMesh, Method};
-use skin::puncture::{Needle, NumberList, RowLength};
+use skin::puncture::{Bending, Needle, NumberList, RowLength};
 use substrate::{Coupling, SubstrateLaw};
 
 use crate::case::{Case, set_tilts};
@@ -138,6 +138,9 @@ pub static PARAMETERS: &[Parameter] = parameters! {
             number(LENGTH, |c| &mut c.design.width), "out-of-plane width b of the scales";
         "width_mm", "mm", [InMm(key::WIDTH), Made, MovesSprings],
             optional(POSITIVE, |c| &mut c.in_mm.width), in_mm!("width", "out-of-plane width of the scales");
+        key::BENDING, "-", [],
+            words!(puncture.bending: "rigid" = Bending::Rigid, "elastic" = Bending::Elastic),
+            "rigid scales, as in the paper, or elastic ones, which bend in the puncture as beams with the modulus E_ct";
     }
 
     "substrate" {

@@ -353,3 +353,19 @@ fn lengths_in_mm() {
         "tolerance.tissue_thickness_mm = { batch_sd = 0.1 }\nmaterial.thickness_mm = 2",
     ]));
 }
+
+#[test]
+fn elastic_scales_need_a_free_needle_without_friction() {
+    let elastic = "scale.bending = 'elastic'";
+    for (other, needed) in [
+        ("puncture.needle = 'guided'", r#"puncture.needle = "free""#),
+        ("designs.needle = ['free', 'guided']", r#"puncture.needle = "free""#),
+        ("contact.friction = 0.1", "contact.friction = 0"),
+        ("designs.friction = [0, 0.1]", "contact.friction = 0"),
+    ] {
+        let message = refused(&format!("name = 'x'\n{other}\n{elastic}"), &[]);
+        assert!(message.contains(&format!("scale.bending: needs {needed}")), "{message}");
+    }
+    let free = format!("name = 'x'\n{elastic}\ncontact.friction = 0");
+    assert!(Sweep::parse(&free, "x.toml", &[]).is_ok());
+}

@@ -1,0 +1,625 @@
+//! Scales that bend under the forces of their neighbours and of a load (B7–B9).
+//!
+//! Each scale is a beam, clamped at its base. The forces `Λ` on it have the complementary energy
+//! `U = ½ Σ C_kl Λ_k Λ_l`. Their positions and directions in the frame of the scale depend on the
+//! unknowns, and so does `C`. With `L = V − Σ Λ g − U`, all equations are derivatives of `L`:
+//!
+//! ```text
+//! contact k           g_k + δ(Λ_k) + ∂U/∂Λ_k = 0                                     (B7)
+//! balance             ∂V/∂u − Σ Λ_k ∇g_k − ∂U/∂u = 0                                 (B8)
+//! depth, total tilt   D = D_rigid + ∂U/∂F,   ϑ = φ + ∂U/∂M                           (B9)
+//! ```
+//!
+//! `M` is a moment at the tip, of value 0. The tangent is therefore symmetric, and the work of the
+//! load equals the energy of substrate, contacts and scales.
+
+use contact::{COORDINATES, CornerEdge};
+use geometry::Vec2;
+use solver::{Residual, Tangent};
+
+use super::beam::Beam;
+use super::system::Chain;
+use crate::contacts::{PairCoordinate, SkinState, TouchingEdge};
+
+/// Unknowns of a free needle on an elastic scale, behind the load: depth and total tilt.
+pub(super) const BENDING_UNKNOWNS: usize = 2;
+
+/// Half of the length over which the shear force of a load is distributed, over the depth of the
+/// beam.
+///
+/// The shear force of a point load jumps. Where two loads pass each other, the energy would have a
+/// kink and the equilibrium a jump.
+const SPREAD: f64 = 0.25;
+
+/// Fraction by which the end of a path may miss the critical tilt.
+const AT_THE_TILT: f64 = 1e-9;
+
+/// Value with its first and second derivative by the coordinate of a load.
+type Varying = [f64; 3];
+
+/// Force on a scale as a beam.
+#[derive(Clone, Copy, Debug)]
+struct BeamLoad {
+    /// Unknown of the force; `None` for the moment at the tip.
+    unknown: Option<usize>,
+    force: f64,
+    /// Moment about the node and transverse force, per unit force.
+    moment: Varying,
+    across: Varying,
+    /// Position along the beam, with its first derivative.
+    section: [f64; 2],
+    /// Unknowns on which the coordinate of the load depends, with derivatives.
+    at: [usize; COORDINATES],
+    slopes: [f64; COORDINATES],
+    curvature: [[f64; COORDINATES]; COORDINATES],
+}
+
+/// Flexibility `C_kl` of a scale with derivatives by the coordinates of the loads `k` and `l`.
+#[derive(Clone, Copy, Debug, Default)]
+struct Flexibility {
+    value: f64,
+    by_first: f64,
+    by_first_twice: f64,
+    by_both: f64,
+}
+
+/// Sums over all loads for one load `k`.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sums {
+    /// `Σ C_kl Λ_l`: displacement at the load.
+    displacement: f64,
+    /// Its derivative, and its second derivative, by the coordinate of `k` as the first load.
+    slope: f64,
+    curvature: f64,
+}
+
+/// Section of a scale.
+#[derive(Clone, Copy, Debug)]
+struct Section {
+    length: f64,
+    spread: f64,
+    bending: f64,
+    shear_stiffness: f64,
+}
+
+impl BeamLoad {
+    /// Creates a load at a point fixed to the scale, in a direction that turns by `coordinate`.
+    fn at_point(beam: &Beam, point: Vec2, direction: Vec2, section: f64) -> Self {
+        let turned = contact::quarter(direction);
+        let (moment, across) = (point.perp(&direction), beam.along.perp(&direction));
+        Self {
+            unknown: None,
+            force: 0.0,
+            moment: [moment, point.perp(&turned), -moment],
+            across: [across, beam.along.perp(&turned), -across],
+            section: [section, 0.0],
+            at: [0; COORDINATES],
+            slopes: [0.0; COORDINATES],
+            curvature: [[0.0; COORDINATES]; COORDINATES],
+        }
+    }
+
+    /// Computes the derivative of the coordinate of the load along a direction of the unknowns.
+    fn along(&self, direction: &[f64]) -> f64 {
+        self.at.iter().zip(self.slopes).map(|(&at, slope)| slope * direction[at]).sum()
+    }
+
+    /// Integrates the moment of the load, or a derivative of it, and minus its first moment up to
+    /// the section `z`.
+    fn integrals(&self, derivative: usize, z: f64) -> [f64; 2] {
+        let (moment, across) = (self.moment[derivative], self.across[derivative]);
+        let (square, cube) = (z * z / 2.0, z * z * z / 3.0);
+        [moment * z - across * square, across * cube - moment * square]
+    }
+
+    /// Creates the unit moment at the tip.
+    fn tip_moment(beam: &Beam, at: [usize; COORDINATES]) -> Self {
+        Self {
+            moment: [1.0, 0.0, 0.0],
+            across: [0.0; 3],
+            at,
+            ..Self::at_point(beam, Vec2::zeros(), Vec2::zeros(), beam.length)
+        }
+    }
+
+    /// Places the load by `sign` times a coordinate of its pair.
+    fn along_pair(self, touching: &TouchingEdge, sign: f64, coordinate: &PairCoordinate) -> Self {
+        Self {
+            unknown: Some(touching.unknown),
+            force: touching.force,
+            at: touching.at,
+            slopes: coordinate.slopes.map(|slope| sign * slope),
+            curvature: coordinate.curvature.map(|row| row.map(|value| sign * value)),
+            ..self
+        }
+    }
+
+    /// Creates the load of a contact on its scale with the corner, or with the edge.
+    ///
+    /// `None` for a force on a base, which bends nothing.
+    fn of_contact(beam: &Beam, touching: &TouchingEdge, scale: usize) -> Option<Self> {
+        let is_left = touching.ends[0] == scale;
+        if is_left == touching.edge.corner_is_left() {
+            // The normal of the edge, turned by the rotation of the edge relative to the corner.
+            let sign = if is_left { 1.0 } else { -1.0 };
+            let angle = sign * touching.turn.value;
+            let direction = contact::Pose::new(0.0, 0.0, angle).turn(touching.normal);
+            let section = touching.corner.dot(&beam.along);
+            let load = Self::at_point(beam, touching.corner, direction, section);
+            return Some(load.along_pair(touching, sign, &touching.turn));
+        }
+        let along = contact::quarter(touching.normal);
+        let slide = touching.slide.value;
+        let load = Self::at_point(beam, slide * along, -touching.normal, 0.0);
+        match touching.edge {
+            CornerEdge::BottomLeftOnBase => None,
+            CornerEdge::TopRightOnTop => {
+                // The part beyond the last section is rigid.
+                let moment =
+                    [along.perp(&-touching.normal) * slide, along.perp(&-touching.normal), 0.0];
+                let across = [load.across[0], 0.0, 0.0];
+                let section = [beam.length, 0.0];
+                Some(Self { moment, across, section, ..load }.along_pair(
+                    touching,
+                    1.0,
+                    &touching.slide,
+                ))
+            }
+            _ => {
+                // The force is perpendicular to the axis of the beam.
+                let side = along.dot(&beam.along).signum();
+                let across = [load.across[0], 0.0, 0.0];
+                let moment = [across[0] * side * slide, across[0] * side, 0.0];
+                let section = [side * slide, side];
+                Some(Self { moment, across, section, ..load }.along_pair(
+                    touching,
+                    1.0,
+                    &touching.slide,
+                ))
+            }
+        }
+    }
+}
+
+impl Section {
+    /// Computes the flexibility between two loads.
+    fn flexibility(&self, k: &BeamLoad, l: &BeamLoad) -> Flexibility {
+        let [own, other] = [k, l].map(|load| load.section[0].clamp(0.0, self.length));
+        let z = own.min(other);
+        let [zeroth, first] = l.integrals(0, z);
+        let [zeroth_by_other, first_by_other] = l.integrals(1, z);
+        // The moment of a moving load vanishes at its own section, so that a moving limit of the
+        // integral matters only in the second derivative.
+        let moves = own <= other && own > 0.0 && own < self.length;
+        let at_limit = if moves {
+            k.section[1] * (l.moment[0] - l.across[0] * z) * (k.moment[1] - k.across[1] * z)
+        } else {
+            0.0
+        };
+        let bent = Flexibility {
+            value: k.moment[0] * zeroth + k.across[0] * first,
+            by_first: k.moment[1] * zeroth + k.across[1] * first,
+            by_first_twice: k.moment[2] * zeroth + k.across[2] * first + at_limit,
+            by_both: k.moment[1] * zeroth_by_other + k.across[1] * first_by_other,
+        };
+        let overlap = self.overlap(k.section[0], l.section[0]);
+        let (a, b, rate) = (k.across, l.across, [k.section[1], l.section[1]]);
+        let sheared = Flexibility {
+            value: a[0] * b[0] * overlap.value,
+            by_first: b[0] * (a[1] * overlap.value + a[0] * rate[0] * overlap.by_first),
+            by_first_twice: b[0]
+                * (a[2] * overlap.value
+                    + 2.0 * a[1] * rate[0] * overlap.by_first
+                    + a[0] * rate[0] * rate[0] * overlap.by_first_twice),
+            by_both: a[1] * b[1] * overlap.value
+                + a[1] * b[0] * rate[1] * overlap.by_second
+                + a[0] * b[1] * rate[0] * overlap.by_first
+                + a[0] * b[0] * rate[0] * rate[1] * overlap.by_both,
+        };
+        let (bending, shear) = (self.bending, self.shear_stiffness);
+        Flexibility {
+            value: bent.value / bending + sheared.value / shear,
+            by_first: bent.by_first / bending + sheared.by_first / shear,
+            by_first_twice: bent.by_first_twice / bending + sheared.by_first_twice / shear,
+            by_both: bent.by_both / bending + sheared.by_both / shear,
+        }
+    }
+
+    /// Returns the shear force at `x` of a unit force at `s`.
+    fn shear(&self, s: f64, x: f64) -> f64 {
+        ((s + self.spread - x) / (2.0 * self.spread)).clamp(0.0, 1.0)
+    }
+
+    /// Integrates the product of two unit shear forces over the beam.
+    ///
+    /// The shear force of a load at `s` falls linearly from 1 at `s − w` to 0 at `s + w`.
+    fn overlap(&self, s: f64, t: f64) -> Overlap {
+        let (w, length) = (self.spread, self.length);
+        let mut breaks = [0.0, length, s - w, s + w, t - w, t + w].map(|x| x.clamp(0.0, length));
+        breaks.sort_unstable_by(f64::total_cmp);
+        let mut overlap = Overlap::default();
+        for pair in breaks.windows(2) {
+            let [low, high] = [pair[0], pair[1]];
+            if high <= low {
+                continue;
+            }
+            let middle = f64::midpoint(low, high);
+            overlap.value += integral([low, high], |x| self.shear(s, x) * self.shear(t, x));
+            let [beside_first, beside_second] = [s, t].map(|at| (middle - at).abs() <= w);
+            if beside_first {
+                overlap.by_first += integral([low, high], |x| self.shear(t, x)) / (2.0 * w);
+            }
+            if beside_second {
+                overlap.by_second += integral([low, high], |x| self.shear(s, x)) / (2.0 * w);
+            }
+            if beside_first && beside_second {
+                overlap.by_both += (high - low) / (4.0 * w * w);
+            }
+        }
+        for (x, sign) in [(s + w, 1.0), (s - w, -1.0)] {
+            if (0.0..=length).contains(&x) {
+                overlap.by_first_twice += sign * self.shear(t, x) / (2.0 * w);
+            }
+        }
+        overlap
+    }
+}
+
+/// Integrates a polynomial of degree 3 or less by two points of Gauss and Legendre.
+fn integral([low, high]: [f64; 2], f: impl Fn(f64) -> f64) -> f64 {
+    let (middle, half) = (f64::midpoint(low, high), (high - low) / 2.0);
+    let offset = half / 3.0_f64.sqrt();
+    half * (f(middle - offset) + f(middle + offset))
+}
+
+/// Integral of the product of two shear forces, with derivatives by their positions.
+#[derive(Clone, Copy, Debug, Default)]
+struct Overlap {
+    value: f64,
+    by_first: f64,
+    by_second: f64,
+    by_first_twice: f64,
+    by_both: f64,
+}
+
+/// The loads of one scale.
+struct BentScale {
+    scale: usize,
+    beam: Beam,
+    section: Section,
+    loads: Vec<BeamLoad>,
+}
+
+impl BentScale {
+    fn sums(&self, k: &BeamLoad) -> Sums {
+        let mut sums = Sums::default();
+        for l in &self.loads {
+            let flexibility = self.section.flexibility(k, l);
+            sums.displacement += l.force * flexibility.value;
+            sums.slope += l.force * flexibility.by_first;
+            sums.curvature += l.force * flexibility.by_first_twice;
+        }
+        sums
+    }
+
+    /// Computes the derivative of the displacement at `k` along a direction of the unknowns.
+    fn rate(&self, k: &BeamLoad, direction: &[f64]) -> f64 {
+        let own = k.along(direction);
+        let mut rate = 0.0;
+        for l in &self.loads {
+            let flexibility = self.section.flexibility(k, l);
+            let by_other = self.section.flexibility(l, k).by_first;
+            rate += l.force * (flexibility.by_first * own + by_other * l.along(direction));
+            rate += flexibility.value * l.unknown.map_or(0.0, |unknown| direction[unknown]);
+        }
+        rate
+    }
+
+    /// Adds `sign` times the displacement at `k` to the equation of `row`.
+    fn add_displacement(
+        &self,
+        (row, sign): (usize, f64),
+        k: &BeamLoad,
+        residual: &mut Residual,
+        matrix: &mut impl Tangent,
+    ) {
+        let sums = self.sums(k);
+        residual.add(row, sign * sums.displacement);
+        for (&column, slope) in k.at.iter().zip(k.slopes) {
+            matrix.add(row, column, sign * sums.slope * slope);
+        }
+        for l in &self.loads {
+            let value = self.section.flexibility(k, l).value;
+            if let Some(unknown) = l.unknown {
+                matrix.add(row, unknown, sign * value);
+            }
+            let by_other = l.force * self.section.flexibility(l, k).by_first;
+            for (&column, slope) in l.at.iter().zip(l.slopes) {
+                matrix.add(row, column, sign * by_other * slope);
+            }
+        }
+    }
+
+    /// Adds the forces `−∂U/∂u` to the balances.
+    fn add_balance(&self, residual: &mut Residual, matrix: &mut impl Tangent) {
+        for k in &self.loads {
+            let sums = self.sums(k);
+            for (i, &row) in k.at.iter().enumerate() {
+                residual.add(row, -k.force * sums.slope * k.slopes[i]);
+                if let Some(unknown) = k.unknown {
+                    matrix.add(row, unknown, -sums.slope * k.slopes[i]);
+                }
+                for (j, &column) in k.at.iter().enumerate() {
+                    let value =
+                        sums.curvature * k.slopes[i] * k.slopes[j] + sums.slope * k.curvature[i][j];
+                    matrix.add(row, column, -k.force * value);
+                }
+            }
+            for l in &self.loads {
+                let flexibility = self.section.flexibility(k, l);
+                for (i, &row) in k.at.iter().enumerate() {
+                    if k.slopes[i] == 0.0 {
+                        continue;
+                    }
+                    if let Some(unknown) = l.unknown {
+                        let value = -k.force * flexibility.by_first * k.slopes[i];
+                        matrix.add(row, unknown, value);
+                    }
+                    for (&column, slope) in l.at.iter().zip(l.slopes) {
+                        let value = k.force * l.force * flexibility.by_both * k.slopes[i] * slope;
+                        matrix.add(row, column, -value);
+                    }
+                }
+            }
+        }
+    }
+}
+
+impl Chain {
+    /// Returns the unknowns of depth and total tilt of a free needle on elastic scales.
+    pub(super) fn bending_unknowns(&self) -> Option<[usize; 2]> {
+        self.is_elastic.then(|| [self.layout.load() + 1, self.layout.load() + 2])
+    }
+
+    fn bent_scale(&self, scale: usize) -> BentScale {
+        let beam = Beam::new(&self.contacts.arrangement.scale(scale), self.width);
+        let [bending, shear_stiffness] = beam.stiffness(self.scale_modulus / self.plane_modulus);
+        let (length, spread) = (beam.length, SPREAD * beam.depth);
+        let section = Section { length, spread, bending, shear_stiffness };
+        BentScale { scale, beam, section, loads: Vec::new() }
+    }
+
+    /// Lists the loaded scales, the punctured one first.
+    fn bent_scales(&self, state: &SkinState) -> Vec<BentScale> {
+        let punctured = self.layout.left;
+        let mut bent = vec![self.bent_scale(punctured)];
+        let load = self.free_load(&bent[0].beam, state);
+        bent[0].loads.push(load);
+        let mut places = vec![None; self.layout.scales()];
+        places[punctured] = Some(0);
+        for touching in self.contacts.closed_edges(state) {
+            for scale in touching.ends {
+                let at = *places[scale].get_or_insert_with(|| {
+                    bent.push(self.bent_scale(scale));
+                    bent.len() - 1
+                });
+                let load = BeamLoad::of_contact(&bent[at].beam, &touching, scale);
+                bent[at].loads.extend(load);
+            }
+        }
+        bent
+    }
+
+    /// Returns the dead load in the frame of the punctured scale, in which it turns.
+    fn free_load(&self, beam: &Beam, state: &SkinState) -> BeamLoad {
+        let at = self.layout.scale(self.layout.left);
+        let back = contact::Pose::new(0.0, 0.0, -state.z[at + 2]);
+        let arm = self.load_arm;
+        let direction = back.turn(Vec2::new(0.0, -1.0));
+        let mut slopes = [0.0; COORDINATES];
+        slopes[2] = -1.0;
+        let load = self.layout.load();
+        BeamLoad {
+            unknown: Some(load),
+            force: state.z[load],
+            at: [at, at + 1, at + 2, at, at + 1, at + 2],
+            slopes,
+            ..BeamLoad::at_point(beam, arm, direction, arm.dot(&beam.along))
+        }
+    }
+
+    /// Returns true if a path on elastic scales ended before the critical tilt.
+    pub(super) fn ends_at_a_corner(&self, state: &SkinState) -> bool {
+        let tilt = self.controls[0];
+        self.is_elastic && state.z[tilt.index] / tilt.scale < 1.0 - AT_THE_TILT
+    }
+
+    /// Adds the bending of all scales to the equations.
+    pub(super) fn add_bending(
+        &self,
+        state: &SkinState,
+        residual: &mut Residual,
+        matrix: &mut impl Tangent,
+    ) {
+        let Some([depth, tilt]) = self.bending_unknowns() else { return };
+        let at = self.layout.scale(self.layout.left);
+        let arm = self.loaded_arm(&state.z);
+        residual.add(depth, state.z[depth]);
+        residual.add(depth, -self.rigid_depth(&state.z));
+        residual.add(tilt, state.z[tilt]);
+        residual.add(tilt, -state.z[at + 2]);
+        for (row, column, value) in [
+            (depth, depth, 1.0),
+            (depth, at + 1, 1.0),
+            (depth, at + 2, arm.x),
+            (tilt, tilt, 1.0),
+            (tilt, at + 2, -1.0),
+        ] {
+            matrix.add(row, column, value);
+        }
+        let bent = self.bent_scales(state);
+        let punctured = &bent[0];
+        let load = &punctured.loads[0];
+        punctured.add_displacement((depth, -1.0), load, residual, matrix);
+        let moment = BeamLoad::tip_moment(&punctured.beam, load.at);
+        punctured.add_displacement((tilt, -1.0), &moment, residual, matrix);
+        for scale in &bent {
+            scale.add_balance(residual, matrix);
+            for k in &scale.loads {
+                if let Some(row) = k.unknown.filter(|&row| row != self.layout.load()) {
+                    scale.add_displacement((row, 1.0), k, residual, matrix);
+                }
+            }
+        }
+    }
+
+    /// Computes the opening of each contact by the bending of both scales.
+    pub(super) fn openings(&self, state: &SkinState) -> Vec<f64> {
+        let mut openings = vec![0.0; state.mode.contacts.len()];
+        let bent = self.bent_scales(state);
+        self.for_openings(state, &bent, |contact, scale, load| {
+            openings[contact] += scale.sums(load).displacement;
+        });
+        for touching in self.contacts.closed_edges(state) {
+            for scale in bent.iter().filter(|bent| touching.ends.contains(&bent.scale)) {
+                let load = BeamLoad::of_contact(&scale.beam, &touching, scale.scale);
+                openings[touching.contact] += load.map_or(0.0, |k| scale.sums(&k).displacement);
+            }
+        }
+        openings
+    }
+
+    /// Calls `show` with each open contact beside a loaded scale.
+    ///
+    /// It receives the scale and the load that a force of the contact would be.
+    fn for_openings(
+        &self,
+        state: &SkinState,
+        bent: &[BentScale],
+        mut show: impl FnMut(usize, &BentScale, &BeamLoad),
+    ) {
+        let mut is_bent = vec![false; self.layout.scales()];
+        for bent in bent {
+            is_bent[bent.scale] = true;
+        }
+        for contact in self.contacts.contacts_beside(&is_bent) {
+            let Some(touching) = self.contacts.facing_edge(state, contact) else { continue };
+            for scale in bent.iter().filter(|bent| touching.ends.contains(&bent.scale)) {
+                if let Some(load) = BeamLoad::of_contact(&scale.beam, &touching, scale.scale) {
+                    show(contact, scale, &load);
+                }
+            }
+        }
+    }
+
+    /// Adds the bending of the scales to the gaps of open contacts.
+    pub(super) fn add_openings(&self, state: &SkinState, values: &mut [f64]) {
+        let bent = self.bent_scales(state);
+        self.for_openings(state, &bent, |contact, scale, load| {
+            values[self.contacts.own_force(contact)] += scale.sums(load).displacement;
+        });
+    }
+
+    /// Adds the derivatives of the bending to those of the gaps of open contacts.
+    pub(super) fn add_opening_slopes(
+        &self,
+        state: &SkinState,
+        direction: &[f64],
+        slopes: &mut [f64],
+    ) {
+        let bent = self.bent_scales(state);
+        self.for_openings(state, &bent, |contact, scale, load| {
+            slopes[self.contacts.own_force(contact)] += scale.rate(load, direction);
+        });
+    }
+
+    /// Computes the opening of the contact of a constraint by bending, or its derivative along a
+    /// `direction`.
+    ///
+    /// 0 for constraints other than normal forces.
+    pub(super) fn opening_of(
+        &self,
+        state: &SkinState,
+        constraint: usize,
+        direction: Option<&[f64]>,
+    ) -> f64 {
+        let own = self.contacts.contact_of_own_force(constraint).filter(|_| self.is_elastic);
+        let touching = own.and_then(|contact| self.contacts.edge_at(state, contact));
+        let Some(touching) = touching else { return 0.0 };
+        let bent = self.bent_scales(state);
+        let scales = bent.iter().filter(|bent| touching.ends.contains(&bent.scale));
+        scales
+            .filter_map(|scale| {
+                let load = BeamLoad::of_contact(&scale.beam, &touching, scale.scale)?;
+                Some(match direction {
+                    Some(direction) => scale.rate(&load, direction),
+                    None => scale.sums(&load).displacement,
+                })
+            })
+            .sum()
+    }
+
+    /// Computes the strain energy of all scales, over `E* t³`.
+    pub(super) fn bending_energy(&self, state: &SkinState) -> f64 {
+        if !self.is_elastic {
+            return 0.0;
+        }
+        let bent = self.bent_scales(state);
+        let energies = bent.iter().map(|scale| {
+            let loads = scale.loads.iter();
+            loads.map(|k| 0.5 * k.force * scale.sums(k).displacement).sum::<f64>()
+        });
+        energies.sum()
+    }
+
+    /// Returns derivatives of depth and total tilt by motions and contact forces, and the
+    /// derivatives of both by their own load.
+    pub(super) fn bending_loads(&self, state: &SkinState) -> [(Vec<(usize, f64)>, f64); 2] {
+        let Some(rows) = self.bending_unknowns() else { return Default::default() };
+        let mut entries: [Vec<(usize, f64)>; 2] = Default::default();
+        self.add_bending(
+            state,
+            &mut Residual::new(self.layout.size()),
+            &mut |row: usize, column: usize, value: f64| {
+                if let Some(k) = rows.iter().position(|&own| own == row)
+                    && column != row
+                {
+                    entries[k].push((column, -value));
+                }
+            },
+        );
+        let load = self.layout.load();
+        let [mut depth, mut tilt] = entries;
+        let own = depth.iter().filter(|(column, _)| *column == load).map(|(_, value)| value).sum();
+        let bent = &self.bent_scales(state)[0];
+        let moment = BeamLoad::tip_moment(&bent.beam, bent.loads[0].at);
+        let of_moment = bent.section.flexibility(&moment, &moment).value;
+        for entries in [&mut depth, &mut tilt] {
+            entries.retain(|(column, _)| *column != load);
+        }
+        [(depth, own), (tilt, of_moment)]
+    }
+
+    /// Adds the bending to the symmetric stiffness.
+    pub(super) fn for_bending_stiffness(
+        &self,
+        state: &SkinState,
+        mut entry: impl FnMut(usize, usize, f64),
+    ) {
+        let Some(rows) = self.bending_unknowns() else { return };
+        let load = self.layout.load();
+        let forces = self.contacts.closed_edges(state);
+        self.add_bending(
+            state,
+            &mut Residual::new(self.layout.size()),
+            &mut |row: usize, column: usize, value: f64| {
+                if rows.contains(&row) || rows.contains(&column) || column == load {
+                    return;
+                }
+                // Contact conditions are derivatives of `−L`.
+                let is_condition = forces.iter().any(|edge| edge.unknown == row);
+                entry(row, column, if is_condition { -value } else { value });
+            },
+        );
+    }
+}
