@@ -140,7 +140,7 @@ pub static PARAMETERS: &[Parameter] = parameters! {
             optional(POSITIVE, |c| &mut c.in_mm.width), in_mm!("width", "out-of-plane width of the scales");
         key::BENDING, "-", [],
             words!(puncture.bending: "rigid" = Bending::Rigid, "elastic" = Bending::Elastic),
-            "rigid scales, as in the paper, or elastic ones, which bend in the puncture as beams with the modulus E_ct";
+            "rigid scales, or elastic ones, which bend in the puncture as beams of modulus E_ct";
     }
 
     "substrate" {
