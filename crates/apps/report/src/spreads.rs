@@ -42,7 +42,7 @@ impl Histogram<'_> {
         let panel = ChartPanel::new(area, &x, &y);
         let mut inside = panel.axes(52.0).to_vec();
         inside.extend(bars.iter().filter_map(|bar| Self::bar(&panel, *bar)));
-        inside.extend(self.drawn.and_then(|at| marked(&panel, "as drawn", at, INK, 0.0)));
+        inside.extend(self.drawn.and_then(|at| marked(&panel, "nominal", at, INK, 0.0)));
         let bounds = self.bounds.iter().enumerate();
         inside.extend(
             // Each text has its own line, because bounds may be close together.

@@ -27,7 +27,7 @@ pub struct Fitted {
     ///
     /// The curves hardly depend on the unknown in a group of one. In a larger group, only
     /// combinations of the unknowns are determined.
-    pub untold: Vec<Vec<usize>>,
+    pub undetermined: Vec<Vec<usize>>,
     /// Measured and fitted curves.
     pub curves: Vec<FittedCurve>,
     /// Number of solved skins.
@@ -198,9 +198,9 @@ impl Residuals<'_> {
         let noise = self.of_curves(&model).into_iter().zip(sizes).map(|(residuals, size)| {
             let rows = first..first + residuals.len();
             first = rows.end;
-            let told =
+            let determined =
                 directions.values.iter().enumerate().filter(|(_, s)| **s > ROUND_OFF * largest);
-            let taken: f64 = told
+            let taken: f64 = determined
                 .flat_map(|(k, _)| rows.clone().map(move |i| (i, k)))
                 .map(|at| directions.points[at].powi(2))
                 .sum();
@@ -231,20 +231,20 @@ impl Residuals<'_> {
         let mixed = |k: usize| -> Vec<usize> {
             (0..count).filter(|&j| directions[(j, k)].abs() * spread[k] > AS_WIDE).collect()
         };
-        let mut untold: Vec<Vec<usize>> = Vec::new();
+        let mut undetermined: Vec<Vec<usize>> = Vec::new();
         // Several directions may contain the same unknowns.
         for group in (0..count).map(mixed) {
-            if !group.is_empty() && !untold.contains(&group) {
-                untold.push(group);
+            if !group.is_empty() && !undetermined.contains(&group) {
+                undetermined.push(group);
             }
         }
-        let is_untold = |j: usize| covariance(j, j).sqrt() > AS_WIDE;
+        let is_undetermined = |j: usize| covariance(j, j).sqrt() > AS_WIDE;
         let values = self.values(shares);
         let estimate = |(j, unknown): (usize, &Unknown)| {
             let half = covariance(j, j).sqrt() * (unknown.to - unknown.from);
             let at_end = shares[j] < AT_END || shares[j] > 1.0 - AT_END;
             let interval = [unknown.at_least_allowed(values[j] - half), values[j] + half];
-            let interval = (!is_untold(j)).then_some(interval);
+            let interval = (!is_undetermined(j)).then_some(interval);
             Estimate { unknown: unknown.clone(), value: values[j], interval, at_end }
         };
         let correlation = |i: usize, j: usize| {
@@ -260,7 +260,7 @@ impl Residuals<'_> {
             curves: self.curves(shares)?,
             solutions: self.solutions(),
             sweep: definition.sweep.at(&case),
-            untold,
+            undetermined,
         })
     }
 

@@ -431,8 +431,8 @@ mod tests {
 
     #[test]
     fn an_open_quote_is_refused_at_its_line() {
-        let told = refused("displacement_mm,force_N\n0,0\n\"1,2\n3,4\n5,6\n");
-        assert_eq!(told, "a.csv:3: a quote (\") is not closed, expected it in pairs");
+        let message = refused("displacement_mm,force_N\n0,0\n\"1,2\n3,4\n5,6\n");
+        assert_eq!(message, "a.csv:3: a quote (\") is not closed, expected it in pairs");
         // Quoted line ends in a header, and inch marks in a preamble, are no mistakes.
         let curve = parsed("3\" needle\n\"Displacement\n[mm]\",\"Force\n[N]\"\n0,0\n1,2\n");
         assert_eq!(curve.points, [[0.0, 0.0], [1.0, 2.0]]);
@@ -452,8 +452,8 @@ mod tests {
         let curve = parsed("Displacement,Force\n(in),(lbf)\n1,1\n");
         assert_eq!((curve.is_physical, curve.points[0]), (true, [25.4, 4.448_221_615_260_5]));
         assert_eq!(parsed("Displacement,Force\n(mm),(cN)\n1,50\n").points, [[1.0, 0.5]]);
-        let told = refused("Displacement,Force\n(ft),(oz)\n1,2\n3,4\n");
-        assert!(told.starts_with("a.csv: its columns are displacement_ft force_oz,"), "{told}");
+        let message = refused("Displacement,Force\n(ft),(oz)\n1,2\n3,4\n");
+        assert!(message.starts_with("a.csv: its columns are displacement_ft force_oz,"), "{message}");
         // A row without units is no row of units.
         assert!(!parsed("displacement,force\n,\n1,2\n").is_physical);
     }
@@ -462,8 +462,8 @@ mod tests {
     fn preambles_with_numbers_are_skipped() {
         let text =
             "Rate,2.0,mm/min\nDiameter,2.0,mm\nTime,Extension,Load\n(sec),(mm),(N)\n0,1,2\n1,3,4\n";
-        let told = refused(text);
-        assert!(told.contains("its columns are time_sec extension_mm load_N,"), "{told}");
+        let message = refused(text);
+        assert!(message.contains("its columns are time_sec extension_mm load_N,"), "{message}");
         let names = ["time", "displacement_mm", "force_N"].map(str::to_owned);
         let curve = MeasuredCurve::parse(text, "a.csv", Some(&names)).expect("a curve");
         assert_eq!(curve.points, [[1.0, 2.0], [3.0, 4.0]]);

@@ -71,11 +71,11 @@ fn statistic_columns(goal: &DesignGoal) -> Vec<(String, &'static str, &'static s
             (name.clone(), unit, statistic.meaning()),
             (format!("{name}_low"), unit, "lower end of its 95 % interval, if there is one"),
             (format!("{name}_high"), unit, "upper end of that interval, if there is one"),
-            (format!("{name}_seen"), unit, "what the search saw, with the samples that it knew"),
+            (format!("{name}_seen"), unit, "estimate of the search, from the samples that it used"),
         ]);
     }
     if !columns.is_empty() {
-        let fresh = "samples of the design, others than the search knew, that these values are of";
+        let fresh = "number of independent samples behind these values";
         columns.push(("fresh_samples".to_owned(), "-", fresh));
     }
     columns

@@ -58,7 +58,7 @@ pub static TOLERANCE_COLUMNS: &[Column<(DesignNumber, MeasureTolerance)>] = &col
     "linear_spread", SAME, |(_, m)| m.linear.as_ref().map(|linear| linear.spread),
         "standard deviation that the derivatives predict, empty at a kink without one of its sides";
     "sources", "-", |(_, m)| m.linear.as_ref().map(LinearSpread::in_words),
-        "what that spread comes from, the largest share first";
+        "sources of the linear spread, the largest share first";
     "samples", "-", |(_, m)| m.sampled.as_ref().map(|sampled| sampled.count),
         "solved samples that have a value";
     "failed", "-", |(_, m)| m.failed, "samples without a value";
@@ -66,7 +66,7 @@ pub static TOLERANCE_COLUMNS: &[Column<(DesignNumber, MeasureTolerance)>] = &col
     "spread_error", SAME, |(_, m)| sampled(m, |s| s.spread_error),
         "standard error of that standard deviation";
     "discrepancy", "-", |(_, m)| m.discrepancy(),
-        "linear spread over that of the samples, less 1: how far the prediction is off";
+        "relative error of the linear spread against the spread of the samples";
     "mean", SAME, |(_, m)| sampled(m, |s| s.statistics.mean), "mean over the samples";
     "p05", SAME, |(_, m)| sampled(m, |s| s.statistics.quantiles[0]), "5 % quantile over the samples";
     "p50", SAME, |(_, m)| sampled(m, |s| s.statistics.quantiles[1]), "median over the samples";

@@ -164,7 +164,7 @@ fn text(fitted: &Fitted) -> String {
     });
     text.push_str(&aligned(&std::iter::once(header).chain(rows).collect::<Vec<_>>()));
     // Writing to a string cannot fail.
-    for group in &fitted.untold {
+    for group in &fitted.undetermined {
         let _ = match group.as_slice() {
             [one] => writeln!(
                 text,
@@ -251,7 +251,7 @@ fn record(fitted: &Fitted) -> Value {
         "name": fitted.sweep.name(),
         "estimates": fitted.estimates.iter().map(estimate).collect::<Vec<_>>(),
         "correlations": fitted.correlations,
-        "not_told_apart": fitted.untold.iter().map(names).collect::<Vec<_>>(),
+        "not_told_apart": fitted.undetermined.iter().map(names).collect::<Vec<_>>(),
         "curves": fitted.curves.iter().map(curve).collect::<Vec<_>>(),
         "solutions": fitted.solutions,
         "files": FILES,

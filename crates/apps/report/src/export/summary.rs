@@ -198,7 +198,7 @@ impl Sheet {
             let name = format!("{extreme} {}", column.replace('_', " "));
             if let Some(parameter) = sweep.and_then(|s| incomparable_by(s, column)) {
                 let why =
-                    format!("not told: designs of different {parameter} cannot be compared by it");
+                    format!("left out: designs of different {parameter} cannot be compared by this column");
                 self.add(&[&name, "", "", &why])?;
                 continue;
             }

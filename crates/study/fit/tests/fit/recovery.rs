@@ -178,7 +178,7 @@ fn exact_curves_recover_the_parameters() {
     for number in 100..104 {
         let truth = trial(number).truth;
         let fitted = trial(number).fitted(number, 0.0);
-        assert!(fitted.untold.is_empty());
+        assert!(fitted.undetermined.is_empty());
         for (estimate, truth) in fitted.estimates.iter().zip(truth) {
             let range = estimate.unknown.to - estimate.unknown.from;
             let off = (estimate.value - truth).abs() / range;
@@ -228,7 +228,7 @@ fn confidence_intervals_have_their_nominal_coverage() {
         let intervals = hold + miss;
         let share = hold as f64 / intervals as f64;
         println!(
-            "noise {noise}: {:.2} % of {intervals} intervals of {} trials; hold, miss, untold, at an end:",
+            "noise {noise}: {:.2} % of {intervals} intervals of {} trials; hold, miss, undetermined, at an end:",
             100.0 * share,
             trials.len()
         );
@@ -256,7 +256,7 @@ fn unknowns_that_only_occur_as_a_product_are_undetermined_together() {
          [[curve]]\nfile = 'a.csv'\nkind = 'bending'\n"
     );
     let fitted = place.fit(&sought).expect("an answer");
-    assert_eq!(fitted.untold, [vec![0, 1]]);
+    assert_eq!(fitted.undetermined, [vec![0, 1]]);
     assert!(fitted.estimates.iter().all(|estimate| estimate.interval.is_none()));
     assert!(fitted.correlations[0][1] < -0.999_999, "{:?}", fitted.correlations);
     // The curve determines the product E h³.
@@ -269,7 +269,7 @@ fn unknowns_that_only_occur_as_a_product_are_undetermined_together() {
     );
     let fitted = place.fit(&one).expect("an answer");
     let [low, high] = fitted.estimates[0].interval.expect("an interval");
-    assert!(fitted.untold.is_empty() && low > 3.9 && high < 4.1, "{low} {high}");
+    assert!(fitted.undetermined.is_empty() && low > 3.9 && high < 4.1, "{low} {high}");
 }
 
 /// An unknown without influence on any curve is undetermined on its own.
@@ -279,7 +279,7 @@ fn unknowns_without_influence_are_undetermined() {
     let sought = skin.clone()
         + "[variables]\nmembrane_modulus_MPa = { from = 1, to = 10 }\nfriction = { from = 0, to = 0.5 }\n";
     let trial = Trial { skin, sought, curves, truth: Vec::new() };
-    assert!(trial.fitted(0, 0.01).untold.contains(&vec![0]));
+    assert!(trial.fitted(0, 0.01).undetermined.contains(&vec![0]));
 }
 
 /// A narrow and a wide gap determine thickness and modulus of tissue on bone.

@@ -91,7 +91,10 @@ impl GoalSection {
     pub fn columns(&self) -> impl Iterator<Item = Written<'_>> {
         let objectives = self.objectives.iter().map(|(criterion, place)| Written {
             column: &criterion.column,
-            key: "goal.maximize",
+            key: match criterion.goal {
+                Goal::Maximize => "goal.maximize",
+                Goal::Minimize => "goal.minimize",
+            },
             place,
         });
         let required = self.requirements.iter().map(|(requirement, place)| Written {
@@ -113,7 +116,7 @@ impl GoalSection {
         if self.objectives.len() > MOST_OBJECTIVES {
             let expected = format!("at most {MOST_OBJECTIVES} objectives");
             let found = format!("{} objectives", self.objectives.len());
-            return Err(not_accepted(&entry.place, "goal.maximize", found, expected));
+            return Err(wrong(entry, found, expected));
         }
         Ok(())
     }
