@@ -9,7 +9,7 @@ use sweep::{
 };
 use text::toml_source::{KeyValue, KeyValues, Place, Value};
 
-use crate::measured_curve::{InvalidMeasured, MeasuredCurve, Test};
+use crate::measured_curve::{Ending, InvalidMeasured, MeasuredCurve, Test};
 
 /// Unknowns of a fit, and the measured curves that determine them.
 #[derive(Debug)]
@@ -34,6 +34,17 @@ pub struct Unknown {
 }
 
 impl Unknown {
+    /// Returns the key that states the range of this unknown.
+    pub fn key(&self) -> String {
+        match self.source {
+            Source::Parameter(parameter) => format!("variables.{}", parameter.key),
+            Source::Offset(..) => {
+                let axis = self.name.split(' ').next().unwrap_or_default();
+                format!("its range, offsets = {{ {axis} = [from, to] }} in [[curve]]")
+            }
+        }
+    }
+
     /// Returns `value`, or 0 if it is negative and the parameter must not be.
     ///
     /// Examples are moduli and coefficients of friction.
@@ -56,6 +67,8 @@ pub(crate) enum Source {
 #[derive(Debug)]
 pub(crate) struct TestCurve {
     pub(crate) measured: MeasuredCurve,
+    /// End of the loading branch, if the file goes on after it.
+    pub(crate) ending: Option<Ending>,
     pub(crate) case: Case,
     /// Parameters set in the table of this curve. Unknowns do not change them.
     pub(crate) own: Vec<&'static Parameter>,
@@ -76,10 +89,7 @@ pub enum InvalidFit {
 }
 
 /// Keys of a `[[curve]]` besides parameters.
-const KEYS: [&str; 6] = ["file", "kind", "columns", "from", "to", "offsets"];
-
-/// Bounds of an offset, as a fraction of the largest value on its axis.
-const FARTHEST_OFFSET: f64 = 0.25;
+const KEYS: [&str; 7] = ["file", "kind", "columns", "specimen", "from", "to", "offsets"];
 
 /// Maximum number of points of a curve.
 ///
@@ -102,23 +112,29 @@ impl FitDefinition {
         let folder = path.parent().unwrap_or(Path::new(""));
         let mut curves = Vec::new();
         for table in tables(&entries, &name)? {
-            let measured = table.measured(folder)?;
+            let specimens = table.measured(folder)?;
             let own = table.own_values()?;
             // Each specimen is read as a definition of its own, which checks its values.
             let specimen = own.iter().map(|(_, setting)| setting);
             // The last value of a key counts, so the specimen overrides the command line.
             let specimen: Vec<_> = settings.iter().chain(specimen).cloned().collect();
             let case = one_design(&read_entries(path, &specimen)?, &name)?.grid().case(0);
-            // Checked here, because the line of the curve is known only here.
-            let missing = measured.test.units(&case).err().filter(|_| measured.is_physical);
-            if let Some(missing) = missing {
-                let expected = format!("{missing} beside a file in mm and N");
-                let place = &table.0[0].place;
-                return Err(not_accepted(place, "curve.file", &measured.file, &expected));
+            let own: Vec<_> = own.into_iter().map(|(parameter, _)| parameter).collect();
+            for (measured, ending) in specimens {
+                // Checked here, because the line of the curve is known only here.
+                let missing = measured.test.units(&case).err().filter(|_| measured.is_physical);
+                if let Some(missing) = missing {
+                    let expected = format!("{missing} beside a file in mm and N");
+                    let place = &table.0[0].place;
+                    return Err(not_accepted(place, "curve.file", &measured.file, &expected));
+                }
+                if curves.iter().any(|other: &TestCurve| other.measured == measured) {
+                    let expected = "each measured curve once";
+                    return Err(table.not_accepted("file", &measured.file, expected));
+                }
+                unknowns.extend(table.offsets(&measured, curves.len())?);
+                curves.push(TestCurve { measured, ending, case, own: own.clone() });
             }
-            unknowns.extend(table.offsets(&measured, curves.len())?);
-            let own = own.into_iter().map(|(parameter, _)| parameter).collect();
-            curves.push(TestCurve { measured, case, own });
         }
         Ok(Self { sweep, unknowns, curves })
     }
@@ -252,24 +268,62 @@ impl CurveTable<'_> {
         self.entry(key).map(|entry| read(entry).ok_or_else(wrong)).transpose()
     }
 
-    /// Reads the measured curve from `from` to `to`, and averages it if it is long.
-    fn measured(&self, folder: &Path) -> Result<MeasuredCurve, InvalidFit> {
+    /// Returns the error for a key of this table with a value that is not accepted.
+    fn not_accepted(&self, key: &str, found: impl Display, expected: &str) -> InvalidFit {
+        let place = self.entry(key).map_or(&self.0[0].place, |entry| &entry.place);
+        not_accepted(place, &format!("curve.{key}"), found, expected)
+    }
+
+    /// Reads the measured curves of the chosen specimens.
+    fn measured(&self, folder: &Path) -> Result<Vec<Loading>, InvalidFit> {
         let file = self.text("file", "the name of a CSV file")?;
         let kind = self.text("kind", "\"puncture\" or \"bending\"")?;
         let columns = self.texts("columns")?;
-        let mut curve = MeasuredCurve::read(&folder.join(file), columns.as_deref())?;
-        // Messages name the file as the definition does, without the folder.
-        file.clone_into(&mut curve.file);
-        if kind != curve.test.name() {
-            let expected = match curve.test {
+        let mut curves = MeasuredCurve::read(&folder.join(file), columns.as_deref())?;
+        if kind != curves[0].test.name() {
+            let expected = match curves[0].test {
                 Test::Puncture => "\"puncture\", as the columns of the file say",
                 Test::Bending => "\"bending\", as the columns of the file say",
             };
             return Err(self.wrong("kind", expected));
         }
+        if let Some(entry) = self.entry("specimen") {
+            let chosen = match &entry.value {
+                Value::Text(text) | Value::Number(text) => text.as_str(),
+                _ => "",
+            };
+            let names: Vec<_> =
+                curves.iter().map(|curve| curve.specimen.clone().unwrap_or_default()).collect();
+            let index = chosen.parse().ok().and_then(|number: usize| number.checked_sub(1));
+            let index = names
+                .iter()
+                .position(|name| !name.is_empty() && name == chosen)
+                .or_else(|| index.filter(|index| *index < curves.len()));
+            let index = index.ok_or_else(|| {
+                let expected = match names.as_slice() {
+                    [_] => "no specimen: the file holds one".to_owned(),
+                    names => format!("a number from 1 to {}, or {}", names.len(), names.join(", ")),
+                };
+                self.not_accepted("specimen", &entry.value, &expected)
+            })?;
+            curves = vec![curves.swap_remove(index)];
+        }
+        curves.into_iter().map(|curve| self.loading(file, curve)).collect()
+    }
+
+    /// Returns the loading branch of a curve from `from` to `to`, averaged if it is long.
+    fn loading(&self, file: &str, mut curve: MeasuredCurve) -> Result<Loading, InvalidFit> {
+        // Messages name the file as the definition does, without the folder.
+        curve.file = match &curve.specimen {
+            Some(specimen) => format!("{file}, specimen {specimen}"),
+            None => file.to_owned(),
+        };
+        let mut ending = curve.keep_loading();
         let from = self.number("from")?.unwrap_or(f64::NEG_INFINITY) * curve.x_unit;
         let to = self.number("to")?.unwrap_or(f64::INFINITY) * curve.x_unit;
         // Select the range before averaging, so that no mean includes points outside of it.
+        let last = curve.points.last().map_or(f64::NEG_INFINITY, |point| point[0]);
+        ending = ending.filter(|_| last <= to);
         curve.points.retain(|point| (from..=to).contains(&point[0]));
         if curve.points.is_empty() {
             let key = if self.entry("from").is_some() { "from" } else { "to" };
@@ -282,7 +336,7 @@ impl CurveTable<'_> {
             [0, 1].map(|axis| points.iter().map(|p| p[axis]).sum::<f64>() / points.len() as f64)
         };
         curve.points = curve.points.chunks(part).map(mean).collect();
-        Ok(curve)
+        Ok((curve, ending))
     }
 
     /// Refuses a constant force or moment, which determines no parameter.
@@ -297,9 +351,7 @@ impl CurveTable<'_> {
         let expected = format!(
             "a {load} that varies: it is {first} at all {count} points, so check the load cell, from and to"
         );
-        // The file has been read, so its key exists.
-        let place = self.entry("file").map_or(&self.0[0].place, |entry| &entry.place);
-        Err(not_accepted(place, "curve.file", &curve.file, &expected))
+        Err(self.not_accepted("file", &curve.file, &expected))
     }
 
     /// Returns the parameters that this specimen sets itself, with their values.
@@ -320,24 +372,55 @@ impl CurveTable<'_> {
     }
 
     /// Returns the offsets of this curve that are fitted.
+    ///
+    /// `offsets` lists the axes, or gives a range for each: `{ displacement = [-0.1, 3] }`.
     fn offsets(&self, measured: &MeasuredCurve, curve: usize) -> Result<Vec<Unknown>, InvalidFit> {
+        let ranges: Vec<(String, Option<[f64; 2]>)> = match self.entry("offsets") {
+            Some(KeyValue { value: Value::Table(entries), .. }) => {
+                let mut ranges = Vec::new();
+                for entry in entries {
+                    let range = range(&entry.value).ok_or_else(|| {
+                        self.wrong("offsets", "ranges, e.g. { displacement = [-0.1, 3] }")
+                    })?;
+                    ranges.push((entry.key.clone(), Some(range)));
+                }
+                ranges
+            }
+            _ => {
+                let names = self.texts("offsets")?.unwrap_or_default();
+                names.into_iter().map(|name| (name, None)).collect()
+            }
+        };
         let axes = measured.test.axes();
-        let offset = |name: String| {
+        let mut offsets = Vec::new();
+        for (name, range) in ranges {
             let expected = match measured.test {
                 Test::Puncture => "\"displacement\", \"force\" or both",
                 Test::Bending => "\"curvature\", \"moment\" or both",
             };
             let axis = axes.iter().position(|(axis, _)| *axis == name);
             let axis = axis.ok_or_else(|| self.wrong("offsets", expected))?;
-            let sizes = measured.points.iter().map(|point| point[axis].abs());
-            // A curve of zeros also needs bounds that differ.
-            let to = FARTHEST_OFFSET * sizes.fold(f64::MIN_POSITIVE, f64::max);
+            let [from, to] = range.unwrap_or_else(|| measured.offset_range(axis));
             let unit = if measured.is_physical { axes[axis].1 } else { "-" };
             let name = format!("{name} offset of {}", measured.file);
-            Ok(Unknown { name, unit, from: -to, to, source: Source::Offset(curve, axis) })
-        };
-        self.texts("offsets")?.unwrap_or_default().into_iter().map(offset).collect()
+            offsets.push(Unknown { name, unit, from, to, source: Source::Offset(curve, axis) });
+        }
+        Ok(offsets)
     }
+}
+
+/// A loading branch, and its end if the file goes on after it.
+type Loading = (MeasuredCurve, Option<Ending>);
+
+/// Returns the increasing bounds in a list of two numbers.
+fn range(value: &Value) -> Option<[f64; 2]> {
+    let Value::List(items) = value else { return None };
+    let mut numbers = items.iter().map(|item| match item {
+        Value::Number(text) => text.parse().ok().filter(|number: &f64| number.is_finite()),
+        _ => None,
+    });
+    let [from, to] = [numbers.next()??, numbers.next()??];
+    (numbers.next().is_none() && from < to).then_some([from, to])
 }
 
 impl TestCurve {

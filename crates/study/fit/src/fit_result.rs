@@ -13,6 +13,7 @@ use statrs::distribution::{ContinuousCDF as _, StudentsT};
 use sweep::Sweep;
 
 use crate::definition::{FitDefinition, TestCurve, Unknown};
+use crate::measured_curve::Ending;
 use crate::model::ModelCurve;
 use crate::search::Residuals;
 
@@ -60,8 +61,12 @@ pub struct FittedCurve {
     pub points: Vec<[f64; 3]>,
     /// True if the columns have physical units, false for units of the model.
     pub is_physical: bool,
-    /// Number of lines without numbers, which were skipped.
-    pub left_out: usize,
+    /// Lines that were left out: remarks, footers, and gaps in the recording.
+    pub left_out: Vec<u64>,
+    /// Whether the signs of the file were reversed, on both axes.
+    pub reversed: [bool; 2],
+    /// End of the loading branch, if the file goes on after it.
+    pub ending: Option<Ending>,
     /// True if the skin resists at no point, for example because signs are reversed.
     pub is_turned: bool,
     /// Standard deviation of the residuals.
@@ -279,7 +284,9 @@ impl Residuals<'_> {
                 file: measured.file.clone(),
                 axes,
                 is_physical: measured.is_physical,
-                left_out: measured.left_out,
+                left_out: measured.left_out.clone(),
+                reversed: measured.reversed,
+                ending: curve.ending,
                 is_turned: model.before == points.len() || points.iter().all(|p| p[1] <= 0.0),
                 trend: trend(&points, *noise),
                 points,

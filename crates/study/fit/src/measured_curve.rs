@@ -1,10 +1,19 @@
-//! Measured curves: two columns of a CSV file, named by quantity and unit.
+//! Measured curves: two columns of a text file, named by quantity and unit.
 
+mod columns;
+mod loading;
+mod number_table;
+
+use std::ops::Range;
 use std::path::Path;
 
 use results::{Quantity, bending_units, puncture_units};
 use sweep::{Case, read_input_bytes};
 use text::reason;
+
+use self::columns::{CurveColumns, curves, spelled};
+pub use self::loading::{EndReason, Ending};
+use self::number_table::{NumberTable, Rows};
 
 /// Kind of test in which a curve was measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,36 +23,6 @@ pub enum Test {
     /// Moment over curvature of a strip.
     Bending,
 }
-
-/// A known column: its name, its test, its axis (0 or 1) and its unit.
-///
-/// The unit is in mm, N, 1/mm or N mm. `None` stands for the units of the model (`u*`, `F*`, `κ*`,
-/// `M*`), as in the tables of `squama design`.
-type Column = (&'static str, Test, usize, Option<f64>);
-
-const COLUMNS: [Column; 21] = [
-    ("displacement_mm", Test::Puncture, 0, Some(1.0)),
-    ("displacement_um", Test::Puncture, 0, Some(1e-3)),
-    ("displacement_cm", Test::Puncture, 0, Some(10.0)),
-    ("displacement_m", Test::Puncture, 0, Some(1e3)),
-    ("displacement_in", Test::Puncture, 0, Some(25.4)),
-    ("displacement", Test::Puncture, 0, None),
-    ("force_N", Test::Puncture, 1, Some(1.0)),
-    ("force_mN", Test::Puncture, 1, Some(1e-3)),
-    ("force_cN", Test::Puncture, 1, Some(1e-2)),
-    ("force_kN", Test::Puncture, 1, Some(1e3)),
-    ("force_gf", Test::Puncture, 1, Some(9.806_65e-3)),
-    ("force_kgf", Test::Puncture, 1, Some(9.806_65)),
-    ("force_lbf", Test::Puncture, 1, Some(4.448_221_615_260_5)),
-    ("force", Test::Puncture, 1, None),
-    ("curvature_per_mm", Test::Bending, 0, Some(1.0)),
-    ("curvature_per_m", Test::Bending, 0, Some(1e-3)),
-    ("curvature", Test::Bending, 0, None),
-    ("moment_N_mm", Test::Bending, 1, Some(1.0)),
-    ("moment_mN_m", Test::Bending, 1, Some(1.0)),
-    ("moment_N_m", Test::Bending, 1, Some(1e3)),
-    ("moment", Test::Bending, 1, None),
-];
 
 impl Test {
     /// Returns the name used in definitions.
@@ -80,22 +59,36 @@ impl Test {
 /// A measured curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredCurve {
-    /// Name of the file.
+    /// Name of the file, followed by the specimen if the file holds several.
     pub file: String,
+    /// Name of the specimen in the file, if the file holds several.
+    pub specimen: Option<String>,
     /// Kind of test.
     pub test: Test,
     /// True for mm and N or 1/mm and N mm, false for units of the model.
     pub is_physical: bool,
     /// Unit of the first column of the file, in units of [`Self::points`].
     pub(crate) x_unit: f64,
-    /// Number of lines with both cells empty, which are gaps in the recording.
-    pub left_out: usize,
+    /// Lines that were left out: remarks, footers, and gaps in the recording.
+    pub left_out: Vec<u64>,
     /// Displacement or curvature, then force or moment, in the order of the file.
     pub points: Vec<[f64; 2]>,
+    /// Line of each point.
+    lines: Vec<u64>,
+    /// Whether the signs of the file were reversed, on both axes.
+    pub reversed: [bool; 2],
 }
 
-/// Largest file of a measured curve: a million points with ten columns.
+/// Largest file of measured curves: a million points with ten columns.
 const MAX_BYTES: u64 = 1 << 28;
+
+/// Bounds of an offset, as a fraction of the largest value on its axis.
+const FARTHEST_OFFSET: f64 = 0.25;
+/// Fraction of the largest force that the noise before contact does not reach.
+const TOUCHING: f64 = 0.1;
+
+/// Number of rows above a table that are searched for a header.
+const LONGEST_PREAMBLE: usize = 100;
 
 /// Error in a file of measurements.
 #[derive(Debug, thiserror::Error)]
@@ -107,26 +100,26 @@ pub struct InvalidMeasured {
 }
 
 impl MeasuredCurve {
-    /// Reads the curve in the file at `path`.
+    /// Reads the curves of all specimens in the file at `path`.
     ///
     /// `columns` names the first columns of the file. Without it, the header of the file does.
     ///
     /// # Errors
     ///
     /// If the file cannot be read, no two columns belong to one test, or a cell is not a number.
-    pub fn read(path: &Path, columns: Option<&[String]>) -> Result<Self, InvalidMeasured> {
+    pub fn read(path: &Path, columns: Option<&[String]>) -> Result<Vec<Self>, InvalidMeasured> {
         let file = path.display().to_string();
         let wrong = |problem| InvalidMeasured { file: file.clone(), line: None, problem };
         let bytes = read_input_bytes(path, MAX_BYTES).map_err(|error| {
             wrong(format!("cannot be read ({}), expected a CSV file", reason(&error)))
         })?;
-        let text = decoded(bytes).ok_or_else(|| {
+        let text = decoded(&bytes).ok_or_else(|| {
             wrong("is no text in UTF-8, UTF-16 or Windows-1252, expected a CSV file".to_owned())
         })?;
         Self::parse(&text, &file, columns)
     }
 
-    /// Reads the curve from the `text` of `file`; see [`Self::read`].
+    /// Reads the curves from the `text` of `file`; see [`Self::read`].
     ///
     /// # Errors
     ///
@@ -135,266 +128,233 @@ impl MeasuredCurve {
         text: &str,
         file: &str,
         columns: Option<&[String]>,
-    ) -> Result<Self, InvalidMeasured> {
+    ) -> Result<Vec<Self>, InvalidMeasured> {
         let wrong =
             |line, problem: String| InvalidMeasured { file: file.to_owned(), line, problem };
-        let (rows, separator) = rows(text);
-        let rows = rows.map_err(|error| wrong(None, error.to_string()))?;
-        let decimal = decimal(&rows, separator);
-        // An open quote takes the rest of the file into one cell.
-        let last = rows.last().filter(|row| row.iter().any(|cell| cell.contains('\n')));
-        if let Some(row) = last.filter(|_| text.matches('"').count() % 2 == 1) {
-            let line = row.position().map(csv::Position::line);
-            return Err(wrong(line, "a quote (\") is not closed, expected it in pairs".to_owned()));
+        let rows = Rows::new(text).map_err(|error| wrong(None, error.to_string()))?;
+        if rows.open_quote.is_some() {
+            let problem = "a quote (\") is not closed, expected it in pairs".to_owned();
+            return Err(wrong(rows.open_quote, problem));
         }
-        let header = Header::find(Rows { all: &rows, decimal }, columns);
-        let Header { names, lines, unnamed } = header;
-        let [(x, of_x), (y, of_y)] = pair(&names).map_err(|problem| wrong(None, problem))?;
-        let (mut points, mut left_out) = (Vec::new(), 0);
-        for row in &rows[lines..] {
-            let line = row.position().map(csv::Position::line);
+        let mut tables = rows.tables(|row| Header::known(&rows, row).is_some());
+        // Under given names, a further specimen repeats the row above the first table.
+        let repeated = tables.first().and_then(|table| table.above.clone().last());
+        if let Some(repeated) = repeated.filter(|row| columns.is_some() && rows.is_text(*row)) {
+            tables = rows.tables(|row| rows.all[row].cells == rows.all[repeated].cells);
+        }
+        let Some(first) = tables.first() else {
+            let header = Header::find(&rows, 0..rows.all.len(), columns);
+            header.curves().map_err(|problem| wrong(None, problem))?;
+            return Err(wrong(None, "holds no points, expected a line for each".to_owned()));
+        };
+        let mut header = Header::find(&rows, first.above.clone(), columns);
+        let mut curves = Vec::new();
+        for table in &tables {
+            // A table without a header of its own has the columns of the table above.
+            if columns.is_none() && Header::known_in(&rows, table.above.clone()).is_some() {
+                header = Header::find(&rows, table.above.clone(), columns);
+            }
+            for columns in header.curves().map_err(|problem| wrong(None, problem))? {
+                let curve = Self::in_table(&rows, table, &header, columns);
+                let mut curve = curve.map_err(|(line, problem)| wrong(Some(line), problem))?;
+                file.clone_into(&mut curve.file);
+                curve.specimen = header.specimen(&rows, columns);
+                curves.push(curve);
+            }
+        }
+        if curves.len() == 1 {
+            curves[0].specimen = None;
+        }
+        for (index, curve) in curves.iter_mut().enumerate().filter(|(_, c)| c.specimen.is_some()) {
+            let name = curve.specimen.take().unwrap_or_default();
+            let name = if name.is_empty() { (index + 1).to_string() } else { name };
+            curve.file = format!("{file}, specimen {name}");
+            curve.specimen = Some(name);
+        }
+        Ok(curves)
+    }
+
+    /// Reads one curve from a table.
+    fn in_table(
+        rows: &Rows,
+        table: &NumberTable,
+        header: &Header,
+        columns: CurveColumns,
+    ) -> Result<Self, (u64, String)> {
+        let CurveColumns { indices, test, units } = columns;
+        let names = &header.names;
+        let (mut points, mut lines) = (Vec::new(), Vec::new());
+        let mut left_out = table.left_out.clone();
+        for row in table.rows.iter().map(|row| &rows.all[*row]) {
             // A number with a decimal comma between commas would become two cells.
-            let beyond = row.iter().skip(names.len());
-            if !unnamed && beyond.clone().any(|cell| !cell.is_empty()) {
-                let (found, columns) = (row.len(), names.len());
+            let mut beyond = row.cells.iter().skip(names.len());
+            if !header.is_given && beyond.any(|cell| !cell.is_empty()) {
+                let (found, columns) = (row.cells.len(), names.len());
                 let problem = format!(
                     "has {found} cells under {columns} columns, expected as many (with a decimal comma, ; between cells)"
                 );
-                return Err(wrong(line, problem));
+                return Err((row.line, problem));
             }
-            let cell = |column: usize| row.get(column).unwrap_or_default();
-            if [x, y].iter().all(|&column| cell(column).is_empty()) {
-                left_out += 1;
+            let cells = indices.map(|index| row.cells.get(index).unwrap_or_default());
+            if cells == ["", ""] {
+                left_out.push(row.line);
                 continue;
             }
-            let read = |column: usize, worth: Option<f64>| {
-                let text = cell(column);
-                let read = number(text, decimal).map(|number| number * worth.unwrap_or(1.0));
-                let expected = "is not accepted, expected a number";
-                read.ok_or_else(|| wrong(line, format!("{}: {text:?} {expected}", names[column])))
-            };
-            points.push([read(x, of_x.3)?, read(y, of_y.3)?]);
+            let mut point = [0.0; 2];
+            for axis in 0..2 {
+                let number = rows.number(cells[axis]).ok_or_else(|| {
+                    let (name, cell) = (&names[indices[axis]], cells[axis]);
+                    let expected = "is not accepted, expected a number";
+                    (row.line, format!("{name}: {cell:?} {expected}"))
+                })?;
+                point[axis] = number * units.map_or(1.0, |units| units[axis]);
+            }
+            points.push(point);
+            lines.push(row.line);
         }
-        if points.is_empty() {
-            return Err(wrong(None, "holds no points, expected a line for each".to_owned()));
+        left_out.sort_unstable();
+        let reversed = loading::reversed_signs(&points);
+        for point in &mut points {
+            for axis in (0..2).filter(|axis| reversed[*axis]) {
+                point[axis] = -point[axis];
+            }
         }
-        let (test, is_physical) = (of_x.1, of_x.3.is_some());
-        let x_unit = of_x.3.unwrap_or(1.0);
-        Ok(Self { file: file.to_owned(), test, is_physical, x_unit, left_out, points })
+        Ok(Self {
+            file: String::new(),
+            specimen: None,
+            test,
+            is_physical: units.is_some(),
+            x_unit: units.map_or(1.0, |units| units[0]),
+            left_out,
+            points,
+            lines,
+            reversed,
+        })
+    }
+
+    /// Returns the range in which the offset of an axis is searched.
+    ///
+    /// A displacement offset is also searched near the end of a long approach without force.
+    pub(crate) fn offset_range(&self, axis: usize) -> [f64; 2] {
+        let largest = |axis: usize| {
+            // A curve of zeros also needs bounds that differ.
+            let sizes = self.points.iter().map(|point| point[axis].abs());
+            sizes.fold(f64::MIN_POSITIVE, f64::max)
+        };
+        let to = FARTHEST_OFFSET * largest(axis);
+        let force = TOUCHING * largest(1);
+        let touching = self.points.iter().find(|point| point[1].abs() > force);
+        match touching {
+            Some([x, _]) if axis == 0 && x.abs() > to => [x - to, x + 0.1 * to],
+            _ => [-to, to],
+        }
+    }
+
+    /// Keeps the first loading branch, and returns its end if the curve goes on.
+    pub(crate) fn keep_loading(&mut self) -> Option<Ending> {
+        let ending = loading::end(&self.points, &self.lines)?;
+        self.points.truncate(self.points.len() - ending.left_out);
+        self.lines.truncate(self.points.len());
+        Some(ending)
     }
 }
-
-/// Characters of Windows-1252 for the bytes 0x80 to 0x9f; undefined bytes stand for themselves.
-const WINDOWS_1252: [char; 32] = [
-    '€', '\u{81}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{8d}', 'Ž', '\u{8f}',
-    '\u{90}', '‘', '’', '“', '”', '•', '–', '—', '˜', '™', 'š', '›', 'œ', '\u{9d}', 'ž', 'Ÿ',
-];
 
 /// Decodes UTF-8, UTF-16 with a byte-order mark, or otherwise Windows-1252.
 ///
 /// `None` for bytes that are no text.
-fn decoded(bytes: Vec<u8>) -> Option<String> {
-    match bytes.as_slice() {
-        [0xff, 0xfe, text @ ..] => return utf_16(text, u16::from_le_bytes),
-        [0xfe, 0xff, text @ ..] => return utf_16(text, u16::from_be_bytes),
-        _ => {}
+fn decoded(bytes: &[u8]) -> Option<String> {
+    if let Some((encoding, mark)) = encoding_rs::Encoding::for_bom(bytes) {
+        let text = encoding.decode_without_bom_handling_and_without_replacement(&bytes[mark..])?;
+        return Some(text.into_owned());
     }
     // Texts hold no zero bytes, pictures and workbooks do.
-    let bytes = (!bytes.contains(&0)).then_some(bytes)?;
-    // Text in Windows-1252 with a letter beyond ASCII is almost never valid UTF-8.
-    let text = String::from_utf8(bytes)
-        .unwrap_or_else(|error| error.as_bytes().iter().copied().map(windows_1252).collect());
-    Some(text)
-}
-
-fn utf_16(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> Option<String> {
-    let units = bytes.chunks_exact(2).map(|two| unit([two[0], two[1]]));
-    char::decode_utf16(units).collect::<Result<_, _>>().ok()
-}
-
-fn windows_1252(byte: u8) -> char {
-    match byte {
-        0x80..=0x9f => WINDOWS_1252[usize::from(byte - 0x80)],
-        _ => char::from(byte),
+    if bytes.contains(&0) {
+        return None;
     }
+    // Text in Windows-1252 with a letter beyond ASCII is almost never valid UTF-8.
+    let text = std::str::from_utf8(bytes).map(str::to_owned);
+    Some(text.unwrap_or_else(|_| encoding_rs::WINDOWS_1252.decode(bytes).0.into_owned()))
 }
 
-/// Column names of a file, and the end of its header.
+/// Column names above a table.
 struct Header {
     names: Vec<String>,
-    /// Number of lines before the first line of numbers.
-    lines: usize,
     /// True if the names come from the definition. It may name only the first columns.
-    unnamed: bool,
+    is_given: bool,
+    /// Row of the names in the file.
+    row: Option<usize>,
 }
-
-/// Number of lines searched for a header. Preambles of machines are shorter.
-const LONGEST_PREAMBLE: usize = 100;
 
 impl Header {
-    /// Finds the header: the given names, or the first line with two columns of a test.
+    /// Finds the header of the table below `above`: the given names, or the nearest row of names.
     ///
-    /// Units in the line below are appended to the names.
-    fn find(rows: Rows<'_>, given: Option<&[String]>) -> Self {
+    /// Units in the row below are appended to the names.
+    fn find(rows: &Rows, above: Range<usize>, given: Option<&[String]>) -> Self {
         if let Some(names) = given {
-            return Self { names: names.to_vec(), lines: rows.numbers(), unnamed: true };
+            let row = above.last().filter(|row| rows.is_text(*row));
+            return Self { names: names.to_vec(), is_given: true, row };
         }
-        for i in 0..rows.all.len().min(LONGEST_PREAMBLE) {
-            let header = Self::at(rows, i, rows.units(i));
-            if pair(&header.names).is_ok() {
-                return header;
-            }
-            // A row of text below `force_N` is a remark. Below `force` it holds units, which must
-            // not be ignored.
-            let header = Self::at(rows, i, None);
-            if pair(&header.names).is_ok_and(|[(_, x), _]| x.3.is_some()) {
-                return header;
-            }
+        let start = above.start.max(above.end.saturating_sub(LONGEST_PREAMBLE));
+        if let Some(header) = Self::known_in(rows, start..above.end) {
+            return header;
         }
-        // The error message shows the line above the numbers.
-        let end = rows.numbers();
-        let has_units = end >= 2 && rows.units(end - 2).is_some() && rows.is_text(end - 2);
-        match end.checked_sub(if has_units { 2 } else { 1 }) {
-            Some(i) => Self::at(rows, i, rows.units(i)),
-            None => Self { names: Vec::new(), lines: 0, unnamed: false },
-        }
+        // The error message shows the row above the numbers.
+        let last = above.end.checked_sub(1).filter(|row| above.contains(row));
+        let Some(last) = last else {
+            return Self { names: Vec::new(), is_given: false, row: None };
+        };
+        let has_units = last > above.start && rows.is_text(last) && rows.is_text(last - 1);
+        let same_width = has_units && rows.all[last - 1].cells.len() == rows.all[last].cells.len();
+        if same_width { Self::at(rows, last - 1, true) } else { Self::at(rows, last, false) }
     }
 
-    /// Returns the header in row `i`, with `units` from the row below.
-    fn at(rows: Rows<'_>, i: usize, units: Option<&csv::StringRecord>) -> Self {
+    /// Returns the last header with two columns of a test.
+    fn known_in(rows: &Rows, range: Range<usize>) -> Option<Self> {
+        range.rev().find_map(|row| Self::known(rows, row))
+    }
+
+    /// Returns the header in a row if it names two columns of a test.
+    fn known(rows: &Rows, row: usize) -> Option<Self> {
+        if !rows.is_text(row) {
+            return None;
+        }
+        let below = row + 1;
+        let has_units = below < rows.all.len() && rows.is_text(below);
+        let with_units = has_units.then(|| Self::at(rows, row, true));
+        if let Some(header) = with_units.filter(|header| header.curves().is_ok()) {
+            return Some(header);
+        }
+        // A row of text below `force_N` is a remark. Below `force` it holds units, which must not
+        // be ignored.
+        let header = Self::at(rows, row, false);
+        let curves = header.curves().ok()?;
+        (!has_units || curves[0].units.is_some()).then_some(header)
+    }
+
+    /// Returns the header in a row, with units from the row below.
+    fn at(rows: &Rows, row: usize, has_units: bool) -> Self {
+        let units = rows.all.get(row + 1).filter(|_| has_units);
         let mut names = Vec::new();
-        for (k, name) in rows.all[i].iter().enumerate() {
-            let unit = units.and_then(|row| row.get(k)).unwrap_or_default();
+        for (column, name) in rows.all[row].cells.iter().enumerate() {
+            let unit = units.and_then(|row| row.cells.get(column)).unwrap_or_default();
             names.push(spelled(&format!("{name} {unit}")));
         }
-        Self { names, lines: rows.end_of_texts(i), unnamed: false }
-    }
-}
-
-/// Rows of a file, with their decimal sign.
-#[derive(Clone, Copy)]
-struct Rows<'a> {
-    all: &'a [csv::StringRecord],
-    decimal: char,
-}
-
-impl<'a> Rows<'a> {
-    /// Returns true if no cell of a row is a number.
-    fn is_text(self, row: usize) -> bool {
-        self.all[row].iter().all(|cell| number(cell, self.decimal).is_none())
+        Self { names, is_given: false, row: Some(row) }
     }
 
-    /// Returns the end of the rows of text that begin at `row`.
-    fn end_of_texts(self, row: usize) -> usize {
-        (row..self.all.len()).find(|row| !self.is_text(*row)).unwrap_or(self.all.len())
+    fn curves(&self) -> Result<Vec<CurveColumns>, String> {
+        curves(&self.names)
     }
 
-    /// Returns the row below `row` if it is text, because it may hold units.
-    fn units(self, row: usize) -> Option<&'a csv::StringRecord> {
-        self.all.get(row + 1).filter(|_| self.is_text(row + 1))
+    /// Returns the name of a specimen from the row above the header; empty if there is none.
+    fn specimen(&self, rows: &Rows, columns: CurveColumns) -> Option<String> {
+        let above = self.row.and_then(|row| row.checked_sub(1)).map(|row| &rows.all[row].cells);
+        let named = |cells: &csv::StringRecord| {
+            let cells = columns.indices.map(|index| cells.get(index).unwrap_or_default());
+            cells.into_iter().find(|cell| !cell.is_empty()).unwrap_or_default().to_owned()
+        };
+        Some(above.map(named).unwrap_or_default())
     }
-
-    /// Returns the index of the first row of the table of numbers.
-    ///
-    /// A preamble may contain numbers, so a table begins with two rows of equally many cells with
-    /// at least two numbers each.
-    fn numbers(self) -> usize {
-        let mut counts = self.all.iter().map(|row| {
-            let numbers = row.iter().filter(|cell| number(cell, self.decimal).is_some()).count();
-            (row.len(), numbers >= 2)
-        });
-        let mut before = counts.next();
-        let first = counts.position(|count| before.replace(count) == Some(count) && count.1);
-        first.unwrap_or_else(|| self.end_of_texts(0))
-    }
-}
-
-/// Normalises a column name.
-///
-/// `Force [N]`, `force (N)` and `Force, N` become `force_N`; `Curvature (1/m)` becomes
-/// `curvature_per_m`.
-fn spelled(name: &str) -> String {
-    let name = name.replace("1/", "per ").replace(['µ', 'μ'], "u");
-    let mut words = name.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
-    let first = words.next().unwrap_or_default().to_lowercase();
-    words.fold(first, |name, word| format!("{name}_{word}"))
-}
-
-/// Returns the rows of a CSV text, and the separator of its cells.
-fn rows(text: &str) -> (Result<Vec<csv::StringRecord>, csv::Error>, char) {
-    let text = text.trim_start_matches('\u{feff}');
-    // Decide by the last line, which holds numbers: a preamble may contain any character.
-    let is_row = |line: &&str| !line.starts_with('#') && !line.trim().is_empty();
-    let last = text.lines().rfind(is_row).unwrap_or_default();
-    // Machines that write decimal commas separate cells with semicolons.
-    let separator = [';', '\t'].into_iter().find(|c| last.contains(*c)).unwrap_or(',');
-    let reader = csv::ReaderBuilder::new()
-        .delimiter(separator as u8)
-        .comment(Some(b'#'))
-        .has_headers(false)
-        // Lines of a preamble have any number of cells.
-        .flexible(true)
-        .trim(csv::Trim::All)
-        .from_reader(text.as_bytes());
-    (reader.into_records().collect(), separator)
-}
-
-/// Returns the decimal sign of a file with this separator: a comma or a point.
-fn decimal(rows: &[csv::StringRecord], separator: char) -> char {
-    // In quotes a comma is no separator.
-    let is_comma = separator != ',' || rows.iter().flatten().any(has_decimal_comma);
-    if is_comma { ',' } else { '.' }
-}
-
-/// Returns true for a number with a comma that does not separate thousands.
-fn has_decimal_comma(cell: &str) -> bool {
-    let Some((whole, fraction)) = cell.trim_start_matches('-').split_once(',') else {
-        return false;
-    };
-    let is_thousands = fraction.len() == 3 && whole != "0";
-    let mut digits = whole.bytes().chain(fraction.bytes());
-    !is_thousands && !whole.is_empty() && digits.all(|byte| byte.is_ascii_digit())
-}
-
-/// Returns the number in a cell.
-fn number(cell: &str, decimal: char) -> Option<f64> {
-    // In a cell with a point, a comma may separate thousands. Such a cell is refused.
-    let is_comma = decimal == ',' && !cell.contains('.');
-    let cell = if is_comma { cell.replace(',', ".") } else { cell.to_owned() };
-    cell.parse().ok().filter(|number: &f64| number.is_finite())
-}
-
-/// Returns the known columns of an axis, with their indices.
-fn known(names: &[String], axis: usize) -> impl Iterator<Item = (usize, &'static Column)> {
-    let of = move |name: &String| COLUMNS.iter().find(|c| c.0 == name && c.2 == axis);
-    names.iter().enumerate().filter_map(move |(k, name)| Some((k, of(name)?)))
-}
-
-/// Returns the first two columns of one test in one system of units, with indices.
-///
-/// # Errors
-///
-/// If there is no such pair, or one of the names occurs twice.
-fn pair(names: &[String]) -> Result<[(usize, &'static Column); 2], String> {
-    let mut pairs = known(names, 0).flat_map(|x| known(names, 1).map(move |y| [x, y]));
-    let found = pairs.find(|[(_, x), (_, y)]| x.1 == y.1 && x.3.is_some() == y.3.is_some());
-    // Refuse repeated names: taking the first column might be wrong.
-    let count = |column: &Column| names.iter().filter(|name| *name == column.0).count();
-    let twice = found.and_then(|pair| pair.into_iter().find(|(_, column)| count(column) > 1));
-    if let Some((_, column)) = twice {
-        return Err(format!(
-            "has several columns {0}, expected one: give the others another name",
-            column.0
-        ));
-    }
-    found.ok_or_else(|| {
-        let all = COLUMNS.map(|(name, ..)| name).join(" ");
-        let names = if names.is_empty() { "none".to_owned() } else { names.join(" ") };
-        format!(
-            "its columns are {names}, expected two of one test: {all}; \
-             columns = [...] in [[curve]], or --measured-columns, names the columns otherwise"
-        )
-    })
 }
 
 #[cfg(test)]
@@ -402,7 +362,9 @@ mod tests {
     use super::*;
 
     fn parsed(text: &str) -> MeasuredCurve {
-        MeasuredCurve::parse(text, "a.csv", None).expect("a curve")
+        let mut curves = MeasuredCurve::parse(text, "a.csv", None).expect("a curve");
+        assert_eq!(curves.len(), 1);
+        curves.swap_remove(0)
     }
 
     fn refused(text: &str) -> String {
@@ -420,8 +382,8 @@ mod tests {
             "Specimen;3\nSpeed;5;mm/min\nTime;Weg;Displacement;Force\n(s);;(mm);(N)\n0;9;0;0\n;;;\n1;9;0,5;2\n",
         );
         assert_eq!(
-            (curve.is_physical, curve.left_out, &*curve.points),
-            (true, 1, &[[0.0, 0.0], [0.5, 2.0]][..])
+            (curve.is_physical, curve.left_out.clone(), &*curve.points),
+            (true, vec![6], &[[0.0, 0.0], [0.5, 2.0]][..])
         );
         let curve = parsed("Displacement [µm],Force (mN),\n500,20,\n");
         assert_eq!(curve.points, [[0.5, 0.02]]);
@@ -443,7 +405,7 @@ mod tests {
         let names = ["displacement_mm", "force_N"].map(str::to_owned);
         for text in ["Weg,Kraft\n0.5,2\n", "0.5,2\n"] {
             let curve = MeasuredCurve::parse(text, "a.csv", Some(&names)).expect("a curve");
-            assert_eq!(curve.points, [[0.5, 2.0]]);
+            assert_eq!(curve[0].points, [[0.5, 2.0]]);
         }
     }
 
@@ -453,7 +415,10 @@ mod tests {
         assert_eq!((curve.is_physical, curve.points[0]), (true, [25.4, 4.448_221_615_260_5]));
         assert_eq!(parsed("Displacement,Force\n(mm),(cN)\n1,50\n").points, [[1.0, 0.5]]);
         let message = refused("Displacement,Force\n(ft),(oz)\n1,2\n3,4\n");
-        assert!(message.starts_with("a.csv: its columns are displacement_ft force_oz,"), "{message}");
+        assert!(
+            message.starts_with("a.csv: its columns are displacement_ft force_oz,"),
+            "{message}"
+        );
         // A row without units is no row of units.
         assert!(!parsed("displacement,force\n,\n1,2\n").is_physical);
     }
@@ -462,11 +427,46 @@ mod tests {
     fn preambles_with_numbers_are_skipped() {
         let text =
             "Rate,2.0,mm/min\nDiameter,2.0,mm\nTime,Extension,Load\n(sec),(mm),(N)\n0,1,2\n1,3,4\n";
-        let message = refused(text);
-        assert!(message.contains("its columns are time_sec extension_mm load_N,"), "{message}");
+        let curve = parsed(text);
+        assert_eq!((curve.left_out.len(), &*curve.points), (0, &[[1.0, 2.0], [3.0, 4.0]][..]));
+        let unknown = text.replace("Extension", "Gauge");
+        let message = refused(&unknown);
+        assert!(message.contains("its columns are time_sec gauge_mm load_N,"), "{message}");
         let names = ["time", "displacement_mm", "force_N"].map(str::to_owned);
         let curve = MeasuredCurve::parse(text, "a.csv", Some(&names)).expect("a curve");
-        assert_eq!(curve.points, [[1.0, 2.0], [3.0, 4.0]]);
+        assert_eq!(curve[0].points, [[1.0, 2.0], [3.0, 4.0]]);
+    }
+
+    #[test]
+    fn specimens_of_a_file_are_named() {
+        let side_by_side = "A;;B 7;\nWeg mm;Kraft N;Weg mm;Kraft N\n1;2;3;4\n5;6;;\n";
+        let below = "Weg mm;Kraft N\n1;2\n5;6\n\nEnd\nWeg mm;Kraft N\n3;4\n";
+        let curves = MeasuredCurve::parse(side_by_side, "a.csv", None).expect("curves");
+        let files: Vec<_> = curves.iter().map(|curve| curve.file.as_str()).collect();
+        assert_eq!(files, ["a.csv, specimen A", "a.csv, specimen B 7"]);
+        assert_eq!(curves[0].points, [[1.0, 2.0], [5.0, 6.0]]);
+        assert_eq!((&*curves[1].points, &*curves[1].left_out), (&[[3.0, 4.0]][..], &[4][..]));
+        // A single row of numbers is no specimen.
+        assert_eq!(parsed(below).left_out, [5, 6, 7]);
+        let below = format!("{below}7;8\n");
+        let curves = MeasuredCurve::parse(&below, "a.csv", None).expect("curves");
+        assert_eq!(curves[1].file, "a.csv, specimen End");
+        assert_eq!(curves[1].points, [[3.0, 4.0], [7.0, 8.0]]);
+        let names = ["displacement_mm", "force_N"].map(str::to_owned);
+        let curves = MeasuredCurve::parse(&below, "a.csv", Some(&names)).expect("curves");
+        assert_eq!(curves.len(), 2);
+    }
+
+    #[test]
+    fn footers_and_lone_numbers_are_left_out() {
+        let curve = parsed("x,y\n25,100\n\nDisplacement (mm),Force (N)\n1,2\n3,4\n\nEnd of test\n");
+        assert_eq!((&*curve.left_out, curve.points.len()), (&[2, 8][..], 2));
+    }
+
+    #[test]
+    fn negative_compression_is_read_as_positive() {
+        let curve = parsed("displacement_mm,force_N\n-0.1,-1\n-0.2,-3\n");
+        assert_eq!((curve.reversed, &*curve.points), ([true; 2], &[[0.1, 1.0], [0.2, 3.0]][..]));
     }
 
     #[test]
@@ -484,11 +484,11 @@ mod tests {
         let little: Vec<u8> = utf_16.iter().flat_map(|unit| unit.to_le_bytes()).collect();
         let windows = b"Pr\xfcfling;\x96\nDisplacement;Force\n(\xb5m);(N)\n500;2\n".to_vec();
         for bytes in [text.as_bytes().to_vec(), big, little, windows] {
-            assert_eq!(decoded(bytes).as_deref(), Some(text));
+            assert_eq!(decoded(&bytes).as_deref(), Some(text));
         }
         assert_eq!(parsed(text).points, [[0.5, 2.0]]);
-        assert_eq!(decoded(b"\x89PNG\0".to_vec()), None);
-        assert_eq!(decoded(b"\xff\xfe\0\xd8".to_vec()), None);
+        assert_eq!(decoded(b"\x89PNG\0"), None);
+        assert_eq!(decoded(b"\xff\xfe\0\xd8"), None);
     }
 
     #[test]

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use ::fit::{Estimate, FitDefinition, FitError, Fitted, FittedCurve};
+use ::fit::{EndReason, Ending, Estimate, FitDefinition, FitError, Fitted, FittedCurve};
 use anyhow::Context as _;
 use clap::Args;
 use report::{FitPanel, fit_figure};
@@ -64,6 +64,9 @@ const ENDING: &str = "ending without a fit";
 
 /// Smallest correlation that is reported.
 const STRONG: f64 = 0.9;
+
+/// Number of left out lines that are listed.
+const SHOWN_LINES: usize = 5;
 
 /// Fits the parameters of a skin to test data, and writes the fit.
 pub fn fit(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
@@ -158,7 +161,10 @@ fn text(fitted: &Fitted) -> String {
         let interval = interval.map_or("undetermined".to_owned(), |[low, high]| {
             format!("{} to {}", digits(low), digits(high))
         });
-        let end = if *at_end { "  (!) at a bound of its range: widen the range" } else { "" };
+        let end = match at_end {
+            false => String::new(),
+            true => format!("  (!) at a bound of its range: widen {}", unknown.key()),
+        };
         let unit = if unknown.unit == "-" { "" } else { unknown.unit };
         [unknown.name.clone(), digits(*value), unit.to_owned(), format!("{interval}{end}")]
     });
@@ -217,11 +223,19 @@ fn text(fitted: &Fitted) -> String {
 
 /// Lists warnings and notes on the fit of a curve.
 fn remarks(curve: &FittedCurve) -> String {
-    let FittedCurve { file, beyond, left_out, .. } = curve;
+    let FittedCurve { file, beyond, left_out, reversed, ending, .. } = curve;
     let [x, y] = curve.axes.each_ref().map(|axis| axis.split_once(',').map_or(&**axis, |a| a.0));
     let warnings = [
         curve.is_turned.then(|| {
             format!("no point has both {x} and {y} above 0: check the signs of the test data")
+        }),
+        ending.map(|Ending { reason, line, left_out }| {
+            let points = counted(left_out as u64, "point");
+            let reason = match reason {
+                EndReason::TurnsBack => format!("the {x} turns back after line {line}"),
+                EndReason::Drops => format!("the {y} drops after line {line} and does not recover"),
+            };
+            format!("{reason}; the {points} after it are left out, because only loading is fitted")
         }),
         (*beyond > 0).then(|| {
             let points = counted(*beyond as u64, "point");
@@ -235,7 +249,16 @@ fn remarks(curve: &FittedCurve) -> String {
         (!curve.is_physical).then(|| {
             format!("{x} and {y} have no units in the file; they are read as dimensionless, as in the tables of squama design")
         }),
-        (*left_out > 0).then(|| format!("{} without numbers left out", counted(*left_out as u64, "line"))),
+        (!left_out.is_empty()).then(|| {
+            let lines = counted(left_out.len() as u64, "line");
+            let first: Vec<_> = left_out.iter().take(SHOWN_LINES).map(u64::to_string).collect();
+            let more = if left_out.len() > SHOWN_LINES { ", …" } else { "" };
+            format!("{lines} outside the table of numbers left out: {}{more}", first.join(", "))
+        }),
+        reversed.contains(&true).then(|| {
+            let axes: Vec<_> = [x, y].into_iter().zip(reversed).filter(|(_, r)| **r).map(|(axis, _)| axis).collect();
+            format!("the signs of {} are reversed, because the test counts compression as negative", axes.join(" and "))
+        }),
     ];
     let warnings = warnings.into_iter().flatten().map(|text| format!("  (!) {file}: {text}\n"));
     warnings.chain(notes.into_iter().flatten().map(|text| format!("  {file}: {text}\n"))).collect()
@@ -243,7 +266,7 @@ fn remarks(curve: &FittedCurve) -> String {
 
 fn record(fitted: &Fitted) -> Value {
     let estimate = |e: &Estimate| json!({ "sought": e.unknown.name, "unit": e.unknown.unit, "value": e.value, "interval": e.interval, "at_end": e.at_end });
-    let curve = |c: &FittedCurve| json!({ "file": c.file, "points": c.points.len(), "left_out": c.left_out, "noise": c.noise, "trend": c.trend, "beyond": c.beyond, "differenced": c.differenced });
+    let curve = |c: &FittedCurve| json!({ "file": c.file, "points": c.points.len(), "left_out": c.left_out, "reversed": c.reversed, "loading_ends_at_line": c.ending.map(|e| e.line), "noise": c.noise, "trend": c.trend, "beyond": c.beyond, "differenced": c.differenced });
     let names = |group: &Vec<usize>| {
         group.iter().map(|&j| &fitted.estimates[j].unknown.name).collect::<Vec<_>>()
     };

@@ -230,6 +230,8 @@ fn plot_curves(arguments: &CurvesArguments) -> anyhow::Result<u8> {
 fn measured(arguments: &CurvesArguments, cases: &[Case]) -> anyhow::Result<Option<MeasuredCurves>> {
     let read = |file: &PathBuf| MeasuredCurve::read(file, arguments.measured_columns.as_deref());
     let read = arguments.measured.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+    // A file may hold several specimens.
+    let read: Vec<_> = read.into_iter().flatten().collect();
     let Some(first) = read.first() else { return Ok(None) };
     let is_alike = |c: &&MeasuredCurve| (c.test, c.is_physical) == (first.test, first.is_physical);
     // All are drawn in one panel with one pair of axes.

@@ -197,8 +197,9 @@ impl Sheet {
             let extreme = ["largest", "least"][usize::from(*goal == Goal::Minimize)];
             let name = format!("{extreme} {}", column.replace('_', " "));
             if let Some(parameter) = sweep.and_then(|s| incomparable_by(s, column)) {
-                let why =
-                    format!("left out: designs of different {parameter} cannot be compared by this column");
+                let why = format!(
+                    "left out: designs of different {parameter} cannot be compared by this column"
+                );
                 self.add(&[&name, "", "", &why])?;
                 continue;
             }

@@ -1,0 +1,289 @@
+//! Tables of numbers in text files of testing machines.
+//!
+//! Machines write preambles, rows of units, empty lines and footers around their readings. The
+//! table is the longest run of rows of equal width that are numbers.
+
+use std::ops::Range;
+
+/// Separators of cells, in the order of preference. A blank stands for any number of blanks.
+const SEPARATORS: [char; 4] = [';', '\t', ',', ' '];
+
+/// Part of a text from which its separator is detected, in bytes.
+const SAMPLE: usize = 1 << 20;
+
+/// A line of a file, split into cells.
+#[derive(Debug)]
+pub(super) struct Row {
+    /// Number of the line, as an editor shows it.
+    pub(super) line: u64,
+    /// True if the line above is empty.
+    is_after_blank: bool,
+    pub(super) cells: csv::StringRecord,
+}
+
+impl Row {
+    fn is_empty(&self) -> bool {
+        self.cells.iter().all(str::is_empty)
+    }
+}
+
+/// Rows of a file, with their decimal sign.
+#[derive(Debug)]
+pub(super) struct Rows {
+    pub(super) all: Vec<Row>,
+    decimal: char,
+    /// Line of a quote that is not closed.
+    pub(super) open_quote: Option<u64>,
+}
+
+impl Rows {
+    /// Splits a text into rows, with the separator that gives the longest table.
+    pub(super) fn new(text: &str) -> Result<Self, csv::Error> {
+        let text = text.trim_start_matches('\u{feff}').replace("\r\n", "\n").replace('\r', "\n");
+        let end = (SAMPLE..text.len()).find(|end| text.is_char_boundary(*end));
+        let sample = &text[..end.unwrap_or(text.len())];
+        let mut best = (0, ',');
+        for separator in SEPARATORS {
+            let longest = Self::split(sample, separator)?.longest_run().len();
+            if longest > best.0 {
+                best = (longest, separator);
+            }
+        }
+        Self::split(&text, best.1)
+    }
+
+    fn split(text: &str, separator: char) -> Result<Self, csv::Error> {
+        let mut all = if separator == ' ' { split_at_blanks(text) } else { Vec::new() };
+        if separator != ' ' {
+            let mut reader = csv::ReaderBuilder::new()
+                .delimiter(separator as u8)
+                .comment(Some(b'#'))
+                .has_headers(false)
+                // Lines of a preamble have any number of cells.
+                .flexible(true)
+                .trim(csv::Trim::All)
+                .from_reader(text.as_bytes());
+            let mut position = LineCounter { text, byte: 0, line: 1 };
+            for cells in reader.records() {
+                let cells = cells?;
+                let byte = cells.position().map_or(0, csv::Position::byte) as usize;
+                let (line, is_after_blank) = position.advance(byte);
+                all.push(Row { line, is_after_blank, cells });
+            }
+        }
+        // In quotes, a comma between digits is a decimal comma.
+        let is_comma =
+            separator != ',' || all.iter().flat_map(|row| row.cells.iter()).any(has_decimal_comma);
+        // An open quote takes the rest of the file into one cell.
+        let last = all.last().filter(|row| row.cells.iter().any(|cell| cell.contains('\n')));
+        let is_open = text.matches('"').count() % 2 == 1;
+        let open_quote = last.filter(|_| is_open).map(|row| row.line);
+        Ok(Self { all, decimal: if is_comma { ',' } else { '.' }, open_quote })
+    }
+
+    /// Returns the number in a cell.
+    pub(super) fn number(&self, cell: &str) -> Option<f64> {
+        // In a cell with a point, a comma may separate thousands. Such a cell is refused.
+        let is_comma = self.decimal == ',' && !cell.contains('.');
+        let number = if is_comma { cell.replace(',', ".").parse() } else { cell.parse() };
+        number.ok().filter(|number: &f64| number.is_finite())
+    }
+
+    fn count_numbers(&self, row: usize) -> usize {
+        self.all[row].cells.iter().filter(|cell| self.number(cell).is_some()).count()
+    }
+
+    /// Returns true if no cell of a row is a number.
+    pub(super) fn is_text(&self, row: usize) -> bool {
+        self.count_numbers(row) == 0
+    }
+
+    /// Returns true if two rows belong to one table: no empty line between them, and equal width.
+    fn continues(&self, row: usize) -> bool {
+        let (before, row) = (&self.all[row - 1], &self.all[row]);
+        !row.is_after_blank && row.cells.len() == before.cells.len()
+    }
+
+    /// Lists the runs of rows of equal width with at least `least` numbers each.
+    ///
+    /// Rows of empty cells are gaps in a recording and do not end a run.
+    fn runs(&self, least: usize) -> Vec<Range<usize>> {
+        let mut runs: Vec<Range<usize>> = Vec::new();
+        for row in 0..self.all.len() {
+            let run = runs.last_mut().filter(|run| run.end == row && self.continues(row));
+            match run {
+                Some(run) if self.count_numbers(row) >= least || self.all[row].is_empty() => {
+                    run.end = row + 1;
+                }
+                _ if self.count_numbers(row) >= least => runs.push(row..row + 1),
+                _ => {}
+            }
+        }
+        runs
+    }
+
+    fn longest_run(&self) -> Range<usize> {
+        // The first of equally long runs.
+        self.runs(2).into_iter().rev().max_by_key(Range::len).unwrap_or(0..0)
+    }
+
+    /// Lists the tables of the file, each with its rows of numbers.
+    ///
+    /// A row for which `is_header` holds begins another table. Runs of the same width without a
+    /// header between them form one table. A single row of numbers apart from the table is a size
+    /// or a result, not a reading.
+    pub(super) fn tables(&self, is_header: impl Fn(usize) -> bool) -> Vec<NumberTable> {
+        let mut longest = self.longest_run();
+        let mut runs = self.runs(2);
+        if longest.is_empty() {
+            // Rows with a single number contain a mistake, which is reported with its line.
+            runs = self.runs(1);
+            longest = runs.first().cloned().unwrap_or(0..0);
+        }
+        runs.retain(|run| {
+            run.len() >= longest.len().min(2)
+                && self.all[run.start].cells.len() == self.all[longest.start].cells.len()
+        });
+        let mut tables: Vec<NumberTable> = Vec::new();
+        let mut end = 0;
+        for run in runs {
+            let between = end..run.start;
+            // A row with one number continues the run: its other cells contain a mistake.
+            let mistaken = (run.end..self.all.len())
+                .take_while(|row| self.continues(*row) && !self.is_text(*row));
+            let run = run.start..run.end + mistaken.count();
+            end = run.end;
+            match tables.last_mut() {
+                Some(table) if !between.clone().any(&is_header) => {
+                    table.left_out.extend(between.map(|row| self.all[row].line));
+                    table.rows.extend(run);
+                }
+                _ => {
+                    let numbers = between.clone().filter(|row| self.count_numbers(*row) >= 2);
+                    let left_out = numbers.map(|row| self.all[row].line).collect();
+                    tables.push(NumberTable { above: between, rows: run.collect(), left_out });
+                }
+            }
+        }
+        if let Some(table) = tables.last_mut() {
+            table.left_out.extend(self.all[end..].iter().map(|row| row.line));
+        }
+        tables
+    }
+}
+
+/// A table of numbers in a file.
+#[derive(Debug)]
+pub(super) struct NumberTable {
+    /// Rows between this table and the one above, or the beginning of the file.
+    pub(super) above: Range<usize>,
+    /// Rows of numbers.
+    pub(super) rows: Vec<usize>,
+    /// Lines around the rows that do not belong to the table, without its header.
+    pub(super) left_out: Vec<u64>,
+}
+
+fn split_at_blanks(text: &str) -> Vec<Row> {
+    let mut rows = Vec::new();
+    let mut is_after_blank = false;
+    for (index, line) in text.lines().enumerate() {
+        if line.trim().is_empty() {
+            is_after_blank = true;
+        } else if !line.starts_with('#') {
+            let cells = csv::StringRecord::from_iter(line.split_whitespace());
+            rows.push(Row { line: index as u64 + 1, is_after_blank, cells });
+            is_after_blank = false;
+        }
+    }
+    rows
+}
+
+/// Counts lines.
+struct LineCounter<'a> {
+    text: &'a str,
+    byte: usize,
+    line: u64,
+}
+
+impl LineCounter<'_> {
+    /// Returns the line of the record that the CSV reader began to read at `byte`.
+    ///
+    /// The reader skips empty lines and comments before a record. Also returns whether it skipped
+    /// an empty line.
+    fn advance(&mut self, byte: usize) -> (u64, bool) {
+        while self.byte < byte {
+            self.skip_line();
+        }
+        let mut has_blank = false;
+        while let Some(first) = self.text.as_bytes().get(self.byte) {
+            let is_blank = *first == b'\n';
+            if !is_blank && *first != b'#' {
+                break;
+            }
+            has_blank |= is_blank;
+            self.skip_line();
+        }
+        (self.line, has_blank)
+    }
+
+    fn skip_line(&mut self) {
+        let length = self.text[self.byte..].find('\n').map(|end| end + 1);
+        self.byte = length.map_or(self.text.len(), |length| self.byte + length);
+        self.line += 1;
+    }
+}
+
+/// Returns true for a number with a comma that does not separate thousands.
+fn has_decimal_comma(cell: &str) -> bool {
+    let Some((whole, fraction)) = cell.trim_start_matches('-').split_once(',') else {
+        return false;
+    };
+    let is_thousands = fraction.len() == 3 && whole != "0";
+    let mut digits = whole.bytes().chain(fraction.bytes());
+    !is_thousands && !whole.is_empty() && digits.all(|byte| byte.is_ascii_digit())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn lines(text: &str) -> Vec<(Vec<u64>, Vec<u64>)> {
+        let rows = Rows::new(text).expect("rows");
+        let tables = rows.tables(|row| rows.all[row].cells.iter().any(|cell| cell == "x"));
+        let line = |row: &usize| rows.all[*row].line;
+        tables
+            .into_iter()
+            .map(|table| (table.rows.iter().map(line).collect(), table.left_out))
+            .collect()
+    }
+
+    #[test]
+    fn the_longest_run_of_numbers_is_the_table() {
+        let text = "size,2,3\n\nx,y\n25,100\n\n1,2\n3,4\n\nEnd of test\n";
+        assert_eq!(lines(text), [(vec![6, 7], vec![1, 4, 9])]);
+    }
+
+    #[test]
+    fn remarks_do_not_end_a_table_and_headers_begin_another() {
+        assert_eq!(lines("x,y\n1,2\n3,4\nhold\n5,6\n7,8\n"), [(vec![2, 3, 5, 6], vec![4])]);
+        let text = "x;y\n1;2\n3;4\n\nx;y\n5;6\n7;8\n";
+        assert_eq!(lines(text), [(vec![2, 3], vec![]), (vec![6, 7], vec![])]);
+    }
+
+    #[test]
+    fn every_separator_and_line_ending_is_read() {
+        for separator in [";", "\t", ",", "   "] {
+            for end in ["\n", "\r\n", "\r"] {
+                let text = ["x", "y", "# a remark", "1", "2", "3", "4"];
+                let [x, y, remark, a, b, c, d] = text;
+                let text = format!(
+                    "{x}{separator}{y}{end}{remark}{end}{a}{separator}{b}{end}{end}{c}{separator}{d}{end}"
+                );
+                let rows = Rows::new(&text).expect("rows");
+                let lines: Vec<_> = rows.all.iter().map(|row| row.line).collect();
+                assert_eq!(lines, [1, 3, 5], "{text:?}");
+                assert!(rows.all[2].is_after_blank && !rows.all[1].is_after_blank);
+            }
+        }
+    }
+}
