@@ -132,8 +132,10 @@ impl FitDefinition {
 
 /// Evaluates `f` at points on the curve, and returns 0 elsewhere.
 fn on_curve(places: &[Place], f: impl Fn(f64, &CurvePoint) -> f64) -> Vec<f64> {
-    let of = |place: &Place| if let Place::On(at, point) = place { f(*at, point) } else { 0.0 };
-    places.iter().map(of).collect()
+    places
+        .iter()
+        .map(|place: &Place| if let Place::On(at, point) = place { f(*at, point) } else { 0.0 })
+        .collect()
 }
 
 /// Derivative of a curve with respect to a parameter.

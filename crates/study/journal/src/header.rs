@@ -170,8 +170,9 @@ fn other_format<R: Records>(object: &[u8]) -> Option<(u64, String)> {
     let header = line.get(R::KEY)?;
     let found = header.as_u64().or_else(|| header.get("format")?.as_u64())?;
     let text = |value: &serde_json::Value| Some(value.as_str()?.to_owned());
-    let both = || Some(format!("{} ({})", text(&header["version"])?, text(&header["revision"])?));
-    let by = text(&line["program"]).or_else(both).unwrap_or_else(|| "unknown".to_owned());
+    let by = text(&line["program"])
+        .or_else(|| Some(format!("{} ({})", text(&header["version"])?, text(&header["revision"])?)))
+        .unwrap_or_else(|| "unknown".to_owned());
     (found != FORMAT).then_some((found, by))
 }
 

@@ -80,8 +80,9 @@ fn known(sweep: &Sweep, name: &str) -> Option<Column<DesignRow>> {
 ///
 /// The rows are extrapolated by the derivatives of measures.
 fn slopes(column: &Column<DesignRow>, row: &DesignRow, parameter: &Parameter) -> Slopes {
-    let at = |by, side| column.cell(&row.extrapolated_by(parameter, by, side)?).number();
-    Slopes::between(parameter.size(&row.case), at)
+    Slopes::between(parameter.size(&row.case), |by, side| {
+        column.cell(&row.extrapolated_by(parameter, by, side)?).number()
+    })
 }
 
 /// Returns the ends of every criterion.

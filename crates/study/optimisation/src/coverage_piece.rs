@@ -87,8 +87,9 @@ impl CoveragePiece {
 
     /// Returns the derivatives of the distance inside a border.
     pub fn border_slopes(self, border: usize, case: &Case, parameter: &Parameter) -> Slopes {
-        let at = |by, _| Some(-self.beyond(border, &parameter.moved(case, by)?)?);
-        Slopes::between(parameter.size(case), at)
+        Slopes::between(parameter.size(case), |by, _| {
+            Some(-self.beyond(border, &parameter.moved(case, by)?)?)
+        })
     }
 
     /// Returns the coverage of this branch, continued beyond its borders (O8).
@@ -130,8 +131,9 @@ fn differentiate(row: &mut DesignRow, measure: &str, value: impl Fn(&Case) -> Op
     let Some(here) = value(&row.case) else { return };
     for of in row.result.sensitivity.iter_mut().filter(|of| of.measure == measure) {
         let Some(parameter) = Parameter::named(of.parameter) else { continue };
-        let at = |by, _| value(&parameter.moved(&row.case, by)?);
-        let slopes = Slopes::between(parameter.size(&row.case), at);
+        let slopes = Slopes::between(parameter.size(&row.case), |by, _| {
+            value(&parameter.moved(&row.case, by)?)
+        });
         (of.left, of.right, of.value, of.kink) = (slopes.left, slopes.right, here, None);
     }
 }

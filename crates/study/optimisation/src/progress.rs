@@ -117,8 +117,12 @@ impl SearchProgress {
         let is_next = |(k, of): (usize, &(SearchPart, f64))| k > parts.at && of.0 == part;
         // A part that repeats more often than expected, such as refills of a front, counts as the
         // last.
-        let last = || parts.expected.iter().rposition(|of| of.0 == part);
-        let next = parts.expected.iter().enumerate().position(is_next).or_else(last);
+        let next = parts
+            .expected
+            .iter()
+            .enumerate()
+            .position(is_next)
+            .or_else(|| parts.expected.iter().rposition(|of| of.0 == part));
         (parts.at, parts.tasks) = (next.unwrap_or(parts.at), tasks);
         self.done.store(0, Ordering::Relaxed);
     }

@@ -71,8 +71,12 @@ impl SampleJudge {
         if self.bounds.has_reopened(row) {
             return self.no_values();
         }
-        let of = |used: &UsedStatistic| used.column.as_ref().and_then(|column| column.value(row));
-        self.bounds.values(row).chain(self.statistics.iter().map(of)).collect()
+        self.bounds
+            .values(row)
+            .chain(self.statistics.iter().map(|used: &UsedStatistic| {
+                used.column.as_ref().and_then(|column| column.value(row))
+            }))
+            .collect()
     }
 
     /// Returns the values of an impossible sample.

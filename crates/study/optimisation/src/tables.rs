@@ -280,8 +280,10 @@ fn history<'a>(goal: &'a DesignGoal, found: &'a Found) -> impl Iterator<Item = C
         cells.extend(goal.space.parameters().map(|p| Cell::from(p.get(&row.case))));
         cells.extend(goal.objectives.iter().map(|objective| {
             let column = known.iter().find(|column| column.name == objective.column);
-            let own = || value(goal, candidate, &objective.column);
-            column.map_or_else(own, |column| column.cell(&row))
+            column.map_or_else(
+                || value(goal, candidate, &objective.column),
+                |column| column.cell(&row),
+            )
         }));
         cells.extend(verdict(candidate, &row));
         cells.push(best.into());

@@ -93,8 +93,12 @@ impl Weights {
         }
         let share =
             |weight: f64| if (sum - 1.0).abs() <= SUM_TOLERANCE { weight } else { weight / sum };
-        let at = |c: usize| weights.get(c).map_or(0.0, |weight| share(*weight));
-        Ok(Self { values: std::array::from_fn(at), count })
+        Ok(Self {
+            values: std::array::from_fn(|c: usize| {
+                weights.get(c).map_or(0.0, |weight| share(*weight))
+            }),
+            count,
+        })
     }
 
     /// Returns the weights at a node of a grid.

@@ -19,12 +19,12 @@ fn footprints(count: usize) -> impl Iterator<Item = Footprint> {
 
 /// Solves a row on three meshes, extrapolated twice.
 fn solved(footprint: &Footprint, neighbours: usize, cells: [usize; 3]) -> Vec<f64> {
-    let on = |n| row_reactions(footprint, neighbours, n).unwrap().numbers();
     let limit = |[coarse, fine]: [&[f64]; 2], finer: f64, order: i32| -> Vec<f64> {
         let share = 1.0 / (finer.powi(order) - 1.0);
         coarse.iter().zip(fine).map(|(coarse, fine)| fine + (fine - coarse) * share).collect()
     };
-    let [coarse, medium, fine] = cells.map(on);
+    let [coarse, medium, fine] =
+        cells.map(|n| row_reactions(footprint, neighbours, n).unwrap().numbers());
     let finer = [1, 2].map(|k| cells[k] as f64 / cells[k - 1] as f64);
     let check = limit([&coarse, &medium], finer[0], 3);
     let best = limit([&medium, &fine], finer[1], 3);

@@ -303,8 +303,12 @@ fn out_of_reach<'a>(
     sweep: &'a Sweep,
 ) -> impl Iterator<Item = InvalidDefinition> + 'a {
     goal.requirements.iter().filter_map(|(requirement, place)| {
-        let of = |variable: &&Variable| variable.parameter().key == requirement.column;
-        let VariableValues::Between(from, to) = *sweep.variables().iter().find(of)?.values() else {
+        let VariableValues::Between(from, to) = *sweep
+            .variables()
+            .iter()
+            .find(|variable: &&Variable| variable.parameter().key == requirement.column)?
+            .values()
+        else {
             return None;
         };
         let is_met = [from, to].iter().any(|end| requirement.is_met(*end));

@@ -155,9 +155,10 @@ impl NonlinearInequalityValues for LocalProblem<'_> {
         shares: &Vec<f64>,
     ) -> Result<Vec<f64>, ConstraintSolveError<Halt>> {
         // A design without a valid judgement violates every limit.
-        let none = || vec![f64::INFINITY; self.limit_count()];
-        let mut limits =
-            self.evaluate(shares)?.map_or_else(none, |evaluated| self.limits(&evaluated));
+        let mut limits = self.evaluate(shares)?.map_or_else(
+            || vec![f64::INFINITY; self.limit_count()],
+            |evaluated| self.limits(&evaluated),
+        );
         let asked = limits.iter_mut().take(self.asked_count());
         asked.for_each(|limit| *limit -= self.missed(shares).unwrap_or(0.0));
         Ok(limits)
@@ -179,8 +180,8 @@ impl ConstraintJacobian for LocalProblem<'_> {
             row.extend(self.missed(shares).map(|_| -f64::from(k < self.asked_count())));
             Some(row)
         };
-        let none = || vec![f64::NAN; shares.len()];
-        let rows = (0..self.limit_count()).flat_map(|k| row(k).unwrap_or_else(none));
+        let rows = (0..self.limit_count())
+            .flat_map(|k| row(k).unwrap_or_else(|| vec![f64::NAN; shares.len()]));
         let rows: Vec<f64> = rows.collect();
         Ok(DenseMatrix::from_row_slice(self.limit_count(), shares.len(), &rows))
     }
