@@ -375,22 +375,18 @@ impl CurveTable<'_> {
     ///
     /// `offsets` lists the axes, or gives a range for each: `{ displacement = [-0.1, 3] }`.
     fn offsets(&self, measured: &MeasuredCurve, curve: usize) -> Result<Vec<Unknown>, InvalidFit> {
-        let ranges: Vec<(String, Option<[f64; 2]>)> = match self.entry("offsets") {
-            Some(KeyValue { value: Value::Table(entries), .. }) => {
-                let mut ranges = Vec::new();
-                for entry in entries {
-                    let range = range(&entry.value).ok_or_else(|| {
-                        self.wrong("offsets", "ranges, e.g. { displacement = [-0.1, 3] }")
-                    })?;
-                    ranges.push((entry.key.clone(), Some(range)));
-                }
-                ranges
+        let mut ranges: Vec<(String, Option<[f64; 2]>)> = Vec::new();
+        if let Some(KeyValue { value: Value::Table(entries), .. }) = self.entry("offsets") {
+            for entry in entries {
+                let range = range(&entry.value).ok_or_else(|| {
+                    self.wrong("offsets", "ranges, e.g. { displacement = [-0.1, 3] }")
+                })?;
+                ranges.push((entry.key.clone(), Some(range)));
             }
-            _ => {
-                let names = self.texts("offsets")?.unwrap_or_default();
-                names.into_iter().map(|name| (name, None)).collect()
-            }
-        };
+        } else {
+            let names = self.texts("offsets")?.unwrap_or_default();
+            ranges.extend(names.into_iter().map(|name| (name, None)));
+        }
         let axes = measured.test.axes();
         let mut offsets = Vec::new();
         for (name, range) in ranges {

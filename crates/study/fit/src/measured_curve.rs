@@ -158,7 +158,7 @@ impl MeasuredCurve {
                 let curve = Self::in_table(&rows, table, &header, columns);
                 let mut curve = curve.map_err(|(line, problem)| wrong(Some(line), problem))?;
                 file.clone_into(&mut curve.file);
-                curve.specimen = header.specimen(&rows, columns);
+                curve.specimen = Some(header.specimen(&rows, columns));
                 curves.push(curve);
             }
         }
@@ -347,13 +347,13 @@ impl Header {
     }
 
     /// Returns the name of a specimen from the row above the header; empty if there is none.
-    fn specimen(&self, rows: &Rows, columns: CurveColumns) -> Option<String> {
+    fn specimen(&self, rows: &Rows, columns: CurveColumns) -> String {
         let above = self.row.and_then(|row| row.checked_sub(1)).map(|row| &rows.all[row].cells);
         let named = |cells: &csv::StringRecord| {
             let cells = columns.indices.map(|index| cells.get(index).unwrap_or_default());
             cells.into_iter().find(|cell| !cell.is_empty()).unwrap_or_default().to_owned()
         };
-        Some(above.map(named).unwrap_or_default())
+        above.map(named).unwrap_or_default()
     }
 }
 

@@ -190,7 +190,7 @@ fn split_at_blanks(text: &str) -> Vec<Row> {
         if line.trim().is_empty() {
             is_after_blank = true;
         } else if !line.starts_with('#') {
-            let cells = csv::StringRecord::from_iter(line.split_whitespace());
+            let cells = line.split_whitespace().collect();
             rows.push(Row { line: index as u64 + 1, is_after_blank, cells });
             is_after_blank = false;
         }
