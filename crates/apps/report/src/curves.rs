@@ -46,6 +46,9 @@ pub struct DesignCurves<'a> {
     pub puncture: Option<&'a Puncture>,
     /// The path in bending, if it was solved.
     pub flexure: Option<&'a Flexure>,
+    /// Curvature `t/R` of several bodies and the critical force on each; `None` without a critical
+    /// tilt.
+    pub on_bodies: &'a [(f64, Option<f64>)],
 }
 
 /// Measured curves, overlaid on the curves of designs.
@@ -79,6 +82,7 @@ pub fn curves(
     let candidates = [
         ("force-displacement-curves", one_panel(&FORCE, puncture, over(false))),
         ("force-over-place", one_panel(&PLACES, places, None)),
+        ("force-over-radius", one_panel(&BODIES, bodies, None)),
         ("moment-curvature-curves", one_panel(&MOMENT, flexure, over(true))),
         ("puncture-energies", panels(name, &PUNCTURE_ENERGY, designs, puncture_energies)),
         ("flexure-energies", panels(name, &FLEXURE_ENERGY, designs, flexure_energies)),
@@ -121,6 +125,15 @@ const PLACES: FigureText = FigureText {
     axes: [[PLACE, FORCE.axes[0][1]], [PLACE, FORCE.axes[1][1]]],
     notes: ["", "○ the weakest place", "fine dots: across places without a critical force"],
     units: |case| puncture_units(case).map(|[_, newton, _]| [1.0, newton]),
+};
+const BODIES: FigureText = FigureText {
+    title: "critical force over the curvature of the body",
+    axes: [
+        ["$t/R$: below 0 concave, 0 flat, above 0 convex", FORCE.axes[0][1]],
+        ["1/$R$, 1/mm: below 0 concave, 0 flat, above 0 convex", FORCE.axes[1][1]],
+    ],
+    notes: ["", "○ the worst body", "fine dots: across bodies without a critical force"],
+    units: |case| puncture_units(case).map(|[mm, newton, _]| [mm.recip(), newton]),
 };
 const MOMENT: FigureText = FigureText {
     title: "moment against curvature",
@@ -193,6 +206,20 @@ fn places(solved: &DesignCurves) -> Option<CurveValues> {
     let rings = weakest.into_iter().collect();
     let is_known = !known.is_empty();
     is_known.then(|| CurveValues { points: known, rings, unstable, ..CurveValues::default() })
+}
+
+fn bodies(solved: &DesignCurves) -> Option<CurveValues> {
+    let all = solved.on_bodies;
+    let known = all.iter().filter_map(|(curvature, force)| Some([*curvature, (*force)?]));
+    let known: Vec<_> = known.collect();
+    let worst = known.iter().copied().reduce(|a, b| if b[1] < a[1] { b } else { a })?;
+    let between = known.windows(2).map(|ends| ends[0][0]..ends[1][0]);
+    let unstable = between
+        .map(|range| all.iter().any(|(at, force)| force.is_none() && range.contains(at)))
+        .collect();
+    let is_drawn = known.len() > 1;
+    let (points, rings) = (known, vec![worst]);
+    is_drawn.then(|| CurveValues { points, rings, unstable, ..CurveValues::default() })
 }
 
 fn flexure(solved: &DesignCurves) -> Option<CurveValues> {

@@ -44,7 +44,7 @@ use crate::{Common, Design, Sample, Status, Unloading};
 
 pub use failure::{FailureMeasures, FailureMode, Strengths};
 pub use load_positions::{LoadPosition, Weakest, load_positions};
-pub use measures::{AcrossMeasures, PunctureMeasures};
+pub use measures::{AcrossMeasures, BetweenMeasures, PunctureMeasures};
 pub(crate) use needle::NeedleMode;
 pub use needle::{CriticalEvent, Needle, Passage, TipForces};
 pub use number_list::{MOST_NUMBERS, NumberList};
@@ -248,6 +248,27 @@ pub fn overlaps_at_rest(design: &Design, body: Body) -> Result<bool, OutOfRange>
     let frames = [0.0, row.pitch()].map(|arc| body.frame(arc));
     let poses = frames.map(|frame| Pose::new(0.0, 0.0, -frame.angle));
     Ok(!overlaps(|i| (*row.scale(), frames[i].origin), &poses).is_empty())
+}
+
+/// Computes the curvature of a concave body on which neighbouring scales touch at rest, by
+/// bisection to `1e-9`; `None` if they do not touch down to a radius of `t`.
+///
+/// # Errors
+/// If a length of the design is not positive, or its slant is out of range.
+pub fn touching_curvature(design: &Design) -> Result<Option<f64>, OutOfRange> {
+    let (mut apart, mut touching) = (0.0, -1.0);
+    if !overlaps_at_rest(design, Body { curvature: touching })? {
+        return Ok(None);
+    }
+    while apart - touching > 1e-9 {
+        let middle = 0.5 * (apart + touching);
+        if overlaps_at_rest(design, Body { curvature: middle })? {
+            touching = middle;
+        } else {
+            apart = middle;
+        }
+    }
+    Ok(Some(touching))
 }
 
 /// Source of rows of any length.

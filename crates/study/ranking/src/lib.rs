@@ -48,6 +48,7 @@ mod filter;
 mod fitness;
 mod front;
 mod incomparable;
+mod pain;
 mod preferences;
 mod ranking;
 mod requirement;
@@ -66,6 +67,7 @@ pub use criterion::{CRITERIA, Criterion, InvalidCriterion};
 pub use fitness::{CriterionEnds, FitnessGoal, RescaledCriterion};
 pub use front::{dominates, pareto_front};
 pub use incomparable::{Incomparable, check_comparable, comparable_groups};
+pub use pain::{PAIN_LIMITS, PAIN_MEANING, PainLimit};
 pub use preferences::{InvalidPreferences, Preferences};
 pub use ranking::{
     InvalidRanking, RankedDesign, Ranking, pareto_columns, quaternary_columns, ranking_columns,

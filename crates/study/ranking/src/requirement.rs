@@ -6,6 +6,7 @@ use std::str::FromStr;
 use serde::{Serialize, Serializer};
 use text::number::{self, ROUND_OFF, same};
 
+use crate::pain::PainLimit;
 use crate::standard::Standard;
 
 /// Relation of a value to the limit of a requirement.
@@ -72,8 +73,9 @@ pub struct Requirement {
 /// Text that is not a requirement.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "{found} is not accepted, expected COLUMN OP NUMBER, OP being >=, <=, >, < or ==, e.g. coverage >= 0.6, or a level of a standard: {}",
-    Standard::levels()
+    "{found} is not accepted, expected COLUMN OP NUMBER, OP being >=, <=, >, < or ==, e.g. coverage >= 0.6, or a level of a standard: {}, or a limit of a body part: {}",
+    Standard::levels(),
+    PainLimit::names()
 )]
 pub struct InvalidRequirement {
     /// The text.
@@ -159,6 +161,7 @@ impl FromStr for Requirement {
             is_name.then_some(Self { column, relation, limit })
         };
         let level = Standard::requirement(text).map(|(_, requirement)| requirement);
+        let level = level.or_else(|| Some(PainLimit::requirement(text)?.1));
         level.or_else(read).ok_or_else(|| InvalidRequirement { found: text.trim().to_owned() })
     }
 }

@@ -41,6 +41,9 @@ pub struct Case {
     /// Radius of the body below the skin over the scale thickness, negative for a concave body.
     /// `None` if the curvature is given.
     pub body_radius: Option<f64>,
+    /// Other end of the range of radii over the scale thickness, if forces on several bodies are
+    /// compared.
+    pub body_radius_to: Option<f64>,
     /// Neighbours coupled to a scale by the substrate.
     pub coupling: Coupling,
     /// Scatter of gaps and slants.
@@ -76,6 +79,8 @@ pub struct Millimetres {
     pub needle_radius: Option<f64>,
     /// Radius of the body below the skin.
     pub radius: Option<f64>,
+    /// Other end of the range of radii.
+    pub radius_to: Option<f64>,
     /// Additional depth at which the force is measured.
     pub depth: Option<f64>,
     /// Length of the membrane.
@@ -129,6 +134,35 @@ impl Case {
         Body { curvature: self.body_radius.map_or(self.puncture.curvature, f64::recip) }
     }
 
+    /// Returns this case on a body between the two ends of the range of radii, if there is one.
+    ///
+    /// The curvature is linear in `fraction`: 0 is the body of this case, 1 the other end. Only the
+    /// critical force is of interest, so all other requests are dropped.
+    pub fn on_body_between(&self, fraction: f64) -> Option<Self> {
+        let [from, to] = [self.body().curvature, self.body_radius_to?.recip()];
+        let mut puncture = self.puncture;
+        puncture.curvature = from + fraction * (to - from);
+        (puncture.tilts_before_deg, puncture.depth, puncture.places) = (None, None, None);
+        puncture.unload = false;
+        Some(Self {
+            puncture,
+            strengths: Strengths::default(),
+            judge_failure: false,
+            across: false,
+            gap_across: None,
+            body_radius: None,
+            body_radius_to: None,
+            imperfection: Imperfection::default(),
+            in_mm: Millimetres::default(),
+            ..*self
+        })
+    }
+
+    /// Returns the pitch of the row over the thickness.
+    pub fn pitch(&self) -> f64 {
+        2.0 * self.design.half_base() + self.design.gap
+    }
+
     /// Returns the coverage of the row on its body.
     ///
     /// # Errors
@@ -169,6 +203,7 @@ impl Case {
             across: false,
             gap_across: None,
             body_radius: None,
+            body_radius_to: None,
             imperfection: Imperfection::default(),
             in_mm: Millimetres::default(),
             ..*self
@@ -249,6 +284,7 @@ impl Default for Case {
             flexure: flexure::FlexureParameters::default(),
             tissue_thickness: None,
             body_radius: None,
+            body_radius_to: None,
             coupling: Coupling::Nearest,
             imperfection: Imperfection::default(),
             samples: Samples { count: 100, seed: 1 },

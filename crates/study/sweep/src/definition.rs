@@ -177,8 +177,34 @@ impl Sweep {
         }
     }
 
+    /// Returns notes on values that are valid but doubtful.
+    pub fn notes(&self) -> Vec<String> {
+        self.question().into_iter().chain(self.narrow_body()).collect()
+    }
+
+    /// Returns a note on a convex body that is narrow for the pitch of the scales.
+    fn narrow_body(&self) -> Option<String> {
+        let count = self.grid.len().min(MOST_CHECKED);
+        let pitches = (0..count).filter_map(|index| {
+            let case = self.grid.case(index);
+            let curvature = case.body().curvature;
+            (curvature * case.pitch() > 1.0 / FEWEST_PITCHES)
+                .then(|| (curvature * case.pitch()).recip())
+        });
+        let pitches: Vec<_> = pitches.collect();
+        let least = pitches.iter().copied().reduce(f64::min)?;
+        let of = match pitches.len() {
+            1 => "in one design".to_owned(),
+            several => format!("in {several} designs"),
+        };
+        Some(format!(
+            "the radius of the convex body is less than {FEWEST_PITCHES} pitches {of}, at least \
+             {least:.1}: the tissue then differs from the half-space or layer of the model"
+        ))
+    }
+
     /// Returns a question about a substrate modulus that seems in another unit.
-    pub fn question(&self) -> Option<String> {
+    fn question(&self) -> Option<String> {
         let written = |parameter: &Parameter| {
             // Check the largest value: one design with a wrong unit is enough.
             let axis = self.grid.axis(parameter.key).map(|axis| axis.span().1);
@@ -236,6 +262,12 @@ impl Sweep {
 ///
 /// Cartilage has a hundredth of it, bone ten times as much.
 const STIFFEST_TISSUE: f64 = 1e3;
+
+/// Radius of a convex body in pitches below which the substrate differs from a flat one.
+const FEWEST_PITCHES: f64 = 2.0;
+
+/// Maximum number of designs that are checked for notes.
+const MOST_CHECKED: u64 = 100_000;
 
 /// Maximum length of a definition in bytes.
 ///

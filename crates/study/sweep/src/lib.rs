@@ -21,7 +21,7 @@
 //! | [`Deviation`], [`BatchDeviation`] | manufacturing deviations, of `[tolerance]` |
 //! | [`Material`] | thickness, moduli and density of the skin, in physical units |
 //! | [`JudgedModes`] | the failure modes that a puncture is judged by |
-//! | [`NamedMaterial`], [`SCALE_MATERIALS`], [`TISSUE_MATERIALS`] | materials that a definition may name |
+//! | [`NamedValues`], [`SCALE_MATERIALS`], [`TISSUE_MATERIALS`], [`BODIES`] | named values |
 //! | [`Subset`], [`RandomSample`], [`Shard`], [`SubsetDesigns`] | the designs that a run solves |
 //!
 //! ```
@@ -51,6 +51,7 @@ mod grid;
 mod input;
 mod judged_modes;
 mod material;
+mod named;
 mod parameter;
 mod subset;
 mod variable;
@@ -65,7 +66,7 @@ pub use grid::{Axis, DesignNumber, Grid, NoSuchDesign, TooManyDesigns};
 pub use input::{read_input, read_input_bytes};
 pub use judged_modes::JudgedModes;
 pub use material::Material;
-pub use material::named::{NamedMaterial, SCALE_MATERIALS, TISSUE_MATERIALS};
+pub use named::{BODIES, NamedValues, SCALE_MATERIALS, TISSUE_MATERIALS};
 pub use parameter::{PARAMETERS, Parameter, Role, Scalar, WrongValue, key};
 pub use subset::{NoShard, RandomSample, SampleTooLarge, Shard, Subset, SubsetDesigns};
 pub use variable::{Variable, VariableValues};

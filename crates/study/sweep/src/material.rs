@@ -1,7 +1,5 @@
 //! The material of a skin, in physical units.
 
-pub(crate) mod named;
-
 /// Thickness, moduli, strengths and density of a skin, as far as they are given.
 ///
 /// The mechanics is dimensionless and needs none of them.

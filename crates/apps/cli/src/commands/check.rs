@@ -11,7 +11,7 @@ use serde_json::{Map, Value, json};
 use sweep::{Axis, Measure, Parameter, Role, Sweep, Variable, key};
 
 use super::DONE;
-use super::source::{Defined, Definition, defined, folder_of, question};
+use super::source::{Defined, Definition, defined, folder_of, print_notes};
 use crate::json;
 use crate::print::{aligned, counted, digits, print, time};
 
@@ -45,7 +45,7 @@ pub fn check(arguments: &Arguments) -> anyhow::Result<u8> {
         (Defined::Goal(goal), true) => json::print(&goal_as_json(&goal))?,
         (Defined::Goal(goal), false) => print(&goal_report(&goal, path))?,
         (Defined::Sweep(sweep), is_json) => {
-            question(&sweep);
+            print_notes(&sweep);
             if is_json {
                 json::print(&as_json(&sweep))?;
             } else {

@@ -11,7 +11,7 @@ use results::{
 };
 use run::Evaluator;
 use serde_json::{Map, Value, json};
-use skin::puncture::Weakest;
+use skin::puncture::{self, Weakest};
 use sweep::{JudgedModes, PARAMETERS};
 
 use super::selection::{SelectedDesign, Selection, select};
@@ -139,7 +139,26 @@ impl SolvedChoice {
         let rows: Vec<_> = rows.collect();
         let sensitivity = sensitivity(&self.solved.row.result.sensitivity);
         let (title, changes, table) = (self.title(), self.changes(), aligned(&rows));
-        format!("{title}\n{changes}\n{table}{}{}{sensitivity}", self.places(), self.judged())
+        let (places, judged) = (self.places(), self.judged());
+        format!("{title}\n{changes}\n{table}{}{places}{judged}{sensitivity}", self.overlap())
+    }
+
+    /// States the radius at which neighbouring scales touch; empty unless they overlap at rest.
+    fn overlap(&self) -> String {
+        let outcome = self.solved.row.result.puncture.map(|puncture| puncture.outcome);
+        let case = self.design.case();
+        match puncture::touching_curvature(&case.design) {
+            Ok(Some(touching)) if outcome == Some(Outcome::Overlapping) => {
+                let in_mm =
+                    case.material.thickness_mm.map(|t| format!(" ({} mm)", rounded(t / touching)));
+                format!(
+                    "\nThe scales touch at rest at a radius of {} t{}: increase radius or gap\n",
+                    rounded(touching.recip()),
+                    in_mm.unwrap_or_default()
+                )
+            }
+            _ => String::new(),
+        }
     }
 
     /// Explains why the weakest load position is unknown; empty if it is known.

@@ -13,7 +13,7 @@ use run::WorkMeter;
 use serde_json::{Value, json};
 
 use super::options::SolveOptions;
-use super::source::{folder_of, question, settings};
+use super::source::{folder_of, print_notes, settings};
 use super::{DONE, INCOMPLETE};
 use crate::interrupt::Interrupt;
 use crate::json;
@@ -72,7 +72,7 @@ const SHOWN_LINES: usize = 5;
 pub fn fit(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let path = arguments.path.display();
     let definition = FitDefinition::read(&arguments.path, &settings(&arguments.settings)?)?;
-    question(definition.sweep());
+    print_notes(definition.sweep());
     let default = || folder_of(definition.sweep(), None).join("fit");
     let folder = ResultsFolder::new(arguments.out.clone().unwrap_or_else(default));
     // Foreign files in the folder are rejected before the fit, not after it.

@@ -18,7 +18,7 @@ use results::ResultsFolder;
 
 use super::options::{EarlierResults, SolveOptions, TableFormat};
 use super::requirement_args::RequirementArgs;
-use super::source::{folder_of, question, settings};
+use super::source::{folder_of, print_notes, settings};
 use super::{DONE, INCOMPLETE, PROGRAM};
 use crate::interrupt::Interrupt;
 use crate::json;
@@ -88,7 +88,7 @@ pub struct Arguments {
 pub fn optimise(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let (settings, required) = (settings(&arguments.settings)?, arguments.required.read()?);
     let goal = DesignGoal::read_with(&arguments.path, &settings, &required)?;
-    question(goal.space.sweep());
+    print_notes(goal.space.sweep());
     for standard in &goal.standards {
         note(&format!("goal.protects: {}; {TILTING_ONLY}", standard.source));
     }

@@ -99,6 +99,7 @@ Examples:
   squama plot curves sweeps/paper.toml --design 0067,0070,0072 --to 0.7 --png
   squama plot curves results/paper --gap 0.1 --length 1
   squama plot curves palm.toml --design 1 --measured test.csv
+  squama plot curves sweeps/paper.toml --set 'body = { radius_over_t = -16, radius_to_over_t = 4 }'
 
 A measured file is a CSV table. Its first line names the columns with their units, in any order: displacement_mm
 (or _um, _m) and force_N (_mN, _kN), or curvature_per_m (_per_mm) and moment_N_mm (_mN_m, _N_m); other columns are
@@ -198,12 +199,15 @@ fn plot_curves(arguments: &CurvesArguments) -> anyhow::Result<u8> {
         solved.collect::<anyhow::Result<Vec<_>>>()
     })?;
     let shown = solved.iter().zip(&designs).zip(&cases);
+    let bodies = cases.iter().map(on_bodies).collect::<anyhow::Result<Vec<_>>>()?;
     let shown: Vec<_> = shown
-        .map(|(((puncture, flexure), design), case)| DesignCurves {
+        .zip(&bodies)
+        .map(|((((puncture, flexure), design), case), on_bodies)| DesignCurves {
             number: number(design, &cases),
             case,
             puncture: Some(puncture),
             flexure: Some(flexure),
+            on_bodies,
         })
         .collect();
     // `select` refuses to select none.
@@ -283,6 +287,29 @@ fn solve(case: &Case, to: Option<f64>) -> anyhow::Result<(Puncture, Flexure)> {
         puncture.folds.retain(|fold| fold.point.displacement <= to);
     }
     Ok((puncture, flexure::solve(&case.design, &common, &case.flexure)?))
+}
+
+/// Number of bodies between the two radii for which a force is shown.
+const BODIES: u32 = 25;
+
+/// Computes the critical force on bodies between the two radii of a case, in ascending curvature.
+fn on_bodies(case: &Case) -> anyhow::Result<Vec<(f64, Option<f64>)>> {
+    let mut forces = Vec::new();
+    for k in 0..BODIES {
+        let fraction = f64::from(k) / f64::from(BODIES - 1);
+        let Some(on_body) = case.on_body_between(fraction) else { break };
+        let body = on_body.body();
+        let force = if puncture::overlaps_at_rest(&on_body.design, body)? {
+            None
+        } else {
+            let (substrate, parameters) = (substrate(&on_body)?, on_body.punctured());
+            let Case { design, common, .. } = &on_body;
+            puncture::solve(design, &substrate, common, &parameters)?.measures.critical_force
+        };
+        forces.push((body.curvature, force));
+    }
+    forces.sort_by(|one, other| one.0.total_cmp(&other.0));
+    Ok(forces)
 }
 
 /// Returns the label of a design in a legend: its number and further differing values.

@@ -2,21 +2,22 @@
 
 use anyhow::Context as _;
 use clap::Args;
-use ranking::{Requirement, Standard, TILTING_ONLY};
+use ranking::{PAIN_MEANING, PainLimit, Requirement, Standard, TILTING_ONLY};
 
 use crate::print::note;
 
 /// Requirements on columns.
 #[derive(Debug, Args)]
 pub struct RequirementArgs {
-    /// Requirement: >=, <=, >, < or == in any column of numbers, or a level of a standard, e.g.
-    /// 'needle 2' (may be repeated: all must hold)
+    /// Requirement: >=, <=, >, < or == in any column of numbers, a level of a standard, e.g.
+    /// 'needle 2', or the pressure limit of a body part, e.g. 'pain palm'
+    /// (may be repeated: all must hold)
     #[arg(long = "require", value_name = "REQUIREMENT")]
     pub texts: Vec<String>,
 }
 
 impl RequirementArgs {
-    /// Parses the requirements, and prints a note on the source and limits of a standard.
+    /// Parses the requirements, and prints notes on standards and limits of body parts.
     pub fn read(&self) -> anyhow::Result<Vec<Requirement>> {
         let read = |text: &String| text.parse().with_context(|| format!("--require {text}"));
         let all = self.texts.iter().map(read).collect::<anyhow::Result<Vec<_>>>()?;
@@ -24,6 +25,11 @@ impl RequirementArgs {
             self.texts.iter().filter_map(|text| Some((text, Standard::requirement(text)?)))
         {
             note(&format!("--require {text}: {level} ({}); {TILTING_ONLY}", standard.source));
+        }
+        for (text, (_, limit)) in
+            self.texts.iter().filter_map(|text| Some((text, PainLimit::requirement(text)?)))
+        {
+            note(&format!("--require {text}: {limit} ({PAIN_MEANING})"));
         }
         Ok(all)
     }

@@ -80,17 +80,17 @@ pub fn defined_by(text: &str, file: &Path, settings: &[Setting]) -> anyhow::Resu
 pub fn read(definition: &Definition) -> anyhow::Result<Sweep> {
     match defined(definition)? {
         Defined::Sweep(sweep) => {
-            question(&sweep);
+            print_notes(&sweep);
             Ok(*sweep)
         }
         Defined::Goal(_) => bail!("{}: {IS_GOAL}", definition.path.display()),
     }
 }
 
-/// Prints a note on suspicious values in a valid definition.
-pub fn question(sweep: &Sweep) {
-    if let Some(question) = sweep.question() {
-        note(&question);
+/// Prints notes on doubtful values in a valid definition.
+pub fn print_notes(sweep: &Sweep) {
+    for text in sweep.notes() {
+        note(&text);
     }
 }
 

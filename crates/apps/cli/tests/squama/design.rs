@@ -119,6 +119,34 @@ fn design_evaluates_load_positions() {
 }
 
 #[test]
+fn plot_shows_the_force_over_the_radius_of_several_designs() {
+    let place = Place::with(FEW);
+    let radii = "--set body.radius_over_t=-40 --set body.radius_to_over_t=4";
+    place.prints(&format!("plot curves x.toml --gap 0.1 --length 1 {radii} --out c"));
+    let files = std::fs::read_dir(place.path("c")).expect("a folder");
+    let names = files.map(|file| file.expect("a file").file_name().to_string_lossy().into_owned());
+    let name =
+        names.into_iter().find(|name| name.starts_with("force-over-radius")).expect("figure");
+    let figure = place.read(&format!("c/{name}"));
+    assert!(figure.contains("below 0 concave") && figure.contains("the worst body"), "{figure}");
+}
+
+#[test]
+fn design_states_the_radius_at_which_scales_touch() {
+    let place = Place::with(FEW);
+    let design = "design x.toml --gap 0.1 --length 1 --slant 45 --set material.thickness_mm=2";
+    let output = place.squama(&format!("{design} --set body.radius_over_t=-4")).assert().code(1);
+    let text = String::from_utf8_lossy(&output.get_output().stdout).into_owned();
+    let line = text.lines().find(|line| line.starts_with("The scales touch")).expect("a radius");
+    let radius = line.split_whitespace().nth(8).and_then(|radius| radius.parse::<f64>().ok());
+    let radius = radius.expect("a number");
+    // Slightly farther apart, the scales do not overlap.
+    place.squama(&format!("{design} --set body.radius_over_t={}", 1.001 * radius)).assert().code(0);
+    let closer = format!("{design} --set body.radius_over_t={}", 0.999 * radius);
+    place.squama(&closer).assert().code(1);
+}
+
+#[test]
 fn design_writes_its_paths() {
     let place = Place::with(FEW);
     place.squama("design x.toml --gap 0.1 --length 1 --slant 45").assert().code(0);

@@ -157,6 +157,8 @@ class Skin:
         curvature_times_t: float | None = None,
         radius_over_t: float | None = None,
         radius_mm: float | None = None,
+        radius_to_over_t: float | None = None,
+        radius_to_mm: float | None = None,
         c1: float | None = None,
         c2: float | None = None,
         friction: float | None = None,
@@ -246,6 +248,10 @@ class Skin:
     def radius_over_t(self) -> float | None: ...
     @property
     def radius_mm(self) -> float | None: ...
+    @property
+    def radius_to_over_t(self) -> float | None: ...
+    @property
+    def radius_to_mm(self) -> float | None: ...
     @property
     def c1(self) -> float: ...
     @property

@@ -70,6 +70,7 @@ fn with_a_material_everything_is_in_millimetres_and_newtons() {
         case,
         puncture: Some(&puncture),
         flexure: Some(&flexure),
+        on_bodies: &[],
     };
     let figures = report::curves("x", &[of(&case)], None);
     assert_eq!(figures.len(), 4);
@@ -108,7 +109,13 @@ fn a_needle_that_passes_is_marked_on_its_curve() {
         let puncture =
             skin::puncture::solve(&case.design, &springs, &case.common, &case.punctured());
         let (number, puncture) = ("1".to_owned(), puncture.expect("a design"));
-        let of = DesignCurves { number, case: &case, puncture: Some(&puncture), flexure: None };
+        let of = DesignCurves {
+            number,
+            case: &case,
+            puncture: Some(&puncture),
+            flexure: None,
+            on_bodies: &[],
+        };
         let svg = report::curves("x", &[of], None).remove(0).svg;
         [svg.matches("class=\"passing\"").count(), svg.matches("▼ passing").count()]
     };

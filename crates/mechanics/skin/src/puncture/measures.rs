@@ -95,6 +95,18 @@ pub struct PunctureMeasures {
     /// The weakest of several load positions.
     #[serde(default, skip_serializing_if = "is_default")]
     pub weakest: Weakest,
+    /// The smallest critical force on bodies between two radii, if requested.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub between: BetweenMeasures,
+}
+
+/// Smallest critical force on bodies between two radii; empty unless requested.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct BetweenMeasures {
+    /// `F*` at the critical tilt on the worst body.
+    pub force: Option<f64>,
+    /// Curvature `t/R` of that body.
+    pub curvature: Option<f64>,
 }
 
 /// Critical forces across the row and in the weaker direction; empty unless requested.

@@ -30,6 +30,8 @@ pub const FAILURE_FORCE: &str = "failure_force";
 pub const FORCE_ACROSS: &str = "force_across";
 /// Smaller critical force of both directions.
 pub const FORCE_ANY_DIRECTION: &str = "force_any_direction";
+/// Smallest puncture force on bodies between two radii.
+pub const WORST_FORCE_BETWEEN: &str = "worst_force_between";
 /// Mode of the first failure.
 pub const FIRST_FAILURE: &str = "first_failure";
 /// Event that ended the path of a guided needle.

@@ -41,6 +41,9 @@ const PLACES: &[&str] = &[key::PLACES];
 /// Parameters that request the row across.
 const ACROSS: &[&str] = &[key::ACROSS, key::GAP_ACROSS, key::GAP_ACROSS_MM];
 
+/// Parameters that request bodies between two radii.
+const BETWEEN: &[&str] = &[key::RADIUS_TO, key::RADIUS_TO_MM];
+
 /// Parameters that request the first failure.
 const FAILURE: &[&str] = &[
     key::FAILURE,
@@ -207,6 +210,15 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
     other("across_status", FORCE, |r| punctured(r, |p| p.across.map(Outcome::text)))
         .last().needing(ACROSS):
         "complete, or why the row across has no critical force";
+    force(name::WORST_FORCE_BETWEEN, End, |m| &mut m.between.force)
+        .large().first().needing(BETWEEN):
+        "smallest puncture force at the critical tilt on bodies between the two radii";
+    other("worst_curvature", FORCE, |r| measured(r, |m| m.between.curvature))
+        .in_unit("1/t").needing(BETWEEN):
+        "curvature of the body with that force: positive for a convex one";
+    other("between_status", FORCE, |r| punctured(r, |p| p.between.map(Outcome::text)))
+        .last().needing(BETWEEN):
+        "complete, or why a body between the two radii has no critical force, so that the smallest is unknown";
     force(name::FAILURE_FORCE, Anywhere, |m| &mut m.failure.force)
         .large().first().needing(FAILURE):
         "puncture force at the first failure: where a scale is critically tilted, breaks or bends by 5 deg, a bond fails, the needle is through or perforates a scale, or the surface folds; or the force across the row, if that is smaller";

@@ -78,6 +78,9 @@ pub struct PunctureResult {
     /// Outcome of the puncture across the row, if it was requested.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub across: Option<Outcome>,
+    /// Outcome of the punctures on bodies between two radii, if they were requested.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub between: Option<Outcome>,
     /// Outcome of unloading, if it was requested.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub way_back: Option<Outcome>,
@@ -94,6 +97,7 @@ impl PunctureResult {
             calibration_error: None,
             weakest: None,
             across: None,
+            between: None,
             way_back: None,
         }
     }
@@ -124,6 +128,7 @@ impl PunctureResult {
             calibration_error: finite(calibration_error),
             weakest: (!puncture.places.is_empty()).then(weakest),
             across: None,
+            between: None,
             way_back: puncture.unloading.as_ref().map(back_to_zero),
         }
     }

@@ -163,3 +163,13 @@ fn a_thickness_adds_the_columns_of_lengths_in_mm() {
         assert!(!results::columns::tells_apart("gap_mm", &headers));
     }
 }
+
+/// The smallest force on several bodies is a column if a range of radii is given in either unit.
+#[test]
+fn a_range_of_radii_adds_the_columns_of_the_worst_body() {
+    assert!(!headers("name = 'x'").contains("between"));
+    let columns = ",worst_force_between,worst_curvature,between_status,";
+    assert!(headers("name = 'x'\n[body]\nradius_to_over_t = 5").contains(columns));
+    let material = "name = 'x'\nbody.radius_to_mm = 10\nmaterial = { thickness_mm = 1, substrate_modulus_MPa = 1 }";
+    assert!(headers(material).contains(",worst_force_between_N,"));
+}

@@ -14,6 +14,7 @@ use skin::puncture::{self, Puncture};
 use substrate::{Calibrations, RowStiffness, StiffnessSlopes};
 use sweep::{Case, DesignNumber, Measure};
 
+use super::between::{self, WorstBody};
 use super::work::{DesignWork, WorkMeter};
 use super::{samples, scatter, sensitivity};
 
@@ -176,6 +177,10 @@ impl Evaluator {
                 add_across(case, &mut result, &punctured);
                 sensitivity::choose_direction(&result.measures, &mut derivatives);
             }
+            if let Some(worst) = self.puncture_between(case, &mut result) {
+                let fraction = worst.fraction;
+                derivatives.extend(solved(|| sensitivity::between(case, fraction, &slopes))?);
+            }
             sensitivity.extend(derivatives);
             return Ok((result, puncture));
         }
@@ -185,7 +190,28 @@ impl Evaluator {
         let puncture = solved(|| puncture::solve(design, &*substrate, common, &parameters))?;
         let mut result = PunctureResult::new(&puncture, substrate.estimated_error());
         self.puncture_across(case, &mut result);
+        self.puncture_between(case, &mut result);
         Ok((result, puncture))
+    }
+
+    /// Punctures the row on bodies between two radii, if requested.
+    ///
+    /// Adds the smallest force to a result, and returns the body, if all have a force.
+    fn puncture_between(&self, case: &Case, result: &mut PunctureResult) -> Option<WorstBody> {
+        case.body_radius_to?;
+        let worst = between::worst_body(|fraction| {
+            let on_body = case.on_body_between(fraction).ok_or(Outcome::Internal)?;
+            let Case { design, common, .. } = &on_body;
+            if solved(|| puncture::overlaps_at_rest(design, on_body.body()))? {
+                return Err(Outcome::Overlapping);
+            }
+            let substrate = guarded(|| self.substrate(&on_body)).flatten()?;
+            let parameters = on_body.punctured();
+            let punctured = solved(|| puncture::solve(design, &*substrate, common, &parameters))?;
+            between::critical_force(&punctured)
+        });
+        between::add_worst(case, result, worst);
+        worst.ok()
     }
 
     /// Punctures the row across, if requested, and adds its force to a result.
@@ -329,7 +355,7 @@ fn failure(measure: Measure, solved: &SolvedDesign) -> Option<Failure> {
         Measure::Sensitivity => return None,
         Measure::Puncture => {
             let puncture = result.puncture?;
-            match [puncture.weakest, puncture.across, puncture.way_back]
+            match [puncture.weakest, puncture.across, puncture.between, puncture.way_back]
                 .into_iter()
                 .flatten()
                 .find(is_missing)

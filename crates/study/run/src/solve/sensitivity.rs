@@ -98,6 +98,29 @@ pub(super) fn across(
     Ok((puncture, with_prefactor(case, &named(case, &parameters, derivatives))))
 }
 
+/// Differentiates the critical force on a body between the two radii of `case`.
+///
+/// At the smallest force inside the range, the derivative with respect to the position in the range
+/// vanishes, so the position is kept.
+pub(super) fn between(
+    case: &Case,
+    fraction: f64,
+    slopes: &StiffnessSlopes,
+) -> Result<Vec<ParameterDerivative>, OutOfRange> {
+    let (parameters, variations) = variations(case, Measure::Puncture, |parameter| {
+        let varied = Varied { case, parameter, slopes: Some(slopes) };
+        varied.variation(|varied, by| varied.punctured_between(fraction, by))
+    });
+    let on_body = case.on_body_between(fraction).unwrap_or(*case);
+    let input = punctured(&on_body, slopes.stiffness.clone());
+    let (_, mut derivatives) = puncture::differentiate(&input, &variations)?;
+    derivatives.retain(|derivative| derivative.measure == name::CRITICAL_FORCE);
+    for derivative in &mut derivatives {
+        derivative.measure = name::WORST_FORCE_BETWEEN;
+    }
+    Ok(with_prefactor(case, &named(case, &parameters, derivatives)))
+}
+
 /// Relative difference below which two forces count as equal.
 const TIE: f64 = 1e-7;
 
@@ -251,7 +274,10 @@ pub(super) struct Varied<'a> {
 
 impl Varied<'_> {
     /// Returns the variation of a function of the case with respect to the parameter.
-    pub(super) fn variation<P>(&self, of: fn(&Self, f64) -> Option<P>) -> Option<Neighbours<P>> {
+    pub(super) fn variation<P>(
+        &self,
+        of: impl Fn(&Self, f64) -> Option<P>,
+    ) -> Option<Neighbours<P>> {
         let step = STEP * self.parameter.size(self.case)?;
         let [below, above] = [-step, step].map(|by| of(self, by));
         Some(Neighbours { below: below?, above: above?, step })
@@ -260,6 +286,12 @@ impl Varied<'_> {
     pub(super) fn punctured(&self, by: f64) -> Option<PunctureInput> {
         let moved = self.parameter.moved(self.case, by)?;
         Some(punctured(&moved, self.stiffness(&moved)?))
+    }
+
+    /// Returns the input of a row on a body between the two radii.
+    fn punctured_between(&self, fraction: f64, by: f64) -> Option<PunctureInput> {
+        let moved = self.parameter.moved(self.case, by)?;
+        Some(punctured(&moved.on_body_between(fraction)?, self.stiffness(&moved)?))
     }
 
     /// Returns the input of the row across.

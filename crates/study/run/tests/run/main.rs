@@ -1,6 +1,7 @@
 //! Runs: independent rows, damaged journals, derivatives and reference results.
 
 mod across;
+mod between;
 mod fuzz;
 mod hunt;
 mod journals;

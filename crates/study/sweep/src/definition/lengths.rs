@@ -18,7 +18,7 @@ pub(super) fn check(given: &Parameter, grid: &Grid, variables: &[Variable]) -> R
     if given.key == key::LOAD_POSITION {
         return check_place(given, grid, variables);
     }
-    if given.is_or_says(key::RADIUS) {
+    if given.is_or_says(key::RADIUS) || given.is_or_says(key::RADIUS_TO) {
         check_radius(given, grid, variables)?;
     }
     let length = given.said_in(grid.base()).map(|of| (of, key::THICKNESS));

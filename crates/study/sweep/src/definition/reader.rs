@@ -11,7 +11,7 @@ use crate::case::Case;
 use crate::definition::Sweep;
 use crate::deviation::Deviation;
 use crate::grid::{Axis, Grid};
-use crate::material::named::{NAMES, NamedMaterial};
+use crate::named::{NAME_KEYS, NameKey, NamedValues, short_name_key};
 use crate::parameter::{Parameter, Scalar, WrongValue, any_of, key};
 use crate::variable::{Variable, VariableValues};
 use text::number;
@@ -29,7 +29,7 @@ pub(crate) struct Reader {
     measures: Option<Vec<Measure>>,
     case: Case,
     shared: Vec<(&'static Parameter, Place)>,
-    materials: Vec<(&'static NamedMaterial, Place)>,
+    named: Vec<(&'static NamedValues, Place)>,
     axes: Vec<WrittenAxis>,
     variables: Vec<(Variable, Place)>,
     deviations: Vec<(Deviation, Place)>,
@@ -54,11 +54,11 @@ impl Reader {
             "measures" => self.read_measures(entry),
             suggestion::VARIABLES => self.entries(entry, Self::read_variable),
             suggestion::TOLERANCE => self.entries(entry, Self::read_deviation),
-            // `material = "PLA"` names the material of the scales.
-            suggestion::MATERIAL if matches!(entry.value, Value::Text(_)) => {
-                self.read_material("scale", entry)
-            }
-            section if suggestion::is_section(section) => self.section(section, entry),
+            section if suggestion::is_section(section) => match short_name_key(section) {
+                // `material = "PLA"` names the material of the scales, `body = "finger"` the body.
+                Some(key) if matches!(entry.value, Value::Text(_)) => self.read_name_of(key, entry),
+                _ => self.section(section, entry),
+            },
             _ => Err(unknown("", entry)),
         };
         self.refused.extend(understood.err());
@@ -78,25 +78,28 @@ impl Reader {
         Ok(())
     }
 
-    /// Reads the name of a material, of the scales or of the tissue (`of`).
-    fn read_material(&mut self, of: &str, entry: &KeyValue) -> Result<(), InvalidDefinition> {
-        let known = NAMES.iter().filter(|(name, _)| *name == of).flat_map(|(_, known)| *known);
+    /// Reads the name of a material or body.
+    fn read_name_of(
+        &mut self,
+        NameKey { section, key, known }: &NameKey,
+        entry: &KeyValue,
+    ) -> Result<(), InvalidDefinition> {
         let named = match &entry.value {
-            Value::Text(name) => known.clone().find(|known| known.name.eq_ignore_ascii_case(name)),
+            Value::Text(name) => known.iter().find(|known| known.name.eq_ignore_ascii_case(name)),
             _ => None,
         };
         let Some(named) = named else {
-            let names: Vec<_> = known.map(|known| known.name).collect();
+            let names: Vec<_> = known.iter().map(|known| known.name).collect();
             let wrong = WrongValue::not_accepted(&entry.value, any_of(&names));
-            return Err(refuse(&entry.place, &format!("{}.{of}", suggestion::MATERIAL), wrong));
+            return Err(refuse(&entry.place, &format!("{section}.{key}"), wrong));
         };
-        self.materials.push((named, entry.place.clone()));
+        self.named.push((named, entry.place.clone()));
         Ok(())
     }
 
-    /// Sets the values of the named materials that the definition does not give otherwise.
-    fn supply_materials(&mut self) {
-        for (named, place) in std::mem::take(&mut self.materials) {
+    /// Sets the values of materials and body that the definition does not give otherwise.
+    fn supply_named(&mut self) {
+        for (named, place) in std::mem::take(&mut self.named) {
             for (key, value) in named.values {
                 let Some(parameter) = Parameter::named(key) else { continue };
                 let is_given = self.says(key)
@@ -157,8 +160,9 @@ impl Reader {
 
     fn parameter(&mut self, section: &str, entry: &KeyValue) -> Result<(), InvalidDefinition> {
         let key = format!("{section}.{}", entry.key);
-        if section == suggestion::MATERIAL && NAMES.iter().any(|(name, _)| *name == entry.key) {
-            return self.read_material(&entry.key, entry);
+        let mut names = NAME_KEYS.iter().filter(|name| name.section == section);
+        if let Some(name) = names.find(|name| name.key == entry.key) {
+            return self.read_name_of(name, entry);
         }
         // Any parameter may be an axis, whatever its section.
         let belongs = |p: &&Parameter| section == "designs" || section == p.section;
@@ -179,7 +183,7 @@ impl Reader {
 
     /// Returns the sweep after all keys of `file` have been read, or all errors.
     pub fn finish(mut self, file: &Place) -> Result<Sweep, InvalidDefinition> {
-        self.supply_materials();
+        self.supply_named();
         // In addition to a gap, the pitch determines the length of a scale.
         self.case.in_mm.pitch_says_length = self.says(key::PITCH) && self.says(key::GAP);
         let wrong_together = self.wrong_together(file);

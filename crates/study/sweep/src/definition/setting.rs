@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
-use super::suggestion::{MATERIAL, VARIABLES};
+use super::suggestion::VARIABLES;
 use crate::case::Case;
+use crate::named::short_name_key;
 use crate::parameter::{Parameter, key};
 use text::toml_source::{self, KeyValue, KeyValues, Place, Value};
 
@@ -74,8 +75,11 @@ impl Setting {
             refuse(format!("`{}` is not a TOML value ({message})", value.trim()))
         })?;
         // `material=PLA` must not replace the section.
-        if path == [MATERIAL] && matches!(value, Value::Text(_)) {
-            path.push("scale".to_owned());
+        if let [section] = path.as_slice()
+            && let Some(name) = short_name_key(section)
+            && matches!(value, Value::Text(_))
+        {
+            path.push(name.key.to_owned());
         }
         Ok(Self { path, value, place })
     }

@@ -2,7 +2,7 @@
 
 use text::nearest;
 
-use crate::material::named::NAMES;
+use crate::named::NAME_KEYS;
 use crate::parameter::{PARAMETERS, Parameter, key};
 
 /// Section of the axes.
@@ -13,9 +13,6 @@ pub(crate) const VARIABLES: &str = "variables";
 
 /// Section of the manufacturing deviations.
 pub(crate) const TOLERANCE: &str = "tolerance";
-
-/// Section of the material.
-pub(crate) const MATERIAL: &str = "material";
 
 /// Keys outside the sections of parameters.
 const TOP: [&str; 4] = ["name", "measures", VARIABLES, TOLERANCE];
@@ -69,7 +66,7 @@ fn keys_of(section: &str) -> Vec<&'static str> {
     let belongs = |parameter: &&Parameter| {
         section == DESIGNS || section == VARIABLES || section == parameter.section
     };
-    let names = NAMES.iter().map(|(name, _)| *name).filter(|_| section == MATERIAL);
+    let names = NAME_KEYS.iter().filter(|name| name.section == section).map(|name| name.key);
     PARAMETERS.iter().filter(belongs).map(|parameter| parameter.key).chain(names).collect()
 }
 

@@ -14,11 +14,21 @@ pub const SLANT: &str = "slant_deg";
 
 /// Radius of the needle tip.
 pub const NEEDLE_RADIUS: &str = "needle_radius_over_t";
+
 /// Curvature of the body.
 pub const CURVATURE: &str = "curvature_times_t";
 
 /// Radius of the body.
 pub const RADIUS: &str = "radius_over_t";
+
+/// Radius of the body in mm.
+pub const RADIUS_MM: &str = "radius_mm";
+
+/// Other end of the range of radii.
+pub const RADIUS_TO: &str = "radius_to_over_t";
+
+/// Other end of the range of radii in mm.
+pub const RADIUS_TO_MM: &str = "radius_to_mm";
 
 /// Width of the scales.
 pub const WIDTH: &str = "width_over_t";
@@ -63,6 +73,9 @@ pub const PLACES: &str = "places";
 
 /// Thickness of the tissue.
 pub const TISSUE: &str = "tissue_thickness_over_t";
+
+/// Thickness of the tissue in mm.
+pub const TISSUE_MM: &str = "tissue_thickness_mm";
 
 /// Length of the membrane.
 pub const MEMBRANE_LENGTH: &str = "membrane_length_over_t";

@@ -150,7 +150,7 @@ pub static PARAMETERS: &[Parameter] = parameters! {
         key::TISSUE, "t", [Continuous, Made, MovesSprings],
             optional(LENGTH, |c| &mut c.tissue_thickness),
             "thickness of the substrate on a rigid base, such as tissue on bone; a half-space unless given";
-        "tissue_thickness_mm", "mm", [InMm(key::TISSUE), Made, MovesSprings],
+        key::TISSUE_MM, "mm", [InMm(key::TISSUE), Made, MovesSprings],
             optional(POSITIVE, |c| &mut c.in_mm.tissue_thickness),
             in_mm!("tissue_thickness", "thickness of the tissue on a rigid base");
         "coupling", "-", [MovesSprings],
@@ -168,9 +168,15 @@ pub static PARAMETERS: &[Parameter] = parameters! {
         key::RADIUS, "t", [Continuous, Made, InsteadOf(key::CURVATURE)],
             optional(ANY, |c| &mut c.body_radius),
             "radius R of the body below the skin, instead of the curvature; negative for a concave body";
-        "radius_mm", "mm", [InMm(key::RADIUS), Made],
+        key::RADIUS_MM, "mm", [InMm(key::RADIUS), Made],
             optional(ANY, |c| &mut c.in_mm.radius),
             in_mm!("radius", "radius of the body below the skin");
+        key::RADIUS_TO, "t", [Continuous, Made],
+            optional(ANY, |c| &mut c.body_radius_to),
+            "other end of the range of radii over which worst_force_between is the smallest force; negative for a concave body";
+        key::RADIUS_TO_MM, "mm", [InMm(key::RADIUS_TO), Made],
+            optional(ANY, |c| &mut c.in_mm.radius_to),
+            in_mm!("radius_to", "other end of the range of radii");
     }
 
     "contact" {

@@ -3,6 +3,7 @@
 mod definitions;
 mod fuzz;
 mod grids;
+mod named_bodies;
 mod named_materials;
 mod refusals;
 

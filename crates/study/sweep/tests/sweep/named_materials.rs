@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use sweep::{NamedMaterial, SCALE_MATERIALS, Setting, Sweep, TISSUE_MATERIALS};
+use sweep::{NamedValues, SCALE_MATERIALS, Setting, Sweep, TISSUE_MATERIALS};
 
 const MODULI: &str = "substrate_modulus_MPa = 0.3\nmembrane_modulus_MPa = 4.5\n";
 
@@ -77,7 +77,7 @@ fn the_documented_values_are_those_of_the_table() {
     let mut documented = page.lines().filter(|line| line.starts_with("| `"));
     let (scales, tissues) = (SCALE_MATERIALS.iter(), TISSUE_MATERIALS.iter());
     let columns = scales.map(|of| (of, 3)).chain(tissues.map(|of| (of, 2)));
-    for (NamedMaterial { name, values }, count) in columns {
+    for (NamedValues { name, values }, count) in columns {
         let cells = (0..count).map(|k| match values.get(k) {
             Some((_, value)) => format!(" {value} |"),
             None => " none |".to_owned(),

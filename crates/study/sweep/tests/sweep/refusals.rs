@@ -51,7 +51,7 @@ fn extreme_lengths_and_moduli_are_refused() {
             let message = Sweep::parse(&text, "x.toml", &[]).err().map(|error| error.to_string());
             // These lengths may be close to zero; in mm they are refused because the thickness is
             // missing.
-            let places = ["load_inset", "membrane_axis_offset", "radius_mm"];
+            let places = ["load_inset", "membrane_axis_offset", "radius_mm", "radius_to_mm"];
             let is_place = places.iter().any(|place| parameter.key.starts_with(place));
             let is_refused = message.is_some_and(|message| message.contains("out of range"));
             assert!(is_refused || (value == "1e-30" && is_place), "{text}");

@@ -1,0 +1,103 @@
+//! The smallest critical force on bodies between two radii.
+
+use results::{Outcome, PunctureResult};
+use skin::puncture::{BetweenMeasures, Puncture};
+use sweep::Case;
+
+/// Number of equal intervals of the curvature in the first pass.
+const INTERVALS: usize = 4;
+
+/// Number of times that the intervals beside the smallest force are halved.
+///
+/// The curvature of a smallest force inside the range is then known to a 32nd of the range.
+const HALVINGS: usize = 3;
+
+/// Relative difference below which two forces count as equal.
+///
+/// Scales that do not touch do not depend on the curvature.
+const TIE: f64 = 1e-7;
+
+/// The smallest force over a range of curvatures.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct WorstBody {
+    /// Position in the range of curvatures, from 0 to 1.
+    pub fraction: f64,
+    /// `F*` there.
+    pub force: f64,
+}
+
+/// Searches the smallest force over the fractions from 0 to 1.
+///
+/// The force is monotonic in the curvature for most designs, but not for all. Evaluates it at equal
+/// intervals, then halves the intervals beside the smallest value.
+///
+/// # Errors
+/// The outcome of the first body without a critical force: the skin may be weaker there.
+pub(super) fn worst_body(
+    mut force: impl FnMut(f64) -> Result<f64, Outcome>,
+) -> Result<WorstBody, Outcome> {
+    let mut width = (INTERVALS as f64).recip();
+    let mut worst = WorstBody { fraction: 0.0, force: force(0.0)? };
+    for k in 1..=INTERVALS {
+        let fraction = k as f64 * width;
+        worst = worst.or_smaller(WorstBody { fraction, force: force(fraction)? });
+    }
+    // At an end, the forces inside the range are larger.
+    let is_inside = worst.fraction > 0.0 && worst.fraction < 1.0;
+    for _ in 0..if is_inside { HALVINGS } else { 0 } {
+        width *= 0.5;
+        for fraction in [worst.fraction - width, worst.fraction + width] {
+            worst = worst.or_smaller(WorstBody { fraction, force: force(fraction)? });
+        }
+    }
+    Ok(worst)
+}
+
+impl WorstBody {
+    /// Returns the body with the smaller force; of equally weak ones this one.
+    fn or_smaller(self, other: Self) -> Self {
+        if other.force < self.force * (1.0 - TIE) { other } else { self }
+    }
+}
+
+/// Adds the smallest force between two radii to a result.
+pub(super) fn add_worst(
+    case: &Case,
+    result: &mut PunctureResult,
+    worst: Result<WorstBody, Outcome>,
+) {
+    result.between = Some(worst.err().unwrap_or(Outcome::Complete));
+    let Ok(WorstBody { fraction, force }) = worst else { return };
+    let curvature = case.on_body_between(fraction).map(|worst| worst.body().curvature);
+    result.measures.between = BetweenMeasures { force: Some(force), curvature };
+}
+
+/// Returns the critical force of a puncture, or the reason why it has none.
+pub(super) fn critical_force(puncture: &Puncture) -> Result<f64, Outcome> {
+    let outcome = puncture.status.into();
+    match puncture.measures.critical_force {
+        Some(force) if outcome == Outcome::Complete => Ok(force),
+        _ if outcome == Outcome::Complete => Err(Outcome::NotFinite),
+        _ => Err(outcome),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_smallest_force_is_found_inside_and_at_both_ends() {
+        for (least, tolerance) in [(0.0, 0.0), (1.0, 0.0), (0.3, 0.032), (0.53, 0.032)] {
+            let worst = worst_body(|fraction| Ok(1.0 + (fraction - least).powi(2))).unwrap();
+            assert!((worst.fraction - least).abs() <= tolerance, "{worst:?} instead of {least}");
+        }
+    }
+
+    #[test]
+    fn a_body_without_a_force_leaves_the_smallest_one_open() {
+        let force =
+            |fraction: f64| if fraction < 0.9 { Ok(1.0) } else { Err(Outcome::Overlapping) };
+        assert_eq!(worst_body(force), Err(Outcome::Overlapping));
+    }
+}
