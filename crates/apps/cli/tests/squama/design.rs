@@ -138,7 +138,7 @@ fn design_states_the_radius_at_which_scales_touch() {
     let output = place.squama(&format!("{design} --set body.radius_over_t=-4")).assert().code(1);
     let text = String::from_utf8_lossy(&output.get_output().stdout).into_owned();
     let line = text.lines().find(|line| line.starts_with("The scales touch")).expect("a radius");
-    let radius = line.split_whitespace().nth(8).and_then(|radius| radius.parse::<f64>().ok());
+    let radius = line.split_whitespace().nth(9).and_then(|radius| radius.parse::<f64>().ok());
     let radius = radius.expect("a number");
     // Slightly farther apart, the scales do not overlap.
     place.squama(&format!("{design} --set body.radius_over_t={}", 1.001 * radius)).assert().code(0);

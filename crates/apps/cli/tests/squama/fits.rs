@@ -114,7 +114,7 @@ fn doubtful_fits_are_reported() {
     };
     let pulled = (1..30).map(|k| format!("{k},-{}", 40 - k)).collect::<Vec<_>>().join("\n");
     let text =
-        fitted(&format!("Machine;7\nDisplacement (µm),Force [mN]\n{pulled}\n,\n40,-40\n"), 0);
+        fitted(&format!("Machine;7\nDisplacement (µm),Force [mN]\n{pulled}\n,\n40,-40\n"), 1);
     assert!(text.contains("(!) a.csv: no point has both displacement and force above 0"), "{text}");
     assert!(text.contains("a.csv: 1 line outside the table of numbers left out: 32\n"), "{text}");
     let wave = (1..60).map(|k| format!("{k},{}", 2 * k + 20 * (k / 10 % 2)));
