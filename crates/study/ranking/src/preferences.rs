@@ -244,7 +244,7 @@ mod tests {
             |text: &str| Preferences::parse(text, "x.toml").expect_err("invalid").to_string();
         insta::assert_snapshot!(message("weights = [1, 1]"), @"x.toml:1: criteria: 2 weights, expected 4: coverage, critical force, penetration resistance, flexural compliance");
         insta::assert_snapshot!(message("\nscale = 'cubic'"), @"x.toml:2: scale: cubic is not accepted, expected paper, linear or log");
-        insta::assert_snapshot!(message("requirements = ['a']"), @"x.toml:1: requirements: a is not accepted, expected COLUMN OP NUMBER, OP being >=, <=, >, < or ==, e.g. coverage >= 0.6, or a level of a standard: 'needle 1' to 'needle 5', 'probe 1' to 'probe 4'");
+        insta::assert_snapshot!(message("requirements = ['a']"), @"x.toml:1: requirements: a is not accepted, expected COLUMN OP NUMBER, OP being >=, <=, >, < or ==, e.g. coverage >= 0.6, or a level of a standard: 'needle 1' to 'needle 5', 'probe 1' to 'probe 4', or a limit of a body part: 'pain finger', 'pain palm', 'pain forearm', 'pain torso', 'pain chest', 'pain back', 'pain thigh', 'pain shin'");
         insta::assert_snapshot!(message("criteria = []"), @"x.toml: criteria: 0 criteria, expected 1 to 8");
         insta::assert_snapshot!(message("criteria = ['coverage', 'min:coverage']"), @"x.toml: criteria: coverage is a criterion twice");
         insta::assert_snapshot!(message("weight = [1]"), @"x.toml:1: weight: is not a key, expected requirements, criteria, weights or scale");
