@@ -197,29 +197,28 @@ fn puncture(solved: &DesignCurves) -> Option<CurveValues> {
 
 fn places(solved: &DesignCurves) -> Option<CurveValues> {
     let all = &solved.puncture?.places;
-    let known: Vec<_> = all.iter().filter_map(|p| Some([p.position, p.force?])).collect();
     let weakest = Weakest::from_positions(all).ok().and_then(|of| Some([of.place?, of.force?]));
-    let open = || all.iter().filter(|p| p.force.is_none());
-    let is_across =
-        |ends: &[[f64; 2]]| open().any(|p| (ends[0][0]..ends[1][0]).contains(&p.position));
-    let unstable = known.windows(2).map(is_across).collect();
-    let rings = weakest.into_iter().collect();
-    let is_known = !known.is_empty();
-    is_known.then(|| CurveValues { points: known, rings, unstable, ..CurveValues::default() })
+    let forces: Vec<_> = all.iter().map(|p| (p.position, p.force)).collect();
+    Some(with_missing_forces(&forces, weakest)).filter(|curve| !curve.points.is_empty())
 }
 
 fn bodies(solved: &DesignCurves) -> Option<CurveValues> {
-    let all = solved.on_bodies;
-    let known = all.iter().filter_map(|(curvature, force)| Some([*curvature, (*force)?]));
-    let known: Vec<_> = known.collect();
-    let worst = known.iter().copied().reduce(|a, b| if b[1] < a[1] { b } else { a })?;
-    let between = known.windows(2).map(|ends| ends[0][0]..ends[1][0]);
+    let forces = solved.on_bodies;
+    let known = forces.iter().filter_map(|(curvature, force)| Some([*curvature, (*force)?]));
+    let worst = known.reduce(|a, b| if b[1] < a[1] { b } else { a });
+    Some(with_missing_forces(forces, worst)).filter(|curve| curve.points.len() > 1)
+}
+
+/// Returns the curve through the known forces, with a ring at one of them.
+///
+/// It is dotted where forces between two known ones are missing.
+fn with_missing_forces(forces: &[(f64, Option<f64>)], ring: Option<[f64; 2]>) -> CurveValues {
+    let points: Vec<_> = forces.iter().filter_map(|(x, force)| Some([*x, (*force)?])).collect();
+    let between = points.windows(2).map(|ends| ends[0][0]..ends[1][0]);
     let unstable = between
-        .map(|range| all.iter().any(|(at, force)| force.is_none() && range.contains(at)))
+        .map(|range| forces.iter().any(|(x, force)| force.is_none() && range.contains(x)))
         .collect();
-    let is_drawn = known.len() > 1;
-    let (points, rings) = (known, vec![worst]);
-    is_drawn.then(|| CurveValues { points, rings, unstable, ..CurveValues::default() })
+    CurveValues { points, rings: ring.into_iter().collect(), unstable, ..CurveValues::default() }
 }
 
 fn flexure(solved: &DesignCurves) -> Option<CurveValues> {

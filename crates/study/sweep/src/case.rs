@@ -2,7 +2,7 @@
 
 use geometry::{Body, OutOfRange};
 use skin::flexure;
-use skin::puncture::{self, Needle, Strengths};
+use skin::puncture::{self, Needle, PunctureParameters, Strengths};
 use skin::{Base, Common, Design, Imperfection};
 use substrate::{Bases, Coupling, Footprint};
 
@@ -136,15 +136,27 @@ impl Case {
 
     /// Returns this case on a body between the two ends of the range of radii, if there is one.
     ///
-    /// The curvature is linear in `fraction`: 0 is the body of this case, 1 the other end. Only the
-    /// critical force is of interest, so all other requests are dropped.
+    /// The curvature is linear in `fraction`: 0 is the body of this case, 1 the other end. Requests
+    /// other than the critical force are dropped.
     pub fn on_body_between(&self, fraction: f64) -> Option<Self> {
         let [from, to] = [self.body().curvature, self.body_radius_to?.recip()];
-        let mut puncture = self.puncture;
-        puncture.curvature = from + fraction * (to - from);
-        (puncture.tilts_before_deg, puncture.depth, puncture.places) = (None, None, None);
-        puncture.unload = false;
-        Some(Self {
+        Some(self.for_critical_force(from + fraction * (to - from)))
+    }
+
+    /// Returns this case on a body with the given curvature, without requests other than the
+    /// critical force.
+    ///
+    /// Lengths in mm are dropped, because they refer to this case.
+    fn for_critical_force(&self, curvature: f64) -> Self {
+        let puncture = PunctureParameters {
+            curvature,
+            tilts_before_deg: None,
+            depth: None,
+            places: None,
+            unload: false,
+            ..self.puncture
+        };
+        Self {
             puncture,
             strengths: Strengths::default(),
             judge_failure: false,
@@ -155,7 +167,7 @@ impl Case {
             imperfection: Imperfection::default(),
             in_mm: Millimetres::default(),
             ..*self
-        })
+        }
     }
 
     /// Returns the pitch of the row over the thickness.
@@ -190,24 +202,7 @@ impl Case {
             base: Base::L,
             width: 2.0 * self.design.half_base(),
         };
-        // Only the critical force is of interest, and lengths in mm refer to the row along.
-        let mut puncture = self.puncture;
-        (puncture.tilts_before_deg, puncture.depth, puncture.places) = (None, None, None);
-        puncture.unload = false;
-        puncture.curvature = 0.0;
-        Some(Self {
-            design,
-            puncture,
-            strengths: Strengths::default(),
-            judge_failure: false,
-            across: false,
-            gap_across: None,
-            body_radius: None,
-            body_radius_to: None,
-            imperfection: Imperfection::default(),
-            in_mm: Millimetres::default(),
-            ..*self
-        })
+        Some(Self { design, ..self.for_critical_force(0.0) })
     }
 
     /// Returns the factor from `F*` of the row across to `F*` of this row, which is over another

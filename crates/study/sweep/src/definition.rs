@@ -184,16 +184,21 @@ impl Sweep {
 
     /// Returns a note on a convex body that is narrow for the pitch of the scales.
     fn narrow_body(&self) -> Option<String> {
+        // Most sweeps are flat, and creating all their cases takes time.
+        let is_axis = |key| self.grid.axis_saying(key).is_some();
+        let is_flat = self.grid.base().body().is_flat();
+        if is_flat && !is_axis(key::CURVATURE) && !is_axis(key::RADIUS) {
+            return None;
+        }
         let count = self.grid.len().min(MOST_CHECKED);
-        let pitches = (0..count).filter_map(|index| {
+        let narrow = (0..count).filter_map(|index| {
             let case = self.grid.case(index);
-            let curvature = case.body().curvature;
-            (curvature * case.pitch() > 1.0 / FEWEST_PITCHES)
-                .then(|| (curvature * case.pitch()).recip())
+            let radius_in_pitches = (case.body().curvature * case.pitch()).recip();
+            (0.0..FEWEST_PITCHES).contains(&radius_in_pitches).then_some(radius_in_pitches)
         });
-        let pitches: Vec<_> = pitches.collect();
-        let least = pitches.iter().copied().reduce(f64::min)?;
-        let of = match pitches.len() {
+        let narrow: Vec<_> = narrow.collect();
+        let least = narrow.iter().copied().reduce(f64::min)?;
+        let of = match narrow.len() {
             1 => "in one design".to_owned(),
             several => format!("in {several} designs"),
         };

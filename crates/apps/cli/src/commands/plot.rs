@@ -6,6 +6,7 @@ use anyhow::{Context as _, bail};
 use clap::{Args, Subcommand};
 use fit::{MeasuredCurve, Test};
 use report::{DesignCurves, MapRequest, MeasuredCurves, curves, figures, map};
+use run::Evaluator;
 use skin::Status;
 use skin::flexure::{self, Flexure};
 use skin::puncture::{self, Puncture, PunctureParameters};
@@ -199,7 +200,8 @@ fn plot_curves(arguments: &CurvesArguments) -> anyhow::Result<u8> {
         solved.collect::<anyhow::Result<Vec<_>>>()
     })?;
     let shown = solved.iter().zip(&designs).zip(&cases);
-    let bodies = cases.iter().map(on_bodies).collect::<anyhow::Result<Vec<_>>>()?;
+    let evaluator = Evaluator::new(&[]);
+    let bodies: Vec<_> = cases.iter().map(|case| on_bodies(case, &evaluator)).collect();
     let shown: Vec<_> = shown
         .zip(&bodies)
         .map(|((((puncture, flexure), design), case), on_bodies)| DesignCurves {
@@ -293,23 +295,15 @@ fn solve(case: &Case, to: Option<f64>) -> anyhow::Result<(Puncture, Flexure)> {
 const BODIES: u32 = 25;
 
 /// Computes the critical force on bodies between the two radii of a case, in ascending curvature.
-fn on_bodies(case: &Case) -> anyhow::Result<Vec<(f64, Option<f64>)>> {
+fn on_bodies(case: &Case, evaluator: &Evaluator) -> Vec<(f64, Option<f64>)> {
     let mut forces = Vec::new();
     for k in 0..BODIES {
         let fraction = f64::from(k) / f64::from(BODIES - 1);
         let Some(on_body) = case.on_body_between(fraction) else { break };
-        let body = on_body.body();
-        let force = if puncture::overlaps_at_rest(&on_body.design, body)? {
-            None
-        } else {
-            let (substrate, parameters) = (substrate(&on_body)?, on_body.punctured());
-            let Case { design, common, .. } = &on_body;
-            puncture::solve(design, &substrate, common, &parameters)?.measures.critical_force
-        };
-        forces.push((body.curvature, force));
+        forces.push((on_body.body().curvature, evaluator.critical_force(&on_body).ok()));
     }
     forces.sort_by(|one, other| one.0.total_cmp(&other.0));
-    Ok(forces)
+    forces
 }
 
 /// Returns the label of a design in a legend: its number and further differing values.

@@ -4,6 +4,8 @@ use results::{Outcome, PunctureResult};
 use skin::puncture::{BetweenMeasures, Puncture};
 use sweep::Case;
 
+use super::sensitivity::TIE;
+
 /// Number of equal intervals of the curvature in the first pass.
 const INTERVALS: usize = 4;
 
@@ -11,11 +13,6 @@ const INTERVALS: usize = 4;
 ///
 /// The curvature of a smallest force inside the range is then known to a 32nd of the range.
 const HALVINGS: usize = 3;
-
-/// Relative difference below which two forces count as equal.
-///
-/// Scales that do not touch do not depend on the curvature.
-const TIE: f64 = 1e-7;
 
 /// The smallest force over a range of curvatures.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,6 +52,8 @@ pub(super) fn worst_body(
 
 impl WorstBody {
     /// Returns the body with the smaller force; of equally weak ones this one.
+    ///
+    /// Scales that do not touch do not depend on the curvature.
     fn or_smaller(self, other: Self) -> Self {
         if other.force < self.force * (1.0 - TIE) { other } else { self }
     }

@@ -201,17 +201,26 @@ impl Evaluator {
         case.body_radius_to?;
         let worst = between::worst_body(|fraction| {
             let on_body = case.on_body_between(fraction).ok_or(Outcome::Internal)?;
-            let Case { design, common, .. } = &on_body;
-            if solved(|| puncture::overlaps_at_rest(design, on_body.body()))? {
-                return Err(Outcome::Overlapping);
-            }
-            let substrate = guarded(|| self.substrate(&on_body)).flatten()?;
-            let parameters = on_body.punctured();
-            let punctured = solved(|| puncture::solve(design, &*substrate, common, &parameters))?;
-            between::critical_force(&punctured)
+            self.critical_force(&on_body)
         });
         between::add_worst(case, result, worst);
         worst.ok()
+    }
+
+    /// Computes the critical force of a design, without other measures.
+    ///
+    /// # Errors
+    ///
+    /// The outcome of a puncture without a critical force.
+    pub fn critical_force(&self, case: &Case) -> Result<f64, Outcome> {
+        let Case { design, common, .. } = case;
+        if solved(|| puncture::overlaps_at_rest(design, case.body()))? {
+            return Err(Outcome::Overlapping);
+        }
+        let substrate = guarded(|| self.substrate(case)).flatten()?;
+        let parameters = case.punctured();
+        let punctured = solved(|| puncture::solve(design, &*substrate, common, &parameters))?;
+        between::critical_force(&punctured)
     }
 
     /// Punctures the row across, if requested, and adds its force to a result.

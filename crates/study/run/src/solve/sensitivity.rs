@@ -79,16 +79,13 @@ pub(super) fn across(
     case: &Case,
     slopes: &StiffnessSlopes,
 ) -> Result<(Puncture, Vec<ParameterDerivative>), OutOfRange> {
-    let varied = |parameter| Varied { case, parameter, slopes: Some(slopes) };
-    let (parameters, variations) =
-        variations(case, Measure::Puncture, |p| varied(p).variation(Varied::punctured_across));
     let across = case.across().unwrap_or(*case);
-    let input = punctured(&across, slopes.stiffness.clone());
-    let (puncture, mut derivatives) = puncture::differentiate(&input, &variations)?;
-    derivatives.retain(|derivative| derivative.measure == name::CRITICAL_FORCE);
+    let ForceDerivatives { puncture, parameters, mut derivatives } =
+        ForceDerivatives::of(case, &across, slopes, Varied::punctured_across)?;
     let factor = case.across_factor();
     for derivative in &mut derivatives {
-        let rate = varied(parameters[derivative.parameter]).factor_rate();
+        let parameter = parameters[derivative.parameter];
+        let rate = Varied { case, parameter, slopes: Some(slopes) }.factor_rate();
         let by_factor = rate * derivative.value;
         derivative.left = derivative.left.map(|slope| factor * slope + by_factor);
         derivative.right = derivative.right.map(|slope| factor * slope + by_factor);
@@ -96,6 +93,33 @@ pub(super) fn across(
         derivative.measure = name::FORCE_ACROSS;
     }
     Ok((puncture, with_prefactor(case, &named(case, &parameters, derivatives))))
+}
+
+/// Critical force of another row of a case, with its derivatives by the parameters of the case.
+struct ForceDerivatives {
+    puncture: Puncture,
+    parameters: Vec<&'static Parameter>,
+    derivatives: Vec<Derivative>,
+}
+
+impl ForceDerivatives {
+    /// Punctures `solved`, a row of `case`, and differentiates its critical force.
+    ///
+    /// `vary` returns this row for a changed parameter of `case`.
+    fn of<'a>(
+        case: &'a Case,
+        solved: &Case,
+        slopes: &'a StiffnessSlopes,
+        vary: impl Fn(&Varied<'a>, f64) -> Option<PunctureInput>,
+    ) -> Result<Self, OutOfRange> {
+        let (parameters, variations) = variations(case, Measure::Puncture, |parameter| {
+            Varied { case, parameter, slopes: Some(slopes) }.variation(&vary)
+        });
+        let input = punctured(solved, slopes.stiffness.clone());
+        let (puncture, mut derivatives) = puncture::differentiate(&input, &variations)?;
+        derivatives.retain(|derivative| derivative.measure == name::CRITICAL_FORCE);
+        Ok(Self { puncture, parameters, derivatives })
+    }
 }
 
 /// Differentiates the critical force on a body between the two radii of `case`.
@@ -107,14 +131,11 @@ pub(super) fn between(
     fraction: f64,
     slopes: &StiffnessSlopes,
 ) -> Result<Vec<ParameterDerivative>, OutOfRange> {
-    let (parameters, variations) = variations(case, Measure::Puncture, |parameter| {
-        let varied = Varied { case, parameter, slopes: Some(slopes) };
-        varied.variation(|varied, by| varied.punctured_between(fraction, by))
-    });
     let on_body = case.on_body_between(fraction).unwrap_or(*case);
-    let input = punctured(&on_body, slopes.stiffness.clone());
-    let (_, mut derivatives) = puncture::differentiate(&input, &variations)?;
-    derivatives.retain(|derivative| derivative.measure == name::CRITICAL_FORCE);
+    let ForceDerivatives { parameters, mut derivatives, .. } =
+        ForceDerivatives::of(case, &on_body, slopes, |varied, by| {
+            varied.punctured_between(fraction, by)
+        })?;
     for derivative in &mut derivatives {
         derivative.measure = name::WORST_FORCE_BETWEEN;
     }
@@ -122,7 +143,7 @@ pub(super) fn between(
 }
 
 /// Relative difference below which two forces count as equal.
-const TIE: f64 = 1e-7;
+pub(super) const TIE: f64 = 1e-7;
 
 /// Adds the derivatives of the force in the weaker direction, and of a first failure across.
 pub(super) fn choose_direction(

@@ -52,7 +52,7 @@ impl Parameter {
         }
         let thickness = case.material.thickness_mm?;
         let length = match self.key {
-            key::PITCH => pitch(case),
+            key::PITCH => case.pitch(),
             _ => self.over_t()?.get(case).number()?,
         };
         Some(product(length, thickness))
@@ -64,11 +64,6 @@ fn given(case: &Case) -> impl Iterator<Item = (&'static Parameter, f64)> {
     // Most cases give none, and a sweep creates one case per design.
     let all = if case.in_mm == Millimetres::default() { &[] } else { PARAMETERS };
     all.iter().filter(|p| p.is_in_mm()).filter_map(|p| Some((p, p.get(case).number()?)))
-}
-
-/// Returns base plus gap over the thickness.
-fn pitch(case: &Case) -> f64 {
-    2.0 * case.design.half_base() + case.design.gap
 }
 
 /// Computes the lengths over the thickness from the lengths in mm.
@@ -130,7 +125,7 @@ fn restate(case: &mut Case, moved: &Parameter) {
     let moves_pitch = [key::GAP, key::LENGTH].contains(&moved.key);
     for (in_mm, _) in given(case).collect::<Vec<_>>() {
         let length = match in_mm.key {
-            key::PITCH if moves_pitch => pitch(case),
+            key::PITCH if moves_pitch => case.pitch(),
             key::PITCH => continue,
             _ if in_mm.over_t() == Some(moved) => match moved.get(case).number() {
                 Some(length) => length,
