@@ -34,7 +34,7 @@ pub struct Unknown {
 }
 
 impl Unknown {
-    /// Returns the key that states the range of this unknown.
+    /// Returns how the definition states the range of this unknown, for messages.
     pub fn key(&self) -> String {
         match self.source {
             Source::Parameter(parameter) => format!("variables.{}", parameter.key),
@@ -288,36 +288,34 @@ impl CurveTable<'_> {
             return Err(self.wrong("kind", expected));
         }
         if let Some(entry) = self.entry("specimen") {
-            let chosen = match &entry.value {
-                Value::Text(text) | Value::Number(text) => text.as_str(),
-                _ => "",
-            };
-            let names: Vec<_> =
-                curves.iter().map(|curve| curve.specimen.clone().unwrap_or_default()).collect();
-            let index = chosen.parse().ok().and_then(|number: usize| number.checked_sub(1));
-            let index = names
-                .iter()
-                .position(|name| !name.is_empty() && name == chosen)
-                .or_else(|| index.filter(|index| *index < curves.len()));
-            let index = index.ok_or_else(|| {
-                let expected = match names.as_slice() {
-                    [_] => "no specimen: the file holds one".to_owned(),
-                    names => format!("a number from 1 to {}, or {}", names.len(), names.join(", ")),
-                };
-                self.not_accepted("specimen", &entry.value, &expected)
-            })?;
+            let index = self.specimen(entry, &curves)?;
             curves = vec![curves.swap_remove(index)];
         }
         curves.into_iter().map(|curve| self.loading(file, curve)).collect()
     }
 
+    /// Returns the index of the specimen that an entry names, or gives the number of.
+    fn specimen(&self, entry: &KeyValue, curves: &[MeasuredCurve]) -> Result<usize, InvalidFit> {
+        let chosen = match &entry.value {
+            Value::Text(text) | Value::Number(text) => text.as_str(),
+            _ => "",
+        };
+        let names: Vec<_> = curves.iter().filter_map(|curve| curve.specimen.as_deref()).collect();
+        let number = chosen.parse().ok().filter(|number| (1..=curves.len()).contains(number));
+        let named = names.iter().position(|name| *name == chosen);
+        named.or_else(|| number.map(|number| number - 1)).ok_or_else(|| {
+            let expected = match names.as_slice() {
+                [] => "no specimen: the file holds one".to_owned(),
+                names => format!("a number from 1 to {}, or {}", names.len(), names.join(", ")),
+            };
+            self.not_accepted("specimen", &entry.value, &expected)
+        })
+    }
+
     /// Returns the loading branch of a curve from `from` to `to`, averaged if it is long.
     fn loading(&self, file: &str, mut curve: MeasuredCurve) -> Result<Loading, InvalidFit> {
         // Messages name the file as the definition does, without the folder.
-        curve.file = match &curve.specimen {
-            Some(specimen) => format!("{file}, specimen {specimen}"),
-            None => file.to_owned(),
-        };
+        curve.set_file(file);
         let mut ending = curve.keep_loading();
         let from = self.number("from")?.unwrap_or(f64::NEG_INFINITY) * curve.x_unit;
         let to = self.number("to")?.unwrap_or(f64::INFINITY) * curve.x_unit;

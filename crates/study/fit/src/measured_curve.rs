@@ -148,30 +148,32 @@ impl MeasuredCurve {
             return Err(wrong(None, "holds no points, expected a line for each".to_owned()));
         };
         let mut header = Header::find(&rows, first.above.clone(), columns);
-        let mut curves = Vec::new();
+        let (mut curves, mut specimens) = (Vec::new(), Vec::new());
         for table in &tables {
             // A table without a header of its own has the columns of the table above.
-            if columns.is_none() && Header::known_in(&rows, table.above.clone()).is_some() {
-                header = Header::find(&rows, table.above.clone(), columns);
-            }
+            let known = Header::known_in(&rows, table.above.clone());
+            header = known.filter(|_| columns.is_none()).unwrap_or(header);
             for columns in header.curves().map_err(|problem| wrong(None, problem))? {
                 let curve = Self::in_table(&rows, table, &header, columns);
-                let mut curve = curve.map_err(|(line, problem)| wrong(Some(line), problem))?;
-                file.clone_into(&mut curve.file);
-                curve.specimen = Some(header.specimen(&rows, columns));
-                curves.push(curve);
+                curves.push(curve.map_err(|(line, problem)| wrong(Some(line), problem))?);
+                specimens.push(header.specimen(&rows, columns));
             }
         }
-        if curves.len() == 1 {
-            curves[0].specimen = None;
-        }
-        for (index, curve) in curves.iter_mut().enumerate().filter(|(_, c)| c.specimen.is_some()) {
-            let name = curve.specimen.take().unwrap_or_default();
+        let has_several = curves.len() > 1;
+        for (index, (curve, name)) in curves.iter_mut().zip(specimens).enumerate() {
             let name = if name.is_empty() { (index + 1).to_string() } else { name };
-            curve.file = format!("{file}, specimen {name}");
-            curve.specimen = Some(name);
+            curve.specimen = has_several.then_some(name);
+            curve.set_file(file);
         }
         Ok(curves)
+    }
+
+    /// Sets the name of the file, followed by the specimen if the file holds several.
+    pub(crate) fn set_file(&mut self, file: &str) {
+        self.file = match &self.specimen {
+            Some(specimen) => format!("{file}, specimen {specimen}"),
+            None => file.to_owned(),
+        };
     }
 
     /// Reads one curve from a table.

@@ -134,7 +134,7 @@ impl FitDefinition {
 fn on_curve(places: &[Place], f: impl Fn(f64, &CurvePoint) -> f64) -> Vec<f64> {
     places
         .iter()
-        .map(|place: &Place| if let Place::On(at, point) = place { f(*at, point) } else { 0.0 })
+        .map(|place| if let Place::On(at, point) = place { f(*at, point) } else { 0.0 })
         .collect()
 }
 

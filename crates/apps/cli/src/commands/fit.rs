@@ -161,9 +161,10 @@ fn text(fitted: &Fitted) -> String {
         let interval = interval.map_or("undetermined".to_owned(), |[low, high]| {
             format!("{} to {}", digits(low), digits(high))
         });
-        let end = match at_end {
-            false => String::new(),
-            true => format!("  (!) at a bound of its range: widen {}", unknown.key()),
+        let end = if *at_end {
+            format!("  (!) at a bound of its range: widen {}", unknown.key())
+        } else {
+            String::new()
         };
         let unit = if unknown.unit == "-" { "" } else { unknown.unit };
         [unknown.name.clone(), digits(*value), unit.to_owned(), format!("{interval}{end}")]
@@ -256,8 +257,11 @@ fn remarks(curve: &FittedCurve) -> String {
             format!("{lines} outside the table of numbers left out: {}{more}", first.join(", "))
         }),
         reversed.contains(&true).then(|| {
-            let axes: Vec<_> = [x, y].into_iter().zip(reversed).filter(|(_, r)| **r).map(|(axis, _)| axis).collect();
-            format!("the signs of {} are reversed, because the test counts compression as negative", axes.join(" and "))
+            let axes = match reversed {
+                [true, true] => format!("{x} and {y}"),
+                [is_x, _] => (if *is_x { x } else { y }).to_owned(),
+            };
+            format!("the signs of {axes} are reversed, because the test counts compression as negative")
         }),
     ];
     let warnings = warnings.into_iter().flatten().map(|text| format!("  (!) {file}: {text}\n"));

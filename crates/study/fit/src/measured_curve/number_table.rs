@@ -44,7 +44,7 @@ impl Rows {
         let sample = &text[..end.unwrap_or(text.len())];
         let mut best = (0, ',');
         for separator in SEPARATORS {
-            let longest = Self::split(sample, separator)?.longest_run().len();
+            let longest = longest(&Self::split(sample, separator)?.runs(2)).len();
             if longest > best.0 {
                 best = (longest, separator);
             }
@@ -53,24 +53,10 @@ impl Rows {
     }
 
     fn split(text: &str, separator: char) -> Result<Self, csv::Error> {
-        let mut all = if separator == ' ' { split_at_blanks(text) } else { Vec::new() };
-        if separator != ' ' {
-            let mut reader = csv::ReaderBuilder::new()
-                .delimiter(separator as u8)
-                .comment(Some(b'#'))
-                .has_headers(false)
-                // Lines of a preamble have any number of cells.
-                .flexible(true)
-                .trim(csv::Trim::All)
-                .from_reader(text.as_bytes());
-            let mut position = LineCounter { text, byte: 0, line: 1 };
-            for cells in reader.records() {
-                let cells = cells?;
-                let byte = cells.position().map_or(0, csv::Position::byte) as usize;
-                let (line, is_after_blank) = position.advance(byte);
-                all.push(Row { line, is_after_blank, cells });
-            }
-        }
+        let all = match separator {
+            ' ' => split_at_blanks(text),
+            separator => split_at(text, separator)?,
+        };
         // In quotes, a comma between digits is a decimal comma.
         let is_comma =
             separator != ',' || all.iter().flat_map(|row| row.cells.iter()).any(has_decimal_comma);
@@ -122,19 +108,14 @@ impl Rows {
         runs
     }
 
-    fn longest_run(&self) -> Range<usize> {
-        // The first of equally long runs.
-        self.runs(2).into_iter().rev().max_by_key(Range::len).unwrap_or(0..0)
-    }
-
     /// Lists the tables of the file, each with its rows of numbers.
     ///
     /// A row for which `is_header` holds begins another table. Runs of the same width without a
     /// header between them form one table. A single row of numbers apart from the table is a size
     /// or a result, not a reading.
     pub(super) fn tables(&self, is_header: impl Fn(usize) -> bool) -> Vec<NumberTable> {
-        let mut longest = self.longest_run();
         let mut runs = self.runs(2);
+        let mut longest = longest(&runs);
         if longest.is_empty() {
             // Rows with a single number contain a mistake, which is reported with its line.
             runs = self.runs(1);
@@ -172,6 +153,11 @@ impl Rows {
     }
 }
 
+/// Returns the first of the longest runs; empty if there is none.
+fn longest(runs: &[Range<usize>]) -> Range<usize> {
+    runs.iter().rev().max_by_key(|run| run.len()).cloned().unwrap_or(0..0)
+}
+
 /// A table of numbers in a file.
 #[derive(Debug)]
 pub(super) struct NumberTable {
@@ -181,6 +167,26 @@ pub(super) struct NumberTable {
     pub(super) rows: Vec<usize>,
     /// Lines around the rows that do not belong to the table, without its header.
     pub(super) left_out: Vec<u64>,
+}
+
+fn split_at(text: &str, separator: char) -> Result<Vec<Row>, csv::Error> {
+    let mut reader = csv::ReaderBuilder::new()
+        .delimiter(separator as u8)
+        .comment(Some(b'#'))
+        .has_headers(false)
+        // Lines of a preamble have any number of cells.
+        .flexible(true)
+        .trim(csv::Trim::All)
+        .from_reader(text.as_bytes());
+    let mut position = LineCounter { text, byte: 0, line: 1 };
+    let mut rows = Vec::new();
+    for cells in reader.records() {
+        let cells = cells?;
+        let byte = cells.position().map_or(0, csv::Position::byte) as usize;
+        let (line, is_after_blank) = position.advance(byte);
+        rows.push(Row { line, is_after_blank, cells });
+    }
+    Ok(rows)
 }
 
 fn split_at_blanks(text: &str) -> Vec<Row> {
