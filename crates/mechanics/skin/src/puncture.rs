@@ -443,14 +443,9 @@ impl<'a> Problem<'a> {
         let friction = common.friction;
         let expected = "0 for elastic scales";
         OutOfRange::unless(is_rigid || friction == 0.0, "friction of scales", friction, expected)?;
-        let guided = f64::from(u8::from(parameters.needle.is_guided()));
-        let expected = "0, a free needle";
-        OutOfRange::unless(
-            is_rigid || guided == 0.0,
-            "guided needle on elastic scales",
-            guided,
-            expected,
-        )?;
+        let is_guided = parameters.needle.is_guided();
+        let (name, expected) = ("guided needle on elastic scales", "0, a free needle");
+        OutOfRange::unless(is_rigid || !is_guided, name, f64::from(is_guided), expected)?;
         Self::unchecked(rows, design, stiffness, common, parameters)
     }
 

@@ -37,7 +37,7 @@ const AT_THE_TILT: f64 = 1e-9;
 /// Value with its first and second derivative by the coordinate of a load.
 type Varying = [f64; 3];
 
-/// Force on a scale as a beam.
+/// Force on a scale, which is a beam.
 #[derive(Clone, Copy, Debug)]
 struct BeamLoad {
     /// Unknown of the force; `None` for the moment at the tip.
@@ -66,10 +66,11 @@ struct Flexibility {
 /// Sums over all loads for one load `k`.
 #[derive(Clone, Copy, Debug, Default)]
 struct Sums {
-    /// `Σ C_kl Λ_l`: displacement at the load.
+    /// Displacement `Σ C_kl Λ_l` at the load.
     displacement: f64,
-    /// Its derivative, and its second derivative, by the coordinate of `k` as the first load.
+    /// First derivative of the displacement by the coordinate of the load `k`.
     slope: f64,
+    /// Second derivative of the displacement by the coordinate of the load `k`.
     curvature: f64,
 }
 
@@ -151,33 +152,19 @@ impl BeamLoad {
         let along = contact::quarter(touching.normal);
         let slide = touching.slide.value;
         let load = Self::at_point(beam, slide * along, -touching.normal, 0.0);
-        match touching.edge {
-            CornerEdge::BottomLeftOnBase => None,
-            CornerEdge::TopRightOnTop => {
-                // The part beyond the last section is rigid.
-                let moment =
-                    [along.perp(&-touching.normal) * slide, along.perp(&-touching.normal), 0.0];
-                let across = [load.across[0], 0.0, 0.0];
-                let section = [beam.length, 0.0];
-                Some(Self { moment, across, section, ..load }.along_pair(
-                    touching,
-                    1.0,
-                    &touching.slide,
-                ))
-            }
+        let across = load.across[0];
+        let (arm, section) = match touching.edge {
+            CornerEdge::BottomLeftOnBase => return None,
+            // The part beyond the last section is rigid.
+            CornerEdge::TopRightOnTop => (along.perp(&-touching.normal), [beam.length, 0.0]),
+            // The force is perpendicular to the axis of the beam.
             _ => {
-                // The force is perpendicular to the axis of the beam.
                 let side = along.dot(&beam.along).signum();
-                let across = [load.across[0], 0.0, 0.0];
-                let moment = [across[0] * side * slide, across[0] * side, 0.0];
-                let section = [side * slide, side];
-                Some(Self { moment, across, section, ..load }.along_pair(
-                    touching,
-                    1.0,
-                    &touching.slide,
-                ))
+                (across * side, [side * slide, side])
             }
-        }
+        };
+        let (moment, across) = ([arm * slide, arm, 0.0], [across, 0.0, 0.0]);
+        Some(Self { moment, across, section, ..load }.along_pair(touching, 1.0, &touching.slide))
     }
 }
 
@@ -520,7 +507,7 @@ impl Chain {
         });
     }
 
-    /// Adds the derivatives of the bending to those of the gaps of open contacts.
+    /// Adds the slopes of the openings by bending to the slopes of the open contacts.
     pub(super) fn add_opening_slopes(
         &self,
         state: &SkinState,

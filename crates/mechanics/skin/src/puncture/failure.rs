@@ -137,6 +137,10 @@ impl FailureMeasures {
 const LIMITS: [FailureMode; 4] =
     [FailureMode::Break, FailureMode::Bend, FailureMode::Debond, FailureMode::Perforate];
 
+/// Position of bending among the limits.
+const BEND: usize = 1;
+const _: () = assert!(matches!(LIMITS[BEND], FailureMode::Bend));
+
 /// The largest fraction of each limit that any scale has reached.
 const FRACTIONS: [fn(&Chain, &SkinState) -> f64; LIMITS.len()] = [
     |chain, state| chain.row_values(state).fractions[0],
@@ -161,7 +165,7 @@ pub(super) fn bent_within(
     path: &mut Continuation<Chain>,
     Segment { from, to, .. }: &Segment,
 ) -> Option<SkinPoint> {
-    let bend = FRACTIONS[1];
+    let bend = FRACTIONS[BEND];
     if !path.system().is_elastic || bend(path.system(), &to.state) < 1.0 {
         return None;
     }

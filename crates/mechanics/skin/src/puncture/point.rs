@@ -105,7 +105,7 @@ impl Skin for Chain {
 
     fn interpenetrates(&self, state: &SkinState) -> bool {
         if self.is_elastic {
-            // The shapes are those of rigid scales, and bending opens their contacts.
+            // Poses describe rigid scales, so contacts of bent scales seem to overlap.
             let openings = self.openings(state);
             let overlapping =
                 self.contacts.overlapping(state, |pair| Contacts::pair_slack(&openings, pair));

@@ -43,7 +43,8 @@ pub(super) const DEPTH_RATE: usize = 1;
 /// ```
 ///
 /// With friction each contact also has a stick multiplier and a slip distance. The unknowns of a
-/// guided needle follow the load; for a free needle on elastic scales depth and total tilt.
+/// guided needle follow the load. For a free needle on elastic scales, depth and total tilt follow
+/// it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct RowLayout {
     /// Scales to the left of the punctured one.

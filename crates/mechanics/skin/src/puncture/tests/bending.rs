@@ -51,7 +51,7 @@ fn tangent_of_elastic_scales_matches_differences() {
             let state = path.between(from, to, 0.5).unwrap().state;
             let chain = path.system();
             let forces = chain.contacts.closed_edges(&state).into_iter().map(|edge| edge.force);
-            // The step of a difference is relative to the force, and round-off is not.
+            // The step is a fraction of the force, so round-off dominates for tiny forces.
             if forces.fold(1.0, f64::min) > 1e-5 * state.z[chain.load()] {
                 check_tangent(chain, &state, 1e-6).unwrap();
                 checked += 1;
@@ -60,7 +60,7 @@ fn tangent_of_elastic_scales_matches_differences() {
             most = most.max(loads.max().unwrap());
         });
     }
-    // The needle or a contact on each side.
+    // Some scales carry two loads: the needle and a contact, or a contact on each side.
     assert!(most >= 2 && checked > 100, "{most} {checked}");
 }
 
