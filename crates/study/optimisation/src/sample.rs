@@ -73,9 +73,11 @@ impl SampleJudge {
         }
         self.bounds
             .values(row)
-            .chain(self.statistics.iter().map(|used: &UsedStatistic| {
-                used.column.as_ref().and_then(|column| column.value(row))
-            }))
+            .chain(
+                self.statistics
+                    .iter()
+                    .map(|used| used.column.as_ref().and_then(|column| column.value(row))),
+            )
             .collect()
     }
 

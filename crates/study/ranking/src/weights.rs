@@ -94,9 +94,7 @@ impl Weights {
         let share =
             |weight: f64| if (sum - 1.0).abs() <= SUM_TOLERANCE { weight } else { weight / sum };
         Ok(Self {
-            values: std::array::from_fn(|c: usize| {
-                weights.get(c).map_or(0.0, |weight| share(*weight))
-            }),
+            values: std::array::from_fn(|c| weights.get(c).map_or(0.0, |weight| share(*weight))),
             count,
         })
     }

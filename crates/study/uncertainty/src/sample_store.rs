@@ -131,7 +131,7 @@ impl SampleStore {
         missing.retain(|number| !lock().records().values.contains_key(number));
         self.work.leave_out((count - missing.len()) as u64);
         missing.into_par_iter().try_for_each(|number| {
-            // Return no error here: completed samples are stored first, and missing ones are counted
+            // Return no error here: completed samples are stored first, and missing ones counted
             // below.
             if stop.load(Ordering::Relaxed) {
                 return Ok(());

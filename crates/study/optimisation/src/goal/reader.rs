@@ -306,7 +306,7 @@ fn out_of_reach<'a>(
         let VariableValues::Between(from, to) = *sweep
             .variables()
             .iter()
-            .find(|variable: &&Variable| variable.parameter().key == requirement.column)?
+            .find(|variable| variable.parameter().key == requirement.column)?
             .values()
         else {
             return None;

@@ -169,8 +169,8 @@ impl From<Termination> for Outcome {
             Termination::Jumps | Termination::NoProgress => Self::Jumps,
             Termination::NotFinite => Self::NotFinite,
             Termination::Unloaded => Self::Unloaded,
-            // A path that reached its target has not stopped early, and results of interrupted paths
-            // are discarded, so these are internal errors.
+            // Paths that reached their target have not stopped early, and results of interrupted
+            // paths are discarded, so these are internal errors.
             Termination::Reached | Termination::Interrupted => Self::Internal,
         }
     }

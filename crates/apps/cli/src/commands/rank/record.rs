@@ -5,6 +5,8 @@ use results::Results;
 use results::columns::mode_column;
 use serde_json::{Map, Value, json};
 
+use super::report::preferred_columns;
+
 /// Returns the ranking as JSON, with the `top` designs by fitness.
 pub fn ranking_record(results: &Results, ranking: &Ranking<'_>, top: usize) -> Value {
     let preferences = ranking.preferences();
@@ -45,10 +47,7 @@ fn design(results: &Results, ranking: &Ranking<'_>, standing: &RankedDesign<'_>)
     let criteria = ranking.preferences().criteria.iter().enumerate();
     let values = criteria.map(|(c, own)| (own.column.to_string(), standing.value(c).into()));
     let mut values: Map<String, Value> = values.collect();
-    let preferences = ranking.preferences();
-    let required = preferences.requirements.iter().map(|requirement| requirement.column.as_str());
-    let columns = preferences.criteria.iter().map(|own| own.column.as_ref()).chain(required);
-    for mode in columns.filter_map(mode_column) {
+    for mode in preferred_columns(ranking.preferences()).filter_map(mode_column) {
         if let Ok(column) = results.column(mode) {
             values.insert(mode.to_owned(), results.text(standing.row(), column).into());
         }

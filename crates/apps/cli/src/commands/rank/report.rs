@@ -226,17 +226,20 @@ fn shown_columns(results: &Results, preferences: &Preferences) -> Vec<String> {
     let mut columns = vec!["design".to_owned()];
     columns
         .extend(results.header().iter().filter(|column| parameter_of(column).is_some()).cloned());
-    let criteria = preferences.criteria.iter().map(|criterion| criterion.column.to_string());
-    let required = preferences.requirements.iter().map(|requirement| requirement.column.clone());
-    for column in criteria.chain(required) {
-        let mode = mode_column(&column).map(str::to_owned);
-        for column in std::iter::once(column).chain(mode) {
-            if !columns.contains(&column) {
-                columns.push(column);
+    for column in preferred_columns(preferences) {
+        for column in std::iter::once(column).chain(mode_column(column)) {
+            if !columns.iter().any(|shown| shown == column) {
+                columns.push(column.to_owned());
             }
         }
     }
     columns
+}
+
+/// Returns the columns of criteria and requirements.
+pub fn preferred_columns(preferences: &Preferences) -> impl Iterator<Item = &str> {
+    let criteria = preferences.criteria.iter().map(|criterion| criterion.column.as_ref());
+    criteria.chain(preferences.requirements.iter().map(|requirement| &*requirement.column))
 }
 
 /// Returns the failure modes that the best design is judged by, if a failure force is shown.
