@@ -188,7 +188,7 @@ mod signals {
         run.until_said(word);
         assert_eq!(run.end().code(), Some(130));
 
-        // An analysis takes the designs in their order.
+        // The analysis solves the designs in the order of their numbers.
         let place = Place::with(&ENDLESS.replace("[10001, 1]", "[1, 10001]"));
         let mut tolerance = place.spawn(
             "tolerance x.toml --samples 2 --threads 1 --set tolerance.slant_deg={batch_sd=1}",
