@@ -44,15 +44,6 @@ impl Unknown {
             }
         }
     }
-
-    /// Returns `value`, or 0 if it is negative and the parameter must not be.
-    ///
-    /// Examples are moduli and coefficients of friction.
-    pub(crate) fn at_least_allowed(&self, value: f64) -> f64 {
-        let is_refused = |p: &Parameter| p.read(&Value::Number(value.to_string())).is_err();
-        let is_allowed = !matches!(self.source, Source::Parameter(p) if is_refused(p));
-        if value < 0.0 && !is_allowed { 0.0 } else { value }
-    }
 }
 
 /// Quantity that an unknown stands for.

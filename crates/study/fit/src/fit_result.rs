@@ -1,9 +1,9 @@
 //! Result of a fit: estimates, confidence intervals and undetermined unknowns.
 //!
 //! Let `r` be the residuals over the noise of their curves, `p` the unknowns scaled to their
-//! ranges, and `J = ∂r/∂p` at the minimum. The covariance of `p` is `(JᵀJ)⁻¹ = V S⁻² Vᵀ`, with the
-//! singular values `S` and directions `V` of `J`. Along some directions the curves may constrain
-//! the unknowns less than the ranges do. The result names the unknowns in these directions.
+//! ranges, and `J = ∂r/∂p` at the minimum. Near it, the covariance of `p` is `(JᵀJ)⁻¹ = V S⁻² Vᵀ`,
+//! with the singular values `S` and directions `V` of `J`. It gives the correlations, and predicts
+//! the profiles that determine the intervals.
 
 use std::sync::atomic::AtomicBool;
 
@@ -15,7 +15,8 @@ use sweep::Sweep;
 use crate::definition::{FitDefinition, TestCurve, Unknown};
 use crate::measured_curve::Ending;
 use crate::model::ModelCurve;
-use crate::search::Residuals;
+use crate::profile::{Aborted, Interval, Profiles, is_at_end};
+use crate::search::{Minimum, Noise, Residuals};
 
 /// Result of a fit.
 #[derive(Clone, Debug)]
@@ -44,10 +45,19 @@ pub struct Estimate {
     pub unknown: Unknown,
     /// Value at the minimum of the sum of squares.
     pub value: f64,
-    /// 95 % confidence interval; `None` if the curves do not determine the unknown.
-    pub interval: Option<[f64; 2]>,
-    /// True if the value is at a bound, where the interval is unreliable.
+    /// Ends of the 95 % confidence interval; `None` where it extends to the end of the range.
+    pub interval: [Option<f64>; 2],
+    /// True if the value is at a bound of its range.
     pub at_end: bool,
+    /// Indices of other unknowns that reach their bounds at an end of the interval.
+    pub rests_on: Vec<usize>,
+}
+
+impl Estimate {
+    /// Returns true if the curves exclude no value of the range.
+    pub fn is_undetermined(&self) -> bool {
+        self.interval == [None; 2]
+    }
 }
 
 /// A measured curve and the fitted curve.
@@ -75,6 +85,8 @@ pub struct FittedCurve {
     ///
     /// The model then differs systematically from the skin.
     pub trend: Option<f64>,
+    /// Factor by which this correlation widens the intervals, at least 1.
+    pub widening: f64,
     /// Number of points beyond the end of the fitted path.
     pub beyond: usize,
     /// Number of derivatives from differences of solutions.
@@ -100,6 +112,11 @@ pub enum FitError {
     /// The definition has no unknowns.
     #[error("nothing is sought; add [variables] or offsets to a [[curve]]")]
     NothingSought,
+    /// Profiles have found better minima again and again.
+    #[error(
+        "no lasting minimum was found: the sum of squares is too rough; narrow the ranges of [variables]"
+    )]
+    Unsettled,
     /// No evaluated skin within the ranges can be solved.
     #[error("none of the skins that were tried can be solved; look at one with squama design")]
     Unsolvable,
@@ -113,19 +130,16 @@ const SETTLED: f64 = 1e-3;
 const LEAST_NOISE: f64 = 1e-8;
 /// Singular values below this fraction of the largest are round-off.
 const ROUND_OFF: f64 = 1e-6;
-/// Half-width, as a fraction of the range, above which an unknown is undetermined.
-const AS_WIDE: f64 = 0.5;
+/// Maximum number of fits from better minima that profiles find.
+const RESTARTS: usize = 6;
+/// Correlation of undetermined unknowns of which only a combination is determined.
+const TOGETHER: f64 = 0.9;
 /// Significance limit for the correlation of neighbouring residuals, times √n.
 ///
-/// Independent residuals exceed it in one of 700 curves.
-const BEYOND_CHANCE: f64 = 3.0;
-/// Noise below this fraction of the largest value is not reported as a trend.
+/// Independent residuals exceed it in one of 44 curves.
+const BEYOND_CHANCE: f64 = 2.0;
+/// Noise below this fraction of the size of a curve is not examined for correlation.
 const NEGLIGIBLE: f64 = 1e-4;
-/// Distance at which a value counts as at its bound, as a fraction of the range.
-///
-/// The search keeps its iterates strictly between the bounds.
-const AT_END: f64 = 1e-3;
-
 impl FitDefinition {
     /// Fits the model curves to the measured ones.
     ///
@@ -146,24 +160,19 @@ impl FitDefinition {
         // No measures: only curves are computed.
         let evaluator = Evaluator::new(&[]);
         let mut residuals = Residuals::new(self, &evaluator, (stop, work));
-        let sizes = residuals.noise.clone();
-        let mut shares = residuals.best()?;
-        for _ in 0..ROUNDS {
-            // Alternate: the noise weights the curves, and new unknowns change the noise.
-            let noise = residuals.noise_at(&shares, &sizes)?;
-            let changed = noise
-                .iter()
-                .zip(&residuals.noise)
-                .any(|(new, old)| (new / old - 1.0).abs() > SETTLED);
-            // Store the converged noise, too: the covariance and the report use it.
-            residuals.noise = noise;
-            // The noise of a single curve scales all residuals and does not move the minimum.
-            if !changed || self.curves.len() == 1 {
-                break;
+        let sizes: Vec<_> = residuals.noise.iter().map(|noise| noise.deviation).collect();
+        let mut minimum = residuals.best()?;
+        for _ in 0..RESTARTS {
+            minimum = residuals.weight(minimum, &sizes)?;
+            match residuals.intervals(&minimum) {
+                Ok((intervals, directions)) => {
+                    return residuals.fitted(&minimum.shares, intervals, &directions);
+                }
+                Err(Aborted::Better(start)) => minimum = residuals.improve(start)?,
+                Err(Aborted::Failed(error)) => return Err(error),
             }
-            shares = residuals.minimise(shares)?;
         }
-        residuals.fitted(&shares)
+        Err(FitError::Unsettled)
     }
 }
 
@@ -177,7 +186,57 @@ struct Directions {
     points: DMatrix<f64>,
 }
 
+impl Directions {
+    fn largest(&self) -> f64 {
+        self.values.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// Returns the covariance of the unknowns, in which directions within round-off stay finite.
+    fn covariance(&self) -> DMatrix<f64> {
+        let least = (ROUND_OFF * self.largest()).max(ROUND_OFF);
+        let spread = self.values.iter().map(|size| size.max(least).recip());
+        let mut scaled = self.unknowns.clone();
+        for (mut column, spread) in scaled.column_iter_mut().zip(spread) {
+            column *= spread;
+        }
+        &scaled * scaled.transpose()
+    }
+}
+
 impl Residuals<'_> {
+    /// Alternates between weights from the noise and unknowns, which change the noise.
+    fn weight(&mut self, mut minimum: Minimum, sizes: &[f64]) -> Result<Minimum, FitError> {
+        for _ in 0..ROUNDS {
+            let noise = self.noise_at(&minimum.shares, sizes)?;
+            let pairs = noise.iter().zip(&self.noise);
+            let changes = pairs.map(|(new, old)| (new.scale() / old.scale() - 1.0).abs());
+            let has_changed = changes.fold(0.0, f64::max) > SETTLED;
+            // Store the converged noise, too: the intervals use it.
+            self.noise = noise;
+            // The noise of a single curve scales all residuals and does not move the minimum.
+            if !has_changed || self.noise.len() == 1 {
+                break;
+            }
+            minimum = self.improve(minimum.shares)?;
+        }
+        Ok(Minimum { cost: self.cost(&minimum.shares)?, ..minimum })
+    }
+
+    /// Computes the confidence intervals of all unknowns at a minimum.
+    fn intervals(&self, minimum: &Minimum) -> Result<(Vec<Interval>, Directions), Aborted> {
+        let directions = self.directions(&minimum.shares)?;
+        let covariance = directions.covariance();
+        let curves = self.definition.curves.iter().zip(&self.noise);
+        let independent = curves.map(|(c, noise)| c.measured.points.len() as f64 / noise.widening);
+        let count = minimum.shares.len();
+        let freedom = (independent.sum::<f64>() - count as f64).max(1.0);
+        let t = StudentsT::new(0.0, 1.0, freedom).map_or(f64::NAN, |t| t.inverse_cdf(0.975));
+        let profiles = Profiles { residuals: self, minimum, covariance: &covariance, t };
+        let interval = |j| self.profile(|| profiles.interval(j));
+        let intervals = (0..count).map(interval).collect::<Result<_, _>>()?;
+        Ok((intervals, directions))
+    }
+
     fn directions(&self, shares: &[f64]) -> Result<Directions, FitError> {
         let model = self.solved(shares)?.ok_or(FitError::Unsolvable)?;
         let columns: Vec<f64> = (0..shares.len()).flat_map(|j| self.column(&model, j)).collect();
@@ -195,16 +254,15 @@ impl Residuals<'_> {
     ///
     /// The sum of squares is divided by the number of points minus the degrees of freedom that the
     /// unknowns take from this curve.
-    fn noise_at(&self, shares: &[f64], sizes: &[f64]) -> Result<Vec<f64>, FitError> {
+    fn noise_at(&self, shares: &[f64], sizes: &[f64]) -> Result<Vec<Noise>, FitError> {
         let directions = self.directions(shares)?;
         let model = self.solved(shares)?.ok_or(FitError::Unsolvable)?;
-        let largest = directions.values.iter().copied().fold(0.0, f64::max);
+        let least = ROUND_OFF * directions.largest();
         let mut first = 0;
         let noise = self.of_curves(&model).into_iter().zip(sizes).map(|(residuals, size)| {
             let rows = first..first + residuals.len();
             first = rows.end;
-            let determined =
-                directions.values.iter().enumerate().filter(|(_, s)| **s > ROUND_OFF * largest);
+            let determined = directions.values.iter().enumerate().filter(|(_, s)| **s > least);
             let taken: f64 = determined
                 .flat_map(|(k, _)| rows.clone().map(move |i| (i, k)))
                 .map(|at| directions.points[at].powi(2))
@@ -212,67 +270,59 @@ impl Residuals<'_> {
             let squares: f64 = residuals.iter().map(|r| r * r).sum();
             // At least 1: an offset may fit a short curve exactly.
             let freedom = (residuals.len() as f64 - taken).max(1.0);
-            (squares / freedom).sqrt().max(LEAST_NOISE * size)
+            let deviation = (squares / freedom).sqrt();
+            // Errors of the solver have a trend, too, if the curve has no noise.
+            let trend = trend(&residuals).filter(|_| deviation > NEGLIGIBLE * size);
+            let widening = trend
+                .map_or(1.0, |trend| ((1.0 + trend) / (1.0 - trend)).min(residuals.len() as f64));
+            Noise { deviation: deviation.max(LEAST_NOISE * size), trend, widening }
         });
         Ok(noise.collect())
     }
 
-    fn fitted(&self, shares: &[f64]) -> Result<Fitted, FitError> {
+    fn fitted(
+        &self,
+        shares: &[f64],
+        intervals: Vec<Interval>,
+        directions: &Directions,
+    ) -> Result<Fitted, FitError> {
         let definition = self.definition;
-        let count = shares.len();
-        let Directions { values: sizes, unknowns: directions, points } = self.directions(shares)?;
-        // Positive, because `fit` requires more points than unknowns.
-        let freedom = (points.nrows() - count) as f64;
-        let t = StudentsT::new(0.0, 1.0, freedom).map_or(f64::NAN, |t| t.inverse_cdf(0.975));
-        let largest = sizes.iter().copied().fold(0.0, f64::max);
-        // A lower bound keeps the intervals of directions within round-off wide, but finite.
-        let least = (ROUND_OFF * largest).max(ROUND_OFF);
-        // Includes `t`, so that square roots of variances are half-widths of intervals.
-        // Correlations do not change.
-        let spread: Vec<_> = sizes.iter().map(|size| t / size.max(least)).collect();
-        let covariance = |i: usize, j: usize| -> f64 {
-            (0..count).map(|k| directions[(i, k)] * directions[(j, k)] * spread[k].powi(2)).sum()
-        };
-        let mixed = |k: usize| -> Vec<usize> {
-            (0..count).filter(|&j| directions[(j, k)].abs() * spread[k] > AS_WIDE).collect()
-        };
-        let mut undetermined: Vec<Vec<usize>> = Vec::new();
-        // Several directions may contain the same unknowns.
-        for group in (0..count).map(mixed) {
-            if !group.is_empty() && !undetermined.contains(&group) {
-                undetermined.push(group);
-            }
-        }
-        let is_undetermined = |j: usize| covariance(j, j).sqrt() > AS_WIDE;
-        let values = self.values(shares);
-        let estimate = |(j, unknown): (usize, &Unknown)| {
-            let half = covariance(j, j).sqrt() * (unknown.to - unknown.from);
-            let at_end = shares[j] < AT_END || shares[j] > 1.0 - AT_END;
-            let interval = [unknown.at_least_allowed(values[j] - half), values[j] + half];
-            let interval = (!is_undetermined(j)).then_some(interval);
-            Estimate { unknown: unknown.clone(), value: values[j], interval, at_end }
-        };
+        let unknowns = definition.unknowns.iter();
+        let scaled =
+            |unknown: &Unknown, share: f64| unknown.from + share * (unknown.to - unknown.from);
+        let estimates: Vec<_> = unknowns
+            .zip(shares)
+            .zip(intervals)
+            .map(|((unknown, &share), interval)| Estimate {
+                value: scaled(unknown, share),
+                interval: interval.ends.map(|end| end.map(|end| scaled(unknown, end))),
+                at_end: is_at_end(share),
+                rests_on: interval.rests_on,
+                unknown: unknown.clone(),
+            })
+            .collect();
+        let covariance = directions.covariance();
         let correlation = |i: usize, j: usize| {
-            let size = (covariance(i, i) * covariance(j, j)).sqrt();
-            if size == 0.0 { f64::from(i == j) } else { covariance(i, j) / size }
+            covariance[(i, j)] / (covariance[(i, i)] * covariance[(j, j)]).sqrt()
         };
-        let case = definition.case(None, &values);
+        let count = shares.len();
+        let correlations: Vec<Vec<f64>> =
+            (0..count).map(|i| (0..count).map(|j| correlation(i, j)).collect()).collect();
+        let case = definition.case(None, &self.values(shares));
         Ok(Fitted {
-            estimates: definition.unknowns.iter().enumerate().map(estimate).collect(),
-            correlations: (0..count)
-                .map(|i| (0..count).map(|j| correlation(i, j)).collect())
-                .collect(),
+            undetermined: undetermined(&estimates, &correlations),
+            estimates,
+            correlations,
             curves: self.curves(shares)?,
             solutions: self.solutions(),
             sweep: definition.sweep.at(&case),
-            undetermined,
         })
     }
 
     fn curves(&self, shares: &[f64]) -> Result<Vec<FittedCurve>, FitError> {
         let model = self.solved(shares)?.ok_or(FitError::Unsolvable)?;
         let curves = self.definition.curves.iter().zip(&*model).zip(&self.noise);
-        let curve = |((curve, model), noise): ((&TestCurve, &ModelCurve), &f64)| {
+        let curve = |((curve, model), noise): ((&TestCurve, &ModelCurve), &Noise)| {
             let measured = &curve.measured;
             let points = measured.points.iter().zip(&model.values);
             let axes = measured.test.axes().map(|(axis, unit)| {
@@ -288,9 +338,10 @@ impl Residuals<'_> {
                 reversed: measured.reversed,
                 ending: curve.ending,
                 is_turned: model.before == points.len() || points.iter().all(|p| p[1] <= 0.0),
-                trend: trend(&points, *noise),
                 points,
-                noise: *noise,
+                noise: noise.deviation,
+                trend: noise.trend,
+                widening: noise.widening.sqrt(),
                 beyond: model.beyond,
                 differenced: model.differenced,
             }
@@ -299,14 +350,31 @@ impl Residuals<'_> {
     }
 }
 
+/// Returns the groups of unknowns of which the curves determine only combinations.
+///
+/// A group contains an undetermined unknown, and those that are strongly correlated with it and
+/// have no interval either, or one that rests on its range.
+fn undetermined(estimates: &[Estimate], correlations: &[Vec<f64>]) -> Vec<Vec<usize>> {
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    for j in (0..estimates.len()).filter(|j| estimates[*j].is_undetermined()) {
+        let is_with = |i: &usize| {
+            let other = &estimates[*i];
+            let is_open = other.is_undetermined() || other.rests_on.contains(&j);
+            *i == j || (is_open && correlations[*i][j].abs() > TOGETHER)
+        };
+        let group: Vec<_> = (0..estimates.len()).filter(is_with).collect();
+        if !groups.contains(&group) {
+            groups.push(group);
+        }
+    }
+    groups
+}
+
 /// Returns the correlation of neighbouring residuals, if it is significant.
-fn trend(points: &[[f64; 3]], noise: f64) -> Option<f64> {
-    let residuals: Vec<_> = points.iter().map(|[_, measured, fitted]| measured - fitted).collect();
-    let largest = points.iter().map(|point| point[1].abs()).fold(0.0, f64::max);
+fn trend(residuals: &[f64]) -> Option<f64> {
     let squares: f64 = residuals.iter().map(|r| r * r).sum();
     let products: f64 = residuals.windows(2).map(|r| r[0] * r[1]).sum();
     let correlation = products / squares;
-    let chance = BEYOND_CHANCE / (points.len() as f64).sqrt();
-    // Errors of the solver have a trend, too, if the curve has no noise.
-    (noise > NEGLIGIBLE * largest && correlation > chance).then_some(correlation)
+    let chance = BEYOND_CHANCE / (residuals.len() as f64).sqrt();
+    (correlation > chance).then_some(correlation)
 }

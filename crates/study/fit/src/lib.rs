@@ -4,6 +4,7 @@ mod definition;
 mod fit_result;
 mod measured_curve;
 mod model;
+mod profile;
 mod search;
 
 pub use definition::{FitDefinition, InvalidFit, Unknown};

@@ -236,7 +236,7 @@ impl MeasuredCurve {
 
     /// Returns the range in which the offset of an axis is searched.
     ///
-    /// A displacement offset is also searched near the end of a long approach without force.
+    /// A displacement offset is also searched up to the end of a long approach without force.
     pub(crate) fn offset_range(&self, axis: usize) -> [f64; 2] {
         let largest = |axis: usize| {
             // A curve of zeros also needs bounds that differ.
@@ -247,7 +247,9 @@ impl MeasuredCurve {
         let force = TOUCHING * largest(1);
         let touching = self.points.iter().find(|point| point[1].abs() > force);
         match touching {
-            Some([x, _]) if axis == 0 && x.abs() > to => [x - to, x + 0.1 * to],
+            // The force may begin anywhere before, or rise slowly from the beginning.
+            Some([x, _]) if axis == 0 && *x > to => [-to, x + 0.1 * to],
+            Some([x, _]) if axis == 0 && *x < -to => [x - 0.1 * to, to],
             _ => [-to, to],
         }
     }

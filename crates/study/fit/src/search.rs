@@ -25,6 +25,8 @@ const MOST_STEPS: u64 = 60;
 
 /// Expected number of solutions of a local search, to predict the remaining work.
 const EXPECTED: u64 = 12;
+/// Expected number of solutions of a profile.
+const EXPECTED_PROFILE: u64 = 60;
 
 /// Residual of a skin that cannot be solved.
 ///
@@ -40,6 +42,8 @@ const FLAT: f64 = 1e-7;
 ///
 /// The unknowns then change by some `1e-4` of their confidence intervals.
 const CHANGED: f64 = 1e-9;
+/// Relative change at convergence of the points of a profile, which only locate its ends.
+const CHANGED_IN_PROFILE: f64 = 1e-5;
 
 /// Residuals of all curves, divided by the noise.
 ///
@@ -47,17 +51,35 @@ const CHANGED: f64 = 1e-9;
 pub(crate) struct Residuals<'a> {
     pub(crate) definition: &'a FitDefinition,
     pub(crate) evaluator: &'a Evaluator,
-    /// Standard deviation of the noise of each curve.
-    pub(crate) noise: Vec<f64>,
+    pub(crate) noise: Vec<Noise>,
     pub(crate) stop: &'a AtomicBool,
-    lower: Vec<f64>,
-    upper: Vec<f64>,
     /// Last solution. Its derivatives are usually requested next.
     last: RefCell<Option<(Vec<f64>, Solved)>>,
     solutions: RefCell<usize>,
     work: &'a WorkMeter,
-    /// Progress of the current local search.
+    /// Progress of the current search or profile.
     piece: RefCell<Option<WorkPiece<'a>>>,
+}
+
+/// Noise of a curve.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Noise {
+    /// Standard deviation of the residuals.
+    pub(crate) deviation: f64,
+    /// Correlation of neighbouring residuals, if it is significant.
+    pub(crate) trend: Option<f64>,
+    /// Number of points for each independent one: `(1 + ρ)/(1 − ρ)` for a correlation `ρ`.
+    pub(crate) widening: f64,
+}
+
+impl Noise {
+    /// Returns the deviation by which residuals are divided.
+    ///
+    /// The mean of `n` correlated residuals varies as the mean of `n` over `widening` independent
+    /// ones.
+    pub(crate) fn scale(&self) -> f64 {
+        self.deviation * self.widening.sqrt()
+    }
 }
 
 /// Curves of the model; `None` if a path cannot be solved.
@@ -72,21 +94,21 @@ impl<'a> Residuals<'a> {
         let count = definition.unknowns.len();
         // With several curves, estimating the noise takes about three more searches.
         let improved = IMPROVED + if definition.curves.len() > 1 { 3 } else { 0 };
-        work.begin((STARTS * count + 1) as u64 + EXPECTED * improved as u64);
+        let profiles = EXPECTED_PROFILE * count as u64;
+        work.begin((STARTS * count + 1) as u64 + EXPECTED * improved as u64 + profiles);
         // Weight curves by their size until their noise is known, because newtons and newton
         // millimetres cannot be compared.
         let noise = definition.curves.iter().map(|curve| {
             let points = &curve.measured.points;
             let squares: f64 = points.iter().map(|point| point[1].powi(2)).sum();
-            (squares / points.len() as f64).sqrt().max(f64::MIN_POSITIVE)
+            let deviation = (squares / points.len() as f64).sqrt().max(f64::MIN_POSITIVE);
+            Noise { deviation, trend: None, widening: 1.0 }
         });
         Self {
             definition,
             evaluator,
             noise: noise.collect(),
             stop,
-            lower: vec![0.0; count],
-            upper: vec![1.0; count],
             last: RefCell::default(),
             solutions: RefCell::default(),
             work,
@@ -146,7 +168,7 @@ impl<'a> Residuals<'a> {
             return Ok(vec![UNSOLVABLE; points.sum()]);
         };
         let curves = self.of_curves(&model).into_iter().zip(&self.noise);
-        Ok(curves.flat_map(|(of, noise)| of.into_iter().map(move |r| r / noise)).collect())
+        Ok(curves.flat_map(|(of, noise)| of.into_iter().map(move |r| r / noise.scale())).collect())
     }
 
     /// Returns one column of the Jacobian of the weighted residuals.
@@ -155,45 +177,104 @@ impl<'a> Residuals<'a> {
         let range = definition.unknowns[unknown].to - definition.unknowns[unknown].from;
         let curves = model.iter().zip(noise);
         curves
-            .flat_map(|(m, noise)| m.rates[unknown].iter().map(move |r| r * range / noise))
+            .flat_map(|(m, noise)| m.rates[unknown].iter().map(move |r| r * range / noise.scale()))
             .collect()
     }
 
-    /// Searches for a local minimum from `start` and returns its scaled unknowns.
-    pub(crate) fn minimise(&self, start: Vec<f64>) -> Result<Vec<f64>, FitError> {
+    /// Returns the sum of the weighted squares.
+    pub(crate) fn cost(&self, shares: &[f64]) -> Result<f64, FitError> {
+        Ok(self.weighted(shares)?.iter().map(|r| r * r).sum())
+    }
+
+    /// Searches for a local minimum from `start`.
+    pub(crate) fn improve(&self, start: Vec<f64>) -> Result<Minimum, FitError> {
+        self.with_progress(EXPECTED, || self.minimise(start, None))
+    }
+
+    /// Runs a part of the work with its progress.
+    pub(crate) fn profile<T>(&self, work: impl FnOnce() -> T) -> T {
+        self.with_progress(EXPECTED_PROFILE, work)
+    }
+
+    fn with_progress<T>(&self, expected: u64, work: impl FnOnce() -> T) -> T {
+        *self.piece.borrow_mut() = Some(WorkPiece::new(self.work, expected));
+        let found = work();
+        *self.piece.borrow_mut() = None;
+        found
+    }
+
+    /// Searches for a local minimum from `start`, with one unknown `fixed` at its value there.
+    pub(crate) fn minimise(
+        &self,
+        start: Vec<f64>,
+        fixed: Option<usize>,
+    ) -> Result<Minimum, FitError> {
+        let mut free = start.clone();
+        let fixed = fixed.map(|j| (j, free.remove(j)));
+        if free.is_empty() {
+            return Ok(Minimum { cost: self.cost(&start)?, shares: start });
+        }
+        let (lower, upper) = (vec![0.0; free.len()], vec![1.0; free.len()]);
+        let slice = Slice { residuals: self, fixed, lower, upper };
+        let changed = if fixed.is_some() { CHANGED_IN_PROFILE } else { CHANGED };
         let solver = BoundedLevenbergMarquardt::new()
             .with_absolute_scaled_gradient_tolerance(FLAT)
-            .with_relative_cost_change_tolerance(CHANGED);
-        let search = Executor::new(self, solver, PointState::new(start)).max_iter(MOST_STEPS);
-        *self.piece.borrow_mut() = Some(WorkPiece::new(self.work, EXPECTED));
-        let found = search.run();
-        *self.piece.borrow_mut() = None;
-        match found {
-            Ok(found) => Ok(found.param().clone()),
+            .with_relative_cost_change_tolerance(changed);
+        match Executor::new(&slice, solver, PointState::new(free)).max_iter(MOST_STEPS).run() {
+            Ok(found) => {
+                let shares = slice.all(found.param());
+                Ok(Minimum { cost: self.cost(&shares)?, shares })
+            }
             Err(ConstraintSolveError::Evaluation(stopped)) => Err(stopped),
             // The bounds are always 0 and 1.
             Err(_) => unreachable!("bounds in order"),
         }
     }
 
-    /// Returns the scaled unknowns at the best of several local minima.
+    /// Returns the best of several local minima.
     ///
     /// Local searches start at the best points of a space-filling sample. Several are needed: where
     /// the contact state changes, the sum of squares has kinks, and local minima next to them.
-    pub(crate) fn best(&self) -> Result<Vec<f64>, FitError> {
-        let count = self.lower.len();
-        let cost = |shares: &[f64]| -> Result<f64, FitError> {
-            Ok(self.weighted(shares)?.iter().map(|r| r * r).sum())
-        };
-        let filling = (0..=STARTS * count).map(|k| filling(k, count));
-        let with_cost = |shares: Vec<f64>| Ok((cost(&shares)?, shares));
-        let mut starts = filling.map(with_cost).collect::<Result<Vec<_>, FitError>>()?;
+    pub(crate) fn best(&self) -> Result<Minimum, FitError> {
+        let count = self.definition.unknowns.len();
+        let mut starts = (0..=STARTS * count)
+            .map(|k| filling(k, count))
+            .map(|shares| Ok((self.cost(&shares)?, shares)))
+            .collect::<Result<Vec<_>, FitError>>()?;
         starts.sort_by(|a, b| a.0.total_cmp(&b.0));
         starts.truncate(IMPROVED);
-        let improved = starts.into_iter().map(|(_, start)| with_cost(self.minimise(start)?));
+        let improved = starts.into_iter().map(|(_, start)| self.improve(start));
         let improved = improved.collect::<Result<Vec<_>, FitError>>()?;
-        let best = improved.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
-        Ok(best.map_or_else(Vec::new, |(_, shares)| shares))
+        let best = improved.into_iter().min_by(|a, b| a.cost.total_cmp(&b.cost));
+        best.ok_or(FitError::NothingSought)
+    }
+}
+
+/// A local minimum.
+#[derive(Clone, Debug)]
+pub(crate) struct Minimum {
+    /// Sum of the weighted squares.
+    pub(crate) cost: f64,
+    /// Scaled unknowns.
+    pub(crate) shares: Vec<f64>,
+}
+
+/// Residuals over all unknowns, or all but one that is fixed.
+struct Slice<'r, 'a> {
+    residuals: &'r Residuals<'a>,
+    fixed: Option<(usize, f64)>,
+    lower: Vec<f64>,
+    upper: Vec<f64>,
+}
+
+impl Slice<'_, '_> {
+    /// Returns all unknowns for given free ones.
+    fn all(&self, free: &[f64]) -> Vec<f64> {
+        let mut all = free.to_vec();
+        if let Some((j, value)) = self.fixed {
+            all.insert(j, value);
+        }
+        all
     }
 }
 
@@ -206,34 +287,38 @@ fn filling(k: usize, count: usize) -> Vec<f64> {
     (0..count).map(share).collect()
 }
 
-impl Residual for &Residuals<'_> {
+impl Residual for &Slice<'_, '_> {
     type Param = Vec<f64>;
     type Output = Vec<f64>;
     type Error = FitError;
 
-    fn residual(&self, shares: &Vec<f64>) -> Result<Vec<f64>, FitError> {
-        self.weighted(shares)
+    fn residual(&self, free: &Vec<f64>) -> Result<Vec<f64>, FitError> {
+        self.residuals.weighted(&self.all(free))
     }
 }
 
-impl Jacobian for &Residuals<'_> {
+impl Jacobian for &Slice<'_, '_> {
     type Jacobian = DenseMatrix;
 
-    fn jacobian(&self, shares: &Vec<f64>) -> Result<DenseMatrix, FitError> {
-        let points = self.definition.curves.iter().map(|curve| curve.measured.points.len()).sum();
-        let count = shares.len();
-        let columns: Vec<_> = match self.solved(shares)? {
-            Some(model) => (0..count).map(|j| self.column(&model, j)).collect(),
+    fn jacobian(&self, free: &Vec<f64>) -> Result<DenseMatrix, FitError> {
+        let Residuals { definition, .. } = self.residuals;
+        let points = definition.curves.iter().map(|curve| curve.measured.points.len()).sum();
+        let is_free = |j: &usize| self.fixed.is_none_or(|(fixed, _)| *j != fixed);
+        let columns: Vec<_> = match self.residuals.solved(&self.all(free))? {
+            Some(model) => (0..definition.unknowns.len())
+                .filter(is_free)
+                .map(|j| self.residuals.column(&model, j))
+                .collect(),
             // A zero gradient ends the search. Only starts can be unsolvable: the solver takes no
             // step to a worse point.
-            None => vec![vec![0.0; points]; count],
+            None => vec![vec![0.0; points]; free.len()],
         };
         let rows = (0..points).flat_map(|i| columns.iter().map(move |column| column[i]));
-        Ok(DenseMatrix::from_row_slice(points, count, &rows.collect::<Vec<_>>()))
+        Ok(DenseMatrix::from_row_slice(points, free.len(), &rows.collect::<Vec<_>>()))
     }
 }
 
-impl Constraints for &Residuals<'_> {
+impl Constraints for &Slice<'_, '_> {
     type Set = ConstraintSet<BoxBounds<Vec<f64>>>;
 
     fn constraints(&self) -> <Self::Set as ConstraintDescription>::Borrowed<'_> {

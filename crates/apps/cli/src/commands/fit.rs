@@ -94,9 +94,8 @@ pub fn fit(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     write(&folder, &fitted)?;
     let (record, text) = (|| record(&fitted), || text(&fitted));
     json::answer(arguments.solving.json, record, text, (folder.path(), &FILES))?;
-    // A value without an interval is not determined by the data.
-    let is_told = fitted.estimates.iter().all(|estimate| estimate.interval.is_some());
-    Ok(if is_told { DONE } else { INCOMPLETE })
+    let is_determined = !fitted.estimates.iter().any(Estimate::is_undetermined);
+    Ok(if is_determined { DONE } else { INCOMPLETE })
 }
 
 fn write(folder: &ResultsFolder, fitted: &Fitted) -> anyhow::Result<()> {
@@ -125,8 +124,8 @@ pub(super) static ESTIMATES: &[Column<Estimate>] = &columns! { Estimate:
     "sought", "-", |e| e.unknown.name.clone(), "key of a parameter, or offset of a curve";
     "unit", "-", |e| e.unknown.unit, "its unit";
     "value", AS_SOUGHT, |e| e.value, "value with the least squares";
-    "low", AS_SOUGHT, |e| e.interval.map(|i| i[0]), "lower end of the 95 % confidence interval";
-    "high", AS_SOUGHT, |e| e.interval.map(|i| i[1]), "upper end of it";
+    "low", AS_SOUGHT, |e| e.interval[0], "lower end of the 95 % confidence interval; empty if it is open";
+    "high", AS_SOUGHT, |e| e.interval[1], "upper end of it";
     "from", AS_SOUGHT, |e| e.unknown.from, "least value that was tried";
     "to", AS_SOUGHT, |e| e.unknown.to, "largest value that was tried";
 };
@@ -157,10 +156,13 @@ fn text(fitted: &Fitted) -> String {
     );
     let header = ["", "value", "", "95 % interval"].map(str::to_owned);
     let rows = estimates.iter().map(|estimate| {
-        let Estimate { unknown, value, interval, at_end } = estimate;
-        let interval = interval.map_or("undetermined".to_owned(), |[low, high]| {
-            format!("{} to {}", digits(low), digits(high))
-        });
+        let Estimate { unknown, value, interval, at_end, .. } = estimate;
+        let interval = match interval.map(|end| end.map(digits)) {
+            [Some(low), Some(high)] => format!("{low} to {high}"),
+            [Some(low), None] => format!("at least {low}"),
+            [None, Some(high)] => format!("at most {high}"),
+            [None, None] => "undetermined".to_owned(),
+        };
         let end = if *at_end {
             format!("  (!) at a bound of its range: widen {}", unknown.key())
         } else {
@@ -175,7 +177,7 @@ fn text(fitted: &Fitted) -> String {
         let _ = match group.as_slice() {
             [one] => writeln!(
                 text,
-                "  (!) The data do not determine {}: its interval is wider than its range",
+                "  (!) The data do not determine {}: they exclude no value of its range",
                 name(one)
             ),
             several => {
@@ -187,6 +189,15 @@ fn text(fitted: &Fitted) -> String {
                 )
             }
         };
+    }
+    for Estimate { unknown, rests_on, .. } in estimates.iter().filter(|e| !e.rests_on.is_empty()) {
+        let others: Vec<_> = rests_on.iter().map(name).collect();
+        let _ = writeln!(
+            text,
+            "  The interval of {} depends on the range of {}",
+            unknown.name,
+            others.join(" and ")
+        );
     }
     for (i, row) in fitted.correlations.iter().enumerate() {
         for (j, correlation) in
@@ -243,7 +254,8 @@ fn remarks(curve: &FittedCurve) -> String {
             format!("{points} beyond the end of the fitted curve, where the scale has tilted; leave them out with to = …")
         }),
         curve.trend.map(|trend| {
-            format!("the residuals are correlated ({trend:.2}): the model does not describe this skin, and the intervals are too narrow; see residuals.svg")
+            let factor = curve.widening;
+            format!("neighbouring residuals are correlated ({trend:.2}): the model may lack an effect; the intervals are {factor:.1} times as wide as for independent residuals; see residuals.svg")
         }),
     ];
     let notes = [
@@ -269,11 +281,11 @@ fn remarks(curve: &FittedCurve) -> String {
 }
 
 fn record(fitted: &Fitted) -> Value {
-    let estimate = |e: &Estimate| json!({ "sought": e.unknown.name, "unit": e.unknown.unit, "value": e.value, "interval": e.interval, "at_end": e.at_end });
-    let curve = |c: &FittedCurve| json!({ "file": c.file, "points": c.points.len(), "left_out": c.left_out, "reversed": c.reversed, "loading_ends_at_line": c.ending.map(|e| e.line), "noise": c.noise, "trend": c.trend, "beyond": c.beyond, "differenced": c.differenced });
     let names = |group: &Vec<usize>| {
         group.iter().map(|&j| &fitted.estimates[j].unknown.name).collect::<Vec<_>>()
     };
+    let estimate = |e: &Estimate| json!({ "sought": e.unknown.name, "unit": e.unknown.unit, "value": e.value, "interval": e.interval, "at_end": e.at_end, "depends_on_range_of": names(&e.rests_on) });
+    let curve = |c: &FittedCurve| json!({ "file": c.file, "points": c.points.len(), "left_out": c.left_out, "reversed": c.reversed, "loading_ends_at_line": c.ending.map(|e| e.line), "noise": c.noise, "trend": c.trend, "widening": c.widening, "beyond": c.beyond, "differenced": c.differenced });
     json!({
         "name": fitted.sweep.name(),
         "estimates": fitted.estimates.iter().map(estimate).collect::<Vec<_>>(),

@@ -66,6 +66,8 @@ fn the_fit_of_the_example_writes_a_valid_definition() {
     for word in ["palm-test: 4 unknowns from 120 points of 3 curves", "95 % interval", "noise"] {
         assert!(text.contains(word), "{text}");
     }
+    // No estimate is at a bound, undetermined, or worse than the noise.
+    assert!(!text.contains("(!)"), "{text}");
     assert_eq!(place.list("f"), "derived fit.csv fitted.toml residuals.csv residuals.svg");
     let table = place.read("f/fit.csv");
     let truth = [0.5, 4.5, 0.3, 0.05];
@@ -119,8 +121,9 @@ fn doubtful_fits_are_reported() {
     assert!(text.contains("a.csv: 1 line outside the table of numbers left out: 32\n"), "{text}");
     let wave = (1..60).map(|k| format!("{k},{}", 2 * k + 20 * (k / 10 % 2)));
     let wave = wave.collect::<Vec<_>>().join("\n");
-    let text = fitted(&format!("displacement_um,force_mN\n{wave}"), 0);
-    assert!(text.contains("(!) a.csv: the residuals are correlated (0."), "{text}");
+    // So few residuals are independent that the curve excludes no modulus.
+    let text = fitted(&format!("displacement_um,force_mN\n{wave}"), 1);
+    assert!(text.contains("(!) a.csv: neighbouring residuals are correlated (0."), "{text}");
     let text = fitted("displacement,force\n0.1,0.2\n0.2,0.4\n0.3,0.6\n", 1);
     assert!(text.contains("displacement and force have no units in the file"), "{text}");
 }

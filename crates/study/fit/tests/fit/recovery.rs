@@ -1,10 +1,9 @@
 //! Fits recover the parameters of synthetic curves, within the reported intervals.
 
-use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use std::time::{Duration, Instant};
+use std::ops::Range;
 
-use fit::{Estimate, Fitted};
+use fit::Fitted;
 use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha12Rng;
 use rayon::prelude::*;
@@ -23,95 +22,129 @@ const PUNCTURE: SyntheticCurve<'_> = SyntheticCurve {
     file: "a.csv",
     bending: false,
     to: 0.5,
-    points: 40,
+    points: 60,
     noise: 0.0,
+    correlation: 0.0,
     seed: 1,
     offsets: [0.0; 2],
 };
 
-/// Returns the definition of printed scales on foam under a guided needle.
-fn skin(gap: f64, length: f64, slant: f64) -> String {
+const STRIP: SyntheticCurve<'_> =
+    SyntheticCurve { file: "c.csv", bending: true, to: 0.03, points: 60, seed: 3, ..PUNCTURE };
+
+/// Returns a definition of printed scales on foam.
+fn scales(gap: f64, length: f64, slant: f64) -> String {
     format!(
-        "name = 'palm'\ndesigns.gap_over_t = {gap}\ndesigns.length_over_t = {length}\ndesigns.slant_deg = {slant}\n\
-         puncture.needle = 'guided'\npuncture.load_inset_over_t = 0.05\nmaterial.thickness_mm = 2\n"
+        "name = 'palm'\ndesigns.gap_over_t = {gap}\ndesigns.length_over_t = {length}\n\
+         designs.slant_deg = {slant}\nmaterial.thickness_mm = 2\n"
     )
 }
 
-/// Fits the foam modulus and the needle friction to one puncture curve.
-fn modulus_and_needle_friction(random: &mut ChaCha12Rng) -> Trial {
-    let (modulus, friction) = (random.random_range(0.2..1.0), random.random_range(0.15..0.5));
-    let skin = skin(0.2, 0.8, 60.0);
-    Trial {
-        sought: format!(
-            "{skin}[variables]\nsubstrate_modulus_MPa = {{ from = 0.05, to = 2 }}\nneedle_friction = {{ from = 0.02, to = 0.9 }}\n"
-        ),
-        skin: format!(
-            "{skin}material.substrate_modulus_MPa = {modulus}\npuncture.needle_friction = {friction}\n"
-        ),
-        curves: vec![(PUNCTURE, "")],
-        truth: vec![modulus, friction],
+/// Returns a definition of printed scales under a guided needle.
+fn skin(gap: f64, length: f64, slant: f64) -> String {
+    scales(gap, length, slant) + "puncture.needle = 'guided'\npuncture.load_inset_over_t = 0.05\n"
+}
+
+/// Unknown parameter: its key, the range of its true values, and the range of the fit.
+type Sought = (&'static str, Range<f64>, [f64; 2]);
+
+const MODULUS: Sought = ("material.substrate_modulus_MPa", 0.2..1.0, [0.05, 2.0]);
+
+impl Trial {
+    /// Draws true values of the unknowns.
+    fn new(
+        random: &mut ChaCha12Rng,
+        shared: &str,
+        unknowns: &[Sought],
+        curves: &[(SyntheticCurve<'static>, &'static str)],
+    ) -> Self {
+        let (mut skin, mut sought, mut truth) = (String::new(), String::new(), Vec::new());
+        for (key, values, [from, to]) in unknowns {
+            let value = random.random_range(values.clone());
+            let name = key.split('.').next_back().unwrap_or(key);
+            writeln!(skin, "{key} = {value}").expect("a text");
+            writeln!(sought, "{name} = {{ from = {from}, to = {to} }}").expect("a text");
+            truth.push(value);
+        }
+        Self {
+            skin: format!("{shared}{skin}"),
+            sought: format!("{shared}[variables]\n{sought}"),
+            curves: curves.to_vec(),
+            truth,
+        }
     }
+}
+
+fn modulus_alone(random: &mut ChaCha12Rng) -> Trial {
+    let shared = skin(0.2, 0.8, 60.0) + "puncture.needle_friction = 0.3\n";
+    Trial::new(random, &shared, &[MODULUS], &[(PUNCTURE, "")])
+}
+
+/// Many of these gaps close only after the end of the curve.
+fn modulus_and_gap(random: &mut ChaCha12Rng) -> Trial {
+    let shared = skin(0.2, 0.8, 45.0) + "puncture.needle_friction = 0.3\n";
+    let shared = shared.replace("designs.gap_over_t = 0.2\n", "");
+    let gap = ("designs.gap_over_t", 0.1..0.8, [0.05, 2.0]);
+    Trial::new(random, &shared, &[MODULUS, gap], &[(PUNCTURE, "")])
+}
+
+fn modulus_and_needle_radius(random: &mut ChaCha12Rng) -> Trial {
+    let shared = skin(0.2, 0.8, 45.0) + "puncture.needle_friction = 0.3\n";
+    let radius = ("puncture.needle_radius_over_t", 0.05..1.0, [0.02, 2.0]);
+    Trial::new(random, &shared, &[MODULUS, radius], &[(PUNCTURE, "")])
+}
+
+fn modulus_and_needle_friction(random: &mut ChaCha12Rng) -> Trial {
+    let friction = ("puncture.needle_friction", 0.15..0.5, [0.02, 0.9]);
+    Trial::new(random, &skin(0.2, 0.8, 60.0), &[MODULUS, friction], &[(PUNCTURE, "")])
+}
+
+fn modulus_and_tissue_thickness(random: &mut ChaCha12Rng) -> Trial {
+    let shared = skin(0.3, 0.8, 45.0) + "puncture.needle_friction = 0.3\n";
+    let thickness = ("substrate.tissue_thickness_over_t", 1.0..6.0, [0.5, 12.0]);
+    Trial::new(random, &shared, &[MODULUS, thickness], &[(PUNCTURE, "")])
+}
+
+/// Contact distinguishes the thickness of the membrane from its modulus.
+fn modulus_and_membrane_thickness(random: &mut ChaCha12Rng) -> Trial {
+    let modulus = ("material.membrane_modulus_MPa", 2.0..8.0, [0.5, 20.0]);
+    let thickness = ("flexure.membrane_thickness_over_t", 0.06..0.25, [0.03, 0.5]);
+    let strip = SyntheticCurve { to: 0.04, ..STRIP };
+    Trial::new(random, &scales(0.2, 1.0, 60.0), &[modulus, thickness], &[(strip, "")])
 }
 
 /// Fits both moduli and a displacement offset to two punctures and a bending test.
 fn both_moduli_and_an_offset(random: &mut ChaCha12Rng) -> Trial {
-    let (modulus, membrane) = (random.random_range(0.2..1.0), random.random_range(2.0..8.0));
+    let shared = skin(0.2, 1.0, 45.0) + "puncture.needle_friction = 0.3\n";
+    let membrane = ("material.membrane_modulus_MPa", 2.0..8.0, [0.5, 20.0]);
     let offset = random.random_range(-0.05..0.08);
-    let skin = |gap| format!("{}puncture.needle_friction = 0.3\n", skin(gap, 1.0, 45.0));
-    let known = format!(
-        "material.substrate_modulus_MPa = {modulus}\nmaterial.membrane_modulus_MPa = {membrane}\n"
-    );
     let second =
         SyntheticCurve { file: "b.csv", to: 0.6, offsets: [offset, 0.0], seed: 2, ..PUNCTURE };
-    let strip =
-        SyntheticCurve { file: "c.csv", bending: true, to: 0.03, points: 25, seed: 3, ..PUNCTURE };
-    Trial {
-        sought: format!(
-            "{}[variables]\nsubstrate_modulus_MPa = {{ from = 0.05, to = 2 }}\nmembrane_modulus_MPa = {{ from = 0.5, to = 20 }}\n",
-            skin(0.2)
-        ),
-        skin: format!("{}{known}", skin(0.2)),
-        curves: vec![
-            (PUNCTURE, ""),
-            (second, "gap_over_t = 0.4\noffsets = ['displacement']\n"),
-            (strip, ""),
-        ],
-        truth: vec![modulus, membrane, offset],
-    }
+    let curves =
+        [(PUNCTURE, ""), (second, "gap_over_t = 0.4\noffsets = ['displacement']\n"), (STRIP, "")];
+    let mut trial = Trial::new(random, &shared, &[MODULUS, membrane], &curves);
+    trial.truth.push(offset);
+    trial
 }
 
-/// Fits the modulus and the position of a free load.
-fn modulus_and_place(random: &mut ChaCha12Rng) -> Trial {
-    let (modulus, place) = (random.random_range(0.2..1.0), random.random_range(0.7..0.95));
-    let shared = "name = 'place'\ndesigns.gap_over_t = 0.3\ndesigns.length_over_t = 0.6\ndesigns.slant_deg = 30\n\
-                  material.thickness_mm = 2\n";
-    Trial {
-        sought: format!(
-            "{shared}[variables]\nsubstrate_modulus_MPa = {{ from = 0.05, to = 2 }}\nload_position = {{ from = 0.55, to = 1 }}\n"
-        ),
-        skin: format!(
-            "{shared}material.substrate_modulus_MPa = {modulus}\npuncture.load_position = {place}\n"
-        ),
-        curves: vec![(PUNCTURE, "")],
-        truth: vec![modulus, place],
-    }
+fn modulus_and_load_position(random: &mut ChaCha12Rng) -> Trial {
+    let position = ("puncture.load_position", 0.7..0.95, [0.55, 1.0]);
+    Trial::new(random, &scales(0.3, 0.6, 30.0), &[MODULUS, position], &[(PUNCTURE, "")])
 }
 
 /// Fits gap, friction between scales and a force offset to a free puncture load.
 fn gap_and_friction(random: &mut ChaCha12Rng) -> Trial {
-    let (gap, friction) = (random.random_range(0.15..0.3), random.random_range(0.05..0.4));
     let offset = random.random_range(-0.02..0.02);
-    let shared = "name = 'free'\ndesigns.length_over_t = 1\ndesigns.slant_deg = 60\nmaterial.thickness_mm = 1\n\
-                  material.substrate_modulus_MPa = 0.3\n";
+    let shared = "name = 'free'\ndesigns.length_over_t = 1\ndesigns.slant_deg = 60\n\
+                  material.thickness_mm = 1\nmaterial.substrate_modulus_MPa = 0.3\n";
     let curve = SyntheticCurve { to: 0.4, offsets: [0.0, offset], ..PUNCTURE };
-    Trial {
-        sought: format!(
-            "{shared}[variables]\ngap_over_t = {{ from = 0.08, to = 0.5 }}\nfriction = {{ from = 0.01, to = 0.8 }}\n"
-        ),
-        skin: format!("{shared}designs.gap_over_t = {gap}\ncontact.friction = {friction}\n"),
-        curves: vec![(curve, "offsets = ['force']\n")],
-        truth: vec![gap, friction, offset],
-    }
+    let unknowns = [
+        ("designs.gap_over_t", 0.15..0.3, [0.08, 0.5]),
+        ("contact.friction", 0.05..0.4, [0.01, 0.8]),
+    ];
+    let mut trial = Trial::new(random, shared, &unknowns, &[(curve, "offsets = ['force']\n")]);
+    trial.truth.push(offset);
+    trial
 }
 
 /// Returns the skin with the gap in the keys of a curve, if they contain one.
@@ -125,119 +158,223 @@ fn specimen(skin: &str, keys: &str) -> String {
     skin.lines().map(line).collect()
 }
 
+/// Result of a fit, with its misfit.
+struct Outcome {
+    fitted: Fitted,
+    /// `2 ln L` of the true values minus that of the fitted ones.
+    excess: f64,
+}
+
 impl Trial {
     /// Computes the curves with noise, a fraction of the largest value, and fits them.
-    fn fitted(self, number: u64, noise: f64) -> Fitted {
+    fn outcome(&self, number: u64, [noise, correlation]: [f64; 2]) -> Outcome {
         let place = Place::new();
-        let mut text = self.sought;
-        for (curve, keys) in self.curves {
+        let mut text = self.sought.clone();
+        let mut squares = Vec::new();
+        for (curve, keys) in &self.curves {
             let kind = if curve.bending { "bending" } else { "puncture" };
+            let curve =
+                SyntheticCurve { noise, correlation, seed: 10 * number + curve.seed, ..*curve };
+            squares.push(place.make(&specimen(&self.skin, keys), &curve));
             let file = curve.file;
-            let seed = 10 * number + curve.seed;
-            place.make(&specimen(&self.skin, keys), &SyntheticCurve { noise, seed, ..curve });
             write!(text, "[[curve]]\nfile = '{file}'\nkind = '{kind}'\n{keys}").expect("a text");
         }
-        place.fit(&text).expect("an answer")
+        let fitted = place.fit(&text).expect("an answer");
+        let excess = fitted.curves.iter().zip(squares).map(|(curve, true_squares)| {
+            let squares: f64 = curve.points.iter().map(|[_, y, fitted]| (y - fitted).powi(2)).sum();
+            curve.points.len() as f64 * (squares / true_squares).ln()
+        });
+        Outcome { excess: excess.sum(), fitted }
+    }
+
+    fn fitted(&self, number: u64, noise: f64) -> Fitted {
+        self.outcome(number, [noise, 0.0]).fitted
     }
 }
 
-const KINDS: [fn(&mut ChaCha12Rng) -> Trial; 4] =
-    [modulus_and_needle_friction, both_moduli_and_an_offset, modulus_and_place, gap_and_friction];
+/// Draws a trial.
+type Draw = fn(&mut ChaCha12Rng) -> Trial;
 
-fn trial(number: u64) -> Trial {
-    KINDS[number as usize % KINDS.len()](&mut ChaCha12Rng::seed_from_u64(number))
+const KINDS: [(&str, Draw); 9] = [
+    ("modulus", modulus_alone),
+    ("modulus, gap", modulus_and_gap),
+    ("modulus, needle radius", modulus_and_needle_radius),
+    ("modulus, needle friction", modulus_and_needle_friction),
+    ("modulus, tissue thickness", modulus_and_tissue_thickness),
+    ("modulus, membrane thickness", modulus_and_membrane_thickness),
+    ("moduli, offset", both_moduli_and_an_offset),
+    ("modulus, load position", modulus_and_load_position),
+    ("gap, friction, offset", gap_and_friction),
+];
+
+fn trial(kind: usize, number: u64) -> Trial {
+    KINDS[kind].1(&mut ChaCha12Rng::seed_from_u64(number))
 }
 
-/// Result for an unknown of a trial.
-enum Came {
-    /// The interval, and whether it contains the true value.
-    Interval { holds: bool },
-    /// The curves do not determine the unknown.
-    Untold,
-    /// The estimate is at a bound.
-    AtEnd,
+/// Counts over the trials of one kind.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Counts {
+    /// Intervals that contain the true value, with an end at both sides, at one, or at none.
+    hold: [usize; 3],
+    miss: usize,
+    /// Trials in which the true values are better by more than 3.84 in `2 ln L`.
+    false_minima: usize,
+    /// Number of solved skins.
+    solutions: usize,
 }
 
-/// Fits a trial, and returns the result for each unknown by name.
-fn held(number: u64, noise: f64) -> Vec<(String, Came)> {
-    let truth = trial(number).truth;
-    let fitted = trial(number).fitted(number, noise);
-    let came = |(estimate, truth): (&Estimate, &f64)| {
-        let came = match estimate.interval {
-            None => Came::Untold,
-            Some(_) if estimate.at_end => Came::AtEnd,
-            Some([low, high]) => Came::Interval { holds: (low..=high).contains(truth) },
-        };
-        (format!("{} of kind {}", estimate.unknown.name, number % KINDS.len() as u64), came)
+impl Counts {
+    fn add(self, other: Self) -> Self {
+        Self {
+            hold: [0, 1, 2].map(|k| self.hold[k] + other.hold[k]),
+            miss: self.miss + other.miss,
+            false_minima: self.false_minima + other.false_minima,
+            solutions: self.solutions + other.solutions,
+        }
+    }
+}
+
+fn counted(kind: usize, number: u64, noise: [f64; 2]) -> Counts {
+    let trial = trial(kind, number);
+    let Outcome { fitted, excess } = trial.outcome(number, noise);
+    let mut counts = Counts {
+        false_minima: usize::from(excess > 3.84),
+        solutions: fitted.solutions,
+        ..Counts::default()
     };
-    fitted.estimates.iter().zip(&truth).map(came).collect()
+    for (estimate, truth) in fitted.estimates.iter().zip(&trial.truth) {
+        let [low, high] = estimate.interval;
+        let holds = low.is_none_or(|low| low <= *truth) && high.is_none_or(|high| *truth <= high);
+        let open = usize::from(low.is_none()) + usize::from(high.is_none());
+        if holds {
+            counts.hold[open] += 1;
+        } else {
+            counts.miss += 1;
+        }
+        if std::env::var_os("SQUAMA_MISSES").is_some() && (!holds || excess > 3.84) {
+            println!(
+                "{} points, kind {kind} number {number}: {} truth {truth} value {} interval {low:?} {high:?} excess {excess}",
+                fitted.curves[0].points.len(),
+                estimate.unknown.name,
+                estimate.value
+            );
+        }
+    }
+    counts
 }
 
 #[test]
 fn exact_curves_recover_the_parameters() {
-    for number in 100..104 {
-        let truth = trial(number).truth;
-        let fitted = trial(number).fitted(number, 0.0);
-        assert!(fitted.undetermined.is_empty());
-        for (estimate, truth) in fitted.estimates.iter().zip(truth) {
+    // A test of its own recovers the slow tissue.
+    for (kind, (name, _)) in KINDS.iter().enumerate().filter(|(kind, _)| *kind != 4) {
+        let trial = trial(kind, 100);
+        let fitted = trial.fitted(100, 0.0);
+        assert!(fitted.undetermined.is_empty(), "{name}");
+        for (estimate, truth) in fitted.estimates.iter().zip(&trial.truth) {
             let range = estimate.unknown.to - estimate.unknown.from;
             let off = (estimate.value - truth).abs() / range;
-            assert!(off < 1e-5, "{number}: {} is off by {off:e}", estimate.unknown.name);
+            assert!(off < 1e-5, "{name}: {} is off by {off:e}", estimate.unknown.name);
         }
-        assert!(fitted.curves.iter().all(|curve| curve.beyond + curve.differenced == 0));
+        assert!(fitted.curves.iter().all(|curve| curve.beyond + curve.differenced == 0), "{name}");
     }
 }
 
-/// Returns the number of trials for each noise, and the time to start them.
+/// Returns the number of trials of each kind for the noise of 1, 3 and 10 %.
 ///
-/// `SQUAMA_CAMPAIGNS=endless` runs a thousand trials, `long` those that start within six seconds,
-/// and otherwise a few run.
-fn campaign() -> (u64, Duration) {
+/// `SQUAMA_CAMPAIGNS=endless` runs all trials of `docs/fit.md`, `long` a twentieth of them.
+fn campaign() -> [u64; 3] {
     match std::env::var("SQUAMA_CAMPAIGNS").as_deref() {
-        Ok("endless") => (1000, Duration::MAX),
-        Ok("long") => (1000, Duration::from_secs(6)),
-        _ => (FEW, Duration::MAX),
+        Ok("endless") => [60, 200, 60],
+        Ok("long") => [3, 10, 3],
+        _ => [0, 1, 0],
     }
 }
 
-/// Minimum number of trials.
-const FEW: u64 = 4;
-
-/// Factor on the binomial variance: intervals of one trial are correlated.
-const TOGETHER: f64 = 2.0;
+/// Checks the coverage of the intervals in trials with independent noise.
+fn check_coverage(kind: usize) {
+    let (name, _) = KINDS[kind];
+    for (noise, trials) in [0.01, 0.03, 0.1].into_iter().zip(campaign()) {
+        let counts = (0..trials).into_par_iter().map(|k| counted(kind, k, [noise, 0.0]));
+        let counts = counts.reduce(Counts::default, Counts::add);
+        let Counts { hold, miss, false_minima, .. } = counts;
+        let intervals = hold.iter().sum::<usize>() + miss;
+        println!("{noise} {name}: {counts:?}");
+        // Three standard deviations of a binomial distribution around 5 %.
+        let expected = 0.05 * intervals as f64;
+        assert!(miss as f64 <= expected + 3.0 * expected.sqrt() + 1.0, "{name}: {miss}");
+        assert!(false_minima as f64 <= 0.01 * trials as f64 + 1.0, "{name}: {false_minima}");
+    }
+}
 
 #[test]
-fn confidence_intervals_have_their_nominal_coverage() {
-    let (count, longest) = campaign();
-    for noise in [0.01, 0.03, 0.1] {
-        let begun = Instant::now();
-        let has_time = |number: &u64| *number < FEW || begun.elapsed() < longest;
-        let numbers = (0..count).into_par_iter().filter(has_time);
-        let trials: Vec<_> = numbers.map(|number| held(number, noise)).collect();
-        let mut counts = BTreeMap::<&str, [usize; 4]>::new();
-        for (name, came) in trials.iter().flatten() {
-            let column = match came {
-                Came::Interval { holds: true } => 0,
-                Came::Interval { holds: false } => 1,
-                Came::Untold => 2,
-                Came::AtEnd => 3,
-            };
-            counts.entry(name).or_default()[column] += 1;
-        }
-        let [hold, miss] = [0, 1].map(|k| counts.values().map(|count| count[k]).sum::<usize>());
-        let intervals = hold + miss;
-        let share = hold as f64 / intervals as f64;
-        println!(
-            "noise {noise}: {:.2} % of {intervals} intervals of {} trials; hold, miss, undetermined, at an end:",
-            100.0 * share,
-            trials.len()
-        );
-        for (name, counts) in counts {
-            println!("  {name}: {counts:?}");
-        }
-        let chance = 3.5 * (TOGETHER * 0.95 * 0.05 / intervals as f64).sqrt();
-        assert!((share - 0.95).abs() <= chance.max(0.02), "{noise}: {share} of {intervals}");
+fn intervals_hold_for_a_modulus() {
+    check_coverage(0);
+}
+
+#[test]
+fn intervals_hold_for_a_modulus_and_a_gap() {
+    check_coverage(1);
+}
+
+#[test]
+fn intervals_hold_for_a_modulus_and_a_needle_radius() {
+    check_coverage(2);
+}
+
+#[test]
+fn intervals_hold_for_a_modulus_and_a_needle_friction() {
+    check_coverage(3);
+}
+
+#[test]
+fn intervals_hold_for_a_modulus_and_a_tissue_thickness() {
+    check_coverage(4);
+}
+
+#[test]
+fn intervals_hold_for_a_modulus_and_a_membrane_thickness() {
+    check_coverage(5);
+}
+
+#[test]
+fn intervals_hold_for_two_moduli_and_an_offset() {
+    check_coverage(6);
+}
+
+#[test]
+fn intervals_hold_for_a_modulus_and_a_load_position() {
+    check_coverage(7);
+}
+
+#[test]
+fn intervals_hold_for_a_gap_a_friction_and_an_offset() {
+    check_coverage(8);
+}
+
+/// Noise with a memory counts as fewer independent points.
+#[test]
+fn intervals_hold_under_correlated_noise() {
+    let trials = 20 + campaign()[1] / 2;
+    for correlation in [0.5, 0.8] {
+        let counts = (0..trials).into_par_iter().map(|k| counted(0, k, [0.03, correlation]));
+        let counts = counts.reduce(Counts::default, Counts::add);
+        println!("correlation {correlation}: {counts:?}");
+        // Intervals for independent noise would miss in a fifth of the trials, or half of them.
+        assert!(counts.miss as f64 <= 0.15 * trials as f64 + 1.0, "{correlation}: {counts:?}");
     }
+}
+
+/// The curve is the same for all gaps that do not close.
+#[test]
+fn a_gap_that_never_closes_has_a_one_sided_interval() {
+    let trial = modulus_and_gap(&mut ChaCha12Rng::seed_from_u64(2));
+    let shared = trial.skin.lines().filter(|line| !line.starts_with("designs.gap_over_t"));
+    let skin = shared.collect::<Vec<_>>().join("\n") + "\ndesigns.gap_over_t = 0.9\n";
+    let fitted = Trial { skin, ..trial }.fitted(1, 0.01);
+    let gap = &fitted.estimates[1];
+    let [low, high] = gap.interval;
+    assert!(high.is_none() && low.is_some_and(|low| low > 0.3 && low < 0.9), "{gap:?}");
+    assert!(fitted.undetermined.is_empty());
 }
 
 /// Before scales touch, the moment depends on E h³ of the membrane alone.
@@ -249,7 +386,7 @@ fn unknowns_that_only_occur_as_a_product_are_undetermined_together() {
     let skin = format!(
         "{shared}material.membrane_modulus_MPa = 4\nflexure.membrane_thickness_over_t = 0.1\n"
     );
-    let strip = SyntheticCurve { bending: true, to: 0.005, points: 30, noise: 0.01, ..PUNCTURE };
+    let strip = SyntheticCurve { to: 0.005, points: 30, noise: 0.01, file: "a.csv", ..STRIP };
     place.make(&skin, &strip);
     let sought = format!(
         "{shared}[variables]\nmembrane_modulus_MPa = {{ from = 1, to = 10 }}\nmembrane_thickness_over_t = {{ from = 0.05, to = 0.3 }}\n\
@@ -257,7 +394,12 @@ fn unknowns_that_only_occur_as_a_product_are_undetermined_together() {
     );
     let fitted = place.fit(&sought).expect("an answer");
     assert_eq!(fitted.undetermined, [vec![0, 1]]);
-    assert!(fitted.estimates.iter().all(|estimate| estimate.interval.is_none()));
+    // The range of the modulus limits the thickness.
+    assert_eq!(fitted.estimates[0].interval, [None; 2]);
+    assert_eq!(fitted.estimates[1].rests_on, [0]);
+    let [thinnest, thickest] = fitted.estimates[1].interval.map(|end| end.expect("an end"));
+    assert!((thinnest * 2.5_f64.cbrt() / 0.1 - 1.0).abs() < 0.03, "{thinnest}");
+    assert!((thickest / 4.0_f64.cbrt() / 0.1 - 1.0).abs() < 0.03, "{thickest}");
     assert!(fitted.correlations[0][1] < -0.999_999, "{:?}", fitted.correlations);
     // The curve determines the product E h³.
     let [modulus, thickness] = [0, 1].map(|j| fitted.estimates[j].value);
@@ -268,14 +410,14 @@ fn unknowns_that_only_occur_as_a_product_are_undetermined_together() {
         "[flexure]\nmembrane_thickness_over_t = 0.1\n",
     );
     let fitted = place.fit(&one).expect("an answer");
-    let [low, high] = fitted.estimates[0].interval.expect("an interval");
+    let [low, high] = fitted.estimates[0].interval.map(|end| end.expect("an end"));
     assert!(fitted.undetermined.is_empty() && low > 3.9 && high < 4.1, "{low} {high}");
 }
 
 /// An unknown without influence on any curve is undetermined on its own.
 #[test]
 fn unknowns_without_influence_are_undetermined() {
-    let Trial { skin, curves, .. } = trial(0);
+    let Trial { skin, curves, .. } = trial(3, 0);
     let sought = skin.clone()
         + "[variables]\nmembrane_modulus_MPa = { from = 1, to = 10 }\nfriction = { from = 0, to = 0.5 }\n";
     let trial = Trial { skin, sought, curves, truth: Vec::new() };
@@ -312,11 +454,10 @@ fn two_specimens_determine_thickness_and_modulus_of_tissue() {
 fn differences_replace_derivatives_while_a_contact_sticks() {
     let shared = "name = 'rubs'\ndesigns.gap_over_t = 0.2\ndesigns.length_over_t = 1\ndesigns.slant_deg = 75\n\
                   material.thickness_mm = 2\nmaterial.membrane_modulus_MPa = 4\n";
-    let strip = SyntheticCurve { bending: true, to: 0.03, ..PUNCTURE };
     let trial = Trial {
         sought: format!("{shared}[variables]\nfriction = {{ from = 0.02, to = 0.9 }}\n"),
         skin: format!("{shared}contact.friction = 0.3\n"),
-        curves: vec![(strip, "")],
+        curves: vec![(SyntheticCurve { points: 40, ..STRIP }, "")],
         truth: vec![0.3],
     };
     let fitted = trial.fitted(0, 0.0);

@@ -19,6 +19,7 @@ pub struct Place {
 }
 
 /// A synthetic curve, in mm and N or in 1/mm and N mm.
+#[derive(Clone, Copy)]
 pub struct SyntheticCurve<'a> {
     pub file: &'a str,
     pub bending: bool,
@@ -27,6 +28,8 @@ pub struct SyntheticCurve<'a> {
     pub points: usize,
     /// Standard deviation of the noise, as a fraction of the largest value.
     pub noise: f64,
+    /// Correlation of the noise of neighbouring points.
+    pub correlation: f64,
     pub seed: u64,
     /// Offsets added to both columns.
     pub offsets: [f64; 2],
@@ -45,8 +48,8 @@ impl Place {
         fs::write(self.path(file), text).expect("writable");
     }
 
-    /// Computes the curve of a skin and writes it.
-    pub fn make(&self, skin: &str, curve: &SyntheticCurve) {
+    /// Computes the curve of a skin and writes it. Returns the sum of the squares of the noise.
+    pub fn make(&self, skin: &str, curve: &SyntheticCurve) -> f64 {
         let case = Sweep::parse(skin, "skin.toml", &[]).expect("a skin").grid().case(0);
         let values = exact(&case, curve);
         let largest = values.iter().map(|value| value.abs()).fold(0.0, f64::max);
@@ -58,14 +61,17 @@ impl Place {
             "displacement_mm,force_N\n"
         }
         .to_owned();
+        let (mut squares, mut error) = (0.0, 0.0);
         for (k, value) in values.iter().enumerate() {
-            let [x, y] = [
-                place(curve, k) + curve.offsets[0],
-                value + curve.offsets[1] + noise.sample(&mut random),
-            ];
+            // Autoregressive noise of the same standard deviation.
+            let share = if k == 0 { 1.0 } else { (1.0 - curve.correlation.powi(2)).sqrt() };
+            error = curve.correlation * error + share * noise.sample(&mut random);
+            squares += error * error;
+            let [x, y] = [place(curve, k) + curve.offsets[0], value + curve.offsets[1] + error];
             writeln!(text, "{x:.9},{y:.12}").expect("a text");
         }
         self.write(curve.file, &text);
+        squares
     }
 
     pub fn fit(&self, text: &str) -> Result<Fitted, FitError> {
@@ -74,7 +80,7 @@ impl Place {
         let work = WorkMeter::default();
         let fitted = definition.expect("a definition").fit(&AtomicBool::new(false), &work);
         // Progress may end below 1, because the noise of several curves may converge early.
-        assert!(fitted.is_err() || work.share() > 0.7, "{}", work.share());
+        assert!(fitted.is_err() || work.share() > 0.5, "{}", work.share());
         fitted
     }
 

@@ -1,0 +1,154 @@
+//! Confidence intervals by profile likelihood.
+//!
+//! One unknown is fixed, and the others are fitted. The interval contains the values at which the
+//! sum of the weighted squares rises by at most `t²`, where `t` is the 97.5 % quantile of Student's
+//! distribution. Unlike intervals from the covariance, it may be one-sided or open, for example for
+//! a gap that never closes, because then the curve is the same for all wider gaps.
+
+use nalgebra::DMatrix;
+
+use crate::fit_result::FitError;
+use crate::search::{Minimum, Residuals};
+
+/// Number of cells into which the range of an unknown is divided, to find other minima.
+const CELLS: usize = 8;
+/// Maximum number of fits to locate an end of an interval.
+const MOST_STEPS: usize = 12;
+/// Accuracy of the root of the rise at an end, as a fraction of `t`.
+const ACCURACY: f64 = 0.02;
+/// Accuracy of an end, as a fraction of its distance from the estimate.
+const NEAR: f64 = 0.01;
+/// Fall of the sum of weighted squares that restarts the fit.
+const BETTER: f64 = 0.05;
+/// Distance at which a value counts as at its bound, as a fraction of the range.
+///
+/// The search keeps its iterates strictly between the bounds.
+pub(crate) const AT_END: f64 = 1e-3;
+
+/// Profiles of the sum of squares around a minimum.
+pub(crate) struct Profiles<'r, 'a> {
+    pub(crate) residuals: &'r Residuals<'a>,
+    pub(crate) minimum: &'r Minimum,
+    /// Covariance of the scaled unknowns from the derivatives, to predict the profiles.
+    pub(crate) covariance: &'r DMatrix<f64>,
+    /// Quantile of Student's distribution.
+    pub(crate) t: f64,
+}
+
+/// Confidence interval of a scaled unknown.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Interval {
+    /// Lower and upper end; `None` if the interval extends to the end of the range.
+    pub(crate) ends: [Option<f64>; 2],
+    /// Other unknowns that are at a bound of their range at an end of the interval.
+    pub(crate) rests_on: Vec<usize>,
+}
+
+/// Reason for which a profile is not completed.
+pub(crate) enum Aborted {
+    /// A better minimum, from which the fit has to start again.
+    Better(Vec<f64>),
+    Failed(FitError),
+}
+
+impl From<FitError> for Aborted {
+    fn from(error: FitError) -> Self {
+        Self::Failed(error)
+    }
+}
+
+/// A point of a profile: the fixed value, all unknowns, and the rise of the sum of squares.
+#[derive(Clone, Debug)]
+struct ProfilePoint {
+    at: f64,
+    shares: Vec<f64>,
+    rise: f64,
+}
+
+impl Profiles<'_, '_> {
+    /// Computes the interval of unknown `j`.
+    pub(crate) fn interval(&self, j: usize) -> Result<Interval, Aborted> {
+        let mut interval = Interval::default();
+        for (side, bound) in [0.0, 1.0].into_iter().enumerate() {
+            let Some(end) = self.end(j, bound)? else { continue };
+            interval.ends[side] = Some(end.at);
+            let others = (0..end.shares.len()).filter(|i| *i != j);
+            let is_at_bound = |i: &usize| is_at_end(end.shares[*i]);
+            let was_inside = |i: &usize| !is_at_end(self.minimum.shares[*i]);
+            interval.rests_on.extend(others.filter(is_at_bound).filter(was_inside));
+        }
+        interval.rests_on.sort_unstable();
+        interval.rests_on.dedup();
+        Ok(interval)
+    }
+
+    /// Returns the end of the interval of unknown `j` towards `bound`; `None` if it is open.
+    fn end(&self, j: usize, bound: f64) -> Result<Option<ProfilePoint>, Aborted> {
+        let start = self.minimum.shares[j];
+        let limit = self.t.powi(2);
+        let mut inner = ProfilePoint { at: start, shares: self.minimum.shares.clone(), rise: 0.0 };
+        let mut outer: Option<ProfilePoint> = None;
+        let mut last = inner.clone();
+        // Sample the whole side: beyond a maximum of the profile, the sum of squares may fall again.
+        let cells = (0..=CELLS).map(|k| bound + (1.0 - 2.0 * bound) * k as f64 / CELLS as f64);
+        let outward = cells.filter(|at| (at - start) * (bound - start) > 0.0);
+        for at in outward.collect::<Vec<_>>().into_iter().rev() {
+            last = self.at(j, at, &last)?;
+            if last.rise <= limit {
+                (inner, outer) = (last.clone(), None);
+            } else if outer.is_none() {
+                outer = Some(last.clone());
+            }
+        }
+        // Without a point outside of the interval, the interval extends to the bound.
+        let Some(mut outer) = outer else { return Ok(None) };
+        let half = self.t * self.covariance[(j, j)].sqrt();
+        let mut guess = start + half * (bound - start).signum();
+        for _ in 0..MOST_STEPS {
+            let [low, high] = [inner.at + 0.1 * (outer.at - inner.at), outer.at];
+            let is_between = (guess - low) * (guess - high) < 0.0;
+            if !is_between || inner.at != start {
+                let [inside, outside] = [&inner, &outer].map(|point| point.rise.max(0.0).sqrt());
+                let fraction = ((self.t - inside) / (outside - inside)).clamp(0.1, 0.9);
+                guess = inner.at + fraction * (outer.at - inner.at);
+            }
+            let found = self.at(j, guess, &inner)?;
+            let is_accurate = (found.rise.max(0.0).sqrt() - self.t).abs() < ACCURACY * self.t;
+            if found.rise <= limit {
+                inner = found.clone();
+            } else {
+                outer = found.clone();
+            }
+            if is_accurate {
+                return Ok(Some(found));
+            }
+            if (outer.at - inner.at).abs() < NEAR * (outer.at - start).abs() {
+                break;
+            }
+        }
+        Ok(Some(outer))
+    }
+
+    /// Fits the other unknowns with unknown `j` fixed, starting from a point of the profile.
+    fn at(&self, j: usize, at: f64, from: &ProfilePoint) -> Result<ProfilePoint, Aborted> {
+        let mut start = from.shares.clone();
+        let moved = (at - from.at) / self.covariance[(j, j)];
+        for (i, share) in start.iter_mut().enumerate() {
+            // Far from the minimum, the prediction is unreliable.
+            let step = (moved * self.covariance[(i, j)]).clamp(-0.25, 0.25);
+            *share = (*share + step).clamp(AT_END, 1.0 - AT_END);
+        }
+        start[j] = at;
+        let found = self.residuals.minimise(start, Some(j))?;
+        let rise = found.cost - self.minimum.cost;
+        if rise < -BETTER {
+            return Err(Aborted::Better(found.shares));
+        }
+        Ok(ProfilePoint { at, shares: found.shares, rise })
+    }
+}
+
+/// Returns true for a scaled value at a bound.
+pub(crate) fn is_at_end(share: f64) -> bool {
+    !(AT_END..=1.0 - AT_END).contains(&share)
+}
