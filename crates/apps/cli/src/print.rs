@@ -37,6 +37,16 @@ pub fn note(text: &str) {
 /// Marks a design under which the surface of the substrate folds.
 pub const FOLDED: char = '⚠';
 
+/// Warns that the surface of the substrate folds at a force; empty without a fold.
+pub fn fold_text(fold_force: Option<f64>) -> String {
+    fold_force.map_or_else(String::new, |force| {
+        format!(
+            "\n{FOLDED} The surface of the substrate folds at a force of {}: values at the critical tilt are not valid.\n",
+            digits(force)
+        )
+    })
+}
+
 /// Prints a warning to stderr.
 pub fn warning(text: &str) {
     // A write to a closed stderr fails; ignore it, because no other channel is left for messages.

@@ -164,6 +164,7 @@ fn watch(watched: &dyn Watched, interrupt: &Interrupt, ending: &str, ended: &Rec
     }
     let begun = Instant::now();
     let mut remaining = Remaining::default();
+    let mut farthest = 0.0_f64;
     let mut is_ending = false;
     loop {
         // Waiting on the channel, unlike sleeping, returns as soon as the work ends.
@@ -181,7 +182,9 @@ fn watch(watched: &dyn Watched, interrupt: &Interrupt, ending: &str, ended: &Rec
             bar.suspend(|| eprintln!("{line}"));
         }
         let (share, elapsed) = (watched.share(), begun.elapsed());
-        bar.set_position((share * PARTS as f64) as u64);
+        // The fraction may decrease if a search takes longer than expected, but a bar does not.
+        farthest = farthest.max(share);
+        bar.set_position((farthest * PARTS as f64) as u64);
         bar.set_message(watched.text(&remaining.text(share, elapsed), elapsed));
     }
     bar.finish_and_clear();
@@ -221,7 +224,7 @@ struct Remaining {
 impl Remaining {
     /// Formats the remaining time; empty until there is enough progress to extrapolate from.
     fn text(&mut self, share: f64, elapsed: Duration) -> String {
-        if share > self.share {
+        if share != self.share {
             (self.share, self.at) = (share, elapsed);
             self.advances += 1;
         }

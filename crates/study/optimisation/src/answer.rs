@@ -36,7 +36,8 @@ pub(crate) fn answer(
     let mut targets: Vec<Target> = targets.collect();
     let mut agreement = Agreement::of(&[]);
     for target in &targets {
-        search.progress.begin(SearchPart::Climb, plan.tasks());
+        let units = plan.evaluations() * search.evaluation_units(target);
+        search.progress.begin(SearchPart::Climb, plan.tasks(), units);
         let Improved { evaluated, mut ends } = improved(search, history, target, plan)?;
         history.extend(evaluated);
         history.extend(restarted(search, history, target, &mut ends)?);

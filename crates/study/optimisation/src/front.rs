@@ -187,7 +187,9 @@ fn improve(
     targets: &[Target],
     plan: Plan,
 ) -> Result<(), Halt> {
-    search.progress.begin(SearchPart::Front, targets.len() * plan.tasks());
+    let each = |target| plan.evaluations() * search.evaluation_units(target);
+    let units = targets.iter().map(each).sum();
+    search.progress.begin(SearchPart::Front, targets.len() * plan.tasks(), units);
     // Appended in the order of the targets, so that the history is the same on every machine.
     let walks = targets.par_iter();
     let walks = walks.map(|target| Ok(improved(search, history, target, plan)?.evaluated));

@@ -45,6 +45,13 @@ impl Plan {
         Self { regions: 0, finalists: 1, ..self }
     }
 
+    /// Returns the expected number of evaluations for a target.
+    pub fn evaluations(self) -> u64 {
+        let Self { regions, starts, finalists } = self;
+        (regions + starts) as u64 * Effort::CLIMB.evaluations
+            + finalists as u64 * Effort::WHOLE.evaluations
+    }
+
     /// Returns the maximum number of local searches.
     pub fn tasks(self) -> usize {
         self.regions + self.starts + self.finalists
@@ -78,10 +85,15 @@ pub(crate) fn improved(
     for (count, effort) in stages {
         // Each search depends on its start only, so results are independent of the order of
         // completion.
-        let starts = starts(search, history.iter().chain(&evaluated), target, count);
+        let known = history.iter().chain(&evaluated);
+        // A full search makes a feasible design better; gradient searches are the ones that lead to
+        // feasible designs.
+        let is_feasible = |candidate: &Candidate| met(search, candidate, target).is_some();
+        let is_full = effort.rounds > 0 && known.clone().any(is_feasible);
+        let known = known.filter(|candidate| !is_full || is_feasible(candidate));
+        let starts = starts(search, known, target, count);
         let walks = starts.par_iter().map(|start| {
             let walk = search.improve(target, start, effort)?;
-            search.progress.step();
             let best = search.best(walk.iter().chain([start]), target);
             let end = best.and_then(|best| met(search, best, target));
             Ok((walk, end))

@@ -17,7 +17,7 @@ use crate::evaluated_row::EvaluatedRow;
 use crate::evaluations::{Evaluations, Halt};
 use crate::judge::Judge;
 use crate::judgement::Judgement;
-use crate::progress::SearchProgress;
+use crate::progress::{SearchProgress, SearchTask};
 use crate::space::{DesignSpace, SpacePoint};
 use samples::SampledPoint;
 
@@ -32,6 +32,19 @@ const STEPS: u32 = 8;
 
 /// Rounds of a search along a scaling interval.
 const SCALINGS: usize = 15;
+
+/// Units of work of an evaluation in a local search.
+///
+/// It costs more than a sample of the space: it has derivatives, and good designs have contacts.
+const EVALUATION: u64 = 4;
+
+/// Number of samples that cost as much as a nominal evaluation.
+const SAMPLES: usize = 20;
+
+/// Returns the expected units of work of an evaluation with this number of samples.
+pub(crate) fn evaluation_units(samples: usize) -> u64 {
+    EVALUATION * (1 + samples / SAMPLES) as u64
+}
 
 /// Termination tolerances of a local search.
 #[derive(Clone, Copy, Debug)]
@@ -76,6 +89,8 @@ pub(crate) struct Effort {
     pub ridge: usize,
     /// Maximum evaluations of the polish in a round, per variable.
     pub polish: usize,
+    /// Expected number of evaluations, for the progress of the search.
+    pub evaluations: u64,
 }
 
 impl Effort {
@@ -83,10 +98,10 @@ impl Effort {
     pub const PROBE: Self = Self { looks: 4, pieces: 1, ..Self::CLIMB };
     /// Gradient search alone.
     pub const CLIMB: Self =
-        Self { looks: 15, pieces: 2, rounds: 0, reach: 0.0, ridge: 0, polish: 0 };
+        Self { looks: 15, pieces: 2, rounds: 0, reach: 0.0, ridge: 0, polish: 0, evaluations: 12 };
     /// Full local search, to convergence.
     pub const WHOLE: Self =
-        Self { rounds: ROUNDS, reach: 0.06, ridge: 20, polish: 8, ..Self::CLIMB };
+        Self { rounds: ROUNDS, reach: 0.06, ridge: 20, polish: 8, evaluations: 70, ..Self::CLIMB };
 
     /// Returns a smaller budget for sampled designs.
     ///
@@ -185,6 +200,13 @@ impl Search<'_> {
         Ok(best)
     }
 
+    /// Returns the expected units of work of an evaluation in a local search for `target`.
+    pub fn evaluation_units(&self, target: &Target) -> u64 {
+        let units = evaluation_units(self.judge.samples().map_or(0, |judge| judge.count));
+        // Searches for neighbouring points of a front evaluate the same designs.
+        if target.floors.is_empty() { units } else { units / 2 }
+    }
+
     fn fineness(&self) -> Fineness {
         if self.judge.samples().is_some() { Fineness::SAMPLED } else { Fineness::NOMINAL }
     }
@@ -209,11 +231,14 @@ impl Search<'_> {
         effort: Effort,
     ) -> Result<Vec<Candidate>, Halt> {
         self.progress.start();
+        let units = self.evaluation_units(target);
         let walk = LocalSearch {
             search: self,
             target,
             best: RefCell::new(start.clone()),
             log: RefCell::default(),
+            units,
+            task: self.progress.task(effort.evaluations * units),
         };
         // Local searches keep the choices: without intervals no variable is left.
         if start.point.shares.is_empty() {
@@ -259,6 +284,9 @@ struct LocalSearch<'a> {
     target: &'a Target,
     best: RefCell<Candidate>,
     log: RefCell<Vec<Candidate>>,
+    /// Units of work of an evaluation.
+    units: u64,
+    task: SearchTask<'a>,
 }
 
 impl LocalSearch<'_> {
@@ -290,6 +318,7 @@ impl LocalSearch<'_> {
         if self.log.borrow().iter().rev().take(3).any(is_known) {
             return;
         }
+        self.task.count(self.units);
         self.log.borrow_mut().push(candidate.clone());
         let merit = self.search.merit(candidate, self.target);
         if merit.compare(self.best_merit()).is_gt() {

@@ -1,5 +1,9 @@
 //! Progress of a search, for display.
+//!
+//! Work is counted in units; a sample of the space is one unit. Units only need the right ratios: the
+//! time of one unit is measured.
 
+use std::cell::Cell;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -13,6 +17,8 @@ pub enum SearchPart {
     Sample,
     /// Local searches from the best of them.
     Climb,
+    /// Restarts near the best, because the local searches disagree.
+    Restart,
     /// Searching the points of a front.
     Front,
     /// Sampling the best nominal designs.
@@ -27,21 +33,31 @@ pub enum SearchPart {
 #[derive(Debug, Default)]
 pub struct SearchProgress {
     parts: Mutex<Parts>,
+    /// Number of completed tasks of the current part.
     done: AtomicUsize,
-    /// Largest fraction reported so far, as bits: a progress bar must not go back.
-    farthest: AtomicU64,
+    /// Completed units of the current part.
+    units: AtomicU64,
     designs: AtomicUsize,
     starts: AtomicUsize,
     slow: WorkMeter,
 }
 
-/// Parts of a search with their expected work, and the current part.
+/// Parts of a search with their work in units, and the current part.
 #[derive(Debug, Default)]
 struct Parts {
-    expected: Vec<(SearchPart, f64)>,
+    /// Completed work of the parts before the current one, expected work of the others.
+    work: Vec<(SearchPart, u64)>,
     at: usize,
     /// Number of tasks in the current part.
     tasks: usize,
+}
+
+/// A task of the current part, with its expected units.
+///
+/// Further units are not counted, and missing ones are added when the task ends.
+pub(crate) struct SearchTask<'p> {
+    progress: &'p SearchProgress,
+    left: Cell<u64>,
 }
 
 impl SearchPart {
@@ -50,6 +66,7 @@ impl SearchPart {
         match self {
             Self::Sample => "filling the space",
             Self::Climb => "climbing from the best",
+            Self::Restart => "again near the best",
             Self::Front => "points of the front",
             Self::Samples => "first samples",
             Self::Refine => "near the best with more samples",
@@ -62,22 +79,21 @@ impl SearchProgress {
     /// Returns the current part, its finished tasks and its number of tasks.
     pub fn progress(&self) -> (SearchPart, usize, usize) {
         let parts = self.parts();
-        let part = parts.expected.get(parts.at).map_or_else(SearchPart::default, |part| part.0);
+        let part = parts.work.get(parts.at).map_or_else(SearchPart::default, |part| part.0);
         (part, self.done.load(Ordering::Relaxed).min(parts.tasks), parts.tasks)
     }
 
-    /// Returns the completed fraction of the search, from 0 to 1, by expected work.
+    /// Returns the completed fraction of the expected work, from 0 to 1.
+    ///
+    /// It becomes smaller where a part starts that was not expected.
     pub fn share(&self) -> f64 {
-        let (_, done, tasks) = self.progress();
         let parts = self.parts();
-        let work = |parts: &[(SearchPart, f64)]| parts.iter().map(|part| part.1).sum::<f64>();
-        let own = parts.expected.get(parts.at).map_or(0.0, |part| part.1);
-        let before = work(&parts.expected[..parts.at.min(parts.expected.len())]);
-        let share = (before + own * done as f64 / tasks.max(1) as f64) / work(&parts.expected);
-        // Bits of positive numbers have the order of the numbers; `max` turns the NaN of zero work
-        // into 0.
-        let bits = share.max(0.0).to_bits();
-        f64::from_bits(self.farthest.fetch_max(bits, Ordering::Relaxed).max(bits))
+        let sum = |work: &[(SearchPart, u64)]| work.iter().map(|part| part.1).sum::<u64>() as f64;
+        let own = parts.work.get(parts.at).map_or(0, |part| part.1);
+        let done = sum(&parts.work[..parts.at.min(parts.work.len())])
+            + self.units.load(Ordering::Relaxed).min(own) as f64;
+        // `max` turns the NaN of zero work into 0.
+        (done / sum(&parts.work)).max(0.0)
     }
 
     fn parts(&self) -> MutexGuard<'_, Parts> {
@@ -104,32 +120,41 @@ impl SearchProgress {
         self.starts.fetch_add(1, Ordering::Relaxed);
     }
 
-    /// Starts a search with these parts and their expected work.
-    pub(crate) fn expect(&self, expected: Vec<(SearchPart, f64)>) {
-        *self.parts() = Parts { expected, ..Parts::default() };
+    /// Starts a search with these parts and their expected units.
+    pub(crate) fn expect(&self, work: Vec<(SearchPart, u64)>) {
+        *self.parts() = Parts { work, ..Parts::default() };
     }
 
-    /// Starts the next part of this kind, skipping parts in between.
+    /// Starts the next part of this kind, with its tasks and their units in total.
     ///
-    /// The part has `tasks` tasks.
-    pub(crate) fn begin(&self, part: SearchPart, tasks: usize) {
+    /// Expected parts in between are dropped. An unexpected part is added. A front is searched in
+    /// several turns, so a turn leaves the rest of its expected units to the following ones.
+    pub(crate) fn begin(&self, part: SearchPart, tasks: usize, units: u64) {
         let mut parts = self.parts();
-        let is_next = |(k, of): (usize, &(SearchPart, f64))| k > parts.at && of.0 == part;
-        // A part that repeats more often than expected, such as refills of a front, counts as the
-        // last.
-        let next = parts
-            .expected
-            .iter()
-            .enumerate()
-            .position(is_next)
-            .or_else(|| parts.expected.iter().rposition(|of| of.0 == part));
-        (parts.at, parts.tasks) = (next.unwrap_or(parts.at), tasks);
+        let done = self.units.swap(0, Ordering::Relaxed);
         self.done.store(0, Ordering::Relaxed);
+        let at = parts.at;
+        // Before its first part a search has completed nothing.
+        let is_first = parts.tasks == 0;
+        let next = if is_first { 0 } else { at + 1 };
+        if let Some(own) = parts.work.get_mut(at).filter(|_| !is_first) {
+            own.1 = own.1.min(done);
+        }
+        let ahead = parts.work.get(next..).unwrap_or_default();
+        match ahead.iter().position(|of| of.0 == part) {
+            Some(skipped) => drop(parts.work.drain(next..next + skipped)),
+            None => parts.work.insert(next, (part, units)),
+        }
+        let expected = std::mem::replace(&mut parts.work[next].1, units);
+        if part == SearchPart::Front && expected > units {
+            parts.work.insert(next + 1, (part, expected - units));
+        }
+        (parts.at, parts.tasks) = (next, tasks);
     }
 
-    /// Counts a finished task.
-    pub(crate) fn step(&self) {
-        self.done.fetch_add(1, Ordering::Relaxed);
+    /// Starts a task of the current part.
+    pub(crate) fn task(&self, units: u64) -> SearchTask<'_> {
+        SearchTask { progress: self, left: Cell::new(units) }
     }
 
     /// Counts an evaluated design.
@@ -138,35 +163,76 @@ impl SearchProgress {
     }
 }
 
+impl SearchTask<'_> {
+    /// Counts completed units.
+    pub fn count(&self, units: u64) {
+        let units = units.min(self.left.get());
+        self.left.set(self.left.get() - units);
+        self.progress.units.fetch_add(units, Ordering::Relaxed);
+    }
+}
+
+impl Drop for SearchTask<'_> {
+    fn drop(&mut self) {
+        self.count(u64::MAX);
+        self.progress.done.fetch_add(1, Ordering::Relaxed);
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::SearchPart::{Check, Climb, Front, Sample};
+    use super::SearchPart::{Check, Climb, Front, Restart, Sample};
     use super::*;
 
     #[test]
-    fn tasks_are_counted_per_part_and_the_fraction_over_all_parts() {
+    fn tasks_are_counted_per_part_and_units_over_all_parts() {
         let progress = SearchProgress::default();
         assert_eq!(progress.share(), 0.0);
-        progress.expect(vec![
-            (Sample, 1.0),
-            (Climb, 2.0),
-            (Front, 3.0),
-            (Climb, 2.0),
-            (Check, 2.0),
-        ]);
-        progress.begin(Sample, 12);
-        progress.step();
+        progress.expect(vec![(Sample, 12), (Climb, 24), (Front, 36), (Climb, 24), (Check, 24)]);
+        progress.begin(Sample, 12, 12);
+        drop(progress.task(1));
         progress.evaluate();
         assert_eq!((progress.progress(), progress.designs()), ((Sample, 1, 12), 1));
-        progress.begin(Climb, 4);
-        progress.step();
-        assert_eq!((progress.progress(), progress.share()), ((Climb, 1, 4), 0.15));
-        progress.begin(Front, 1);
-        assert_eq!(progress.share(), 0.3);
-        progress.begin(Climb, 4);
-        assert_eq!(progress.share(), 0.6);
-        // An unexpected repetition does not reduce the fraction.
-        progress.begin(Front, 2);
-        assert_eq!((progress.progress(), progress.share()), ((Front, 0, 2), 0.6));
+        assert_eq!(progress.share(), 1.0 / 120.0);
+        (0..11).for_each(|_| drop(progress.task(1)));
+        progress.begin(Climb, 4, 24);
+        let task = progress.task(6);
+        task.count(4);
+        assert_eq!((progress.progress(), progress.share()), ((Climb, 0, 4), 16.0 / 120.0));
+        // More units than expected count as the expected ones.
+        task.count(400);
+        assert_eq!(progress.share(), 18.0 / 120.0);
+        drop(task);
+        assert_eq!((progress.progress(), progress.share()), ((Climb, 1, 4), 18.0 / 120.0));
+    }
+
+    #[test]
+    fn turns_of_a_front_share_its_expected_units() {
+        let progress = SearchProgress::default();
+        progress.expect(vec![(Sample, 10), (Front, 40), (Front, 50)]);
+        progress.begin(Sample, 1, 10);
+        drop(progress.task(10));
+        progress.begin(Front, 1, 40);
+        drop(progress.task(40));
+        progress.begin(Front, 1, 20);
+        drop(progress.task(20));
+        assert_eq!(progress.share(), 70.0 / 100.0);
+        progress.begin(Front, 1, 60);
+        assert_eq!(progress.share(), 70.0 / 130.0);
+    }
+
+    #[test]
+    fn the_fraction_follows_parts_that_end_early_or_were_not_expected() {
+        let progress = SearchProgress::default();
+        progress.expect(vec![(Sample, 10), (Climb, 40), (Restart, 50), (Check, 20)]);
+        progress.begin(Sample, 1, 10);
+        drop(progress.task(10));
+        progress.begin(Climb, 2, 40);
+        drop(progress.task(20));
+        // A restart that is not needed is no work, nor is a climb that was left out.
+        progress.begin(Check, 1, 20);
+        assert_eq!(progress.share(), 30.0 / 50.0);
+        progress.begin(Restart, 1, 30);
+        assert_eq!(progress.share(), 30.0 / 60.0);
     }
 }

@@ -18,6 +18,7 @@ use crate::evaluations::Halt;
 use crate::judgement::Judgement;
 use crate::local::{Effort, Search};
 use crate::price::{Limit, near_limits};
+use crate::progress::SearchPart;
 use crate::slopes::Slopes;
 use crate::space::SpacePoint;
 use crate::space_filling::Sequence;
@@ -32,10 +33,13 @@ const SETTLED: f64 = 1e-4;
 const GAIN: f64 = 1e-4;
 
 /// Maximum number of restarts.
-const RESTARTS: usize = 6;
+pub(crate) const RESTARTS: usize = 6;
 
 /// Number of samples in a round, per variable.
 const EACH: usize = 5;
+
+/// Expected number of evaluations of a restart per variable, for the progress of the search.
+const EVALUATIONS: u64 = 100;
 
 /// Half-widths of the first and the smallest box, as fractions of the intervals.
 const WIDTHS: [f64; 2] = [0.1, 1e-5];
@@ -128,11 +132,21 @@ pub(crate) fn restarted(
         if Agreement::of(ends).is_settled() {
             break;
         }
+        if restart == 0 {
+            let units = restart_evaluations(best.point.shares.len());
+            let units = RESTARTS as u64 * units * search.evaluation_units(target);
+            search.progress.begin(SearchPart::Restart, 2 * RESTARTS, units);
+        }
         let walk = Restart { search, target, best, number: restart as u64 }.run()?;
         ends.extend(search.best(walk.iter(), target).and_then(|end| met(search, end, target)));
         evaluated.extend(walk);
     }
     Ok(evaluated)
+}
+
+/// Returns the expected number of evaluations of a restart.
+pub(crate) fn restart_evaluations(variables: usize) -> u64 {
+    EVALUATIONS * variables as u64 + Effort::WHOLE.evaluations
 }
 
 /// A search by samples of shrinking boxes, starting near the best design.
@@ -150,6 +164,8 @@ impl Restart<'_> {
         let Self { search, target, .. } = *self;
         search.progress.start();
         let variables = self.best.point.shares.len();
+        let units = search.evaluation_units(target);
+        let task = search.progress.task(EVALUATIONS * variables as u64 * units);
         let sequence = Sequence::new(variables, self.number);
         let (mut centre, mut width, mut drawn) = (self.best.clone(), WIDTHS[0], 0);
         let mut evaluated: Vec<Candidate> = Vec::new();
@@ -166,6 +182,7 @@ impl Restart<'_> {
             drawn += count;
             let samples = points.into_par_iter().map(|point| surface.evaluate(search, point));
             evaluated.extend(samples.collect::<Result<Vec<_>, Halt>>()?);
+            task.count(count as u64 * units);
             let is_first = drawn == count;
             let Some(top) = search.best(evaluated.iter(), target).cloned() else { break };
             let gain = match [&centre, &top].map(|design| met(search, design, target)) {
@@ -186,6 +203,7 @@ impl Restart<'_> {
                 break;
             }
         }
+        drop(task);
         evaluated.extend(search.improve(target, &centre, Effort::WHOLE)?);
         Ok(evaluated)
     }

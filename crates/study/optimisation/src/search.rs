@@ -5,7 +5,11 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 use ranking::CriterionEnds;
-use rayon::iter::{IntoParallelIterator as _, IntoParallelRefIterator as _, ParallelIterator as _};
+use rayon::iter::{
+    IndexedParallelIterator as _, IntoParallelIterator as _, IntoParallelRefIterator as _,
+    ParallelIterator as _,
+};
+use results::columns::name;
 use results::{DesignRow, Outcome};
 use run::{Program, Start};
 
@@ -20,10 +24,12 @@ use crate::goal::DesignGoal;
 use crate::improvement::Plan;
 use crate::judge::Judge;
 use crate::judgement::Judgement;
-use crate::local::Search;
+use crate::local::{Effort, Search, evaluation_units};
 use crate::progress::{SearchPart, SearchProgress};
 use crate::requirement_bounds::has_folded;
-use crate::sampled::search::{SEEDS, Searches};
+use crate::restarts::{RESTARTS, restart_evaluations};
+use crate::sampled::confirmation::FRESH;
+use crate::sampled::search::{NOMINAL_POINTS, REFINED, SEEDS, Searches};
 use crate::space::SpacePoint;
 use crate::space_filling;
 
@@ -130,11 +136,16 @@ fn find(
     } else {
         Vec::new()
     };
+    progress.begin(SearchPart::Sample, on_peaks.len(), on_peaks.len() as u64);
+    let known = points.len();
     let points = [points, on_peaks].concat();
     // The journal holds the space-filling points already: only points on peaks are solved here.
-    let evaluate = |point| Ok(nominal.evaluate(SearchStage::Sample, &point, false)?.0);
+    let evaluate = |(k, point)| {
+        let _task = (k >= known).then(|| progress.task(1));
+        Ok(nominal.evaluate(SearchStage::Sample, &point, false)?.0)
+    };
     let mut history: Vec<Candidate> =
-        points.into_par_iter().map(evaluate).collect::<Result<_, _>>()?;
+        points.into_par_iter().enumerate().map(evaluate).collect::<Result<_, _>>()?;
     let answer = if goal.is_about_samples() {
         let searches = Searches { nominal: &nominal, sampled: &search, finer: &finer };
         searches.answer(goal, &mut history)?
@@ -153,33 +164,45 @@ fn find(
     Ok(Found { history, answer, left_out, starts, regions: regions.len(), evaluations, rescaled })
 }
 
-/// Estimates the number of solutions in each part of the search.
-///
-/// The estimates are within a factor of two for the goals in `sweeps`.
-fn expected(goal: &DesignGoal) -> Vec<(SearchPart, f64)> {
-    let (objectives, variables) = (goal.objectives.len(), goal.space.intervals().len() as f64);
-    let answer = |plan: Plan, each: f64| {
-        let each = variables * each;
-        // A full local search takes as many solutions as seven short ones.
-        let climbs = (11 * plan.tasks() + 64 * plan.finalists) as f64 * each;
-        // The front is searched in two parts: half of the points, then the points between them.
-        let halves = if objectives > 1 { 2 } else { 0 };
-        let front = vec![(SearchPart::Front, goal.points as f64 * 80.0 * each); halves];
-        [vec![(SearchPart::Climb, climbs); objectives], front].concat()
+/// Estimates the units of work of each part of the search.
+fn expected(goal: &DesignGoal) -> Vec<(SearchPart, u64)> {
+    let variables = goal.space.intervals().len();
+    let answer = |plan: Plan, samples: usize, points: usize| {
+        let each = evaluation_units(samples);
+        let mut parts = Vec::new();
+        for objective in &goal.objectives {
+            parts.push((SearchPart::Climb, plan.evaluations() * each));
+            // Local searches seldom agree on the largest slope of a path. For other objectives
+            // restarts are the exception.
+            if &*objective.column == name::MAX_STIFFNESS && samples == 0 {
+                let restarts = RESTARTS as u64 * restart_evaluations(variables);
+                parts.push((SearchPart::Restart, restarts * each));
+            }
+        }
+        if goal.objectives.len() > 1 {
+            // Half of the points, then the points between them.
+            let half = points.div_ceil(2) as u64;
+            let plans = [plan.of_a_point(), plan.between_points()];
+            let front = |plan: Plan| (SearchPart::Front, half * plan.evaluations() * each / 2);
+            parts.extend(plans.map(front));
+        }
+        parts
     };
-    let mut parts = vec![(SearchPart::Sample, goal.samples as f64)];
-    parts.extend(answer(Plan::NOMINAL, 1.0));
-    if goal.is_about_samples() {
-        // A sample costs less than a nominal design: no derivatives, and bending only if required.
-        let each = 0.25 * goal.realisations as f64;
-        parts.push((SearchPart::Samples, (objectives * SEEDS) as f64 * each));
-        parts.extend(answer(Plan::SAMPLED, each));
-        let best = if objectives > 1 { goal.points } else { 1 } as f64;
-        parts.extend([
-            (SearchPart::Refine, 230.0 * variables * each),
-            (SearchPart::Check, best * 500.0),
-        ]);
+    let mut parts = vec![(SearchPart::Sample, goal.samples as u64)];
+    if !goal.is_about_samples() {
+        parts.extend(answer(Plan::NOMINAL, 0, goal.points));
+        return parts;
     }
+    let (count, objectives) = (goal.realisations, goal.objectives.len());
+    parts.extend(answer(Plan::NOMINAL, 0, goal.points.min(NOMINAL_POINTS)));
+    parts.push((SearchPart::Samples, (objectives * SEEDS * count) as u64));
+    parts.extend(answer(Plan::SAMPLED, count, goal.points));
+    if objectives == 1 {
+        let each = Effort::WHOLE.evaluations * evaluation_units(goal.finer().realisations);
+        parts.push((SearchPart::Refine, REFINED as u64 * each));
+    }
+    let best = if objectives > 1 { goal.points } else { 1 };
+    parts.push((SearchPart::Check, (best * FRESH) as u64));
     parts
 }
 
@@ -189,10 +212,10 @@ fn sample_rows(
     points: &[SpacePoint],
     progress: &SearchProgress,
 ) -> Result<Vec<DesignRow>, Halt> {
-    progress.begin(SearchPart::Sample, points.len());
+    progress.begin(SearchPart::Sample, points.len(), points.len() as u64);
     let row = |point: &SpacePoint| {
+        let _task = progress.task(1);
         let result = evaluations.solve(point, false)?;
-        progress.step();
         Ok(evaluations.row(0, point, &result))
     };
     points.par_iter().map(row).collect()

@@ -18,7 +18,7 @@ use super::selection::{SelectedDesign, Selection, select};
 use super::source::{Definition, folder_within};
 use super::{DONE, INCOMPLETE};
 use crate::json;
-use crate::print::{aligned, change, rounded};
+use crate::print::{aligned, change, fold_text, rounded};
 
 /// Arguments of `squama design`.
 #[derive(Debug, Args)]
@@ -140,7 +140,8 @@ impl SolvedChoice {
         let sensitivity = sensitivity(&self.solved.row.result.sensitivity);
         let (title, changes, table) = (self.title(), self.changes(), aligned(&rows));
         let (places, judged) = (self.places(), self.judged());
-        format!("{title}\n{changes}\n{table}{}{places}{judged}{sensitivity}", self.overlap())
+        let notes = [self.overlap(), self.fold(), places, judged, sensitivity].concat();
+        format!("{title}\n{changes}\n{table}{notes}")
     }
 
     /// States the radius at which neighbouring scales touch; empty unless they overlap at rest.
@@ -159,6 +160,12 @@ impl SolvedChoice {
             }
             _ => String::new(),
         }
+    }
+
+    /// Warns if the surface folds, beyond which results are not valid.
+    fn fold(&self) -> String {
+        let puncture = self.solved.row.result.puncture;
+        fold_text(puncture.and_then(|puncture| puncture.measures.fold_force))
     }
 
     /// Explains why the weakest load position is unknown; empty if it is known.

@@ -38,6 +38,16 @@ fn design_prints_the_values_of_the_sweep() {
 }
 
 #[test]
+fn a_folded_design_is_marked() {
+    let place = Place::with(FEW);
+    let folded = place.prints("design x.toml --gap 0.1 --length 1 --slant 75");
+    let line = "\n⚠ The surface of the substrate folds at a force of 0.78966: values at the critical tilt are not valid.\n";
+    assert!(folded.contains(line), "{folded}");
+    let open = place.prints("design x.toml --gap 0.2 --length 0.5 --slant 60");
+    assert!(!open.contains('⚠'), "{open}");
+}
+
+#[test]
 fn design_follows_unloading_paths() {
     let place = Place::with(FEW);
     let design = "design x.toml --gap 0.1 --length 1 --slant 45 --set puncture.unload=true --set flexure.unbend=true";

@@ -129,9 +129,12 @@ impl<'a> LocalProblem<'a> {
         self.end_if_stalled(shares)?;
         if let Some(piece) = self.piece {
             piece.continue_coverage(&mut row.nominal);
-            if self.stays_open {
-                continue_compliance(&mut row.nominal);
-            }
+        }
+        if self.stays_open {
+            continue_compliance(&mut row.nominal);
+        }
+        // Samples are not continued.
+        if self.walk.search.judge.samples().is_none() && (self.piece.is_some() || self.stays_open) {
             candidate.verdict = self.walk.search.judge.verdict(&row.nominal);
         }
         let Judgement::Judged(worth) = candidate.verdict else { return Ok(None) };

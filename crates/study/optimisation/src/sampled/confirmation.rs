@@ -12,7 +12,7 @@ use crate::space::SpacePoint;
 use crate::statistic::Statistic;
 
 /// Number of independent samples for each check.
-const FRESH: usize = 1000;
+pub(crate) const FRESH: usize = 1000;
 
 /// Statistics of a best design, by seen and by independent samples.
 ///

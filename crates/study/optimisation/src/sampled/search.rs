@@ -4,7 +4,7 @@ use rayon::iter::{
     IntoParallelIterator as _, IntoParallelRefMutIterator as _, ParallelIterator as _,
 };
 
-use super::confirmation::confirm;
+use super::confirmation::{FRESH, confirm};
 use crate::answer::{Answer, answer};
 use crate::best::{BestDesign, best_design, starts};
 use crate::candidate::{Candidate, Merit, SearchStage, Target};
@@ -16,13 +16,13 @@ use crate::progress::SearchPart;
 use crate::space::SpacePoint;
 
 /// Maximum points of the nominal front from which the sampled front starts.
-const NOMINAL_POINTS: usize = 10;
+pub(crate) const NOMINAL_POINTS: usize = 10;
 
 /// Number of nominal designs per objective that are sampled first.
 pub(crate) const SEEDS: usize = 16;
 
 /// Number of designs refined with more samples, in different regions if possible.
-const REFINED: usize = 2;
+pub(crate) const REFINED: usize = 2;
 
 /// Searches of nominal designs, of sampled designs, and with more samples.
 #[derive(Clone, Copy)]
@@ -52,11 +52,11 @@ impl Searches<'_> {
         if !is_admitted {
             return Ok(first);
         }
-        sampled.progress.begin(SearchPart::Samples, seeds.len());
+        let units = goal.realisations as u64;
+        sampled.progress.begin(SearchPart::Samples, seeds.len(), seeds.len() as u64 * units);
         let evaluate = |point: SpacePoint| {
-            let evaluated = sampled.evaluate(SearchStage::Tolerance, &point, false)?.0;
-            sampled.progress.step();
-            Ok(evaluated)
+            let _task = sampled.progress.task(units);
+            Ok(sampled.evaluate(SearchStage::Tolerance, &point, false)?.0)
         };
         let evaluated: Vec<Candidate> =
             seeds.into_par_iter().map(evaluate).collect::<Result<_, _>>()?;
@@ -88,7 +88,8 @@ fn refine(
 ) -> Result<bool, Halt> {
     let Searches { sampled, finer, .. } = searches;
     let starts = starts(sampled, history.iter(), &best.target, REFINED);
-    finer.progress.begin(SearchPart::Refine, starts.len());
+    let units = Effort::WHOLE.evaluations * finer.evaluation_units(&best.target);
+    finer.progress.begin(SearchPart::Refine, starts.len(), starts.len() as u64 * units);
     let mut evaluated = Vec::new();
     for start in starts {
         let start = finer.evaluate(SearchStage::Tolerance, &start.point, false)?.0;
@@ -96,7 +97,6 @@ fn refine(
         evaluated.extend(finer.improve(&best.target, &start, Effort::WHOLE)?);
         // The search does not return its start, which may be the best design.
         evaluated.push(start);
-        finer.progress.step();
     }
     let is_met = |candidate| matches!(finer.merit(candidate, &best.target), Merit::Met(_));
     let is_refined = evaluated.iter().any(is_met);
@@ -111,9 +111,10 @@ fn refine(
 
 /// Checks the best designs with independent samples.
 fn check(search: &Search<'_>, best: &mut [BestDesign]) -> Result<(), Halt> {
-    search.progress.begin(SearchPart::Check, best.len());
+    let units = FRESH as u64;
+    search.progress.begin(SearchPart::Check, best.len(), best.len() as u64 * units);
     best.par_iter_mut().try_for_each(|best| {
-        search.progress.step();
+        let _task = search.progress.task(units);
         best.confirmation = confirm(search, &best.candidate.point)?;
         Ok(())
     })

@@ -349,6 +349,7 @@ fn lengths_in_mm() {
         "puncture = { load_position = 0.5, load_inset_mm = 0.5 }\nmaterial.thickness_mm = 2",
         "designs = { gap_mm = 0.4, thickness_mm = [1, 1e3] }",
         "designs = { pitch_mm = 3, length_mm = 2, thickness_mm = 2 }\nscale.base = '2L'",
+        "designs = { pitch_mm = 0.1, gap_mm = 0.1, thickness_mm = 0.4 }",
         "variables = { pitch_mm = { from = 1.5, to = 3 }, length_mm = { from = 1, to = 2 } }\nmaterial.thickness_mm = 2",
         "tolerance.tissue_thickness_mm = { batch_sd = 0.1 }\nmaterial.thickness_mm = 2",
     ]));

@@ -17,7 +17,7 @@ use super::super::couplings::{couplings_report, measured};
 use super::super::rank::obstacle;
 use super::samples;
 use super::weakest_place::weakest_place_note;
-use crate::print::{FOLDED, aligned, counted, digits, rounded, time};
+use crate::print::{FOLDED, aligned, counted, digits, fold_text, rounded, time};
 
 /// Formats the result of a search.
 pub struct SearchReport<'a> {
@@ -78,9 +78,11 @@ impl SearchReport<'_> {
         let words = BindingText::new(self.goal);
         let mut rows: Vec<[String; 2]> = self.variables(&best.candidate);
         rows.extend(self.values(best));
-        let mut text = format!("The best design\n{}", aligned(&rows));
-        text += &self.folded(best);
         let constant = constant_objectives(self.goal, self.found);
+        let title =
+            if constant.is_empty() { "The best design" } else { "A design, as good as any other" };
+        let mut text = format!("{title}\n{}", aligned(&rows));
+        text += &fold_text(fold_force(self.goal, best));
         if !constant.is_empty() {
             return text + &constant_text(&constant);
         }
@@ -103,17 +105,6 @@ impl SearchReport<'_> {
             let _ = write!(text, "\n{modes}");
         }
         text + &best.confirmation.as_ref().map(samples::text).unwrap_or_default()
-    }
-
-    /// Warns if the surface folds in the best design and the goal depends on it.
-    fn folded(&self, best: &BestDesign) -> String {
-        match fold_force(self.goal, best) {
-            Some(force) => format!(
-                "\n{FOLDED} The surface of the substrate folds at a force of {}: values at the critical tilt are not valid.\n",
-                digits(force)
-            ),
-            None => String::new(),
-        }
     }
 
     /// Reports the effect of full substrate coupling on the columns of the goal.
