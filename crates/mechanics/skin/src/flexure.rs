@@ -30,7 +30,7 @@ pub use gap_by_gap::BentSample;
 pub use measures::FlexureMeasures;
 pub use mesh::MembraneMesh;
 pub use point::FlexurePoint;
-pub use sensitivity::{FlexureInput, differentiate, moment_curve};
+pub use sensitivity::{FlexureInput, differentiate, moment_curve, unloading_curve};
 pub use snapshot::{StripSnapshot, snapshots};
 
 /// How many gaps of a strip are solved for.

@@ -49,7 +49,7 @@ pub(crate) use needle::NeedleMode;
 pub use needle::{CriticalEvent, Needle, Passage, TipForces};
 pub use number_list::{MOST_NUMBERS, NumberList};
 pub use point::{PuncturePoint, ScaleState};
-pub use sensitivity::{PunctureInput, differentiate, force_curve};
+pub use sensitivity::{PunctureInput, differentiate, force_curve, unloading_curve};
 pub use single_scale::PerturbedScale;
 pub use snap::Snap;
 pub use snapshot::{At, RowSnapshot, Snapshots, snapshots, snapshots_to_end};

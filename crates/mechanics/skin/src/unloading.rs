@@ -3,10 +3,12 @@
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
-use solver::{Continuation, Termination};
+use solver::{Continuation, Settings, Termination};
 
 use crate::contacts::SkinPoint;
+use crate::path_location::{PathLocation, PointLocator};
 use crate::record::{Skin, Work};
+use crate::sensitivity::{Curve, CurvePoint, curve_point};
 
 /// The unloading path from the end of a loading path.
 #[derive(Clone, Debug)]
@@ -75,4 +77,28 @@ impl<P> Unloading<P> {
         let end = self.path.last().filter(|_| self.stop == Termination::Unloaded);
         Remains { loop_work: self.loop_work, displacement: end.map(displacement) }
     }
+}
+
+/// Evaluates a curve at `locations` on the unloading path from `turn`, without derivatives.
+///
+/// Points that unloading does not reach are `None`.
+pub(crate) fn unloaded<S: Skin + Clone>(
+    path: &mut Continuation<S>,
+    turn: Option<SkinPoint>,
+    locations: impl Iterator<Item = PathLocation<S>>,
+    settings: &Settings,
+    curve: Curve<S>,
+) -> Vec<Option<CurvePoint>> {
+    let Some(turn) = turn else { return locations.map(|_| None).collect() };
+    path.continue_with(path.system().clone(), turn);
+    path.turn_back();
+    let mut locator = PointLocator::new(path, locations);
+    loop {
+        let from = path.point_shared();
+        let Some(to) = path.next() else { break };
+        locator.follow(path, &from, &to);
+    }
+    let system = path.system();
+    let points = locator.points.iter();
+    points.map(|point| Some(curve_point(system, point.as_ref()?, &[], settings, curve))).collect()
 }

@@ -9,7 +9,9 @@ use sweep::{
 };
 use text::toml_source::{KeyValue, KeyValues, Place, Value};
 
-use crate::measured_curve::{Ending, InvalidMeasured, MeasuredCurve, Test};
+use crate::measured_curve::{
+    Branches, CurveEvent, CurveEventKind, InvalidMeasured, MeasuredCurve, Test,
+};
 
 /// Unknowns of a fit, and the measured curves that determine them.
 #[derive(Debug)]
@@ -57,9 +59,14 @@ pub(crate) enum Source {
 /// A measured curve with its specimen.
 #[derive(Debug)]
 pub(crate) struct TestCurve {
+    /// The fitted points: loading, then unloading.
     pub(crate) measured: MeasuredCurve,
-    /// End of the loading branch, if the file goes on after it.
-    pub(crate) ending: Option<Ending>,
+    /// Number of points of the unloading branch.
+    pub(crate) unloading: usize,
+    /// Displacement or curvature at which unloading begins.
+    pub(crate) turn: f64,
+    /// Ends of branches, holds and drops.
+    pub(crate) events: Vec<CurveEvent>,
     pub(crate) case: Case,
     /// Parameters set in the table of this curve. Unknowns do not change them.
     pub(crate) own: Vec<&'static Parameter>,
@@ -80,7 +87,7 @@ pub enum InvalidFit {
 }
 
 /// Keys of a `[[curve]]` besides parameters.
-const KEYS: [&str; 7] = ["file", "kind", "columns", "specimen", "from", "to", "offsets"];
+const KEYS: [&str; 8] = ["file", "kind", "columns", "specimen", "branch", "from", "to", "offsets"];
 
 /// Maximum number of points of a curve.
 ///
@@ -103,7 +110,6 @@ impl FitDefinition {
         let folder = path.parent().unwrap_or(Path::new(""));
         let mut curves = Vec::new();
         for table in tables(&entries, &name)? {
-            let specimens = table.measured(folder)?;
             let own = table.own_values()?;
             // Each specimen is read as a definition of its own, which checks its values.
             let specimen = own.iter().map(|(_, setting)| setting);
@@ -111,7 +117,9 @@ impl FitDefinition {
             let specimen: Vec<_> = settings.iter().chain(specimen).cloned().collect();
             let case = one_design(&read_entries(path, &specimen)?, &name)?.grid().case(0);
             let own: Vec<_> = own.into_iter().map(|(parameter, _)| parameter).collect();
-            for (measured, ending) in specimens {
+            for measured in table.measured(folder)? {
+                let curve = table.branches(measured, &case, &own)?;
+                let measured = &curve.measured;
                 // Checked here, because the line of the curve is known only here.
                 let missing = measured.test.units(&case).err().filter(|_| measured.is_physical);
                 if let Some(missing) = missing {
@@ -119,12 +127,12 @@ impl FitDefinition {
                     let place = &table.0[0].place;
                     return Err(not_accepted(place, "curve.file", &measured.file, &expected));
                 }
-                if curves.iter().any(|other: &TestCurve| other.measured == measured) {
+                if curves.iter().any(|other: &TestCurve| other.measured == *measured) {
                     let expected = "each measured curve once";
                     return Err(table.not_accepted("file", &measured.file, expected));
                 }
-                unknowns.extend(table.offsets(&measured, curves.len())?);
-                curves.push(TestCurve { measured, ending, case, own: own.clone() });
+                unknowns.extend(table.offsets(measured, curves.len())?);
+                curves.push(curve);
             }
         }
         Ok(Self { sweep, unknowns, curves })
@@ -266,7 +274,7 @@ impl CurveTable<'_> {
     }
 
     /// Reads the measured curves of the chosen specimens.
-    fn measured(&self, folder: &Path) -> Result<Vec<Loading>, InvalidFit> {
+    fn measured(&self, folder: &Path) -> Result<Vec<MeasuredCurve>, InvalidFit> {
         let file = self.text("file", "the name of a CSV file")?;
         let kind = self.text("kind", "\"puncture\" or \"bending\"")?;
         let columns = self.texts("columns")?;
@@ -282,7 +290,11 @@ impl CurveTable<'_> {
             let index = self.specimen(entry, &curves)?;
             curves = vec![curves.swap_remove(index)];
         }
-        curves.into_iter().map(|curve| self.loading(file, curve)).collect()
+        // Messages name the file as the definition does, without the folder.
+        for curve in &mut curves {
+            curve.set_file(file);
+        }
+        Ok(curves)
     }
 
     /// Returns the index of the specimen that an entry names, or gives the number of.
@@ -303,29 +315,80 @@ impl CurveTable<'_> {
         })
     }
 
-    /// Returns the loading branch of a curve from `from` to `to`, averaged if it is long.
-    fn loading(&self, file: &str, mut curve: MeasuredCurve) -> Result<Loading, InvalidFit> {
-        // Messages name the file as the definition does, without the folder.
-        curve.set_file(file);
-        let mut ending = curve.keep_loading();
+    /// Returns true for each branch that is fitted: loading and unloading.
+    fn fitted_branches(&self, test: Test, case: &Case) -> Result<[bool; 2], InvalidFit> {
+        let Some(entry) = self.entry("branch") else {
+            let unloads = match test {
+                Test::Puncture => case.puncture.unload,
+                Test::Bending => case.flexure.unload,
+            };
+            return Ok([true, unloads]);
+        };
+        let fitted = match &entry.value {
+            Value::Text(text) => match text.as_str() {
+                "loading" => Some([true, false]),
+                "unloading" => Some([false, true]),
+                "both" => Some([true, true]),
+                _ => None,
+            },
+            _ => None,
+        };
+        fitted.ok_or_else(|| self.wrong("branch", "\"loading\", \"unloading\" or \"both\""))
+    }
+
+    /// Selects the fitted branches of a curve from `from` to `to`, averaged if they are long.
+    fn branches(
+        &self,
+        mut curve: MeasuredCurve,
+        case: &Case,
+        own: &[&'static Parameter],
+    ) -> Result<TestCurve, InvalidFit> {
+        let Branches { mut loading, mut unloading, mut events } = curve.branches();
+        let turn = loading.last().map_or(0.0, |last| curve.points[*last][0]);
+        let [is_loading, is_unloading] = self.fitted_branches(curve.test, case)?;
+        if is_unloading && unloading.is_empty() && self.entry("branch").is_some() {
+            return Err(self.wrong("branch", "\"loading\": the curve does not turn back"));
+        }
+        let left_out = [(&mut loading, is_loading), (&mut unloading, is_unloading)]
+            .into_iter()
+            .filter(|(_, is_fitted)| !is_fitted)
+            .map(|(branch, _)| std::mem::take(branch).len());
+        let left_out: usize = left_out.sum();
+        for event in events.iter_mut().filter(|e| e.kind == CurveEventKind::TurnsBack) {
+            event.left_out = left_out;
+        }
         let from = self.number("from")?.unwrap_or(f64::NEG_INFINITY) * curve.x_unit;
         let to = self.number("to")?.unwrap_or(f64::INFINITY) * curve.x_unit;
         // Select the range before averaging, so that no mean includes points outside of it.
-        let last = curve.points.last().map_or(f64::NEG_INFINITY, |point| point[0]);
-        ending = ending.filter(|_| last <= to);
-        curve.points.retain(|point| (from..=to).contains(&point[0]));
-        if curve.points.is_empty() {
+        let is_within = |index: &usize| (from..=to).contains(&curve.points[*index][0]);
+        loading.retain(is_within);
+        unloading.retain(is_within);
+        events.retain(|event| (from..=to).contains(&event.at));
+        let count = loading.len() + unloading.len();
+        if count == 0 {
             let key = if self.entry("from").is_some() { "from" } else { "to" };
             return Err(self.wrong(key, "a range with points of the file in it"));
         }
-        self.require_load(&curve)?;
         // Machines record thousands of points, and the noise of neighbouring points is correlated.
-        let part = curve.points.len().div_ceil(MOST_POINTS);
-        let mean = |points: &[[f64; 2]]| {
-            [0, 1].map(|axis| points.iter().map(|p| p[axis]).sum::<f64>() / points.len() as f64)
+        let part = count.div_ceil(MOST_POINTS);
+        let mean = |indices: &[usize]| {
+            [0, 1].map(|axis| {
+                let sum: f64 = indices.iter().map(|index| curve.points[*index][axis]).sum();
+                sum / indices.len() as f64
+            })
         };
-        curve.points = curve.points.chunks(part).map(mean).collect();
-        Ok((curve, ending))
+        let unloading: Vec<_> = unloading.chunks(part).map(mean).collect();
+        let loading = loading.chunks(part).map(mean);
+        curve.points = loading.chain(unloading.iter().copied()).collect();
+        self.require_load(&curve)?;
+        Ok(TestCurve {
+            measured: curve,
+            unloading: unloading.len(),
+            turn,
+            events,
+            case: *case,
+            own: own.to_vec(),
+        })
     }
 
     /// Refuses a constant force or moment, which determines no parameter.
@@ -393,9 +456,6 @@ impl CurveTable<'_> {
         Ok(offsets)
     }
 }
-
-/// A loading branch, and its end if the file goes on after it.
-type Loading = (MeasuredCurve, Option<Ending>);
 
 /// Returns the increasing bounds in a list of two numbers.
 fn range(value: &Value) -> Option<[f64; 2]> {

@@ -13,7 +13,7 @@ use statrs::distribution::{ContinuousCDF as _, StudentsT};
 use sweep::Sweep;
 
 use crate::definition::{FitDefinition, TestCurve, Unknown};
-use crate::measured_curve::Ending;
+use crate::measured_curve::CurveEvent;
 use crate::model::ModelCurve;
 use crate::profile::{Aborted, Interval, Profiles, is_at_end};
 use crate::search::{Minimum, Noise, Residuals};
@@ -75,8 +75,8 @@ pub struct FittedCurve {
     pub left_out: Vec<u64>,
     /// Whether the signs of the file were reversed, on both axes.
     pub reversed: [bool; 2],
-    /// End of the loading branch, if the file goes on after it.
-    pub ending: Option<Ending>,
+    /// Ends of branches, holds and drops.
+    pub events: Vec<CurveEvent>,
     /// True if the skin resists at no point, for example because signs are reversed.
     pub is_turned: bool,
     /// Standard deviation of the residuals.
@@ -336,7 +336,7 @@ impl Residuals<'_> {
                 is_physical: measured.is_physical,
                 left_out: measured.left_out.clone(),
                 reversed: measured.reversed,
-                ending: curve.ending,
+                events: curve.events.clone(),
                 is_turned: model.before == points.len() || points.iter().all(|p| p[1] <= 0.0),
                 points,
                 noise: noise.deviation,

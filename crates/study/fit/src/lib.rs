@@ -9,4 +9,4 @@ mod search;
 
 pub use definition::{FitDefinition, InvalidFit, Unknown};
 pub use fit_result::{Estimate, FitError, Fitted, FittedCurve};
-pub use measured_curve::{EndReason, Ending, InvalidMeasured, MeasuredCurve, Test};
+pub use measured_curve::{CurveEvent, CurveEventKind, InvalidMeasured, MeasuredCurve, Test};

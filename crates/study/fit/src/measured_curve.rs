@@ -12,7 +12,8 @@ use sweep::{Case, read_input_bytes};
 use text::reason;
 
 use self::columns::{CurveColumns, curves, spelled};
-pub use self::loading::{EndReason, Ending};
+pub(crate) use self::loading::Branches;
+pub use self::loading::{CurveEvent, CurveEventKind};
 use self::number_table::{NumberTable, Rows};
 
 /// Kind of test in which a curve was measured.
@@ -254,12 +255,9 @@ impl MeasuredCurve {
         }
     }
 
-    /// Keeps the first loading branch, and returns its end if the curve goes on.
-    pub(crate) fn keep_loading(&mut self) -> Option<Ending> {
-        let ending = loading::end(&self.points, &self.lines)?;
-        self.points.truncate(self.points.len() - ending.left_out);
-        self.lines.truncate(self.points.len());
-        Some(ending)
+    /// Divides the curve into its branches.
+    pub(crate) fn branches(&self) -> Branches {
+        loading::branches(&self.points, &self.lines)
     }
 }
 

@@ -80,17 +80,23 @@ impl FitDefinition {
         let sought: Vec<_> = self.unknowns.iter().filter_map(|u| u.of(Some(curve))).collect();
         let measured = curve.measured.points.iter();
         let wanted: Vec<f64> = measured.map(|point| (point[0] - zero[0]) / units[0]).collect();
-        // Solve only for points on the curve; their order is kept for the loop below.
-        let touching: Vec<f64> = wanted.iter().copied().filter(|place| *place > 0.0).collect();
-        let found = solve(evaluator, curve.measured.test, &case, &sought, &touching)?;
+        let (loading, unloading) = wanted.split_at(wanted.len() - curve.unloading);
+        let turn = (curve.turn - zero[0]) / units[0];
+        let path = Path { evaluator, test: curve.measured.test, turn };
+        let [touching, back] = [loading, unloading].map(touching);
+        let found = path.solve(&case, &sought, [&touching, &back])?;
         let last = last(&touching, &found);
-        let mut found = found.into_iter();
-        let place = |at: f64| match (at > 0.0).then(|| found.next().flatten()) {
-            None => Place::Before,
-            Some(None) => Place::Beyond,
-            Some(Some(point)) => Place::On(at, point),
-        };
-        let places: Vec<_> = wanted.into_iter().map(place).collect();
+        let mut found = found.into_iter().enumerate();
+        let mut places = Vec::new();
+        for at in wanted {
+            let found = if at > 0.0 { found.next() } else { None };
+            places.push(match found {
+                Some((_, Some(point))) => Place::On(at, point),
+                Some((k, None)) if k < touching.len() => Place::Beyond,
+                // The needle does not touch yet, or no longer below the residual displacement.
+                None | Some(_) => Place::Before,
+            });
+        }
         let value = |place: &Place| match place {
             Place::Before => zero[1],
             Place::On(_, point) => zero[1] + units[1] * point.value,
@@ -117,8 +123,7 @@ impl FitDefinition {
                     // unknowns.
                     known += 1;
                     let by = By { curve, case: &case, unknown, parameter, value };
-                    let own =
-                        by.own_rates(evaluator, &places, known - 1, &mut model.differenced)?;
+                    let own = by.own_rates(&path, &places, known - 1, &mut model.differenced)?;
                     by.with_units(units, &places, &own)
                 }
                 // Offsets of other curves, and parameters that this specimen sets itself.
@@ -153,7 +158,7 @@ impl By<'_> {
     /// Missing derivatives are replaced with differences of two solutions.
     fn own_rates(
         &self,
-        evaluator: &Evaluator,
+        path: &Path,
         places: &[Place],
         k: usize,
         differenced: &mut usize,
@@ -165,14 +170,16 @@ impl By<'_> {
         }
         *differenced += unknown.len();
         let at = on_curve(places, |at, _| at);
-        let at: Vec<_> = unknown.iter().map(|&i| at[i]).collect();
+        let loading = places.len() - self.curve.unloading;
+        let (on, back): (Vec<usize>, Vec<usize>) = unknown.iter().partition(|i| **i < loading);
+        let [on, back] = [on, back].map(|of| of.into_iter().map(|i| at[i]).collect::<Vec<_>>());
         let step = SOLVED_STEP * (self.unknown.to - self.unknown.from);
         let ends = [self.value - step, self.value + step];
         // One-sided at an end of the range, because values beyond it may be invalid (friction < 0).
         let ends = ends.map(|end| end.clamp(self.unknown.from, self.unknown.to));
         let [below, above] = ends.map(|end| {
             let moved = self.parameter.put(self.case, Scalar::Number(end));
-            solve(evaluator, self.curve.measured.test, &moved, &[], &at)
+            path.solve(&moved, &[], [&on, &back])
         });
         for ((i, below), above) in unknown.into_iter().zip(below?).zip(above?) {
             let rise = below.zip(above).map(|(below, above)| above.value - below.value);
@@ -207,17 +214,46 @@ impl Unknown {
     }
 }
 
-fn solve(
-    evaluator: &Evaluator,
+/// The path of a test, which turns back at a displacement or curvature.
+struct Path<'a> {
+    evaluator: &'a Evaluator,
     test: Test,
-    case: &Case,
-    sought: &[&'static Parameter],
-    places: &[f64],
-) -> Result<CurvePoints, Outcome> {
-    match test {
-        Test::Puncture => evaluator.force_curve(case, sought, places),
-        Test::Bending => evaluator.moment_curve(case, sought, places),
+    turn: f64,
+}
+
+impl Path<'_> {
+    /// Solves for points on the loading branch, then on the unloading branch.
+    ///
+    /// Points of the unloading branch have no derivatives.
+    fn solve(
+        &self,
+        case: &Case,
+        sought: &[&'static Parameter],
+        [loading, unloading]: [&[f64]; 2],
+    ) -> Result<CurvePoints, Outcome> {
+        let Self { evaluator, test, turn } = *self;
+        let mut points = match test {
+            _ if loading.is_empty() => Vec::new(),
+            Test::Puncture => evaluator.force_curve(case, sought, loading)?,
+            Test::Bending => evaluator.moment_curve(case, sought, loading)?,
+        };
+        if !unloading.is_empty() {
+            let mut back = match test {
+                Test::Puncture => evaluator.unloading_force_curve(case, turn, unloading)?,
+                Test::Bending => evaluator.unloading_moment_curve(case, turn, unloading)?,
+            };
+            for point in back.iter_mut().flatten() {
+                point.rates.resize(sought.len(), None);
+            }
+            points.append(&mut back);
+        }
+        Ok(points)
     }
+}
+
+/// Returns the positive displacements or curvatures, which lie on the path.
+fn touching(wanted: &[f64]) -> Vec<f64> {
+    wanted.iter().copied().filter(|place| *place > 0.0).collect()
 }
 
 /// Returns the value at the farthest point that the path reaches.

@@ -10,8 +10,12 @@ use nalgebra::DMatrix;
 use crate::fit_result::FitError;
 use crate::search::{Minimum, Residuals};
 
-/// Number of cells into which the range of an unknown is divided, to find other minima.
-const CELLS: usize = 8;
+/// Ratio of successive distances from the estimate at which the profile is sampled.
+const OUTWARD: f64 = 1.5;
+/// Root of the rise, as a multiple of `t`, beyond which no other minimum is expected.
+const FAR: f64 = 4.0;
+/// Least and largest first distance from the estimate, as fractions of the range.
+const FIRST: [f64; 2] = [1e-9, 0.06];
 /// Maximum number of fits to locate an end of an interval.
 const MOST_STEPS: usize = 12;
 /// Accuracy of the root of the rise at an end, as a fraction of `t`.
@@ -85,15 +89,18 @@ impl Profiles<'_, '_> {
     /// Returns the end of the interval of unknown `j` towards `bound`; `None` if it is open.
     fn end(&self, j: usize, bound: f64) -> Result<Option<ProfilePoint>, Aborted> {
         let start = self.minimum.shares[j];
+        let side = 2.0 * bound - 1.0;
         let limit = self.t.powi(2);
         let mut inner = ProfilePoint { at: start, shares: self.minimum.shares.clone(), rise: 0.0 };
         let mut outer: Option<ProfilePoint> = None;
+        // Go on beyond the first crossing, because the sum of squares may fall again: its kinks make
+        // several valleys.
+        let half = self.t * self.covariance[(j, j)].sqrt();
+        let mut distance = half.clamp(FIRST[0], FIRST[1]);
         let mut last = inner.clone();
-        // Sample the whole side: beyond a maximum of the profile, the sum of squares may fall again.
-        let cells = (0..=CELLS).map(|k| bound + (1.0 - 2.0 * bound) * k as f64 / CELLS as f64);
-        let outward = cells.filter(|at| (at - start) * (bound - start) > 0.0);
-        for at in outward.collect::<Vec<_>>().into_iter().rev() {
-            last = self.at(j, at, &last)?;
+        while last.at != bound && last.rise < FAR.powi(2) * limit {
+            last = self.at(j, (start + distance * side).clamp(0.0, 1.0), &last)?;
+            distance *= OUTWARD;
             if last.rise <= limit {
                 (inner, outer) = (last.clone(), None);
             } else if outer.is_none() {
@@ -102,16 +109,11 @@ impl Profiles<'_, '_> {
         }
         // Without a point outside of the interval, the interval extends to the bound.
         let Some(mut outer) = outer else { return Ok(None) };
-        let half = self.t * self.covariance[(j, j)].sqrt();
-        let mut guess = start + half * (bound - start).signum();
         for _ in 0..MOST_STEPS {
-            let [low, high] = [inner.at + 0.1 * (outer.at - inner.at), outer.at];
-            let is_between = (guess - low) * (guess - high) < 0.0;
-            if !is_between || inner.at != start {
-                let [inside, outside] = [&inner, &outer].map(|point| point.rise.max(0.0).sqrt());
-                let fraction = ((self.t - inside) / (outside - inside)).clamp(0.1, 0.9);
-                guess = inner.at + fraction * (outer.at - inner.at);
-            }
+            // Near a minimum, the root of the rise is proportional to the distance.
+            let [inside, outside] = [&inner, &outer].map(|point| point.rise.max(0.0).sqrt());
+            let fraction = ((self.t - inside) / (outside - inside)).clamp(0.1, 0.9);
+            let guess = inner.at + fraction * (outer.at - inner.at);
             let found = self.at(j, guess, &inner)?;
             let is_accurate = (found.rise.max(0.0).sqrt() - self.t).abs() < ACCURACY * self.t;
             if found.rise <= limit {

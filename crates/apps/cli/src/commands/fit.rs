@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use ::fit::{EndReason, Ending, Estimate, FitDefinition, FitError, Fitted, FittedCurve};
+use ::fit::{CurveEvent, CurveEventKind, Estimate, FitDefinition, FitError, Fitted, FittedCurve};
 use anyhow::Context as _;
 use clap::Args;
 use report::{FitPanel, fit_figure};
@@ -33,6 +33,7 @@ substrate_modulus_MPa = { from = 0.1, to = 2 }, and each measured curve has a ta
   file = \"puncture.csv\"          # columns displacement_mm and force_N (see squama plot curves --help)
   kind = \"puncture\"              # or \"bending\": curvature_per_m and moment_N_mm
   offsets = [\"displacement\"]     # also fit the zero of this axis
+  branch = \"both\"                # fit unloading, too (or \"unloading\"; default \"loading\")
   to = 2.5                       # leave out points beyond (from: before), in the unit of the first column
   gap_over_t = 0.3               # a parameter of this specimen only
 Fits all curves together by least squares, each weighted by its own noise, with exact derivatives. Shows the values
@@ -235,19 +236,11 @@ fn text(fitted: &Fitted) -> String {
 
 /// Lists warnings and notes on the fit of a curve.
 fn remarks(curve: &FittedCurve) -> String {
-    let FittedCurve { file, beyond, left_out, reversed, ending, .. } = curve;
+    let FittedCurve { file, beyond, left_out, reversed, events, .. } = curve;
     let [x, y] = curve.axes.each_ref().map(|axis| axis.split_once(',').map_or(&**axis, |a| a.0));
     let warnings = [
         curve.is_turned.then(|| {
             format!("no point has both {x} and {y} above 0: check the signs of the test data")
-        }),
-        ending.map(|Ending { reason, line, left_out }| {
-            let points = counted(left_out as u64, "point");
-            let reason = match reason {
-                EndReason::TurnsBack => format!("the {x} turns back after line {line}"),
-                EndReason::Drops => format!("the {y} drops after line {line} and does not recover"),
-            };
-            format!("{reason}; the {points} after it are left out, because only loading is fitted")
         }),
         (*beyond > 0).then(|| {
             let points = counted(*beyond as u64, "point");
@@ -276,8 +269,55 @@ fn remarks(curve: &FittedCurve) -> String {
             format!("the signs of {axes} are reversed, because the test counts compression as negative")
         }),
     ];
-    let warnings = warnings.into_iter().flatten().map(|text| format!("  (!) {file}: {text}\n"));
-    warnings.chain(notes.into_iter().flatten().map(|text| format!("  {file}: {text}\n"))).collect()
+    // Both branches are fitted as requested.
+    let is_note =
+        |event: &&CurveEvent| event.kind == CurveEventKind::TurnsBack && event.left_out == 0;
+    let (as_notes, as_warnings): (Vec<_>, Vec<_>) = events.iter().partition(is_note);
+    let as_warnings = as_warnings.into_iter().map(|event| told(event, [x, y]));
+    let as_notes = as_notes.into_iter().map(|event| told(event, [x, y]));
+    let warnings = warnings.into_iter().flatten().chain(as_warnings);
+    let warnings = warnings.map(|text| format!("  (!) {file}: {text}\n"));
+    let notes = notes.into_iter().flatten().chain(as_notes);
+    warnings.chain(notes.map(|text| format!("  {file}: {text}\n"))).collect()
+}
+
+/// Describes an event of a curve with these axes.
+fn told(event: &CurveEvent, [x, y]: [&str; 2]) -> String {
+    let CurveEvent { kind, line, left_out, .. } = *event;
+    let points = counted(left_out as u64, "point");
+    match kind {
+        CurveEventKind::TurnsBack if left_out == 0 => {
+            format!("the {x} turns back after line {line}; both branches are fitted")
+        }
+        CurveEventKind::TurnsBack => format!(
+            "the {x} turns back after line {line}; {points} of the other branch are left out; branch = \"both\" fits them, too"
+        ),
+        CurveEventKind::TurnsAgain => {
+            format!("the {x} grows again after line {line}; the {points} after it are left out")
+        }
+        CurveEventKind::Fails => format!(
+            "the {y} drops after line {line} and does not recover; the {points} after it are left out"
+        ),
+        CurveEventKind::Drops => {
+            format!(
+                "the {y} drops after line {line} and goes on; the points are kept, to = … leaves them out"
+            )
+        }
+        CurveEventKind::Held => {
+            format!("the {x} is held after line {line}; {points} of the hold are left out")
+        }
+    }
+}
+
+/// Returns the name of a kind of event in JSON.
+fn kind_name(kind: CurveEventKind) -> &'static str {
+    match kind {
+        CurveEventKind::TurnsBack => "turns_back",
+        CurveEventKind::TurnsAgain => "turns_again",
+        CurveEventKind::Fails => "fails",
+        CurveEventKind::Drops => "drops",
+        CurveEventKind::Held => "held",
+    }
 }
 
 fn record(fitted: &Fitted) -> Value {
@@ -285,7 +325,8 @@ fn record(fitted: &Fitted) -> Value {
         group.iter().map(|&j| &fitted.estimates[j].unknown.name).collect::<Vec<_>>()
     };
     let estimate = |e: &Estimate| json!({ "sought": e.unknown.name, "unit": e.unknown.unit, "value": e.value, "interval": e.interval, "at_end": e.at_end, "depends_on_range_of": names(&e.rests_on) });
-    let curve = |c: &FittedCurve| json!({ "file": c.file, "points": c.points.len(), "left_out": c.left_out, "reversed": c.reversed, "loading_ends_at_line": c.ending.map(|e| e.line), "noise": c.noise, "trend": c.trend, "widening": c.widening, "beyond": c.beyond, "differenced": c.differenced });
+    let event = |e: &CurveEvent| json!({ "kind": kind_name(e.kind), "line": e.line, "left_out": e.left_out });
+    let curve = |c: &FittedCurve| json!({ "file": c.file, "points": c.points.len(), "left_out": c.left_out, "reversed": c.reversed, "events": c.events.iter().map(event).collect::<Vec<_>>(), "noise": c.noise, "trend": c.trend, "widening": c.widening, "beyond": c.beyond, "differenced": c.differenced });
     json!({
         "name": fitted.sweep.name(),
         "estimates": fitted.estimates.iter().map(estimate).collect::<Vec<_>>(),

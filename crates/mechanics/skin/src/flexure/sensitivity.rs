@@ -10,11 +10,13 @@ use super::problem::{Bent, FlexureProblem};
 use super::strip::Strip;
 use super::{Flexure, FlexureParameters};
 use crate::contacts::{Contacts, SkinState};
+use crate::path_location::PathLocation;
 use crate::record::{PathFunction, Record, Skin};
 use crate::sensitivity::{
     self, Curve, CurvePoint, Derivative, MeasuredPoint, MeasuredQuantity, curve_point, derivatives,
     end, first_contact, missing, quantity, rest,
 };
+use crate::unloading::unloaded;
 use crate::{Common, Design, Status};
 
 /// Complete input of a bending problem.
@@ -85,23 +87,15 @@ pub fn moment_curve(
     variations: &[Neighbours<FlexureInput>],
     curvatures: &[f64],
 ) -> Result<Vec<Option<CurvePoint>>, OutOfRange> {
-    let FlexureInput { design, common, parameters } = input;
-    let problem = FlexureProblem::even(design, common, parameters)?;
-    // `κ*` is the relative rotation of the ends over this length, twice the rotation of each end.
-    let length = problem.length();
-    let rotations: Vec<_> = curvatures.iter().map(|curvature| 0.5 * curvature * length).collect();
-    let farthest =
-        // A strip may also bend to the outside: take the largest magnitude, with its sign.
-        rotations.iter().copied().fold(0.0, larger);
-    // Go slightly beyond, so that round-off does not put the last curvature past the end.
-    let end = (1.001 * farthest.to_degrees()).clamp(-180.0, 180.0);
+    let (input, rotations) = bent_to(input, curvatures)?;
+    let FlexureInput { design, common, parameters } = &input;
     // The end scales the control parameter, so use the same end for the perturbed inputs.
-    let as_far = |input: &FlexureInput| {
-        let parameters = FlexureParameters { max_end_rotation_deg: end, ..input.parameters };
-        FlexureInput { parameters, ..input.clone() }
+    let as_far = |other: &FlexureInput| {
+        let end = parameters.max_end_rotation_deg;
+        let parameters = FlexureParameters { max_end_rotation_deg: end, ..other.parameters };
+        FlexureInput { parameters, ..other.clone() }
     };
-    let input = as_far(input);
-    let problem = FlexureProblem::even(design, common, &input.parameters)?;
+    let problem = FlexureProblem::even(design, common, parameters)?;
     let (bent, resolution) = problem.resolved(&[], &rotations)?;
     let strip = |input: &FlexureInput| strip(&as_far(input), resolution);
     let (strips, system) = (Neighbours::map_all(variations, strip)?, bent.path.system());
@@ -120,6 +114,49 @@ pub fn moment_curve(
             Some(on_curve)
         })
         .collect())
+}
+
+/// Computes the moment at given curvatures while the moment is removed, without derivatives.
+///
+/// Unloading begins at the curvature `turn`. `None` below the residual curvature, or if the path
+/// does not reach `turn`.
+///
+/// # Errors
+/// As [`solve`](super::solve).
+pub fn unloading_curve(
+    input: &FlexureInput,
+    turn: f64,
+    curvatures: &[f64],
+) -> Result<Vec<Option<CurvePoint>>, OutOfRange> {
+    let (input, rotations) = bent_to(input, &[turn])?;
+    let FlexureInput { design, common, parameters } = &input;
+    let problem = FlexureProblem::even(design, common, parameters)?;
+    let (mut bent, _) = problem.resolved(&[], &rotations)?;
+    let locations = curvatures.iter().map(|&value| PathLocation {
+        quantity: |strip: &Strip, state| strip.curvature(&state.z),
+        value,
+    });
+    let turn = bent.requested_points.swap_remove(0);
+    Ok(unloaded(&mut bent.path, turn, locations, &common.solver, MOMENT_OVER_CURVATURE))
+}
+
+/// Returns the input of a strip that is bent to the largest of some curvatures.
+///
+/// Also returns the end rotation at each curvature.
+fn bent_to(
+    input: &FlexureInput,
+    curvatures: &[f64],
+) -> Result<(FlexureInput, Vec<f64>), OutOfRange> {
+    let FlexureInput { design, common, parameters } = input;
+    // `κ*` is the relative rotation of the ends over this length, twice the rotation of each end.
+    let length = FlexureProblem::even(design, common, parameters)?.length();
+    let rotations: Vec<_> = curvatures.iter().map(|curvature| 0.5 * curvature * length).collect();
+    // A strip may also bend to the outside: take the largest magnitude, with its sign.
+    let farthest = rotations.iter().copied().fold(0.0, larger);
+    // Go slightly beyond, so that round-off does not put the last curvature past the end.
+    let end = (1.001 * farthest.to_degrees()).clamp(-180.0, 180.0);
+    let parameters = FlexureParameters { max_end_rotation_deg: end, ..*parameters };
+    Ok((FlexureInput { parameters, ..input.clone() }, rotations))
 }
 
 /// Builds the strip of a design with this resolution.

@@ -17,6 +17,7 @@ use crate::sensitivity::{
     self, Curve, CurvePoint, Derivative, MeasuredPoint, MeasuredQuantity, ValueOf, curve_point,
     derivatives, end, first_contact, missing, quantity, rest,
 };
+use crate::unloading::unloaded;
 use crate::{Common, Design, Status};
 
 /// Complete input of a puncture problem.
@@ -81,24 +82,55 @@ pub fn force_curve(
     displacements: &[f64],
 ) -> Result<Vec<Option<CurvePoint>>, OutOfRange> {
     let at: Vec<_> = displacements.iter().copied().map(At::Displacement).collect();
-    let mut tilt = input.parameters.critical_tilt_deg;
-    loop {
-        let PunctureInput { design, stiffness, common, parameters, .. } = input;
-        let parameters = PunctureParameters { critical_tilt_deg: tilt, ..*parameters };
-        let rows = Rows::Even(design.row()?);
-        let problem = Problem::new(rows, design, stiffness.clone(), common, &parameters)?;
-        let mut followed = problem.follow(&[], &at)?;
-        let is_short = followed.watch.requested.points.iter().any(Option::is_none);
-        if farther(&mut tilt, followed.status, is_short) {
-            continue;
-        }
+    with_path(input, &at, |problem, mut followed| {
         // The critical tilt scales the control parameter, so use the same tilt for the perturbed
         // inputs.
+        let tilt = problem.parameters.critical_tilt_deg;
         let as_far = |input: &PunctureInput| {
             let parameters = PunctureParameters { critical_tilt_deg: tilt, ..input.parameters };
             Ok::<_, OutOfRange>(PunctureInput { parameters, ..input.clone() })
         };
-        return problem.curve(&mut followed, &Neighbours::map_all(variations, as_far)?);
+        problem.curve(&mut followed, &Neighbours::map_all(variations, as_far)?)
+    })
+}
+
+/// Computes the force at given `displacements` while the load is removed, without derivatives.
+///
+/// Unloading begins where the displacement is `turn`. `None` below the residual displacement, or if
+/// the path does not reach `turn`.
+///
+/// # Errors
+/// As [`solve`](super::solve).
+pub fn unloading_curve(
+    input: &PunctureInput,
+    turn: f64,
+    displacements: &[f64],
+) -> Result<Vec<Option<CurvePoint>>, OutOfRange> {
+    with_path(input, &[At::Displacement(turn)], |problem, mut followed| {
+        let locations = displacements.iter().map(|at| At::Displacement(*at).location());
+        let turn = followed.watch.requested.points.swap_remove(0);
+        Ok(unloaded(&mut followed.path, turn, locations, &problem.settings, FORCE_OVER_DEPTH))
+    })
+}
+
+/// Follows the path of `input` up to the points `at`, beyond the critical tilt if necessary.
+fn with_path<T>(
+    input: &PunctureInput,
+    at: &[At],
+    evaluate: impl FnOnce(&Problem, Followed) -> Result<T, OutOfRange>,
+) -> Result<T, OutOfRange> {
+    let PunctureInput { design, stiffness, common, parameters, .. } = input;
+    let mut parameters = *parameters;
+    loop {
+        let rows = Rows::Even(design.row()?);
+        let problem = Problem::new(rows, design, stiffness.clone(), common, &parameters)?;
+        let followed = problem.follow(&[], at)?;
+        let is_short = followed.watch.requested.points.iter().any(Option::is_none);
+        let mut tilt = parameters.critical_tilt_deg;
+        if !farther(&mut tilt, followed.status, is_short) {
+            return evaluate(&problem, followed);
+        }
+        parameters.critical_tilt_deg = tilt;
     }
 }
 

@@ -1,7 +1,7 @@
 //! Strips with friction, against two penalty programs with return mapping.
 
 use approx::assert_relative_eq;
-use skin::flexure::{FlexureParameters, MembraneMesh, solve};
+use skin::flexure::{FlexureInput, FlexureParameters, MembraneMesh, solve, unloading_curve};
 use skin::{Base, Common};
 
 use crate::samples::design;
@@ -27,5 +27,24 @@ fn end_moments_with_friction_match_two_programs() {
         let strip = solve(&design(gap, length, slant, Base::L), &common, &parameters);
         let end = strip.expect("a strip").path.last().expect("a path").moment;
         assert_relative_eq!(end, expected, max_relative = 1e-7);
+    }
+}
+
+#[test]
+fn unloading_curves_lie_on_the_unloading_path() {
+    let design = design(0.2, 1.0, 60.0, Base::L);
+    let common = Common { friction: 0.2, ..Common::default() };
+    let parameters = FlexureParameters { unload: true, ..Default::default() };
+    let to = FlexureParameters { max_end_rotation_deg: 60.0, ..parameters };
+    let strip = solve(&design, &common, &to).expect("a strip");
+    let back = strip.unloading.as_ref().expect("unloading");
+    let turn = strip.path.last().expect("a path").curvature;
+    let points = &back.path[1..back.path.len() - 1];
+    let places: Vec<_> = points.iter().map(|point| point.curvature).collect();
+    let input = FlexureInput { design, common, parameters };
+    let found = unloading_curve(&input, turn, &places).expect("a curve");
+    for (point, found) in points.iter().zip(&found) {
+        let value = found.as_ref().expect("a point").value;
+        assert_relative_eq!(value, point.moment, max_relative = 1e-6, epsilon = 1e-9);
     }
 }

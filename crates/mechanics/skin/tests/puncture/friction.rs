@@ -1,14 +1,14 @@
 //! Friction between scales.
 
 use approx::assert_relative_eq;
-use skin::puncture::{self, Needle, Puncture, PunctureParameters, RowLength};
+use skin::puncture::{self, Needle, Puncture, PunctureInput, PunctureParameters, RowLength};
 use skin::{Base, Common, Design, Status};
 use solver::{Settings, Termination};
 use substrate::Calibrations;
 
 use super::complete;
 use super::samples::{
-    BASES, design, finer, long_campaigns, on_row, random, reference_study, solve_as,
+    BASES, design, finer, long_campaigns, on_row, random, reference_study, solve_as, springs,
 };
 
 fn with_friction(friction: f64) -> Common {
@@ -243,6 +243,39 @@ fn unloading_closes_the_energy_balance() {
             assert!(end.displacement.abs() < 1e-9 && loop_work.abs() < 1e-9 * there);
         } else {
             assert!(loop_work > 1e-3 * there && end.displacement > -1e-9);
+        }
+    }
+}
+
+/// A row that turns back before its critical tilt unloads along the path from the turning point.
+#[test]
+fn unloading_curves_lie_on_the_unloading_path() {
+    for (slant_deg, friction, needle) in [
+        (45.0, 0.2, Needle::Free),
+        (60.0, 0.0, Needle::Guided { friction: 0.3 }),
+        (60.0, 0.1, Needle::Guided { friction: 0.3 }),
+    ] {
+        let design = design(0.2, 0.8, slant_deg, Base::L);
+        let parameters =
+            PunctureParameters { needle, load_position: 0.95, unload: true, ..on_row(21) };
+        let common = with_friction(friction);
+        let to = PunctureParameters { critical_tilt_deg: 7.0, ..parameters };
+        let puncture = solve_as(&Calibrations::default(), &design, &common, &to);
+        let back = puncture.unloading.as_ref().unwrap();
+        assert_eq!(back.stop, Termination::Unloaded);
+        let springs = springs(&design, &parameters, &Calibrations::default());
+        let stiffness = (&springs).into();
+        let input = PunctureInput { design, stiffness, common, parameters, odd: None };
+        let turn = puncture.path.last().unwrap().displacement;
+        let points = &back.path[1..back.path.len() - 1];
+        let places: Vec<_> = points.iter().map(|point| point.displacement).collect();
+        let below = places.last().unwrap() - 1.0;
+        let found =
+            puncture::unloading_curve(&input, turn, &[&places[..], &[below]].concat()).unwrap();
+        assert_eq!(found.last(), Some(&None));
+        for (point, found) in points.iter().zip(&found) {
+            let value = found.as_ref().unwrap().value;
+            assert_relative_eq!(value, point.force, max_relative = 1e-6, epsilon = 1e-9);
         }
     }
 }

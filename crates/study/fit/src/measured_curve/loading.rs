@@ -1,30 +1,59 @@
-//! Signs and loading branch of a measured curve.
+//! Signs, branches and events of a measured curve.
 
-/// Fraction of the range of the displacement by which it turns back at the end of loading.
+use std::ops::Range;
+
+/// Fraction of the range of the displacement by which it turns back at the end of a branch.
 const TURNED_BACK: f64 = 0.05;
 /// Fraction of the largest force that remains after a specimen has failed.
 const LOST: f64 = 0.2;
 /// Fraction of the largest force from which a failure drops in one step.
 const BEFORE_LOSS: f64 = 0.5;
+/// Fraction of the largest force by which a drop reduces the mean of neighbouring points.
+const DROP: f64 = 0.25;
+/// Number of neighbouring points in these means.
+const NEIGHBOURS: usize = 3;
+/// Fraction of the range within which a displacement is held.
+const HELD: f64 = 1e-3;
+/// Least number of points of a hold, and least fraction of all points.
+const LEAST_HELD: (usize, f64) = (5, 0.05);
 
-/// Reason for which a curve goes on after its first loading branch.
+/// Kind of an event of a measured curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum EndReason {
-    /// The displacement or curvature turns back.
+pub enum CurveEventKind {
+    /// The displacement or curvature turns back, and unloading begins.
     TurnsBack,
+    /// After unloading, the displacement or curvature grows again.
+    TurnsAgain,
     /// The force or moment drops and does not recover.
+    Fails,
+    /// The force or moment drops, and the curve goes on.
     Drops,
+    /// The displacement or curvature is held, and the force relaxes.
+    Held,
 }
 
-/// End of the first loading branch.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Ending {
-    /// Reason.
-    pub reason: EndReason,
-    /// Line of the last point of the branch.
+/// Event of a measured curve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CurveEvent {
+    /// Kind.
+    pub kind: CurveEventKind,
+    /// Line of the last point before it.
     pub line: u64,
-    /// Number of points after it.
+    /// Displacement or curvature there.
+    pub at: f64,
+    /// Number of points that are left out of a fit because of it.
     pub left_out: usize,
+}
+
+/// Branches of a measured curve.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Branches {
+    /// Indices of the points of the first loading branch.
+    pub(crate) loading: Vec<usize>,
+    /// Indices of the points of the unloading branch after it.
+    pub(crate) unloading: Vec<usize>,
+    /// Events, in the order of their lines.
+    pub(crate) events: Vec<CurveEvent>,
 }
 
 /// Detects axes with reversed signs, for example of machines that count compression as negative.
@@ -46,46 +75,132 @@ pub(super) fn reversed_signs(points: &[[f64; 2]]) -> [bool; 2] {
     [is_reversed, largest(1) < 0.0 && covariance < 0.0]
 }
 
-/// Finds the end of the first loading branch; `None` if all points belong to it.
-pub(super) fn end(points: &[[f64; 2]], lines: &[u64]) -> Option<Ending> {
-    let ending = |last: usize, reason| Ending {
-        reason,
-        line: lines[last],
-        left_out: points.len() - 1 - last,
+/// Divides a curve into its branches.
+pub(super) fn branches(points: &[[f64; 2]], lines: &[u64]) -> Branches {
+    let event = |kind, index: usize, left_out| CurveEvent {
+        kind,
+        line: lines[index],
+        at: points[index][0],
+        left_out,
     };
-    let (low, high) = points
-        .iter()
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p[0]), high.max(p[0])));
-    let mut farthest = 0;
-    let mut turn = None;
-    for (index, point) in points.iter().enumerate() {
-        // At a hold, the force relaxes after the first point.
-        if point[0] > points[farthest][0] || index == 0 {
-            farthest = index;
-        } else if points[farthest][0] - point[0] > TURNED_BACK * (high - low) {
-            turn = Some(farthest);
-            break;
+    let mut events = Vec::new();
+    let mut kept: Vec<usize> = (0..points.len()).collect();
+    for hold in holds(points).into_iter().rev() {
+        events.push(event(CurveEventKind::Held, hold.start, hold.len() - 1));
+        kept.drain(hold.start + 1..hold.end);
+    }
+    let along: Vec<_> = kept.iter().map(|index| points[*index]).collect();
+    let turn = turn(&along, 1.0);
+    let mut loaded = turn.map_or(along.len(), |last| last + 1);
+    let mut unloading = Vec::new();
+    if let Some(last) = last_before_drop(&along[..loaded]) {
+        loaded = last + 1;
+        events.push(event(CurveEventKind::Fails, kept[last], along.len() - loaded));
+    } else if let Some(last) = turn {
+        events.push(event(CurveEventKind::TurnsBack, kept[last], 0));
+        let back = &along[last + 1..];
+        let end = self::turn(back, -1.0).map_or(back.len(), |lowest| lowest + 1);
+        unloading.extend(&kept[loaded..loaded + end]);
+        if end < back.len() {
+            let lowest = kept[loaded + end - 1];
+            events.push(event(CurveEventKind::TurnsAgain, lowest, back.len() - end));
         }
     }
-    let loading = &points[..turn.map_or(points.len(), |last| last + 1)];
-    let drop = last_before_drop(loading);
-    drop.map(|last| ending(last, EndReason::Drops))
-        .or_else(|| turn.map(|last| ending(last, EndReason::TurnsBack)))
+    let drops = drops(&along[..loaded]).into_iter();
+    events.extend(drops.map(|last| event(CurveEventKind::Drops, kept[last], 0)));
+    events.sort_by_key(|event| event.line);
+    kept.truncate(loaded);
+    Branches { loading: kept, unloading, events }
+}
+
+/// Finds the farthest point in a direction from which the displacement turns back.
+fn turn(points: &[[f64; 2]], direction: f64) -> Option<usize> {
+    let range = range(points);
+    let mut farthest = 0;
+    for (index, point) in points.iter().enumerate() {
+        let beyond = direction * (point[0] - points[farthest][0]);
+        if beyond > 0.0 {
+            farthest = index;
+        } else if -beyond > TURNED_BACK * range {
+            return Some(farthest);
+        }
+    }
+    None
+}
+
+fn range(points: &[[f64; 2]]) -> f64 {
+    let ends = points
+        .iter()
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| [low.min(p[0]), high.max(p[0])]);
+    ends[1] - ends[0]
+}
+
+/// Lists the runs of points at one displacement.
+fn holds(points: &[[f64; 2]]) -> Vec<Range<usize>> {
+    let tolerance = HELD * range(points);
+    let least = LEAST_HELD.0.max((LEAST_HELD.1 * points.len() as f64) as usize);
+    let mut holds = Vec::new();
+    let mut start = 0;
+    while start < points.len() {
+        let moved = |point: &[f64; 2]| (point[0] - points[start][0]).abs() > tolerance;
+        let end = points[start..].iter().position(moved).map_or(points.len(), |n| start + n);
+        if end - start >= least && tolerance > 0.0 {
+            holds.push(start..end);
+            start = end;
+        } else {
+            start += 1;
+        }
+    }
+    holds
 }
 
 /// Returns the last point before the force drops in one step and does not recover.
 fn last_before_drop(points: &[[f64; 2]]) -> Option<usize> {
-    let largest = points.iter().map(|point| point[1]).fold(0.0, f64::max);
+    let largest = largest_force(points);
     let kept = points.iter().rposition(|point| point[1] >= LOST * largest)?;
     (kept + 1 < points.len() && points[kept][1] > BEFORE_LOSS * largest).then_some(kept)
+}
+
+fn largest_force(points: &[[f64; 2]]) -> f64 {
+    points.iter().map(|point| point[1]).fold(0.0, f64::max)
+}
+
+/// Lists the last points before steep drops of the force.
+fn drops(points: &[[f64; 2]]) -> Vec<usize> {
+    let least = DROP * largest_force(points);
+    let mean = |points: &[[f64; 2]]| points.iter().map(|p| p[1]).sum::<f64>() / NEIGHBOURS as f64;
+    let mut drops = Vec::new();
+    let mut next = NEIGHBOURS;
+    while next + NEIGHBOURS <= points.len() {
+        let lost = mean(&points[next - NEIGHBOURS..next]) - mean(&points[next..next + NEIGHBOURS]);
+        if lost > least {
+            // The steepest step near this point.
+            let fall = |last: &usize| points[*last][1] - points[last + 1][1];
+            let near = next - NEIGHBOURS..next + NEIGHBOURS - 1;
+            drops.extend(near.max_by(|a, b| fall(a).total_cmp(&fall(b))));
+            next += 2 * NEIGHBOURS;
+        } else {
+            next += 1;
+        }
+    }
+    drops
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn found(points: &[[f64; 2]]) -> Option<Ending> {
-        end(points, &(1..=points.len() as u64).collect::<Vec<_>>())
+    fn found(points: &[[f64; 2]]) -> Branches {
+        branches(points, &(1..=points.len() as u64).collect::<Vec<_>>())
+    }
+
+    fn events(points: &[[f64; 2]]) -> Vec<(CurveEventKind, u64, usize)> {
+        found(points).events.iter().map(|event| (event.kind, event.line, event.left_out)).collect()
+    }
+
+    /// Returns points of a line with slope 1 through the origin.
+    fn ramp(displacements: impl Iterator<Item = u32>) -> Vec<[f64; 2]> {
+        displacements.map(|k| [f64::from(k), f64::from(k)]).collect()
     }
 
     #[test]
@@ -98,21 +213,53 @@ mod tests {
 
     #[test]
     fn loading_ends_where_the_displacement_turns_back() {
-        let there = (0..20).map(|k| [f64::from(k), f64::from(k)]);
-        let back = (0..19).rev().map(|k| [f64::from(k), 0.5 * f64::from(k)]);
-        let ending = Ending { reason: EndReason::TurnsBack, line: 20, left_out: 19 };
-        assert_eq!(found(&there.clone().chain(back).collect::<Vec<_>>()), Some(ending));
-        assert_eq!(found(&there.collect::<Vec<_>>()), None);
+        let points = ramp((0..20).chain((0..19).rev()));
+        let branches = found(&points);
+        assert_eq!(branches.loading, (0..20).collect::<Vec<_>>());
+        assert_eq!(branches.unloading, (20..39).collect::<Vec<_>>());
+        assert_eq!(events(&points), [(CurveEventKind::TurnsBack, 20, 0)]);
+        assert_eq!(found(&points[..20]).events, []);
+    }
+
+    #[test]
+    fn unloading_ends_where_the_displacement_grows_again() {
+        let points = ramp((0..20).chain((5..19).rev()).chain(6..12));
+        assert_eq!(found(&points).unloading, (20..34).collect::<Vec<_>>());
+        let again = (CurveEventKind::TurnsAgain, 34, 6);
+        assert_eq!(events(&points), [(CurveEventKind::TurnsBack, 20, 0), again]);
+    }
+
+    #[test]
+    fn holds_are_left_out_after_their_first_point() {
+        let mut points = ramp(0..20);
+        let relaxed = (1..9).map(|k| [10.0, 10.0 - 0.3 * f64::from(k)]);
+        points.splice(11..11, relaxed);
+        assert_eq!(events(&points), [(CurveEventKind::Held, 11, 8)]);
+        assert_eq!(found(&points).loading.len(), 20);
+        // Also where loading turns back.
+        let points = ramp((0..20).chain([19; 6]).chain((0..19).rev()));
+        let held = (CurveEventKind::Held, 20, 6);
+        assert_eq!(events(&points), [held, (CurveEventKind::TurnsBack, 20, 0)]);
+        assert_eq!(found(&points).unloading, (26..45).collect::<Vec<_>>());
     }
 
     #[test]
     fn loading_ends_where_the_specimen_fails() {
-        let mut points: Vec<_> = (0..20).map(|k| [f64::from(k), f64::from(k)]).collect();
+        let mut points = ramp(0..20);
         points.extend((20..25).map(|k| [f64::from(k), 0.1]));
-        let ending = Ending { reason: EndReason::Drops, line: 20, left_out: 5 };
-        assert_eq!(found(&points), Some(ending));
+        assert_eq!(events(&points), [(CurveEventKind::Fails, 20, 5)]);
+        assert_eq!(found(&points).loading.len(), 20);
         // A gradual loss is a property of the skin.
         let points: Vec<_> = (0..21).map(|k| [f64::from(k), f64::from(k * (20 - k))]).collect();
-        assert_eq!(found(&points), None);
+        assert_eq!(found(&points).events, []);
+    }
+
+    #[test]
+    fn drops_within_the_curve_are_kept_and_reported() {
+        let points: Vec<_> = (0..40_u32)
+            .map(|k| [f64::from(k), if k < 20 { f64::from(k) } else { f64::from(k) - 12.0 }])
+            .collect();
+        assert_eq!(events(&points), [(CurveEventKind::Drops, 20, 0)]);
+        assert_eq!(found(&points).loading.len(), 40);
     }
 }

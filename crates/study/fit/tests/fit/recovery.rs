@@ -7,6 +7,9 @@ use fit::Fitted;
 use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha12Rng;
 use rayon::prelude::*;
+use run::Evaluator;
+use skin::CurvePoint;
+use sweep::Sweep;
 
 use crate::synthetic_curves::{Place, SyntheticCurve};
 
@@ -463,4 +466,40 @@ fn differences_replace_derivatives_while_a_contact_sticks() {
     let fitted = trial.fitted(0, 0.0);
     assert!((fitted.estimates[0].value - 0.3).abs() < 1e-4, "{}", fitted.estimates[0].value);
     assert!(fitted.curves[0].differenced > 0);
+}
+
+/// Friction between scales makes a loop of the curve.
+#[test]
+fn both_branches_are_fitted() {
+    let place = Place::new();
+    let shared = "name = 'loop'\ndesigns.gap_over_t = 0.2\ndesigns.length_over_t = 0.8\n\
+                  designs.slant_deg = 45\n";
+    let skin = format!("{shared}contact.friction = 0.3\n");
+    let case = Sweep::parse(&skin, "skin.toml", &[]).expect("a skin").grid().case(0);
+    let evaluator = Evaluator::new(&[]);
+    let places: Vec<_> = (1..=20).map(|k| 0.02 * f64::from(k)).collect();
+    let back: Vec<_> = places.iter().rev().skip(1).copied().collect();
+    let loading = evaluator.force_curve(&case, &[], &places).expect("a curve");
+    let unloading = evaluator.unloading_force_curve(&case, 0.4, &back).expect("a curve");
+    let force = |point: &Option<CurvePoint>| point.as_ref().map_or(0.0, |point| point.value);
+    assert!(force(&unloading[9]) < 0.9 * force(&loading[9]), "{unloading:?} {loading:?}");
+    let mut text = "displacement,force\n".to_owned();
+    for (x, point) in places.iter().chain(&back).zip(loading.iter().chain(&unloading)) {
+        writeln!(text, "{x},{}", force(point)).expect("a text");
+    }
+    place.write("a.csv", &text);
+    let variables = "[variables]\nfriction = { from = 0.02, to = 0.9 }\n";
+    let curve = "[[curve]]\nfile = 'a.csv'\nkind = 'puncture'\n";
+    for (unload, branch, points) in [
+        ("", "", 20),
+        ("", "branch = 'both'\n", 39),
+        ("", "branch = 'unloading'\n", 19),
+        ("puncture.unload = true\n", "", 39),
+    ] {
+        let text = format!("{shared}{unload}{variables}{curve}{branch}");
+        let fitted = place.fit(&text).expect("an answer");
+        let friction = fitted.estimates[0].value;
+        assert!((friction - 0.3).abs() < 1e-3, "{unload}{branch}: {friction}");
+        assert_eq!(fitted.curves[0].points.len(), points, "{unload}{branch}");
+    }
 }

@@ -34,6 +34,39 @@ impl Evaluator {
         Ok(in_place(curve, &exists))
     }
 
+    /// Returns the puncture force at each displacement while the load is removed.
+    ///
+    /// Unloading begins at the displacement `turn`. The points have no derivatives.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::force_curve`].
+    pub fn unloading_force_curve(
+        &self,
+        case: &Case,
+        turn: f64,
+        displacements: &[f64],
+    ) -> Result<CurvePoints, Outcome> {
+        let input = punctured(case, self.slopes(case)?.stiffness.clone());
+        solved(|| puncture::unloading_curve(&input, turn, displacements))
+    }
+
+    /// Returns the bending moment at each curvature while the moment is removed.
+    ///
+    /// Unloading begins at the curvature `turn`. The points have no derivatives.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::moment_curve`].
+    pub fn unloading_moment_curve(
+        &self,
+        case: &Case,
+        turn: f64,
+        curvatures: &[f64],
+    ) -> Result<CurvePoints, Outcome> {
+        solved(|| flexure::unloading_curve(&bent(case), turn, curvatures))
+    }
+
     /// Returns the bending moment `M*` at each of the curvatures `κ*`.
     ///
     /// The points have derivatives with respect to `parameters`.
