@@ -28,6 +28,7 @@ mod requirement_args;
 mod rerun;
 mod run;
 mod sample_args;
+mod schema;
 mod selection;
 mod sensitivity;
 mod slurm;
@@ -123,6 +124,8 @@ pub enum Command {
     Export(export::Arguments),
     /// Check a definition and show what would run
     Check(check::Arguments),
+    /// Print the JSON schema of definitions, for editors
+    Schema(schema::Arguments),
     /// Print the stiffness of the springs that represent the substrate
     Calibrate(calibrate::Arguments),
     /// Compare squama with benchmarks and with the claims of the paper
@@ -158,6 +161,7 @@ impl Command {
             Self::Explore(arguments) => explore::explore(&arguments),
             Self::Export(arguments) => export::export(&arguments),
             Self::Check(arguments) => check::check(&arguments),
+            Self::Schema(arguments) => schema::schema(&arguments),
             Self::Calibrate(arguments) => calibrate::calibrate(&arguments),
             Self::Validate(arguments) => validate::validate(&arguments),
             Self::Completions(arguments) => completions::completions(&arguments),

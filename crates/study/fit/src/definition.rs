@@ -3,9 +3,10 @@
 use std::fmt::Display;
 use std::path::Path;
 
+use serde_json::{Map, Value as Json, json};
 use sweep::{
-    Case, InvalidDefinition, InvalidSetting, Parameter, Problem, Role, Setting, Sweep, Variable,
-    VariableValues, WrongValue, read_entries,
+    Case, InvalidDefinition, InvalidSetting, PARAMETERS, Parameter, Problem, Role, Setting, Sweep,
+    Variable, VariableValues, WrongValue, read_entries,
 };
 use text::toml_source::{KeyValue, KeyValues, Place, Value};
 
@@ -88,6 +89,43 @@ pub enum InvalidFit {
 
 /// Keys of a `[[curve]]` besides parameters.
 const KEYS: [&str; 8] = ["file", "kind", "columns", "specimen", "branch", "from", "to", "offsets"];
+
+/// Returns the JSON schema of the tables `[[curve]]`.
+pub fn curves_schema() -> Json {
+    let number = |about: &str| json!({ "type": "number", "description": about });
+    let texts = json!({ "type": "array", "items": { "type": "string" } });
+    let range = json!({
+        "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2,
+    });
+    let axes = ["displacement", "force", "curvature", "moment"];
+    let ranges = axes.map(|axis| (axis.to_owned(), range.clone()));
+    let about = [
+        json!({ "type": "string", "description": "CSV file, relative to the definition" }),
+        json!({ "enum": [Test::Puncture.name(), Test::Bending.name()], "description": "kind of test" }),
+        json!({ "type": "array", "items": { "type": "string" }, "description": "names of the columns" }),
+        json!({ "type": ["string", "integer"], "description": "name or number of the specimen in the file" }),
+        number("first value of the first column that is fitted"),
+        number("last value of the first column that is fitted"),
+        json!({
+            "anyOf": [texts, {
+                "type": "object", "additionalProperties": false,
+                "properties": ranges.into_iter().collect::<Map<_, _>>(),
+            }],
+            "description": "offsets of the axes that are fitted, or their ranges",
+        }),
+    ];
+    let mut keys: Map<_, _> = KEYS.into_iter().map(str::to_owned).zip(about).collect();
+    // A specimen may set any parameter.
+    keys.extend(PARAMETERS.iter().map(|p| (p.key.to_owned(), p.schema())));
+    json!({
+        "type": "array", "minItems": 1,
+        "description": "Measured curves of a fit",
+        "items": {
+            "type": "object", "properties": keys,
+            "required": ["file", "kind"], "additionalProperties": false,
+        },
+    })
+}
 
 /// Maximum number of points of a curve.
 ///

@@ -7,6 +7,6 @@ mod model;
 mod profile;
 mod search;
 
-pub use definition::{FitDefinition, InvalidFit, Unknown};
+pub use definition::{FitDefinition, InvalidFit, Unknown, curves_schema};
 pub use fit_result::{Estimate, FitError, Fitted, FittedCurve};
 pub use measured_curve::{CurveEvent, CurveEventKind, InvalidMeasured, MeasuredCurve, Test};

@@ -4,7 +4,7 @@ mod bounds;
 mod fitness_section;
 mod reader;
 mod refusal;
-mod section;
+pub(crate) mod section;
 mod statistics;
 
 use ranking::{Criterion, FitnessGoal, Requirement, Standard, Worth};

@@ -95,6 +95,7 @@ pub use candidate::{Candidate, SearchStage, Target};
 pub use error::OptimisationError;
 pub use front::Front;
 pub use goal::DesignGoal;
+pub use goal::section::goal_schema;
 pub use judge::Judge;
 pub use judgement::{Judgement, NominalWorth};
 pub use price::{Binding, Limit};

@@ -141,7 +141,9 @@ impl SearchProgress {
             own.1 = own.1.min(done);
         }
         let ahead = parts.work.get(next..).unwrap_or_default();
-        match ahead.iter().position(|of| of.0 == part) {
+        // Expected restarts belong to the local searches just before them.
+        let is_own = |skipped: &usize| part != SearchPart::Restart || *skipped == 0;
+        match ahead.iter().position(|of| of.0 == part).filter(is_own) {
             Some(skipped) => drop(parts.work.drain(next..next + skipped)),
             None => parts.work.insert(next, (part, units)),
         }
@@ -234,5 +236,12 @@ mod tests {
         assert_eq!(progress.share(), 30.0 / 50.0);
         progress.begin(Restart, 1, 30);
         assert_eq!(progress.share(), 30.0 / 60.0);
+        // Expected restarts of a later climb do not stand for an unexpected one.
+        let progress = SearchProgress::default();
+        progress.expect(vec![(Climb, 20), (Climb, 40), (Restart, 50)]);
+        progress.begin(Climb, 1, 20);
+        drop(progress.task(20));
+        progress.begin(Restart, 1, 30);
+        assert_eq!(progress.share(), 20.0 / 140.0);
     }
 }

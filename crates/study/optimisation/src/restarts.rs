@@ -132,11 +132,9 @@ pub(crate) fn restarted(
         if Agreement::of(ends).is_settled() {
             break;
         }
-        if restart == 0 {
-            let units = restart_evaluations(best.point.shares.len());
-            let units = RESTARTS as u64 * units * search.evaluation_units(target);
-            search.progress.begin(SearchPart::Restart, 2 * RESTARTS, units);
-        }
+        let units = restart_evaluations(best.point.shares.len()) * search.evaluation_units(target);
+        // Samples of boxes, then a full search.
+        search.progress.begin(SearchPart::Restart, 2, units);
         let walk = Restart { search, target, best, number: restart as u64 }.run()?;
         ends.extend(search.best(walk.iter(), target).and_then(|end| met(search, end, target)));
         evaluated.extend(walk);

@@ -175,8 +175,8 @@ fn expected(goal: &DesignGoal) -> Vec<(SearchPart, u64)> {
             // Local searches seldom agree on the largest slope of a path. For other objectives
             // restarts are the exception.
             if &*objective.column == name::MAX_STIFFNESS && samples == 0 {
-                let restarts = RESTARTS as u64 * restart_evaluations(variables);
-                parts.push((SearchPart::Restart, restarts * each));
+                let restart = (SearchPart::Restart, restart_evaluations(variables) * each);
+                parts.extend([restart; RESTARTS]);
             }
         }
         if goal.objectives.len() > 1 {

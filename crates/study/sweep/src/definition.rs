@@ -6,6 +6,7 @@ pub(crate) mod invalid;
 mod lengths;
 pub(crate) mod measure;
 mod reader;
+pub(crate) mod schema;
 pub(crate) mod setting;
 pub(crate) mod suggestion;
 mod to_toml;

@@ -59,6 +59,7 @@ mod variable;
 pub use case::{Case, Samples};
 pub use definition::invalid::{InvalidDefinition, Problem, refuse};
 pub use definition::measure::Measure;
+pub use definition::schema::definition_schema;
 pub use definition::setting::{InvalidSetting, Setting};
 pub use definition::{Sweep, entries, read_entries, read_text};
 pub use deviation::{BatchDeviation, Deviation};

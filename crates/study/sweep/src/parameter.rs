@@ -7,6 +7,7 @@ mod list;
 mod modulus;
 mod role;
 mod scalar;
+mod schema;
 
 use std::fmt;
 

@@ -10,6 +10,7 @@ use sweep::Sweep;
 
 use super::DONE;
 use super::figure_file::write_file;
+use super::schema::{SCHEMA_FILE, schema_text};
 use super::source::require_folder_of;
 use crate::print::{counted, print};
 
@@ -34,6 +35,8 @@ Examples:
   squama init smoke mine.toml       a dozen designs instead
 
 The template paper explains every key. An existing file is never overwritten.
+The file names its JSON schema, squama.schema.json, which editors with Taplo or Even Better TOML
+use; it is written beside the file if there is none.
 Exit code: 0 done, 2 bad input or a disk error.")]
 pub struct Arguments {
     /// Template to start from [default for a FILE alone: paper]
@@ -60,6 +63,10 @@ pub fn init(arguments: &Arguments) -> anyhow::Result<u8> {
     // Rejects an invalid name of a sweep before writing.
     let sweep = Sweep::parse(&text, &shown, &[])?;
     write_file(&file, text.as_bytes())?;
+    let schema = file.with_file_name(SCHEMA_FILE);
+    if schema.symlink_metadata().is_err() {
+        write_file(&schema, schema_text().as_bytes())?;
+    }
     let designs = counted(sweep.grid().len(), "design");
     print(&format!("{shown}: {designs}; to solve them: squama run {shown}\n"))?;
     Ok(DONE)
@@ -113,5 +120,6 @@ fn definition(template: &str, name: &str, file: &str) -> Option<String> {
     let text = text.replace(&format!("name = \"{known}\""), &format!("name = \"{name}\""));
     // Commands in the comments of the template then name the new file.
     let text = text.replace(&format!("results/{known}/"), &format!("results/{name}/"));
-    Some(text.replace(&format!("sweeps/{known}.toml"), file))
+    let text = text.replace(&format!("sweeps/{known}.toml"), file);
+    Some(format!("#:schema ./{SCHEMA_FILE}\n{text}"))
 }

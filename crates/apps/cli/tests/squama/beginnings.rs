@@ -8,7 +8,9 @@ fn a_definition_is_written_and_solves() {
     let text = place.prints("init smoke mine.toml");
     assert_eq!(text, "mine.toml: 12 designs; to solve them: squama run mine.toml\n");
     let definition = place.read("mine.toml");
-    assert!(definition.contains("name = \"mine\"") && definition.starts_with("# "), "{definition}");
+    let comment = definition.strip_prefix("#:schema ./squama.schema.json\n# ");
+    assert!(comment.is_some_and(|text| text.contains("name = \"mine\"")), "{definition}");
+    assert_eq!(place.read("squama.schema.json"), place.prints("schema"));
     assert!(definition.contains("squama run mine.toml     the tables, in results/mine/"));
     place.squama("run mine.toml -q").assert().code(0);
     assert!(place.path("results/mine/designs.csv").is_file());
@@ -31,11 +33,15 @@ fn init_overwrites_and_misplaces_nothing() {
     let place = Place::new();
     place.prints("init");
     let before = place.read("paper.toml");
+    std::fs::write(place.path("squama.schema.json"), "{}").expect("writable");
     insta::assert_snapshot!(place.refused("init"), @"error: paper.toml: exists already; give the name of a new file, e.g. squama init paper mine.toml");
     insta::assert_snapshot!(place.refused("init smoke nowhere/mine.toml"), @"error: FILE nowhere/mine.toml: there is no folder nowhere");
-    insta::assert_snapshot!(place.refused("init smoke .hidden.toml"), @r#"error: .hidden.toml:6: name: ".hidden" is not accepted, expected a name for a folder on any system: letters, digits, - _ + . and spaces, a letter or digit first, and no device as con or lpt1"#);
+    insta::assert_snapshot!(place.refused("init smoke .hidden.toml"), @r#"error: .hidden.toml:7: name: ".hidden" is not accepted, expected a name for a folder on any system: letters, digits, - _ + . and spaces, a letter or digit first, and no device as con or lpt1"#);
     insta::assert_snapshot!(place.refused("init smok"), @"error: invalid value 'smok' for '[TEMPLATE]', [possible values: paper, smoke, glove, gaps, imperfection, paper-as-written, paper-neo-hookean], tip: a similar value exists: 'smoke'");
-    assert_eq!((place.read("paper.toml"), place.list(".")), (before, "paper.toml".to_owned()));
+    assert_eq!(place.list("."), "paper.toml squama.schema.json");
+    place.prints("init smoke");
+    let both = [place.read("paper.toml"), place.read("squama.schema.json")];
+    assert_eq!(both, [before, "{}".to_owned()]);
 }
 
 #[test]

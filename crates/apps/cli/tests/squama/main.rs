@@ -24,6 +24,7 @@ mod promises;
 mod rankings;
 mod reruns;
 mod runs;
+mod schema;
 mod selection;
 mod shards;
 mod skins;

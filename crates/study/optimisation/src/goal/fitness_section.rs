@@ -1,6 +1,7 @@
 //! Keys of the fitness in `[goal]`: weights and ends of its criteria.
 
 use ranking::{CRITERIA, Criterion, CriterionEnds, FitnessGoal, Goal, Scale, Weights};
+use serde_json::{Value as Json, json};
 use sweep::InvalidDefinition;
 use text::toml_source::{KeyValue, KeyValues, Place, Value};
 
@@ -17,6 +18,26 @@ pub(super) struct FitnessSection {
 }
 
 impl FitnessSection {
+    /// Returns the JSON schema of the key `weights`.
+    pub fn weights_schema() -> Json {
+        json!({
+            "type": "object", "minProperties": 1,
+            "additionalProperties": { "type": "number", "minimum": 0 },
+            "description": "weights of the criteria of the fitness, by column",
+        })
+    }
+
+    /// Returns the JSON schema of the key `rescale`.
+    pub fn rescale_schema() -> Json {
+        json!({
+            "type": "object", "minProperties": 1,
+            "additionalProperties": {
+                "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2,
+            },
+            "description": "worst and best value of the criteria of the fitness, by column",
+        })
+    }
+
     /// Reads the key `weights`.
     pub fn weights(&mut self, entry: &KeyValue) -> Result<(), InvalidDefinition> {
         let wrong = |value: &Value| not_accepted(&entry.place, "goal.weights", value, WEIGHTS);

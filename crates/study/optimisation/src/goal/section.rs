@@ -3,6 +3,7 @@
 use std::str::FromStr;
 
 use ranking::{Criterion, Goal, Relation, Requirement, Standard};
+use serde_json::{Map, Value as Json, json};
 use sweep::{InvalidDefinition, Problem, refuse};
 use text::nearest;
 use text::toml_source::{KeyValue, Place, Value};
@@ -40,6 +41,55 @@ pub(super) struct GoalSection {
     pub seed: u64,
 }
 
+/// Accepted numbers of space-filling points.
+const SAMPLES: [usize; 2] = [2, 10_000_000];
+/// Accepted numbers of points of a front.
+const POINTS: [usize; 2] = [2, 1000];
+/// Accepted numbers of samples of each design.
+const SKINS: [usize; 2] = [20, 100_000];
+/// Accepted seeds.
+const SEEDS: [usize; 2] = [0, 1_000_000_000];
+
+/// Returns the JSON schema of the section `[goal]`.
+pub fn goal_schema() -> Json {
+    let default = GoalSection::default();
+    let text = json!({ "type": "string" });
+    let texts = |about: &str| {
+        let list = json!({ "type": "array", "items": text });
+        json!({ "anyOf": [text, list], "description": about })
+    };
+    let count = |[low, high]: [usize; 2], default: usize, about: &str| {
+        json!({
+            "type": "integer", "minimum": low, "maximum": high,
+            "default": default, "description": about,
+        })
+    };
+    let protects = format!("levels of standards: {}", Standard::levels());
+    let about = [
+        texts("columns of designs.csv to be maximised, e.g. \"critical_force\""),
+        texts("columns of designs.csv to be minimised"),
+        texts("requirements COLUMN OP NUMBER, e.g. \"coverage >= 0.5\""),
+        texts(&protects),
+        FitnessSection::weights_schema(),
+        FitnessSection::rescale_schema(),
+        json!({
+            "type": "boolean", "default": default.sound,
+            "description": "exclude designs with a folded surface",
+        }),
+        count(SAMPLES, default.samples, "number of space-filling points"),
+        count(POINTS, default.points, "number of points of a front"),
+        count(SKINS, default.skins, "number of samples of each design, for yields and quantiles"),
+        count(SEEDS, default.seed as usize, "seed of the random numbers"),
+    ];
+    let keys = KEYS.into_iter().map(str::to_owned).zip(about);
+    json!({
+        "type": "object",
+        "description": "Goal of a search by squama optimise",
+        "properties": keys.collect::<Map<_, _>>(),
+        "additionalProperties": false,
+    })
+}
+
 impl Default for GoalSection {
     fn default() -> Self {
         Self {
@@ -68,13 +118,13 @@ impl GoalSection {
             "weights" => self.fitness.weights(entry)?,
             "rescale" => self.fitness.rescale(entry)?,
             "sound" => self.sound = switch(entry)?,
-            "samples" => self.samples = count(entry, 2, 10_000_000)?,
-            "points" => self.points = count(entry, 2, 1000)?,
+            "samples" => self.samples = count(entry, SAMPLES)?,
+            "points" => self.points = count(entry, POINTS)?,
             "skins" => {
-                self.skins = count(entry, 20, 100_000)?;
+                self.skins = count(entry, SKINS)?;
                 self.skins_place = Some(entry.place.clone());
             }
-            "seed" => self.seed = count(entry, 0, 1_000_000_000)? as u64,
+            "seed" => self.seed = count(entry, SEEDS)? as u64,
             key => {
                 let hint = match nearest(key, &KEYS) {
                     Some(near) => format!("did you mean goal.{near}?"),
@@ -177,7 +227,7 @@ fn switch(entry: &KeyValue) -> Result<bool, InvalidDefinition> {
     }
 }
 
-fn count(entry: &KeyValue, low: usize, high: usize) -> Result<usize, InvalidDefinition> {
+fn count(entry: &KeyValue, [low, high]: [usize; 2]) -> Result<usize, InvalidDefinition> {
     let read = match &entry.value {
         Value::Number(text) => text.parse().ok().filter(|count| (low..=high).contains(count)),
         _ => None,
