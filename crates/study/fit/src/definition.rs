@@ -99,11 +99,13 @@ pub fn curves_schema() -> Json {
     });
     let axes = ["displacement", "force", "curvature", "moment"];
     let ranges = axes.map(|axis| (axis.to_owned(), range.clone()));
-    let about = [
+    // In the order of `KEYS`; a new key changes the length.
+    let about: [Json; KEYS.len()] = [
         json!({ "type": "string", "description": "CSV file, relative to the definition" }),
         json!({ "enum": [Test::Puncture.name(), Test::Bending.name()], "description": "kind of test" }),
         json!({ "type": "array", "items": { "type": "string" }, "description": "names of the columns" }),
         json!({ "type": ["string", "integer"], "description": "name or number of the specimen in the file" }),
+        json!({ "enum": ["loading", "unloading", "both"], "description": "branches that are fitted" }),
         number("first value of the first column that is fitted"),
         number("last value of the first column that is fitted"),
         json!({

@@ -175,6 +175,8 @@ fn schema_and_parser_agree_on_keys_of_goals_and_fits() {
     for (keys, is_valid) in [
         (file.to_owned(), true),
         (format!("{file}from = 0.01\ngap_over_t = 0.2"), true),
+        (format!("{file}branch = 'loading'"), true),
+        (format!("{file}branch = 'all'"), false),
         (format!("{file}offsets = ['force']"), true),
         (format!("{file}offsets = {{ force = [-1, 1] }}"), true),
         (format!("{file}offsets = {{ forces = [-1, 1] }}"), false),

@@ -65,7 +65,8 @@ pub fn goal_schema() -> Json {
         })
     };
     let protects = format!("levels of standards: {}", Standard::levels());
-    let about = [
+    // In the order of `KEYS`; a new key changes the length.
+    let about: [Json; KEYS.len()] = [
         texts("columns of designs.csv to be maximised, e.g. \"critical_force\""),
         texts("columns of designs.csv to be minimised"),
         texts("requirements COLUMN OP NUMBER, e.g. \"coverage >= 0.5\""),
