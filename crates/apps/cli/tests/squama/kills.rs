@@ -2,7 +2,7 @@
 //!
 //! Each resumes to the tables of an undisturbed run, for any number of threads and shards.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use rand::RngExt as _;
 use rand_chacha::ChaCha8Rng;
@@ -30,22 +30,26 @@ struct Kills {
 struct Campaign {
     place: Place,
     random: ChaCha8Rng,
-    /// Duration of an undisturbed run.
-    whole: Duration,
+    /// Lines of the journal of an undisturbed run.
+    lines: usize,
     kills: Kills,
 }
 
 impl Campaign {
     /// Kills `arguments`, which writes to `folder`, up to `times` times, then lets it complete.
-    fn survive(&mut self, arguments: &str, folder: &str, times: usize, longest: Duration) {
+    ///
+    /// Each process is killed up to 10 ms after its journal has a random number of lines, at most
+    /// `most`. A delay from the start of the process would depend on the load of the machine.
+    fn survive(&mut self, arguments: &str, folder: &str, times: usize, most: usize) {
         let before = self.kills.all;
+        let journal = format!("{folder}/journal.jsonl");
         for _ in 0..times {
-            let after = longest.mul_f64(self.random.random_range(0.0..1.0));
-            let killed = self.place.kill(arguments, after);
+            let lines = self.random.random_range(0..=most);
+            let delay = Duration::from_millis(10).mul_f64(self.random.random_range(0.0..1.0));
+            let killed = self.place.kill_at(arguments, &journal, lines, delay);
             self.kills.all += usize::from(killed);
             // The journal starts with a header and a session; designs and more sessions follow.
-            let lines = self.place.lines(&format!("{folder}/journal.jsonl"));
-            self.kills.midway += usize::from(killed && lines > 2);
+            self.kills.midway += usize::from(killed && self.place.lines(&journal) > 2);
         }
         self.kills.repeated += usize::from(self.kills.all > before + 1);
         self.place.squama(arguments).assert().code(1);
@@ -56,21 +60,19 @@ impl Campaign {
         let run = format!("run x.toml -q --resume --threads {threads}");
         if shards == 1 {
             let times = self.random.random_range(2..=4);
-            self.survive(&format!("{run} --out {name}"), name, times, self.whole);
+            self.survive(&format!("{run} --out {name}"), name, times, self.lines);
             return;
         }
-        // Time to start, plus the shard's part of the total duration.
-        let longest = self.whole / shards + Duration::from_millis(20);
+        let most = self.lines / shards as usize;
         let mut folders = String::new();
         for shard in 1..=shards {
             let folder = format!("{name}-{shard}");
             let times = self.random.random_range(0..=1);
             let run = format!("{run} --shard {shard}/{shards} --out {folder}");
-            self.survive(&run, &folder, times, longest);
+            self.survive(&run, &folder, times, most);
             folders = format!("{folders} {folder}");
         }
-        let merge = format!("merge -q {folders} --out {name}");
-        self.survive(&merge, name, 1, Duration::from_millis(20));
+        self.survive(&format!("merge -q {folders} --out {name}"), name, 1, 1);
     }
 }
 
@@ -83,10 +85,9 @@ fn runs() -> usize {
 #[test]
 fn runs_killed_at_random_moments_make_the_same_tables() {
     let place = Place::with(DESIGNS);
-    let begun = Instant::now();
     place.squama("run x.toml -q --threads 1 --out whole").assert().code(1);
-    let (whole, random) = (begun.elapsed(), ChaCha8Rng::seed_from_u64(50));
-    let mut campaign = Campaign { place, random, whole, kills: Kills::default() };
+    let (lines, random) = (place.lines("whole/journal.jsonl"), ChaCha8Rng::seed_from_u64(50));
+    let mut campaign = Campaign { place, random, lines, kills: Kills::default() };
     for run in 0..runs() {
         let (threads, shards) = ([1, 2, 8][run % 3], [1, 3, 7][run / 3 % 3]);
         let name = run.to_string();
@@ -96,7 +97,6 @@ fn runs_killed_at_random_moments_make_the_same_tables() {
         assert!(!list.contains(".partial"), "{list}");
     }
     let kills = campaign.kills;
-    println!("{kills:?} in {:.0?}", begun.elapsed());
     // Of fifty runs at least fifty kills, twenty of them midway, and three runs with several kills.
     let least = |of_fifty: usize| of_fifty * runs() / 50;
     assert!(kills.all >= least(50), "{kills:?}");

@@ -18,10 +18,17 @@ impl Place {
         Running::spawn(&self.path(""), arguments)
     }
 
-    /// Runs `arguments` and kills the process after a while; returns false if it had ended before.
-    pub fn kill(&self, arguments: &str, after: Duration) -> bool {
+    /// Runs `arguments` and kills the process `delay` after `file` has at least `lines` lines.
+    ///
+    /// Returns false if the process had ended before.
+    pub fn kill_at(&self, arguments: &str, file: &str, lines: usize, delay: Duration) -> bool {
         let mut run = self.spawn(arguments);
-        run.end_within(after).is_none() && run.kill().code().is_none()
+        while self.lines(file) < lines {
+            if run.end_within(Duration::from_millis(1)).is_some() {
+                return false;
+            }
+        }
+        run.end_within(delay).is_none() && run.kill().code().is_none()
     }
 
     pub fn lines(&self, file: &str) -> usize {
