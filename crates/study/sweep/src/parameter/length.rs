@@ -4,17 +4,29 @@
 //! computes them from the lengths given in mm, e.g. `gap_over_t = gap_mm/t`. The order of setting
 //! length and thickness does not matter.
 
+use std::sync::LazyLock;
+
 use super::{PARAMETERS, Parameter, Role, Scalar, key, modulus};
 use crate::case::{Case, Millimetres};
 use text::number;
 
+/// Each length in mm, with the parameter of the same length over the thickness.
+///
+/// Cached, because [`settle`] runs for every design and the search by key is slow.
+static LENGTHS_IN_MM: LazyLock<Vec<(&Parameter, &Parameter)>> = LazyLock::new(|| {
+    let of_role = PARAMETERS.iter().flat_map(|parameter| {
+        parameter.roles.iter().filter_map(move |role| match role {
+            Role::InMm(key) => Some((parameter, Parameter::named(key)?)),
+            _ => None,
+        })
+    });
+    of_role.collect()
+});
+
 impl Parameter {
     /// Returns the parameter of the same length over the thickness, for a length in mm.
     pub fn over_t(&self) -> Option<&'static Self> {
-        self.roles.iter().find_map(|role| match role {
-            Role::InMm(key) => Self::named(key),
-            _ => None,
-        })
+        LENGTHS_IN_MM.iter().find(|(in_mm, _)| *in_mm == self).map(|&(_, over_t)| over_t)
     }
 
     /// Returns the parameters that give this length in mm.
@@ -39,7 +51,7 @@ impl Parameter {
     /// Returns true if it follows from a length in mm or from a modulus.
     pub fn follows(&self, case: &Case) -> bool {
         let says = |in_mm: &Self| in_mm.said_in(case).is_some_and(|of| of == self);
-        given(case).any(|(in_mm, _)| says(in_mm)) || self.follows_modulus(case)
+        given(case).any(|(in_mm, ..)| says(in_mm)) || self.follows_modulus(case)
     }
 
     /// Returns the length of this parameter in mm.
@@ -60,18 +72,21 @@ impl Parameter {
 }
 
 /// Returns the lengths that a case gives in mm.
-fn given(case: &Case) -> impl Iterator<Item = (&'static Parameter, f64)> {
+///
+/// Each has the parameter in mm, the parameter over the thickness, and the length in mm.
+fn given(case: &Case) -> impl Iterator<Item = (&'static Parameter, &'static Parameter, f64)> {
     // Most cases give none, and a sweep creates one case per design.
-    let all = if case.in_mm == Millimetres::default() { &[] } else { PARAMETERS };
-    all.iter().filter(|p| p.is_in_mm()).filter_map(|p| Some((p, p.get(case).number()?)))
+    let is_none = case.in_mm == Millimetres::default();
+    let all = if is_none { &[] } else { LENGTHS_IN_MM.as_slice() };
+    all.iter().filter_map(|&(in_mm, over_t)| Some((in_mm, over_t, in_mm.get(case).number()?)))
 }
 
 /// Computes the lengths over the thickness from the lengths in mm.
 pub(super) fn settle(case: &mut Case) {
     let Some(thickness) = case.material.thickness_mm else { return };
-    for (in_mm, length) in given(case).collect::<Vec<_>>() {
-        if let Some(of) = in_mm.over_t().filter(|_| in_mm.key != key::PITCH) {
-            of.assign(case, Scalar::Number(quotient(length, thickness)));
+    for (in_mm, over_t, length) in given(case).collect::<Vec<_>>() {
+        if in_mm.key != key::PITCH {
+            over_t.assign(case, Scalar::Number(quotient(length, thickness)));
         }
     }
     // Last, because the effect of a pitch depends on the length or the gap.
@@ -123,11 +138,11 @@ fn restate(case: &mut Case, moved: &Parameter) {
     let Some(thickness) = case.material.thickness_mm else { return };
     // Update the pitch too, or the next `settle` would revert the change.
     let moves_pitch = [key::GAP, key::LENGTH].contains(&moved.key);
-    for (in_mm, _) in given(case).collect::<Vec<_>>() {
+    for (in_mm, over_t, _) in given(case).collect::<Vec<_>>() {
         let length = match in_mm.key {
             key::PITCH if moves_pitch => case.pitch(),
             key::PITCH => continue,
-            _ if in_mm.over_t() == Some(moved) => match moved.get(case).number() {
+            _ if over_t == moved => match moved.get(case).number() {
                 Some(length) => length,
                 None => continue,
             },
