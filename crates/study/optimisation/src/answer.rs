@@ -40,7 +40,7 @@ pub(crate) fn answer(
         search.progress.begin(SearchPart::Climb, plan.tasks(), units);
         let Improved { evaluated, mut ends } = improved(search, history, target, plan)?;
         history.extend(evaluated);
-        history.extend(restarted(search, history, target, &mut ends)?);
+        history.extend(restarted(search, history, target, &mut ends, plan.restarts)?);
         agreement = Agreement::of(&ends);
         // Without lower bounds all targets have the same feasible set, so one search decides.
         let is_feasible = |c: &Candidate| matches!(search.merit(c, target), Merit::Met(_));

@@ -22,13 +22,20 @@ pub(crate) struct Plan {
     pub starts: usize,
     /// Full searches after the gradient searches.
     pub finalists: usize,
+    /// Maximum number of restarts if the full searches disagree.
+    pub restarts: usize,
 }
 
 impl Plan {
     /// Plan for nominal designs.
-    pub const NOMINAL: Self = Self { regions: 24, starts: 6, finalists: 3 };
+    pub const NOMINAL: Self = Self { regions: 24, starts: 6, finalists: 3, restarts: 6 };
+    /// Plan for nominal designs at which searches of sampled designs start.
+    pub const STARTS: Self = Self { restarts: 0, ..Self::NOMINAL };
     /// Plan for sampled designs.
-    pub const SAMPLED: Self = Self { regions: 6, starts: 6, finalists: 3 };
+    ///
+    /// They are too expensive for restarts, and the uncertainty of their quantiles exceeds the steps
+    /// of an objective that jumps.
+    pub const SAMPLED: Self = Self { regions: 6, ..Self::STARTS };
 
     /// Returns the plan for a point of a front.
     ///
@@ -47,7 +54,7 @@ impl Plan {
 
     /// Returns the expected number of evaluations for a target.
     pub fn evaluations(self) -> u64 {
-        let Self { regions, starts, finalists } = self;
+        let Self { regions, starts, finalists, .. } = self;
         (regions + starts) as u64 * Effort::CLIMB.evaluations
             + finalists as u64 * Effort::WHOLE.evaluations
     }

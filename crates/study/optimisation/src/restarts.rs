@@ -32,9 +32,6 @@ const SETTLED: f64 = 1e-4;
 /// Relative gain of a round below which the box shrinks.
 const GAIN: f64 = 1e-4;
 
-/// Maximum number of restarts.
-pub(crate) const RESTARTS: usize = 6;
-
 /// Number of samples in a round, per variable.
 const EACH: usize = 5;
 
@@ -107,7 +104,8 @@ pub(crate) fn met(search: &Search<'_>, candidate: &Candidate, target: &Target) -
     }
 }
 
-/// Restarts near the best design of `history` until the best two searches agree.
+/// Restarts near the best design of `history` until the best two searches agree, at most `most`
+/// times.
 ///
 /// `ends` contains the objectives of earlier searches; objectives of restarts are appended. Returns
 /// all evaluated designs.
@@ -116,19 +114,16 @@ pub(crate) fn restarted(
     history: &[Candidate],
     target: &Target,
     ends: &mut Vec<f64>,
+    most: usize,
 ) -> Result<Vec<Candidate>, Halt> {
     let mut evaluated: Vec<Candidate> = Vec::new();
     let best = search.best(history.iter(), target);
-    // Sampled designs are too expensive for many rounds, and the uncertainty of their quantiles
-    // exceeds the steps.
-    let Some(best) = best.filter(|best| {
-        met(search, best, target).is_some()
-            && !best.point.shares.is_empty()
-            && search.judge.samples().is_none()
-    }) else {
+    let Some(best) =
+        best.filter(|best| met(search, best, target).is_some() && !best.point.shares.is_empty())
+    else {
         return Ok(evaluated);
     };
-    for restart in 0..RESTARTS {
+    for restart in 0..most {
         if Agreement::of(ends).is_settled() {
             break;
         }

@@ -1,6 +1,7 @@
 //! Runs a search: sample the space, improve the best samples, collect the results.
 
 use std::collections::BTreeMap;
+use std::iter;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
@@ -27,7 +28,7 @@ use crate::judgement::Judgement;
 use crate::local::{Effort, Search, evaluation_units};
 use crate::progress::{SearchPart, SearchProgress};
 use crate::requirement_bounds::has_folded;
-use crate::restarts::{RESTARTS, restart_evaluations};
+use crate::restarts::restart_evaluations;
 use crate::sampled::confirmation::FRESH;
 use crate::sampled::search::{NOMINAL_POINTS, REFINED, SEEDS, Searches};
 use crate::space::SpacePoint;
@@ -174,9 +175,9 @@ fn expected(goal: &DesignGoal) -> Vec<(SearchPart, u64)> {
             parts.push((SearchPart::Climb, plan.evaluations() * each));
             // Local searches seldom agree on the largest slope of a path. For other objectives
             // restarts are the exception.
-            if &*objective.column == name::MAX_STIFFNESS && samples == 0 {
+            if &*objective.column == name::MAX_STIFFNESS {
                 let restart = (SearchPart::Restart, restart_evaluations(variables) * each);
-                parts.extend([restart; RESTARTS]);
+                parts.extend(iter::repeat_n(restart, plan.restarts));
             }
         }
         if goal.objectives.len() > 1 {
@@ -194,7 +195,7 @@ fn expected(goal: &DesignGoal) -> Vec<(SearchPart, u64)> {
         return parts;
     }
     let (count, objectives) = (goal.realisations, goal.objectives.len());
-    parts.extend(answer(Plan::NOMINAL, 0, goal.points.min(NOMINAL_POINTS)));
+    parts.extend(answer(Plan::STARTS, 0, goal.points.min(NOMINAL_POINTS)));
     parts.push((SearchPart::Samples, (objectives * SEEDS * count) as u64));
     parts.extend(answer(Plan::SAMPLED, count, goal.points));
     if objectives == 1 {

@@ -40,7 +40,7 @@ impl Searches<'_> {
         let Self { nominal, sampled, finer } = self;
         // A nominal design costs one solution, a sampled one as many as it has samples, so nominal
         // designs provide the starts.
-        let first = answer(nominal, history, Plan::NOMINAL, goal.points.min(NOMINAL_POINTS))?;
+        let first = answer(nominal, history, Plan::STARTS, goal.points.min(NOMINAL_POINTS))?;
         let seeds = seeds(nominal, history, &first);
         let mut is_admitted = false;
         for candidate in history.iter_mut() {
