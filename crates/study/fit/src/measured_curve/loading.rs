@@ -173,11 +173,12 @@ fn drops(points: &[[f64; 2]]) -> Vec<usize> {
     let mut next = NEIGHBOURS;
     while next + NEIGHBOURS <= points.len() {
         let lost = mean(&points[next - NEIGHBOURS..next]) - mean(&points[next..next + NEIGHBOURS]);
-        if lost > least {
-            // The steepest step near this point.
-            let fall = |last: &usize| points[*last][1] - points[last + 1][1];
-            let near = next - NEIGHBOURS..next + NEIGHBOURS - 1;
-            drops.extend(near.max_by(|a, b| fall(a).total_cmp(&fall(b))));
+        // The steepest step near this point. A gradual loss is a property of the skin.
+        let near = next - NEIGHBOURS..next + NEIGHBOURS - 1;
+        let falls = near.map(|last| (points[last][1] - points[last + 1][1], last));
+        let (fall, last) = falls.fold((0.0, 0), |a, b| if b.0 > a.0 { b } else { a });
+        if lost > least && fall > least {
+            drops.push(last);
             next += 2 * NEIGHBOURS;
         } else {
             next += 1;
