@@ -17,6 +17,7 @@ mod folder_contents;
 mod init;
 mod make;
 mod man;
+mod measured;
 mod merge;
 mod optimise;
 mod options;

@@ -61,6 +61,8 @@ pub struct MeasuredCurves {
     pub is_physical: bool,
     /// The curves, each with its name.
     pub curves: Vec<(String, Vec<[f64; 2]>)>,
+    /// Position, mean and standard deviation of several specimens; empty for none.
+    pub band: Vec<[f64; 3]>,
 }
 
 /// A line of a panel.
@@ -300,12 +302,14 @@ fn one_panel(
     if curves.is_empty() {
         return None;
     }
+    let band = measured.map_or(&[][..], |measured| &measured.band);
     let measured = measured.map_or(&[][..], |measured| &measured.curves);
     let solved = curves.iter().flat_map(|curve| curve.values.all());
     let points = solved.chain(measured.iter().flat_map(|(_, points)| points)).copied();
+    let points = points.chain(band.iter().map(|[x, mean, deviation]| [*x, mean + deviation]));
     let (x, y) = axes(labels, &points.collect::<Vec<_>>());
     let y = logarithmic(labels[1], &curves).unwrap_or(y);
-    let lines = curves.len() + measured.len();
+    let lines = curves.len() + measured.len() + usize::from(!band.is_empty());
     let area = Area {
         left: MARGINS[0],
         top: LEGEND + 6.0 + 20.0 * lines as f64,
@@ -328,6 +332,10 @@ fn one_panel(
     let told = notes.into_iter().filter(|(words, occurs)| *occurs && !words.is_empty());
     let words = told.map(|(words, _)| words).collect::<Vec<_>>().join(";  ");
     inside.push(label(&words, note, 12.0, Anchor::Start).with("fill", INK));
+    if !band.is_empty() {
+        let y = LEGEND + 20.0 * (curves.len() + measured.len()) as f64;
+        inside.extend(mean_band(&panel, band, y, measured.len()));
+    }
     for (k, curve) in curves.iter().enumerate() {
         inside.extend([drawn(&panel, curve), legend(curve, LEGEND + 20.0 * k as f64)]);
     }
@@ -346,6 +354,23 @@ fn one_panel(
 
 /// Colours of measured points.
 const MEASURED: [&str; 3] = [RED, INK, "#1b7f4b"];
+
+/// Draws the mean of specimens with the band of one standard deviation, and its legend at `y`.
+fn mean_band(panel: &ChartPanel, band: &[[f64; 3]], y: f64, specimens: usize) -> [Element; 4] {
+    let [low, middle, high] = [-1.0, 0.0, 1.0].map(|side| {
+        panel.spots(band.iter().map(|[x, mean, deviation]| [*x, mean + side * deviation]))
+    });
+    let around: Vec<Spot> = high.into_iter().chain(low.into_iter().rev()).collect();
+    let mark = [MARGINS[0] + 5.0, MARGINS[0] + 37.0];
+    let legend = [[mark[0], y - 5.0], [mark[1], y - 5.0], [mark[1], y + 5.0], [mark[0], y + 5.0]];
+    let [around, legend] = [around.as_slice(), &legend].map(|points| {
+        polygon(points).with("class", "band").with("fill", RED).with("fill-opacity", "0.16")
+    });
+    let mean = polyline(&middle).with("stroke", RED).at("stroke-width", 1.2);
+    let words = format!("mean of {specimens} specimens ± standard deviation");
+    let words = label(&words, [MARGINS[0] + 50.0, y + 4.0], 12.0, Anchor::Start);
+    [around, mean, legend, words.with("fill", INK)]
+}
 
 /// Draws measured points.
 fn dots(panel: &ChartPanel, points: &[[f64; 2]], color: &str) -> Element {

@@ -40,7 +40,9 @@ impl Unknown {
     /// Returns how the definition states the range of this unknown, for messages.
     pub fn key(&self) -> String {
         match self.source {
-            Source::Parameter(parameter) => format!("variables.{}", parameter.key),
+            Source::Parameter(parameter) | Source::Specimen(parameter, _) => {
+                format!("variables.{}", parameter.key)
+            }
             Source::Offset(..) => {
                 let axis = self.name.split(' ').next().unwrap_or_default();
                 format!("its range, offsets = {{ {axis} = [from, to] }} in [[curve]]")
@@ -53,6 +55,8 @@ impl Unknown {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Source {
     Parameter(&'static Parameter),
+    /// Parameter of the specimen of one curve.
+    Specimen(&'static Parameter, usize),
     /// Offset of a curve: its number, then 0 for the first axis or 1 for the second.
     Offset(usize, usize),
 }
@@ -129,6 +133,9 @@ pub fn curves_schema() -> Json {
     })
 }
 
+/// Key that lists the parameters that differ from specimen to specimen.
+pub const PER_SPECIMEN: &str = "per_specimen";
+
 /// Maximum number of points of a curve.
 ///
 /// Longer curves are averaged over neighbouring points.
@@ -175,6 +182,7 @@ impl FitDefinition {
                 curves.push(curve);
             }
         }
+        unknowns = per_specimen(&entries, unknowns, &curves)?;
         Ok(Self { sweep, unknowns, curves })
     }
 
@@ -198,7 +206,8 @@ fn not_accepted(place: &Place, key: &str, found: impl Display, expected: &str) -
 ///
 /// Apart from its variables, it must have a single design.
 fn one_design(entries: &KeyValues, name: &str) -> Result<Sweep, InvalidFit> {
-    let entries = entries.iter().filter(|entry| entry.key != "curve").cloned().collect();
+    let shared = entries.iter().filter(|e| !["curve", PER_SPECIMEN].contains(&e.key.as_str()));
+    let entries = shared.cloned().collect();
     let sweep = Sweep::of_entries(&entries, name)?;
     match sweep.grid().axes().iter().find(|axis| axis.len() > 1) {
         Some(axis) => {
@@ -231,6 +240,46 @@ fn parameters(entries: &KeyValues, sweep: &Sweep) -> Result<Vec<Unknown>, Invali
         Err(not_accepted(&place, &key, variable.to_toml(), expected))
     };
     sweep.variables().iter().map(unknown).collect()
+}
+
+/// Replaces the parameters in `per_specimen` with an unknown for each curve.
+fn per_specimen(
+    entries: &KeyValues,
+    mut unknowns: Vec<Unknown>,
+    curves: &[TestCurve],
+) -> Result<Vec<Unknown>, InvalidFit> {
+    let Some(entry) = entries.iter().find(|entry| entry.key == PER_SPECIMEN) else {
+        return Ok(unknowns);
+    };
+    let Value::List(items) = &entry.value else {
+        let expected = "a list of [variables], e.g. [\"substrate_modulus_MPa\"]";
+        return Err(not_accepted(&entry.place, PER_SPECIMEN, &entry.value, expected));
+    };
+    for item in items {
+        let named =
+            unknowns.iter().enumerate().find_map(|(index, unknown)| match (item, unknown.source) {
+                (Value::Text(text), Source::Parameter(p)) if text == p.key => Some((index, p)),
+                _ => None,
+            });
+        let (index, parameter) = named.ok_or_else(|| {
+            not_accepted(&entry.place, PER_SPECIMEN, &entry.value, "names of [variables]")
+        })?;
+        let shared = unknowns.remove(index);
+        let own = curves.iter().enumerate().filter(|(_, curve)| !curve.own.contains(&parameter));
+        let own: Vec<_> = own
+            .map(|(k, curve)| Unknown {
+                name: format!("{} of {}", shared.name, curve.measured.file),
+                source: Source::Specimen(parameter, k),
+                ..shared.clone()
+            })
+            .collect();
+        if own.len() < 2 {
+            let expected = "at least two curves without a value of their own";
+            return Err(not_accepted(&entry.place, PER_SPECIMEN, &entry.value, expected));
+        }
+        unknowns.splice(index..index, own);
+    }
+    Ok(unknowns)
 }
 
 fn table(value: &Value) -> Option<&[KeyValue]> {
@@ -509,6 +558,17 @@ fn range(value: &Value) -> Option<[f64; 2]> {
 }
 
 impl TestCurve {
+    /// Returns true for a curve of another specimen of the same design, in the same units.
+    pub(crate) fn is_alike(&self, other: &Self) -> bool {
+        let (one, two) = (&self.measured, &other.measured);
+        one.test == two.test && one.is_physical == two.is_physical && self.case == other.case
+    }
+
+    /// Returns the points of the loading branch.
+    pub(crate) fn loading(&self) -> &[[f64; 2]] {
+        &self.measured.points[..self.measured.points.len() - self.unloading]
+    }
+
     /// Returns one model unit on each axis, in the units of the curve.
     pub(crate) fn units(&self, case: &Case) -> [f64; 2] {
         let MeasuredCurve { test, is_physical, .. } = self.measured;

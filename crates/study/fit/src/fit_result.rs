@@ -9,11 +9,11 @@ use std::sync::atomic::AtomicBool;
 
 use nalgebra::DMatrix;
 use run::{Evaluator, WorkMeter};
-use statrs::distribution::{ContinuousCDF as _, StudentsT};
-use sweep::Sweep;
+use statrs::distribution::{ChiSquared, ContinuousCDF as _, StudentsT};
+use sweep::{Parameter, Sweep};
 
 use crate::definition::{FitDefinition, TestCurve, Unknown};
-use crate::measured_curve::CurveEvent;
+use crate::measured_curve::{CurveEvent, MeanCurve};
 use crate::model::ModelCurve;
 use crate::profile::{Aborted, Interval, Profiles, is_at_end};
 use crate::search::{Minimum, Noise, Residuals};
@@ -30,8 +30,12 @@ pub struct Fitted {
     /// The curves hardly depend on the unknown in a group of one. In a larger group, only
     /// combinations of the unknowns are determined.
     pub undetermined: Vec<Vec<usize>>,
+    /// Parameters that differ from specimen to specimen.
+    pub scatter: Vec<Scatter>,
     /// Measured and fitted curves.
     pub curves: Vec<FittedCurve>,
+    /// Mean curves of specimens of one design.
+    pub means: Vec<MeanCurve>,
     /// Number of solved skins.
     pub solutions: usize,
     /// Design of the definition, with the estimates.
@@ -57,6 +61,55 @@ impl Estimate {
     /// Returns true if the curves exclude no value of the range.
     pub fn is_undetermined(&self) -> bool {
         self.interval == [None; 2]
+    }
+}
+
+/// Distribution of a parameter that differs from specimen to specimen.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scatter {
+    /// The parameter.
+    pub parameter: &'static Parameter,
+    /// Indices of the estimates of the specimens.
+    pub specimens: Vec<usize>,
+    /// Mean of the specimens.
+    pub mean: f64,
+    /// 95 % confidence interval of the mean of all possible specimens.
+    pub mean_interval: [f64; 2],
+    /// Standard deviation over the specimens, without the uncertainty of their estimates.
+    pub deviation: f64,
+    /// 95 % confidence interval of the standard deviation.
+    pub deviation_interval: [f64; 2],
+}
+
+impl Scatter {
+    /// Estimates the distribution from the values of specimens and their standard errors.
+    fn new(
+        parameter: &'static Parameter,
+        specimens: Vec<usize>,
+        values: &[f64],
+        errors: &[f64],
+    ) -> Self {
+        let count = specimens.len() as f64;
+        let mean = specimens.iter().map(|j| values[*j]).sum::<f64>() / count;
+        let squares: f64 = specimens.iter().map(|j| (values[*j] - mean).powi(2)).sum();
+        let error = specimens.iter().map(|j| errors[*j].powi(2)).sum::<f64>() / count;
+        let freedom = count - 1.0;
+        let t = StudentsT::new(0.0, 1.0, freedom).map_or(f64::NAN, |t| t.inverse_cdf(0.975));
+        let half = t * (squares / freedom / count).sqrt();
+        let quantiles = ChiSquared::new(freedom)
+            .map_or([f64::NAN; 2], |chi| [0.975, 0.025].map(|p| chi.inverse_cdf(p)));
+        let [low, high] = quantiles.map(|quantile| squares / quantile);
+        // The observed variance is the sum of the scatter and of the errors of the estimates.
+        let [deviation, low, high] =
+            [squares / freedom, low, high].map(|variance| (variance - error).max(0.0).sqrt());
+        Self {
+            parameter,
+            specimens,
+            mean,
+            mean_interval: [mean - half, mean + half],
+            deviation,
+            deviation_interval: [low, high],
+        }
     }
 }
 
@@ -308,12 +361,23 @@ impl Residuals<'_> {
         let count = shares.len();
         let correlations: Vec<Vec<f64>> =
             (0..count).map(|i| (0..count).map(|j| correlation(i, j)).collect()).collect();
-        let case = definition.case(None, &self.values(shares));
+        let values = self.values(shares);
+        let errors: Vec<_> = definition
+            .unknowns
+            .iter()
+            .enumerate()
+            .map(|(j, unknown)| (unknown.to - unknown.from) * covariance[(j, j)].sqrt())
+            .collect();
+        let scatter = definition.specimens().into_iter();
+        let scatter = scatter.map(|(p, members)| Scatter::new(p, members, &values, &errors));
+        let case = definition.case(None, &values);
         Ok(Fitted {
             undetermined: undetermined(&estimates, &correlations),
             estimates,
             correlations,
+            scatter: scatter.collect(),
             curves: self.curves(shares)?,
+            means: means(&definition.curves),
             solutions: self.solutions(),
             sweep: definition.sweep.at(&case),
         })
@@ -348,6 +412,21 @@ impl Residuals<'_> {
         };
         Ok(curves.map(curve).collect())
     }
+}
+
+/// Averages the loading branches of specimens of one design.
+fn means(curves: &[TestCurve]) -> Vec<MeanCurve> {
+    let mut means = Vec::new();
+    for (k, first) in curves.iter().enumerate() {
+        // The first curve of a design stands for all.
+        if curves[..k].iter().any(|other| first.is_alike(other)) {
+            continue;
+        }
+        let alike = curves.iter().filter(|other| first.is_alike(other));
+        let alike = alike.map(|curve| (curve.measured.file.as_str(), curve.loading().to_vec()));
+        means.extend(MeanCurve::new(&alike.collect::<Vec<_>>()));
+    }
+    means
 }
 
 /// Returns the groups of unknowns of which the curves determine only combinations.

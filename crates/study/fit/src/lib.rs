@@ -7,6 +7,8 @@ mod model;
 mod profile;
 mod search;
 
-pub use definition::{FitDefinition, InvalidFit, Unknown, curves_schema};
-pub use fit_result::{Estimate, FitError, Fitted, FittedCurve};
-pub use measured_curve::{CurveEvent, CurveEventKind, InvalidMeasured, MeasuredCurve, Test};
+pub use definition::{FitDefinition, InvalidFit, PER_SPECIMEN, Unknown, curves_schema};
+pub use fit_result::{Estimate, FitError, Fitted, FittedCurve, Scatter};
+pub use measured_curve::{
+    CurveEvent, CurveEventKind, InvalidMeasured, MeanCurve, MeasuredCurve, Test,
+};

@@ -2,6 +2,7 @@
 
 mod columns;
 mod loading;
+mod mean;
 mod number_table;
 
 use std::ops::Range;
@@ -14,6 +15,7 @@ use text::reason;
 use self::columns::{CurveColumns, curves, spelled};
 pub(crate) use self::loading::Branches;
 pub use self::loading::{CurveEvent, CurveEventKind};
+pub use self::mean::MeanCurve;
 use self::number_table::{NumberTable, Rows};
 
 /// Kind of test in which a curve was measured.
@@ -71,6 +73,8 @@ pub struct MeasuredCurve {
     /// Unit of the first column of the file, in units of [`Self::points`].
     pub(crate) x_unit: f64,
     /// Lines that were left out: remarks, footers, and gaps in the recording.
+    ///
+    /// Only the first specimen of a table lists the lines outside of the table.
     pub left_out: Vec<u64>,
     /// Displacement or curvature, then force or moment, in the order of the file.
     pub points: Vec<[f64; 2]>,
@@ -154,8 +158,15 @@ impl MeasuredCurve {
             // A table without a header of its own has the columns of the table above.
             let known = Header::known_in(&rows, table.above.clone());
             header = known.filter(|_| columns.is_none()).unwrap_or(header);
-            for columns in header.curves().map_err(|problem| wrong(None, problem))? {
-                let curve = Self::in_table(&rows, table, &header, columns);
+            let specimens_here = header.curves().map_err(|problem| wrong(None, problem))?;
+            let width = table.rows.first().map_or(0, |row| rows.all[*row].cells.len());
+            for (index, columns) in specimens_here.into_iter().enumerate() {
+                // A header may name more specimens than the table has columns.
+                if index > 0 && columns.indices.iter().all(|column| *column >= width) {
+                    continue;
+                }
+                let left_out = if index == 0 { &*table.left_out } else { &[] };
+                let curve = Self::in_table(&rows, (table, left_out), &header, columns);
                 curves.push(curve.map_err(|(line, problem)| wrong(Some(line), problem))?);
                 specimens.push(header.specimen(&rows, columns));
             }
@@ -180,14 +191,14 @@ impl MeasuredCurve {
     /// Reads one curve from a table.
     fn in_table(
         rows: &Rows,
-        table: &NumberTable,
+        (table, left_out): (&NumberTable, &[u64]),
         header: &Header,
         columns: CurveColumns,
     ) -> Result<Self, (u64, String)> {
         let CurveColumns { indices, test, units } = columns;
         let names = &header.names;
         let (mut points, mut lines) = (Vec::new(), Vec::new());
-        let mut left_out = table.left_out.clone();
+        let mut left_out = left_out.to_vec();
         for row in table.rows.iter().map(|row| &rows.all[*row]) {
             // A number with a decimal comma between commas would become two cells.
             let mut beyond = row.cells.iter().skip(names.len());
@@ -253,6 +264,11 @@ impl MeasuredCurve {
             Some([x, _]) if axis == 0 && *x < -to => [x - 0.1 * to, to],
             _ => [-to, to],
         }
+    }
+
+    /// Returns the points of the first loading branch, without holds.
+    pub fn loading(&self) -> Vec<[f64; 2]> {
+        self.branches().loading.into_iter().map(|index| self.points[index]).collect()
     }
 
     /// Divides the curve into its branches.

@@ -54,14 +54,35 @@ impl FitDefinition {
     }
 
     /// Returns the specimen of a curve, or the design of the definition for `None`.
-    pub(crate) fn case(&self, curve: Option<&TestCurve>, values: &[f64]) -> Case {
-        let mut case = curve.map_or_else(|| self.sweep.grid().case(0), |curve| curve.case);
+    ///
+    /// The design has the means of parameters that differ from specimen to specimen.
+    pub(crate) fn case(&self, curve: Option<(usize, &TestCurve)>, values: &[f64]) -> Case {
+        let mut case = curve.map_or_else(|| self.sweep.grid().case(0), |(_, curve)| curve.case);
         for (unknown, &value) in self.unknowns.iter().zip(values) {
             if let Some(parameter) = unknown.of(curve) {
                 case = parameter.put(&case, Scalar::Number(value));
             }
         }
+        if curve.is_none() {
+            for (parameter, members) in self.specimens() {
+                let mean = members.iter().map(|j| values[*j]).sum::<f64>() / members.len() as f64;
+                case = parameter.put(&case, Scalar::Number(mean));
+            }
+        }
         case
+    }
+
+    /// Returns the parameters that differ from specimen to specimen, with their unknowns by index.
+    pub(crate) fn specimens(&self) -> Vec<(&'static Parameter, Vec<usize>)> {
+        let mut specimens: Vec<(&'static Parameter, Vec<usize>)> = Vec::new();
+        for (j, unknown) in self.unknowns.iter().enumerate() {
+            let Source::Specimen(parameter, _) = unknown.source else { continue };
+            match specimens.iter_mut().find(|(other, _)| *other == parameter) {
+                Some((_, members)) => members.push(j),
+                None => specimens.push((parameter, vec![j])),
+            }
+        }
+        specimens
     }
 
     fn model_curve(
@@ -70,14 +91,15 @@ impl FitDefinition {
         (number, curve): (usize, &TestCurve),
         values: &[f64],
     ) -> Result<ModelCurve, Outcome> {
-        let case = self.case(Some(curve), values);
+        let case = self.case(Some((number, curve)), values);
         let units = curve.units(&case);
         let zero = [0, 1].map(|axis| {
             let of = Source::Offset(number, axis);
             let found = self.unknowns.iter().zip(values).find(|(u, _)| u.source == of);
             found.map_or(0.0, |(_, &value)| value)
         });
-        let sought: Vec<_> = self.unknowns.iter().filter_map(|u| u.of(Some(curve))).collect();
+        let sought: Vec<_> =
+            self.unknowns.iter().filter_map(|u| u.of(Some((number, curve)))).collect();
         let measured = curve.measured.points.iter();
         let wanted: Vec<f64> = measured.map(|point| (point[0] - zero[0]) / units[0]).collect();
         let (loading, unloading) = wanted.split_at(wanted.len() - curve.unloading);
@@ -118,16 +140,20 @@ impl FitDefinition {
                 Source::Offset(of, _) if of == number => {
                     on_curve(&places, |_, point| -units[1] * point.slope / units[0])
                 }
-                Source::Parameter(parameter) if !curve.own.contains(&parameter) => {
-                    // `point.rates` holds only the unknowns that change this curve, in the order of
-                    // unknowns.
-                    known += 1;
-                    let by = By { curve, case: &case, unknown, parameter, value };
-                    let own = by.own_rates(&path, &places, known - 1, &mut model.differenced)?;
-                    by.with_units(units, &places, &own)
-                }
-                // Offsets of other curves, and parameters that this specimen sets itself.
-                _ => vec![0.0; places.len()],
+                _ => match unknown.of(Some((number, curve))) {
+                    Some(parameter) => {
+                        // `point.rates` holds only the unknowns that change this curve, in the
+                        // order of unknowns.
+                        known += 1;
+                        let by = By { curve, case: &case, unknown, parameter, value };
+                        let own =
+                            by.own_rates(&path, &places, known - 1, &mut model.differenced)?;
+                        by.with_units(units, &places, &own)
+                    }
+                    // Offsets and specimens of other curves, and parameters that this specimen sets
+                    // itself.
+                    None => vec![0.0; places.len()],
+                },
             };
             model.rates.push(rates);
         }
@@ -205,11 +231,13 @@ impl By<'_> {
 }
 
 impl Unknown {
-    /// Returns the fitted parameter, unless the curve sets it itself.
-    fn of(&self, curve: Option<&TestCurve>) -> Option<&'static Parameter> {
-        match self.source {
-            Source::Parameter(p) => Some(p).filter(|p| curve.is_none_or(|c| !c.own.contains(p))),
-            Source::Offset(..) => None,
+    /// Returns the fitted parameter of a curve, unless the curve sets it itself.
+    fn of(&self, curve: Option<(usize, &TestCurve)>) -> Option<&'static Parameter> {
+        match (self.source, curve) {
+            (Source::Parameter(p), None) => Some(p),
+            (Source::Parameter(p), Some((_, curve))) => (!curve.own.contains(&p)).then_some(p),
+            (Source::Specimen(p, of), Some((number, _))) => (of == number).then_some(p),
+            (Source::Specimen(..), None) | (Source::Offset(..), _) => None,
         }
     }
 }

@@ -97,7 +97,7 @@ const fn plain(name: &'static str, maker: Maker, role: Role) -> FileEntry {
 }
 
 /// Every file with a fixed name in a results folder, in reading order.
-pub static FILES: [FileEntry; 47] = [
+pub static FILES: [FileEntry; 48] = [
     // A journal grows after its extent was stated, so each line has its own checksum.
     plain(ResultsFolder::JOURNAL, Maker::Run, Role::Journal),
     stated(ResultsFolder::DESIGNS, Maker::Run, Role::Table),
@@ -131,6 +131,7 @@ pub static FILES: [FileEntry; 47] = [
     stated("sobol.csv", Maker::Sensitivity, Role::Record),
     stated("fit.csv", Maker::Fit, Role::Record),
     stated("residuals.csv", Maker::Fit, Role::Record),
+    stated("mean_curves.csv", Maker::Fit, Role::Record),
     stated("residuals.svg", Maker::Fit, Role::Record),
     stated("fitted.toml", Maker::Fit, Role::Record),
     plain("design.toml", Maker::Design, Role::Record),

@@ -9,7 +9,7 @@ use results::{Column, FileEntry, Maker, VerifiedFolder};
 use uncertainty::{INDEX_COLUMNS, SOURCE_COLUMNS, TOLERANCE_COLUMNS, YIELD_COLUMNS};
 
 use super::figure_file::utf8_name;
-use super::fit::{ESTIMATES, FILES, POINTS};
+use super::fit::{ESTIMATES, FILES, MEANS, POINTS};
 use super::own_files::require_own;
 use super::source::{Partial, require_folder_of, verified_folder};
 use super::{DONE, derivation};
@@ -91,6 +91,7 @@ fn others(results: &VerifiedFolder) -> anyhow::Result<Vec<OtherTable>> {
         ("sobol.csv", explained(INDEX_COLUMNS)),
         (FILES[0], explained(ESTIMATES)),
         (FILES[1], explained(POINTS)),
+        (FILES[2], explained(MEANS)),
     ];
     Ok(tables.into_iter().map(|(file, columns)| OtherTable { file, columns }).collect())
 }

@@ -4,14 +4,18 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use ::fit::{CurveEvent, CurveEventKind, Estimate, FitDefinition, FitError, Fitted, FittedCurve};
+use ::fit::{
+    CurveEvent, CurveEventKind, Estimate, FitDefinition, FitError, Fitted, FittedCurve, Scatter,
+};
 use anyhow::Context as _;
 use clap::Args;
 use report::{FitPanel, fit_figure};
 use results::{Claim, Column, Maker, ResultsFolder, columns, write_rows};
 use run::WorkMeter;
 use serde_json::{Value, json};
+use sweep::Role;
 
+use super::measured::Reading;
 use super::options::SolveOptions;
 use super::source::{folder_of, print_notes, settings};
 use super::{DONE, INCOMPLETE};
@@ -38,7 +42,10 @@ substrate_modulus_MPa = { from = 0.1, to = 2 }, and each measured curve has a ta
   gap_over_t = 0.3               # a parameter of this specimen only
 Fits all curves together by least squares, each weighted by its own noise, with exact derivatives. Shows the values
 with 95 % confidence intervals, strong correlations, and unknowns that the data do not determine.
-Writes fit.csv, residuals.csv, residuals.svg, and fitted.toml, a definition for squama run and squama design.
+per_specimen = [\"substrate_modulus_MPa\"] at the top of TEST.toml fits this parameter for each curve, and shows its mean
+and standard deviation.
+Writes fit.csv, residuals.csv, mean_curves.csv (several curves of one design), residuals.svg, and fitted.toml, a
+definition for squama run, design and tolerance.
 Exit code: 0 done, 1 the data do not determine all unknowns, 2 bad input or a disk error.")]
 pub struct Arguments {
     /// Definition of the test in TOML
@@ -58,16 +65,14 @@ pub struct Arguments {
 }
 
 /// Files that `squama fit` writes.
-pub(super) const FILES: [&str; 4] = ["fit.csv", "residuals.csv", "residuals.svg", "fitted.toml"];
+pub(super) const FILES: [&str; 5] =
+    ["fit.csv", "residuals.csv", "mean_curves.csv", "residuals.svg", "fitted.toml"];
 
 /// Message after the first signal.
 const ENDING: &str = "ending without a fit";
 
 /// Smallest correlation that is reported.
 const STRONG: f64 = 0.9;
-
-/// Number of left out lines that are listed.
-const SHOWN_LINES: usize = 5;
 
 /// Fits the parameters of a skin to test data, and writes the fit.
 pub fn fit(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
@@ -101,21 +106,44 @@ pub fn fit(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
 
 fn write(folder: &ResultsFolder, fitted: &Fitted) -> anyhow::Result<()> {
     let claim = Claim::take(folder, Maker::Fit)?;
-    let [table, residuals, figure, definition] = FILES;
+    let [table, residuals, means, figure, definition] = FILES;
     let format = folder.csv_format();
     write_rows(folder, table, format, ESTIMATES, &fitted.estimates)?;
     let rows = fitted.curves.iter().flat_map(|curve| curve.points.iter().map(move |p| (curve, *p)));
     let rows: Vec<Point> = rows.map(|(curve, point)| (curve.file.clone(), point)).collect();
     write_rows(folder, residuals, format, POINTS, rows)?;
+    let rows = fitted.means.iter().flat_map(|mean| {
+        let files = mean.files.join("; ");
+        mean.points.iter().map(move |point| (files.clone(), *point))
+    });
+    write_rows(folder, means, format, MEANS, rows.collect::<Vec<Point>>())?;
     let panels = fitted.curves.iter().map(|curve| {
         let FittedCurve { file, axes, points, noise, .. } = curve;
         FitPanel { file, axes, points, noise: *noise }
     });
     let panels: Vec<_> = panels.collect();
     folder.write_text(figure, &fit_figure(fitted.sweep.name(), &panels))?;
-    folder.write_text(definition, &fitted.sweep.to_toml())?;
+    folder.write_text(definition, &fitted_toml(fitted))?;
     claim.state(&FILES)?;
     Ok(())
+}
+
+/// Returns the fitted definition, with the scatter of specimens as tolerances.
+fn fitted_toml(fitted: &Fitted) -> String {
+    let mut text = fitted.sweep.to_toml();
+    let deviations: Vec<_> = fitted.scatter.iter().filter_map(deviation).collect();
+    // A definition with tolerances of its own keeps them.
+    if !deviations.is_empty() && !text.contains("[tolerance]") {
+        let _ = write!(text, "\n[tolerance]\n{}\n", deviations.join("\n"));
+    }
+    text
+}
+
+/// Returns the entry of a scattered parameter in `[tolerance]`, if it can have one.
+fn deviation(scatter: &Scatter) -> Option<String> {
+    let Scatter { parameter, deviation, .. } = scatter;
+    let is_possible = parameter.has(Role::Made) && *deviation > 0.0;
+    is_possible.then(|| format!("{} = {{ batch_sd = {} }}", parameter.key, digits(*deviation)))
 }
 
 const AS_SOUGHT: &str = "as unit says";
@@ -142,6 +170,14 @@ pub(super) static POINTS: &[Column<Point>] = &columns! { Point:
     "x", AS_CURVE, |(_, point)| point[0], "displacement or curvature";
     "measured", AS_CURVE, |(_, point)| point[1], "measured force or moment";
     "fitted", AS_CURVE, |(_, point)| point[2], "that of the fitted skin";
+};
+
+/// The columns of `mean_curves.csv`.
+pub(super) static MEANS: &[Column<Point>] = &columns! { Point:
+    "curves", "-", |(files, _)| files.clone(), "measured curves of one design";
+    "x", AS_CURVE, |(_, point)| point[0], "displacement or curvature";
+    "mean", AS_CURVE, |(_, point)| point[1], "mean force or moment while loading";
+    "sd", AS_CURVE, |(_, point)| point[2], "its standard deviation over the curves";
 };
 
 /// Formats the fit.
@@ -191,6 +227,9 @@ fn text(fitted: &Fitted) -> String {
             }
         };
     }
+    for scatter in &fitted.scatter {
+        let _ = writeln!(text, "  {}", differs(scatter));
+    }
     for Estimate { unknown, rests_on, .. } in estimates.iter().filter(|e| !e.rests_on.is_empty()) {
         let others: Vec<_> = rests_on.iter().map(name).collect();
         let _ = writeln!(
@@ -224,6 +263,17 @@ fn text(fitted: &Fitted) -> String {
     for curve in curves {
         text.push_str(&remarks(curve));
     }
+    for mean in &fitted.means {
+        let [.., [x, mean_there, deviation]] = mean.points.as_slice() else { continue };
+        let _ = writeln!(
+            text,
+            "  mean of {}: {} at {}, standard deviation {}",
+            mean.files.join(", "),
+            digits(*mean_there),
+            digits(*x),
+            digits(*deviation)
+        );
+    }
     let differenced: usize = curves.iter().map(|curve| curve.differenced).sum();
     if differenced > 0 {
         let _ = writeln!(
@@ -234,9 +284,25 @@ fn text(fitted: &Fitted) -> String {
     text
 }
 
+/// Describes the distribution of a parameter over the specimens.
+fn differs(scatter: &Scatter) -> String {
+    let Scatter { parameter, specimens, mean, mean_interval, .. } = scatter;
+    let [mean_low, mean_high] = mean_interval.map(digits);
+    let [low, high] = scatter.deviation_interval.map(digits);
+    let tolerance = deviation(scatter)
+        .map_or_else(String::new, |entry| format!("; for squama tolerance: tolerance.{entry}"));
+    format!(
+        "{} of {} specimens: mean {} (95 %: {mean_low} to {mean_high}), standard deviation {} (95 %: {low} to {high}){tolerance}",
+        parameter.key,
+        specimens.len(),
+        digits(*mean),
+        digits(scatter.deviation)
+    )
+}
+
 /// Lists warnings and notes on the fit of a curve.
 fn remarks(curve: &FittedCurve) -> String {
-    let FittedCurve { file, beyond, left_out, reversed, events, .. } = curve;
+    let FittedCurve { file, beyond, events, .. } = curve;
     let [x, y] = curve.axes.each_ref().map(|axis| axis.split_once(',').map_or(&**axis, |a| a.0));
     let warnings = [
         curve.is_turned.then(|| {
@@ -251,24 +317,8 @@ fn remarks(curve: &FittedCurve) -> String {
             format!("neighbouring residuals are correlated ({trend:.2}): the model may lack an effect; the intervals are {factor:.1} times as wide as for independent residuals; see residuals.svg")
         }),
     ];
-    let notes = [
-        (!curve.is_physical).then(|| {
-            format!("{x} and {y} have no units in the file; they are read as dimensionless, as in the tables of squama design")
-        }),
-        (!left_out.is_empty()).then(|| {
-            let lines = counted(left_out.len() as u64, "line");
-            let first: Vec<_> = left_out.iter().take(SHOWN_LINES).map(u64::to_string).collect();
-            let more = if left_out.len() > SHOWN_LINES { ", …" } else { "" };
-            format!("{lines} outside the table of numbers left out: {}{more}", first.join(", "))
-        }),
-        reversed.contains(&true).then(|| {
-            let axes = match reversed {
-                [true, true] => format!("{x} and {y}"),
-                [is_x, _] => (if *is_x { x } else { y }).to_owned(),
-            };
-            format!("the signs of {axes} are reversed, because the test counts compression as negative")
-        }),
-    ];
+    let (is_physical, reversed) = (curve.is_physical, curve.reversed);
+    let notes = Reading { axes: [x, y], is_physical, left_out: &curve.left_out, reversed }.notes();
     // Both branches are fitted as requested.
     let is_note =
         |event: &&CurveEvent| event.kind == CurveEventKind::TurnsBack && event.left_out == 0;
@@ -277,7 +327,7 @@ fn remarks(curve: &FittedCurve) -> String {
     let as_notes = as_notes.into_iter().map(|event| told(event, [x, y]));
     let warnings = warnings.into_iter().flatten().chain(as_warnings);
     let warnings = warnings.map(|text| format!("  (!) {file}: {text}\n"));
-    let notes = notes.into_iter().flatten().chain(as_notes);
+    let notes = notes.into_iter().chain(as_notes);
     warnings.chain(notes.map(|text| format!("  {file}: {text}\n"))).collect()
 }
 
@@ -320,6 +370,20 @@ fn kind_name(kind: CurveEventKind) -> &'static str {
     }
 }
 
+fn scatter_record(scatter: &Scatter, fitted: &Fitted) -> Value {
+    let Scatter { parameter, specimens, mean, mean_interval, deviation, deviation_interval } =
+        scatter;
+    let specimens = specimens.iter().map(|j| &fitted.estimates[*j].unknown.name);
+    json!({
+        "parameter": parameter.key,
+        "specimens": specimens.collect::<Vec<_>>(),
+        "mean": mean,
+        "mean_interval": mean_interval,
+        "deviation": deviation,
+        "deviation_interval": deviation_interval,
+    })
+}
+
 fn record(fitted: &Fitted) -> Value {
     let names = |group: &Vec<usize>| {
         group.iter().map(|&j| &fitted.estimates[j].unknown.name).collect::<Vec<_>>()
@@ -330,6 +394,7 @@ fn record(fitted: &Fitted) -> Value {
     json!({
         "name": fitted.sweep.name(),
         "estimates": fitted.estimates.iter().map(estimate).collect::<Vec<_>>(),
+        "scatter": fitted.scatter.iter().map(|s| scatter_record(s, fitted)).collect::<Vec<_>>(),
         "correlations": fitted.correlations,
         "not_told_apart": fitted.undetermined.iter().map(names).collect::<Vec<_>>(),
         "curves": fitted.curves.iter().map(curve).collect::<Vec<_>>(),

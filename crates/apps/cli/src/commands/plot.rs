@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
 use clap::{Args, Subcommand};
-use fit::{MeasuredCurve, Test};
+use fit::{MeanCurve, MeasuredCurve, Test};
 use report::{DesignCurves, MapRequest, MeasuredCurves, curves, figures, map};
 use run::Evaluator;
 use skin::Status;
@@ -15,10 +15,12 @@ use sweep::{Case, PARAMETERS};
 use super::draw::{check_place, substrate};
 use super::figure_file::{FigureFiles, FigureOutput, check_sizes, joined};
 use super::folder_contents::FolderContents;
+use super::measured::Reading;
 use super::options::decimal;
 use super::selection::{SelectedDesign, Selection, select};
 use super::source::{Definition, Partial, folder_within, verified_folder};
 use super::{DONE, INCOMPLETE};
+use crate::print::note;
 use crate::progress::with_bar;
 
 /// Arguments of `squama plot`.
@@ -102,9 +104,10 @@ Examples:
   squama plot curves palm.toml --design 1 --measured test.csv
   squama plot curves sweeps/paper.toml --set 'body = { radius_over_t = -16, radius_to_over_t = 4 }'
 
-A measured file is a CSV table. Its first line names the columns with their units, in any order: displacement_mm
-(or _um, _m) and force_N (_mN, _kN), or curvature_per_m (_per_mm) and moment_N_mm (_mN_m, _N_m); other columns are
-ignored. A file with units needs a [material] with a thickness and a modulus; curves are then in mm, N and mJ.
+A measured file is a text file of a testing machine, as for squama fit. Its header names the columns with their units,
+in any order: displacement_mm (or _um, _m) and force_N (_mN, _kN), or curvature_per_m (_per_mm) and moment_N_mm (_mN_m,
+_N_m); other columns are ignored. Several specimens beside one design also show their mean and standard deviation as a
+band. A file with units needs a [material] with a thickness and a modulus; curves are then in mm, N and mJ.
 Columns without a unit are dimensionless, as in path.csv and flexure_path.csv.")]
 pub struct CurvesArguments {
     #[command(flatten)]
@@ -260,8 +263,19 @@ fn measured(arguments: &CurvesArguments, cases: &[Case]) -> anyhow::Result<Optio
     // Dimensionless columns need no material.
     cases.iter().filter(|_| first.is_physical).try_for_each(units)?;
     let (bending, is_physical) = (first.test == Test::Bending, first.is_physical);
+    let axes = first.test.axes().map(|(name, _)| name);
+    for curve in &read {
+        let (left_out, reversed) = (&curve.left_out, curve.reversed);
+        for text in (Reading { axes, is_physical, left_out, reversed }).notes() {
+            note(&format!("{}: {text}", curve.file));
+        }
+    }
+    // Curves that are compared to one design are specimens of it.
+    let loading = read.iter().map(|curve| (curve.file.as_str(), curve.loading()));
+    let mean = MeanCurve::new(&loading.collect::<Vec<_>>()).filter(|_| cases.len() == 1);
+    let band = mean.map_or_else(Vec::new, |mean| mean.points);
     let curves = read.into_iter().map(|curve| (curve.file, curve.points)).collect();
-    Ok(Some(MeasuredCurves { bending, is_physical, curves }))
+    Ok(Some(MeasuredCurves { bending, is_physical, curves, band }))
 }
 
 /// Solves the puncture of a design, to the critical tilt or to a displacement, and its bending.

@@ -1,7 +1,7 @@
 //! `squama schema`.
 
 use clap::Args;
-use fit::curves_schema;
+use fit::{PER_SPECIMEN, curves_schema};
 use optimisation::goal_schema;
 use serde_json::json;
 use sweep::definition_schema;
@@ -38,6 +38,11 @@ pub fn schema_text() -> String {
     let mut keys = definition_schema();
     keys.insert("goal".to_owned(), goal_schema());
     keys.insert("curve".to_owned(), curves_schema());
+    let per_specimen = json!({
+        "type": "array", "items": { "type": "string" }, "minItems": 1,
+        "description": "variables of a fit that differ from specimen to specimen",
+    });
+    keys.insert(PER_SPECIMEN.to_owned(), per_specimen);
     let schema = json!({
         "$schema": "http://json-schema.org/draft-07/schema#",
         "title": "squama definition",

@@ -68,7 +68,10 @@ fn the_fit_of_the_example_writes_a_valid_definition() {
     }
     // No estimate is at a bound, undetermined, or worse than the noise.
     assert!(!text.contains("(!)"), "{text}");
-    assert_eq!(place.list("f"), "derived fit.csv fitted.toml residuals.csv residuals.svg");
+    assert_eq!(
+        place.list("f"),
+        "derived fit.csv fitted.toml mean_curves.csv residuals.csv residuals.svg"
+    );
     let table = place.read("f/fit.csv");
     let truth = [0.5, 4.5, 0.3, 0.05];
     for (row, truth) in table.lines().skip(1).zip(truth) {
@@ -126,4 +129,42 @@ fn doubtful_fits_are_reported() {
     assert!(text.contains("(!) a.csv: neighbouring residuals are correlated (0."), "{text}");
     let text = fitted("displacement,force\n0.1,0.2\n0.2,0.4\n0.3,0.6\n", 1);
     assert!(text.contains("displacement and force have no units in the file"), "{text}");
+}
+
+/// Stiffness before contact in newtons per millimetre, for a modulus of 0.5.
+const SLOPE: f64 = 0.0583;
+
+#[test]
+fn the_scatter_of_specimens_becomes_a_tolerance() {
+    let skin = SKIN.replace("substrate_modulus_MPa = 0.5\n", "");
+    let place = Place::with(&format!(
+        "per_specimen = ['substrate_modulus_MPa']\n{skin}[variables]\n\
+         substrate_modulus_MPa = {{ from = 0.1, to = 2 }}\n\
+         [[curve]]\nfile = 'a.csv'\nkind = 'puncture'\n"
+    ));
+    // Stiffnesses before contact in the ratio 5 : 6 : 7, for moduli of 0.5, 0.6 and 0.7 MPa.
+    let header = "A;;B;;C;\n".to_owned() + &["Weg mm;Kraft N"; 3].join(";") + "\n";
+    let rows = (1..=20).map(|k| {
+        let x = 0.005 * f64::from(k);
+        let cells = [5.0, 6.0, 7.0].map(|slope| {
+            let noise = 1.0 + 0.01 * (7.0 * slope + 2.0 * f64::from(k)).sin();
+            format!("{x:.4};{:.6}", SLOPE / 5.0 * slope * x * noise)
+        });
+        cells.join(";").replace('.', ",") + "\n"
+    });
+    let file = header + &rows.collect::<String>() + "\nEnd\n";
+    fs::write(place.path("a.csv"), file).expect("writable");
+    let text = place.prints("fit x.toml --out f");
+    assert!(text.contains("substrate_modulus_MPa of 3 specimens: mean 0.6"), "{text}");
+    assert!(text.contains("for squama tolerance: tolerance.substrate_modulus_MPa"), "{text}");
+    assert!(text.contains("mean of a.csv, specimen A, a.csv, specimen B"), "{text}");
+    assert_eq!(place.read("f/mean_curves.csv").lines().count(), 61);
+    place.prints("tolerance f/fitted.toml --design 1 --samples 4 --out t");
+    // The figure shows the mean of the specimens, and the message the line that is left out.
+    let mut assert = place.squama("plot curves f/fitted.toml --design 1 --measured a.csv --out o");
+    let assert = assert.assert().success();
+    let told = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
+    assert!(told.contains("1 line outside the table of numbers left out: 24"), "{told}");
+    let figure = place.read("o/force-displacement-curves-of-0001.svg");
+    assert!(figure.contains("mean of 3 specimens") && figure.contains("class=\"band\""));
 }

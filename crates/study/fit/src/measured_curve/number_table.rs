@@ -128,6 +128,10 @@ impl Rows {
         let mut tables: Vec<NumberTable> = Vec::new();
         let mut end = 0;
         for run in runs {
+            // The mistaken rows of the run above contain this run.
+            if run.start < end {
+                continue;
+            }
             let between = end..run.start;
             // A row with one number continues the run: its other cells contain a mistake.
             let mistaken = (run.end..self.all.len())

@@ -1,5 +1,6 @@
 //! Fits of curves from known skins.
 
+mod fuzz;
 mod recovery;
 mod refusals;
 mod synthetic_curves;

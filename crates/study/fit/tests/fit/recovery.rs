@@ -9,7 +9,7 @@ use rand_chacha::ChaCha12Rng;
 use rayon::prelude::*;
 use run::Evaluator;
 use skin::CurvePoint;
-use sweep::Sweep;
+use sweep::{Parameter, Sweep};
 
 use crate::synthetic_curves::{Place, SyntheticCurve};
 
@@ -502,4 +502,45 @@ fn both_branches_are_fitted() {
         assert!((friction - 0.3).abs() < 1e-3, "{unload}{branch}: {friction}");
         assert_eq!(fitted.curves[0].points.len(), points, "{unload}{branch}");
     }
+}
+
+/// Each specimen has its own modulus; the friction of the needle is common.
+#[test]
+fn a_parameter_may_differ_from_specimen_to_specimen() {
+    let place = Place::new();
+    let shared = skin(0.2, 0.8, 60.0);
+    let moduli = [0.40, 0.45, 0.52, 0.58];
+    let mut curves = String::new();
+    for (k, modulus) in (0..).zip(moduli) {
+        let skin = format!(
+            "{shared}material.substrate_modulus_MPa = {modulus}\npuncture.needle_friction = 0.3\n"
+        );
+        let file = ["a.csv", "b.csv", "c.csv", "d.csv"][k as usize];
+        let curve = SyntheticCurve { file, points: 20, noise: 0.01, seed: k, ..PUNCTURE };
+        place.make(&skin, &curve);
+        writeln!(curves, "[[curve]]\nfile = '{file}'\nkind = 'puncture'").expect("a text");
+    }
+    let sought = format!(
+        "per_specimen = ['substrate_modulus_MPa']\n{shared}[variables]\n\
+         substrate_modulus_MPa = {{ from = 0.05, to = 2 }}\n\
+         needle_friction = {{ from = 0.02, to = 0.9 }}\n{curves}"
+    );
+    let fitted = place.fit(&sought).expect("an answer");
+    assert_eq!(fitted.estimates.len(), 5);
+    assert_eq!(fitted.estimates[1].unknown.name, "substrate_modulus_MPa of b.csv");
+    for (estimate, modulus) in fitted.estimates.iter().zip(moduli) {
+        assert!((estimate.value / modulus - 1.0).abs() < 0.1, "{estimate:?}");
+    }
+    let scatter = &fitted.scatter[0];
+    assert_eq!(scatter.specimens, [0, 1, 2, 3]);
+    let mean = fitted.estimates[..4].iter().map(|estimate| estimate.value).sum::<f64>() / 4.0;
+    assert!((scatter.mean - mean).abs() < 1e-12);
+    // The standard deviation of the true moduli is 0.0793.
+    let [low, high] = scatter.deviation_interval;
+    assert!((scatter.deviation - 0.0793).abs() < 0.02 && low < 0.0793 && high > 0.0793);
+    // The design has the mean.
+    let case = fitted.sweep.grid().case(0);
+    let modulus = Parameter::named("substrate_modulus_MPa").expect("a parameter").get(&case);
+    assert!((modulus.number().expect("a number") - mean).abs() < 1e-12);
+    assert_eq!((fitted.means.len(), fitted.means[0].files.len()), (1, 4));
 }

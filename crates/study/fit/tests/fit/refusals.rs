@@ -84,3 +84,17 @@ fn unknowns_are_checked() {
     let few = place.fit(&format!("{SKIN}{sought}{curve}")).expect_err("one point").to_string();
     insta::assert_snapshot!(few, @"too few points: 1, for 1 unknowns; expected more points than unknowns");
 }
+
+fn refused_specimens(value: &str) -> String {
+    let units = "material.thickness_mm = 1\n";
+    let sought = "[variables]\nsubstrate_modulus_MPa = { from = 0.1, to = 1 }\n";
+    let curve = "[[curve]]\nfile = 'a.csv'\nkind = 'puncture'\n";
+    refused(&format!("{units}per_specimen = {value}\n{sought}{curve}"))
+}
+
+#[test]
+fn parameters_per_specimen_are_checked() {
+    insta::assert_snapshot!(refused_specimens("3"), @r#"test.toml:6: per_specimen: 3 is not accepted, expected a list of [variables], e.g. ["substrate_modulus_MPa"]"#);
+    insta::assert_snapshot!(refused_specimens("['friction']"), @r#"test.toml:6: per_specimen: ["friction"] is not accepted, expected names of [variables]"#);
+    insta::assert_snapshot!(refused_specimens("['substrate_modulus_MPa']"), @r#"test.toml:6: per_specimen: ["substrate_modulus_MPa"] is not accepted, expected at least two curves without a value of their own"#);
+}

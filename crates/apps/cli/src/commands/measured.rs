@@ -1,0 +1,47 @@
+//! Notes on measured curves, for `squama fit` and `squama plot curves`.
+
+use crate::print::counted;
+
+/// Number of left out lines that are listed.
+const SHOWN_LINES: usize = 5;
+
+/// Properties of a measured curve that a reader should know.
+pub struct Reading<'a> {
+    /// Names of the quantities on its axes.
+    pub axes: [&'a str; 2],
+    /// True if the columns have physical units.
+    pub is_physical: bool,
+    /// Lines that were left out.
+    pub left_out: &'a [u64],
+    /// Whether the signs were reversed, on both axes.
+    pub reversed: [bool; 2],
+}
+
+impl Reading<'_> {
+    /// Lists the notes.
+    pub fn notes(&self) -> Vec<String> {
+        let Self { axes: [x, y], is_physical, left_out, reversed } = *self;
+        let mut notes = Vec::new();
+        if !is_physical {
+            notes.push(format!("{x} and {y} have no units in the file; they are read as dimensionless, as in the tables of squama design"));
+        }
+        if !left_out.is_empty() {
+            let lines = counted(left_out.len() as u64, "line");
+            let first: Vec<_> = left_out.iter().take(SHOWN_LINES).map(u64::to_string).collect();
+            let more = if left_out.len() > SHOWN_LINES { ", …" } else { "" };
+            notes.push(format!(
+                "{lines} outside the table of numbers left out: {}{more}",
+                first.join(", ")
+            ));
+        }
+        let axes = match reversed {
+            [false, false] => return notes,
+            [true, true] => format!("{x} and {y}"),
+            [is_x, _] => (if is_x { x } else { y }).to_owned(),
+        };
+        notes.push(format!(
+            "the signs of {axes} are reversed, because the test counts compression as negative"
+        ));
+        notes
+    }
+}
