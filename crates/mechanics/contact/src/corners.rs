@@ -117,6 +117,12 @@ impl<'a> Corners<'a> {
         self.pair.gap(edge, left, right)
     }
 
+    /// Computes the tangential displacement between a corner and an edge of this level.
+    pub(crate) fn slide(&self, edge: CornerEdge) -> Gap {
+        let [left, right] = self.poses;
+        self.pair.slide(edge, left, right)
+    }
+
     /// Returns the contacts on both sides of the state corner on corner.
     ///
     /// The first is the contact that arrived as `edge`, in the form in which it would leave again;

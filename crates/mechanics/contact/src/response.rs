@@ -67,9 +67,10 @@ impl CornerContact {
 
     /// Evaluates the response without the conditions of the forces that do not act.
     ///
-    /// `held` is a friction coefficient for corner on corner: the force on the left scale gains a
-    /// part `held` times as large, turned by 90° counter-clockwise. It represents friction carried
-    /// over from the contact that arrived, and does not enter the contact law.
+    /// `held` is a friction coefficient for corner on corner: each force on the left scale gains a
+    /// part `held` times as large, turned by 90° counter-clockwise, that acts at its own corner. It
+    /// represents friction carried over from the contact that arrived, and does not enter the
+    /// contact law.
     pub fn acting_response(
         self,
         corners: &Corners,
@@ -81,13 +82,23 @@ impl CornerContact {
             Self::Open => CornerResponse::default(),
             Self::Edge(edge) => CornerResponse::edge(edge, corners, law, forces),
             Self::Corner(edge) => {
-                Together::new(corners, corners.together(edge)).response(law, forces, held)
+                let edges = corners.together(edge);
+                let mut response = Together::new(corners, edges).response(law, forces);
+                // Friction acts at the corner that rests on an edge. Corners approach each other
+                // under force, so one common point would change the moments by a jump as a corner
+                // reaches or leaves the end of its edge.
+                if held != 0.0 {
+                    for (which, edge) in [Force::Own, Force::Partner].into_iter().zip(edges) {
+                        response.add_force(which, &corners.slide(edge), forces, held);
+                    }
+                }
+                response
             }
             Self::Flush(edge) => {
                 let mut response = CornerResponse::edge(edge, corners, law, forces);
                 // Always present: a tip on a side never becomes flush.
                 if let Some(flush) = edge.flush() {
-                    response.add_force(Force::Flush, &corners.gap(flush), forces);
+                    response.add_force(Force::Flush, &corners.gap(flush), forces, 1.0);
                     response.conditions[Force::Flush as usize] =
                         Some(flush_condition(corners, flush));
                 }
@@ -136,12 +147,12 @@ impl CornerResponse {
         Self { balance, conditions: [Some(condition), None, None] }
     }
 
-    /// Adds the balance of one of the forces, which acts along a gap.
-    fn add_force(&mut self, which: Force, gap: &Gap, forces: [f64; FORCES]) {
-        let force = forces[which as usize];
+    /// Adds the balance of `ratio` times one of the forces, which acts along a gap or a slide.
+    fn add_force(&mut self, which: Force, gap: &Gap, forces: [f64; FORCES], ratio: f64) {
+        let force = ratio * forces[which as usize];
         for (i, row) in self.balance.iter_mut().enumerate() {
             row.value -= force * gap.gradient[i];
-            row.by_force[which as usize] = -gap.gradient[i];
+            row.by_force[which as usize] -= ratio * gap.gradient[i];
             for (slope, hessian) in row.by_coordinate.iter_mut().zip(gap.hessian[i]) {
                 *slope -= force * hessian;
             }
@@ -234,21 +245,11 @@ impl Together {
     }
 
     /// Evaluates corner on corner: both forces act, (C5) and (C6).
-    fn response(
-        &self,
-        law: &ContactLaw,
-        [own, partner, _]: [f64; FORCES],
-        held: f64,
-    ) -> CornerResponse {
+    fn response(&self, law: &ContactLaw, [own, partner, _]: [f64; FORCES]) -> CornerResponse {
         let force = own * self.normals[0] + partner * self.normals[1];
         let turning = std::array::from_fn(|i| self.force_slope([own, partner], i));
         let [closed, at_end] = self.conditions(law, force, &turning);
-        let with_friction = |force: Vec2| force + held * quarter(force);
-        let balance = self.balance(
-            with_friction(force),
-            &turning.map(with_friction),
-            self.normals.map(with_friction),
-        );
+        let balance = self.balance(force, &turning, self.normals);
         CornerResponse { balance, conditions: [Some(closed), Some(at_end), None] }
     }
 

@@ -37,11 +37,28 @@ struct Case {
 
 impl Case {
     fn at(&self, z: &[f64; COUPLED]) -> CornerResponse {
+        self.with_friction(z, 0.0)
+    }
+
+    /// Evaluates the response with a friction coefficient for corner on corner.
+    fn with_friction(&self, z: &[f64; COUPLED], held: f64) -> CornerResponse {
         let (left, right) = (Pose::new(z[0], z[1], z[2]), Pose::new(z[3], z[4], z[5]));
         let acting = self.contact.acting();
         let forces = std::array::from_fn(|k| if acting[k] { z[COORDINATES + k] } else { 0.0 });
         let corners = Corners::new(self.level, &self.pair, [&left, &right]);
-        self.contact.response(&corners, &self.law, forces)
+        if held == 0.0 {
+            return self.contact.response(&corners, &self.law, forces);
+        }
+        self.contact.acting_response(&corners, &self.law, forces, held)
+    }
+
+    /// Adds the friction of the force of a corner that slides on an edge.
+    fn add_sliding(&self, balance: &mut [f64; COORDINATES], z: &[f64; COUPLED], friction: f64) {
+        let (left, right) = (Pose::new(z[0], z[1], z[2]), Pose::new(z[3], z[4], z[5]));
+        let slide = self.pair.slide(self.contact.edge().unwrap(), &left, &right);
+        for (value, slope) in balance.iter_mut().zip(slide.gradient) {
+            *value -= friction * z[COORDINATES] * slope;
+        }
     }
 }
 
@@ -98,6 +115,44 @@ proptest! {
                 let difference = (high.value - low.value) / (2.0 * h);
                 assert_relative_eq!(derivatives(ours)[j], difference, epsilon = 1e-6, max_relative = 1e-6);
             }
+        }
+    }
+
+    #[test]
+    fn tangents_of_corners_with_friction_agree_with_finite_differences(
+        edge in 0_usize..6, slant in 0.0_f64..80.0, q in prop::array::uniform6(-0.5_f64..0.5),
+        forces in prop::array::uniform3(0.2_f64..2.0), held in -0.6_f64..0.6,
+    ) {
+        let case = case(edge, slant, Law::PRINTED, CornerContact::Corner);
+        let z = with(q, forces);
+        let ours = case.with_friction(&z, held).balance;
+        for j in 0..COORDINATES + 2 {
+            let [low, high] = [-1e-6, 1e-6].map(|h| {
+                let mut z = z;
+                z[j] += h;
+                case.with_friction(&z, held).balance.map(|equation| equation.value)
+            });
+            for (ours, (low, high)) in ours.iter().zip(low.iter().zip(&high)) {
+                let difference = (high - low) / 2e-6;
+                assert_relative_eq!(derivatives(ours)[j], difference, epsilon = 1e-6, max_relative = 1e-6);
+            }
+        }
+    }
+
+    /// A corner that slides to the end of its edge goes on without a jump of force or moment.
+    #[test]
+    fn friction_is_continuous_where_a_corner_reaches_the_end_of_its_edge(
+        edge in 0_usize..6, slant in 0.0_f64..80.0, q in prop::array::uniform6(-0.5_f64..0.5),
+        force in 0.2_f64..2.0, friction in -0.6_f64..0.6,
+    ) {
+        let z = with(q, [force, 0.0, 0.0]);
+        let on_edge = case(edge, slant, Law::PRINTED, CornerContact::Edge);
+        let mut expected = on_edge.at(&z).balance.map(|equation| equation.value);
+        on_edge.add_sliding(&mut expected, &z, friction);
+        let at_end = case(edge, slant, Law::PRINTED, CornerContact::Corner);
+        let balance = at_end.with_friction(&z, friction).balance;
+        for (ours, expected) in balance.iter().zip(expected) {
+            assert_relative_eq!(ours.value, expected, epsilon = 1e-12, max_relative = 1e-12);
         }
     }
 

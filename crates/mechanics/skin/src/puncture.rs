@@ -62,6 +62,12 @@ pub use tilts::TiltMeasures;
 /// It covers the round-off of a symmetric row.
 const STRAIGHT_DEG: f64 = 1e-6;
 
+/// Quantity of the error for a round tip that reaches over too many scales.
+pub const TIP_REACH: &str = "radius of the needle over the pitch of the row";
+
+/// Quantity of the error for a row with displacements that do not decay.
+pub const DIRECT_STIFFNESS: &str = "direct stiffness of the substrate";
+
 /// Longest row of [`RowLength::Auto`].
 pub const LONGEST_ROW: usize = 4001;
 
@@ -464,7 +470,7 @@ impl<'a> Problem<'a> {
             .with_friction(common.friction)?;
         let endless = match parameters.scales {
             RowLength::Auto => Some(far_field(design, &stiffness, None).ok_or(OutOfRange {
-                quantity: "direct stiffness of the substrate",
+                quantity: DIRECT_STIFFNESS,
                 value: stiffness.direct[0],
                 expected: "more than its couplings with all neighbours together",
             })?),
@@ -476,7 +482,7 @@ impl<'a> Problem<'a> {
         let radius = parameters.needle_radius;
         let is_in_reach = radius.is_none() || problem.reach().is_some();
         let expected = "at most 62 pitches of the row";
-        OutOfRange::unless(is_in_reach, "needle radius", radius.unwrap_or(0.0), expected)?;
+        OutOfRange::unless(is_in_reach, TIP_REACH, radius.unwrap_or(0.0), expected)?;
         Ok(problem)
     }
 
@@ -606,7 +612,9 @@ impl<'a> Problem<'a> {
         let mut passage = watch.passage.finish(path.system(), &path.point().state);
         let is_untilted = self.parameters.needle.is_guided() && passage.critical_event.is_none();
         // At some load the path of a scale pushed in its middle bifurcates.
-        let is_straight = || watch.record.path.iter().all(|at| at.tilt_deg.abs() < STRAIGHT_DEG);
+        let points = &watch.record.path;
+        let is_straight =
+            || points.len() > 1 && points.iter().all(|at| at.tilt_deg.abs() < STRAIGHT_DEG);
         let status = match Status::of(&path, path.termination().unwrap_or(Termination::Reached)) {
             // A row that should have grown further has no valid end.
             _ if !growing.has_room => Status::RowLimit,
@@ -620,7 +628,7 @@ impl<'a> Problem<'a> {
             }
             Status::Complete if is_untilted => Status::Untilted,
             Status::Stopped(Termination::NoConvergence | Termination::Jumps)
-                if is_untilted && is_straight() =>
+                if passage.critical_event.is_none() && is_straight() =>
             {
                 Status::Untilted
             }

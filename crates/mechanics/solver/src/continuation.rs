@@ -1,10 +1,12 @@
 //! Path continuation: an iterator over the equilibria of a path.
 
+mod budget;
 mod direction;
 mod returns;
 
 use std::sync::Arc;
 
+use self::budget::Budget;
 use self::direction::{HIDDEN, SHORT};
 use self::returns::Returns;
 use crate::event::Event;
@@ -28,6 +30,11 @@ const DRIVES: f64 = 0.05;
 /// length, shortening the step does not help. If the step was merely too long, fewer reductions
 /// suffice.
 const UNDONE: usize = 5;
+
+/// Distances at which the path is resumed beyond a bifurcation point, the preferred one first.
+///
+/// Closer to the point Newton's method hardly separates the branches.
+const BEYOND_BIFURCATION: [f64; 3] = [1e-4, 1e-5, 1e-6];
 
 /// Equilibrium of a path, with its directions.
 #[derive(Clone, Debug, PartialEq)]
@@ -104,6 +111,8 @@ pub struct Continuation<S: System> {
     farthest: f64,
     /// Events since then.
     returns: Returns,
+    /// Limit on its work.
+    budget: Budget,
     /// Sign of a load that only pushes.
     ///
     /// The path ends where such a load returns to zero.
@@ -146,6 +155,7 @@ impl<S: System> Continuation<S> {
             undone: 0,
             farthest: 0.0,
             returns: Returns::default(),
+            budget: Budget::default(),
             pushes: None,
             is_back: false,
             step: settings.first_step.min(settings.max_step),
@@ -177,7 +187,9 @@ impl<S: System> Continuation<S> {
     pub fn continue_with(&mut self, system: S, mut point: Equilibrium<S::Mode>) -> S {
         // The record of iterations covers steps only, so leave out the iterations of the transfer.
         let history = std::mem::take(&mut self.newton.history);
+        let work = self.newton.work;
         self.newton = Newton::new(&system);
+        self.newton.work = work;
         self.coordinates = system.coordinates();
         let left = std::mem::replace(&mut self.system, system);
         self.termination = None;
@@ -192,6 +204,11 @@ impl<S: System> Continuation<S> {
         self.newton.history = history;
         self.set_point(point);
         left
+    }
+
+    /// Returns the work so far, in the unit of [`Settings::max_work`].
+    pub fn work(&self) -> u64 {
+        self.newton.work.unknowns
     }
 
     /// Returns the reason why the path ended, or `None` while it continues.
@@ -317,6 +334,7 @@ impl<S: System> Continuation<S> {
         self.points = 0;
         self.farthest = f64::NEG_INFINITY;
         self.returns.clear();
+        self.budget.restart(self.newton.work);
         self.set_point(point);
     }
 
@@ -406,6 +424,9 @@ impl<S: System> Continuation<S> {
             if is_interrupted() {
                 return Err(Termination::Interrupted);
             }
+            if self.budget.is_exceeded(self.newton.work, self.settings.max_work) {
+                return Err(Termination::TooMuchWork);
+            }
             progress::report_if_due(self.points, self.progress(&self.point.state.z));
             let distance = self.distance();
             let before = self.newton.history.len();
@@ -421,7 +442,13 @@ impl<S: System> Continuation<S> {
                 }
                 // A failed attempt leaves the current point unchanged, so try again with a shorter
                 // step.
-                Err(stop) => self.shorten_step(distance, stop)?,
+                Err(stop) => {
+                    if let Err(stop) = self.shorten_step(distance, stop) {
+                        let is_lost = stop == Termination::NoConvergence;
+                        let resumed = is_lost.then(|| self.pass_bifurcation()).flatten();
+                        return resumed.ok_or(stop);
+                    }
+                }
             }
         }
     }
@@ -444,6 +471,41 @@ impl<S: System> Continuation<S> {
         // Slip that ends at zero rate has no equilibrium nearby if, to second order, neither slip
         // nor stick is valid.
         Err(if self.undone >= UNDONE { Termination::Jumps } else { stop })
+    }
+
+    /// Resumes the path beyond a bifurcation point just ahead.
+    ///
+    /// There the orientation (N7) may change on a smooth path, or an extremum of the load has no
+    /// tangent, and every shorter step is rejected. The path follows its incoming branch. `None` if
+    /// there is no such point, or if the path has no end because its control parameter is constant.
+    fn pass_bifurcation(&mut self) -> Option<Equilibrium<S::Mode>> {
+        let from = Arc::clone(&self.point);
+        if self.progress(&from.leaving).abs() < DRIVES {
+            return None;
+        }
+        for distance in BEYOND_BIFURCATION {
+            self.step = distance;
+            let Ok(candidate) = self.step_to(&from, distance) else { continue };
+            let guards = Newton::guards(&self.system, &candidate.state);
+            let is_beyond_event = self.first_violated(&guards).is_some()
+                || self.load_reverses(&candidate)
+                || self.progress(&candidate.state.z).abs() > self.system.target();
+            let slips_back = self.system.monotone().iter().any(|&constraint| {
+                let unknown = self.system.constraints()[constraint];
+                candidate.state.active[constraint] && candidate.direction[unknown] < 0.0
+            });
+            let load = self.system.load();
+            let is_special = candidate.is_positive != self.is_positive
+                || from.leaving[load] * candidate.direction[load] < 0.0;
+            let is_valid = !is_beyond_event && !slips_back && !self.bends(&from, &candidate);
+            if is_special && is_valid {
+                (self.is_positive, self.is_unique) = (candidate.is_positive, false);
+                let Candidate { state, direction, .. } = candidate;
+                let (arriving, leaving) = (direction.clone(), direction);
+                return Some(Equilibrium { state, arriving, leaving, event: None });
+            }
+        }
+        None
     }
 
     fn lengthen_step(&mut self, iterations: usize, smooth: bool) {
@@ -542,6 +604,15 @@ impl<S: System> Continuation<S> {
     fn at_target(&self, state: &State<S::Mode>) -> bool {
         !self.is_back && (self.progress(&state.z).abs() - self.system.target()).abs() <= FLOOR
     }
+
+    /// Returns true if the path arrives at its target from within.
+    ///
+    /// A path that is turned back starts there and leads away from it.
+    fn reaches_target(&self, point: &Equilibrium<S::Mode>) -> bool {
+        let progress = self.progress(&point.state.z);
+        let is_near = (progress.abs() - self.system.target()).abs() <= FLOOR;
+        is_near && (!self.is_back || progress * self.progress(&point.arriving) > 0.0)
+    }
 }
 
 impl<S: System> Iterator for Continuation<S> {
@@ -565,7 +636,8 @@ impl<S: System> Iterator for Continuation<S> {
                     (self.farthest, self.reversals) = (far, 0);
                     self.returns.clear();
                 }
-                if point.event == Some(Event::Target) || self.at_target(&point.state) {
+                self.budget.advance(far, self.newton.work);
+                if point.event == Some(Event::Target) || self.reaches_target(&point) {
                     // An unloading path that returns to the loading target has reversed at an event
                     // instead of unloading.
                     self.termination =

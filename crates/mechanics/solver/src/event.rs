@@ -3,6 +3,7 @@
 use crate::bracket::Bracket;
 use crate::continuation::{Candidate, Continuation, Equilibrium};
 use crate::newton::{Condition, FLOOR, Newton, NewtonFailure, guard_slope};
+use crate::rate_problem::ELSEWHERE;
 use crate::system::{State, System};
 
 /// Largest distance by which an event may lie before the current point.
@@ -120,10 +121,14 @@ impl<S: System> Continuation<S> {
     }
 
     /// Returns the constraint violated first between current guards and `after`.
-    fn first_violated(&self, after: &[f64]) -> Option<usize> {
+    pub(crate) fn first_violated(&self, after: &[f64]) -> Option<usize> {
         let mut first = (f64::INFINITY, None);
         for (c, (&before, &after)) in self.guards.iter().zip(after).enumerate() {
-            if after < -FLOOR {
+            // A constraint may start below zero by the error of the event, such as a slip distance
+            // that grows at a small rate. It is violated where it falls further.
+            let rises = before > -ELSEWHERE && self.slopes[c] > NO_RATE;
+            let floor = if rises { FLOOR.max(-before) } else { FLOOR };
+            if after < -floor {
                 // The secant estimates the order only; the order is checked again at the event.
                 let fraction = before.max(0.0) / (before.max(0.0) - after);
                 if fraction < first.0 {

@@ -8,6 +8,18 @@ use crate::tangent_solver::TangentSolver;
 /// A guard (N5) below minus this is violated; smaller violations are round-off.
 pub(crate) const FLOOR: f64 = 1e-12;
 
+/// Half-bandwidth with which an unknown counts twice.
+const FULL_BANDWIDTH: usize = 128;
+
+/// Work of Newton's method, independent of the machine.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Work {
+    /// Number of factorised tangents.
+    pub(crate) tangents: u64,
+    /// Unknowns of these tangents, weighted by the bandwidth.
+    pub(crate) unknowns: u64,
+}
+
 /// Condition `Σ c_k z_k = value` that selects a point of the path.
 ///
 /// The condition takes the row of the load in the tangent. Its unknowns must lie within a
@@ -67,6 +79,10 @@ pub struct Newton {
     step: Vec<f64>,
     /// Residual norm of every iteration since the history was last taken.
     pub(crate) history: Vec<f64>,
+    /// Work so far.
+    pub(crate) work: Work,
+    /// Work of one tangent.
+    of_tangent: u64,
 }
 
 impl Newton {
@@ -78,6 +94,8 @@ impl Newton {
             residual: Residual::new(size),
             step: vec![0.0; size],
             history: Vec::new(),
+            work: Work::default(),
+            of_tangent: (size + size * system.half_bandwidth() / FULL_BANDWIDTH) as u64,
         }
     }
 
@@ -169,6 +187,7 @@ impl Newton {
         state: &State<S::Mode>,
         condition: &Condition,
     ) -> Result<Vec<f64>, NewtonFailure> {
+        self.count_tangent();
         let residual = &mut self.residual;
         self.solver.factorise(system, state, condition.row_in_tangent(), residual)?;
         let direction = self.direction(system, condition);
@@ -216,6 +235,11 @@ impl Newton {
         replace_active(system, state, direction, slopes);
     }
 
+    fn count_tangent(&mut self) {
+        self.work.tangents += 1;
+        self.work.unknowns += self.of_tangent;
+    }
+
     /// Evaluates the equations and factorises their tangent.
     ///
     /// Leaves the negative values in `step` and returns their norm.
@@ -225,6 +249,7 @@ impl Newton {
         state: &State<S::Mode>,
         condition: &Condition,
     ) -> Result<f64, NewtonFailure> {
+        self.count_tangent();
         let residual = &mut self.residual;
         let row = condition.row_in_tangent();
         // Report a singular tangent last: a non-finite equation is the cause if both occur.

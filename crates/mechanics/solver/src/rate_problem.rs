@@ -15,8 +15,8 @@ const APART: f64 = 1e-10;
 /// Largest relative guard of a changed constraint at the restored equilibrium.
 ///
 /// It is relative to 1 plus its slope. If the guard exceeds this, Newton's method converged to a
-/// different equilibrium.
-const ELSEWHERE: f64 = 1e-4;
+/// different equilibrium; likewise if any guard is below zero by more.
+pub(crate) const ELSEWHERE: f64 = 1e-4;
 
 /// Two directions are the same branch if their cosine differs from 1 by less.
 const SAME_BRANCH: f64 = 1e-6;
@@ -80,13 +80,25 @@ impl<S: System> Continuation<S> {
             *state = next;
             return Ok(leaving);
         }
+        let together = changes.clone();
         // Opening a contact also ends its stick-slip constraint. Both events coincide up to
         // round-off, so sort them.
         let coupled = self.system.coupled(changes[0].constraint);
         let group = changes.iter().take_while(|change| coupled.contains(&change.constraint));
         let group = group.count();
         changes[..group].sort_by_key(|change| change.constraint);
-        let branch = self.best_branch(state, arriving, changes)?;
+        let branch = self.best_branch(state, arriving, changes);
+        // The contacts of a symmetric row may open together where their corners are at the ends of
+        // their edges. An open contact has no such end, so its other change is void.
+        if together.len() > 1
+            && branch.as_ref().map_or(true, |branch| branch.along < 0.0)
+            && let Some(opened) = self.open_together(state, arriving, &together)
+        {
+            (*state, *changes, self.is_positive) =
+                (opened.state, opened.changes, opened.is_positive);
+            return Ok(opened.leaving);
+        }
+        let branch = branch?;
         if branch.along < 0.0 && !self.system.monotone().is_empty() {
             self.reversals += 1;
             if self.reversals > MOST_REVERSALS {
@@ -224,6 +236,32 @@ impl<S: System> Continuation<S> {
         let direction = opposite(direction);
         self.is_positive = self.newton.is_positive(&condition, &direction);
         Ok(direction)
+    }
+
+    /// Applies deactivations, then the changes that remain possible, and keeps the direction.
+    ///
+    /// `None` if one of them is violated or the path reverses.
+    fn open_together(
+        &mut self,
+        state: &State<S::Mode>,
+        arriving: &[f64],
+        changes: &[Change],
+    ) -> Option<OutgoingBranch<S::Mode>> {
+        let mut opened = state.clone();
+        let mut made = Vec::with_capacity(changes.len());
+        for activated in [false, true] {
+            for &change in changes.iter().filter(|change| change.activated == activated) {
+                let mut next = opened.clone();
+                if self.pivot(&mut next, change).is_some() {
+                    opened = next;
+                    made.push(change);
+                }
+            }
+        }
+        let (state, leaving) = self.pivot_together(state, arriving, &made)?;
+        let (along, is_positive) = (self.cosine(arriving, &leaving), self.is_positive);
+        let branch = OutgoingBranch { state, leaving, changes: made, is_positive, along };
+        Some(branch).filter(|branch| branch.along > 0.0)
     }
 
     /// Applies all `changes` and returns state and direction.
@@ -385,8 +423,8 @@ impl<S: System> Continuation<S> {
 
     /// Restores equilibrium after a transition and solves for the outgoing direction.
     ///
-    /// The guard of the `orienting` constraint increases along the direction. Without one, the
-    /// direction follows `arriving`.
+    /// The guard of the `orienting` constraint increases along the direction. Without one, or with a
+    /// neutral one, the direction follows `arriving`.
     fn direction(
         &mut self,
         state: &mut State<S::Mode>,
@@ -394,6 +432,7 @@ impl<S: System> Continuation<S> {
         orienting: Option<usize>,
     ) -> Result<Vec<f64>, Termination> {
         let mut failure = Termination::Singular;
+        let orienting = orienting.filter(|&number| !self.system.is_neutral(state, number));
         // A corner that closes may turn the path by a right angle. Then the arc length is constant
         // to first order, and only one of the controls still grows.
         for condition in self.measures(state, arriving) {
@@ -416,12 +455,23 @@ impl<S: System> Continuation<S> {
             if slope < 0.0 {
                 direction = opposite(direction);
             }
+            if self.is_elsewhere(&trial, &direction) {
+                failure = Termination::NoConvergence;
+                continue;
+            }
             // The equations change at an event, the only place where the sign of (N7) may change.
             self.is_positive = self.newton.is_positive(&condition, &direction);
             *state = trial;
             return Ok(direction);
         }
         Err(failure)
+    }
+
+    /// Returns true if an equilibrium violates any constraint by more than round-off.
+    fn is_elsewhere(&self, state: &State<S::Mode>, direction: &[f64]) -> bool {
+        let (mut guards, mut slopes) = (Vec::new(), Vec::new());
+        Newton::guard_slopes(&self.system, state, direction, &mut guards, &mut slopes);
+        guards.iter().zip(slopes).any(|(guard, slope)| *guard < -ELSEWHERE * (1.0 + slope.abs()))
     }
 
     /// Returns measures of distance along the path, the most likely to increase first.

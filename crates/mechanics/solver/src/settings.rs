@@ -17,6 +17,10 @@ pub struct Settings {
     pub max_iterations: usize,
     /// Number of equilibria after which the path stops.
     pub max_points: usize,
+    /// Work after which the path stops: the unknowns of all its tangents, weighted by bandwidth.
+    ///
+    /// Half of it without progress also stops the path. Few tangents of a long row do not count.
+    pub max_work: u64,
 }
 
 impl Default for Settings {
@@ -28,6 +32,8 @@ impl Default for Settings {
             tolerance: 1e-10,
             max_iterations: 12,
             max_points: 100_000,
+            // Under five seconds. Paths that reach their target need less than half of it.
+            max_work: 24_000_000,
         }
     }
 }

@@ -232,6 +232,13 @@ pub trait System {
         f64::NAN
     }
 
+    /// Returns true if the condition of a constraint does not determine the outgoing direction.
+    ///
+    /// The path then keeps its incoming direction. False by default.
+    fn is_neutral(&self, _state: &State<Self::Mode>, _constraint: usize) -> bool {
+        false
+    }
+
     /// Completes a change of sides in `state`, with the flag set and the unknown zero.
     ///
     /// A system with modes sets the next mode and the unknowns and flags that change with it.

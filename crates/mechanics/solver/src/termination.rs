@@ -20,6 +20,9 @@ pub enum Termination {
     /// The path reached the limit on the number of equilibria.
     #[error("too many points")]
     TooManyPoints,
+    /// The path has needed more work than any path that ends within seconds.
+    #[error("too much work")]
+    TooMuchWork,
     /// Constraints change sides repeatedly at one point without progress.
     #[error("cycling constraints")]
     Cycling,
@@ -52,6 +55,7 @@ impl Termination {
                 | Self::Cycling
                 | Self::NoProgress
                 | Self::NotFinite
+                | Self::TooMuchWork
         )
     }
 }

@@ -54,6 +54,17 @@ impl Contacts {
             // The previous carrier stays the carrier, because its anchor is known.
             let shared = usize::from(before.mode.friction_states[contact].carries_friction());
             friction_states[shared] = FrictionState::None;
+            // Where the two dragged in opposite directions, their sum is below the limit.
+            let normal = pair.map(|contact| self.own_and_flush_force(state, contact));
+            let sum = ratios[0] * normal[0] + ratios[1] * normal[1];
+            let carrier = pair[1 - shared];
+            if let (FrictionState::Slip { .. }, Some(edge)) =
+                (friction_states[1 - shared], state.mode.contacts[carrier].edge())
+                && !self.is_sliding(sum / (normal[0] + normal[1]))
+            {
+                let anchor = self.slip_coordinate(state, edge, carrier);
+                friction_states[1 - shared] = FrictionState::Stick { anchor };
+            }
         }
         // Set both states first: the normal force that bounds a multiplier depends on which contact
         // is shared.
@@ -62,9 +73,7 @@ impl Contacts {
         }
         for (k, (contact, friction_state)) in pair.into_iter().zip(friction_states).enumerate() {
             let share = |k: usize| {
-                let forces = self.forces_of(&state.z, pair[k]);
-                let normal = forces[Force::Own as usize] + forces[Force::Flush as usize];
-                (ratios[k] + self.law.friction()) * normal
+                (ratios[k] + self.law.friction()) * self.own_and_flush_force(state, pair[k])
             };
             // The carrier takes over the tangential force of the shared contact, so their sum is
             // continuous.
@@ -72,6 +81,12 @@ impl Contacts {
             let is_new = before.mode.friction_states[contact] != friction_state;
             self.set_friction(state, contact, share(k) + shared, is_new);
         }
+    }
+
+    /// Returns the normal force of a contact on its edge.
+    fn own_and_flush_force(&self, state: &SkinState, contact: usize) -> f64 {
+        let forces = self.forces_of(&state.z, contact);
+        forces[Force::Own as usize] + forces[Force::Flush as usize]
     }
 
     /// Returns the friction that a contact inherits, on its edge in the state `now`.

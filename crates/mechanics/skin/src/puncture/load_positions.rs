@@ -5,7 +5,7 @@
 
 use geometry::OutOfRange;
 use serde::{Deserialize, Serialize};
-use solver::Neighbours;
+use solver::{Neighbours, Settings};
 use substrate::RowStiffness;
 
 use super::needle::CriticalEvent;
@@ -133,17 +133,28 @@ impl Problem<'_> {
             Some(_) => (count as f64, pitch),
             None => (count.saturating_sub(1) as f64, 1.0),
         };
-        (0..count).map(|k| self.at_place(k as f64 * width / last)).collect()
+        // All positions together may take as long as one path.
+        let mut left = self.settings.max_work;
+        let mut places = Vec::with_capacity(count);
+        for k in 0..count {
+            let (place, work) = self.at_place(k as f64 * width / last, left)?;
+            left = left.saturating_sub(work);
+            places.push(place);
+        }
+        Ok(places)
     }
 
-    fn at_place(&self, position: f64) -> Result<LoadPosition, OutOfRange> {
+    /// Solves the puncture at a position with at most `max_work`; returns the actual work, too.
+    fn at_place(&self, position: f64, max_work: u64) -> Result<(LoadPosition, u64), OutOfRange> {
         let parameters = self.parameters.at_place(position);
-        let followed = self.with(&parameters).follow(&[], &[])?;
+        let mut problem = self.with(&parameters);
+        problem.settings = Settings { max_work, ..self.settings };
+        let followed = problem.follow(&[], &[])?;
         let (points, path, status) = (&followed.watch.record.path, &followed.path, followed.status);
         let end = path.system().path_point(path.point());
         let end = (status == Status::Complete).then_some(end);
         let tilts_nothing = status == Status::Untilted && points.len() == 1;
-        Ok(LoadPosition {
+        let place = LoadPosition {
             position,
             status,
             force: end.map(|point| point.force),
@@ -155,7 +166,8 @@ impl Problem<'_> {
                 .map(|point| point.force)
                 .reduce(f64::max)
                 .filter(|_| !tilts_nothing),
-        })
+        };
+        Ok((place, path.work()))
     }
 
     /// Returns the same problem with other parameters.

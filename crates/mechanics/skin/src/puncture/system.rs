@@ -488,6 +488,11 @@ impl System for Chain {
         &self.constraints
     }
 
+    fn is_neutral(&self, state: &SkinState, constraint: usize) -> bool {
+        let mut needle = self.needle.iter();
+        needle.any(|needle| self.sticks_beside_face(needle, state, constraint))
+    }
+
     fn is_same_form(&self, one: &SkinMode, other: &SkinMode) -> bool {
         one.is_same_form(other)
     }

@@ -1,11 +1,12 @@
 //! Paths beyond the largest force.
 
 use approx::assert_relative_eq;
+use contact::Law;
 use rayon::prelude::*;
-use skin::puncture::{Instability, Puncture, PunctureParameters};
+use skin::puncture::{self, Instability, Needle, Puncture, PunctureParameters};
 use skin::{Base, Common, Design, Status};
 use solver::{Settings, Termination};
-use substrate::{Calibrations, SubstrateLaw};
+use substrate::{Calibrations, Coupling, SubstrateLaw};
 
 use crate::end;
 use crate::samples::{
@@ -50,6 +51,51 @@ fn the_peak_does_not_depend_on_the_end_of_the_path() {
             max_relative = 1e-10
         );
     }
+}
+
+/// A corner slides to the end of its edge under a contact that approaches visibly.
+#[test]
+fn a_sliding_corner_passes_the_end_of_its_edge() {
+    let design = Design {
+        gap: 0.024_999_962_711_428_58,
+        length: 3.779_684_096_855_260_3,
+        slant_deg: 17.129_067_015_845_717,
+        base: Base::L,
+        width: 0.165_821_562_202_099_45,
+    };
+    let law = Law { c2: 1.434_444_345_823_402_9, ..Law::PRINTED };
+    let common = Common { law, friction: 0.144_166_356_039_949_4, ..Common::default() };
+    let parameters = PunctureParameters {
+        poisson_ratio: 0.0,
+        contact_modulus_over_substrate: 1_084.359_456_455_917,
+        ..PunctureParameters::default()
+    };
+    let puncture = solve_as(&Calibrations::default(), &design, &common, &parameters);
+    assert_eq!(puncture.status, Status::Complete);
+}
+
+/// The corner of a notch with a needle slides off its face, with 90 scales in contact.
+#[test]
+fn a_notch_that_slides_off_its_face_ends_at_a_limit_point() {
+    let design = Design {
+        gap: 0.105_771_414_778_684_74,
+        length: 0.067_380_346_199_300_57,
+        slant_deg: 75.741_251_917_731_5,
+        base: Base::TwoL,
+        width: 2.291_841_281_033_797,
+    };
+    let law = Law { c1: 3.222_619_225_995_159_4, ..Law::PRINTED };
+    let common = Common { law, ..Common::default() };
+    let parameters = PunctureParameters {
+        poisson_ratio: 0.126_875_176_930_326_74,
+        needle: Needle::Guided { friction: 0.0 },
+        critical_tilt_deg: 88.983_460_515_430_51,
+        ..PunctureParameters::default()
+    };
+    let footprint = design.footprint(parameters.poisson_ratio).unwrap();
+    let row = Calibrations::default().row(&footprint, Coupling::Full).unwrap();
+    let puncture = puncture::solve(&design, &*row, &common, &parameters).unwrap();
+    assert_eq!(puncture.status, Status::LimitPoint);
 }
 
 /// Solves designs, each to its own tilt, and checks their ends.

@@ -261,11 +261,12 @@ fn a_large_tip_rests_on_many_scales() {
 fn a_radius_needs_a_guided_needle() {
     let known = Calibrations::default();
     let design = design(0.1, 1.0, 45.0, Base::L);
-    for (needle, radius) in [(Needle::Free, 0.5), (SMOOTH, 100.0)] {
+    let refusals = [(Needle::Free, 0.5, "needle radius"), (SMOOTH, 100.0, puncture::TIP_REACH)];
+    for (needle, radius, quantity) in refusals {
         let parameters = PunctureParameters { needle, ..parameters(Some(radius)) };
         let springs = springs(&design, &parameters, &known);
         let refused = puncture::solve(&design, &springs, &Common::default(), &parameters);
-        assert_eq!(refused.unwrap_err().quantity, "needle radius");
+        assert_eq!(refused.unwrap_err().quantity, quantity);
     }
 }
 

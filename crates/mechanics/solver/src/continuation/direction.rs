@@ -96,7 +96,11 @@ impl<S: System> Continuation<S> {
     ///
     /// The angles are those in all coordinates. If one is large, the candidate lies on another
     /// branch or beyond a bend that the step cuts off.
-    fn bends(&self, from: &Equilibrium<S::Mode>, candidate: &Candidate<S::Mode>) -> bool {
+    pub(super) fn bends(
+        &self,
+        from: &Equilibrium<S::Mode>,
+        candidate: &Candidate<S::Mode>,
+    ) -> bool {
         // One pass over all coordinates, because every step evaluates this.
         let mut products = [[0.0; 3]; 3];
         for &index in &self.coordinates {

@@ -106,6 +106,16 @@ pub fn circle() -> Smooth<2> {
     }
 }
 
+/// Column with the shortening `x = F` and the deflection `y (1 − F + y²) = 0`.
+pub fn column() -> Smooth<3> {
+    Smooth {
+        controls: controls(&[(0, 2.0)]),
+        equations: |z| vec![z[0] - z[2], z[1] * (1.0 - z[2] + z[1] * z[1])],
+        derivatives: |z| vec![[1.0, 0.0, -1.0], [0.0, 1.0 - z[2] + 3.0 * z[1] * z[1], -z[1]]],
+        load_only_pushes: false,
+    }
+}
+
 /// Steep step `p = tanh 4 (u − 0.6)`, with the maximum slope 4 at `u = 0.6`.
 pub fn step() -> Smooth<2> {
     Smooth {

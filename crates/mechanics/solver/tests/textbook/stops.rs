@@ -3,7 +3,9 @@
 use approx::assert_relative_eq;
 use solver::{Condition, Continuation, Event, Newton, NewtonFailure, Settings, State, Termination};
 
-use crate::problems::{Stiff, Unwilling, arch, circle, jump, kink, parabola, pushed_arch, root};
+use crate::problems::{
+    Stiff, Unwilling, arch, circle, column, jump, kink, parabola, pushed_arch, root,
+};
 use crate::{extrema, follow, steps};
 
 #[test]
@@ -36,6 +38,14 @@ fn a_discontinuous_path_does_not_converge() {
 fn a_stationary_control_parameter_is_singular() {
     let (points, stop) = follow(parabola(), Settings::default());
     assert_eq!((points.len(), stop), (0, Termination::Singular));
+}
+
+/// A column under compression buckles at the load 1.
+#[test]
+fn a_path_keeps_its_branch_at_a_bifurcation() {
+    let mut path = Continuation::new(column(), State::at_rest(&column()), Settings::default());
+    assert!(path.by_ref().all(|point| point.state.z[1] == 0.0));
+    assert_eq!((path.termination(), path.is_unique()), (Some(Termination::Reached), false));
 }
 
 #[test]
@@ -115,6 +125,7 @@ fn terminations_have_names() {
         Termination::NoConvergence,
         Termination::Singular,
         Termination::TooManyPoints,
+        Termination::TooMuchWork,
         Termination::Cycling,
         Termination::Jumps,
         Termination::NotFinite,
@@ -128,6 +139,7 @@ fn terminations_have_names() {
             "no convergence",
             "singular tangent",
             "too many points",
+            "too much work",
             "cycling constraints",
             "jumps",
             "not finite"

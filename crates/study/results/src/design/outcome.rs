@@ -20,6 +20,8 @@ pub enum Outcome {
     Singular,
     /// The path reached the maximum number of equilibria.
     TooManyPoints,
+    /// The path reached the limit on its work.
+    TooMuchWork,
     /// Contacts open and close at one point without progress along the path.
     Cycling,
     /// A value is not finite.
@@ -53,11 +55,12 @@ pub enum Outcome {
 
 impl Outcome {
     /// All outcomes.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 19] = [
         Self::Complete,
         Self::NoConvergence,
         Self::Singular,
         Self::TooManyPoints,
+        Self::TooMuchWork,
         Self::Cycling,
         Self::NotFinite,
         Self::RowLimit,
@@ -81,6 +84,7 @@ impl Outcome {
             Self::NoConvergence => "no convergence",
             Self::Singular => "singular tangent",
             Self::TooManyPoints => "too many points",
+            Self::TooMuchWork => "too much work",
             Self::Cycling => "cycling contacts",
             Self::NotFinite => "not finite",
             Self::RowLimit => "row limit",
@@ -105,6 +109,7 @@ impl Outcome {
             Self::NoConvergence => "Newton's method did not converge at the smallest step",
             Self::Singular => "the tangent is singular: the path has no unique continuation",
             Self::TooManyPoints => "the path reached `solver.max_points` equilibria",
+            Self::TooMuchWork => "the path needs more work than any path that ends within seconds",
             Self::Cycling => "contacts open and close at one point without progress along the path",
             Self::NotFinite => "a value is not finite",
             Self::RowLimit => "the row needs more scales than its maximum",
@@ -165,6 +170,7 @@ impl From<Termination> for Outcome {
             Termination::NoConvergence => Self::NoConvergence,
             Termination::Singular => Self::Singular,
             Termination::TooManyPoints => Self::TooManyPoints,
+            Termination::TooMuchWork => Self::TooMuchWork,
             Termination::Cycling => Self::Cycling,
             Termination::Jumps | Termination::NoProgress => Self::Jumps,
             Termination::NotFinite => Self::NotFinite,

@@ -388,8 +388,14 @@ fn failure(measure: Measure, solved: &SolvedDesign) -> Option<Failure> {
 }
 
 /// Unwraps a solution; validation has refused cases without mechanical meaning.
+///
+/// Validation of a definition cannot tell how far a tip reaches or how stiff the tissue is.
 pub(super) fn solved<T>(f: impl FnOnce() -> Result<T, OutOfRange>) -> Result<T, Outcome> {
-    guarded(f)?.map_err(|_| Outcome::Internal)
+    guarded(f)?.map_err(|refused| match refused.quantity {
+        puncture::TIP_REACH => Outcome::RowLimit,
+        puncture::DIRECT_STIFFNESS => Outcome::Calibration,
+        _ => Outcome::Internal,
+    })
 }
 
 /// Calls `f`; returns [`Outcome::Internal`] if it panics.

@@ -177,11 +177,7 @@ impl Chain {
     /// with the corner and without pressing on it: corner and face carry their force alone until
     /// the tip slides.
     fn gap_of_next(&self, state: &SkinState, touch: &Touch) -> f64 {
-        let here = self.tip(&state.z, touch.scale, touch.place);
-        if let (TipState::Stick { .. }, OutlinePart::Top, Some(here)) =
-            (touch.tip_state, touch.place, here)
-            && here.xi > here.length - BESIDE
-        {
+        if self.sticks_at_corner(state, touch) {
             // Ignore whether the contact of the corner is already closed: the order of both events
             // is round-off.
             return HOLDS;
@@ -190,6 +186,35 @@ impl Chain {
         let tip = next.and_then(|(scale, place)| self.tip(&state.z, scale, place));
         let faced = tip.filter(|tip| (-BESIDE..=tip.length + BESIDE).contains(&tip.xi));
         faced.map_or(HOLDS, |tip| tip.gap)
+    }
+
+    /// Returns true if a tip sticks on the top of a scale at its right corner.
+    fn sticks_at_corner(&self, state: &SkinState, touch: &Touch) -> bool {
+        let sticks = matches!(touch.tip_state, TipState::Stick { .. });
+        let here = self.tip(&state.z, touch.scale, touch.place);
+        let here = here.filter(|_| sticks && touch.place == OutlinePart::Top);
+        here.is_some_and(|here| here.xi > here.length - BESIDE)
+    }
+
+    /// Returns true if a constraint is the touch of a face beside which the tip sticks at a corner.
+    ///
+    /// The corner stays on the face and the tip at the corner, so the gap of the touch is constant.
+    pub(in crate::puncture) fn sticks_beside_face(
+        &self,
+        needle: &GuidedNeedle,
+        state: &SkinState,
+        constraint: usize,
+    ) -> bool {
+        let number = constraint.checked_sub(needle.contacts);
+        let Some(number) = number.filter(|number| *number < needle.tilt_number()) else {
+            return false;
+        };
+        let (slot, constraint) = (number / CONSTRAINTS_PER_TOUCH, number % CONSTRAINTS_PER_TOUCH);
+        let touches = &state.mode.needle.touches;
+        !needle.is_round()
+            && constraint == NORMAL
+            && touches[slot].is_none()
+            && touches[1 - slot].is_some_and(|touch| self.sticks_at_corner(state, &touch))
     }
 
     /// Returns true if the end of the next face is about to pass over the tip.

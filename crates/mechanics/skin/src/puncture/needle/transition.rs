@@ -237,9 +237,14 @@ impl Chain {
             // The tip slides inward on the top, away from the face.
             return Some(needle.number(slot, NORMAL));
         }
+        let [normal, tangential] = needle.forces(&state.z, 1 - slot);
+        if tangential.abs() < (1.0 - SAME_FRACTION) * needle.friction * normal {
+            // The tip sticks at the corner, as where the notch formed on the way in.
+            return Some(needle.number(slot, NORMAL));
+        }
         // The corner stays on the face and the tip at the corner, so no gap opens. The sign of the
         // saturated friction determines the outgoing branch.
-        let is_forward = state.z[needle.normal_force(1 - slot) + 1] >= 0.0;
+        let is_forward = tangential >= 0.0;
         Some(needle.number(1 - slot, if is_forward { FORWARD } else { BACKWARD }))
     }
 

@@ -1,0 +1,77 @@
+//! Limit on the work of a path.
+
+use crate::newton::Work;
+
+/// Numbers of tangents up to which a path goes on, however long the row.
+///
+/// The first one counts from the start of the path, the second one from its last progress.
+const FREE_TANGENTS: [u64; 2] = [2_000, 1_000];
+
+/// Growth of the control parameter over its scale that counts as progress.
+const PROGRESS: f64 = 0.01;
+
+/// Work of a path at its last progress.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Budget {
+    farthest: f64,
+    at_farthest: Work,
+}
+
+impl Budget {
+    /// Notes the control parameter at a point.
+    pub(super) fn advance(&mut self, progress: f64, work: Work) {
+        if progress >= self.farthest + PROGRESS {
+            *self = Self { farthest: progress, at_farthest: work };
+        }
+    }
+
+    /// Restarts at a point of a path that is turned back.
+    pub(super) fn restart(&mut self, work: Work) {
+        *self = Self { farthest: f64::NEG_INFINITY, at_farthest: work };
+    }
+
+    /// Returns true if a path has exceeded `most` unknowns, or half of them without progress.
+    ///
+    /// Unknowns are counted instead of time, so that results do not depend on the machine.
+    pub(super) fn is_exceeded(&self, work: Work, most: u64) -> bool {
+        let since = Work {
+            tangents: work.tangents - self.at_farthest.tangents,
+            unknowns: work.unknowns - self.at_farthest.unknowns,
+        };
+        let [of_path, of_rest] = FREE_TANGENTS;
+        (work.tangents > of_path && work.unknowns > most)
+            || (since.tangents > of_rest && since.unknowns > most / 2)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Budget, FREE_TANGENTS, PROGRESS, Work};
+
+    const MOST: u64 = 10_000;
+
+    #[test]
+    fn a_path_without_progress_exceeds_its_budget() {
+        let mut budget = Budget::default();
+        let work = Work { tangents: FREE_TANGENTS[1] + 1, unknowns: MOST / 2 + 1 };
+        assert!(budget.is_exceeded(work, MOST));
+        budget.advance(0.5 * PROGRESS, work);
+        assert!(budget.is_exceeded(work, MOST));
+        budget.advance(PROGRESS, work);
+        assert!(!budget.is_exceeded(work, MOST));
+    }
+
+    #[test]
+    fn a_path_with_progress_ends_at_the_limit_of_the_whole_path() {
+        let mut budget = Budget::default();
+        let work = Work { tangents: FREE_TANGENTS[0] + 1, unknowns: MOST + 1 };
+        budget.advance(PROGRESS, work);
+        assert!(budget.is_exceeded(work, MOST));
+    }
+
+    #[test]
+    fn few_tangents_of_a_long_row_are_within_the_budget() {
+        let work = Work { tangents: FREE_TANGENTS[1], unknowns: u64::MAX };
+        assert!(!Budget::default().is_exceeded(work, MOST));
+    }
+}
