@@ -145,11 +145,17 @@ proptest! {
         edge in 0_usize..6, slant in 0.0_f64..80.0, q in prop::array::uniform6(-0.5_f64..0.5),
         force in 0.2_f64..2.0, friction in -0.6_f64..0.6,
     ) {
+        prop_assume!(friction != 0.0);
         let z = with(q, [force, 0.0, 0.0]);
-        let on_edge = case(edge, slant, Law::PRINTED, CornerContact::Edge);
-        let mut expected = on_edge.at(&z).balance.map(|equation| equation.value);
-        on_edge.add_sliding(&mut expected, &z, friction);
         let at_end = case(edge, slant, Law::PRINTED, CornerContact::Corner);
+        // The frictionless balance is continuous only in equilibrium, so compare friction alone.
+        let without = at_end.at(&z).balance.map(|equation| equation.value);
+        let mut expected = without;
+        // The contact may lean by now, so that another edge takes the place of its own.
+        let (left, right) = (Pose::new(q[0], q[1], q[2]), Pose::new(q[3], q[4], q[5]));
+        let [own, _] = Corners::new(at_end.level, &at_end.pair, [&left, &right]).together(EDGES[edge].1);
+        let on_edge = Case { contact: CornerContact::Edge(own), ..case(edge, slant, Law::PRINTED, CornerContact::Edge) };
+        on_edge.add_sliding(&mut expected, &z, friction);
         let balance = at_end.with_friction(&z, friction).balance;
         for (ours, expected) in balance.iter().zip(expected) {
             assert_relative_eq!(ours.value, expected, epsilon = 1e-12, max_relative = 1e-12);
