@@ -15,7 +15,7 @@ const APART: f64 = 1e-10;
 /// Largest relative guard of a changed constraint at the restored equilibrium.
 ///
 /// It is relative to 1 plus its slope. If the guard exceeds this, Newton's method converged to a
-/// different equilibrium; likewise if any guard is below zero by more.
+/// different equilibrium; likewise if any active guard is below zero by more.
 pub(crate) const ELSEWHERE: f64 = 1e-4;
 
 /// Two directions are the same branch if their cosine differs from 1 by less.
@@ -467,11 +467,12 @@ impl<S: System> Continuation<S> {
         Err(failure)
     }
 
-    /// Returns true if an equilibrium violates any constraint by more than round-off.
+    /// Returns true if an equilibrium violates an active constraint by more than round-off.
     fn is_elsewhere(&self, state: &State<S::Mode>, direction: &[f64]) -> bool {
-        let (mut guards, mut slopes) = (Vec::new(), Vec::new());
-        Newton::guard_slopes(&self.system, state, direction, &mut guards, &mut slopes);
-        guards.iter().zip(slopes).any(|(guard, slope)| *guard < -ELSEWHERE * (1.0 + slope.abs()))
+        // Inactive constraints need the geometry of all contacts, so the next step checks them.
+        let constraints = self.system.constraints().iter().zip(&state.active);
+        let mut active = constraints.filter(|(_, active)| **active);
+        active.any(|(&index, _)| state.z[index] < -ELSEWHERE * (1.0 + direction[index].abs()))
     }
 
     /// Returns measures of distance along the path, the most likely to increase first.

@@ -46,7 +46,8 @@ pub enum Termination {
 impl Termination {
     /// Returns true if Newton's method or the search for an outgoing branch failed.
     ///
-    /// The caller may know a mechanical reason for such a failure.
+    /// The caller may know a mechanical reason for such a failure. Too many points or too much work
+    /// are limits, and the path might have gone on.
     pub fn is_numerical(self) -> bool {
         matches!(
             self,
@@ -55,7 +56,6 @@ impl Termination {
                 | Self::Cycling
                 | Self::NoProgress
                 | Self::NotFinite
-                | Self::TooMuchWork
         )
     }
 }
