@@ -90,7 +90,7 @@ fn errors_suggest_valid_input() {
     insta::assert_snapshot!(place.refused("plot curves x.toml --design 1 --to -0.5"), @"error: --to -0.5: out of range, expected a displacement u/t of at least 0");
     insta::assert_snapshot!(place.refused("run x.toml --threads -1"), @"error: invalid value '-1' for '--threads <N>': expected a whole number from 1 to 1024");
     insta::assert_snapshot!(place.refused("rnu x.toml"), @"error: there is no command rnu, did you mean run?");
-    insta::assert_snapshot!(place.refused("frobnicate"), @"error: there is no command frobnicate, expected one of init, run, rerun, status, merge, slurm, design, tolerance, sensitivity, rank, optimise, fit, compare, draw, make, plot, report, explore, export, check, calibrate, validate, completions, man");
+    insta::assert_snapshot!(place.refused("frobnicate"), @"error: there is no command frobnicate, expected one of init, run, rerun, status, merge, slurm, design, tolerance, sensitivity, rank, optimise, fit, compare, draw, make, plot, report, explore, export, check, schema, calibrate, validate, completions, man");
     insta::assert_snapshot!(place.refused("run x.toml --set designs.gap=0.1"), @"error: --set designs.gap=0.1: designs.gap: unknown key (its value is 0.1), did you mean designs.gap_over_t?");
     insta::assert_snapshot!(place.refused("run x.toml --set substrate.thickness_mm=1"), @"error: --set substrate.thickness_mm=1: substrate.thickness_mm: unknown key (its value is 1), did you mean substrate.tissue_thickness_mm?");
     insta::assert_snapshot!(place.refused("run x.toml --set designs.gap_mm=1"), @"error: --set designs.gap_mm=1: designs.gap_mm: needs material.thickness_mm to be set");
