@@ -94,8 +94,7 @@ impl Scatter {
         let squares: f64 = specimens.iter().map(|j| (values[*j] - mean).powi(2)).sum();
         let error = specimens.iter().map(|j| errors[*j].powi(2)).sum::<f64>() / count;
         let freedom = count - 1.0;
-        let t = StudentsT::new(0.0, 1.0, freedom).map_or(f64::NAN, |t| t.inverse_cdf(0.975));
-        let half = t * (squares / freedom / count).sqrt();
+        let half = student_quantile(freedom) * (squares / freedom / count).sqrt();
         let quantiles = ChiSquared::new(freedom)
             .map_or([f64::NAN; 2], |chi| [0.975, 0.025].map(|p| chi.inverse_cdf(p)));
         let [low, high] = quantiles.map(|quantile| squares / quantile);
@@ -111,6 +110,11 @@ impl Scatter {
             deviation_interval: [low, high],
         }
     }
+}
+
+/// Returns the 97.5 % quantile of Student's distribution, which bounds intervals of 95 %.
+fn student_quantile(freedom: f64) -> f64 {
+    StudentsT::new(0.0, 1.0, freedom).map_or(f64::NAN, |t| t.inverse_cdf(0.975))
 }
 
 /// A measured curve and the fitted curve.
@@ -185,7 +189,7 @@ const LEAST_NOISE: f64 = 1e-8;
 const ROUND_OFF: f64 = 1e-6;
 /// Maximum number of fits from better minima that profiles find.
 const RESTARTS: usize = 6;
-/// Correlation of undetermined unknowns of which only a combination is determined.
+/// Correlation above which the curves determine only a combination of undetermined unknowns.
 const TOGETHER: f64 = 0.9;
 /// Significance limit for the correlation of neighbouring residuals, times √n.
 ///
@@ -193,6 +197,7 @@ const TOGETHER: f64 = 0.9;
 const BEYOND_CHANCE: f64 = 2.0;
 /// Noise below this fraction of the size of a curve is not examined for correlation.
 const NEGLIGIBLE: f64 = 1e-4;
+
 impl FitDefinition {
     /// Fits the model curves to the measured ones.
     ///
@@ -218,8 +223,8 @@ impl FitDefinition {
         for _ in 0..RESTARTS {
             minimum = residuals.weight(minimum, &sizes)?;
             match residuals.intervals(&minimum) {
-                Ok((intervals, directions)) => {
-                    return residuals.fitted(&minimum.shares, intervals, &directions);
+                Ok((intervals, covariance)) => {
+                    return residuals.fitted(&minimum.shares, intervals, &covariance);
                 }
                 Err(Aborted::Better(start)) => minimum = residuals.improve(start)?,
                 Err(Aborted::Failed(error)) => return Err(error),
@@ -275,19 +280,18 @@ impl Residuals<'_> {
         Ok(Minimum { cost: self.cost(&minimum.shares)?, ..minimum })
     }
 
-    /// Computes the confidence intervals of all unknowns at a minimum.
-    fn intervals(&self, minimum: &Minimum) -> Result<(Vec<Interval>, Directions), Aborted> {
-        let directions = self.directions(&minimum.shares)?;
-        let covariance = directions.covariance();
+    /// Computes the confidence intervals of all unknowns at a minimum, and their covariance.
+    fn intervals(&self, minimum: &Minimum) -> Result<(Vec<Interval>, DMatrix<f64>), Aborted> {
+        let covariance = self.directions(&minimum.shares)?.covariance();
         let curves = self.definition.curves.iter().zip(&self.noise);
         let independent = curves.map(|(c, noise)| c.measured.points.len() as f64 / noise.widening);
         let count = minimum.shares.len();
         let freedom = (independent.sum::<f64>() - count as f64).max(1.0);
-        let t = StudentsT::new(0.0, 1.0, freedom).map_or(f64::NAN, |t| t.inverse_cdf(0.975));
+        let t = student_quantile(freedom);
         let profiles = Profiles { residuals: self, minimum, covariance: &covariance, t };
         let interval = |j| self.profile(|| profiles.interval(j));
         let intervals = (0..count).map(interval).collect::<Result<_, _>>()?;
-        Ok((intervals, directions))
+        Ok((intervals, covariance))
     }
 
     fn directions(&self, shares: &[f64]) -> Result<Directions, FitError> {
@@ -337,7 +341,7 @@ impl Residuals<'_> {
         &self,
         shares: &[f64],
         intervals: Vec<Interval>,
-        directions: &Directions,
+        covariance: &DMatrix<f64>,
     ) -> Result<Fitted, FitError> {
         let definition = self.definition;
         let unknowns = definition.unknowns.iter();
@@ -354,7 +358,6 @@ impl Residuals<'_> {
                 unknown: unknown.clone(),
             })
             .collect();
-        let covariance = directions.covariance();
         let correlation = |i: usize, j: usize| {
             covariance[(i, j)] / (covariance[(i, i)] * covariance[(j, j)]).sqrt()
         };
@@ -429,7 +432,7 @@ fn means(curves: &[TestCurve]) -> Vec<MeanCurve> {
     means
 }
 
-/// Returns the groups of unknowns of which the curves determine only combinations.
+/// Groups undetermined unknowns that the curves determine only in combination.
 ///
 /// A group contains an undetermined unknown, and those that are strongly correlated with it and
 /// have no interval either, or one that rests on its range.
