@@ -32,7 +32,7 @@ impl Default for Settings {
             tolerance: 1e-10,
             max_iterations: 12,
             max_points: 100_000,
-            // Under five seconds. Paths that reach their target need less than half of it.
+            // Less than five seconds. Paths that reach their target need less than half of this work.
             max_work: 24_000_000,
         }
     }

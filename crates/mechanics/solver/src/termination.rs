@@ -20,7 +20,7 @@ pub enum Termination {
     /// The path reached the limit on the number of equilibria.
     #[error("too many points")]
     TooManyPoints,
-    /// The path has needed more work than any path that ends within seconds.
+    /// The path reached the limit on its work.
     #[error("too much work")]
     TooMuchWork,
     /// Constraints change sides repeatedly at one point without progress.

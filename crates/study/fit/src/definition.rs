@@ -103,7 +103,7 @@ pub fn curves_schema() -> Json {
     });
     let axes = ["displacement", "force", "curvature", "moment"];
     let ranges = axes.map(|axis| (axis.to_owned(), range.clone()));
-    // In the order of `KEYS`; a new key changes the length.
+    // In the order of `KEYS`. A key without a schema does not compile.
     let about: [Json; KEYS.len()] = [
         json!({ "type": "string", "description": "CSV file, relative to the definition" }),
         json!({ "enum": [Test::Puncture.name(), Test::Bending.name()], "description": "kind of test" }),
@@ -386,7 +386,7 @@ impl CurveTable<'_> {
         Ok(curves)
     }
 
-    /// Returns the index of the specimen that an entry names, or gives the number of.
+    /// Returns the index of the specimen with the name or the number in `entry`.
     fn specimen(&self, entry: &KeyValue, curves: &[MeasuredCurve]) -> Result<usize, InvalidFit> {
         let chosen = match &entry.value {
             Value::Text(text) | Value::Number(text) => text.as_str(),

@@ -93,8 +93,8 @@ pub(crate) fn improved(
         // Each search depends on its start only, so results are independent of the order of
         // completion.
         let known = history.iter().chain(&evaluated);
-        // A full search makes a feasible design better; gradient searches are the ones that lead to
-        // feasible designs.
+        // Gradient searches lead to feasible designs, and full searches improve them. Full searches
+        // therefore start at feasible designs if there are any.
         let is_feasible = |candidate: &Candidate| met(search, candidate, target).is_some();
         let is_full = effort.rounds > 0 && known.clone().any(is_feasible);
         let known = known.filter(|candidate| !is_full || is_feasible(candidate));

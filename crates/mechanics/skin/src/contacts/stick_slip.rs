@@ -54,7 +54,8 @@ impl Contacts {
             // The previous carrier stays the carrier, because its anchor is known.
             let shared = usize::from(before.mode.friction_states[contact].carries_friction());
             friction_states[shared] = FrictionState::None;
-            // Where the two dragged in opposite directions, their sum is below the limit.
+            // Two contacts that slid in opposite directions have less friction than the limit together,
+            // so the shared contact sticks.
             let normal = pair.map(|contact| self.own_and_flush_force(state, contact));
             let sum = ratios[0] * normal[0] + ratios[1] * normal[1];
             let carrier = pair[1 - shared];

@@ -164,7 +164,7 @@ fn specimen(skin: &str, keys: &str) -> String {
 /// Result of a fit, with its misfit.
 struct Outcome {
     fitted: Fitted,
-    /// `2 ln L` of the true values minus that of the fitted ones.
+    /// Difference of `2 ln L` between the true and the fitted values.
     excess: f64,
 }
 

@@ -65,7 +65,7 @@ pub fn goal_schema() -> Json {
         })
     };
     let protects = format!("levels of standards: {}", Standard::levels());
-    // In the order of `KEYS`; a new key changes the length.
+    // In the order of `KEYS`. A key without a schema does not compile.
     let about: [Json; KEYS.len()] = [
         texts("columns of designs.csv to be maximised, e.g. \"critical_force\""),
         texts("columns of designs.csv to be minimised"),

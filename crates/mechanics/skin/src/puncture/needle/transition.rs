@@ -239,7 +239,7 @@ impl Chain {
         }
         let [normal, tangential] = needle.forces(&state.z, 1 - slot);
         if tangential.abs() < (1.0 - SAME_FRACTION) * needle.friction * normal {
-            // The tip sticks at the corner, as where the notch formed on the way in.
+            // The tip sticks at the corner, as it did when the notch formed.
             return Some(needle.number(slot, NORMAL));
         }
         // The corner stays on the face and the tip at the corner, so no gap opens. The sign of the
