@@ -208,7 +208,7 @@ impl<S: System> Continuation<S> {
 
     /// Returns the work so far, in the unit of [`Settings::max_work`].
     pub fn work(&self) -> u64 {
-        self.newton.work.unknowns
+        self.newton.work.unknowns / self.settings.refinement()
     }
 
     /// Returns the reason why the path ended, or `None` while it continues.
@@ -424,7 +424,8 @@ impl<S: System> Continuation<S> {
             if is_interrupted() {
                 return Err(Termination::Interrupted);
             }
-            if self.budget.is_exceeded(self.newton.work, self.settings.max_work) {
+            let max_work = self.settings.max_work.saturating_mul(self.settings.refinement());
+            if self.budget.is_exceeded(self.newton.work, max_work) {
                 return Err(Termination::TooMuchWork);
             }
             progress::report_if_due(self.points, self.progress(&self.point.state.z));

@@ -19,8 +19,17 @@ pub struct Settings {
     pub max_points: usize,
     /// Work after which the path stops: the unknowns of all its tangents, weighted by bandwidth.
     ///
-    /// Half of it without progress also stops the path. Few tangents of a long row do not count.
+    /// Half of it without progress also stops the path. Few tangents of a long row do not count. A
+    /// path with a `max_step` below the default may take more, in proportion to the number of steps.
     pub max_work: u64,
+}
+
+impl Settings {
+    /// Returns the number of steps in a step of the default length, at least 1.
+    pub(crate) fn refinement(&self) -> u64 {
+        // The conversion saturates.
+        (Self::default().max_step / self.max_step).max(1.0) as u64
+    }
 }
 
 impl Default for Settings {

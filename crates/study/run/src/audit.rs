@@ -184,7 +184,6 @@ fn finer(mut case: Case) -> Case {
     solver.min_step /= SMALLER;
     // Otherwise paths with smaller steps would stop at the limit, with another status.
     solver.max_points = solver.max_points.saturating_mul(SMALLER as usize);
-    solver.max_work = solver.max_work.saturating_mul(SMALLER as u64);
     case
 }
 

@@ -4,7 +4,7 @@ use approx::assert_relative_eq;
 use solver::{Condition, Continuation, Event, Newton, NewtonFailure, Settings, State, Termination};
 
 use crate::problems::{
-    Stiff, Unwilling, arch, circle, column, jump, kink, parabola, pushed_arch, root,
+    Stiff, Unwilling, arch, circle, column, jump, kink, parabola, pushed_arch, root, step,
 };
 use crate::{extrema, follow, steps};
 
@@ -55,6 +55,16 @@ fn a_path_without_end_has_too_many_points() {
     let mut path = Continuation::new(circle(), start, settings);
     assert_eq!(path.by_ref().count(), 50);
     assert_eq!(path.termination(), Some(Termination::TooManyPoints));
+}
+
+/// The limit is for the default steps, and these are a thousand times smaller.
+#[test]
+fn smaller_steps_raise_the_limit_on_work() {
+    let (first_step, max_step, max_work) = (2e-4, 2e-4, 3000);
+    let settings = Settings { first_step, max_step, max_work, ..Settings::default() };
+    let (points, stop) = follow(step(), settings);
+    assert!(points.len() > 3000, "{}", points.len());
+    assert_eq!(stop, Termination::Reached);
 }
 
 /// The circle passes its two load extrema again and again.

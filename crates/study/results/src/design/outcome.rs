@@ -109,7 +109,9 @@ impl Outcome {
             Self::NoConvergence => "Newton's method did not converge at the smallest step",
             Self::Singular => "the tangent is singular: the path has no unique continuation",
             Self::TooManyPoints => "the path reached `solver.max_points` equilibria",
-            Self::TooMuchWork => "the path needs more work than any path that ends within seconds",
+            Self::TooMuchWork => {
+                "the path reached the limit on its work, which a smaller `solver.max_step` raises"
+            }
             Self::Cycling => "contacts open and close at one point without progress along the path",
             Self::NotFinite => "a value is not finite",
             Self::RowLimit => "the row needs more scales than its maximum",
