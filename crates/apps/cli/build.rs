@@ -20,11 +20,29 @@ fn main() {
 }
 
 fn revision() -> String {
+    if let Some(commit) = packaged_commit() {
+        return commit;
+    }
     match commit() {
         Some((commit, true)) => commit,
         Some((commit, false)) => format!("{commit}-dirty-{}", sources()),
         None => format!("sources-{}", sources()),
     }
+}
+
+/// Returns the commit of a package from a registry, which has neither git nor its neighbours.
+///
+/// Cargo records it; a package of changed sources also has a hash of them.
+fn packaged_commit() -> Option<String> {
+    let info = fs::read_to_string(".cargo_vcs_info.json").ok()?;
+    let (_, commit) = info.split_once("\"sha1\": \"")?;
+    let commit = commit.get(..12)?.to_owned();
+    if !info.contains("\"dirty\": true") {
+        return Some(commit);
+    }
+    let mut files = vec![PathBuf::from("Cargo.toml"), PathBuf::from("Cargo.lock")];
+    collect(Path::new("src"), &mut files);
+    Some(format!("{commit}-dirty-{}", hash(files)))
 }
 
 /// Returns the commit, and true if the sources are unchanged since it.
@@ -41,6 +59,11 @@ fn sources() -> String {
     let mut files =
         vec![PathBuf::from("../../../Cargo.toml"), PathBuf::from("../../../Cargo.lock")];
     collect(Path::new("../.."), &mut files);
+    hash(files)
+}
+
+/// Returns a hash of the names and contents of files.
+fn hash(mut files: Vec<PathBuf>) -> String {
     files.sort();
     let mut hash = Fnv::default();
     for file in files {

@@ -9,23 +9,17 @@ use crate::study::{Study, is_geometry};
 
 /// Sweeps over one open choice each, from `sweeps/sensitivity/`.
 const SWEEPS: [(&str, &str); 11] = [
-    ("base", include_str!("../../../../sweeps/sensitivity/base.toml")),
-    ("width", include_str!("../../../../sweeps/sensitivity/width.toml")),
-    ("row-length", include_str!("../../../../sweeps/sensitivity/row-length.toml")),
-    (COUPLING, include_str!("../../../../sweeps/sensitivity/coupling.toml")),
-    (FRICTION, include_str!("../../../../sweeps/sensitivity/friction.toml")),
-    ("contact-law", include_str!("../../../../sweeps/sensitivity/contact-law.toml")),
-    (
-        "contact-modulus-puncture",
-        include_str!("../../../../sweeps/sensitivity/contact-modulus-puncture.toml"),
-    ),
-    (
-        "contact-modulus-flexure",
-        include_str!("../../../../sweeps/sensitivity/contact-modulus-flexure.toml"),
-    ),
-    ("membrane-thickness", include_str!("../../../../sweeps/sensitivity/membrane-thickness.toml")),
-    ("strip-length", include_str!("../../../../sweeps/sensitivity/strip-length.toml")),
-    ("end-rotation", include_str!("../../../../sweeps/sensitivity/end-rotation.toml")),
+    ("base", include_str!("../sensitivity/base.toml")),
+    ("width", include_str!("../sensitivity/width.toml")),
+    ("row-length", include_str!("../sensitivity/row-length.toml")),
+    (COUPLING, include_str!("../sensitivity/coupling.toml")),
+    (FRICTION, include_str!("../sensitivity/friction.toml")),
+    ("contact-law", include_str!("../sensitivity/contact-law.toml")),
+    ("contact-modulus-puncture", include_str!("../sensitivity/contact-modulus-puncture.toml")),
+    ("contact-modulus-flexure", include_str!("../sensitivity/contact-modulus-flexure.toml")),
+    ("membrane-thickness", include_str!("../sensitivity/membrane-thickness.toml")),
+    ("strip-length", include_str!("../sensitivity/strip-length.toml")),
+    ("end-rotation", include_str!("../sensitivity/end-rotation.toml")),
 ];
 
 /// The sweep over the substrate coupling, compared design by design.

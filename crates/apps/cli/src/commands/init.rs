@@ -17,13 +17,13 @@ use crate::print::{counted, print};
 /// Names and texts of the templates; each name is also the default name of its sweep.
 // The first is the default.
 const TEMPLATES: [(&str, &str); 7] = [
-    ("paper", include_str!("../../../../../sweeps/paper.toml")),
-    ("smoke", include_str!("../../../../../sweeps/smoke.toml")),
-    ("glove", include_str!("../../../../../sweeps/glove.toml")),
-    ("gaps", include_str!("../../../../../sweeps/gaps.toml")),
-    ("imperfection", include_str!("../../../../../sweeps/imperfection.toml")),
-    ("paper-as-written", include_str!("../../../../../sweeps/paper-as-written.toml")),
-    ("paper-neo-hookean", include_str!("../../../../../sweeps/paper-neo-hookean.toml")),
+    ("paper", include_str!("../../sweeps/paper.toml")),
+    ("smoke", include_str!("../../sweeps/smoke.toml")),
+    ("glove", include_str!("../../sweeps/glove.toml")),
+    ("gaps", include_str!("../../sweeps/gaps.toml")),
+    ("imperfection", include_str!("../../sweeps/imperfection.toml")),
+    ("paper-as-written", include_str!("../../sweeps/paper-as-written.toml")),
+    ("paper-neo-hookean", include_str!("../../sweeps/paper-neo-hookean.toml")),
 ];
 
 /// Arguments of `squama init`.

@@ -41,9 +41,9 @@ pub struct Arguments {
 
 /// The scripts, identical for every sweep.
 const SCRIPTS: [(&str, &str); 3] = [
-    ("submit.sh", include_str!("../../../../../scripts/slurm/submit.sh")),
-    ("array.sh", include_str!("../../../../../scripts/slurm/array.sh")),
-    ("merge.sh", include_str!("../../../../../scripts/slurm/merge.sh")),
+    ("submit.sh", include_str!("../../slurm/submit.sh")),
+    ("array.sh", include_str!("../../slurm/array.sh")),
+    ("merge.sh", include_str!("../../slurm/merge.sh")),
 ];
 
 /// Largest index of a job array: below `MaxArraySize`, by default 1001.

@@ -14,12 +14,13 @@ use sweep::{PARAMETERS, Parameter, Role, Sweep};
 use crate::{Place, long_campaigns};
 
 /// Problems of several keys together, or of the steps of a range, which a schema cannot express.
-const TOGETHER: [&str; 10] = [
+const TOGETHER: [&str; 11] = [
     "cannot be combined",
     "needs ",
     "`from` must be below `to`",
     "`to` is below `from`",
     "is not reached in steps of",
+    "with a larger step",
     "has fractions",
     "must be at most solver.",
     "a radius of at least",
