@@ -14,7 +14,7 @@ mod touching;
 pub use change::ContactChange;
 pub use closed::Contact;
 pub(crate) use friction::TipFriction;
-pub(crate) use friction::product_integral;
+pub(crate) use friction::{Dissipation, product_integral};
 use friction::{FrictionState, SLIP_DISTANCE};
 pub(crate) use mode::SkinMode;
 pub(crate) use touching::{PairCoordinate, TouchingEdge};

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use contact::CornerEdge;
 use solver::{Change, Continuation, Peak, Summit, System};
 
-use crate::contacts::{ContactChange, Contacts, SkinMode, SkinPoint, SkinState};
+use crate::contacts::{ContactChange, Contacts, Dissipation, SkinMode, SkinPoint, SkinState};
 
 /// Contact state change: it opens, closes, passes a corner, sticks or slips.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,8 +60,8 @@ pub(crate) trait Skin: System<Mode = SkinMode> {
     }
 
     /// Computes the needle-tip dissipation, like [`Contacts::friction_work`].
-    fn tip_work(&self, _from: &SkinPoint, _to: &SkinPoint, _spans: [f64; 2]) -> f64 {
-        0.0
+    fn tip_work(&self, _from: &SkinPoint, _to: &SkinPoint, _spans: [f64; 2]) -> Dissipation {
+        Dissipation::default()
     }
 
     /// Computes the elastic energy of the whole system.
@@ -103,20 +103,54 @@ pub(crate) struct Work {
     at_tip: f64,
 }
 
+/// Largest difference between cubics and the trapezoidal rule within one segment.
+///
+/// It is relative to the dissipation so far. For 4400 random designs the error of `loop_work` is
+/// then below 0.2 %.
+const BEND: f64 = 0.005;
+
+/// How often a segment is bisected at most.
+const BISECTIONS: usize = 8;
+
 impl Work {
     /// Adds the dissipation between two neighbouring points.
     pub(crate) fn add<S: Skin>(
         &mut self,
-        path: &Continuation<S>,
+        path: &mut Continuation<S>,
         from: &SkinPoint,
         to: &SkinPoint,
     ) {
-        let skin = path.system();
-        if skin.has_friction() {
-            let spans = path.spans(from, to);
-            self.between_scales += skin.contacts().friction_work(from, to, spans);
-            self.at_tip += skin.tip_work(from, to, spans);
+        if path.system().has_friction() {
+            self.add_segment(path, from, to, BISECTIONS);
         }
+    }
+
+    /// Adds the dissipation along a segment, and bisects it where the dissipation is not smooth.
+    fn add_segment<S: Skin>(
+        &mut self,
+        path: &mut Continuation<S>,
+        from: &SkinPoint,
+        to: &SkinPoint,
+        bisections: usize,
+    ) {
+        let skin = path.system();
+        let spans = path.spans(from, to);
+        let between_scales = skin.contacts().friction_work(from, to, spans);
+        let at_tip = skin.tip_work(from, to, spans);
+        let allowed = BEND * (self.taken() + between_scales.value + at_tip.value).abs();
+        let is_smooth = [between_scales, at_tip]
+            .iter()
+            .all(|part| (part.value - part.trapezoid).abs() <= allowed);
+        if !is_smooth
+            && bisections > 0
+            && let Some(middle) = path.between(from, to, 0.5)
+        {
+            self.add_segment(path, from, &middle, bisections - 1);
+            self.add_segment(path, &middle, to, bisections - 1);
+            return;
+        }
+        self.between_scales += between_scales.value;
+        self.at_tip += at_tip.value;
     }
 
     /// Stores the dissipation between scales in a recorded point.

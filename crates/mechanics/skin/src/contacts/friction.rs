@@ -25,6 +25,9 @@
 //! ratio of sliding in that direction; while both stick only the sum of their friction matters, and
 //! tip and corner take equal fractions of their limits ([`TipFriction`]).
 
+use std::iter::Sum;
+use std::ops::{Add, Mul};
+
 use contact::{CornerContact, CornerEdge, FORCES, Force, Gap, Pose, quarter};
 use geometry::Vec2;
 use solver::{Residual, Tangent};
@@ -427,13 +430,20 @@ impl Contacts {
     /// `spans` are the lengths of the segment in units of the outgoing direction at `from` and of
     /// the incoming direction at `to` ([`solver::Continuation::spans`]). With them both factors are
     /// accurate to third order.
-    pub(crate) fn friction_work(&self, from: &SkinPoint, to: &SkinPoint, spans: [f64; 2]) -> f64 {
+    pub(crate) fn friction_work(
+        &self,
+        from: &SkinPoint,
+        to: &SkinPoint,
+        spans: [f64; 2],
+    ) -> Dissipation {
         let slips = from.state.mode.friction_states.iter().enumerate();
         let work = |(contact, friction_state): (usize, &FrictionState)| {
             let FrictionState::Slip { sign, start } = *friction_state else {
                 return self.work_at_tip(contact, from, to, spans);
             };
-            let Some(edge) = from.state.mode.contacts[contact].edge() else { return 0.0 };
+            let Some(edge) = from.state.mode.contacts[contact].edge() else {
+                return Dissipation::default();
+            };
             let normal_force = |z: &[f64]| -> f64 {
                 // The force may have been handed over to another contact at the second point.
                 let both = Self::sharing_contacts(&from.state.mode, contact);
@@ -449,7 +459,7 @@ impl Contacts {
             let forces = [normal_force(&from.state.z), normal_force(&to.state.z)];
             let growth =
                 [spans[0] * normal_force(&from.leaving), spans[1] * normal_force(&to.arriving)];
-            self.law.friction() * product_integral([forces, growth], [slip_distances, rates])
+            product_integral([forces, growth], [slip_distances, rates]) * self.law.friction()
         };
         slips.map(work).sum()
     }
@@ -463,13 +473,13 @@ impl Contacts {
         from: &SkinPoint,
         to: &SkinPoint,
         spans: [f64; 2],
-    ) -> f64 {
+    ) -> Dissipation {
         let mode = &from.state.mode;
         let friction_state = mode.friction_states[contact];
         let (FrictionState::Locked { .. } | FrictionState::WithTip, Some(edge)) =
             (friction_state, Self::edge_of(mode, contact))
         else {
-            return 0.0;
+            return Dissipation::default();
         };
         // The state may have changed at the second point, so use the state of the first point for
         // both.
@@ -489,10 +499,8 @@ impl Contacts {
             let rate = self.pair_unknowns(contact).sum(&slide.gradient, direction);
             (slide.value, span * rate)
         });
-        -product_integral(
-            [tractions, growth],
-            [slides.map(|(value, _)| value), slides.map(|(_, rate)| rate)],
-        )
+        let slides_and_rates = [slides.map(|(value, _)| value), slides.map(|(_, rate)| rate)];
+        product_integral([tractions, growth], slides_and_rates) * -1.0
     }
 
     /// Returns true if the other contact of the pair carries the friction of this one.
@@ -651,13 +659,44 @@ impl Contacts {
     }
 }
 
+/// Dissipation `∫ T ds` along a segment of a path.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Dissipation {
+    /// With cubics between the ends.
+    pub(crate) value: f64,
+    /// By the trapezoidal rule.
+    ///
+    /// The difference from `value` measures the curvature within the segment.
+    pub(crate) trapezoid: f64,
+}
+
+impl Add for Dissipation {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self { value: self.value + other.value, trapezoid: self.trapezoid + other.trapezoid }
+    }
+}
+
+impl Mul<f64> for Dissipation {
+    type Output = Self;
+    fn mul(self, factor: f64) -> Self {
+        Self { value: factor * self.value, trapezoid: factor * self.trapezoid }
+    }
+}
+
+impl Sum for Dissipation {
+    fn sum<I: Iterator<Item = Self>>(terms: I) -> Self {
+        terms.fold(Self::default(), Add::add)
+    }
+}
+
 /// Computes `∫ f dg` over a unit interval for cubics.
 ///
 /// They are given by values and slopes at both ends. Exact with three Gauss points.
 pub(crate) fn product_integral(
     [values, slopes]: [[f64; 2]; 2],
     [of_g, slopes_of_g]: [[f64; 2]; 2],
-) -> f64 {
+) -> Dissipation {
     let points = [
         (0.5, 4.0 / 9.0),
         (0.5 - 0.15_f64.sqrt(), 5.0 / 18.0),
@@ -674,5 +713,8 @@ pub(crate) fn product_integral(
             + slopes_of_g[1] * x * (3.0 * x - 2.0);
         cubic * rate
     };
-    points.into_iter().map(|(x, weight)| weight * integrand(x)).sum()
+    Dissipation {
+        value: points.into_iter().map(|(x, weight)| weight * integrand(x)).sum(),
+        trapezoid: 0.5 * (values[0] + values[1]) * (of_g[1] - of_g[0]),
+    }
 }

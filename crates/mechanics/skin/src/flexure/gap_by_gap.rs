@@ -156,6 +156,8 @@ impl<'a> UnevenStrip<'a> {
             Some(_) if first.is_none() => Some(0.0),
             finer => finer.map(|finer| self.error(finer, stiffest, end)),
         };
+        let friction_work = (problem.common.friction > 0.0)
+            .then(|| self.gaps.iter_mut().map(|gap| gap.friction_work(end)).sum());
         let rotated = |moment: f64| self.direction() * self.rotation(moment);
         let curvature = |moment: Option<f64>| Some(rotated(moment?) / problem.length());
         let of_strip =
@@ -172,8 +174,7 @@ impl<'a> UnevenStrip<'a> {
             axial_energy_share: Some(sums.axial_energy / sums.energy),
             membrane_strain_max: gaps.clone().map(|gap| gap.largest_strain(end)).reduce(f64::max),
             error,
-            friction_work: (problem.common.friction > 0.0)
-                .then(|| gaps.map(|gap| gap.friction_work(end)).sum()),
+            friction_work,
             locking_curvature: curvature(locking),
             contact_curvature: problem.contact_curvature,
             gaps: problem.gaps,

@@ -188,10 +188,11 @@ impl GapCurve {
     }
 
     /// Computes the frictional dissipation up to a moment that was solved for.
-    pub(super) fn friction_work(&self, moment: f64) -> f64 {
+    pub(super) fn friction_work(&mut self, moment: f64) -> f64 {
         let mut work = Work::default();
-        for pair in self.knots_to(moment).windows(2) {
-            work.add(&self.path, &pair[0].point, &pair[1].point);
+        let end = self.knots_to(moment).len();
+        for pair in self.knots[..end].windows(2) {
+            work.add(&mut self.path, &pair[0].point, &pair[1].point);
         }
         work.taken()
     }

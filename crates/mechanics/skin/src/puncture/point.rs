@@ -3,7 +3,7 @@
 use super::needle::GuidedNeedle;
 use super::surface_fold::GapStretch;
 use super::system::Chain;
-use crate::contacts::{Contacts, SkinPoint, SkinState};
+use crate::contacts::{Contacts, Dissipation, SkinPoint, SkinState};
 use crate::record::Skin;
 
 /// One equilibrium of the path.
@@ -76,7 +76,7 @@ impl Skin for Chain {
         self.contacts.has_friction() || self.needle.as_ref().is_some_and(GuidedNeedle::has_friction)
     }
 
-    fn tip_work(&self, from: &SkinPoint, to: &SkinPoint, spans: [f64; 2]) -> f64 {
+    fn tip_work(&self, from: &SkinPoint, to: &SkinPoint, spans: [f64; 2]) -> Dissipation {
         self.taken_at_tip(from, to, spans)
     }
 

@@ -351,6 +351,43 @@ fn loop_work_is_the_area_of_the_loop_for_random_designs() {
     assert!(closed > count * 4 / 5, "{closed} of {count}");
 }
 
+/// Loops of coarse paths have the same area as those of paths in small steps.
+#[test]
+fn loop_work_does_not_depend_on_the_steps() {
+    let count = if long_campaigns() { 400 } else { 24 };
+    let known = Calibrations::default();
+    let mut closed = 0;
+    for (k, design) in random(count, 110).into_iter().enumerate() {
+        let friction = [0.0, 0.1, 0.25][k % 3];
+        let needle = [
+            Needle::Guided { friction: 0.1 },
+            Needle::Guided { friction: 0.3 },
+            Needle::Guided { friction: 0.2 },
+            Needle::Free,
+        ][k / 3 % 4];
+        let parameters = PunctureParameters {
+            needle,
+            needle_radius: (k / 3 % 4 == 2).then_some(0.1),
+            unload: true,
+            load_position: 0.9,
+            ..Default::default()
+        };
+        let small = Settings { first_step: 0.001, max_step: 0.002, ..Settings::default() };
+        let [coarse, fine] = [Settings::default(), small].map(|solver| {
+            let common = Common { solver, ..with_friction(friction) };
+            solve_as(&known, &design, &common, &parameters)
+        });
+        let [Some(coarse), Some(fine)] =
+            [coarse, fine].map(|puncture| puncture.measures.remains.loop_work)
+        else {
+            continue;
+        };
+        assert_relative_eq!(coarse, fine, max_relative = 2e-3, epsilon = 1e-9);
+        closed += 1;
+    }
+    assert!(closed > count * 4 / 5, "{closed} of {count}");
+}
+
 /// A tip that slides to a corner does work on the face up to the corner.
 ///
 /// Beyond it the force is resolved along another normal. The value is converged.

@@ -6,7 +6,9 @@ use solver::{Residual, Tangent};
 use super::mode::{OutlinePart, TipState, Touch};
 use super::outline::{COORDINATES, Meeting};
 use super::{BACKWARD, CONSTRAINTS_PER_TOUCH, FACE_END, FACE_START, FORWARD, GuidedNeedle, NORMAL};
-use crate::contacts::{Contacts, HOLDS, SkinPoint, SkinState, TipFriction, product_integral};
+use crate::contacts::{
+    Contacts, Dissipation, HOLDS, SkinPoint, SkinState, TipFriction, product_integral,
+};
 use crate::puncture::system::Chain;
 
 /// Distance (over `t`) by which a foot may exceed the end of a face.
@@ -358,16 +360,18 @@ impl Chain {
         from: &SkinPoint,
         to: &SkinPoint,
         spans: [f64; 2],
-    ) -> f64 {
-        let Some(needle) = &self.needle else { return 0.0 };
+    ) -> Dissipation {
+        let Some(needle) = &self.needle else { return Dissipation::default() };
         self.touches(&from.state)
             .map(|(slot, touch, ..)| {
-                let TipState::Slip { sign, start } = touch.tip_state else { return 0.0 };
+                let TipState::Slip { sign, start } = touch.tip_state else {
+                    return Dissipation::default();
+                };
                 let Some(end) = self.meeting(&to.state.z, touch.scale, touch.place) else {
-                    return 0.0;
+                    return Dissipation::default();
                 };
                 if sign == 0.0 {
-                    return 0.0;
+                    return Dissipation::default();
                 }
                 let slid =
                     needle.normal_force(slot) + 1 + if sign > 0.0 { FORWARD } else { BACKWARD };
@@ -382,8 +386,8 @@ impl Chain {
                 let pushes = [from.state.z[normal_force], push];
                 // The tip may have stopped at the second point, so compute its slip from the poses.
                 let ways = [from.state.z[slid], sign * (end.xi() - start)];
-                needle.friction
-                    * product_integral([pushes, along(normal_force)], [ways, along(slid)])
+                product_integral([pushes, along(normal_force)], [ways, along(slid)])
+                    * needle.friction
             })
             .sum()
     }
