@@ -269,7 +269,9 @@ fn counted(kind: usize, number: u64, noise: [f64; 2]) -> Counts {
 #[test]
 fn exact_curves_recover_the_parameters() {
     // A test of its own recovers the slow tissue.
-    for (kind, (name, _)) in KINDS.iter().enumerate().filter(|(kind, _)| *kind != 4) {
+    let step = if campaign()[0] == 0 { 2 } else { 1 };
+    let kinds = KINDS.iter().enumerate().filter(|(kind, _)| *kind != 4);
+    for (kind, (name, _)) in kinds.step_by(step) {
         let trial = trial(kind, 100);
         let fitted = trial.fitted(100, 0.0);
         assert!(fitted.undetermined.is_empty(), "{name}");
@@ -477,12 +479,12 @@ fn both_branches_are_fitted() {
     let skin = format!("{shared}contact.friction = 0.3\n");
     let case = Sweep::parse(&skin, "skin.toml", &[]).expect("a skin").grid().case(0);
     let evaluator = Evaluator::new(&[]);
-    let places: Vec<_> = (1..=20).map(|k| 0.02 * f64::from(k)).collect();
+    let places: Vec<_> = (1..=10).map(|k| 0.04 * f64::from(k)).collect();
     let back: Vec<_> = places.iter().rev().skip(1).copied().collect();
     let loading = evaluator.force_curve(&case, &[], &places).expect("a curve");
     let unloading = evaluator.unloading_force_curve(&case, 0.4, &back).expect("a curve");
     let force = |point: &Option<CurvePoint>| point.as_ref().map_or(0.0, |point| point.value);
-    assert!(force(&unloading[9]) < 0.9 * force(&loading[9]), "{unloading:?} {loading:?}");
+    assert!(force(&unloading[4]) < 0.9 * force(&loading[4]), "{unloading:?} {loading:?}");
     let mut text = "displacement,force\n".to_owned();
     for (x, point) in places.iter().chain(&back).zip(loading.iter().chain(&unloading)) {
         writeln!(text, "{x},{}", force(point)).expect("a text");
@@ -491,10 +493,10 @@ fn both_branches_are_fitted() {
     let variables = "[variables]\nfriction = { from = 0.02, to = 0.9 }\n";
     let curve = "[[curve]]\nfile = 'a.csv'\nkind = 'puncture'\n";
     for (unload, branch, points) in [
-        ("", "", 20),
-        ("", "branch = 'both'\n", 39),
-        ("", "branch = 'unloading'\n", 19),
-        ("puncture.unload = true\n", "", 39),
+        ("", "", 10),
+        ("", "branch = 'both'\n", 19),
+        ("", "branch = 'unloading'\n", 9),
+        ("puncture.unload = true\n", "", 19),
     ] {
         let text = format!("{shared}{unload}{variables}{curve}{branch}");
         let fitted = place.fit(&text).expect("an answer");
