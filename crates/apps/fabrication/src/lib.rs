@@ -1,10 +1,12 @@
-//! Files for manufacturing a patch of skin, in millimetres.
+//! Files for manufacturing and checking a patch of skin, in millimetres.
 //!
-//! Formats are 3MF and STL for 3D printers, STEP for CAD programs, DXF and SVG for laser cutters.
+//! Formats are 3MF and STL for 3D printers, STEP for CAD programs, DXF and SVG for laser cutters, and
+//! a [deck](deck()) for finite-element programs.
 //!
 //! All solids are [prisms](Prism): a scale is a parallelogram, the membrane a rectangle, extruded
 //! across the rows. The formats are written without libraries, because each writer takes a page.
 
+mod deck;
 mod dxf;
 mod mesh;
 mod patch;
@@ -14,6 +16,7 @@ mod stl;
 mod svg;
 mod three_mf;
 
+pub use deck::{NoDeck, Puncture, deck};
 pub use patch::{NoPatch, Patch, Prism};
 pub use sheet::{NoSheet, Outline, Sheet};
 

@@ -97,7 +97,7 @@ const fn plain(name: &'static str, maker: Maker, role: Role) -> FileEntry {
 }
 
 /// Every file with a fixed name in a results folder, in reading order.
-pub static FILES: [FileEntry; 48] = [
+pub static FILES: [FileEntry; 49] = [
     // A journal grows after its extent was stated, so each line has its own checksum.
     plain(ResultsFolder::JOURNAL, Maker::Run, Role::Journal),
     stated(ResultsFolder::DESIGNS, Maker::Run, Role::Table),
@@ -109,6 +109,8 @@ pub static FILES: [FileEntry; 48] = [
     stated(ResultsFolder::FAILURES, Maker::Run, Role::Table),
     stated(ResultsFolder::RERUNS, Maker::Run, Role::Table),
     stated(ResultsFolder::RUN_INFO, Maker::Run, Role::Record),
+    // Whoever publishes the folder completes the metadata, so it has no recorded SHA-256.
+    plain(ResultsFolder::METADATA, Maker::Run, Role::Record),
     plain(ResultsFolder::CONTENTS, Maker::Run, Role::Statement),
     stated(ResultsFolder::RANKING[0], Maker::Ranking, Role::Table),
     stated(ResultsFolder::RANKING[1], Maker::Ranking, Role::Table),
@@ -183,6 +185,8 @@ impl ResultsFolder {
     pub const RUN_INFO: &'static str = "run.toml";
     /// Checksums of the files in the folder, written last.
     pub const CONTENTS: &'static str = "contents.toml";
+    /// Metadata of the folder as an RO-Crate.
+    pub const METADATA: &'static str = "ro-crate-metadata.json";
     /// Folder of the records of products derived from the tables.
     pub const DERIVED: &'static str = "derived";
     /// Record of a ranking.

@@ -2,6 +2,7 @@
 
 mod changes;
 mod open_tables;
+mod ro_crate;
 pub mod run_info;
 pub mod summary;
 pub mod table_writer;

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail, ensure};
 use clap::Args;
-use fabrication::{Format, Patch, Sheet};
+use fabrication::{Format, Patch, Puncture, Sheet, deck};
 use ranking::CRITERIA;
 use results::Quantity;
 use results::columns::{measure_name, mode_column, name};
@@ -37,6 +37,8 @@ side. The design needs a thickness (material.thickness_mm). The extension of --o
   .dxf, .svg    laser cutters: the profile of each scale, to be cut from a sheet as thick as the scales are wide;
                 a template with a hole for each base, to glue the scales at their pitch; and a square to
                 check the size after import, 100 mm wide. Each is on its own layer
+  .inp          CalculiX and Abaqus: a finite-element deck of one row, as many scales long as --scales states, with contact;
+                the middle scale is pushed down by 0.1 t. To compare it, solve the design with the same puncture.scales
 Beside it, a list of parts: sizes, counts, mass if scale_density_kg_m3 is known, and, if the definition has
 [tolerance], the deviations that change the measures most (from derivatives; squama tolerance gives the yield).
 The patch has the nominal gaps and slants, without scatter.")]
@@ -47,7 +49,7 @@ pub struct Arguments {
     #[command(flatten)]
     pub selection: Selection,
 
-    /// File to write; its extension is .3mf, .stl, .step, .dxf or .svg
+    /// File to write; its extension is .3mf, .stl, .step, .dxf, .svg or .inp
     #[arg(long, value_name = "FILE", default_value = "skin.3mf")]
     pub out: PathBuf,
 
@@ -89,6 +91,7 @@ fn along_and_across(text: &str) -> Result<[usize; 2], String> {
 pub fn make(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let out = &arguments.out;
     let format = format(arguments)?;
+    let is_flat = format.is_some_and(Format::is_flat);
     require_folder_of("--out", out)?;
     let list_file = out.with_extension("parts.txt");
     for file in [out, &list_file] {
@@ -103,11 +106,16 @@ pub fn make(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> 
     };
     let case = design.case();
     let patch = patch(&case, arguments)?;
+    // Before the analysis, because a row may be too long.
+    let deck = match format {
+        None => deck(&patch, &puncture(&case), &design.title())?,
+        Some(_) => String::new(),
+    };
     let (kerf, template) =
         (arguments.kerf.unwrap_or(0.0), arguments.template_mm.unwrap_or(TEMPLATE_MM));
     let sheet = Sheet::new(&patch, kerf, template)?;
     let mut list = format!("{}\n\n{}", design.title(), parts(&patch, &case));
-    if format.is_flat() && !sheet.has_template() {
+    if is_flat && !sheet.has_template() {
         let missing = no_template(&sheet, template);
         note(&missing);
         list = format!("{list}\n{missing}\n");
@@ -117,24 +125,25 @@ pub fn make(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> 
     list.push_str(&tolerances(design, out, interrupt)?);
     // Write the list first: if it fails, the previous part stays unchanged.
     write_file(&list_file, format!("{list}\nWritten by squama make.\n").as_bytes())?;
-    write_file(out, &format.bytes(&patch, &sheet))?;
+    let bytes = format.map_or(deck.into_bytes(), |format| format.bytes(&patch, &sheet));
+    write_file(out, &bytes)?;
     print(&format!("{list}\n{} {}\n", out.display(), list_file.display()))?;
     Ok(DONE)
 }
 
-/// Returns the format for the extension of the file.
-fn format(arguments: &Arguments) -> anyhow::Result<Format> {
+/// Returns the format for the extension of the file; `None` for a finite-element deck.
+fn format(arguments: &Arguments) -> anyhow::Result<Option<Format>> {
     let out = &arguments.out;
     let extension = out.extension().unwrap_or_default().to_string_lossy();
-    let format = Format::of_extension(&extension).with_context(|| {
-        format!(
-            "--out {}: expected a file that ends in .3mf, .stl, .step, .dxf or .svg",
-            out.display()
-        )
-    })?;
+    let format = Format::of_extension(&extension);
+    ensure!(
+        format.is_some() || extension.eq_ignore_ascii_case("inp"),
+        "--out {}: expected a file that ends in .3mf, .stl, .step, .dxf, .svg or .inp",
+        out.display()
+    );
     for (option, value) in [("--kerf", arguments.kerf), ("--template-mm", arguments.template_mm)] {
         ensure!(
-            format.is_flat() || value.is_none(),
+            format.is_some_and(Format::is_flat) || value.is_none(),
             "{option} has no effect on {}: it applies to outlines for laser cutters, .dxf and .svg",
             out.display()
         );
@@ -153,6 +162,23 @@ fn patch(case: &Case, arguments: &Arguments) -> anyhow::Result<Patch> {
     let across = arguments.gap_across_mm.unwrap_or(across);
     let lengths = [case.design.width * thickness, membrane, across];
     Ok(Patch::new(case.design.row()?, thickness, lengths, arguments.scales)?)
+}
+
+/// Returns materials and load of a finite-element deck.
+///
+/// A missing modulus of the substrate is 1 `MPa`.
+fn puncture(case: &Case) -> Puncture {
+    let punctured = case.punctured();
+    let substrate = case.material.substrate_modulus_mpa.unwrap_or(1.0);
+    let thickness = case.material.thickness_mm.unwrap_or(1.0);
+    Puncture {
+        substrate,
+        poisson_ratio: punctured.poisson_ratio,
+        scale: punctured.contact_modulus_over_substrate * substrate,
+        tissue: case.tissue_thickness.map(|tissue| tissue * thickness),
+        friction: case.common.friction,
+        load_position: punctured.load_position,
+    }
 }
 
 /// Lists sizes, counts and masses.

@@ -168,3 +168,36 @@ fn the_scatter_of_specimens_becomes_a_tolerance() {
     let figure = place.read("o/force-displacement-curves-of-0001.svg");
     assert!(figure.contains("mean of 3 specimens") && figure.contains("class=\"band\""));
 }
+
+#[test]
+fn the_protocol_of_two_blocks_recovers_modulus_and_friction() {
+    let place = Place::new();
+    let folder = example().with_file_name("two-blocks.toml");
+    let text = fs::read_to_string(folder).expect("a definition");
+    fs::write(place.path("two-blocks.toml"), &text).expect("writable");
+    let (single, _) = text.split_once("[variables]").expect("variables");
+    let single = single.replace("[material]", "[material]\nsubstrate_modulus_MPa = 0.31");
+    let single = format!("{single}\n[contact]\nfriction = 0.2\n");
+    fs::write(place.path("x.toml"), single).expect("writable");
+    place.prints("design x.toml --design 1 --set solver.max_step=0.02 --out d");
+    // The unit of the force is E_s L t/(1 - nu^2).
+    let (length, force) = (10.0, 0.31 * 100.0 / 0.75);
+    let mut curve = "displacement_mm,force_N\n".to_owned();
+    for line in place.read("d/path.csv").lines().skip(1) {
+        let numbers: Vec<f64> =
+            line.split(',').take(2).map(|cell| cell.parse().expect("a number")).collect();
+        let row = format!("{},{}\n", length * numbers[0], force * numbers[1]);
+        curve.push_str(&row);
+    }
+    for specimen in 1..=3 {
+        fs::write(place.path(format!("two-blocks-{specimen}.csv")), &curve).expect("writable");
+    }
+    place.prints("fit two-blocks.toml --quiet --out fit");
+    let fitted = place.read("fit/fit.csv");
+    let value = |key: &str| -> f64 {
+        let row = fitted.lines().find(|line| line.contains(key)).expect("a row");
+        row.split(',').nth(2).expect("a value").parse().expect("a number")
+    };
+    assert!((value("substrate_modulus_MPa") - 0.31).abs() < 3e-3, "{fitted}");
+    assert!((value("friction") - 0.2).abs() < 0.02, "{fitted}");
+}

@@ -9,12 +9,13 @@ const SKIN: &str = "name = 'skin'\nmeasures = ['coverage']\n[designs]\ngap_over_
 #[test]
 fn each_format_has_its_file_and_a_list_of_parts() {
     let place = Place::with(SKIN);
-    let beginnings: [(&str, &[u8]); 5] = [
+    let beginnings: [(&str, &[u8]); 6] = [
         ("3mf", b"PK"),
         ("stl", b"squama"),
         ("step", b"ISO-10303-21;"),
         ("dxf", b"999\nsquama\n  0\nSECTION"),
         ("svg", b"<svg"),
+        ("inp", b"** "),
     ];
     for (ending, beginning) in beginnings {
         place.prints(&format!("make x.toml --design 1 --scales 3x2 --out {ending}.{ending}"));
@@ -48,6 +49,8 @@ fn impossible_patches_are_rejected() {
         "--out skin.obj",
         "--out nowhere/skin.3mf",
         "--kerf 0.1",
+        "--out x.inp --kerf 0.1",
+        "--out x.inp --scales 202x1",
         "--out x.dxf --kerf 1.8",
         "--out x.dxf --kerf=-1",
         "--gap-across-mm 0",

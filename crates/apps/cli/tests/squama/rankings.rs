@@ -97,7 +97,7 @@ fn a_new_run_removes_an_earlier_ranking() {
     place.squama("run x.toml -q --set measures=coverage --fresh").assert().code(0);
     assert_eq!(
         place.list("results/few"),
-        "contents.toml coverage.csv designs.csv failures.csv journal.jsonl run.toml"
+        "contents.toml coverage.csv designs.csv failures.csv journal.jsonl ro-crate-metadata.json run.toml"
     );
     let message = place.refused("rank results/few");
     insta::assert_snapshot!(message, @"error: results/few/designs.csv: no design can be ranked (4: coverage is 0; 4: no critical_force), expected one with all of coverage, critical_force, penetration, compliance");

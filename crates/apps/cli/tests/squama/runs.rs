@@ -20,7 +20,7 @@ fn tables_are_written_to_the_folder_of_the_sweep() {
     assert_eq!(
         place.list("results/few"),
         "compliance.csv contents.toml coverage.csv critical_force.csv designs.csv failures.csv journal.jsonl \
-         penetration.csv run.toml"
+         penetration.csv ro-crate-metadata.json run.toml"
     );
     let table = place.read("results/few/designs.csv");
     let rows: Vec<_> = table.lines().collect();
@@ -78,13 +78,35 @@ fn designs_that_stop_early_have_a_row_and_give_exit_code_1() {
 }
 
 #[test]
+fn metadata_list_every_file_and_column_and_do_not_depend_on_threads() {
+    let place = Place::with(FEW);
+    place.squama("run x.toml -q --threads 1 --out a").assert().code(0);
+    place.squama("run x.toml -q --threads 2 --out b").assert().code(0);
+    let text = place.read("a/ro-crate-metadata.json");
+    assert_eq!(text, place.read("b/ro-crate-metadata.json"));
+    let metadata: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let graph = metadata["@graph"].as_array().expect("entities");
+    let of_kind = |kind: &str| -> Vec<&str> {
+        let entities = graph.iter().filter(|entity| entity["@type"] == kind);
+        entities.map(|entity| entity["name"].as_str().expect("a name")).collect()
+    };
+    let mut files = of_kind("File");
+    files.push("ro-crate-metadata.json");
+    files.sort_unstable();
+    assert_eq!(files.join(" "), place.list("a"));
+    let table = place.read("a/designs.csv");
+    let header = table.lines().next().expect("a header");
+    assert_eq!(of_kind("PropertyValue").join(","), header);
+}
+
+#[test]
 fn omitted_measures_have_empty_cells_and_no_table() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q").assert().code(0);
     place.squama("run x.toml -q --set measures=coverage --fresh").assert().code(0);
     assert_eq!(
         place.list("results/few"),
-        "contents.toml coverage.csv designs.csv failures.csv journal.jsonl run.toml"
+        "contents.toml coverage.csv designs.csv failures.csv journal.jsonl ro-crate-metadata.json run.toml"
     );
     let table = place.read("results/few/designs.csv");
     let row = table.lines().nth(8).expect("a row");

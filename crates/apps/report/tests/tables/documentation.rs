@@ -160,3 +160,28 @@ fn descriptions_of_the_other_sweeps_are_true() {
     }
     assert!(!read("sweeps/paper.toml").is_guided());
 }
+
+#[test]
+fn the_contribution_guide_names_existing_files_and_code() {
+    let guide = text("CONTRIBUTING.md");
+    let words = guide.split(|c: char| c.is_whitespace() || "`()[]:,".contains(c));
+    let folders = ["crates/", "scripts/", "docs/", "sweeps/", "results/"];
+    let paths: Vec<_> =
+        words.filter(|word| folders.iter().any(|folder| word.starts_with(folder))).collect();
+    assert!(paths.len() > 10, "{paths:?}");
+    for path in paths {
+        // The worked example of a command writes this file.
+        let is_new = path == "crates/apps/cli/src/commands/keys.rs";
+        assert_eq!(root().join(path).exists(), !is_new, "{path}");
+    }
+    for (file, code) in [
+        ("crates/study/results/src/columns/values.rs", "force(\"force_at_depth\""),
+        ("crates/study/sweep/src/case.rs", "seeks_failure.then_some(self.strengths)"),
+        ("crates/study/sweep/src/parameter/list.rs", "\"scale\" {"),
+        ("crates/study/sweep/tests/sweep/definitions.rs", "fn a_name_alone_is_the_paper_sweep"),
+        ("crates/apps/cli/tests/squama/bad_input.rs", "fn errors_suggest_valid_input"),
+        ("crates/apps/python/python/squama/_manual.py", "__name__ == \"__main__\""),
+    ] {
+        assert!(text(file).contains(code), "{file}: {code}");
+    }
+}

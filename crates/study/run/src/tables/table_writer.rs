@@ -11,6 +11,7 @@ use results::{Contents, CsvFormat, DesignRow, ResultsFolder, failure_columns};
 
 use super::changes;
 use super::open_tables::OpenTables;
+use super::ro_crate;
 use super::run_info::RunInfo;
 use super::summary::Summary;
 use crate::options::Options;
@@ -121,6 +122,8 @@ impl<'a> TableWriter<'a> {
         }
         let mut files = tables.finish()?;
         files.extend(changes::write(archive, folder, format)?);
+        let names: Vec<_> = files.iter().map(|(name, _)| name.clone()).collect();
+        ro_crate::write(archive, folder, &self.info.program(), &layouts, &names)?;
         Ok((summary, files))
     }
 }

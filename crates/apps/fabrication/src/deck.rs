@@ -1,0 +1,458 @@
+//! Finite-element deck of a punctured row, for `CalculiX` and Abaqus.
+//!
+//! One row of scales stands on a block of substrate; the middle scale is pushed down along a line
+//! across its top. Quadratic hexahedra, one half by symmetry in `y`. Bases and substrate share
+//! nodes, neighbouring scales have contact. Lengths in mm, forces in N, stresses in `MPa`.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+use crate::Patch;
+
+/// Maximum number of scales of the row.
+const MOST_SCALES: usize = 201;
+/// Elements along the base of a scale, over half its width, over its height, and in a gap.
+const ALONG: usize = 4;
+const ACROSS: usize = 3;
+const HEIGHT: usize = 3;
+const GAP: usize = 2;
+/// Distance of the outer faces of the block, over the larger of base and width.
+// At a distance of 10 a single base is 4 % too stiff.
+const MARGIN: f64 = 10.0;
+/// Ratio of the lengths of successive elements towards the outer faces.
+const GROWTH: f64 = 1.8;
+/// Displacement of the load over the thickness.
+const DEPTH: f64 = 0.1;
+/// Largest Poisson's ratio, because elements of an incompressible material need a pressure.
+const MOST_POISSON: f64 = 0.49;
+
+/// Materials and load of a deck.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Puncture {
+    /// Modulus of the substrate, `MPa`.
+    pub substrate: f64,
+    /// Poisson's ratio of the substrate.
+    pub poisson_ratio: f64,
+    /// Modulus of the scales, `MPa`.
+    pub scale: f64,
+    /// Thickness of the substrate on a rigid base, mm. `None` for a half-space.
+    pub tissue: Option<f64>,
+    /// Coefficient of friction between scales.
+    pub friction: f64,
+    /// Position of the load on the top: 0 the left corner, 1 the right corner.
+    pub load_position: f64,
+}
+
+/// The row is too long for a deck.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "{0} scales along the row: too many for a finite-element deck, expected at most {MOST_SCALES}"
+)]
+pub struct NoDeck(usize);
+
+/// A node by its block (0: substrate, then the scales) and its place in the grid of half elements.
+type Place = [usize; 4];
+
+/// Nodes and elements.
+#[derive(Default)]
+struct Mesh {
+    nodes: BTreeMap<Place, usize>,
+    coordinates: Vec<[f64; 3]>,
+    elements: Vec<[usize; 20]>,
+}
+
+/// Offsets of the nodes of a quadratic hexahedron, in half elements, in the order of Abaqus.
+const NODES: [[usize; 3]; 20] = [
+    [0, 0, 0],
+    [2, 0, 0],
+    [2, 2, 0],
+    [0, 2, 0],
+    [0, 0, 2],
+    [2, 0, 2],
+    [2, 2, 2],
+    [0, 2, 2],
+    [1, 0, 0],
+    [2, 1, 0],
+    [1, 2, 0],
+    [0, 1, 0],
+    [1, 0, 2],
+    [2, 1, 2],
+    [1, 2, 2],
+    [0, 1, 2],
+    [0, 0, 1],
+    [2, 0, 1],
+    [2, 2, 1],
+    [0, 2, 1],
+];
+
+/// Returns the coordinate of half element `i` between lines of the grid.
+fn at(lines: &[f64], i: usize) -> f64 {
+    f64::midpoint(lines[i / 2], lines[i.div_ceil(2)])
+}
+
+/// Returns lengths of growing elements that fill `total`, the first about `first`.
+fn growing(first: f64, total: f64) -> Vec<f64> {
+    let mut lengths = Vec::new();
+    let (mut sum, mut next) = (0.0, first.min(total));
+    while sum < total * (1.0 - 1e-9) {
+        lengths.push(next);
+        sum += next;
+        next *= GROWTH;
+    }
+    lengths.iter().map(|length| length * total / sum).collect()
+}
+
+impl Mesh {
+    /// Returns the number of a node, which is created at its first use.
+    fn node(&mut self, place: Place, coordinates: [f64; 3]) -> usize {
+        let next = self.nodes.len() + 1;
+        let number = *self.nodes.entry(place).or_insert(next);
+        if number == next {
+            self.coordinates.push(coordinates);
+        }
+        number
+    }
+
+    /// Adds an element, and returns its number.
+    fn element(
+        &mut self,
+        corner: [usize; 3],
+        node: impl Fn([usize; 3]) -> (Place, [f64; 3]),
+    ) -> usize {
+        let nodes = NODES.map(|offset| {
+            let (place, coordinates) = node(std::array::from_fn(|k| 2 * corner[k] + offset[k]));
+            self.node(place, coordinates)
+        });
+        self.elements.push(nodes);
+        self.elements.len()
+    }
+}
+
+/// Returns the deck of the first row of `patch`.
+///
+/// # Errors
+///
+/// If the row is too long.
+pub fn deck(patch: &Patch, puncture: &Puncture, title: &str) -> Result<String, NoDeck> {
+    let count = patch.scales()[0];
+    if count > MOST_SCALES {
+        return Err(NoDeck(count));
+    }
+    let (base, width, t, shift) = (patch.base(), patch.width(), patch.thickness(), patch.shift());
+    let gap = patch.gaps()[0];
+    let margin = MARGIN * base.max(width);
+    let depth = puncture.tissue.unwrap_or(margin);
+    let lines = base_lines(puncture.load_position);
+    let first = base * (lines[1] - lines[0]);
+    let xs = lines_along(&lines, base, gap, count, &growing(first, margin));
+    let half = width / 2.0;
+    let mut ys: Vec<f64> = (0..=ACROSS).map(|j| half * edge_spaced(j, ACROSS)).collect();
+    let last = half - ys[ACROSS - 1];
+    ys.extend(running(half, &growing(last, margin)));
+    let downwards = running(0.0, &growing(first.min(last), depth));
+    let zs: Vec<f64> = downwards.iter().rev().map(|z| -z).chain([0.0]).collect();
+    let before = (xs.len() - 1 - (count * ALONG + (count - 1) * GAP)) / 2;
+
+    let mut mesh = Mesh::default();
+    let [nx, ny, nz] = [&xs, &ys, &zs].map(|lines| lines.len() - 1);
+    for k in 0..nz {
+        for j in 0..ny {
+            for i in 0..nx {
+                mesh.element([i, j, k], |[i, j, k]| {
+                    ([0, i, j, k], [at(&xs, i), at(&ys, j), at(&zs, k)])
+                });
+            }
+        }
+    }
+    let of_substrate = mesh.elements.len();
+    let up: Vec<f64> = (0..=HEIGHT).map(|k| t * k as f64 / HEIGHT as f64).collect();
+    let (mut left, mut right) = (vec![Vec::new(); count], vec![Vec::new(); count]);
+    for scale in 0..count {
+        let start = before + scale * (ALONG + GAP);
+        for k in 0..HEIGHT {
+            for j in 0..ACROSS {
+                for i in 0..ALONG {
+                    let number = mesh.element([start + i, j, k], |[i, j, k]| {
+                        let z = at(&up, k);
+                        // The base shares its nodes with the substrate.
+                        let place = if k == 0 { [0, i, j, 2 * nz] } else { [scale + 1, i, j, k] };
+                        (place, [at(&xs, i) + shift * z / t, at(&ys, j), z])
+                    });
+                    if i == 0 {
+                        left[scale].push(number);
+                    }
+                    if i == ALONG - 1 {
+                        right[scale].push(number);
+                    }
+                }
+            }
+        }
+    }
+    let middle = count / 2;
+    let column =
+        2 * (before + middle * (ALONG + GAP) + load_column(&lines, puncture.load_position));
+    let loaded = (0..=2 * ACROSS).map(|j| [middle + 1, column, j, 2 * HEIGHT]);
+    let loaded: Vec<_> = loaded.filter_map(|place| mesh.nodes.get(&place).copied()).collect();
+    let (mut outer, mut plane) = (Vec::new(), Vec::new());
+    for (&[block, i, j, k], &number) in &mesh.nodes {
+        if block == 0 && (k == 0 || j == 2 * ny || i == 0 || i == 2 * nx) {
+            outer.push(number);
+        }
+        if j == 0 {
+            plane.push(number);
+        }
+    }
+
+    let mut text = heading(title, puncture, t);
+    text.push_str("*NODE, NSET=ALL\n");
+    for (number, [x, y, z]) in mesh.coordinates.iter().enumerate() {
+        let _ = writeln!(text, "{}, {x:.9}, {y:.9}, {z:.9}", number + 1);
+    }
+    elements(&mut text, "SUBSTRATE", &mesh.elements, 0..of_substrate);
+    elements(&mut text, "SCALES", &mesh.elements, of_substrate..mesh.elements.len());
+    for (name, nodes) in [("LOADED", &loaded), ("OUTER", &outer), ("SYMMETRY", &plane)] {
+        let _ = writeln!(text, "*NSET, NSET={name}");
+        list(&mut text, nodes);
+    }
+    materials(&mut text, puncture);
+    contacts(&mut text, puncture, t, &left, &right);
+    step(&mut text, -DEPTH * t);
+    Ok(text)
+}
+
+/// Returns the comment lines at the top of a deck.
+fn heading(title: &str, puncture: &Puncture, t: f64) -> String {
+    let ratio = puncture.poisson_ratio.min(MOST_POISSON);
+    let mut text = format!(
+        "** {title}\n\
+         ** Puncture of a row of scales, for CalculiX (ccx) and Abaqus, written by squama.\n\
+         ** Lengths in mm, forces in N, stresses in MPa. The deck is one half by symmetry in y:\n\
+         ** the force is twice the sum of the reactions RF3 of LOADED.\n\
+         ** Compare it with path.csv of squama design with puncture.scales equal to the scales here:\n\
+         ** displacement {} mm.\n",
+        DEPTH * t
+    );
+    if ratio < puncture.poisson_ratio {
+        let _ = writeln!(
+            text,
+            "** Poisson's ratio is {ratio} instead of {}; a full half-space is a block here.",
+            puncture.poisson_ratio
+        );
+    }
+    text.push_str("*HEADING\nsquama: puncture of a row of scales\n");
+    text
+}
+
+/// Returns positions of `count` elements on 0 to 1 that are finer towards 1.
+fn edge_spaced(j: usize, count: usize) -> f64 {
+    let angle = std::f64::consts::FRAC_PI_2 * j as f64 / count as f64;
+    angle.sin()
+}
+
+/// Returns the lines of a base on 0 to 1, finer at its ends, with a line at the load.
+fn base_lines(load: f64) -> [f64; ALONG + 1] {
+    let mut lines = std::array::from_fn(|i| {
+        let angle = std::f64::consts::PI * i as f64 / ALONG as f64;
+        f64::midpoint(1.0, -angle.cos())
+    });
+    let column = load_column(&lines, load);
+    if (1..ALONG).contains(&column) {
+        lines[column] = load;
+    }
+    lines
+}
+
+/// Returns the line of a base that is nearest to the load.
+fn load_column(lines: &[f64; ALONG + 1], load: f64) -> usize {
+    let distances = lines.map(|line| (line - load).abs());
+    (0..=ALONG).min_by(|&a, &b| distances[a].total_cmp(&distances[b])).unwrap_or(ALONG)
+}
+
+/// Returns the running sums of `lengths` after `start`.
+fn running(start: f64, lengths: &[f64]) -> Vec<f64> {
+    let mut sum = start;
+    lengths
+        .iter()
+        .map(|length| {
+            sum += length;
+            sum
+        })
+        .collect()
+}
+
+/// Returns the lines of the grid along the row; the first base begins at 0.
+fn lines_along(lines: &[f64], base: f64, gap: f64, count: usize, margin: &[f64]) -> Vec<f64> {
+    let mut xs: Vec<f64> = running(0.0, margin).iter().rev().map(|x| -x).collect();
+    for scale in 0..count {
+        let start = scale as f64 * (base + gap);
+        xs.extend(lines.iter().map(|x| start + base * x));
+        if scale + 1 < count {
+            xs.extend((1..GAP).map(|i| start + base + gap * i as f64 / GAP as f64));
+        }
+    }
+    let end = xs.last().copied().unwrap_or_default();
+    xs.extend(running(end, margin));
+    xs
+}
+
+fn elements(text: &mut String, set: &str, all: &[[usize; 20]], range: std::ops::Range<usize>) {
+    let _ = writeln!(text, "*ELEMENT, TYPE=C3D20R, ELSET={set}");
+    for number in range {
+        let nodes = all[number].map(|node| node.to_string());
+        let _ = writeln!(
+            text,
+            "{}, {},\n{}",
+            number + 1,
+            nodes[..10].join(", "),
+            nodes[10..].join(", ")
+        );
+    }
+}
+
+/// Writes numbers, at most eight a line.
+fn list(text: &mut String, numbers: &[usize]) {
+    for some in numbers.chunks(8) {
+        let some: Vec<_> = some.iter().map(usize::to_string).collect();
+        let _ = writeln!(text, "{}", some.join(", "));
+    }
+}
+
+fn materials(text: &mut String, puncture: &Puncture) {
+    let Puncture { substrate, poisson_ratio, scale, .. } = *puncture;
+    let ratio = poisson_ratio.min(MOST_POISSON);
+    let _ = write!(
+        text,
+        "*MATERIAL, NAME=TISSUE\n*ELASTIC\n{substrate}, {ratio}\n\
+         *MATERIAL, NAME=HARD\n*ELASTIC\n{scale}, 0.3\n\
+         *SOLID SECTION, ELSET=SUBSTRATE, MATERIAL=TISSUE\n\
+         *SOLID SECTION, ELSET=SCALES, MATERIAL=HARD\n"
+    );
+}
+
+/// Writes the contact between the facing sides of neighbouring scales.
+fn contacts(
+    text: &mut String,
+    puncture: &Puncture,
+    t: f64,
+    left: &[Vec<usize>],
+    right: &[Vec<usize>],
+) {
+    if left.len() < 2 {
+        return;
+    }
+    for scale in 0..left.len() - 1 {
+        for (name, numbers, face) in
+            [("RIGHT", &right[scale], "S4"), ("LEFT", &left[scale + 1], "S6")]
+        {
+            let _ = writeln!(text, "*SURFACE, NAME={name}{}, TYPE=ELEMENT", scale + 1);
+            for number in numbers {
+                let _ = writeln!(text, "{number}, {face}");
+            }
+        }
+    }
+    // A pressure of E_s overlaps by a thousandth of the thickness.
+    let stiffness = 1e3 * puncture.substrate / t;
+    let _ = write!(
+        text,
+        "*SURFACE INTERACTION, NAME=TOUCH\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n{stiffness}\n"
+    );
+    if puncture.friction > 0.0 {
+        let _ = write!(text, "*FRICTION\n{}, {stiffness}\n", puncture.friction);
+    }
+    for scale in 1..left.len() {
+        let _ = write!(
+            text,
+            "*CONTACT PAIR, INTERACTION=TOUCH, TYPE=SURFACE TO SURFACE\nLEFT{scale}, RIGHT{scale}\n"
+        );
+    }
+}
+
+/// Writes supports, the displacement of the load, and the output.
+fn step(text: &mut String, displacement: f64) {
+    let _ = write!(
+        text,
+        "*BOUNDARY\nOUTER, 1, 3\nSYMMETRY, 2, 2\n\
+         *STEP, NLGEOM, INC=200\n*STATIC\n0.1, 1., 1e-6, 0.1\n\
+         *BOUNDARY\nLOADED, 3, 3, {displacement}\n\
+         *NODE PRINT, NSET=LOADED, TOTALS=YES\nRF\n\
+         *NODE PRINT, NSET=LOADED\nU\n\
+         *NODE FILE\nU, RF\n*EL FILE\nS\n*END STEP\n"
+    );
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::patch::tests::patch;
+
+    const PUNCTURE: Puncture = Puncture {
+        substrate: 0.5,
+        poisson_ratio: 0.5,
+        scale: 3000.0,
+        tissue: None,
+        friction: 0.0,
+        load_position: 1.0,
+    };
+
+    fn numbers(text: &str, keyword: &str) -> Vec<Vec<f64>> {
+        let (_, rest) = text.split_once(keyword).expect("the keyword");
+        let (_, rest) = rest.split_once('\n').expect("a line");
+        let lines = rest.lines().take_while(|line| !line.starts_with('*'));
+        lines
+            .map(|line| {
+                let words = line.split(',').map(str::trim).filter(|word| !word.is_empty());
+                words.map(|word| word.parse().expect("a number")).collect()
+            })
+            .collect()
+    }
+
+    #[test]
+    fn elements_have_positive_volume_and_fill_the_scales() {
+        let patch = patch();
+        let text = deck(&patch, &PUNCTURE, "x").expect("a deck");
+        let nodes: BTreeMap<usize, [f64; 3]> = numbers(&text, "*NODE, NSET=ALL")
+            .into_iter()
+            .map(|row| (row[0] as usize, [row[1], row[2], row[3]]))
+            .collect();
+        let mut volume = 0.0;
+        for set in ["SUBSTRATE", "SCALES"] {
+            let rows = numbers(&text, &format!("ELSET={set}"));
+            for element in rows.chunks(2) {
+                let [o, x, y, z] = [1, 2, 4, 5].map(|k| nodes[&(element[0][k] as usize)]);
+                let [[a, b, c], [d, e, f], [g, h, i]] =
+                    [x, y, z].map(|to| [to[0] - o[0], to[1] - o[1], to[2] - o[2]]);
+                // Elements are parallelepipeds, so the triple product is their volume.
+                let size = a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g);
+                assert!(size > 0.0, "{element:?}");
+                if set == "SCALES" {
+                    volume += size;
+                }
+            }
+        }
+        let expected = 5.0 * patch.scale_volume() / 2.0;
+        assert!((volume / expected - 1.0).abs() < 1e-6, "{volume}, not {expected}");
+    }
+
+    #[test]
+    fn load_is_on_the_top_of_the_middle_scale_at_its_position() {
+        let patch = patch();
+        let nodes = |text: &str| -> BTreeMap<usize, Vec<f64>> {
+            let rows = numbers(text, "*NODE, NSET=ALL").into_iter();
+            rows.map(|row| (row[0] as usize, row[1..].to_vec())).collect()
+        };
+        for load_position in [0.0, 0.3, 0.5, 0.96, 1.0] {
+            let text = deck(&patch, &Puncture { load_position, ..PUNCTURE }, "x").expect("a deck");
+            let nodes = nodes(&text);
+            let loaded = numbers(&text, "*NSET, NSET=LOADED").concat();
+            assert_eq!(loaded.len(), 2 * ACROSS + 1);
+            let expected = 2.0 * patch.pitches()[0] + patch.shift() + load_position * patch.base();
+            for number in loaded {
+                let place = &nodes[&(number as usize)];
+                assert!((place[2] - patch.thickness()).abs() < 1e-9);
+                let off = (place[0] - expected).abs() / patch.base();
+                let most = if (0.15..=0.85).contains(&load_position) { 1e-9 } else { 0.05 };
+                assert!(off < most, "{load_position}: {off}");
+            }
+        }
+    }
+}
