@@ -37,6 +37,9 @@ pub fn note(text: &str) {
 /// Marks a design under which the surface of the substrate folds.
 pub const FOLDED: char = '⚠';
 
+/// Marks a design that fails a check.
+pub const FAILED: char = '✗';
+
 /// Warns that the surface of the substrate folds at a force; empty without a fold.
 pub fn fold_text(fold_force: Option<f64>) -> String {
     fold_force.map_or_else(String::new, |force| {

@@ -4,6 +4,7 @@ use results::DesignRow;
 use sweep::Measure;
 
 use crate::candidate::{Candidate, Merit, Target};
+use crate::checks::DesignChecks;
 use crate::coverage_piece::CoveragePiece;
 use crate::evaluations::Halt;
 use crate::local::Search;
@@ -35,6 +36,8 @@ pub struct BestDesign {
     pub confirmation: Option<Confirmation>,
     /// Agreement of the searches for it; `None` for a point of a front.
     pub agreement: Option<Agreement>,
+    /// Checks with finer models; empty for a point of a front.
+    pub checks: DesignChecks,
 }
 
 /// Returns the best design in `history`, with its binding limits.
@@ -47,7 +50,15 @@ pub(crate) fn best_design(
     let best = search.best(history.iter(), &target).unwrap_or(&history[0]).clone();
     let row = search.evaluations.row(0, &best.point, &best.result);
     let bindings = bindings(search, &best, &target)?;
-    Ok(BestDesign { candidate: best, row, target, bindings, confirmation: None, agreement: None })
+    Ok(BestDesign {
+        candidate: best,
+        row,
+        target,
+        bindings,
+        confirmation: None,
+        agreement: None,
+        checks: DesignChecks::default(),
+    })
 }
 
 /// Region of the space that a local search does not leave.

@@ -32,6 +32,8 @@ pub struct DesignGoal {
     pub fitness: Option<FitnessGoal>,
     /// True if designs with a folded surface are excluded.
     pub sound: bool,
+    /// True if the best design must meet the requirements in the checks, too.
+    pub confirm: bool,
     /// Number of space-filling points.
     pub samples: usize,
     /// Number of points of a front.
@@ -58,9 +60,7 @@ impl DesignGoal {
 
     /// Returns the columns of objectives and requirements with the values of a design.
     pub fn values<'a>(&'a self, worth: &'a Worth) -> impl Iterator<Item = (&'a str, f64)> {
-        let objectives = self.objectives.iter().map(|objective| objective.column.as_ref());
-        let columns = objectives.chain(self.requirements.iter().map(|r| r.column.as_str()));
-        columns.zip(worth.objectives.iter().chain(&worth.required).copied())
+        self.columns().zip(worth.objectives.iter().chain(&worth.required).copied())
     }
 
     /// Returns the statistic over samples that a column stands for.
@@ -73,11 +73,15 @@ impl DesignGoal {
         Statistic::named(column).filter(|_| has_samples)
     }
 
+    /// Returns the columns of objectives, then of requirements.
+    pub fn columns(&self) -> impl Iterator<Item = &str> {
+        let objectives = self.objectives.iter().map(|objective| objective.column.as_ref());
+        objectives.chain(self.requirements.iter().map(|requirement| requirement.column.as_str()))
+    }
+
     /// Returns true if an objective or requirement is a statistic over samples.
     pub fn is_about_samples(&self) -> bool {
-        let objectives = self.objectives.iter().map(|objective| objective.column.as_ref());
-        let required = self.requirements.iter().map(|requirement| requirement.column.as_str());
-        objectives.chain(required).any(|column| self.statistic(column).is_some())
+        self.columns().any(|column| self.statistic(column).is_some())
     }
 
     /// Returns the goal for nominal designs, with which a search begins.

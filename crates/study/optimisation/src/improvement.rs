@@ -37,6 +37,9 @@ impl Plan {
     /// of an objective that jumps.
     pub const SAMPLED: Self = Self { regions: 6, ..Self::STARTS };
 
+    /// Plan for a search that continues with tighter limits. The best regions are known.
+    pub const AGAIN: Self = Self { regions: 0, starts: 3, finalists: 2, restarts: 0 };
+
     /// Returns the plan for a point of a front.
     ///
     /// The ends of the front are known, so few regions are near the best.

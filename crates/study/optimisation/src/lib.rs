@@ -23,6 +23,7 @@
 //! | [`Judge`], [`Judgement`], [`NominalWorth`] | judgement of a design by the goal |
 //! | [`Statistic`] | quantile or yield over samples |
 //! | [`Confirmation`], [`Estimate`] | check of statistics with independent samples |
+//! | [`DesignChecks`], [`Check`], [`Contradiction`] | check of a best design with finer models |
 //! | [`optimise`], [`SearchOptions`] | runs a search |
 //! | [`SearchProgress`], [`SearchPart`] | progress of a search |
 //! | [`SearchStatus`] | status of a search, from its journal |
@@ -61,6 +62,7 @@ mod answer;
 mod best;
 mod binding_text;
 mod candidate;
+mod checks;
 mod column;
 mod contact_margin;
 mod coverage_peaks;
@@ -92,6 +94,7 @@ pub use answer::Answer;
 pub use best::BestDesign;
 pub use binding_text::BindingText;
 pub use candidate::{Candidate, SearchStage, Target};
+pub use checks::{Check, Contradiction, DesignChecks, described};
 pub use error::OptimisationError;
 pub use front::Front;
 pub use goal::DesignGoal;
@@ -107,6 +110,6 @@ pub use space::{Choice, DesignSpace, Interval, SpacePoint};
 pub use statistic::Statistic;
 pub use status::SearchStatus;
 pub use tables::{
-    FRONT, GOAL, HISTORY, NEAREST_DEFINITION, OPTIMUM, OPTIMUM_DEFINITION, history_columns,
-    optimum_columns, write_found,
+    FAILED_CHECKS, FRONT, GOAL, HISTORY, NEAREST_DEFINITION, OPTIMUM, OPTIMUM_DEFINITION,
+    history_columns, optimum_columns, write_found,
 };

@@ -5,7 +5,7 @@ use std::iter;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
-use ranking::CriterionEnds;
+use ranking::{CriterionEnds, Requirement};
 use rayon::iter::{
     IndexedParallelIterator as _, IntoParallelIterator as _, IntoParallelRefIterator as _,
     ParallelIterator as _,
@@ -17,6 +17,7 @@ use run::{Program, Start};
 use crate::answer::{Answer, answer};
 use crate::best::{Region, region};
 use crate::candidate::{Candidate, SearchStage};
+use crate::checks::{self, DesignChecks};
 use crate::column::ends_over;
 use crate::coverage_peaks::points_on_peaks;
 use crate::error::OptimisationError;
@@ -66,6 +67,8 @@ pub struct Found {
     pub evaluations: usize,
     /// Ends used to rescale the criteria of the fitness.
     pub rescaled: Vec<CriterionEnds>,
+    /// Requirements with the limits of the last search; they differ from the goal if it confirms.
+    pub searched: Vec<Requirement>,
 }
 
 /// Designs without a valid judgement, by reason.
@@ -126,11 +129,8 @@ fn find(
     // Solved before the judge exists, because the fitness is rescaled over these rows.
     let rows = sample_rows(evaluations, &points, progress)?;
     let rescaled = ends(goal, rows);
-    // All three judges share one set of ends: other ends define another fitness.
-    let judges =
-        [&goal.nominal(), goal, &goal.finer()].map(|goal| Judge::rescaling(goal, &rescaled));
-    let [nominal, search, finer] =
-        judges.each_ref().map(|judge| Search { space: &goal.space, evaluations, judge, progress });
+    let judge = Judge::rescaling(&goal.nominal(), &rescaled);
+    let nominal = Search { space: &goal.space, evaluations, judge: &judge, progress };
     // Goals about parameters and mass alone have no contacts and no kinks, so peaks do not matter.
     let on_peaks = if nominal.judge.has_regions() {
         points_on_peaks(&goal.space, nominal.judge, goal.seed)
@@ -147,12 +147,16 @@ fn find(
     };
     let mut history: Vec<Candidate> =
         points.into_par_iter().enumerate().map(evaluate).collect::<Result<_, _>>()?;
-    let answer = if goal.is_about_samples() {
-        let searches = Searches { nominal: &nominal, sampled: &search, finer: &finer };
-        searches.answer(goal, &mut history)?
-    } else {
-        answer(&search, &mut history, Plan::NOMINAL, goal.points)?
-    };
+    let mut limits = Limits { goal, tightened: goal.clone(), rescaled: &rescaled };
+    let mut answer = limits.nominal_answer(&nominal, &mut history)?;
+    if goal.is_about_samples() {
+        answer = limits.sampled_answer(&nominal, &mut history, answer)?;
+    }
+    if let Answer::Optimum(best) = &mut answer {
+        best.checks = DesignChecks::solve(goal, best);
+    }
+    let judge = Judge::rescaling(&limits.tightened, &rescaled);
+    let search = Search { judge: &judge, ..nominal };
     let left_out = LeftOutDesigns::of(&search, &history);
     let mut regions: Vec<Region> = Vec::new();
     for candidate in &history {
@@ -162,7 +166,101 @@ fn find(
         }
     }
     let (starts, evaluations) = (progress.starts(), evaluations.count());
-    Ok(Found { history, answer, left_out, starts, regions: regions.len(), evaluations, rescaled })
+    let (searched, regions) = (limits.tightened.requirements, regions.len());
+    Ok(Found { history, answer, left_out, starts, regions, evaluations, rescaled, searched })
+}
+
+/// Number of searches with tighter limits after the first.
+const TIGHTER: usize = 3;
+
+/// The limits of the requirements in a search.
+struct Limits<'a> {
+    /// The goal with the limits of the user.
+    goal: &'a DesignGoal,
+    /// The goal with the limits of the search.
+    tightened: DesignGoal,
+    rescaled: &'a [CriterionEnds],
+}
+
+impl Limits<'_> {
+    /// Returns the answer by nominal designs.
+    ///
+    /// If the goal confirms, limits are tightened until the checks of the best design pass.
+    fn nominal_answer(
+        &mut self,
+        search: &Search<'_>,
+        history: &mut Vec<Candidate>,
+    ) -> Result<Answer, Halt> {
+        let goal = self.goal;
+        let (plan, points) = if goal.is_about_samples() {
+            (Plan::STARTS, goal.points.min(NOMINAL_POINTS))
+        } else {
+            (Plan::NOMINAL, goal.points)
+        };
+        let mut best = answer(search, history, plan, points)?;
+        for _ in 0..TIGHTER {
+            let Some(wider) = self.tighten(&mut best) else { break };
+            let judge = Judge::rescaling(&self.tightened.nominal(), self.rescaled);
+            let search = Search { judge: &judge, ..*search };
+            for candidate in history.iter_mut() {
+                let row = search.evaluations.row(0, &candidate.point, &candidate.result);
+                candidate.verdict = judge.verdict(&row);
+            }
+            let next = answer(&search, history, Plan::AGAIN, points)?;
+            if matches!(next, Answer::Infeasible(_)) {
+                self.tightened = wider;
+                break;
+            }
+            best = next;
+        }
+        Ok(best)
+    }
+
+    /// Returns the answer by sampled designs; see [`Self::nominal_answer`].
+    fn sampled_answer(
+        &mut self,
+        search: &Search<'_>,
+        history: &mut Vec<Candidate>,
+        first: Answer,
+    ) -> Result<Answer, Halt> {
+        let known = history.clone();
+        let mut best = self.sampled(search, history, first.clone(), Plan::SAMPLED)?;
+        if let Some(wider) = self.tighten(&mut best) {
+            let mut again = known;
+            let next = self.sampled(search, &mut again, first, Plan::AGAIN)?;
+            if matches!(next, Answer::Infeasible(_)) {
+                self.tightened = wider;
+            } else {
+                (best, *history) = (next, again);
+            }
+        }
+        Ok(best)
+    }
+
+    fn sampled(
+        &self,
+        search: &Search<'_>,
+        history: &mut Vec<Candidate>,
+        first: Answer,
+        plan: Plan,
+    ) -> Result<Answer, Halt> {
+        let goal = &self.tightened;
+        // All three judges share one set of ends: other ends define another fitness.
+        let judges = [&goal.nominal(), goal, &goal.finer()]
+            .map(|goal| Judge::rescaling(goal, self.rescaled));
+        let [nominal, sampled, finer] = judges.each_ref().map(|judge| Search { judge, ..*search });
+        let searches = Searches { nominal: &nominal, sampled: &sampled, finer: &finer };
+        searches.answer(goal, history, first, plan)
+    }
+
+    /// Tightens the limits by the checks of an optimum; returns the limits before, if they changed.
+    fn tighten(&mut self, answer: &mut Answer) -> Option<DesignGoal> {
+        let Answer::Optimum(best) = answer else { return None };
+        self.goal.confirm.then_some(())?;
+        best.checks = DesignChecks::solve(self.goal, best);
+        let before = self.tightened.clone();
+        checks::tighten(&mut self.tightened, self.goal, best).then_some(before)
+    }
 }
 
 /// Estimates the units of work of each part of the search.

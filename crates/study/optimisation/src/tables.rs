@@ -28,6 +28,8 @@ pub const NEAREST_DEFINITION: &str = "nearest.toml";
 pub const FRONT: &str = "front.csv";
 /// Table of every evaluated design.
 pub const HISTORY: &str = "history.csv";
+/// Column of requirements that a check of the best design contradicts, separated by `; `.
+pub const FAILED_CHECKS: &str = "failed_checks";
 /// The goal, including overrides.
 pub const GOAL: &str = "goal.toml";
 
@@ -53,6 +55,11 @@ pub fn optimum_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
             "prices",
             "-",
             "what each of these costs, by its multiplier; empty where no multipliers balance the slopes, as on a kink",
+        ),
+        (
+            FAILED_CHECKS,
+            "-",
+            "requirements that a check contradicts: full substrate coupling, other load positions or new samples",
         ),
     ];
     let own = own.map(|(name, unit, meaning)| (name.to_owned(), unit, meaning));
@@ -257,6 +264,9 @@ fn best_rows(goal: &DesignGoal, designs: &[BestDesign]) -> Vec<Cells> {
         );
         cells.push(words.bindings(&best.bindings, &best.target).into());
         cells.push(words.prices(&best.bindings, &best.target).into());
+        let failed = best.contradictions(goal);
+        let failed: Vec<String> = failed.iter().map(ToString::to_string).collect();
+        cells.push(failed.join("; ").into());
         cells.extend(statistic_cells(goal, best));
         cells
     };

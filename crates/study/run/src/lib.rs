@@ -70,6 +70,7 @@ mod run_journal;
 mod solve;
 mod status;
 mod tables;
+mod weakest_place;
 
 pub use audit::{Audit, LargestDifference, SecondWay};
 pub use coupling_change::{CoupledMeasure, CouplingChange};
@@ -89,3 +90,4 @@ pub use solve::work::{WorkMeter, WorkPiece, report_slow};
 pub use solver::{interrupt_paths, uninterrupted};
 pub use status::RunStatus;
 pub use tables::summary::{Best, Summary};
+pub use weakest_place::{PLACES, WeakestPlace};

@@ -15,7 +15,7 @@ use skin::puncture::{self, Weakest};
 use sweep::{JudgedModes, PARAMETERS};
 
 use super::selection::{SelectedDesign, Selection, select};
-use super::source::{Definition, folder_within};
+use super::source::{Definition, folder_within, repeat_failed_checks};
 use super::{DONE, INCOMPLETE};
 use crate::json;
 use crate::print::{aligned, change, fold_text, rounded};
@@ -60,6 +60,7 @@ pub struct Arguments {
 /// Solves one design, prints its measures, and writes them with its path.
 pub fn design(arguments: &Arguments) -> anyhow::Result<u8> {
     let mut design = choose(arguments)?;
+    repeat_failed_checks(&arguments.definition.path)?;
     if arguments.sensitivity {
         design.sweep = design.sweep.with_sensitivity();
     }

@@ -16,7 +16,7 @@ use super::figure_file::write_file;
 use super::options::decimal;
 use super::own_files::require_own;
 use super::selection::{SelectedDesign, Selection, select};
-use super::source::{Definition, require_folder_of};
+use super::source::{Definition, repeat_failed_checks, require_folder_of};
 use super::{DONE, PROGRAM};
 use crate::interrupt::Interrupt;
 use crate::print::{aligned, note, print, rounded};
@@ -104,6 +104,7 @@ pub fn make(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> 
             designs.len()
         );
     };
+    repeat_failed_checks(&arguments.definition.path)?;
     let case = design.case();
     let patch = patch(&case, arguments)?;
     // Before the analysis, because a row may be too long.

@@ -266,3 +266,28 @@ fn a_weaker_load_position_of_the_best_design_is_reported() {
     let (text, _) = told(&goal.replace("'guided'", "'free'"), "weakest_force");
     assert!(!text.contains("Weakest place"), "{text}");
 }
+
+/// Full coupling lowers the force of the best design below its limit.
+#[test]
+fn a_requirement_that_a_check_contradicts_fails_the_search() {
+    let goal = "name = 'firm'\nmeasures = ['coverage', 'puncture']\n[variables]\n\
+        length_over_t = { from = 0.3, to = 1 }\n[designs]\ngap_over_t = 0.3\nslant_deg = 60\n[goal]\n\
+        minimize = 'length_over_t'\nrequire = 'critical_force >= 0.3'\nsamples = 8\n";
+    let place = Place::with(goal);
+    let sentence = "With full substrate coupling, critical_force is 0.28038, which misses critical_force >= 0.3.";
+    let output = place.squama("optimise x.toml").assert().code(1);
+    let text = String::from_utf8_lossy(&output.get_output().stdout).into_owned();
+    assert!(text.contains(sentence), "{text}");
+    assert!(place.read("results/firm/optimum.csv").contains("which misses critical_force >= 0.3"));
+    for command in ["design results/firm", "make results/firm --set material.thickness_mm=2"] {
+        let output = place.squama(command).assert().code(0);
+        let warnings = String::from_utf8_lossy(&output.get_output().stderr).into_owned();
+        assert!(warnings.contains(sentence), "{command}: {warnings}");
+    }
+    // The search continues with a tighter limit, and no longer.
+    place.squama("optimise x.toml --set goal.confirm=true --out c").assert().code(0);
+    let full = place.prints("design c --set substrate.coupling=full --json --out d");
+    let full: serde_json::Value = serde_json::from_str(&full).expect("JSON");
+    let force = full["measures"]["critical_force"].as_f64().expect("a force");
+    assert!((0.3..0.305).contains(&force), "{force}");
+}

@@ -15,9 +15,9 @@ fn the_best_design_is_confirmed_on_new_samples() {
     insta::assert_snapshot!(answer);
     let header = place.read("results/made/optimum.csv");
     let header = header.lines().next().expect("a header").to_owned();
-    assert!(
-        header.ends_with(",binding,prices,yield,yield_low,yield_high,yield_seen,fresh_samples")
-    );
+    assert!(header.ends_with(
+        ",binding,prices,failed_checks,yield,yield_low,yield_high,yield_seen,fresh_samples"
+    ));
     // Designs without samples have only nominal values.
     let history = place.read("results/made/history.csv");
     for word in [",nominal,", ",short,", ",met,", ",tolerance,"] {

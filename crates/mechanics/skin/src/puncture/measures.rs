@@ -122,15 +122,26 @@ impl PunctureMeasures {
     /// Adds the critical force `across` the row.
     ///
     /// `along` is the one at the weakest position along it. Both are `None` if a path did not reach
-    /// its end; the first failure is then unknown, too.
+    /// its end. `borne` is the largest force on the path across. If the row across bore more than the
+    /// row along before its path ended, the row along fails first, and the force across is not needed.
     #[must_use]
-    pub fn with_across(mut self, across: Option<f64>, along: Option<f64>) -> Self {
-        let any_direction = across.zip(along).map(|(across, along)| across.min(along));
+    pub fn with_across(
+        mut self,
+        across: Option<f64>,
+        borne: Option<f64>,
+        along: Option<f64>,
+    ) -> Self {
+        let bears = |force: f64| borne.is_some_and(|borne| borne >= force);
+        let any_direction = match across {
+            Some(across) => along.map(|along| across.min(along)),
+            None => along.filter(|along| bears(*along)),
+        };
         self.across = AcrossMeasures { force: across, any_direction };
         match (across, self.failure.force) {
             (Some(across), Some(along)) if across < along => {
                 (self.failure.mode, self.failure.force) = (Some(FailureMode::Across), Some(across));
             }
+            (None, Some(along)) if bears(along) => {}
             // An unknown force across may be the smaller one.
             (None, _) => (self.failure.mode, self.failure.force) = (None, None),
             _ => {}
@@ -216,4 +227,26 @@ impl PunctureMeasures {
 fn peak(path: &[PuncturePoint]) -> Option<&PuncturePoint> {
     let highest = |best: &'_ PuncturePoint, point: &'_ PuncturePoint| point.force > best.force;
     path.iter().skip(1).reduce(|best, point| if highest(best, point) { point } else { best })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_row_that_bears_more_across_leaves_the_first_failure_along_the_row() {
+        let failure = FailureMeasures {
+            mode: Some(FailureMode::Tilt),
+            force: Some(2.0),
+            ..FailureMeasures::default()
+        };
+        let along = PunctureMeasures { failure, ..PunctureMeasures::default() };
+        let borne = |force| along.with_across(None, Some(force), Some(2.0));
+        assert_eq!(borne(3.0).failure.force, Some(2.0));
+        assert_eq!(borne(3.0).across.any_direction, Some(2.0));
+        assert_eq!(borne(1.0).failure.force, None);
+        assert_eq!(borne(1.0).across.any_direction, None);
+        let weaker = along.with_across(Some(1.5), Some(1.5), Some(2.0)).failure;
+        assert_eq!((weaker.mode, weaker.force), (Some(FailureMode::Across), Some(1.5)));
+    }
 }

@@ -15,9 +15,9 @@ use super::refusal::not_accepted;
 const MOST_OBJECTIVES: usize = 4;
 
 /// Keys of the section.
-const KEYS: [&str; 11] = [
-    "maximize", "minimize", "require", "protects", "weights", "rescale", "sound", "samples",
-    "points", "skins", "seed",
+const KEYS: [&str; 12] = [
+    "maximize", "minimize", "require", "protects", "weights", "rescale", "sound", "confirm",
+    "samples", "points", "skins", "seed",
 ];
 
 /// A column, with the key and the position in the file.
@@ -34,6 +34,7 @@ pub(super) struct GoalSection {
     pub standards: Vec<&'static Standard>,
     pub fitness: FitnessSection,
     pub sound: bool,
+    pub confirm: bool,
     pub samples: usize,
     pub points: usize,
     pub skins: usize,
@@ -77,6 +78,10 @@ pub fn goal_schema() -> Json {
             "type": "boolean", "default": default.sound,
             "description": "exclude designs with a folded surface",
         }),
+        json!({
+            "type": "boolean", "default": default.confirm,
+            "description": "meet the requirements with full substrate coupling and at eleven load positions, too",
+        }),
         count(SAMPLES, default.samples, "number of space-filling points"),
         count(POINTS, default.points, "number of points of a front"),
         count(SKINS, default.skins, "number of samples of each design, for yields and quantiles"),
@@ -99,6 +104,7 @@ impl Default for GoalSection {
             standards: Vec::new(),
             fitness: FitnessSection::default(),
             sound: true,
+            confirm: false,
             samples: 128,
             points: 30,
             skins: 200,
@@ -119,6 +125,7 @@ impl GoalSection {
             "weights" => self.fitness.weights(entry)?,
             "rescale" => self.fitness.rescale(entry)?,
             "sound" => self.sound = switch(entry)?,
+            "confirm" => self.confirm = switch(entry)?,
             "samples" => self.samples = count(entry, SAMPLES)?,
             "points" => self.points = count(entry, POINTS)?,
             "skins" => {

@@ -35,12 +35,16 @@ pub(crate) struct Searches<'s> {
 impl Searches<'_> {
     /// Searches for the answer to a goal about samples.
     ///
-    /// The history includes nominal designs.
-    pub fn answer(&self, goal: &DesignGoal, history: &mut Vec<Candidate>) -> Result<Answer, Halt> {
+    /// `first` is the answer by nominal designs. A nominal design costs one solution, a sampled one as
+    /// many as it has samples, so nominal designs provide the starts. The history includes them.
+    pub fn answer(
+        &self,
+        goal: &DesignGoal,
+        history: &mut Vec<Candidate>,
+        first: Answer,
+        plan: Plan,
+    ) -> Result<Answer, Halt> {
         let Self { nominal, sampled, finer } = self;
-        // A nominal design costs one solution, a sampled one as many as it has samples, so nominal
-        // designs provide the starts.
-        let first = answer(nominal, history, Plan::STARTS, goal.points.min(NOMINAL_POINTS))?;
         let seeds = seeds(nominal, history, &first);
         let mut is_admitted = false;
         for candidate in history.iter_mut() {
@@ -61,7 +65,7 @@ impl Searches<'_> {
         let evaluated: Vec<Candidate> =
             seeds.into_par_iter().map(evaluate).collect::<Result<_, _>>()?;
         history.extend(evaluated);
-        let mut answer = answer(sampled, history, Plan::SAMPLED, goal.points)?;
+        let mut answer = answer(sampled, history, plan, goal.points)?;
         match &mut answer {
             Answer::Optimum(best) => {
                 let is_refined = refine(self, best, history)?;

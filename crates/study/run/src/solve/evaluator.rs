@@ -323,12 +323,15 @@ fn add_across(case: &Case, result: &mut PunctureResult, across: &Result<Puncture
     let punctured = across.as_ref().map(|puncture| PunctureResult::new(puncture, 0.0));
     result.across = Some(punctured.as_ref().map_or_else(|outcome| **outcome, |p| p.outcome));
     let force = punctured.ok().and_then(|puncture| puncture.measures.critical_force);
+    let path = across.iter().flat_map(|puncture| &puncture.path);
+    let borne = path.map(|point| point.force).reduce(f64::max);
     let measures = &mut result.measures;
     let along = match case.puncture.places {
         Some(_) => measures.weakest.force,
         None => measures.critical_force,
     };
-    *measures = measures.with_across(force.map(|force| force * case.across_factor()), along);
+    let [force, borne] = [force, borne].map(|force| Some(force? * case.across_factor()));
+    *measures = measures.with_across(force, borne, along);
 }
 
 fn bent_sample(case: &Case, sample: u64) -> Result<FlexureResult, Outcome> {

@@ -150,9 +150,9 @@ pub(super) fn choose_direction(
     measures: &PunctureMeasures,
     derivatives: &mut Vec<ParameterDerivative>,
 ) {
-    let (Some(across), Some(least)) = (measures.across.force, measures.across.any_direction) else {
-        return;
-    };
+    let Some(least) = measures.across.any_direction else { return };
+    // Without a critical tilt across, the row along is the weaker one.
+    let across = measures.across.force.unwrap_or(f64::INFINITY);
     let along = match measures.weakest.force {
         Some(_) => name::WEAKEST_FORCE,
         None => name::CRITICAL_FORCE,

@@ -70,6 +70,10 @@ fn design(goal: &DesignGoal, words: &BindingText<'_>, best: &BestDesign) -> Valu
         design["agreement"] =
             json!({ "searches": of.searches, "agreeing": of.agreeing, "spread": of.spread });
     }
+    let failed = best.contradictions(goal);
+    design["failed_checks"] = failed.iter().map(ToString::to_string).collect();
+    design["full_coupling"] = json!(best.checks.coupling);
+    design["weakest_place"] = json!(best.checks.places);
     if let Some(made) = &best.confirmation {
         design["made"] = json!(made);
     }

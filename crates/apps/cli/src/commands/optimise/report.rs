@@ -5,19 +5,19 @@ use std::time::Duration;
 
 use optimisation::{
     Agreement, Answer, BestDesign, BindingText, Candidate, DesignGoal, Found, Front, Judgement,
+    described,
 };
 use ranking::{Requirement, Unmet};
 use results::Outcome;
 use results::columns::{Cell, design_columns, is_invalid_after_fold, mode_column};
-use run::CouplingChange;
+use run::{CouplingChange, PLACES, WeakestPlace};
 use sweep::JudgedModes;
 use text::number::same;
 
-use super::super::couplings::{couplings_report, measured};
+use super::super::couplings::couplings_report;
 use super::super::rank::obstacle;
 use super::samples;
-use super::weakest_place::weakest_place_note;
-use crate::print::{FOLDED, aligned, counted, digits, fold_text, rounded, time};
+use crate::print::{FAILED, FOLDED, aligned, counted, digits, fold_text, rounded, time};
 
 /// Formats the result of a search.
 pub struct SearchReport<'a> {
@@ -99,26 +99,46 @@ impl SearchReport<'_> {
             let rows: Vec<_> = bindings.map(row).collect();
             let _ = write!(text, " It is limited by\n{}", aligned(&rows));
         }
-        text += &weakest_place_note(self.goal, &best.candidate).unwrap_or_default();
-        text += &self.coupled(&best.candidate);
+        text += &best.checks.places.and_then(|places| weakest_place(&places)).unwrap_or_default();
+        let coupling = best.checks.coupling.clone();
+        let named = coupling
+            .map(|change| CouplingChange { design: "the best design".to_owned(), ..change });
+        text += &couplings_report(named.as_slice(), &self.goal.requirements);
         if let Some(modes) = judged_modes(self.goal, &best.candidate) {
             let _ = write!(text, "\n{modes}");
         }
-        text + &best.confirmation.as_ref().map(samples::text).unwrap_or_default()
+        text += &best.confirmation.as_ref().map(samples::text).unwrap_or_default();
+        text + &self.tightened() + &self.contradicted(best)
     }
 
-    /// Reports the effect of full substrate coupling on the columns of the goal.
-    fn coupled(&self, best: &Candidate) -> String {
-        let DesignGoal { space, objectives, requirements, .. } = self.goal;
-        let asked = objectives.iter().map(|objective| &*objective.column);
-        let required = requirements.iter().map(|requirement| &*requirement.column);
-        let columns = measured(asked.chain(required));
-        let alone = space.sweep().at(&space.case(&best.point));
-        let number = alone.grid().number(0).to_string();
-        let change = CouplingChange::solve(&alone, &number, &columns);
-        let named =
-            change.map(|change| CouplingChange { design: "the best design".to_owned(), ..change });
-        couplings_report(named.as_slice(), requirements)
+    /// Lists the limits that the search tightened, so that the checks pass.
+    fn tightened(&self) -> String {
+        let both = self.goal.requirements.iter().zip(&self.found.searched);
+        let changed = both.filter(|(meant, searched)| meant != searched);
+        let line = |(meant, searched): (&Requirement, &Requirement)| {
+            format!(
+                "\nThe search required {} {} {}, so that the checks meet {meant}.\n",
+                searched.column,
+                searched.relation.sign(),
+                digits(searched.limit)
+            )
+        };
+        changed.map(line).collect()
+    }
+
+    /// Names the requirements that a check contradicts, with the remedy.
+    fn contradicted(&self, best: &BestDesign) -> String {
+        let contradictions = best.contradictions(self.goal);
+        if contradictions.is_empty() {
+            return String::new();
+        }
+        let lines: String = contradictions.iter().map(|of| format!("  {FAILED} {of}.\n")).collect();
+        let remedy = if self.goal.confirm {
+            "No design of the search passes the checks: relax a requirement or widen a variable."
+        } else {
+            "To search for a design that passes the checks: --set goal.confirm=true"
+        };
+        format!("\nThe best design fails a check\n{lines}  {remedy}\n")
     }
 
     /// States the number of starts and regions of the search.
@@ -253,6 +273,27 @@ impl SearchReport<'_> {
 
 const FOLDED_MEANS: &str =
     "  ⚠ the surface of the substrate folds: values at the critical tilt are not valid\n";
+
+/// A force above this fraction of the force at the requested position is not reported.
+const WEAKER: f64 = 0.99;
+
+/// States the weakest load position, if it is weaker than the position of the search.
+fn weakest_place(places: &WeakestPlace) -> Option<String> {
+    let WeakestPlace { requested, weakest, place } = places;
+    // In newtons where the material has a modulus, because the goal then uses them too.
+    let [dimensionless, physical] = [0, 1].map(|k| requested[k].zip(weakest[k]));
+    let (suffix, unit) = if physical.is_some() { ("_N", " N") } else { ("", "") };
+    let (requested, weakest) = physical.or(dimensionless)?;
+    (weakest < WEAKER * requested).then(|| {
+        format!(
+            "\nWeakest place: {}, {}{unit} ({}{unit} at the place requested)\n  \
+             To search for the largest force at the weakest place, use weakest_force{suffix} with puncture.places = {PLACES}.\n",
+            described((*place).unwrap_or_default()),
+            digits(weakest),
+            digits(requested),
+        )
+    })
+}
 
 /// Returns the force at which the surface folds, if that invalidates a column of the goal.
 fn fold_force(goal: &DesignGoal, best: &BestDesign) -> Option<f64> {

@@ -11,10 +11,7 @@ use sweep::JudgedModes;
 use super::super::couplings::couplings_report;
 use super::checks::Checks;
 use super::gap_changes::gap_changes_report;
-use crate::print::{FOLDED, aligned, counted, digits, shortfall};
-
-/// Marks a design that fails a check.
-const FAILED: char = '✗';
+use crate::print::{FAILED, FOLDED, aligned, counted, digits, shortfall};
 
 /// Maximum number of listed designs.
 const LISTED: usize = 10;

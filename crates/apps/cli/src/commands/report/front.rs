@@ -10,10 +10,12 @@ use results::{Completeness, Results, VerifiedFolder};
 use sweep::{PARAMETERS, Parameter, Scalar, Sweep};
 
 use crate::commands::folder_contents::FolderContents;
+use crate::commands::source::repeat_failed_checks;
 
 /// Reads the designs of a search, to show them beside the designs of `grid`.
 pub fn front(folder: &Path, grid: &FolderContents) -> anyhow::Result<PageFront> {
     let name = folder.display();
+    repeat_failed_checks(folder)?;
     // A search has no expected number of designs.
     let found = VerifiedFolder::open(folder, Completeness::Partial)?;
     let table = [FRONT, OPTIMUM].into_iter().find(|table| found.holds(table));
@@ -65,10 +67,8 @@ fn objectives(nominal: &DesignGoal) -> Vec<Criterion> {
 
 /// Returns the statistics over samples that a goal names, without duplicates.
 fn statistics(goal: &DesignGoal) -> Vec<String> {
-    let objectives = goal.objectives.iter().map(|objective| objective.column.as_ref());
-    let columns = objectives.chain(goal.requirements.iter().map(|r| r.column.as_str()));
     let mut statistics: Vec<String> = Vec::new();
-    for column in columns.filter(|column| goal.statistic(column).is_some()) {
+    for column in goal.columns().filter(|column| goal.statistic(column).is_some()) {
         if !statistics.iter().any(|name| name == column) {
             statistics.push(column.to_owned());
         }

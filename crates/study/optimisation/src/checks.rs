@@ -1,0 +1,200 @@
+//! Checks of a best design with finer models.
+//!
+//! The checks are full substrate coupling, other load positions and new samples. They may contradict a
+//! requirement that the fast model of the search meets. With `confirm = true` the search then tightens the limit `l` of the requirement by the
+//! ratio of both values, and continues:
+//!
+//! ```text
+//! l ← l · v_search/v_check                                                               (O10)
+//! ```
+
+use std::fmt;
+
+use ranking::Requirement;
+use results::columns::{is_invalid_after_fold, name, parameter_of};
+use run::{CouplingChange, WeakestPlace};
+use text::number;
+
+use crate::best::BestDesign;
+use crate::column::NumberColumn;
+use crate::goal::DesignGoal;
+
+/// Factor by which a tightened limit exceeds the predicted one, because the ratio of both models
+/// differs at the next best design.
+const SAFETY: f64 = 1.005;
+
+/// A best design solved with finer models.
+#[derive(Clone, Debug, Default)]
+pub struct DesignChecks {
+    /// Columns of the goal with full substrate coupling; `None` if they do not change.
+    pub coupling: Option<CouplingChange>,
+    /// Forces at other load positions; `None` unless the goal depends on a guided needle.
+    pub places: Option<WeakestPlace>,
+}
+
+/// A check of a best design.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Check {
+    /// Full substrate coupling.
+    Coupling,
+    /// Other load positions; the weakest of them, if it is known.
+    Places(Option<f64>),
+    /// New samples, and their number.
+    Samples(usize),
+}
+
+/// A requirement that a check contradicts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contradiction {
+    /// The check.
+    pub check: Check,
+    /// The requirement.
+    pub requirement: Requirement,
+    /// Value of the search.
+    pub searched: Option<f64>,
+    /// Value of the check, if there is one.
+    pub value: Option<f64>,
+}
+
+impl DesignChecks {
+    /// Solves the best design of `goal` with finer models.
+    pub(crate) fn solve(goal: &DesignGoal, best: &BestDesign) -> Self {
+        let alone = goal.space.sweep().at(&best.row.case);
+        let number = alone.grid().number(0).to_string();
+        let mut columns: Vec<&str> = Vec::new();
+        for column in goal.columns() {
+            if parameter_of(column).is_none() && !columns.contains(&column) {
+                columns.push(column);
+            }
+        }
+        let is_about_force = columns.iter().any(|column| is_force(column).is_some());
+        Self {
+            coupling: CouplingChange::solve(&alone, &number, &columns),
+            places: is_about_force.then(|| WeakestPlace::solve(&alone, &number)).flatten(),
+        }
+    }
+}
+
+/// Returns true for a puncture force in newtons, false for a dimensionless one; `None` for columns
+/// that do not depend on the load position.
+fn is_force(column: &str) -> Option<bool> {
+    let stem = column.strip_suffix("_N").unwrap_or(column);
+    let forces =
+        [name::CRITICAL_FORCE, name::SOUND_FORCE, name::FAILURE_FORCE, name::WEAKEST_FORCE];
+    forces.contains(&stem).then_some(stem != column)
+}
+
+impl BestDesign {
+    /// Returns the requirements of `goal` that a check contradicts.
+    pub fn contradictions(&self, goal: &DesignGoal) -> Vec<Contradiction> {
+        let finer = goal.requirements.iter().flat_map(|requirement| {
+            let column = NumberColumn::named(goal.space.sweep(), &requirement.column);
+            let searched = column.and_then(|column| column.value(&self.row));
+            let values = [self.coupled(requirement), self.elsewhere(requirement)];
+            let is_missed = |value: Option<f64>| !value.is_some_and(|v| requirement.is_met(v));
+            let of = move |(check, value)| Contradiction {
+                check,
+                requirement: requirement.clone(),
+                searched,
+                value,
+            };
+            values.into_iter().flatten().filter(move |(_, value)| is_missed(*value)).map(of)
+        });
+        let mut all: Vec<_> = finer.collect();
+        let Some(made) = &self.confirmation else { return all };
+        // Undecided cases are reported in the text.
+        let broken = made.broken.iter().filter(|requirement| !made.is_open(requirement));
+        all.extend(broken.map(|requirement| {
+            let estimate = made.estimate(&requirement.column);
+            Contradiction {
+                check: Check::Samples(made.fresh),
+                requirement: requirement.clone(),
+                searched: estimate.and_then(|of| of.seen),
+                value: estimate.and_then(|of| of.value),
+            }
+        }));
+        all
+    }
+
+    /// Returns the value of a required column with full substrate coupling.
+    fn coupled(&self, requirement: &Requirement) -> Option<(Check, Option<f64>)> {
+        let change = self.checks.coupling.as_ref()?;
+        let measure = change.measures.iter().find(|m| m.column == requirement.column)?;
+        // Beyond a fold the value is not valid.
+        let is_valid = !(change.folds && is_invalid_after_fold(&requirement.column));
+        Some((Check::Coupling, measure.full.filter(|_| is_valid)))
+    }
+
+    /// Returns the force at the weakest load position, if a force is required.
+    fn elsewhere(&self, requirement: &Requirement) -> Option<(Check, Option<f64>)> {
+        let is_physical =
+            is_force(&requirement.column).filter(|_| requirement.direction() > 0.0)?;
+        let places = self.checks.places.as_ref()?;
+        Some((Check::Places(places.place), places.weakest[usize::from(is_physical)]))
+    }
+}
+
+impl fmt::Display for Check {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Coupling => write!(f, "With full substrate coupling"),
+            Self::Places(None) => write!(f, "At another load position"),
+            Self::Places(Some(position)) => write!(f, "At {}", described(position)),
+            Self::Samples(count) => write!(f, "Over {} new samples", number::text(count as f64)),
+        }
+    }
+}
+
+/// Describes a load position: 0 is the left corner of the top, 1 the right corner.
+pub fn described(position: f64) -> String {
+    if position == 0.0 {
+        "the left corner of the scale".to_owned()
+    } else if position == 1.0 {
+        "the right corner of the scale".to_owned()
+    } else {
+        format!("{} of the width from the left corner", number::rounded(position, 3))
+    }
+}
+
+impl fmt::Display for Contradiction {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { check, requirement, value, .. } = self;
+        // The weakest place bounds every force.
+        let column = match (check, is_force(&requirement.column)) {
+            (Check::Places(_), Some(true)) => "the critical force in N",
+            (Check::Places(_), _) => "the critical force",
+            _ => &requirement.column,
+        };
+        match value {
+            Some(value) => write!(f, "{check}, {column} is {}", number::rounded(*value, 5))?,
+            None => write!(f, "{check}, {column} has no valid value")?,
+        }
+        write!(f, ", which misses {requirement}")
+    }
+}
+
+/// Tightens the requirements of `limits` that the checks of a best design contradict.
+///
+/// `goal` has the limits of the user. Returns true if a limit changed.
+pub(crate) fn tighten(limits: &mut DesignGoal, goal: &DesignGoal, best: &BestDesign) -> bool {
+    let contradictions = best.contradictions(goal);
+    // Samples are judged by the same limits, so new samples need no tighter ones.
+    let is_finer = |of: &&Contradiction| !matches!(of.check, Check::Samples(_));
+    let mut is_tighter = false;
+    for (own, meant) in limits.requirements.iter_mut().zip(&goal.requirements) {
+        let missed = contradictions.iter().filter(is_finer).filter(|of| of.requirement == *meant);
+        let ratio = |of: &Contradiction| Some(of.searched? / of.value?);
+        let ratios: Vec<f64> =
+            missed.filter_map(ratio).filter(|r| r.is_finite() && *r > 0.0).collect();
+        if ratios.is_empty() {
+            continue;
+        }
+        let safety = if meant.direction() > 0.0 { SAFETY } else { SAFETY.recip() };
+        let limit = meant.limit * ratios.iter().product::<f64>() * safety;
+        if own.is_met(limit) && limit != own.limit {
+            own.limit = limit;
+            is_tighter = true;
+        }
+    }
+    is_tighter
+}
