@@ -1,5 +1,6 @@
 //! The commands, one file each, and modules that several commands share.
 
+mod answer;
 mod audit;
 mod calibrate;
 mod check;

@@ -40,14 +40,13 @@ pub const FOLDED: char = '⚠';
 /// Marks a design that fails a check.
 pub const FAILED: char = '✗';
 
-/// Warns that the surface of the substrate folds at a force; empty without a fold.
-pub fn fold_text(fold_force: Option<f64>) -> String {
-    fold_force.map_or_else(String::new, |force| {
-        format!(
-            "\n{FOLDED} The surface of the substrate folds at a force of {}: values at the critical tilt are not valid.\n",
-            digits(force)
-        )
-    })
+/// Formats sentences, one per line, each after a mark.
+pub fn marked(mark: char, sentences: &[String]) -> String {
+    let mut text = String::new();
+    for sentence in sentences {
+        text.extend([&mark.to_string(), " ", sentence, "\n"]);
+    }
+    text
 }
 
 /// Prints a warning to stderr.

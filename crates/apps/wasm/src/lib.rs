@@ -34,7 +34,6 @@ mod follow;
 mod path;
 mod request;
 mod solver;
-mod warnings;
 
 pub use answer::{Answer, Closest, Required, Slope, Units, Value};
 pub use follow::Followed;

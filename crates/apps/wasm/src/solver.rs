@@ -3,7 +3,7 @@
 use ranking::Requirement;
 use results::DesignRow;
 use results::columns::{design_columns, name};
-use run::{Evaluator, GapChange};
+use run::{Evaluator, GapChange, validity_warnings};
 use skin::Imperfection;
 use skin::flexure::{self, Flexure};
 use skin::puncture::{self, At};
@@ -13,7 +13,6 @@ use crate::answer::{Answer, Required, Slope, Units, Value, written};
 use crate::follow::follow;
 use crate::path::{BentStrip, PuncturedRow};
 use crate::request::Request;
-use crate::warnings::warnings;
 
 /// Largest step along the curves of a complete answer, as a fraction of the path.
 const CURVE_STEP: f64 = 0.02;
@@ -101,7 +100,7 @@ impl Solver {
             id: request.id,
             fine: request.fine,
             requirements: Required::all(&requirements, &values),
-            warnings: warnings(&case, row, &values, change.flatten().as_ref()),
+            warnings: validity_warnings(&case, row, None, change.flatten().as_ref()),
             values,
             units: Units::of(&case),
             puncture,

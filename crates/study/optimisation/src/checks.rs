@@ -12,7 +12,7 @@ use std::fmt;
 
 use ranking::Requirement;
 use results::columns::{is_invalid_after_fold, name, parameter_of};
-use run::{CouplingChange, WeakestPlace};
+use run::{CouplingChange, GapChange, WeakestPlace};
 use text::number;
 
 use crate::best::BestDesign;
@@ -28,6 +28,8 @@ const SAFETY: f64 = 1.005;
 pub struct DesignChecks {
     /// Columns of the goal with full substrate coupling; `None` if they do not change.
     pub coupling: Option<CouplingChange>,
+    /// Columns of the goal with gaps 10 % smaller and larger.
+    pub gaps: Option<GapChange>,
     /// Forces at other load positions; `None` unless the goal depends on a guided needle.
     pub places: Option<WeakestPlace>,
 }
@@ -70,6 +72,7 @@ impl DesignChecks {
         let is_about_force = columns.iter().any(|column| is_force(column).is_some());
         Self {
             coupling: CouplingChange::solve(&alone, &number, &columns),
+            gaps: GapChange::solve(&alone, &number, &columns),
             places: is_about_force.then(|| WeakestPlace::solve(&alone, &number)).flatten(),
         }
     }

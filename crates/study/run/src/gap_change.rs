@@ -88,6 +88,14 @@ fn measure(column: &Column<DesignRow>, solved: &[DesignRow; 3]) -> Option<Measur
     })
 }
 
+/// Solves design `number` of `sweep`, without imperfect samples.
+///
+/// Returns `None` if the design does not exist or is slow to solve.
+pub fn solved_row(sweep: &Sweep, number: &str) -> Option<DesignRow> {
+    let (_, [row]) = again(sweep, number, [()], |_, ()| ())?;
+    Some(row)
+}
+
 /// Returns design `number` of `sweep` and its variants with each of the `changes`.
 ///
 /// Returns `None` if the design does not exist or is slow to solve. Samples of imperfect rows are not

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::ensure;
 use clap::Args;
+use ranking::Requirement;
 use results::columns::design_columns;
 use results::{
     Cell, Claim, Column, DesignRow, Maker, Outcome, ParameterDerivative, ResultsFolder,
@@ -14,11 +15,12 @@ use serde_json::{Map, Value, json};
 use skin::puncture::{self, Weakest};
 use sweep::{JudgedModes, PARAMETERS};
 
+use super::answer::{DesignAnswer, SearchedDesign};
 use super::selection::{SelectedDesign, Selection, select};
-use super::source::{Definition, folder_within, repeat_failed_checks};
+use super::source::{Definition, folder_within};
 use super::{DONE, INCOMPLETE};
 use crate::json;
-use crate::print::{aligned, change, fold_text, rounded};
+use crate::print::{aligned, change, rounded};
 
 /// Arguments of `squama design`.
 #[derive(Debug, Args)]
@@ -60,12 +62,12 @@ pub struct Arguments {
 /// Solves one design, prints its measures, and writes them with its path.
 pub fn design(arguments: &Arguments) -> anyhow::Result<u8> {
     let mut design = choose(arguments)?;
-    repeat_failed_checks(&arguments.definition.path)?;
+    let searched = SearchedDesign::read(&arguments.definition.path)?;
     if arguments.sensitivity {
         design.sweep = design.sweep.with_sensitivity();
     }
     // Solved before the claim, which removes the files of the previous call.
-    let chosen = SolvedChoice::new(design);
+    let chosen = SolvedChoice::new(design, searched.requirements);
     let folder = ResultsFolder::new(chosen.folder(arguments));
     let claim = Claim::take(&folder, Maker::Design)?;
     let mut files = write_path_tables(&folder, &chosen.solved)?;
@@ -110,17 +112,19 @@ struct SolvedChoice {
     design: SelectedDesign,
     solved: SolvedDesign,
     columns: Vec<Column<DesignRow>>,
+    /// Requirements of the search that found the design.
+    requirements: Vec<Requirement>,
 }
 
 impl SolvedChoice {
-    fn new(design: SelectedDesign) -> Self {
+    fn new(design: SelectedDesign, requirements: Vec<Requirement>) -> Self {
         let evaluator = Evaluator::new(design.sweep.measures());
         let number = design.number.unwrap_or(design.sweep.grid().number(0));
         let tell = |text| eprintln!("{text}");
         let solve = || evaluator.solve(number, &design.case());
         let solved = run::report_slow(&format!("design {number}"), tell, solve);
         let columns = design_columns(&design.sweep);
-        Self { design, solved, columns }
+        Self { design, solved, columns, requirements }
     }
 
     fn folder(&self, arguments: &Arguments) -> std::path::PathBuf {
@@ -141,8 +145,14 @@ impl SolvedChoice {
         let sensitivity = sensitivity(&self.solved.row.result.sensitivity);
         let (title, changes, table) = (self.title(), self.changes(), aligned(&rows));
         let (places, judged) = (self.places(), self.judged());
-        let notes = [self.overlap(), self.fold(), places, judged, sensitivity].concat();
-        format!("{title}\n{changes}\n{table}{notes}")
+        let answer = self.answer();
+        let warnings = answer.warnings_text(None);
+        let notes = [self.overlap(), warnings, places, judged, sensitivity].concat();
+        let required = match answer.rows() {
+            rows if rows.is_empty() => String::new(),
+            rows => format!("{}\n", aligned(&rows)),
+        };
+        format!("{title}\n{changes}\n{required}{table}{notes}")
     }
 
     /// States the radius at which neighbouring scales touch; empty unless they overlap at rest.
@@ -163,10 +173,9 @@ impl SolvedChoice {
         }
     }
 
-    /// Warns if the surface folds, beyond which results are not valid.
-    fn fold(&self) -> String {
-        let puncture = self.solved.row.result.puncture;
-        fold_text(puncture.and_then(|puncture| puncture.measures.fold_force))
+    fn answer(&self) -> DesignAnswer<'_> {
+        let Self { design, solved, requirements, .. } = self;
+        DesignAnswer { sweep: &design.sweep, row: &solved.row, requirements }
     }
 
     /// Explains why the weakest load position is unknown; empty if it is known.
@@ -240,6 +249,7 @@ impl SolvedChoice {
             "folder": folder,
             "files": files,
         });
+        answer["answer"] = self.answer().record(None);
         if let Some(modes) = self.failure_modes() {
             answer["failure_modes"] = json::failure_modes(&modes);
         }

@@ -12,9 +12,10 @@ use report::Explorer;
 use sweep::{Sweep, key};
 use text::shell_word;
 
+use super::answer::SearchedDesign;
 use super::figure_file::write_file;
 use super::requirement_args::RequirementArgs;
-use super::source::{Defined, Definition, defined, repeat_failed_checks, require_folder_of};
+use super::source::{Defined, Definition, defined, require_folder_of};
 use super::{DONE, PROGRAM};
 use crate::print::{note, print};
 
@@ -48,7 +49,7 @@ pub struct Arguments {
 /// Writes the interactive page and opens it.
 pub fn explore(arguments: &Arguments) -> anyhow::Result<u8> {
     let (sweep, mut requirements) = sweep_and_goal(&arguments.definition)?;
-    repeat_failed_checks(&arguments.definition.path)?;
+    SearchedDesign::read(&arguments.definition.path)?;
     // A layer needs boundary elements, which are too large and slow for an interactive page.
     ensure!(
         !sweep.gives(key::TISSUE),

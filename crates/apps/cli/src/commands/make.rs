@@ -6,20 +6,21 @@ use anyhow::{Context as _, bail, ensure};
 use clap::Args;
 use fabrication::{Format, Patch, Puncture, Sheet, deck};
 use ranking::CRITERIA;
-use results::Quantity;
 use results::columns::{measure_name, mode_column, name};
+use results::{DesignRow, Quantity};
 use run::Evaluator;
-use sweep::{Case, Measure};
+use sweep::{Case, JudgedModes, Measure};
 use uncertainty::{Analysis, SampleStore};
 
+use super::answer::{DesignAnswer, SearchedDesign};
 use super::figure_file::write_file;
 use super::options::decimal;
 use super::own_files::require_own;
 use super::selection::{SelectedDesign, Selection, select};
-use super::source::{Definition, repeat_failed_checks, require_folder_of};
+use super::source::{Definition, require_folder_of};
 use super::{DONE, PROGRAM};
 use crate::interrupt::Interrupt;
-use crate::print::{aligned, note, print, rounded};
+use crate::print::{FAILED, aligned, marked, note, print, rounded};
 
 /// Arguments of `squama make`.
 #[derive(Debug, Args)]
@@ -104,7 +105,7 @@ pub fn make(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> 
             designs.len()
         );
     };
-    repeat_failed_checks(&arguments.definition.path)?;
+    let searched = SearchedDesign::read(&arguments.definition.path)?;
     let case = design.case();
     let patch = patch(&case, arguments)?;
     // Before the analysis, because a row may be too long.
@@ -121,7 +122,7 @@ pub fn make(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> 
         note(&missing);
         list = format!("{list}\n{missing}\n");
     }
-    list.push_str(&first_failure(design));
+    list.push_str(&answer(design, &searched));
     // Analyse before writing, because the analysis may fail.
     list.push_str(&tolerances(design, out, interrupt)?);
     // Write the list first: if it fails, the previous part stays unchanged.
@@ -230,17 +231,31 @@ fn no_template(sheet: &Sheet, template: f64) -> String {
     )
 }
 
-/// States the first failure of a design, its force, and the failure modes that are judged; empty
-/// unless the definition seeks them.
-fn first_failure(design: &SelectedDesign) -> String {
-    let case = design.case();
-    let Some(modes) = case.judged_modes() else { return String::new() };
-    let solved = Evaluator::new(&[Measure::Puncture]).solve(design.sweep.grid().number(0), &case);
-    let failure = solved.row.result.puncture.map(|puncture| puncture.measures.failure);
+/// Solves the design again and returns its answer: required values, first failure and warnings.
+fn answer(design: &SelectedDesign, searched: &SearchedDesign) -> String {
+    let (sweep, case) = (&design.sweep, design.case());
+    let modes = case.judged_modes();
+    let is_quick = case.tissue_thickness.is_none() && case.imperfection.is_none();
+    let measures = if is_quick { sweep.plain_measures() } else { vec![Measure::Coverage] };
+    let row = Evaluator::new(&measures).row(sweep.grid().number(0), &case);
+    let answer = DesignAnswer { sweep, row: &row, requirements: &searched.requirements };
+    let mut text = String::new();
+    match answer.rows() {
+        rows if rows.is_empty() => {}
+        rows => text = format!("\nRequirements\n{}", aligned(&rows)),
+    }
+    text += &answer.warnings_text(None);
+    text += &marked(FAILED, &searched.failed_checks);
+    text + &modes.map_or_else(String::new, |modes| first_failure(&row, &case, &modes))
+}
+
+/// States the first failure of a design, its force, and the failure modes that are judged.
+fn first_failure(row: &DesignRow, case: &Case, modes: &JudgedModes) -> String {
+    let failure = row.result.puncture.as_ref().map(|puncture| puncture.measures.failure);
     let first = failure.and_then(|failure| Some((failure.mode?.name(), failure.force?)));
     let first = first.map_or_else(
         || "First failure unknown: the puncture could not be solved\n".to_owned(),
-        |(mode, force)| match Quantity::Force.physical(force, &case) {
+        |(mode, force)| match Quantity::Force.physical(force, case) {
             Some(newton) => format!("First failure: {mode}, at {} N\n", rounded(newton)),
             None => format!("First failure: {mode}, at a force of {}\n", rounded(force)),
         },

@@ -116,7 +116,7 @@ pub fn optimise(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<
     let files = write_found(&written, &goal, &found, &figures.collect::<Vec<_>>(), format)?;
     let report = SearchReport { goal: &goal, found: &found };
     let text = || report.text(begun.elapsed(), arguments.solving.threads.count());
-    json::answer(arguments.solving.json, || record(&goal, &found), text, (&folder, &files))?;
+    json::answer(arguments.solving.json, || record(&report), text, (&folder, &files))?;
     Ok(exit_code(&goal, &found))
 }
 

@@ -7,8 +7,8 @@ use std::sync::Mutex;
 
 use anyhow::{bail, ensure};
 use clap::Args;
-use optimisation::{DesignGoal, FAILED_CHECKS, OPTIMUM, OPTIMUM_DEFINITION};
-use results::{Completeness, Results, ResultsFolder, VerifiedFolder, verify_record};
+use optimisation::DesignGoal;
+use results::{Completeness, ResultsFolder, VerifiedFolder, verify_record};
 use sweep::{InvalidSetting, Setting, Sweep, entries, read_text};
 
 use crate::print::{note, warning};
@@ -127,26 +127,6 @@ pub fn definition_file(path: &Path) -> anyhow::Result<PathBuf> {
     );
     verify_record(&record)?;
     Ok(record)
-}
-
-/// Repeats the requirements that the checks of a search contradict, if `path` is its optimum.
-pub fn repeat_failed_checks(path: &Path) -> anyhow::Result<()> {
-    let folder = if path.ends_with(OPTIMUM_DEFINITION) { path.parent() } else { Some(path) };
-    let folder = folder.unwrap_or(path);
-    if !folder.join(OPTIMUM).is_file() {
-        return Ok(());
-    }
-    let found = VerifiedFolder::open(folder, Completeness::Partial)?;
-    let optimum = Results::of_file(&found, OPTIMUM)?;
-    // Tables of earlier versions lack the column.
-    let Ok(column) = optimum.column(FAILED_CHECKS) else { return Ok(()) };
-    if optimum.len() > 0 {
-        let failed = optimum.text(0, column);
-        for sentence in failed.split("; ").filter(|sentence| !sentence.is_empty()) {
-            warning(&format!("this design fails a check: {sentence}."));
-        }
-    }
-    Ok(())
 }
 
 /// Returns the results folder of `path`: a folder, a record in a folder, or a definition.

@@ -17,11 +17,12 @@ use uncertainty::{
     YIELD_COLUMNS,
 };
 
+use super::answer::SearchedDesign;
 use super::options::whole;
 use super::requirement_args::RequirementArgs;
 use super::sample_args::{SampleArgs, SampleFolder};
 use super::selection::ranges;
-use super::source::{Definition, read, repeat_failed_checks};
+use super::source::{Definition, read};
 use super::{DONE, INCOMPLETE, PROGRAM};
 use crate::interrupt::Interrupt;
 use crate::json;
@@ -70,7 +71,7 @@ const MOST: u64 = 100_000;
 /// Predicts the spread of the measures from tolerances, and the yield of the requirements.
 pub fn tolerance(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let sweep = read(&arguments.definition)?;
-    repeat_failed_checks(&arguments.definition.path)?;
+    SearchedDesign::read(&arguments.definition.path)?;
     check(arguments, &sweep)?;
     let requirements = arguments.required.read()?;
     let designs = designs(arguments, &sweep)?;

@@ -4,10 +4,11 @@ use rayon::iter::{
     IntoParallelIterator as _, IntoParallelRefMutIterator as _, ParallelIterator as _,
 };
 
-use super::confirmation::{FRESH, confirm};
+use super::confirmation::{Confirmation, FRESH, confirm};
 use crate::answer::{Answer, answer};
 use crate::best::{BestDesign, best_design, starts};
 use crate::candidate::{Candidate, Merit, SearchStage, Target};
+use crate::evaluated_row::StatisticUse;
 use crate::evaluations::Halt;
 use crate::goal::DesignGoal;
 use crate::improvement::Plan;
@@ -23,6 +24,12 @@ pub(crate) const SEEDS: usize = 16;
 
 /// Number of designs refined with more samples, in different regions if possible.
 pub(crate) const REFINED: usize = 2;
+
+/// Maximum number of steps from a design that fails on independent samples.
+const CONFIRMED: usize = 4;
+
+/// Length of such a step over the length to first order.
+const OVERSHOOT: f64 = 1.3;
 
 /// Searches of nominal designs, of sampled designs, and with more samples.
 #[derive(Clone, Copy)]
@@ -69,11 +76,12 @@ impl Searches<'_> {
         match &mut answer {
             Answer::Optimum(best) => {
                 let is_refined = refine(self, best, history)?;
-                check(
-                    // Independent samples follow all seen samples, and the finer search saw more.
-                    if is_refined { finer } else { sampled },
-                    std::slice::from_mut(best.as_mut()),
-                )?;
+                // Independent samples follow all seen samples, and the finer search saw more.
+                let search = if is_refined { finer } else { sampled };
+                check(search, std::slice::from_mut(best.as_mut()))?;
+                if goal.confirm {
+                    confirm_another(search, best, history)?;
+                }
             }
             Answer::Front(front) => check(sampled, &mut front.designs)?,
             Answer::Infeasible(_) => {}
@@ -111,6 +119,71 @@ fn refine(
     }
     history.append(&mut evaluated);
     Ok(is_refined)
+}
+
+/// Moves a best design that fails on independent samples until it passes.
+///
+/// Each step follows the slope of the deciding sample, by the margin that the independent samples
+/// miss. If none passes, the best design stays.
+fn confirm_another(
+    search: &Search<'_>,
+    best: &mut BestDesign,
+    history: &mut Vec<Candidate>,
+) -> Result<(), Halt> {
+    let mut point = best.candidate.point.clone();
+    let mut made = best.confirmation.clone();
+    for _ in 0..CONFIRMED {
+        let Some(failed) = made.filter(|made| !made.broken.is_empty()) else { break };
+        let Some(next) = safer(search, &point, &failed)? else { break };
+        let candidate = search.evaluate(SearchStage::Tolerance, &next, false)?.0;
+        history.push(candidate.clone());
+        if !matches!(search.merit(&candidate, &best.target), Merit::Met(_)) {
+            break;
+        }
+        made = confirm(search, &next)?;
+        if made.as_ref().is_some_and(|made| made.broken.is_empty()) {
+            let found = best_design(search, &[candidate], best.target.clone())?;
+            *best = BestDesign { agreement: best.agreement, confirmation: made, ..found };
+            break;
+        }
+        point = next;
+    }
+    Ok(())
+}
+
+/// Returns the nearest point at which the independent samples meet a yield, to first order.
+fn safer(
+    search: &Search<'_>,
+    point: &SpacePoint,
+    failed: &Confirmation,
+) -> Result<Option<SpacePoint>, Halt> {
+    let Some(judge) = search.judge.samples() else { return Ok(None) };
+    let fresh = search.evaluations.samples(point, judge.count as u64 + 1, FRESH, judge)?;
+    let required: Vec<_> = search.judge.requirements().collect();
+    let missed = search.judge.uses().find_map(|(of, q)| {
+        let StatisticUse::Requirement(k) = of else { return None };
+        let is_broken = failed.broken.iter().any(|r| r.column == required[k].column);
+        let margin = judge.requirement_margin(q, required[k], &fresh)?;
+        (is_broken && margin < 0.0).then_some((k, -margin))
+    });
+    let Some((k, missing)) = missed else { return Ok(None) };
+    let (_, row) = search.evaluate(SearchStage::Tolerance, point, true)?;
+    // By fractions of the intervals, in which a search measures distances.
+    let slopes = search.space.intervals().iter().map(|interval| {
+        let slope = search.judge.margin_slopes(k, &row, interval.parameter).smooth();
+        slope.unwrap_or_default() * interval.length()
+    });
+    let slopes: Vec<f64> = slopes.collect();
+    let square: f64 = slopes.iter().map(|slope| slope * slope).sum();
+    let length = OVERSHOOT * missing / square;
+    if !length.is_finite() {
+        return Ok(None);
+    }
+    let mut next = point.clone();
+    for (share, slope) in next.shares.iter_mut().zip(slopes) {
+        *share = (*share + length * slope).clamp(0.0, 1.0);
+    }
+    Ok(Some(next))
 }
 
 /// Checks the best designs with independent samples.

@@ -5,11 +5,12 @@ use ranking::Requirement;
 use results::columns::design_columns;
 use serde_json::{Map, Value, json};
 
-use super::report::{constant_objectives, judged_modes, unmet};
+use super::report::{SearchReport, constant_objectives, judged_modes, unmet};
 use crate::json;
 
 /// Returns the result of a search as JSON.
-pub fn record(goal: &DesignGoal, found: &Found) -> Value {
+pub fn record(report: &SearchReport<'_>) -> Value {
+    let SearchReport { goal, found } = *report;
     let words = BindingText::new(goal);
     let left_out = &found.left_out;
     let failed = left_out.failed.iter().map(|(why, count)| (why.to_string(), json!(count)));
@@ -22,7 +23,11 @@ pub fn record(goal: &DesignGoal, found: &Found) -> Value {
         "regions": found.regions,
     });
     let (key, answer) = match &found.answer {
-        Answer::Optimum(best) => ("optimum", design(goal, &words, best)),
+        Answer::Optimum(best) => {
+            let mut optimum = design(goal, &words, best);
+            optimum["answer"] = report.answer(best).record(best.checks.gaps.as_ref());
+            ("optimum", optimum)
+        }
         Answer::Front(front) => {
             ("front", front.designs.iter().map(|best| design(goal, &words, best)).collect())
         }

@@ -17,7 +17,8 @@ use text::number::same;
 use super::super::couplings::couplings_report;
 use super::super::rank::obstacle;
 use super::samples;
-use crate::print::{FAILED, FOLDED, aligned, counted, digits, fold_text, rounded, time};
+use crate::commands::answer::DesignAnswer;
+use crate::print::{FAILED, FOLDED, aligned, counted, digits, marked, rounded, time};
 
 /// Formats the result of a search.
 pub struct SearchReport<'a> {
@@ -76,13 +77,12 @@ impl SearchReport<'_> {
 
     fn optimum(&self, best: &BestDesign) -> String {
         let words = BindingText::new(self.goal);
-        let mut rows: Vec<[String; 2]> = self.variables(&best.candidate);
-        rows.extend(self.values(best));
+        let rows = self.answer_rows(best);
         let constant = constant_objectives(self.goal, self.found);
         let title =
             if constant.is_empty() { "The best design" } else { "A design, as good as any other" };
         let mut text = format!("{title}\n{}", aligned(&rows));
-        text += &fold_text(fold_force(self.goal, best));
+        text += &self.answer(best).warnings_text(best.checks.gaps.as_ref());
         if !constant.is_empty() {
             return text + &constant_text(&constant);
         }
@@ -132,13 +132,14 @@ impl SearchReport<'_> {
         if contradictions.is_empty() {
             return String::new();
         }
-        let lines: String = contradictions.iter().map(|of| format!("  {FAILED} {of}.\n")).collect();
+        let sentences: Vec<String> = contradictions.iter().map(|of| format!("{of}.")).collect();
+        let lines = marked(FAILED, &sentences);
         let remedy = if self.goal.confirm {
             "No design of the search passes the checks: relax a requirement or widen a variable."
         } else {
             "To search for a design that passes the checks: --set goal.confirm=true"
         };
-        format!("\nThe best design fails a check\n{lines}  {remedy}\n")
+        format!("\nThe best design fails a check\n{lines}{remedy}\n")
     }
 
     /// States the number of starts and regions of the search.
@@ -156,6 +157,28 @@ impl SearchReport<'_> {
             cell => cell.to_string(),
         };
         self.goal.space.parameters().map(|p| [p.key.to_owned(), value(p)]).collect()
+    }
+
+    /// Returns the answer about the best design.
+    pub fn answer<'a>(&'a self, best: &'a BestDesign) -> DesignAnswer<'a> {
+        let DesignGoal { space, requirements, .. } = self.goal;
+        DesignAnswer { sweep: space.sweep(), row: &best.row, requirements }
+    }
+
+    /// Lists variables, objectives and criteria, then required values with limits and margins.
+    fn answer_rows(&self, best: &BestDesign) -> Vec<Vec<String>> {
+        let is_required =
+            |column: &str| self.goal.requirements.iter().any(|of| of.column == column);
+        let mut required = self.answer(best).rows();
+        let mut rows: Vec<Vec<String>> = Vec::new();
+        let known = self.variables(&best.candidate).into_iter().chain(self.values(best));
+        for [name, value] in known {
+            if !is_required(&name) && !required.iter().any(|row| row[0] == name) {
+                rows.push(vec![name, value]);
+            }
+        }
+        rows.append(&mut required);
+        rows
     }
 
     /// Lists the objectives and required columns, without duplicates.

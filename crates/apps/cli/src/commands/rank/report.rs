@@ -8,6 +8,7 @@ use results::columns::{is_invalid_after_fold, mode_column, name, parameter_of};
 use run::{CouplingChange, GapChange};
 use sweep::JudgedModes;
 
+use super::super::answer::DesignAnswer;
 use super::super::couplings::couplings_report;
 use super::checks::Checks;
 use super::gap_changes::gap_changes_report;
@@ -47,6 +48,7 @@ impl RankReport<'_> {
         let requirements = &self.preferences().requirements;
         text.push_str(&gap_changes_report(self.changes, requirements));
         text.push_str(&couplings_report(self.couplings, requirements));
+        text.push_str(&self.answer());
         if let Some(modes) = judged_modes(self.results, self.ranking) {
             let _ = write!(text, "\n{modes}");
         }
@@ -132,6 +134,21 @@ impl RankReport<'_> {
             }
             None => String::new(),
         }
+    }
+
+    /// States required values, margins and warnings of the best design that passes the checks.
+    fn answer(&self) -> String {
+        let Preferences { requirements, weights, .. } = self.preferences();
+        let best = self.checks.best.unwrap_or_else(|| self.ranking.winner(*weights));
+        let solved = self.results.definition().filter(|_| !requirements.is_empty());
+        let Some((sweep, row)) =
+            solved.and_then(|sweep| Some((sweep, run::solved_row(sweep, best.design())?)))
+        else {
+            return String::new();
+        };
+        let answer = DesignAnswer { sweep, row: &row, requirements };
+        let (rows, warnings) = (aligned(&answer.rows()), answer.warnings_text(None));
+        format!("\nThe requirements of {}\n{rows}{warnings}", best.design())
     }
 
     /// Lists the best design by each criterion.

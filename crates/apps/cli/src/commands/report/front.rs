@@ -9,13 +9,13 @@ use report::{Designs, PageFront};
 use results::{Completeness, Results, VerifiedFolder};
 use sweep::{PARAMETERS, Parameter, Scalar, Sweep};
 
+use crate::commands::answer::SearchedDesign;
 use crate::commands::folder_contents::FolderContents;
-use crate::commands::source::repeat_failed_checks;
 
 /// Reads the designs of a search, to show them beside the designs of `grid`.
 pub fn front(folder: &Path, grid: &FolderContents) -> anyhow::Result<PageFront> {
     let name = folder.display();
-    repeat_failed_checks(folder)?;
+    SearchedDesign::read(folder)?;
     // A search has no expected number of designs.
     let found = VerifiedFolder::open(folder, Completeness::Partial)?;
     let table = [FRONT, OPTIMUM].into_iter().find(|table| found.holds(table));

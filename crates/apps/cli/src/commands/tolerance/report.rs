@@ -11,6 +11,7 @@ use uncertainty::{
     DesignTolerance, MeasureTolerance, Proportion, RequirementYield, SampledSpread, SolvedSample,
 };
 
+use crate::commands::answer::DesignAnswer;
 use crate::print::{aligned, change, counted, rounded};
 
 /// Maximum number of listed designs.
@@ -51,6 +52,12 @@ fn one(sweep: &Sweep, requirements: &[Requirement], design: &DesignTolerance) ->
         let _ = write!(text, "\nYield\n{}", aligned(&rows));
     }
     text.push_str(&folded(design).unwrap_or_default());
+    let answer = DesignAnswer { sweep, row: &design.nominal, requirements };
+    let rows = answer.rows();
+    if !rows.is_empty() {
+        let _ = write!(text, "\nThe nominal design\n{}", aligned(&rows));
+    }
+    text.push_str(&answer.warnings_text(None));
     if let Some(mode) = first_failure(design) {
         let _ = writeln!(text, "\nFirst failure of the nominal design: {mode}");
     }

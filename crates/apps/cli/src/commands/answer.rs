@@ -1,0 +1,152 @@
+//! The answer about one design: required values with limits and margins, and every warning.
+
+use optimisation::{DesignGoal, FAILED_CHECKS, GOAL, OPTIMUM, OPTIMUM_DEFINITION};
+use ranking::{Relation, Requirement};
+use results::columns::{Cell, design_columns, mode_column, name};
+use results::{Completeness, DesignRow, Results, VerifiedFolder};
+use run::{GapChange, printing_warnings, validity_warnings};
+use serde_json::{Value, json};
+use std::path::Path;
+use sweep::Sweep;
+
+use crate::print::{FOLDED, digits, marked, warning};
+
+/// A relative margin below this is the limit itself.
+const AT_LIMIT: f64 = 1e-6;
+
+/// A solved design with its requirements.
+pub struct DesignAnswer<'a> {
+    pub sweep: &'a Sweep,
+    pub row: &'a DesignRow,
+    pub requirements: &'a [Requirement],
+}
+
+impl DesignAnswer<'_> {
+    /// Lists the required values with limit and margin, and the depth beside a force.
+    pub fn rows(&self) -> Vec<Vec<String>> {
+        let mut rows: Vec<Vec<String>> = Vec::new();
+        for requirement in self.requirements {
+            // Statistics over samples have their own tables.
+            let Some(value) = self.cell(&requirement.column).map(|cell| cell.number()) else {
+                continue;
+            };
+            let cells = [requirement.column.clone(), shown(value), limit_text(requirement, value)];
+            rows.push(cells.to_vec());
+            let mode = mode_column(&requirement.column);
+            let mode = mode.and_then(|mode| Some((mode, self.cell(mode)?.to_string())));
+            rows.extend(mode.map(|(mode, cell)| vec![mode.to_owned(), cell]));
+        }
+        rows.extend(self.depth());
+        rows
+    }
+
+    /// Returns the depth of the needle, if a force is required.
+    fn depth(&self) -> Option<Vec<String>> {
+        let is_force = |r: &Requirement| r.column.contains("force");
+        let is_given = |column: &str| self.requirements.iter().any(|r| r.column == column);
+        self.requirements.iter().any(is_force).then_some(())?;
+        let in_mm = format!("{}_mm", name::CRITICAL_DISPLACEMENT);
+        let columns = [in_mm.as_str(), name::CRITICAL_DISPLACEMENT];
+        let column = columns.into_iter().find(|column| self.cell(column).is_some())?;
+        let depth = self.cell(column)?.number().filter(|_| !is_given(column))?;
+        Some(vec![column.to_owned(), digits(depth), "depth of the load".to_owned()])
+    }
+
+    fn cell(&self, name: &str) -> Option<Cell> {
+        let columns = design_columns(self.sweep);
+        let column = columns.iter().find(|column| column.name == name)?;
+        Some(column.cell(self.row))
+    }
+
+    /// Returns every warning about the design, in plain words.
+    pub fn warnings(&self, change: Option<&GapChange>) -> Vec<String> {
+        let is_radius = |r: &&Requirement| {
+            r.column == "bend_radius_mm" && matches!(r.relation, Relation::AtMost | Relation::Below)
+        };
+        let radius = self.requirements.iter().find(is_radius).map(|r| r.limit);
+        let case = &self.row.case;
+        let mut all = validity_warnings(case, self.row, radius, change);
+        all.extend(printing_warnings(case));
+        all
+    }
+
+    /// Formats the warnings, one per line; empty without one.
+    pub fn warnings_text(&self, change: Option<&GapChange>) -> String {
+        match marked(FOLDED, &self.warnings(change)) {
+            lines if lines.is_empty() => lines,
+            lines => format!("\n{lines}"),
+        }
+    }
+
+    /// Returns requirements and warnings as JSON.
+    pub fn record(&self, change: Option<&GapChange>) -> Value {
+        let requirements = self.requirements.iter().filter_map(|requirement| {
+            let value = self.cell(&requirement.column)?.number();
+            Some(json!({
+                "requirement": requirement.to_string(),
+                "value": value,
+                "limit": requirement.limit,
+                "margin": value.map(|value| requirement.margin(value)),
+            }))
+        });
+        json!({ "requirements": requirements.collect::<Vec<_>>(), "warnings": self.warnings(change) })
+    }
+}
+
+fn shown(value: Option<f64>) -> String {
+    value.map_or("none".to_owned(), digits)
+}
+
+/// Describes the limit of a requirement, and the margin of a value.
+pub fn limit_text(requirement: &Requirement, value: Option<f64>) -> String {
+    let Requirement { relation, limit, .. } = requirement;
+    let limit = format!("{} {}", relation.sign(), text::number::text(*limit));
+    let Some(value) = value else { return format!("{limit} is not confirmed") };
+    let margin = requirement.margin(value);
+    match margin {
+        _ if margin.abs() < AT_LIMIT => format!("{limit}, at the limit"),
+        _ if margin > 0.0 => format!("{limit}, margin {:.1} %", 100.0 * margin),
+        _ => format!("{limit} is missed by {:.1} %", -100.0 * margin),
+    }
+}
+
+/// Requirements and failed checks of the search that found a design.
+#[derive(Default)]
+pub struct SearchedDesign {
+    /// Requirements on columns of designs.
+    pub requirements: Vec<Requirement>,
+    /// Sentences about requirements that a check contradicts.
+    pub failed_checks: Vec<String>,
+}
+
+impl SearchedDesign {
+    /// Reads the search of `path`, a results folder or its `optimum.toml`; empty for other paths.
+    ///
+    /// Prints a warning for each failed check.
+    pub fn read(path: &Path) -> anyhow::Result<Self> {
+        let folder = if path.ends_with(OPTIMUM_DEFINITION) { path.parent() } else { Some(path) };
+        let folder = folder.unwrap_or(path);
+        if !folder.join(OPTIMUM).is_file() {
+            return Ok(Self::default());
+        }
+        let found = VerifiedFolder::open(folder, Completeness::Partial)?;
+        let name = folder.join(GOAL).display().to_string();
+        let goal = DesignGoal::parse(&found.text(GOAL)?, &name, &[])?;
+        let mut requirements = goal.requirements.clone();
+        requirements.retain(|r| goal.statistic(&r.column).is_none());
+        let optimum = Results::of_file(&found, OPTIMUM)?;
+        let mut failed_checks: Vec<String> = Vec::new();
+        // Tables of earlier versions lack the column.
+        if let Ok(column) = optimum.column(FAILED_CHECKS)
+            && optimum.len() > 0
+        {
+            let failed = optimum.text(0, column);
+            failed_checks
+                .extend(failed.split("; ").filter(|s| !s.is_empty()).map(|s| format!("{s}.")));
+        }
+        for sentence in &failed_checks {
+            warning(&format!("this design fails a check: {sentence}"));
+        }
+        Ok(Self { requirements, failed_checks })
+    }
+}

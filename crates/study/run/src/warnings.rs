@@ -1,0 +1,147 @@
+//! Warnings about a solved design, in plain words.
+
+use results::{DesignRow, Outcome};
+use skin::puncture::PunctureMeasures;
+use sweep::Case;
+use text::number::rounded;
+
+use crate::gap_change::GapChange;
+
+/// Strain limit of the small-strain law of the membrane.
+const LARGE_STRAIN: f64 = 0.2;
+
+/// Width of a line of common printers, mm: narrower gaps fuse and thinner walls are not printed.
+const NOZZLE_MM: f64 = 0.4;
+
+/// Largest overhang from the vertical that printers build without supports, degrees.
+const OVERHANG_DEG: f64 = 45.0;
+
+/// Returns warnings about the validity of the results of a design.
+///
+/// `radius_mm` is the required bend radius; without it the strain at the end of bending counts.
+/// `change` has the measures with other gaps.
+pub fn validity_warnings(
+    case: &Case,
+    row: &DesignRow,
+    radius_mm: Option<f64>,
+    change: Option<&GapChange>,
+) -> Vec<String> {
+    let mut sentences = Vec::new();
+    let ends = [
+        ("needle", row.result.puncture.as_ref().map(|p| p.outcome)),
+        ("bending", row.result.flexure.as_ref().map(|f| f.outcome)),
+    ];
+    for (load, outcome) in ends {
+        if let Some(outcome) = outcome.filter(|outcome| *outcome != Outcome::Complete) {
+            sentences.push(format!("The path of the {load} ends early: {outcome}."));
+        }
+    }
+    if let Some(puncture) = &row.result.puncture {
+        sentences.extend(puncture_warnings(case, &puncture.measures));
+    }
+    sentences.extend(strain_warning(case, row, radius_mm));
+    sentences.extend(change.into_iter().flat_map(cliffs));
+    sentences
+}
+
+fn puncture_warnings(case: &Case, measures: &PunctureMeasures) -> Vec<String> {
+    let mut sentences = Vec::new();
+    // A path that ended early has no critical force, and has its own warning.
+    if let (Some(fold), Some(force)) = (measures.fold_force, measures.critical_force) {
+        let share = 100.0 * fold / force;
+        sentences.push(format!("Beyond {share:.0} % of the critical force, the modelled surface folds, which is physically impossible: results beyond it are not valid."));
+    }
+    // A round tip soon touches the next scale while it still rests on the first, which needs no
+    // warning.
+    let is_sharp = case.punctured().needle_radius.is_none_or(|radius| radius == 0.0);
+    if let Some(tilt) = measures.passage.passing_tilt_deg.filter(|_| is_sharp) {
+        sentences.push(format!(
+            "At a tilt of {tilt:.1}° the needle reaches the end of the face on which it was set down (a corner, or the notch beside the next scale) and continues from there."
+        ));
+    }
+    if let (Some(depth), Some(thickness)) =
+        (measures.critical_displacement.filter(|depth| *depth > 1.0), case.material.thickness_mm)
+    {
+        sentences.push(format!(
+            "The needle is {} mm deep at the critical tilt, deeper than the scales are thick ({} mm).",
+            rounded(depth * thickness, 3),
+            rounded(thickness, 3)
+        ));
+    }
+    sentences
+}
+
+/// Returns a sentence if the strain of the membrane exceeds the range of its law.
+fn strain_warning(case: &Case, row: &DesignRow, radius_mm: Option<f64>) -> Option<String> {
+    let required = radius_mm.zip(case.material.thickness_mm);
+    let strain = match required {
+        // Before scales touch, only the membrane in the gaps bends.
+        Some((radius, thickness)) => {
+            let curvature = case.pitch() / case.design.gap * thickness / radius;
+            0.5 * case.flexure.membrane_thickness * curvature
+        }
+        None => row.result.flexure.as_ref()?.measures.membrane_strain_max?,
+    };
+    let bent = match radius_mm {
+        Some(radius) => format!("Bent round {} mm", rounded(radius, 3)),
+        None => format!("Bent by {}°", rounded(case.flexure.max_end_rotation_deg, 3)),
+    };
+    (strain > LARGE_STRAIN).then(|| {
+        format!(
+            "{bent}, the membrane is strained by {:.0} %, beyond the {:.0} % of its small-strain law.",
+            100.0 * strain,
+            100.0 * LARGE_STRAIN
+        )
+    })
+}
+
+/// Returns a sentence for each measure that changes by half if the gap changes by a tenth.
+fn cliffs(change: &GapChange) -> impl Iterator<Item = String> {
+    change.measures.iter().filter(|measure| measure.cliffs().contains(&true)).map(|measure| {
+        let [smaller, larger] = measure.changed.map(|changed| {
+            changed.map_or("without a value".to_owned(), |changed| {
+                format!("{:.2} times as large", changed / measure.value)
+            })
+        });
+        format!(
+            "Sensitive to the gap: 10 % smaller or larger, and the {} is {smaller} or {larger}.",
+            measure.column.replace('_', " ")
+        )
+    })
+}
+
+/// Returns warnings about printing a design; none without a thickness in mm.
+pub fn printing_warnings(case: &Case) -> Vec<String> {
+    let Some(thickness) = case.material.thickness_mm else { return Vec::new() };
+    let slant = case.design.slant_deg.abs();
+    let upright = slant.to_radians().cos();
+    let mut sentences = Vec::new();
+    let clearance = case.design.gap * thickness * upright;
+    if clearance < NOZZLE_MM {
+        sentences.push(format!(
+            "The faces of two scales are {} mm apart, less than a nozzle of {NOZZLE_MM} mm: prints may fuse them.",
+            rounded(clearance, 3)
+        ));
+    }
+    if slant > OVERHANG_DEG {
+        sentences.push(format!(
+            "The scales overhang by {}° from the vertical: above {OVERHANG_DEG}° a filament printer needs supports.",
+            rounded(slant, 3)
+        ));
+    }
+    let walls = [
+        ("scales", 2.0 * case.design.half_base() * thickness * upright),
+        ("scales", thickness),
+        ("membrane", case.flexure.membrane_thickness * thickness),
+    ];
+    for (part, wall) in walls {
+        if wall < NOZZLE_MM {
+            let is = if part == "membrane" { "is" } else { "are" };
+            sentences.push(format!(
+                "The {part} {is} only {} mm thick, less than a nozzle of {NOZZLE_MM} mm.",
+                rounded(wall, 3)
+            ));
+        }
+    }
+    sentences
+}
