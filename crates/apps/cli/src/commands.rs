@@ -40,7 +40,7 @@ mod tolerance;
 mod validate;
 
 use ::run::Program;
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
 use crate::interrupt::Interrupt;
 
@@ -138,6 +138,58 @@ pub enum Command {
     Man(man::Arguments),
 }
 
+/// Groups of commands in the help.
+const GROUPS: [(&str, &[&str]); 5] = [
+    ("Try", &["init", "check", "explore", "schema"]),
+    ("Solve", &["run", "design", "optimise", "sensitivity"]),
+    ("Choose", &["rank", "tolerance", "report", "plot", "draw"]),
+    ("Make and test", &["make", "fit", "export"]),
+    (
+        "Upkeep",
+        &[
+            "status",
+            "rerun",
+            "merge",
+            "compare",
+            "slurm",
+            "calibrate",
+            "validate",
+            "completions",
+            "man",
+            "help",
+        ],
+    ),
+];
+
+/// Template of the help, in which groups replace the list of commands.
+const TEMPLATE: &str = "{about-with-newline}\n{usage-heading} {usage}\n\n{before-help}\
+    Options:\n{options}{after-help}";
+
+/// Parses the command line.
+pub fn parsed() -> Result<Arguments, clap::Error> {
+    let mut squama = Arguments::command();
+    // Adds the command `help`.
+    squama.build();
+    let groups = grouped(&squama);
+    let squama = Arguments::command().help_template(TEMPLATE).before_help(groups);
+    Arguments::from_arg_matches(&squama.try_get_matches()?)
+}
+
+/// Lists the commands by group.
+fn grouped(squama: &clap::Command) -> String {
+    let mut text = String::new();
+    for (group, names) in GROUPS {
+        text.extend([group, ":\n"]);
+        for name in names {
+            let about = squama.find_subcommand(name).and_then(clap::Command::get_about);
+            let about = about.map(ToString::to_string).unwrap_or_default();
+            text.extend(["  ", &format!("{name:12}"), " ", &about, "\n"]);
+        }
+        text.push('\n');
+    }
+    text
+}
+
 impl Command {
     /// Runs the command and returns its exit code.
     pub fn run(self, interrupt: &Interrupt) -> anyhow::Result<u8> {
@@ -169,5 +221,21 @@ impl Command {
             Self::Completions(arguments) => completions::completions(&arguments),
             Self::Man(arguments) => man::man(&arguments),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_command_is_in_one_group_of_the_help() {
+        let mut squama = Arguments::command();
+        squama.build();
+        let mut known: Vec<_> = squama.get_subcommands().map(clap::Command::get_name).collect();
+        let mut grouped: Vec<_> = GROUPS.iter().flat_map(|(_, names)| *names).copied().collect();
+        known.sort_unstable();
+        grouped.sort_unstable();
+        assert_eq!(known, grouped);
     }
 }

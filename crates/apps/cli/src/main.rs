@@ -16,8 +16,8 @@ mod progress;
 use std::io::Write as _;
 use std::process::ExitCode;
 
+use clap::CommandFactory as _;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use clap::{CommandFactory as _, Parser as _};
 
 use crate::commands::Arguments;
 use crate::interrupt::Interrupt;
@@ -26,7 +26,7 @@ use crate::interrupt::Interrupt;
 const BAD_INPUT: u8 = 2;
 
 fn main() -> ExitCode {
-    let command = match Arguments::try_parse() {
+    let command = match commands::parsed() {
         Ok(arguments) => arguments.command,
         // Help keeps its lines; errors are printed on one line.
         Err(error) if error.use_stderr() && !is_help(&error) => return refuse(&one_line(&error)),

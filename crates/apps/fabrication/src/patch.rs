@@ -24,6 +24,8 @@ pub struct Patch {
     membrane: f64,
     scales: [usize; 2],
     gap_across: f64,
+    /// True if every second row is shifted by half a pitch.
+    is_brick: bool,
 }
 
 /// Errors of a patch.
@@ -67,7 +69,7 @@ impl Patch {
             _ => return Err(NoPatch::Scales(along, across)),
         }
         let [low, high] = LENGTHS;
-        let patch = Self { row, thickness, width, membrane, scales, gap_across };
+        let patch = Self { row, thickness, width, membrane, scales, gap_across, is_brick: false };
         let [length, breadth, _] = patch.membrane_size();
         let lengths = [
             ("the length of the membrane", length),
@@ -86,6 +88,17 @@ impl Patch {
             return Err(NoPatch::Length(name, length));
         }
         Ok(patch)
+    }
+
+    /// Returns the patch with every second row shifted by half a pitch, like bricks.
+    #[must_use]
+    pub fn brick_laid(self) -> Self {
+        Self { is_brick: true, ..self }
+    }
+
+    /// Returns the shift of a row along itself.
+    fn row_shift(&self, row: usize) -> f64 {
+        if self.is_brick && row % 2 == 1 { self.pitches()[0] / 2.0 } else { 0.0 }
     }
 
     /// Returns the number of scales along and across.
@@ -133,7 +146,9 @@ impl Patch {
     pub fn membrane_size(&self) -> [f64; 3] {
         let ([along, across], [nx, ny]) = (self.gaps(), self.scales.map(|n| n as f64));
         let [px, py] = self.pitches();
-        [nx * px + along, ny * py + across, self.membrane]
+        // The second row ends farthest to the right.
+        let shift = if self.scales[1] > 1 { self.row_shift(1) } else { 0.0 };
+        [nx * px + along + shift, ny * py + across, self.membrane]
     }
 
     /// Returns the volume of one scale, mm³.
@@ -158,7 +173,10 @@ impl Patch {
     /// Returns the lower left corners of the bases (`x`, `y`), row by row.
     pub fn places(&self) -> impl Iterator<Item = [f64; 2]> {
         let ([gx, gy], [px, py], [nx, ny]) = (self.gaps(), self.pitches(), self.scales);
-        (0..ny).flat_map(move |j| (0..nx).map(move |i| [gx + i as f64 * px, gy + j as f64 * py]))
+        (0..ny).flat_map(move |j| {
+            let first = gx + self.row_shift(j);
+            (0..nx).map(move |i| [first + i as f64 * px, gy + j as f64 * py])
+        })
     }
 
     /// Returns the scales, row by row.
@@ -210,6 +228,17 @@ pub(crate) mod tests {
         let [length, width, _] = patch.membrane_size();
         assert!((length - scales[19].outline[1][0] - 0.6).abs() < 1e-12);
         assert!((width - scales[19].across[1] - 0.6).abs() < 1e-12);
+    }
+
+    #[test]
+    fn every_second_row_of_a_brick_laid_patch_is_shifted_by_half_a_pitch() {
+        let patch = patch().brick_laid();
+        let places: Vec<_> = patch.places().collect();
+        let half = patch.pitches()[0] / 2.0;
+        assert!((places[5][0] - places[0][0] - half).abs() < 1e-12);
+        assert_eq!(places[10][0], places[0][0]);
+        let end = places[9][0] + patch.base();
+        assert!((patch.membrane_size()[0] - end - 0.6).abs() < 1e-12, "a gap from the rim");
     }
 
     #[test]

@@ -186,6 +186,18 @@ impl FitDefinition {
         Ok(Self { sweep, unknowns, curves })
     }
 
+    /// Returns the numbers to be fitted.
+    pub fn unknowns(&self) -> &[Unknown] {
+        &self.unknowns
+    }
+
+    /// Returns the file, the kind of test and the number of points of each measured curve.
+    pub fn curves(&self) -> impl Iterator<Item = (&str, &'static str, usize)> {
+        self.curves.iter().map(|TestCurve { measured, .. }| {
+            (measured.file.as_str(), measured.test.name(), measured.points.len())
+        })
+    }
+
     /// Returns the definition as a sweep with the unknown parameters as variables.
     pub fn sweep(&self) -> &Sweep {
         &self.sweep

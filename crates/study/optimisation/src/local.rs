@@ -143,6 +143,23 @@ impl Search<'_> {
         Ok((candidate, EvaluatedRow { nominal, statistics }))
     }
 
+    /// Computes the gradients of the margins of samples near the one that decides a yield.
+    ///
+    /// `k` is the requirement on the yield, `q` its statistic.
+    pub fn margin_gradients(
+        &self,
+        point: &SpacePoint,
+        (k, q): (usize, usize),
+        spread: usize,
+    ) -> Result<Vec<Vec<f64>>, Halt> {
+        let Self { space, evaluations, .. } = *self;
+        let Some(judge) = self.judge.samples() else { return Ok(Vec::new()) };
+        let Some(requirement) = self.judge.requirements().nth(k) else { return Ok(Vec::new()) };
+        let samples = evaluations.samples(point, 1, judge.count, judge)?;
+        let near = judge.near_deciding(q, requirement, &samples, spread);
+        SampledPoint { space, evaluations, judge, point, samples: &samples }.gradients(q, &near)
+    }
+
     /// Returns the merit of a design for a target.
     pub fn merit(&self, candidate: &Candidate, target: &Target) -> Merit {
         self.merit_within(candidate, target, 0.0)

@@ -164,6 +164,21 @@ impl SampleJudge {
         Some(sorted[needed(requirement, sorted.len())].0)
     }
 
+    /// Returns the samples with margins next to the deciding one of a required yield.
+    pub fn near_deciding(
+        &self,
+        q: usize,
+        requirement: &Requirement,
+        samples: &Samples,
+        spread: usize,
+    ) -> Vec<u64> {
+        let sorted = self.sorted(q, samples);
+        let deciding = needed(requirement, sorted.len());
+        let last = (deciding + spread + 1).min(sorted.len());
+        let near = &sorted[deciding.saturating_sub(spread)..last];
+        near.iter().map(|(_, index)| *index as u64 + 1).collect()
+    }
+
     /// Returns the samples that determine statistic `q`, and their weights.
     ///
     /// Empty for a yield as an objective, which is a step function.

@@ -5,13 +5,14 @@ use std::thread::available_parallelism;
 use std::time::Duration;
 
 use clap::Args;
+use fit::FitDefinition;
 use optimisation::DesignGoal;
 use run::Estimate;
 use serde_json::{Map, Value, json};
-use sweep::{Axis, Measure, Parameter, Role, Sweep, Variable, key};
+use sweep::{Axis, Measure, Parameter, Role, Setting, Sweep, Variable, key, read_entries};
 
 use super::DONE;
-use super::source::{Defined, Definition, defined, folder_of, print_notes};
+use super::source::{Defined, Definition, defined, folder_of, print_notes, settings};
 use crate::json;
 use crate::print::{aligned, counted, digits, print, time};
 
@@ -22,7 +23,8 @@ Examples:
   squama check sweeps/paper.toml
   squama check sweeps/paper.toml --set 'designs.c2=[0.23, 1.1]'
   squama check sweeps/paper.toml --json
-  squama check sweeps/goals/pin.toml")]
+  squama check sweeps/goals/pin.toml
+  squama check sweeps/fit/palm.toml")]
 pub struct Arguments {
     #[command(flatten)]
     pub definition: Definition,
@@ -41,6 +43,17 @@ const LISTED: u64 = 12;
 /// Checks a definition and describes the run or search.
 pub fn check(arguments: &Arguments) -> anyhow::Result<u8> {
     let path = &arguments.definition.path;
+    let settings = settings(&arguments.definition.settings)?;
+    if path.is_file() && is_fit(path, &settings)? {
+        let fit = FitDefinition::read(path, &settings)?;
+        print_notes(fit.sweep());
+        if arguments.json {
+            json::print(&fit_as_json(&fit))?;
+        } else {
+            print(&fit_report(&fit, path))?;
+        }
+        return Ok(DONE);
+    }
     match (defined(&arguments.definition)?, arguments.json) {
         (Defined::Goal(goal), true) => json::print(&goal_as_json(&goal))?,
         (Defined::Goal(goal), false) => print(&goal_report(&goal, path))?,
@@ -54,6 +67,48 @@ pub fn check(arguments: &Arguments) -> anyhow::Result<u8> {
         }
     }
     Ok(DONE)
+}
+
+/// Returns true if a definition has measured curves.
+fn is_fit(path: &Path, settings: &[Setting]) -> anyhow::Result<bool> {
+    Ok(read_entries(path, settings)?.iter().any(|entry| entry.key == "curve"))
+}
+
+/// Describes the curves and the unknowns of a fit.
+fn fit_report(fit: &FitDefinition, path: &Path) -> String {
+    let curves: Vec<_> = fit
+        .curves()
+        .map(|(file, test, points)| {
+            [file.to_owned(), test.to_owned(), counted(points as u64, "point")]
+        })
+        .collect();
+    let unknowns: Vec<_> = fit
+        .unknowns()
+        .iter()
+        .map(|of| [of.name.clone(), format!("{} to {}", of.from, of.to), of.unit.to_owned()])
+        .collect();
+    format!(
+        "{} is a valid test for squama fit\n{}\nunknowns\n{}\n{}",
+        path.display(),
+        aligned(&curves),
+        aligned(&unknowns),
+        changes(fit.sweep())
+    )
+}
+
+fn fit_as_json(fit: &FitDefinition) -> Value {
+    let curves = fit
+        .curves()
+        .map(|(file, test, points)| json!({ "file": file, "kind": test, "points": points }));
+    let unknowns = fit
+        .unknowns()
+        .iter()
+        .map(|of| json!({ "name": of.name, "unit": of.unit, "from": of.from, "to": of.to }));
+    json!({
+        "fit": fit.sweep().name(),
+        "curves": curves.collect::<Vec<_>>(),
+        "unknowns": unknowns.collect::<Vec<_>>(),
+    })
 }
 
 /// Describes the objectives, requirements and variables of a search.

@@ -6,24 +6,34 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, ensure};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Arg, Args, Command};
-use sweep::Sweep;
+use sweep::{Sweep, entries};
 
 use super::DONE;
 use super::figure_file::write_file;
 use super::schema::{SCHEMA_FILE, schema_text};
-use super::source::require_folder_of;
+use super::source::{Defined, defined_by, require_folder_of};
 use crate::print::{counted, print};
 
 /// Names and texts of the templates; each name is also the default name of its sweep.
 // The first is the default.
-const TEMPLATES: [(&str, &str); 7] = [
+const TEMPLATES: [(&str, &str); 10] = [
     ("paper", include_str!("../../sweeps/paper.toml")),
     ("smoke", include_str!("../../sweeps/smoke.toml")),
     ("glove", include_str!("../../sweeps/glove.toml")),
+    ("goal", include_str!("../../sweeps/goals/strong-and-covered.toml")),
+    ("pin", include_str!("../../sweeps/goals/pin.toml")),
+    ("fit", include_str!("../../sweeps/fit/palm.toml")),
     ("gaps", include_str!("../../sweeps/gaps.toml")),
     ("imperfection", include_str!("../../sweeps/imperfection.toml")),
     ("paper-as-written", include_str!("../../sweeps/paper-as-written.toml")),
     ("paper-neo-hookean", include_str!("../../sweeps/paper-neo-hookean.toml")),
+];
+
+/// Measured curves of the template `fit`.
+const CURVES: [(&str, &str); 3] = [
+    ("puncture-a.csv", include_str!("../../sweeps/fit/puncture-a.csv")),
+    ("puncture-b.csv", include_str!("../../sweeps/fit/puncture-b.csv")),
+    ("bending.csv", include_str!("../../sweeps/fit/bending.csv")),
 ];
 
 /// Arguments of `squama init`.
@@ -33,6 +43,8 @@ Examples:
   squama init                       write the sweep of the paper to paper.toml
   squama init mine.toml             the same, as a sweep of the name mine
   squama init smoke mine.toml       a dozen designs instead
+  squama init pin mine.toml         a goal in millimetres and newtons for squama optimise
+  squama init fit mine.toml         a fit to test data, with example curves
 
 The template paper explains every key. An existing file is never overwritten.
 The file names its JSON schema, squama.schema.json, which editors with Taplo or Even Better TOML
@@ -60,15 +72,37 @@ pub fn init(arguments: &Arguments) -> anyhow::Result<u8> {
     require_folder_of("FILE", &file)?;
     let name = file.file_stem().context("expected the name of a new file")?.to_string_lossy();
     let text = definition(&template, &name, &shown).context("there is no such definition")?;
-    // Rejects an invalid name of a sweep before writing.
-    let sweep = Sweep::parse(&text, &shown, &[])?;
+    // Rejects an invalid name before writing.
+    let (content, command) = if template == "fit" {
+        let entries = entries(&text, &shown, &[])?;
+        let definition = entries.into_iter().filter(|entry| entry.key != "curve").collect();
+        let sweep = Sweep::of_entries(&definition, &shown)?;
+        let variables = sweep.variables().len() as u64;
+        (format!("a fit of {}", counted(variables, "parameter")), "fit")
+    } else {
+        match defined_by(&text, &file, &[])? {
+            Defined::Goal(goal) => {
+                let variables = goal.space.parameters().count() as u64;
+                (format!("a goal with {}", counted(variables, "variable")), "optimise")
+            }
+            Defined::Sweep(sweep) => (counted(sweep.grid().len(), "design"), "run"),
+        }
+    };
+    let curves = CURVES.iter().filter(|_| template == "fit");
+    let curves: Vec<_> = curves.map(|(name, text)| (file.with_file_name(name), *text)).collect();
+    for (curve, _) in &curves {
+        ensure!(curve.symlink_metadata().is_err(), "{}: exists already", curve.display());
+    }
     write_file(&file, text.as_bytes())?;
+    for (curve, text) in curves {
+        write_file(&curve, text.as_bytes())?;
+    }
     let schema = file.with_file_name(SCHEMA_FILE);
     if schema.symlink_metadata().is_err() {
         write_file(&schema, schema_text().as_bytes())?;
     }
-    let designs = counted(sweep.grid().len(), "design");
-    print(&format!("{shown}: {designs}; to solve them: squama run {shown}\n"))?;
+    let solve = if command == "run" { "solve them" } else { "solve it" };
+    print(&format!("{shown}: {content}; to {solve}: squama {command} {shown}\n"))?;
     Ok(DONE)
 }
 
@@ -117,9 +151,14 @@ impl TypedValueParser for TemplateOrFile {
 /// Returns a template as the definition of the sweep `name` in `file`.
 fn definition(template: &str, name: &str, file: &str) -> Option<String> {
     let (known, text) = TEMPLATES.iter().find(|(known, _)| *known == template)?;
+    // The name of a goal or a fit differs from the template.
+    let own = text.lines().find_map(|line| line.strip_prefix("name = \"")?.split('"').next());
+    let known = own.unwrap_or(known);
     let text = text.replace(&format!("name = \"{known}\""), &format!("name = \"{name}\""));
     // Commands in the comments of the template then name the new file.
     let text = text.replace(&format!("results/{known}/"), &format!("results/{name}/"));
+    let text = text.replace("sweeps/fit/palm.toml", file);
+    let text = text.replace(&format!("sweeps/goals/{known}.toml"), file);
     let text = text.replace(&format!("sweeps/{known}.toml"), file);
     Some(format!("#:schema ./{SCHEMA_FILE}\n{text}"))
 }

@@ -28,6 +28,7 @@ use crate::print::{FAILED, aligned, marked, note, print, rounded};
 Examples:
   squama make sweeps/glove.toml --design 0072 --out skin.3mf
   squama make results/palm --design 1 --scales 8x6 --out palm.step
+  squama make results/pin --patch 60x40 --brick --out pin.3mf
   squama make results/palm --design 1 --kerf 0.12 --template-mm 0.1 --out palm.dxf
 
 Writes a patch of skin in millimetres: scales on their membrane, which extends one gap beyond their bases on every
@@ -58,6 +59,14 @@ pub struct Arguments {
     #[arg(long, value_name = "ALONGxACROSS", default_value = "5x4", value_parser = along_and_across)]
     pub scales: [usize; 2],
 
+    /// Size of the patch along and across, mm: as many scales as it holds
+    #[arg(long, value_name = "LENGTHxWIDTH", conflicts_with = "scales", value_parser = length_and_width)]
+    pub patch: Option<[f64; 2]>,
+
+    /// Shift every second row by half a pitch, like bricks
+    #[arg(long)]
+    pub brick: bool,
+
     /// Gap between neighbouring rows, mm [default: the gap across of the design, or its gap]
     #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = decimal)]
     pub gap_across_mm: Option<f64>,
@@ -79,13 +88,20 @@ const TEMPLATE_MM: f64 = 0.1;
 
 /// Parses numbers of scales such as `5x4`.
 fn along_and_across(text: &str) -> Result<[usize; 2], String> {
-    // Accepts `x` and the multiplication sign, which users copy from texts.
-    let numbers =
-        text.split_once(['x', '×']).map(|(along, across)| (along.parse(), across.parse()));
-    match numbers {
-        Some((Ok(along), Ok(across))) => Ok([along, across]),
-        _ => Err("expected the numbers of scales along and across, e.g. 5x4".to_owned()),
-    }
+    pair(text).ok_or_else(|| "expected the numbers of scales along and across, e.g. 5x4".to_owned())
+}
+
+/// Parses lengths such as `60x40`, mm.
+fn length_and_width(text: &str) -> Result<[f64; 2], String> {
+    let lengths =
+        pair(text).filter(|lengths: &[f64; 2]| lengths.iter().all(|l| *l > 0.0 && l.is_finite()));
+    lengths.ok_or_else(|| "expected length and width of the patch in mm, e.g. 60x40".to_owned())
+}
+
+/// Parses two numbers separated by `x` or the multiplication sign, which users copy from texts.
+fn pair<T: std::str::FromStr>(text: &str) -> Option<[T; 2]> {
+    let (along, across) = text.split_once(['x', '×'])?;
+    Some([along.trim().parse().ok()?, across.trim().parse().ok()?])
 }
 
 /// Writes a patch of skin, and the list of its parts.
@@ -163,7 +179,27 @@ fn patch(case: &Case, arguments: &Arguments) -> anyhow::Result<Patch> {
     let across = case.gap_across.unwrap_or(case.design.gap) * thickness;
     let across = arguments.gap_across_mm.unwrap_or(across);
     let lengths = [case.design.width * thickness, membrane, across];
-    Ok(Patch::new(case.design.row()?, thickness, lengths, arguments.scales)?)
+    let row = case.design.row()?;
+    let whole = |scales| {
+        let patch = Patch::new(row, thickness, lengths, scales)?;
+        anyhow::Ok(if arguments.brick { patch.brick_laid() } else { patch })
+    };
+    let Some(size) = arguments.patch else { return whole(arguments.scales) };
+    // Two rows, because every second row may be shifted.
+    let (two, pitches) = (whole([1, 2])?, whole([1, 2])?.pitches());
+    let [length, width, _] = two.membrane_size();
+    let count = |first: usize, have: f64, size: f64, pitch: f64| {
+        let count = first as f64 + ((size - have) / pitch + 1e-9).floor();
+        if count >= 1.0 { count as usize } else { 0 }
+    };
+    let scales = [count(1, length, size[0], pitches[0]), count(2, width, size[1], pitches[1])];
+    ensure!(
+        scales.iter().all(|count| *count > 0),
+        "--patch: smaller than one scale with a gap on every side, {} mm x {} mm",
+        rounded(length),
+        rounded(width - pitches[1])
+    );
+    whole(scales)
 }
 
 /// Returns materials and load of a finite-element deck.

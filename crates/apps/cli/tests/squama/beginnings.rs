@@ -29,6 +29,20 @@ fn every_template_is_valid() {
 }
 
 #[test]
+fn goals_and_fits_are_templates_that_check_accepts() {
+    let templates = [("goal", "goal for squama optimise"), ("fit", "test for squama fit")];
+    for (name, kind) in templates.into_iter().chain([("pin", "goal for squama optimise")]) {
+        let place = Place::new();
+        place.prints(&format!("init {name} mine.toml"));
+        let text = place.prints("check mine.toml");
+        assert!(text.starts_with(&format!("mine.toml is a valid {kind}\n")), "{text}");
+        assert!(place.read("mine.toml").contains("name = \"mine\""));
+        let record = place.prints("check mine.toml --json");
+        assert!(record.contains("\"mine\""), "{record}");
+    }
+}
+
+#[test]
 fn init_overwrites_and_misplaces_nothing() {
     let place = Place::new();
     place.prints("init");
@@ -37,7 +51,7 @@ fn init_overwrites_and_misplaces_nothing() {
     insta::assert_snapshot!(place.refused("init"), @"error: paper.toml: exists already; give the name of a new file, e.g. squama init paper mine.toml");
     insta::assert_snapshot!(place.refused("init smoke nowhere/mine.toml"), @"error: FILE nowhere/mine.toml: there is no folder nowhere");
     insta::assert_snapshot!(place.refused("init smoke .hidden.toml"), @r#"error: .hidden.toml:7: name: ".hidden" is not accepted, expected a name for a folder on any system: letters, digits, - _ + . and spaces, a letter or digit first, and no device as con or lpt1"#);
-    insta::assert_snapshot!(place.refused("init smok"), @"error: invalid value 'smok' for '[TEMPLATE]', [possible values: paper, smoke, glove, gaps, imperfection, paper-as-written, paper-neo-hookean], tip: a similar value exists: 'smoke'");
+    insta::assert_snapshot!(place.refused("init smok"), @"error: invalid value 'smok' for '[TEMPLATE]', [possible values: paper, smoke, glove, goal, pin, fit, gaps, imperfection, paper-as-written, paper-neo-hookean], tip: a similar value exists: 'smoke'");
     assert_eq!(place.list("."), "paper.toml squama.schema.json");
     place.prints("init smoke");
     let both = [place.read("paper.toml"), place.read("squama.schema.json")];

@@ -34,6 +34,23 @@ fn the_list_has_sizes_counts_masses_and_deviations() {
 }
 
 #[test]
+fn a_patch_has_at_most_the_requested_size() {
+    let place = Place::with(SKIN);
+    let text = place.prints("make x.toml --design 1 --patch 30x20 --brick");
+    let value = |name: &str| -> f64 {
+        let line = text.lines().find(|line| line.trim_start().starts_with(name)).expect("a line");
+        let value = line.trim_start().trim_start_matches(name).split_whitespace().next();
+        value.expect("a value").parse().expect("a number")
+    };
+    let (length, pitch) = (value("length along the rows"), value("pitch along"));
+    assert!(length <= 30.0 && length + pitch > 30.0, "{text}");
+    // The first line of a width is the width of a scale.
+    assert!(value("across") * value("pitch across") <= 20.0, "{text}");
+    let refusal = place.refused("make x.toml --design 1 --patch 1x1");
+    assert!(refusal.contains("--patch: smaller than one scale"), "{refusal}");
+}
+
+#[test]
 fn make_uses_the_optimum_of_a_search() {
     let place = Place::with(SKIN);
     std::fs::create_dir(place.path("search")).expect("a folder");

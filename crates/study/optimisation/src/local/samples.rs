@@ -44,6 +44,22 @@ impl SampledPoint<'_> {
         Ok(slopes)
     }
 
+    /// Computes the gradients of statistic `q` on single samples, by fractions of the intervals.
+    pub fn gradients(&self, q: usize, samples: &[u64]) -> Result<Vec<Vec<f64>>, Halt> {
+        let mut gradients = Vec::new();
+        for &sample in samples {
+            let Some(row) = self.row(sample)? else { continue };
+            let order = OrderStatistic { sample, part: 1.0 };
+            let intervals = self.space.intervals().iter();
+            let slopes = intervals.map(|interval| {
+                let slope = self.part(q, order, &row, interval.parameter).smooth();
+                slope.unwrap_or_default() * interval.length()
+            });
+            gradients.push(slopes.collect());
+        }
+        Ok(gradients)
+    }
+
     /// Solves a sample with derivatives; `None` if the sample does not exist.
     fn row(&self, sample: u64) -> Result<Option<DesignRow>, Halt> {
         let Some(result) = self.evaluations.even_sample(self.point, sample)? else {

@@ -31,6 +31,12 @@ const CONFIRMED: usize = 4;
 /// Length of such a step over the length to first order.
 const OVERSHOOT: f64 = 1.3;
 
+/// Part of the samples on either side of the deciding one that such a step also raises.
+const NEAR: usize = 10;
+
+/// Number of projections on every gradient.
+const PROJECTIONS: usize = 100;
+
 /// Searches of nominal designs, of sampled designs, and with more samples.
 #[derive(Clone, Copy)]
 pub(crate) struct Searches<'s> {
@@ -123,8 +129,8 @@ fn refine(
 
 /// Moves a best design that fails on independent samples until it passes.
 ///
-/// Each step follows the slope of the deciding sample, by the margin that the independent samples
-/// miss. If none passes, the best design stays.
+/// Each step raises the margins of the seen samples by as much as the independent samples miss. If no
+/// step passes, the best design stays.
 fn confirm_another(
     search: &Search<'_>,
     best: &mut BestDesign,
@@ -152,6 +158,8 @@ fn confirm_another(
 }
 
 /// Returns the nearest point at which the independent samples meet a yield, to first order.
+///
+/// The margins of all samples near the deciding one rise by as much as the yield misses.
 fn safer(
     search: &Search<'_>,
     point: &SpacePoint,
@@ -164,26 +172,33 @@ fn safer(
         let StatisticUse::Requirement(k) = of else { return None };
         let is_broken = failed.broken.iter().any(|r| r.column == required[k].column);
         let margin = judge.requirement_margin(q, required[k], &fresh)?;
-        (is_broken && margin < 0.0).then_some((k, -margin))
+        (is_broken && judge.statistics[q].is_yield() && margin < 0.0).then_some((k, q, -margin))
     });
-    let Some((k, missing)) = missed else { return Ok(None) };
-    let (_, row) = search.evaluate(SearchStage::Tolerance, point, true)?;
-    // By fractions of the intervals, in which a search measures distances.
-    let slopes = search.space.intervals().iter().map(|interval| {
-        let slope = search.judge.margin_slopes(k, &row, interval.parameter).smooth();
-        slope.unwrap_or_default() * interval.length()
-    });
-    let slopes: Vec<f64> = slopes.collect();
-    let square: f64 = slopes.iter().map(|slope| slope * slope).sum();
-    let length = OVERSHOOT * missing / square;
-    if !length.is_finite() {
-        return Ok(None);
-    }
+    let Some((k, q, missing)) = missed else { return Ok(None) };
+    let gradients = search.margin_gradients(point, (k, q), judge.count / NEAR)?;
+    let step = least_step(&gradients, OVERSHOOT * missing, point.shares.len());
     let mut next = point.clone();
-    for (share, slope) in next.shares.iter_mut().zip(slopes) {
-        *share = (*share + length * slope).clamp(0.0, 1.0);
+    for (share, step) in next.shares.iter_mut().zip(&step) {
+        *share = (*share + step).clamp(0.0, 1.0);
     }
-    Ok(Some(next))
+    Ok((next != *point && step.iter().all(|x| x.is_finite())).then_some(next))
+}
+
+/// Returns a short step along which every gradient rises by `rise`, by projections (Kaczmarz).
+fn least_step(gradients: &[Vec<f64>], rise: f64, variables: usize) -> Vec<f64> {
+    let mut step = vec![0.0; variables];
+    for _ in 0..PROJECTIONS {
+        for gradient in gradients {
+            let square: f64 = gradient.iter().map(|slope| slope * slope).sum();
+            let risen: f64 = gradient.iter().zip(&step).map(|(slope, x)| slope * x).sum();
+            if square > 0.0 && risen < rise {
+                for (x, slope) in step.iter_mut().zip(gradient) {
+                    *x += slope * (rise - risen) / square;
+                }
+            }
+        }
+    }
+    step
 }
 
 /// Checks the best designs with independent samples.
@@ -218,4 +233,19 @@ fn seeds(nominal: &Search<'_>, history: &[Candidate], answer: &Answer) -> Vec<Sp
         }
     }
     seeds
+}
+
+#[cfg(test)]
+mod tests {
+    use super::least_step;
+
+    #[test]
+    fn a_step_raises_every_gradient() {
+        let gradients = [vec![1.0, 0.0], vec![-0.5, 1.0]];
+        let step = least_step(&gradients, 0.1, 2);
+        for gradient in &gradients {
+            let risen: f64 = gradient.iter().zip(&step).map(|(slope, x)| slope * x).sum();
+            assert!((risen - 0.1).abs() < 1e-9, "{risen}");
+        }
+    }
 }
