@@ -1,8 +1,8 @@
 //! Checks of a best design with finer models.
 //!
-//! The checks are full substrate coupling, other load positions and new samples. They may contradict a
-//! requirement that the fast model of the search meets. With `confirm = true` the search then tightens the limit `l` of the requirement by the
-//! ratio of both values, and continues:
+//! The checks are full substrate coupling, other load positions and new samples. They may contradict
+//! a requirement that the fast model of the search meets. With `confirm = true` the search then
+//! tightens the limit `l` of the requirement by the ratio of both values, and continues:
 //!
 //! ```text
 //! l ← l · v_search/v_check                                                               (O10)
@@ -90,20 +90,18 @@ fn is_force(column: &str) -> Option<bool> {
 impl BestDesign {
     /// Returns the requirements of `goal` that a check contradicts.
     pub fn contradictions(&self, goal: &DesignGoal) -> Vec<Contradiction> {
-        let finer = goal.requirements.iter().flat_map(|requirement| {
+        let mut all = Vec::new();
+        for requirement in &goal.requirements {
             let column = NumberColumn::named(goal.space.sweep(), &requirement.column);
             let searched = column.and_then(|column| column.value(&self.row));
-            let values = [self.coupled(requirement), self.elsewhere(requirement)];
-            let is_missed = |value: Option<f64>| !value.is_some_and(|v| requirement.is_met(v));
-            let of = move |(check, value)| Contradiction {
-                check,
-                requirement: requirement.clone(),
-                searched,
-                value,
-            };
-            values.into_iter().flatten().filter(move |(_, value)| is_missed(*value)).map(of)
-        });
-        let mut all: Vec<_> = finer.collect();
+            let checked = [self.coupled(requirement), self.elsewhere(requirement)];
+            for (check, value) in checked.into_iter().flatten() {
+                if !value.is_some_and(|value| requirement.is_met(value)) {
+                    let requirement = requirement.clone();
+                    all.push(Contradiction { check, requirement, searched, value });
+                }
+            }
+        }
         let Some(made) = &self.confirmation else { return all };
         // Undecided cases are reported in the text.
         let broken = made.broken.iter().filter(|requirement| !made.is_open(requirement));
@@ -181,14 +179,16 @@ impl fmt::Display for Contradiction {
 /// `goal` has the limits of the user. Returns true if a limit changed.
 pub(crate) fn tighten(limits: &mut DesignGoal, goal: &DesignGoal, best: &BestDesign) -> bool {
     let contradictions = best.contradictions(goal);
-    // Samples are judged by the same limits, so new samples need no tighter ones.
-    let is_finer = |of: &&Contradiction| !matches!(of.check, Check::Samples(_));
     let mut is_tighter = false;
     for (own, meant) in limits.requirements.iter_mut().zip(&goal.requirements) {
-        let missed = contradictions.iter().filter(is_finer).filter(|of| of.requirement == *meant);
-        let ratio = |of: &Contradiction| Some(of.searched? / of.value?);
-        let ratios: Vec<f64> =
-            missed.filter_map(ratio).filter(|r| r.is_finite() && *r > 0.0).collect();
+        let mut ratios = Vec::new();
+        for Contradiction { check, requirement, searched, value } in &contradictions {
+            // Samples are judged by the same limits, so new samples need no tighter ones.
+            let is_finer = requirement == meant && !matches!(check, Check::Samples(_));
+            if let (true, Some(searched), Some(value)) = (is_finer, searched, value) {
+                ratios.extend(Some(searched / value).filter(|r| r.is_finite() && *r > 0.0));
+            }
+        }
         if ratios.is_empty() {
             continue;
         }

@@ -35,13 +35,8 @@ impl WeakestPlace {
         let (case, [row]) =
             again(sweep, number, [PLACES], |case, places| case.puncture.places = Some(places))?;
         let measures = row.result.puncture?.measures;
-        let both = |force: Option<f64>| {
-            [force, force.and_then(|force| Quantity::Force.physical(force, &case))]
-        };
-        Some(Self {
-            requested: both(measures.critical_force),
-            weakest: both(measures.weakest.force),
-            place: measures.weakest.place,
-        })
+        let [requested, weakest] = [measures.critical_force, measures.weakest.force]
+            .map(|force| [force, force.and_then(|f| Quantity::Force.physical(f, &case))]);
+        Some(Self { requested, weakest, place: measures.weakest.place })
     }
 }

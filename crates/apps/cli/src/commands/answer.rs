@@ -42,13 +42,12 @@ impl DesignAnswer<'_> {
 
     /// Returns the depth of the needle, if a force is required.
     fn depth(&self) -> Option<Vec<String>> {
-        let is_force = |r: &Requirement| r.column.contains("force");
-        let is_given = |column: &str| self.requirements.iter().any(|r| r.column == column);
-        self.requirements.iter().any(is_force).then_some(())?;
+        self.requirements.iter().any(|r| r.column.contains("force")).then_some(())?;
         let in_mm = format!("{}_mm", name::CRITICAL_DISPLACEMENT);
         let columns = [in_mm.as_str(), name::CRITICAL_DISPLACEMENT];
         let column = columns.into_iter().find(|column| self.cell(column).is_some())?;
-        let depth = self.cell(column)?.number().filter(|_| !is_given(column))?;
+        let is_given = self.requirements.iter().any(|r| r.column == column);
+        let depth = self.cell(column)?.number().filter(|_| !is_given)?;
         Some(vec![column.to_owned(), digits(depth), "depth of the load".to_owned()])
     }
 
@@ -60,10 +59,10 @@ impl DesignAnswer<'_> {
 
     /// Returns every warning about the design, in plain words.
     pub fn warnings(&self, change: Option<&GapChange>) -> Vec<String> {
-        let is_radius = |r: &&Requirement| {
+        let radius = self.requirements.iter().find(|r| {
             r.column == "bend_radius_mm" && matches!(r.relation, Relation::AtMost | Relation::Below)
-        };
-        let radius = self.requirements.iter().find(is_radius).map(|r| r.limit);
+        });
+        let radius = radius.map(|r| r.limit);
         let case = &self.row.case;
         let mut all = validity_warnings(case, self.row, radius, change);
         all.extend(printing_warnings(case));

@@ -180,26 +180,41 @@ fn patch(case: &Case, arguments: &Arguments) -> anyhow::Result<Patch> {
     let across = arguments.gap_across_mm.unwrap_or(across);
     let lengths = [case.design.width * thickness, membrane, across];
     let row = case.design.row()?;
-    let whole = |scales| {
-        let patch = Patch::new(row, thickness, lengths, scales)?;
-        anyhow::Ok(if arguments.brick { patch.brick_laid() } else { patch })
+    let scales = match arguments.patch {
+        Some(size) => {
+            // Two rows, because every second row may be shifted.
+            let two = laid(Patch::new(row, thickness, lengths, [1, 2])?, arguments.brick);
+            within(&two, size)?
+        }
+        None => arguments.scales,
     };
-    let Some(size) = arguments.patch else { return whole(arguments.scales) };
-    // Two rows, because every second row may be shifted.
-    let (two, pitches) = (whole([1, 2])?, whole([1, 2])?.pitches());
-    let [length, width, _] = two.membrane_size();
-    let count = |first: usize, have: f64, size: f64, pitch: f64| {
-        let count = first as f64 + ((size - have) / pitch + 1e-9).floor();
-        if count >= 1.0 { count as usize } else { 0 }
-    };
-    let scales = [count(1, length, size[0], pitches[0]), count(2, width, size[1], pitches[1])];
-    ensure!(
-        scales.iter().all(|count| *count > 0),
-        "--patch: smaller than one scale with a gap on every side, {} mm x {} mm",
-        rounded(length),
-        rounded(width - pitches[1])
-    );
-    whole(scales)
+    Ok(laid(Patch::new(row, thickness, lengths, scales)?, arguments.brick))
+}
+
+/// Shifts every second row of a patch if it is brick-laid.
+fn laid(patch: Patch, is_brick: bool) -> Patch {
+    if is_brick { patch.brick_laid() } else { patch }
+}
+
+/// Returns the largest numbers of scales on a membrane of at most `size`, mm.
+///
+/// `two` is a patch of two rows of one scale.
+fn within(two: &Patch, size: [f64; 2]) -> anyhow::Result<[usize; 2]> {
+    let ([length, width, _], pitches) = (two.membrane_size(), two.pitches());
+    let smallest = [length, width - pitches[1]];
+    let mut scales = [0; 2];
+    for k in 0..2 {
+        // The quotient may miss an integer by round-off.
+        let more = ((size[k] - smallest[k]) / pitches[k] + 1e-9).floor();
+        ensure!(
+            more >= 0.0,
+            "--patch: smaller than one scale with a gap on every side, {} mm x {} mm",
+            rounded(smallest[0]),
+            rounded(smallest[1])
+        );
+        scales[k] = 1 + more as usize;
+    }
+    Ok(scales)
 }
 
 /// Returns materials and load of a finite-element deck.

@@ -122,8 +122,9 @@ impl PunctureMeasures {
     /// Adds the critical force `across` the row.
     ///
     /// `along` is the one at the weakest position along it. Both are `None` if a path did not reach
-    /// its end. `borne` is the largest force on the path across. If the row across bore more than the
-    /// row along before its path ended, the row along fails first, and the force across is not needed.
+    /// its end. `borne` is the largest force on the path across. If the row across bore more than
+    /// the row along before its path ended, the row along fails first, and the force across is not
+    /// needed.
     #[must_use]
     pub fn with_across(
         mut self,
@@ -131,17 +132,17 @@ impl PunctureMeasures {
         borne: Option<f64>,
         along: Option<f64>,
     ) -> Self {
-        let bears = |force: f64| borne.is_some_and(|borne| borne >= force);
+        let borne = borne.unwrap_or(f64::NEG_INFINITY);
         let any_direction = match across {
             Some(across) => along.map(|along| across.min(along)),
-            None => along.filter(|along| bears(*along)),
+            None => along.filter(|along| borne >= *along),
         };
         self.across = AcrossMeasures { force: across, any_direction };
         match (across, self.failure.force) {
             (Some(across), Some(along)) if across < along => {
                 (self.failure.mode, self.failure.force) = (Some(FailureMode::Across), Some(across));
             }
-            (None, Some(along)) if bears(along) => {}
+            (None, Some(along)) if borne >= along => {}
             // An unknown force across may be the smaller one.
             (None, _) => (self.failure.mode, self.failure.force) = (None, None),
             _ => {}

@@ -129,8 +129,8 @@ fn refine(
 
 /// Moves a best design that fails on independent samples until it passes.
 ///
-/// Each step raises the margins of the seen samples by as much as the independent samples miss. If no
-/// step passes, the best design stays.
+/// Each step raises the margins of the seen samples by as much as the independent samples miss. If
+/// no step passes, the best design stays.
 fn confirm_another(
     search: &Search<'_>,
     best: &mut BestDesign,

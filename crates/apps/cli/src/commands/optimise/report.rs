@@ -113,17 +113,19 @@ impl SearchReport<'_> {
 
     /// Lists the limits that the search tightened, so that the checks pass.
     fn tightened(&self) -> String {
-        let both = self.goal.requirements.iter().zip(&self.found.searched);
-        let changed = both.filter(|(meant, searched)| meant != searched);
-        let line = |(meant, searched): (&Requirement, &Requirement)| {
-            format!(
-                "\nThe search required {} {} {}, so that the checks meet {meant}.\n",
-                searched.column,
-                searched.relation.sign(),
-                digits(searched.limit)
-            )
-        };
-        changed.map(line).collect()
+        let mut text = String::new();
+        for (meant, searched) in self.goal.requirements.iter().zip(&self.found.searched) {
+            if meant != searched {
+                let _ = writeln!(
+                    text,
+                    "\nThe search required {} {} {}, so that the checks meet {meant}.",
+                    searched.column,
+                    searched.relation.sign(),
+                    digits(searched.limit)
+                );
+            }
+        }
+        text
     }
 
     /// Names the requirements that a check contradicts, with the remedy.
