@@ -125,6 +125,6 @@ pub(crate) fn again<T: Copy, const N: usize>(
 /// Returns true if a design takes milliseconds.
 ///
 /// Boundary elements of a layer take longer.
-fn is_quick(sweep: &Sweep, case: &Case) -> bool {
+pub(crate) fn is_quick(sweep: &Sweep, case: &Case) -> bool {
     case.tissue_thickness.is_none() && work_of(case, sweep.measures()) <= MOST_WORK
 }

@@ -58,6 +58,7 @@
 
 mod audit;
 mod coupling_change;
+mod curved_body;
 mod estimate;
 mod filter;
 mod gap_change;
@@ -75,6 +76,7 @@ mod weakest_place;
 
 pub use audit::{Audit, LargestDifference, SecondWay};
 pub use coupling_change::{CoupledMeasure, CouplingChange};
+pub use curved_body::curved_body_warning;
 pub use estimate::Estimate;
 pub use filter::{ColumnFilter, Filter, InvalidColumnFilter, InvalidFilter};
 pub use gap_change::{GapChange, MeasureChange, solved_row};

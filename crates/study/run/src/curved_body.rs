@@ -1,0 +1,48 @@
+//! The force of a flat design when it is worn on a curved body.
+
+use results::DesignRow;
+use results::columns::{design_columns, name};
+use sweep::{BODIES, Case, Measure, Sweep, key};
+use text::number::rounded;
+
+use crate::gap_change::is_quick;
+use crate::solve::evaluator::Evaluator;
+
+/// A force on a curved body below this fraction of the force on a flat one is reported.
+const LOWER: f64 = 0.9;
+
+/// Describes how much less a design bears on curved bodies than on a flat one.
+///
+/// Returns `None` if the force falls by less than a tenth, if the definition states a body or no
+/// thickness in mm, or if the design is slow to solve.
+pub fn curved_body_warning(sweep: &Sweep, row: &DesignRow) -> Option<String> {
+    let case = &row.case;
+    let thickness_mm = case.material.thickness_mm?;
+    let is_flat = case.body().curvature == 0.0 && case.body_radius_to.is_none();
+    (is_flat && is_quick(sweep, case)).then_some(())?;
+    let in_newtons = [name::FAILURE_FORCE, name::CRITICAL_FORCE].map(|force| format!("{force}_N"));
+    let columns = design_columns(sweep);
+    let force = in_newtons.iter().find_map(|name| columns.iter().find(|c| c.name == *name))?;
+    let flat = force.cell(row).number()?;
+    let evaluator = Evaluator::new(&[Measure::Puncture]);
+    let on_body = |radius_mm: f64| {
+        let mut puncture = case.puncture;
+        puncture.curvature = thickness_mm / radius_mm;
+        let worn = evaluator.row(row.number, &Case { puncture, body_radius: None, ..*case });
+        force.cell(&worn).number()
+    };
+    let lower: Vec<String> = BODIES
+        .iter()
+        .rev()
+        .filter_map(|body| {
+            let radius_mm = body.values.iter().find(|(key, _)| *key == key::RADIUS_MM)?.1;
+            let worn = on_body(radius_mm);
+            let text = worn.map_or("has no value".to_owned(), |n| format!("is {}", rounded(n, 3)));
+            worn.is_none_or(|worn| worn < LOWER * flat)
+                .then(|| format!("{text} on a {} (radius {radius_mm} mm)", body.name))
+        })
+        .collect();
+    let (name, flat) = (&force.name, rounded(flat, 3));
+    (!lower.is_empty())
+        .then(|| format!("{name} is {flat} on a flat body. It {}.", lower.join(", ")))
+}
