@@ -31,18 +31,20 @@ pub fn curved_body_warning(sweep: &Sweep, row: &DesignRow) -> Option<String> {
         let worn = evaluator.row(row.number, &Case { puncture, body_radius: None, ..*case });
         force.cell(&worn).number()
     };
-    let lower: Vec<String> = BODIES
-        .iter()
-        .rev()
-        .filter_map(|body| {
-            let radius_mm = body.values.iter().find(|(key, _)| *key == key::RADIUS_MM)?.1;
-            let worn = on_body(radius_mm);
-            let text = worn.map_or("has no value".to_owned(), |n| format!("is {}", rounded(n, 3)));
-            worn.is_none_or(|worn| worn < LOWER * flat)
-                .then(|| format!("{text} on a {} (radius {radius_mm} mm)", body.name))
-        })
-        .collect();
+    let mut lower = Vec::new();
+    for body in BODIES.iter().rev() {
+        let radius_mm = body.values.iter().find(|(key, _)| *key == key::RADIUS_MM)?.1;
+        let worn = on_body(radius_mm);
+        if worn.is_none_or(|worn| worn < LOWER * flat) {
+            let worn = worn.map_or("without a value".to_owned(), |worn| rounded(worn, 3));
+            lower.push(format!("{worn} on a {} (radius {radius_mm} mm)", body.name));
+        }
+    }
     let (name, flat) = (&force.name, rounded(flat, 3));
-    (!lower.is_empty())
-        .then(|| format!("{name} is {flat} on a flat body. It {}.", lower.join(", ")))
+    (!lower.is_empty()).then(|| {
+        format!(
+            "{name} is {flat} on a flat body, but {}. A definition with a body finds designs for it.",
+            lower.join(", ")
+        )
+    })
 }

@@ -4,7 +4,7 @@ use optimisation::{DesignGoal, FAILED_CHECKS, GOAL, OPTIMUM, OPTIMUM_DEFINITION}
 use ranking::{Relation, Requirement};
 use results::columns::{Cell, design_columns, mode_column, name};
 use results::{Completeness, DesignRow, Results, VerifiedFolder};
-use run::{GapChange, printing_warnings, validity_warnings};
+use run::{GapChange, curved_body_warning, printing_warnings, validity_warnings};
 use serde_json::{Value, json};
 use std::path::Path;
 use sweep::Sweep;
@@ -65,6 +65,7 @@ impl DesignAnswer<'_> {
         let radius = radius.map(|r| r.limit);
         let case = &self.row.case;
         let mut all = validity_warnings(case, self.row, radius, change);
+        all.extend(curved_body_warning(self.sweep, self.row));
         all.extend(printing_warnings(case));
         all
     }

@@ -2,6 +2,7 @@
 
 mod across;
 mod between;
+mod curved_body;
 mod fuzz;
 mod hunt;
 mod journals;
