@@ -1,7 +1,8 @@
 //! Prints reference coefficients on fine meshes, the table `tests/reference.csv`:
 //!
 //! ```text
-//! cargo run --release -p squama-substrate --example reference > crates/mechanics/substrate/tests/reference.csv
+//! cargo run --release -p squama-substrate --example reference \
+//!     > crates/mechanics/substrate/tests/reference.csv
 //! ```
 //!
 //! 16 and 24 cells per side, extrapolated; takes a few minutes. The geometries are the paper's

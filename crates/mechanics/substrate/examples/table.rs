@@ -1,7 +1,8 @@
 //! Generates `src/table.bin`, the Chebyshev coefficients of the springs in [`substrate`]:
 //!
 //! ```text
-//! nice cargo run --release -p squama-substrate --example table -- crates/mechanics/substrate/src/table.bin
+//! nice cargo run --release -p squama-substrate --example table \
+//!     -- crates/mechanics/substrate/src/table.bin
 //! ```
 //!
 //! Takes four minutes of processor time. `src/table.rs` documents the layout.

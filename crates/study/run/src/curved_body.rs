@@ -25,16 +25,13 @@ pub fn curved_body_warning(sweep: &Sweep, row: &DesignRow) -> Option<String> {
     let force = in_newtons.iter().find_map(|name| columns.iter().find(|c| c.name == *name))?;
     let flat = force.cell(row).number()?;
     let evaluator = Evaluator::new(&[Measure::Puncture]);
-    let on_body = |radius_mm: f64| {
-        let mut puncture = case.puncture;
-        puncture.curvature = thickness_mm / radius_mm;
-        let worn = evaluator.row(row.number, &Case { puncture, body_radius: None, ..*case });
-        force.cell(&worn).number()
-    };
     let mut lower = Vec::new();
     for body in BODIES.iter().rev() {
         let radius_mm = body.values.iter().find(|(key, _)| *key == key::RADIUS_MM)?.1;
-        let worn = on_body(radius_mm);
+        let mut puncture = case.puncture;
+        puncture.curvature = thickness_mm / radius_mm;
+        let on_body = Case { puncture, body_radius: None, ..*case };
+        let worn = force.cell(&evaluator.row(row.number, &on_body)).number();
         if worn.is_none_or(|worn| worn < LOWER * flat) {
             let worn = worn.map_or("without a value".to_owned(), |worn| rounded(worn, 3));
             lower.push(format!("{worn} on a {} (radius {radius_mm} mm)", body.name));
