@@ -167,11 +167,9 @@ const TEMPLATE: &str = "{about-with-newline}\n{usage-heading} {usage}\n\n{before
 
 /// Parses the command line.
 pub fn parsed() -> Result<Arguments, clap::Error> {
-    let mut squama = Arguments::command();
-    // Adds the command `help`.
-    squama.build();
+    let squama = Arguments::command();
     let groups = grouped(&squama);
-    let squama = Arguments::command().help_template(TEMPLATE).before_help(groups);
+    let squama = squama.help_template(TEMPLATE).before_help(groups);
     Arguments::from_arg_matches(&squama.try_get_matches()?)
 }
 
@@ -182,7 +180,8 @@ fn grouped(squama: &clap::Command) -> String {
         text.extend([group, ":\n"]);
         for name in names {
             let about = squama.find_subcommand(name).and_then(clap::Command::get_about);
-            let about = about.map(ToString::to_string).unwrap_or_default();
+            // Clap adds the command `help` later.
+            let about = about.map_or("Print the help of a command".to_owned(), ToString::to_string);
             text.extend(["  ", &format!("{name:12}"), " ", &about, "\n"]);
         }
         text.push('\n');

@@ -287,7 +287,8 @@ impl SearchReport<'_> {
         } else {
             obstacle(&unmet)
         };
-        let mut text = format!("No design meets all requirements\n{obstacle}");
+        let tightened = self.tightened();
+        let mut text = format!("No design meets all requirements\n{obstacle}{tightened}");
         if let Some(nearest) = nearest {
             let rows = self.variables(&self.found.history[nearest]);
             let _ = write!(text, "\nThe nearest design\n{}", aligned(&rows));
