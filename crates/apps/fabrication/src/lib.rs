@@ -1,7 +1,7 @@
 //! Files for manufacturing and checking a patch of skin, in millimetres.
 //!
-//! Formats are 3MF and STL for 3D printers, STEP for CAD programs, DXF and SVG for laser cutters, and
-//! a [deck](deck()) for finite-element programs.
+//! Formats are 3MF and STL for 3D printers, STEP for CAD programs, DXF and SVG for laser cutters,
+//! and a [deck](deck()) for finite-element programs.
 //!
 //! All solids are [prisms](Prism): a scale is a parallelogram, the membrane a rectangle, extruded
 //! across the rows. The formats are written without libraries, because each writer takes a page.

@@ -11,7 +11,7 @@
 use std::fmt;
 
 use ranking::Requirement;
-use results::columns::{is_invalid_after_fold, name, parameter_of};
+use results::columns::{is_invalid_after_fold, measures_among, name};
 use run::{CouplingChange, GapChange, WeakestPlace};
 use text::number;
 
@@ -63,12 +63,7 @@ impl DesignChecks {
     pub(crate) fn solve(goal: &DesignGoal, best: &BestDesign) -> Self {
         let alone = goal.space.sweep().at(&best.row.case);
         let number = alone.grid().number(0).to_string();
-        let mut columns: Vec<&str> = Vec::new();
-        for column in goal.columns() {
-            if parameter_of(column).is_none() && !columns.contains(&column) {
-                columns.push(column);
-            }
-        }
+        let columns = measures_among(goal.columns());
         let is_about_force = columns.iter().any(|column| is_force(column).is_some());
         Self {
             coupling: CouplingChange::solve(&alone, &number, &columns),
@@ -78,8 +73,7 @@ impl DesignChecks {
     }
 }
 
-/// Returns true for a puncture force in newtons, false for a dimensionless one; `None` for columns
-/// that do not depend on the load position.
+/// Returns whether a puncture force is in newtons; `None` for a column that is no puncture force.
 fn is_force(column: &str) -> Option<bool> {
     let stem = column.strip_suffix("_N").unwrap_or(column);
     let forces =

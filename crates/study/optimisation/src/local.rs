@@ -143,9 +143,10 @@ impl Search<'_> {
         Ok((candidate, EvaluatedRow { nominal, statistics }))
     }
 
-    /// Computes the gradients of the margins of samples near the one that decides a yield.
+    /// Computes gradients of the margins of single samples.
     ///
-    /// `k` is the requirement on the yield, `q` its statistic.
+    /// `k` is a requirement on a yield, `q` its statistic. The yield is met if a quantile of the
+    /// margins is positive; the samples are the `spread` next to this quantile on either side.
     pub fn margin_gradients(
         &self,
         point: &SpacePoint,

@@ -164,7 +164,7 @@ impl SampleJudge {
         Some(sorted[needed(requirement, sorted.len())].0)
     }
 
-    /// Returns the samples with margins next to the deciding one of a required yield.
+    /// Returns the samples next to the quantile of the margins that a required yield depends on.
     pub fn near_deciding(
         &self,
         q: usize,

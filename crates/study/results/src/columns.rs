@@ -28,7 +28,7 @@ use tilts::{explain_tilt_value, tilt_columns};
 use values::VALUES;
 
 pub use cell::Cell;
-pub use column::{Column, number, parameter_of, tells_apart};
+pub use column::{Column, measures_among, number, parameter_of, tells_apart};
 pub use failures::failure_detail_columns;
 pub use measured_value::{Goal, MeasuredValue, Shown};
 pub use path::{

@@ -25,8 +25,8 @@ pub struct WeakestPlace {
 impl WeakestPlace {
     /// Solves design `number` of `sweep` at [`PLACES`] load positions.
     ///
-    /// Returns `None` if there is no such design, if it is slow to solve, if it has as many positions
-    /// already, or if its needle is not guided: a dead load is attached to its corner.
+    /// Returns `None` if there is no such design, if it is slow to solve, if it has as many
+    /// positions already, or if its needle is not guided: a dead load is attached to its corner.
     pub fn solve(sweep: &Sweep, number: &str) -> Option<Self> {
         let index = sweep.grid().parse_number(number).ok()?;
         let punctured = sweep.grid().case(index).punctured();

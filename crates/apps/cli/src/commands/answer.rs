@@ -2,7 +2,7 @@
 
 use optimisation::{DesignGoal, FAILED_CHECKS, GOAL, OPTIMUM, OPTIMUM_DEFINITION};
 use ranking::{Relation, Requirement};
-use results::columns::{Cell, design_columns, mode_column, name};
+use results::columns::{Cell, Column, design_columns, mode_column, name};
 use results::{Completeness, DesignRow, Results, VerifiedFolder};
 use run::{GapChange, curved_body_warning, printing_warnings, validity_warnings};
 use serde_json::{Value, json};
@@ -16,12 +16,17 @@ const AT_LIMIT: f64 = 1e-6;
 
 /// A solved design with its requirements.
 pub struct DesignAnswer<'a> {
-    pub sweep: &'a Sweep,
-    pub row: &'a DesignRow,
-    pub requirements: &'a [Requirement],
+    sweep: &'a Sweep,
+    row: &'a DesignRow,
+    requirements: &'a [Requirement],
+    columns: Vec<Column<DesignRow>>,
 }
 
-impl DesignAnswer<'_> {
+impl<'a> DesignAnswer<'a> {
+    pub fn new(sweep: &'a Sweep, row: &'a DesignRow, requirements: &'a [Requirement]) -> Self {
+        Self { sweep, row, requirements, columns: design_columns(sweep) }
+    }
+
     /// Lists the required values with limit and margin, and the depth beside a force.
     pub fn rows(&self) -> Vec<Vec<String>> {
         let mut rows: Vec<Vec<String>> = Vec::new();
@@ -52,8 +57,7 @@ impl DesignAnswer<'_> {
     }
 
     fn cell(&self, name: &str) -> Option<Cell> {
-        let columns = design_columns(self.sweep);
-        let column = columns.iter().find(|column| column.name == name)?;
+        let column = self.columns.iter().find(|column| column.name == name)?;
         Some(column.cell(self.row))
     }
 

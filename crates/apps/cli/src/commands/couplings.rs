@@ -1,24 +1,12 @@
 //! The effect of full substrate coupling on the best designs, as text.
 
 use ranking::Requirement;
-use results::columns::parameter_of;
 use run::{CoupledMeasure, CouplingChange};
 
 /// Smallest reported relative change.
 ///
 /// The paper's coupling is an approximation of this order.
 const SMALL: f64 = 0.02;
-
-/// Returns the `columns` that are measures and not parameters, without duplicates.
-pub fn measured<'a>(columns: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
-    let mut measured: Vec<&str> = Vec::new();
-    for column in columns {
-        if parameter_of(column).is_none() && !measured.contains(&column) {
-            measured.push(column);
-        }
-    }
-    measured
-}
 
 /// Formats a line for each design; empty if there is none.
 pub fn couplings_report(changes: &[CouplingChange], requirements: &[Requirement]) -> String {

@@ -174,8 +174,7 @@ impl SolvedChoice {
     }
 
     fn answer(&self) -> DesignAnswer<'_> {
-        let Self { design, solved, requirements, .. } = self;
-        DesignAnswer { sweep: &design.sweep, row: &solved.row, requirements }
+        DesignAnswer::new(&self.design.sweep, &self.solved.row, &self.requirements)
     }
 
     /// Explains why the weakest load position is unknown; empty if it is known.

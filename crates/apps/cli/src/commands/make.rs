@@ -289,7 +289,7 @@ fn answer(design: &SelectedDesign, searched: &SearchedDesign) -> String {
     let is_quick = case.tissue_thickness.is_none() && case.imperfection.is_none();
     let measures = if is_quick { sweep.plain_measures() } else { vec![Measure::Coverage] };
     let row = Evaluator::new(&measures).row(sweep.grid().number(0), &case);
-    let answer = DesignAnswer { sweep, row: &row, requirements: &searched.requirements };
+    let answer = DesignAnswer::new(sweep, &row, &searched.requirements);
     let mut text = String::new();
     match answer.rows() {
         rows if rows.is_empty() => {}

@@ -312,6 +312,24 @@ fn friction_in_a_notch_reverses_with_the_load() {
     assert_relative_eq!(loop_work, area, max_relative = 1e-3);
 }
 
+/// Returns the friction between scales and the load of random design `k`: all kinds of needles.
+fn unloaded_with_friction(k: usize) -> (f64, PunctureParameters) {
+    let needle = k / 3 % 4;
+    let parameters = PunctureParameters {
+        needle: [
+            Needle::Guided { friction: 0.1 },
+            Needle::Guided { friction: 0.3 },
+            Needle::Guided { friction: 0.2 },
+            Needle::Free,
+        ][needle],
+        needle_radius: (needle == 2).then_some(0.1),
+        unload: true,
+        load_position: 0.9,
+        ..Default::default()
+    };
+    ([0.0, 0.1, 0.25][k % 3], parameters)
+}
+
 /// The area of the load loop equals the dissipation for all kinds of needles.
 #[test]
 fn loop_work_is_the_area_of_the_loop_for_random_designs() {
@@ -319,21 +337,7 @@ fn loop_work_is_the_area_of_the_loop_for_random_designs() {
     let known = Calibrations::default();
     let mut closed = 0;
     for (k, design) in random(count, 31).into_iter().enumerate() {
-        let friction = [0.0, 0.1, 0.25][k % 3];
-        let needle = [
-            Needle::Guided { friction: 0.1 },
-            Needle::Guided { friction: 0.3 },
-            Needle::Guided { friction: 0.2 },
-            Needle::Free,
-        ][k / 3 % 4];
-        let needle_radius = (k / 3 % 4 == 2).then_some(0.1);
-        let parameters = PunctureParameters {
-            needle,
-            needle_radius,
-            unload: true,
-            load_position: 0.9,
-            ..Default::default()
-        };
+        let (friction, parameters) = unloaded_with_friction(k);
         // The error of the trapezoidal rule decreases with the square of the step.
         let solver = Settings { first_step: 0.001, max_step: 0.002, ..Settings::default() };
         let common = Common { solver, ..with_friction(friction) };
@@ -351,27 +355,14 @@ fn loop_work_is_the_area_of_the_loop_for_random_designs() {
     assert!(closed > count * 4 / 5, "{closed} of {count}");
 }
 
-/// Loops of coarse paths have the same area as those of paths in small steps.
+/// The dissipation of a path in default steps equals the dissipation of a path in small steps.
 #[test]
 fn loop_work_does_not_depend_on_the_steps() {
     let count = if long_campaigns() { 400 } else { 24 };
     let known = Calibrations::default();
     let mut closed = 0;
     for (k, design) in random(count, 110).into_iter().enumerate() {
-        let friction = [0.0, 0.1, 0.25][k % 3];
-        let needle = [
-            Needle::Guided { friction: 0.1 },
-            Needle::Guided { friction: 0.3 },
-            Needle::Guided { friction: 0.2 },
-            Needle::Free,
-        ][k / 3 % 4];
-        let parameters = PunctureParameters {
-            needle,
-            needle_radius: (k / 3 % 4 == 2).then_some(0.1),
-            unload: true,
-            load_position: 0.9,
-            ..Default::default()
-        };
+        let (friction, parameters) = unloaded_with_friction(k);
         let small = Settings { first_step: 0.001, max_step: 0.002, ..Settings::default() };
         let [coarse, fine] = [Settings::default(), small].map(|solver| {
             let common = Common { solver, ..with_friction(friction) };

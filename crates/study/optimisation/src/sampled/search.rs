@@ -31,7 +31,8 @@ const CONFIRMED: usize = 4;
 /// Length of such a step over the length to first order.
 const OVERSHOOT: f64 = 1.3;
 
-/// Part of the samples on either side of the deciding one that such a step also raises.
+/// Fraction of the samples, as its inverse, with margins raised by such a step on either side of the
+/// quantile that the yield requires.
 const NEAR: usize = 10;
 
 /// Number of projections on every gradient.
@@ -48,8 +49,8 @@ pub(crate) struct Searches<'s> {
 impl Searches<'_> {
     /// Searches for the answer to a goal about samples.
     ///
-    /// `first` is the answer by nominal designs. A nominal design costs one solution, a sampled one as
-    /// many as it has samples, so nominal designs provide the starts. The history includes them.
+    /// `first` is the answer by nominal designs. A nominal design costs one solution, a sampled one
+    /// as many as it has samples, so nominal designs provide the starts. The history includes them.
     pub fn answer(
         &self,
         goal: &DesignGoal,
@@ -159,7 +160,8 @@ fn confirm_another(
 
 /// Returns the nearest point at which the independent samples meet a yield, to first order.
 ///
-/// The margins of all samples near the deciding one rise by as much as the yield misses.
+/// The quantile of the margins that the yield requires is negative for the independent samples. The
+/// step raises the margins of the seen samples next to this quantile by as much.
 fn safer(
     search: &Search<'_>,
     point: &SpacePoint,

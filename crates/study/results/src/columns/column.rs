@@ -102,6 +102,17 @@ pub fn tells_apart(name: &str, headers: &[String]) -> bool {
     over_t.is_some_and(|over_t| !over_t.is_some_and(stands))
 }
 
+/// Returns the `columns` that are measures and not parameters, without duplicates.
+pub fn measures_among<'a>(columns: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
+    let mut measured: Vec<&str> = Vec::new();
+    for column in columns {
+        if parameter_of(column).is_none() && !measured.contains(&column) {
+            measured.push(column);
+        }
+    }
+    measured
+}
+
 /// Returns the parameter with this column header.
 pub fn parameter_of(name: &str) -> Option<&'static Parameter> {
     PARAMETERS.iter().find(|parameter| header(parameter) == name)

@@ -163,8 +163,7 @@ impl SearchReport<'_> {
 
     /// Returns the answer about the best design.
     pub fn answer<'a>(&'a self, best: &'a BestDesign) -> DesignAnswer<'a> {
-        let DesignGoal { space, requirements, .. } = self.goal;
-        DesignAnswer { sweep: space.sweep(), row: &best.row, requirements }
+        DesignAnswer::new(self.goal.space.sweep(), &best.row, &self.goal.requirements)
     }
 
     /// Lists variables, objectives and criteria, then required values with limits and margins.

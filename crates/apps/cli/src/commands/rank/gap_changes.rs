@@ -3,9 +3,9 @@
 use ranking::{Preferences, RankedDesign, Ranking, Requirement, Weights};
 use rayon::prelude::*;
 use results::Results;
+use results::columns::measures_among;
 use run::{CouplingChange, GapChange, MeasureChange};
 
-use super::super::couplings::measured;
 use crate::print::aligned;
 
 /// Changes by this factor or its inverse are printed as factors.
@@ -46,7 +46,7 @@ pub fn couplings(results: &Results, ranking: &Ranking<'_>) -> Vec<CouplingChange
 /// Returns the measured columns among the criteria and requirements.
 pub fn measured_columns(preferences: &Preferences) -> Vec<&str> {
     let criteria = preferences.criteria.iter().map(|criterion| criterion.column.as_ref());
-    measured(criteria.chain(preferences.requirements.iter().map(|r| r.column.as_str())))
+    measures_among(criteria.chain(preferences.requirements.iter().map(|r| r.column.as_str())))
 }
 
 /// Formats a table of the changes, the large changes, and the missed requirements.

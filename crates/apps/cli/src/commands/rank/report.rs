@@ -146,7 +146,7 @@ impl RankReport<'_> {
         else {
             return String::new();
         };
-        let answer = DesignAnswer { sweep, row: &row, requirements };
+        let answer = DesignAnswer::new(sweep, &row, requirements);
         let (rows, warnings) = (aligned(&answer.rows()), answer.warnings_text(None));
         format!("\nThe requirements of {}\n{rows}{warnings}", best.design())
     }

@@ -52,7 +52,7 @@ fn one(sweep: &Sweep, requirements: &[Requirement], design: &DesignTolerance) ->
         let _ = write!(text, "\nYield\n{}", aligned(&rows));
     }
     text.push_str(&folded(design).unwrap_or_default());
-    let answer = DesignAnswer { sweep, row: &design.nominal, requirements };
+    let answer = DesignAnswer::new(sweep, &design.nominal, requirements);
     let rows = answer.rows();
     if !rows.is_empty() {
         let _ = write!(text, "\nThe nominal design\n{}", aligned(&rows));
