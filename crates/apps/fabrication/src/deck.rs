@@ -6,6 +6,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
+use std::ops::Range;
 
 use crate::Patch;
 
@@ -43,7 +44,7 @@ pub struct Puncture {
     pub load_position: f64,
 }
 
-/// The row is too long for a deck.
+/// Error of a row that is too long for a deck.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "{0} scales along the row: too many for a finite-element deck, expected at most {MOST_SCALES}"
@@ -113,18 +114,24 @@ impl Mesh {
         number
     }
 
-    /// Adds an element, and returns its number.
-    fn element(
+    /// Adds a block of elements, and returns their numbers from 0, along the first axis first.
+    ///
+    /// `node` gives a node from its place in the block, in half elements.
+    fn block(
         &mut self,
-        corner: [usize; 3],
+        [along, across, height]: [usize; 3],
         node: impl Fn([usize; 3]) -> (Place, [f64; 3]),
-    ) -> usize {
-        let nodes = NODES.map(|offset| {
-            let (place, coordinates) = node(std::array::from_fn(|k| 2 * corner[k] + offset[k]));
-            self.node(place, coordinates)
-        });
-        self.elements.push(nodes);
-        self.elements.len()
+    ) -> Range<usize> {
+        let first = self.elements.len();
+        for element in 0..along * across * height {
+            let (i, j, k) = (element % along, element / along % across, element / (along * across));
+            let nodes = NODES.map(|[di, dj, dk]| {
+                let (place, coordinates) = node([2 * i + di, 2 * j + dj, 2 * k + dk]);
+                self.node(place, coordinates)
+            });
+            self.elements.push(nodes);
+        }
+        first..self.elements.len()
     }
 }
 
@@ -146,7 +153,7 @@ pub fn deck(patch: &Patch, puncture: &Puncture, title: &str) -> Result<String, N
     let first = base * (lines[1] - lines[0]);
     let xs = lines_along(&lines, base, gap, count, &growing(first, margin));
     let half = width / 2.0;
-    let mut ys: Vec<f64> = (0..=ACROSS).map(|j| half * edge_spaced(j, ACROSS)).collect();
+    let mut ys: Vec<f64> = (0..=ACROSS).map(|j| half * edge_spaced(j)).collect();
     let last = half - ys[ACROSS - 1];
     ys.extend(running(half, &growing(last, margin)));
     let downwards = running(0.0, &growing(first.min(last), depth));
@@ -155,38 +162,21 @@ pub fn deck(patch: &Patch, puncture: &Puncture, title: &str) -> Result<String, N
 
     let mut mesh = Mesh::default();
     let [nx, ny, nz] = [&xs, &ys, &zs].map(|lines| lines.len() - 1);
-    for k in 0..nz {
-        for j in 0..ny {
-            for i in 0..nx {
-                mesh.element([i, j, k], |[i, j, k]| {
-                    ([0, i, j, k], [at(&xs, i), at(&ys, j), at(&zs, k)])
-                });
-            }
-        }
-    }
-    let of_substrate = mesh.elements.len();
+    let substrate =
+        mesh.block([nx, ny, nz], |[i, j, k]| ([0, i, j, k], [at(&xs, i), at(&ys, j), at(&zs, k)]));
     let up: Vec<f64> = (0..=HEIGHT).map(|k| t * k as f64 / HEIGHT as f64).collect();
-    let (mut left, mut right) = (vec![Vec::new(); count], vec![Vec::new(); count]);
+    let (mut left, mut right) = (Vec::new(), Vec::new());
     for scale in 0..count {
-        let start = before + scale * (ALONG + GAP);
-        for k in 0..HEIGHT {
-            for j in 0..ACROSS {
-                for i in 0..ALONG {
-                    let number = mesh.element([start + i, j, k], |[i, j, k]| {
-                        let z = at(&up, k);
-                        // The base shares its nodes with the substrate.
-                        let place = if k == 0 { [0, i, j, 2 * nz] } else { [scale + 1, i, j, k] };
-                        (place, [at(&xs, i) + shift * z / t, at(&ys, j), z])
-                    });
-                    if i == 0 {
-                        left[scale].push(number);
-                    }
-                    if i == ALONG - 1 {
-                        right[scale].push(number);
-                    }
-                }
-            }
-        }
+        let start = 2 * (before + scale * (ALONG + GAP));
+        let elements = mesh.block([ALONG, ACROSS, HEIGHT], |[i, j, k]| {
+            let (i, z) = (start + i, at(&up, k));
+            // The base shares its nodes with the substrate.
+            let place = if k == 0 { [0, i, j, 2 * nz] } else { [scale + 1, i, j, k] };
+            (place, [at(&xs, i) + shift * z / t, at(&ys, j), z])
+        });
+        let numbers: Vec<usize> = elements.map(|element| element + 1).collect();
+        left.push(numbers.iter().copied().step_by(ALONG).collect());
+        right.push(numbers.iter().copied().skip(ALONG - 1).step_by(ALONG).collect());
     }
     let middle = count / 2;
     let column =
@@ -208,8 +198,9 @@ pub fn deck(patch: &Patch, puncture: &Puncture, title: &str) -> Result<String, N
     for (number, [x, y, z]) in mesh.coordinates.iter().enumerate() {
         let _ = writeln!(text, "{}, {x:.9}, {y:.9}, {z:.9}", number + 1);
     }
-    elements(&mut text, "SUBSTRATE", &mesh.elements, 0..of_substrate);
-    elements(&mut text, "SCALES", &mesh.elements, of_substrate..mesh.elements.len());
+    let scales = substrate.end..mesh.elements.len();
+    elements(&mut text, "SUBSTRATE", &mesh.elements, substrate);
+    elements(&mut text, "SCALES", &mesh.elements, scales);
     for (name, nodes) in [("LOADED", &loaded), ("OUTER", &outer), ("SYMMETRY", &plane)] {
         let _ = writeln!(text, "*NSET, NSET={name}");
         list(&mut text, nodes);
@@ -243,9 +234,9 @@ fn heading(title: &str, puncture: &Puncture, t: f64) -> String {
     text
 }
 
-/// Returns positions of `count` elements on 0 to 1 that are finer towards 1.
-fn edge_spaced(j: usize, count: usize) -> f64 {
-    let angle = std::f64::consts::FRAC_PI_2 * j as f64 / count as f64;
+/// Returns line `j` across half a scale, on 0 to 1; lines are closer near the edge at 1.
+fn edge_spaced(j: usize) -> f64 {
+    let angle = std::f64::consts::FRAC_PI_2 * j as f64 / ACROSS as f64;
     angle.sin()
 }
 
@@ -295,7 +286,7 @@ fn lines_along(lines: &[f64], base: f64, gap: f64, count: usize, margin: &[f64])
     xs
 }
 
-fn elements(text: &mut String, set: &str, all: &[[usize; 20]], range: std::ops::Range<usize>) {
+fn elements(text: &mut String, set: &str, all: &[[usize; 20]], range: Range<usize>) {
     let _ = writeln!(text, "*ELEMENT, TYPE=C3D20R, ELSET={set}");
     for number in range {
         let nodes = all[number].map(|node| node.to_string());
