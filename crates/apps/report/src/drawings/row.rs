@@ -3,7 +3,7 @@
 use contact::Pose;
 use geometry::{Body, Corner, Frame, OutOfRange, Row, Vec2};
 use results::puncture_units;
-use skin::puncture::{RowSnapshot, ScaleState};
+use skin::puncture::{RowLength, RowSnapshot, ScaleState};
 use sweep::Case;
 
 use super::bodies::{corners, overlaps};
@@ -103,7 +103,7 @@ impl<'a> RowSheet<'a> {
         &PunctureDrawing { case, states, .. }: &PunctureDrawing<'a>,
     ) -> Result<Self, OutOfRange> {
         let row = case.design.row()?;
-        let (first, last) = window(&row, states);
+        let (first, last) = window(&row, case.puncture.scales, states);
         let (a, shift, pitch) = (row.scale().half_base(), row.scale().shift(), row.pitch());
         let width = (last - first) as f64 * pitch + 2.0 * a + shift;
         let scale = ((WIDTH - 4.0 * MARGIN) / width).min(LARGEST);
@@ -163,8 +163,9 @@ impl<'a> RowSheet<'a> {
         inside.extend(self.coverage_line());
         let within_substrate = [WIDTH - 2.0 * MARGIN, bottom - 6.0];
         inside.extend(scale_bar(&self.view, self.case.material.thickness_mm, within_substrate));
-        let caption =
-            format!("at rest, coverage $λ$ = {:.3}", self.case.coverage().unwrap_or_default());
+        let coverage = self.case.coverage().unwrap_or_default();
+        let of = if self.row_ends_in_coverage_line() { " of a long row" } else { "" };
+        let caption = format!("at rest, coverage $λ$ = {coverage:.3}{of}");
         // Without load and reactions the panel needs less height.
         lifted(AIR - 14.0, bottom + 10.0, caption, inside)
     }
@@ -233,9 +234,19 @@ impl<'a> RowSheet<'a> {
         });
         let mut top: Vec<Spot> = surface.map(|point| self.place(point)).collect();
         let (left, right) = (MARGIN, WIDTH - MARGIN);
-        // At least the punctured scale exists.
-        top.insert(0, [left, top[0][1]]);
-        top.push([right, top[top.len() - 1][1]]);
+        let [left_end, right_end] = match self.case.puncture.scales {
+            // At least the punctured scale exists.
+            RowLength::Auto => [top[0], top[top.len() - 1]],
+            // The end of a short row moves, but the surface far beyond it is at rest.
+            RowLength::Scales(_) => {
+                let rest = Pose::new(0.0, 0.0, 0.0);
+                let [left, ..] = corners(&self.row, self.body, self.first as f64, &rest);
+                let [_, right, ..] = corners(&self.row, self.body, self.last as f64, &rest);
+                [self.place(left), self.place(right)]
+            }
+        };
+        top.insert(0, [left, left_end[1]]);
+        top.push([right, right_end[1]]);
         let mut body = top.clone();
         body.extend([[right, bottom], [left, bottom]]);
         let fill = polygon(&body).with("fill", "#f3e3cc");
@@ -433,6 +444,19 @@ impl<'a> RowSheet<'a> {
             .containing([bars, name])
     }
 
+    /// Returns the number of neighbours that the coverage line may cross.
+    ///
+    /// A base is shorter than a pitch, so scales beyond these cannot reach the line.
+    fn coverage_reach(&self) -> i64 {
+        (self.row.scale().shift() / self.row.pitch()).ceil() as i64 + 1
+    }
+
+    /// Returns true if the row ends in front of a neighbour that counts for the coverage.
+    fn row_ends_in_coverage_line(&self) -> bool {
+        matches!(self.case.puncture.scales, RowLength::Scales(count)
+            if (count as i64) / 2 < self.coverage_reach())
+    }
+
     /// Draws the vertical line that defines coverage, with thick parts inside scales.
     fn coverage_line(&self) -> Option<Element> {
         let (a, shift, pitch) =
@@ -448,8 +472,7 @@ impl<'a> RowSheet<'a> {
             if !self.body.is_flat() {
                 return Element::group("coverage").containing(parts);
             }
-            // A base is shorter than a pitch, so scales beyond these cannot reach the line.
-            let neighbours = 1..=(shift / pitch).ceil() as i64 + 1;
+            let neighbours = 1..=self.coverage_reach().min(self.last);
             parts.extend(neighbours.filter_map(|k| {
                 let low = ((shift - k as f64 * pitch) / shift).max(0.0);
                 let high = ((shift - k as f64 * pitch + 2.0 * a) / shift).min(1.0);
@@ -476,8 +499,9 @@ fn pose(state: &ScaleState) -> Pose {
 
 /// Returns the first and last scale to be shown.
 ///
-/// The range covers all scales in contact or in motion, and two more on each side.
-fn window(row: &Row, states: &[RowSnapshot]) -> (i64, i64) {
+/// The range covers all scales in contact or in motion, and two more on each side, but none beyond
+/// the ends of the row.
+fn window(row: &Row, length: RowLength, states: &[RowSnapshot]) -> (i64, i64) {
     let moved = |s: &ScaleState| s.displacement[0].hypot(s.displacement[1]);
     let all = || states.iter().flat_map(|state| &state.scales);
     let most = all().map(moved).fold(0.0, f64::max);
@@ -491,7 +515,14 @@ fn window(row: &Row, states: &[RowSnapshot]) -> (i64, i64) {
     let (first, last) =
         moving.chain(touching).fold((0, 0), |(low, high), i| (low.min(i), high.max(i)));
     let half = ((0.5 * WIDEST / row.pitch()) as i64).clamp(3, 150);
-    ((first - 2).clamp(-half, -3), (last + 2).clamp(3, half))
+    let (first, last) = ((first - 2).clamp(-half, -3), (last + 2).clamp(3, half));
+    match length {
+        RowLength::Auto => (first, last),
+        RowLength::Scales(count) => {
+            let count = count as i64;
+            (first.max((1 - count) / 2), last.min(count / 2))
+        }
+    }
 }
 
 /// Formats a number with three significant digits.

@@ -194,3 +194,28 @@ fn a_round_tip_touches_both_corners() {
     let text = drawn(&case(&design, &needle, ""), &[state]);
     assert!(text.contains("class=\"tip\"") && !text.contains("set down"), "{text}");
 }
+
+/// Returns the number of outlines in each group with this class.
+fn outlines(svg: &str, class: &str) -> Vec<usize> {
+    let start = format!("<g class=\"{class}\"");
+    let groups = svg.split(&start).skip(1).filter_map(|group| group.split("</g>").next());
+    groups.map(|group| group.matches("<path").count()).collect()
+}
+
+/// A row of `n` scales is drawn with `n` scales at rest, and as ghosts, and punctured.
+#[test]
+fn a_short_row_is_drawn_without_scales_beyond_its_ends() {
+    for scales in [1, 2, 3, 4, 5] {
+        let design = design(60.0);
+        let case = case(&design, &format!("scales = {scales}"), "");
+        let springs =
+            substrate::calibrate(&case.footprint().expect("a footprint")).expect("springs");
+        let at = [At::Displacement(0.05)];
+        let solved = snapshots(&design, &springs, &case.common, &case.punctured(), &at);
+        let state = solved.expect("a design").at.remove(0).expect("reached");
+        assert_eq!(state.scales.len(), scales);
+        let svg = drawn(&case, &[state]);
+        assert_eq!(outlines(&svg, "scales"), [scales, scales]);
+        assert_eq!(outlines(&svg, "at-rest"), [scales]);
+    }
+}
