@@ -176,6 +176,11 @@ fn columns(sweep: &Sweep, table: Option<&str>) -> Vec<Column<DesignRow>> {
     columns
 }
 
+/// Returns every column of a measured value, including columns that only some definitions request.
+pub fn value_columns() -> impl Iterator<Item = Column<DesignRow>> {
+    COLUMNS.iter().map(ValueColumn::column)
+}
+
 /// Returns the columns of `failures.csv`.
 pub fn failure_columns(sweep: &Sweep) -> Vec<Column<FailureRow>> {
     let mut columns = geometry_columns();

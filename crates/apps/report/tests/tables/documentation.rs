@@ -1,7 +1,9 @@
 //! The guides to sweeps and results agree with the program.
 
+use std::collections::HashSet;
 use std::fmt::Write as _;
 use std::path::Path;
+use std::process::Command;
 
 use optimisation::{DesignGoal, history_columns, optimum_columns};
 use ranking::{
@@ -10,7 +12,7 @@ use ranking::{
 };
 use results::columns::{
     EVENTS, FLEXURE_EVENTS, FLEXURE_SCALES, FLEXURE_STEPS, SCALES, STEPS, design_columns,
-    flexure_path_columns, path_columns, tip_force_columns,
+    flexure_path_columns, path_columns, tip_force_columns, value_columns,
 };
 use results::{
     Column, DERIVATIVE_COLUMNS, MEASURE_COLUMNS, Outcome, RERUN_COLUMNS, failure_detail_columns,
@@ -48,6 +50,35 @@ fn columns<R>(columns: &[Column<R>]) -> String {
     table
 }
 
+/// Material of definitions with all columns in physical units.
+const MATERIAL: &str = "[material]\nthickness_mm = 1\nsubstrate_modulus_MPa = 1\nmembrane_modulus_MPa = 1\nscale_density_kg_m3 = 1";
+
+/// Requests of columns: words of the heading, and keys of a definition.
+const REQUESTS: [(&str, &str); 9] = [
+    ("a guided needle", "puncture.needle = 'guided'"),
+    ("`puncture.depth_over_t` or `depth_mm`", "puncture.depth_over_t = 0.2"),
+    ("`puncture.places`", "puncture.places = 2"),
+    ("`puncture.failure = true` or a strength", "puncture.failure = true"),
+    ("`puncture.unload = true`", "puncture.unload = true"),
+    ("`flexure.unbend = true`", "flexure.unbend = true"),
+    ("`contact.friction`", "contact.friction = 0.1"),
+    ("`array.across = true` or a gap across", "array.across = true"),
+    ("`body.radius_to_over_t`", "body.radius_over_t = 16\nbody.radius_to_over_t = 30"),
+];
+
+/// Returns title and table of the columns that each request adds to `designs.csv`.
+fn requested_columns() -> impl Iterator<Item = (String, String)> {
+    REQUESTS.into_iter().map(|(words, request)| {
+        let [plain, mut added] = ["", request].map(|request| {
+            let text = format!("name = 'x'\nimperfection.gap_cv = 0.1\n{request}\n{MATERIAL}");
+            design_columns(&sweep(&text))
+        });
+        let known: HashSet<_> = plain.into_iter().map(|column| column.name).collect();
+        added.retain(|column| !known.contains(&column.name));
+        (format!("`designs.csv`, with {words} in addition"), columns(&added))
+    })
+}
+
 #[test]
 fn the_guide_to_the_results_explains_every_column() {
     let mut guide = text("results/README.md");
@@ -60,9 +91,8 @@ fn the_guide_to_the_results_explains_every_column() {
     let geometry = &PARAMETERS[..3].iter().collect::<Vec<_>>();
     let imperfect = design_columns(&sweep("name = 'x'\nimperfection.gap_cv = 0.1"));
     let with_imperfections = &imperfect[design_columns(&sweep("name = 'x'")).len()..];
-    let material = "[material]\nthickness_mm = 1\nsubstrate_modulus_MPa = 1\nmembrane_modulus_MPa = 1\nscale_density_kg_m3 = 1";
     let physical =
-        design_columns(&sweep(&format!("name = 'x'\nimperfection.gap_cv = 0.1\n{material}")));
+        design_columns(&sweep(&format!("name = 'x'\nimperfection.gap_cv = 0.1\n{MATERIAL}")));
     let in_physical_units = &physical[imperfect.len()..];
     let several = design_columns(&sweep("name = 'x'\npuncture.critical_tilt_deg = [5, 10]"));
     let at_tilts = &several[design_columns(&sweep("name = 'x'")).len()..];
@@ -73,7 +103,7 @@ fn the_guide_to_the_results_explains_every_column() {
     let history = history_columns(&goal(
         "name = 'x'\nmeasures = 'coverage'\n[variables]\ngap_over_t = { from = 0.1, to = 1 }\n[designs]\nlength_over_t = 1\nslant_deg = 45\n[goal]\nmaximize = 'coverage'",
     ));
-    let expected = [
+    let of_designs = [
         ("`designs.csv`", columns(&design_columns(&sweep("name = 'x'")))),
         ("`designs.csv`, with imperfections in addition", columns(with_imperfections)),
         (
@@ -81,6 +111,8 @@ fn the_guide_to_the_results_explains_every_column() {
             columns(at_tilts),
         ),
         ("`designs.csv`, with a material in addition", columns(in_physical_units)),
+    ];
+    let others = [
         ("Statuses", statuses),
         (
             "`failures.csv`, after the columns that say which design it is",
@@ -113,14 +145,25 @@ fn the_guide_to_the_results_explains_every_column() {
         ("`compare.csv`", columns(COMPARISON_COLUMNS)),
         ("`differences.csv`", columns(&difference_columns(geometry))),
     ];
-    let expected = expected.map(|(title, table)| format!("### {title}\n\n{table}"));
+    let expected: Vec<_> = of_designs
+        .into_iter()
+        .map(|(title, table)| (title.to_owned(), table))
+        .chain(requested_columns())
+        .chain(others.into_iter().map(|(title, table)| (title.to_owned(), table)))
+        .map(|(title, table)| format!("### {title}\n\n{table}"))
+        .collect();
     let expected = expected.join("\n");
+    for column in value_columns() {
+        let row = format!("\n| `{}` |", column.name);
+        assert!(expected.contains(&row), "{}: no entry of REQUESTS requests it", column.name);
+    }
     if std::env::var_os("UPDATE_GUIDE").is_some() {
         let file = root().join("results/README.md");
         let before = text("results/README.md").replace(&guide, "");
         std::fs::write(file, before + &expected).expect("writable");
+    } else {
+        assert_eq!(guide, expected, "UPDATE_GUIDE=1 updates the guide");
     }
-    assert_eq!(guide, expected);
 }
 
 #[test]
@@ -170,18 +213,61 @@ fn the_contribution_guide_names_existing_files_and_code() {
         words.filter(|word| folders.iter().any(|folder| word.starts_with(folder))).collect();
     assert!(paths.len() > 10, "{paths:?}");
     for path in paths {
-        // The worked example of a command writes this file.
-        let is_new = path == "crates/apps/cli/src/commands/keys.rs";
-        assert_eq!(root().join(path).exists(), !is_new, "{path}");
+        // The examples write these files.
+        let is_new = path.ends_with("commands/keys.rs") || path.starts_with("results/paper");
+        assert!(root().join(path).exists() || is_new, "{path}");
     }
     for (file, code) in [
-        ("crates/study/results/src/columns/values.rs", "force(\"force_at_depth\""),
-        ("crates/study/sweep/src/case.rs", "seeks_failure.then_some(self.strengths)"),
-        ("crates/study/sweep/src/parameter/list.rs", "\"scale\" {"),
         ("crates/study/sweep/tests/sweep/definitions.rs", "fn a_name_alone_is_the_paper_sweep"),
         ("crates/apps/cli/tests/squama/bad_input.rs", "fn errors_suggest_valid_input"),
         ("crates/apps/python/python/squama/_manual.py", "__name__ == \"__main__\""),
     ] {
         assert!(text(file).contains(code), "{file}: {code}");
+    }
+}
+
+/// The patches hold the code of the examples and apply to the present source.
+///
+/// `scripts/check-examples` also builds and tests the result.
+#[test]
+fn the_examples_of_the_contribution_guide_apply() {
+    let guide = text("CONTRIBUTING.md");
+    for example in ["column", "parameter", "command"] {
+        let file = format!("docs/contributing/{example}.patch");
+        // Reversed in a tree in which somebody has followed the example.
+        let applies = [&["--check"][..], &["--check", "--reverse"]].iter().any(|options| {
+            let mut git = Command::new("git");
+            git.arg("apply").args(*options).arg(&file).current_dir(root());
+            git.status().expect("git").success()
+        });
+        assert!(applies, "{file} does not apply");
+        let patch = text(&file);
+        let added: HashSet<_> =
+            patch.lines().filter_map(|line| line.strip_prefix('+')).map(str::trim).collect();
+        let title = format!("\n## Example: add a {example}\n");
+        let section = guide.split(&title).nth(1).expect("the example");
+        let section = section.split("\n## ").next().unwrap_or(section);
+        let blocks: Vec<_> = section.split("```").skip(1).step_by(2).collect();
+        let code = blocks.iter().filter_map(|block| block.strip_prefix("rust\n"));
+        let lines: Vec<_> = code.flat_map(str::lines).map(str::trim).collect();
+        assert!(lines.len() > 2, "{example}: {lines:?}");
+        for line in lines {
+            assert!(line.is_empty() || added.contains(line), "{file} does not add: {line}");
+        }
+    }
+}
+
+#[test]
+fn the_address_of_the_project_is_the_same_in_every_file() {
+    let manifest = text("Cargo.toml");
+    for (key, names) in
+        [("homepage", ["url", "Homepage"]), ("repository", ["repository-code", "Repository"])]
+    {
+        let line = manifest.lines().find(|line| line.starts_with(&format!("{key} = ")));
+        let address = line.expect("an address").split('"').nth(1).expect("a text");
+        let [citation, python] = names;
+        assert!(text("CITATION.cff").contains(&format!("\n{citation}: {address}\n")), "{address}");
+        let project = text("crates/apps/python/pyproject.toml");
+        assert!(project.contains(&format!("\n{python} = \"{address}\"\n")), "{address}");
     }
 }
