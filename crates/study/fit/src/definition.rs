@@ -1,7 +1,7 @@
 //! Definition of a fit: a sweep with `[variables]` and one `[[curve]]` per file.
 
 use std::fmt::Display;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde_json::{Map, Value as Json, json};
 use sweep::{
@@ -156,6 +156,7 @@ impl FitDefinition {
         let mut unknowns = parameters(&entries, &sweep)?;
         let folder = path.parent().unwrap_or(Path::new(""));
         let mut curves = Vec::new();
+        let mut paths = Vec::new();
         for table in tables(&entries, &name)? {
             let own = table.own_values()?;
             // Each specimen is read as a definition of its own, which checks its values.
@@ -174,12 +175,17 @@ impl FitDefinition {
                     let place = &table.0[0].place;
                     return Err(not_accepted(place, "curve.file", &measured.file, &expected));
                 }
-                if curves.iter().any(|other: &TestCurve| other.measured == *measured) {
-                    let expected = "each measured curve once";
-                    return Err(table.not_accepted("file", &measured.file, expected));
+                for (TestCurve { measured: other, .. }, path) in curves.iter().zip(&paths) {
+                    let is_same = (&measured.specimen, &measured.points, &table.path(folder))
+                        == (&other.specimen, &other.points, path);
+                    if is_same {
+                        let expected = "each measured curve once";
+                        return Err(table.not_accepted("file", &measured.file, expected));
+                    }
                 }
                 unknowns.extend(table.offsets(measured, curves.len())?);
                 curves.push(curve);
+                paths.push(table.path(folder));
             }
         }
         unknowns = per_specimen(&entries, unknowns, &curves)?;
@@ -372,6 +378,13 @@ impl CurveTable<'_> {
     fn not_accepted(&self, key: &str, found: impl Display, expected: &str) -> InvalidFit {
         let place = self.entry(key).map_or(&self.0[0].place, |entry| &entry.place);
         not_accepted(place, &format!("curve.{key}"), found, expected)
+    }
+
+    /// Returns the path of the file, without links and `./` if it exists.
+    fn path(&self, folder: &Path) -> PathBuf {
+        let file = self.text("file", "").unwrap_or_default();
+        let path = folder.join(file);
+        path.canonicalize().unwrap_or(path)
     }
 
     /// Reads the measured curves of the chosen specimens.

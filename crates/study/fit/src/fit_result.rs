@@ -12,8 +12,8 @@ use run::{Evaluator, WorkMeter};
 use statrs::distribution::{ChiSquared, ContinuousCDF as _, StudentsT};
 use sweep::{Parameter, Sweep};
 
-use crate::definition::{FitDefinition, TestCurve, Unknown};
-use crate::measured_curve::{CurveEvent, MeanCurve};
+use crate::definition::{FitDefinition, Source, TestCurve, Unknown};
+use crate::measured_curve::{CurveEvent, CurveEventKind, MeanCurve};
 use crate::model::ModelCurve;
 use crate::profile::{Aborted, Interval, Profiles, is_at_end};
 use crate::search::{Minimum, Noise, Residuals};
@@ -38,6 +38,8 @@ pub struct Fitted {
     pub means: Vec<MeanCurve>,
     /// Number of solved skins.
     pub solutions: usize,
+    /// Number of fits that started again from a better minimum on a profile.
+    pub restarts: usize,
     /// Design of the definition, with the estimates.
     pub sweep: Sweep,
 }
@@ -195,6 +197,10 @@ const TOGETHER: f64 = 0.9;
 ///
 /// Independent residuals exceed it in one of 44 curves.
 const BEYOND_CHANCE: f64 = 2.0;
+/// Difference of the fitted and the measured force before contact, over its standard error.
+const ABOVE_NOISE: f64 = 4.0;
+/// Least such difference, as a fraction of the largest force.
+const ABOVE_TOE: f64 = 0.01;
 /// Noise below this fraction of the size of a curve is not examined for correlation.
 const NEGLIGIBLE: f64 = 1e-4;
 
@@ -220,11 +226,12 @@ impl FitDefinition {
         let mut residuals = Residuals::new(self, &evaluator, (stop, work));
         let sizes: Vec<_> = residuals.noise.iter().map(|noise| noise.deviation).collect();
         let mut minimum = residuals.best()?;
-        for _ in 0..RESTARTS {
+        for restarts in 0..RESTARTS {
             minimum = residuals.weight(minimum, &sizes)?;
             match residuals.intervals(&minimum) {
                 Ok((intervals, covariance)) => {
-                    return residuals.fitted(&minimum.shares, intervals, &covariance);
+                    let fitted = residuals.fitted(&minimum.shares, intervals, &covariance)?;
+                    return Ok(Fitted { restarts, ..fitted });
                 }
                 Err(Aborted::Better(start)) => minimum = residuals.improve(start)?,
                 Err(Aborted::Failed(error)) => return Err(error),
@@ -289,9 +296,7 @@ impl Residuals<'_> {
         let freedom = (independent.sum::<f64>() - count as f64).max(1.0);
         let t = student_quantile(freedom);
         let profiles = Profiles { residuals: self, minimum, covariance: &covariance, t };
-        let interval = |j| self.profile(|| profiles.interval(j));
-        let intervals = (0..count).map(interval).collect::<Result<_, _>>()?;
-        Ok((intervals, covariance))
+        Ok((profiles.intervals()?, covariance))
     }
 
     fn directions(&self, shares: &[f64]) -> Result<Directions, FitError> {
@@ -382,39 +387,77 @@ impl Residuals<'_> {
             curves: self.curves(shares)?,
             means: means(&definition.curves),
             solutions: self.solutions(),
+            restarts: 0,
             sweep: definition.sweep.at(&case),
         })
     }
 
     fn curves(&self, shares: &[f64]) -> Result<Vec<FittedCurve>, FitError> {
         let model = self.solved(shares)?.ok_or(FitError::Unsolvable)?;
-        let curves = self.definition.curves.iter().zip(&*model).zip(&self.noise);
-        let curve = |((curve, model), noise): ((&TestCurve, &ModelCurve), &Noise)| {
-            let measured = &curve.measured;
-            let points = measured.points.iter().zip(&model.values);
-            let axes = measured.test.axes().map(|(axis, unit)| {
-                if measured.is_physical { format!("{axis}, {unit}") } else { axis.to_owned() }
-            });
-            let points: Vec<_> =
-                points.map(|(point, value)| [point[0], point[1], *value]).collect();
-            FittedCurve {
-                file: measured.file.clone(),
-                axes,
-                is_physical: measured.is_physical,
-                left_out: measured.left_out.clone(),
-                reversed: measured.reversed,
-                events: curve.events.clone(),
-                is_turned: model.before == points.len() || points.iter().all(|p| p[1] <= 0.0),
-                points,
-                noise: noise.deviation,
-                trend: noise.trend,
-                widening: noise.widening.sqrt(),
-                beyond: model.beyond,
-                differenced: model.differenced,
-            }
-        };
+        let curves = self.definition.curves.iter().enumerate().zip(&*model).zip(&self.noise);
+        let curve =
+            |(((number, curve), model), noise): (((usize, &TestCurve), &ModelCurve), &Noise)| {
+                let measured = &curve.measured;
+                let points = measured.points.iter().zip(&model.values);
+                let axes = measured.test.axes().map(|(axis, unit)| {
+                    if measured.is_physical { format!("{axis}, {unit}") } else { axis.to_owned() }
+                });
+                let points: Vec<_> =
+                    points.map(|(point, value)| [point[0], point[1], *value]).collect();
+                FittedCurve {
+                    file: measured.file.clone(),
+                    axes,
+                    is_physical: measured.is_physical,
+                    left_out: measured.left_out.clone(),
+                    reversed: measured.reversed,
+                    events: self.events((number, curve), model, shares),
+                    is_turned: model.before == points.len() || points.iter().all(|p| p[1] <= 0.0),
+                    points,
+                    noise: noise.deviation,
+                    trend: noise.trend,
+                    widening: noise.widening.sqrt(),
+                    beyond: model.beyond,
+                    differenced: model.differenced,
+                }
+            };
         Ok(curves.map(curve).collect())
     }
+
+    /// Returns the events of a curve.
+    ///
+    /// Where a skin is soft at first, a flat toe is no approach: it is one only if the fitted curve
+    /// rises there, or if the fitted offset is there.
+    fn events(
+        &self,
+        (number, curve): (usize, &TestCurve),
+        model: &ModelCurve,
+        shares: &[f64],
+    ) -> Vec<CurveEvent> {
+        let offset = Source::Offset(number, 0);
+        let offset = self.definition.unknowns.iter().position(|unknown| unknown.source == offset);
+        let offset = offset.map(|j| self.values(shares)[j]);
+        let mut events = curve.events.clone();
+        events.retain(|event| match (event.kind, offset, curve.loading()) {
+            (CurveEventKind::Touches, Some(offset), [first, ..]) => {
+                offset > first[0].midpoint(event.at)
+            }
+            (CurveEventKind::Touches, ..) => rises_before(curve.loading(), model, event.at),
+            _ => true,
+        });
+        events
+    }
+}
+
+/// Returns true if a fitted curve exceeds the measured force before contact at a displacement.
+fn rises_before(points: &[[f64; 2]], model: &ModelCurve, contact: f64) -> bool {
+    let largest = points.iter().map(|point| point[1].abs()).fold(0.0, f64::max);
+    let toe = points.iter().zip(&model.values).filter(|(point, _)| point[0] <= contact);
+    let toe: Vec<_> = toe.map(|(point, value)| [point[1], *value]).collect();
+    let count = toe.len() as f64;
+    let mean = toe.iter().map(|[force, _]| force).sum::<f64>() / count;
+    let fitted = toe.iter().map(|[_, value]| value).sum::<f64>() / count;
+    let squares: f64 = toe.iter().map(|[force, _]| (force - mean).powi(2)).sum();
+    (fitted - mean).abs() > (ABOVE_NOISE * squares.sqrt() / count).max(ABOVE_TOE * largest)
 }
 
 /// Averages the loading branches of specimens of one design.

@@ -12,11 +12,11 @@ use results::{Quantity, bending_units, puncture_units};
 use sweep::{Case, read_input_bytes};
 use text::reason;
 
-use self::columns::{CurveColumns, curves, spelled};
+use self::columns::{CurveColumns, curves, missing, quantities, spelled};
 pub(crate) use self::loading::Branches;
 pub use self::loading::{CurveEvent, CurveEventKind};
 pub use self::mean::MeanCurve;
-use self::number_table::{NumberTable, Rows};
+use self::number_table::{NumberTable, Row, Rows};
 
 /// Kind of test in which a curve was measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -142,33 +142,43 @@ impl MeasuredCurve {
             return Err(wrong(rows.open_quote, problem));
         }
         let mut tables = rows.tables(|row| Header::known(&rows, row).is_some());
-        // Under given names, a further specimen repeats the row above the first table.
-        let repeated = tables.first().and_then(|table| table.above.clone().last());
-        if let Some(repeated) = repeated.filter(|row| columns.is_some() && rows.is_text(*row)) {
-            tables = rows.tables(|row| rows.all[row].cells == rows.all[repeated].cells);
+        let longest = tables.iter().find(|table| table.is_longest);
+        // Under given names, a further specimen repeats the row above the longest table.
+        let repeated = longest.and_then(|table| table.above.clone().last());
+        if columns.is_some() {
+            let repeated = repeated.filter(|row| rows.is_text(*row));
+            let repeated = repeated.map(|row| &rows.all[row].cells);
+            tables = rows.tables(|row| Some(&rows.all[row].cells) == repeated);
         }
-        let Some(first) = tables.first() else {
+        if tables.is_empty() {
             let header = Header::find(&rows, 0..rows.all.len(), columns);
-            header.curves().map_err(|problem| wrong(None, problem))?;
+            header.curves().map_err(|problem| wrong(header.line(&rows), problem))?;
             return Err(wrong(None, "holds no points, expected a line for each".to_owned()));
-        };
-        let mut header = Header::find(&rows, first.above.clone(), columns);
+        }
         let (mut curves, mut specimens) = (Vec::new(), Vec::new());
         for table in &tables {
-            // A table without a header of its own has the columns of the table above.
-            let known = Header::known_in(&rows, table.above.clone());
-            header = known.filter(|_| columns.is_none()).unwrap_or(header);
-            let specimens_here = header.curves().map_err(|problem| wrong(None, problem))?;
+            let header = Header::find(&rows, table.above.clone(), columns);
+            let line = header.line(&rows);
+            let specimens_here = header.curves().map_err(|problem| wrong(line, problem))?;
             let width = table.rows.first().map_or(0, |row| rows.all[*row].cells.len());
+            let is_named = tables.len() > 1 || specimens_here.len() > 1;
+            let mut from = 0;
             for (index, columns) in specimens_here.into_iter().enumerate() {
                 // A header may name more specimens than the table has columns.
                 if index > 0 && columns.indices.iter().all(|column| *column >= width) {
                     continue;
                 }
-                let left_out = if index == 0 { &*table.left_out } else { &[] };
+                let end = columns.indices[0].max(columns.indices[1]) + 1;
+                let name = header.specimen(&rows, from..end);
+                from = end;
+                let name_row = header.named(&rows).filter(|_| is_named);
+                let left_out = match index {
+                    0 => header.left_out(&rows, table, name_row),
+                    _ => Vec::new(),
+                };
                 let curve = Self::in_table(&rows, (table, left_out), &header, columns);
                 curves.push(curve.map_err(|(line, problem)| wrong(Some(line), problem))?);
-                specimens.push(header.specimen(&rows, columns));
+                specimens.push(name);
             }
         }
         let has_several = curves.len() > 1;
@@ -183,7 +193,8 @@ impl MeasuredCurve {
     /// Sets the name of the file, followed by the specimen if the file holds several.
     pub(crate) fn set_file(&mut self, file: &str) {
         self.file = match &self.specimen {
-            Some(specimen) => format!("{file}, specimen {specimen}"),
+            Some(name) if name.to_lowercase().starts_with("specimen") => format!("{file}, {name}"),
+            Some(name) => format!("{file}, specimen {name}"),
             None => file.to_owned(),
         };
     }
@@ -191,40 +202,50 @@ impl MeasuredCurve {
     /// Reads one curve from a table.
     fn in_table(
         rows: &Rows,
-        (table, left_out): (&NumberTable, &[u64]),
+        (table, mut left_out): (&NumberTable, Vec<u64>),
         header: &Header,
         columns: CurveColumns,
     ) -> Result<Self, (u64, String)> {
         let CurveColumns { indices, test, units } = columns;
         let names = &header.names;
         let (mut points, mut lines) = (Vec::new(), Vec::new());
-        let mut left_out = left_out.to_vec();
-        for row in table.rows.iter().map(|row| &rows.all[*row]) {
+        let last = table.rows.iter().copied().rfind(|row| rows.are_numbers(*row, indices));
+        for &row in &table.rows {
+            let Row { line, cells, .. } = &rows.all[row];
             // A number with a decimal comma between commas would become two cells.
-            let mut beyond = row.cells.iter().skip(names.len());
+            let mut beyond = cells.iter().skip(names.len());
             if !header.is_given && beyond.any(|cell| !cell.is_empty()) {
-                let (found, columns) = (row.cells.len(), names.len());
+                let (found, columns) = (cells.len(), names.len());
                 let problem = format!(
                     "has {found} cells under {columns} columns, expected as many (with a decimal comma, ; between cells)"
                 );
-                return Err((row.line, problem));
+                return Err((*line, problem));
             }
-            let cells = indices.map(|index| row.cells.get(index).unwrap_or_default());
-            if cells == ["", ""] {
-                left_out.push(row.line);
+            let pair = indices.map(|index| rows.all[row].cell(index));
+            if pair == ["", ""] {
+                // A specimen may end before those beside it.
+                if last.is_some_and(|last| row < last) {
+                    left_out.push(*line);
+                }
+                continue;
+            }
+            // Text in a column of numbers begins a remark. Results may follow the last reading.
+            let is_result = last.is_some_and(|last| row > last) && rows.number(pair[0]).is_none();
+            if is_result || (rows.are_numbers(row, indices) && !rows.is_like(row, table.rows[0])) {
+                left_out.push(*line);
                 continue;
             }
             let mut point = [0.0; 2];
             for axis in 0..2 {
-                let number = rows.number(cells[axis]).ok_or_else(|| {
-                    let (name, cell) = (&names[indices[axis]], cells[axis]);
+                let number = rows.number(pair[axis]).ok_or_else(|| {
+                    let (name, cell) = (&names[indices[axis]], pair[axis]);
                     let expected = "is not accepted, expected a number";
-                    (row.line, format!("{name}: {cell:?} {expected}"))
+                    (*line, format!("{name}: {cell:?} {expected}"))
                 })?;
                 point[axis] = number * units.map_or(1.0, |units| units[axis]);
             }
             points.push(point);
-            lines.push(row.line);
+            lines.push(*line);
         }
         left_out.sort_unstable();
         let reversed = loading::reversed_signs(&points);
@@ -257,12 +278,21 @@ impl MeasuredCurve {
         };
         let to = FARTHEST_OFFSET * largest(axis);
         let force = TOUCHING * largest(1);
-        let touching = self.points.iter().find(|point| point[1].abs() > force);
-        match touching {
-            // The force may begin anywhere before, or rise slowly from the beginning.
-            Some([x, _]) if axis == 0 && *x > to => [-to, x + 0.1 * to],
-            Some([x, _]) if axis == 0 && *x < -to => [x - 0.1 * to, to],
-            _ => [-to, to],
+        let touching = self.points.iter().position(|point| point[1].abs() > force);
+        let (Some(touching), 0) = (touching, axis) else { return [-to, to] };
+        let [first, x] = [0, touching].map(|index| self.points[index][0]);
+        let near = FARTHEST_OFFSET * loading::range(&self.points);
+        if touching > 0 && first.abs() > to && near > 0.0 {
+            // The axis of the machine has another origin.
+            return [first - near, x.max(first + near)];
+        }
+        // The force may begin anywhere before, or rise slowly from the beginning.
+        if x > to {
+            [-to, x + 0.1 * to]
+        } else if x < -to {
+            [x - 0.1 * to, to]
+        } else {
+            [-to, to]
         }
     }
 
@@ -277,7 +307,7 @@ impl MeasuredCurve {
     }
 }
 
-/// Decodes UTF-8, UTF-16 with a byte-order mark, or otherwise Windows-1252.
+/// Decodes UTF-8, UTF-16, or otherwise Windows-1252.
 ///
 /// `None` for bytes that are no text.
 fn decoded(bytes: &[u8]) -> Option<String> {
@@ -285,13 +315,30 @@ fn decoded(bytes: &[u8]) -> Option<String> {
         let text = encoding.decode_without_bom_handling_and_without_replacement(&bytes[mark..])?;
         return Some(text.into_owned());
     }
-    // Texts hold no zero bytes, pictures and workbooks do.
     if bytes.contains(&0) {
-        return None;
+        let encoding = utf_16_without_mark(bytes)?;
+        let text = encoding.decode_without_bom_handling_and_without_replacement(bytes)?;
+        return Some(text.into_owned());
     }
     // Text in Windows-1252 with a letter beyond ASCII is almost never valid UTF-8.
     let text = std::str::from_utf8(bytes).map(str::to_owned);
     Some(text.unwrap_or_else(|_| encoding_rs::WINDOWS_1252.decode(bytes).0.into_owned()))
+}
+
+/// Detects UTF-16 without a byte-order mark by the zero bytes of its letters and digits.
+///
+/// `None` for other bytes with zeros, such as pictures and workbooks.
+fn utf_16_without_mark(bytes: &[u8]) -> Option<&'static encoding_rs::Encoding> {
+    let most = bytes.len() / 4;
+    let mut zeros = [0, 0];
+    for (index, _) in bytes.iter().enumerate().filter(|(_, byte)| **byte == 0) {
+        zeros[index % 2] += 1;
+    }
+    match zeros {
+        [0, odd] if odd > most => Some(encoding_rs::UTF_16LE),
+        [even, 0] if even > most => Some(encoding_rs::UTF_16BE),
+        _ => None,
+    }
 }
 
 /// Column names above a table.
@@ -299,8 +346,10 @@ struct Header {
     names: Vec<String>,
     /// True if the names come from the definition. It may name only the first columns.
     is_given: bool,
-    /// Row of the names in the file.
-    row: Option<usize>,
+    /// True if the names and units of a test were found in the file.
+    is_known: bool,
+    /// Rows of the names and their units in the file.
+    rows: Range<usize>,
 }
 
 impl Header {
@@ -308,27 +357,39 @@ impl Header {
     ///
     /// Units in the row below are appended to the names.
     fn find(rows: &Rows, above: Range<usize>, given: Option<&[String]>) -> Self {
-        if let Some(names) = given {
-            let row = above.last().filter(|row| rows.is_text(*row));
-            return Self { names: names.to_vec(), is_given: true, row };
-        }
         let start = above.start.max(above.end.saturating_sub(LONGEST_PREAMBLE));
-        if let Some(header) = Self::known_in(rows, start..above.end) {
-            return header;
+        if let Some(names) = given {
+            return Self { names: names.to_vec(), is_given: true, ..Self::nearest(rows, above) };
         }
-        // The error message shows the row above the numbers.
-        let last = above.end.checked_sub(1).filter(|row| above.contains(row));
-        let Some(last) = last else {
-            return Self { names: Vec::new(), is_given: false, row: None };
-        };
-        let has_units = last > above.start && rows.is_text(last) && rows.is_text(last - 1);
-        let same_width = has_units && rows.all[last - 1].cells.len() == rows.all[last].cells.len();
-        if same_width { Self::at(rows, last - 1, true) } else { Self::at(rows, last, false) }
+        let known = (start..above.end).rev().find_map(|row| Self::known(rows, row));
+        // The error message shows the row that has most of the words of a header.
+        known.unwrap_or_else(|| {
+            let mut best = Self::nearest(rows, start..above.end);
+            for row in (start..above.end).filter(|row| rows.is_text(*row)) {
+                let has_units = row + 1 < above.end && rows.is_text(row + 1);
+                let other = Self::at(rows, row, usize::from(has_units));
+                if quantities(&other.names) > quantities(&best.names) {
+                    best = other;
+                }
+            }
+            best
+        })
     }
 
-    /// Returns the last header with two columns of a test.
-    fn known_in(rows: &Rows, range: Range<usize>) -> Option<Self> {
-        range.rev().find_map(|row| Self::known(rows, row))
+    /// Returns the rows of text just above the numbers, one or two of equal width.
+    fn nearest(rows: &Rows, above: Range<usize>) -> Self {
+        let last = above.end.checked_sub(1).filter(|row| above.contains(row) && rows.is_text(*row));
+        let Some(last) = last else {
+            return Self {
+                names: Vec::new(),
+                is_given: false,
+                is_known: false,
+                rows: above.end..above.end,
+            };
+        };
+        let has_units = last > above.start && rows.is_text(last - 1);
+        let same_width = has_units && rows.all[last - 1].cells.len() == rows.all[last].cells.len();
+        Self::at(rows, if same_width { last - 1 } else { last }, usize::from(same_width))
     }
 
     /// Returns the header in a row if it names two columns of a test.
@@ -336,42 +397,60 @@ impl Header {
         if !rows.is_text(row) {
             return None;
         }
-        let below = row + 1;
-        let has_units = below < rows.all.len() && rows.is_text(below);
-        let with_units = has_units.then(|| Self::at(rows, row, true));
-        if let Some(header) = with_units.filter(|header| header.curves().is_ok()) {
-            return Some(header);
-        }
-        // A row of text below `force_N` is a remark. Below `force` it holds units, which must not
-        // be ignored.
-        let header = Self::at(rows, row, false);
-        let curves = header.curves().ok()?;
-        (!has_units || curves[0].units.is_some()).then_some(header)
+        let below = (row + 1..rows.all.len()).take(2).take_while(|row| rows.is_text(*row)).count();
+        // Units stand in the row below, or below a row of remarks.
+        let with_units = (1..=below).map(|units| Self::at(rows, row, units));
+        let header = with_units.into_iter().find(|header| curves(&header.names).is_ok());
+        let header = header.or_else(|| {
+            // A row of text below `force_N` is a remark. Below `force` it holds units, which must
+            // not be ignored.
+            let header = Self::at(rows, row, 0);
+            let curves = curves(&header.names).ok()?;
+            (below == 0 || curves[0].units.is_some()).then_some(header)
+        });
+        header.map(|header| Self { is_known: true, ..header })
     }
 
-    /// Returns the header in a row, with units from the row below.
-    fn at(rows: &Rows, row: usize, has_units: bool) -> Self {
-        let units = rows.all.get(row + 1).filter(|_| has_units);
+    /// Returns the header in a row, with units in the row `units` below it, or without for 0.
+    fn at(rows: &Rows, row: usize, units: usize) -> Self {
         let mut names = Vec::new();
         for (column, name) in rows.all[row].cells.iter().enumerate() {
-            let unit = units.and_then(|row| row.cells.get(column)).unwrap_or_default();
+            let unit = if units > 0 { rows.all[row + units].cell(column) } else { "" };
             names.push(spelled(&format!("{name} {unit}")));
         }
-        Self { names, is_given: false, row: Some(row) }
+        Self { names, is_given: false, is_known: false, rows: row..row + units + 1 }
     }
 
     fn curves(&self) -> Result<Vec<CurveColumns>, String> {
-        curves(&self.names)
+        let curves = curves(&self.names)?;
+        if self.is_given || self.is_known { Ok(curves) } else { Err(missing(&self.names)) }
     }
 
-    /// Returns the name of a specimen from the row above the header; empty if there is none.
-    fn specimen(&self, rows: &Rows, columns: CurveColumns) -> String {
-        let above = self.row.and_then(|row| row.checked_sub(1)).map(|row| &rows.all[row].cells);
-        let named = |cells: &csv::StringRecord| {
-            let cells = columns.indices.map(|index| cells.get(index).unwrap_or_default());
-            cells.into_iter().find(|cell| !cell.is_empty()).unwrap_or_default().to_owned()
-        };
-        above.map(named).unwrap_or_default()
+    /// Returns the line of the names, if they are in the file.
+    fn line(&self, rows: &Rows) -> Option<u64> {
+        let is_in_file = !self.is_given && !self.rows.is_empty();
+        is_in_file.then(|| rows.all[self.rows.start].line)
+    }
+
+    /// Returns the row above the header that may name specimens.
+    fn named(&self, rows: &Rows) -> Option<usize> {
+        let above = self.rows.start.checked_sub(1).filter(|_| !self.rows.is_empty());
+        above.filter(|row| rows.is_text(*row))
+    }
+
+    /// Returns the name of a specimen from the row above its columns; empty if there is none.
+    fn specimen(&self, rows: &Rows, columns: Range<usize>) -> String {
+        let mut cells =
+            columns.map(|column| self.named(rows).map(|row| rows.all[row].cell(column)));
+        let name = cells.find(|cell| cell.is_some_and(|cell| !cell.is_empty()));
+        name.flatten().unwrap_or_default().to_owned()
+    }
+
+    /// Lists the lines around a table that belong neither to it nor to its header.
+    fn left_out(&self, rows: &Rows, table: &NumberTable, name: Option<usize>) -> Vec<u64> {
+        let above = table.above.clone();
+        let above = above.filter(|row| !self.rows.contains(row) && Some(*row) != name);
+        above.map(|row| rows.all[row].line).chain(table.left_out.iter().copied()).collect()
     }
 }
 
@@ -401,7 +480,7 @@ mod tests {
         );
         assert_eq!(
             (curve.is_physical, curve.left_out.clone(), &*curve.points),
-            (true, vec![6], &[[0.0, 0.0], [0.5, 2.0]][..])
+            (true, vec![1, 2, 6], &[[0.0, 0.0], [0.5, 2.0]][..])
         );
         let curve = parsed("Displacement [µm],Force (mN),\n500,20,\n");
         assert_eq!(curve.points, [[0.5, 0.02]]);
@@ -432,9 +511,13 @@ mod tests {
         let curve = parsed("Displacement,Force\n(in),(lbf)\n1,1\n");
         assert_eq!((curve.is_physical, curve.points[0]), (true, [25.4, 4.448_221_615_260_5]));
         assert_eq!(parsed("Displacement,Force\n(mm),(cN)\n1,50\n").points, [[1.0, 0.5]]);
+        // The units may stand below a row of remarks.
+        assert_eq!(parsed("Displacement,Force\nActuator,Cell\nmm,cN\n1,50\n").points, [[1.0, 0.5]]);
+        let message = refused("Displacement,Force\nActuator,Cell\nft,oz\n1,50\n");
+        assert!(message.contains("displacement_Actuator has no known unit"), "{message}");
         let message = refused("Displacement,Force\n(ft),(oz)\n1,2\n3,4\n");
         assert!(
-            message.starts_with("a.csv: its columns are displacement_ft force_oz,"),
+            message.starts_with("a.csv:1: its columns are displacement_ft force_oz: displacement_ft has no known unit,"),
             "{message}"
         );
         // A row without units is no row of units.
@@ -446,10 +529,14 @@ mod tests {
         let text =
             "Rate,2.0,mm/min\nDiameter,2.0,mm\nTime,Extension,Load\n(sec),(mm),(N)\n0,1,2\n1,3,4\n";
         let curve = parsed(text);
-        assert_eq!((curve.left_out.len(), &*curve.points), (0, &[[1.0, 2.0], [3.0, 4.0]][..]));
+        assert_eq!(
+            (&*curve.left_out, &*curve.points),
+            (&[1, 2][..], &[[1.0, 2.0], [3.0, 4.0]][..])
+        );
         let unknown = text.replace("Extension", "Gauge");
         let message = refused(&unknown);
-        assert!(message.contains("its columns are time_sec gauge_mm load_N,"), "{message}");
+        let expected = "a.csv:3: its columns are time_sec gauge_mm load_N: no column is a displacement or a curvature;";
+        assert!(message.starts_with(expected), "{message}");
         let names = ["time", "displacement_mm", "force_N"].map(str::to_owned);
         let curve = MeasuredCurve::parse(text, "a.csv", Some(&names)).expect("a curve");
         assert_eq!(curve[0].points, [[1.0, 2.0], [3.0, 4.0]]);
@@ -463,7 +550,8 @@ mod tests {
         let files: Vec<_> = curves.iter().map(|curve| curve.file.as_str()).collect();
         assert_eq!(files, ["a.csv, specimen A", "a.csv, specimen B 7"]);
         assert_eq!(curves[0].points, [[1.0, 2.0], [5.0, 6.0]]);
-        assert_eq!((&*curves[1].points, &*curves[1].left_out), (&[[3.0, 4.0]][..], &[4][..]));
+        // The second specimen is shorter.
+        assert_eq!((&*curves[1].points, &*curves[1].left_out), (&[[3.0, 4.0]][..], &[][..]));
         // A single row of numbers is no specimen.
         assert_eq!(parsed(below).left_out, [5, 6, 7]);
         let below = format!("{below}7;8\n");
@@ -478,7 +566,32 @@ mod tests {
     #[test]
     fn footers_and_lone_numbers_are_left_out() {
         let curve = parsed("x,y\n25,100\n\nDisplacement (mm),Force (N)\n1,2\n3,4\n\nEnd of test\n");
-        assert_eq!((&*curve.left_out, curve.points.len()), (&[2, 8][..], 2));
+        assert_eq!((&*curve.left_out, curve.points.len()), (&[1, 2, 8][..], 2));
+    }
+
+    #[test]
+    fn results_around_the_readings_are_left_out() {
+        let results = "Results\n,\"Maximum Load\",\"Extension\"\n,(N),(mm)\n1,9,8\n2,7,6\n";
+        let data = "Time,Extension,Load\n(s),(mm),(N)\n0,1,2\n1,3,4\n2,5,6\n";
+        let points = [[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]];
+        assert_eq!(parsed(&format!("{results}\n{data}")).points, points);
+        assert_eq!(parsed(&format!("{data}\n{results}")).points, points);
+        for footer in ["Mean,3,4\nSD,1,1\n", "Maximum,5,6\n", "Maximum,x,6\n", ",Maximum,6\n"] {
+            let curve = parsed(&format!("{data}{footer}"));
+            assert_eq!((&*curve.points, curve.left_out[0]), (&points[..], 6), "{footer}");
+            assert_eq!(parsed(&format!("{data}\n{footer}")).points, points);
+        }
+    }
+
+    #[test]
+    fn names_of_specimens_stand_above_their_first_column() {
+        let rows = "Zeit;Weg;Kraft;Zeit;Weg;Kraft\ns;mm;N;s;mm;N\n0;1;2;0;3;4\n1;5;6;1;7;8\n";
+        let text = format!("Probe 7;;;Probe 9;;\n{rows}");
+        let curves = MeasuredCurve::parse(&text, "a.csv", None).expect("curves");
+        let names: Vec<_> = curves.iter().map(|c| (c.specimen.as_deref(), &*c.file)).collect();
+        assert_eq!(names[1], (Some("Probe 9"), "a.csv, specimen Probe 9"));
+        assert_eq!((names[0].0, curves[1].points[1]), (Some("Probe 7"), [7.0, 8.0]));
+        assert!(curves[0].left_out.is_empty());
     }
 
     #[test]
@@ -505,6 +618,14 @@ mod tests {
             assert_eq!(decoded(&bytes).as_deref(), Some(text));
         }
         assert_eq!(parsed(text).points, [[0.5, 2.0]]);
+        // Without a byte-order mark.
+        let units: Vec<u16> = "Weg mm\tKraft kN\r\n0,5\t0,002\r\n".encode_utf16().collect();
+        let big: Vec<u8> = units.iter().flat_map(|unit| unit.to_be_bytes()).collect();
+        let little: Vec<u8> = units.iter().flat_map(|unit| unit.to_le_bytes()).collect();
+        for bytes in [big, little] {
+            let text = decoded(&bytes).expect("a text");
+            assert_eq!(parsed(&text).points, [[0.5, 2.0]]);
+        }
         assert_eq!(decoded(b"\x89PNG\0"), None);
         assert_eq!(decoded(b"\xff\xfe\0\xd8"), None);
     }
@@ -512,9 +633,11 @@ mod tests {
     #[test]
     fn errors_name_the_column_and_the_line() {
         let missing = refused("displacement_mm,moment_N_mm\n1,2\n");
-        assert!(missing.starts_with("a.csv: its columns are displacement_mm moment_N_mm, expected two of one test: displacement_mm"), "{missing}");
-        assert!(refused("displacement,force_N\n1,2\n").contains("expected two of one test"));
-        assert!(refused("").contains("its columns are none"));
+        assert!(missing.starts_with("a.csv:1: its columns are displacement_mm moment_N_mm: no two columns belong to one test; expected displacement_mm (_um _cm _m _in) and force_N"), "{missing}");
+        assert!(
+            refused("displacement,force_N\n1,2\n").contains(": displacement has no known unit;")
+        );
+        assert!(refused("").contains("a.csv: has no header; expected displacement_mm"));
         assert_eq!(
             refused("displacement_mm,force_N\n"),
             "a.csv: holds no points, expected a line for each"

@@ -22,6 +22,8 @@ const MOST_STEPS: usize = 12;
 const ACCURACY: f64 = 0.02;
 /// Accuracy of an end, as a fraction of its distance from the estimate.
 const NEAR: f64 = 0.01;
+/// Maximum number of passes in which ends are moved to points of other profiles.
+const MOST_PASSES: usize = 4;
 /// Fall of the sum of weighted squares that restarts the fit.
 const BETTER: f64 = 0.05;
 /// Distance at which a value counts as at its bound, as a fraction of the range.
@@ -70,28 +72,83 @@ struct ProfilePoint {
 }
 
 impl Profiles<'_, '_> {
-    /// Computes the interval of unknown `j`.
-    pub(crate) fn interval(&self, j: usize) -> Result<Interval, Aborted> {
-        let mut interval = Interval::default();
-        for (side, bound) in [0.0, 1.0].into_iter().enumerate() {
-            let Some(end) = self.end(j, bound)? else { continue };
-            interval.ends[side] = Some(end.at);
+    /// Computes the intervals of all unknowns.
+    pub(crate) fn intervals(&self) -> Result<Vec<Interval>, Aborted> {
+        let count = self.minimum.shares.len();
+        let mut ends: Vec<[Option<ProfilePoint>; 2]> = Vec::new();
+        for j in 0..count {
+            let minimum = self.minimum_point(j);
+            let [low, high] =
+                self.residuals.profile(|| [0, 1].map(|side| self.end(j, side, &minimum)));
+            ends.push([low?, high?]);
+        }
+        // A profile may miss a valley that the profile of another unknown visits.
+        for _ in 0..MOST_PASSES {
+            let mut has_changed = false;
+            for (j, ends) in ends.iter_mut().enumerate() {
+                for (side, end) in ends.iter_mut().enumerate() {
+                    let Some(last) = end else { continue };
+                    let Some(beyond) = self.visited_beyond(j, side, last.at) else { continue };
+                    *end = self.residuals.profile(|| self.end(j, side, &beyond))?;
+                    has_changed = true;
+                }
+            }
+            if !has_changed {
+                break;
+            }
+        }
+        Ok(ends.iter().enumerate().map(|(j, ends)| self.interval(j, ends)).collect())
+    }
+
+    /// Returns the interval of unknown `j` with these ends.
+    fn interval(&self, j: usize, ends: &[Option<ProfilePoint>; 2]) -> Interval {
+        let mut rests_on = Vec::new();
+        for end in ends.iter().flatten() {
             let others = (0..end.shares.len()).filter(|i| *i != j);
             let is_at_bound = |i: &usize| is_at_end(end.shares[*i]);
             let was_inside = |i: &usize| !is_at_end(self.minimum.shares[*i]);
-            interval.rests_on.extend(others.filter(is_at_bound).filter(was_inside));
+            rests_on.extend(others.filter(is_at_bound).filter(was_inside));
         }
-        interval.rests_on.sort_unstable();
-        interval.rests_on.dedup();
-        Ok(interval)
+        rests_on.sort_unstable();
+        rests_on.dedup();
+        Interval { ends: ends.each_ref().map(|end| end.as_ref().map(|end| end.at)), rests_on }
     }
 
-    /// Returns the end of the interval of unknown `j` towards `bound`; `None` if it is open.
-    fn end(&self, j: usize, bound: f64) -> Result<Option<ProfilePoint>, Aborted> {
-        let start = self.minimum.shares[j];
-        let side = 2.0 * bound - 1.0;
+    /// Returns the minimum as a point of the profile of unknown `j`.
+    fn minimum_point(&self, j: usize) -> ProfilePoint {
+        let shares = self.minimum.shares.clone();
+        ProfilePoint { at: shares[j], shares, rise: 0.0 }
+    }
+
+    /// Returns the farthest point beyond an end that was evaluated and belongs to the interval.
+    fn visited_beyond(&self, j: usize, side: usize, end: f64) -> Option<ProfilePoint> {
+        let direction = if side == 0 { -1.0 } else { 1.0 };
+        let tolerance = NEAR * (end - self.minimum.shares[j]).abs();
+        let limit = self.minimum.cost + self.t.powi(2);
+        let mut farthest: Option<ProfilePoint> = None;
+        for Minimum { cost, shares } in self.residuals.visited_below(limit) {
+            let at = shares[j];
+            let is_farther = farthest.as_ref().is_none_or(|last| direction * (at - last.at) > 0.0);
+            if is_farther && direction * (at - end) > tolerance {
+                farthest = Some(ProfilePoint { at, shares, rise: cost - self.minimum.cost });
+            }
+        }
+        farthest
+    }
+
+    /// Returns the end of the interval of unknown `j` at a side; `None` if it is open.
+    ///
+    /// `from` is a point within the interval.
+    fn end(
+        &self,
+        j: usize,
+        side: usize,
+        from: &ProfilePoint,
+    ) -> Result<Option<ProfilePoint>, Aborted> {
+        let (start, bound) = (from.at, side as f64);
+        let direction = 2.0 * bound - 1.0;
         let limit = self.t.powi(2);
-        let mut inner = ProfilePoint { at: start, shares: self.minimum.shares.clone(), rise: 0.0 };
+        let mut inner = from.clone();
         let mut outer: Option<ProfilePoint> = None;
         // Go on beyond the first crossing, because the sum of squares may fall again: its kinks make
         // several valleys.
@@ -99,7 +156,7 @@ impl Profiles<'_, '_> {
         let mut distance = half.clamp(FIRST[0], FIRST[1]);
         let mut last = inner.clone();
         while last.at != bound && last.rise < FAR.powi(2) * limit {
-            last = self.at(j, (start + distance * side).clamp(0.0, 1.0), &last)?;
+            last = self.at(j, (start + distance * direction).clamp(0.0, 1.0), &last)?;
             distance *= OUTWARD;
             if last.rise <= limit {
                 (inner, outer) = (last.clone(), None);
@@ -124,7 +181,7 @@ impl Profiles<'_, '_> {
             if is_accurate {
                 return Ok(Some(found));
             }
-            if (outer.at - inner.at).abs() < NEAR * (outer.at - start).abs() {
+            if (outer.at - inner.at).abs() < NEAR * (outer.at - self.minimum.shares[j]).abs() {
                 break;
             }
         }

@@ -56,6 +56,8 @@ pub(crate) struct Residuals<'a> {
     /// Last solution. Its derivatives are usually requested next.
     last: RefCell<Option<(Vec<f64>, Solved)>>,
     solutions: RefCell<usize>,
+    /// Evaluated unknowns, with the sum of squares of each curve.
+    visited: RefCell<Vec<(Vec<f64>, Vec<f64>)>>,
     work: &'a WorkMeter,
     /// Progress of the current search or profile.
     piece: RefCell<Option<WorkPiece<'a>>>,
@@ -111,6 +113,7 @@ impl<'a> Residuals<'a> {
             stop,
             last: RefCell::default(),
             solutions: RefCell::default(),
+            visited: RefCell::default(),
             work,
             piece: RefCell::default(),
         }
@@ -146,6 +149,11 @@ impl<'a> Residuals<'a> {
         }
         let model = uninterrupted(|| self.definition.model(self.evaluator, &self.values(shares)));
         let solved = model.ok_or(FitError::Stopped)?.ok().map(Rc::new);
+        if let Some(model) = &solved {
+            let curves = self.of_curves(model).into_iter();
+            let squares = curves.map(|of| of.iter().map(|r| r * r).sum()).collect();
+            self.visited.borrow_mut().push((shares.to_vec(), squares));
+        }
         *self.last.borrow_mut() = Some((shares.to_vec(), solved.clone()));
         Ok(solved)
     }
@@ -184,6 +192,19 @@ impl<'a> Residuals<'a> {
     /// Returns the sum of the weighted squares.
     pub(crate) fn cost(&self, shares: &[f64]) -> Result<f64, FitError> {
         Ok(self.weighted(shares)?.iter().map(|r| r * r).sum())
+    }
+
+    /// Lists the evaluated unknowns with at most this sum of the weighted squares.
+    pub(crate) fn visited_below(&self, limit: f64) -> Vec<Minimum> {
+        let mut below = Vec::new();
+        for (shares, squares) in &*self.visited.borrow() {
+            let curves = squares.iter().zip(&self.noise);
+            let cost = curves.map(|(squares, noise)| squares / noise.scale().powi(2)).sum();
+            if cost <= limit {
+                below.push(Minimum { cost, shares: shares.clone() });
+            }
+        }
+        below
     }
 
     /// Searches for a local minimum from `start`.

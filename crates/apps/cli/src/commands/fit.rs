@@ -261,7 +261,7 @@ fn text(fitted: &Fitted) -> String {
     });
     text.push_str(&aligned(&rows.collect::<Vec<_>>()));
     for curve in curves {
-        text.push_str(&remarks(curve));
+        text.push_str(&remarks(curve, estimates));
     }
     for mean in &fitted.means {
         let [.., [x, mean_there, deviation]] = mean.points.as_slice() else { continue };
@@ -301,7 +301,7 @@ fn differs(scatter: &Scatter) -> String {
 }
 
 /// Lists warnings and notes on the fit of a curve.
-fn remarks(curve: &FittedCurve) -> String {
+fn remarks(curve: &FittedCurve, estimates: &[Estimate]) -> String {
     let FittedCurve { file, beyond, events, .. } = curve;
     let [x, y] = curve.axes.each_ref().map(|axis| axis.split_once(',').map_or(&**axis, |a| a.0));
     let warnings = [
@@ -319,34 +319,57 @@ fn remarks(curve: &FittedCurve) -> String {
     ];
     let (is_physical, reversed) = (curve.is_physical, curve.reversed);
     let notes = Reading { axes: [x, y], is_physical, left_out: &curve.left_out, reversed }.notes();
-    // Both branches are fitted as requested.
-    let is_note =
-        |event: &&CurveEvent| event.kind == CurveEventKind::TurnsBack && event.left_out == 0;
-    let (as_notes, as_warnings): (Vec<_>, Vec<_>) = events.iter().partition(is_note);
-    let as_warnings = as_warnings.into_iter().map(|event| told(event, [x, y]));
-    let as_notes = as_notes.into_iter().map(|event| told(event, [x, y]));
+    let offset = format!("{x} offset of {file}");
+    let has_offset = estimates.iter().any(|estimate| estimate.unknown.name == offset);
+    let (as_notes, as_warnings): (Vec<_>, Vec<_>) =
+        events.iter().partition(|event| is_note(event, has_offset));
+    let as_warnings = as_warnings.into_iter().map(|event| told(event, [x, y], has_offset));
+    let as_notes = as_notes.into_iter().map(|event| told(event, [x, y], has_offset));
     let warnings = warnings.into_iter().flatten().chain(as_warnings);
     let warnings = warnings.map(|text| format!("  (!) {file}: {text}\n"));
     let notes = notes.into_iter().chain(as_notes);
     warnings.chain(notes.map(|text| format!("  {file}: {text}\n"))).collect()
 }
 
+/// Returns true for an event that the fit takes into account as requested.
+fn is_note(event: &CurveEvent, has_offset: bool) -> bool {
+    match event.kind {
+        CurveEventKind::Touches => has_offset,
+        CurveEventKind::TurnsBack => event.left_out == 0,
+        _ => false,
+    }
+}
+
 /// Describes an event of a curve with these axes.
-fn told(event: &CurveEvent, [x, y]: [&str; 2]) -> String {
-    let CurveEvent { kind, line, left_out, .. } = *event;
+fn told(event: &CurveEvent, [x, y]: [&str; 2], has_offset: bool) -> String {
+    let CurveEvent { kind, line, left_out, at } = *event;
     let points = counted(left_out as u64, "point");
+    let is_or_are = if left_out == 1 { "is" } else { "are" };
     match kind {
+        CurveEventKind::Touches => {
+            let advice = if has_offset {
+                String::new()
+            } else {
+                format!("; offsets = [\"{x}\"] in [[curve]] fits its end")
+            };
+            format!(
+                "the {y} does not rise up to line {line}, at the {x} {}: an approach before contact{advice}",
+                digits(at)
+            )
+        }
         CurveEventKind::TurnsBack if left_out == 0 => {
             format!("the {x} turns back after line {line}; both branches are fitted")
         }
         CurveEventKind::TurnsBack => format!(
-            "the {x} turns back after line {line}; {points} of the other branch are left out; branch = \"both\" fits them, too"
+            "the {x} turns back after line {line}; {points} of the other branch {is_or_are} left out; branch = \"both\" fits them, too"
         ),
         CurveEventKind::TurnsAgain => {
-            format!("the {x} grows again after line {line}; the {points} after it are left out")
+            format!(
+                "the {x} grows again after line {line}; the {points} after it {is_or_are} left out"
+            )
         }
         CurveEventKind::Fails => format!(
-            "the {y} drops after line {line} and does not recover; the {points} after it are left out"
+            "the {y} drops after line {line} and does not recover; the {points} after it {is_or_are} left out"
         ),
         CurveEventKind::Drops => {
             format!(
@@ -354,7 +377,7 @@ fn told(event: &CurveEvent, [x, y]: [&str; 2]) -> String {
             )
         }
         CurveEventKind::Held => {
-            format!("the {x} is held after line {line}; {points} of the hold are left out")
+            format!("the {x} is held after line {line}; {points} of the hold {is_or_are} left out")
         }
     }
 }
@@ -362,6 +385,7 @@ fn told(event: &CurveEvent, [x, y]: [&str; 2]) -> String {
 /// Returns the name of a kind of event in JSON.
 fn kind_name(kind: CurveEventKind) -> &'static str {
     match kind {
+        CurveEventKind::Touches => "touches",
         CurveEventKind::TurnsBack => "turns_back",
         CurveEventKind::TurnsAgain => "turns_again",
         CurveEventKind::Fails => "fails",
@@ -399,6 +423,7 @@ fn record(fitted: &Fitted) -> Value {
         "not_told_apart": fitted.undetermined.iter().map(names).collect::<Vec<_>>(),
         "curves": fitted.curves.iter().map(curve).collect::<Vec<_>>(),
         "solutions": fitted.solutions,
+        "restarts": fitted.restarts,
         "files": FILES,
     })
 }

@@ -2,8 +2,8 @@
 
 use crate::print::counted;
 
-/// Number of left out lines that are listed.
-const SHOWN_LINES: usize = 5;
+/// Number of ranges of left out lines that are listed.
+const SHOWN_RANGES: usize = 5;
 
 /// Properties of a measured curve that a reader should know.
 pub struct Reading<'a> {
@@ -27,8 +27,9 @@ impl Reading<'_> {
         }
         if !left_out.is_empty() {
             let lines = counted(left_out.len() as u64, "line");
-            let first: Vec<_> = left_out.iter().take(SHOWN_LINES).map(u64::to_string).collect();
-            let more = if left_out.len() > SHOWN_LINES { ", …" } else { "" };
+            let ranges = ranges(left_out);
+            let more = if ranges.len() > SHOWN_RANGES { ", …" } else { "" };
+            let first = &ranges[..ranges.len().min(SHOWN_RANGES)];
             notes.push(format!(
                 "{lines} outside the table of numbers left out: {}{more}",
                 first.join(", ")
@@ -44,4 +45,16 @@ impl Reading<'_> {
         ));
         notes
     }
+}
+
+/// Joins neighbouring lines to ranges, such as `2 to 5`.
+fn ranges(lines: &[u64]) -> Vec<String> {
+    let mut ranges = Vec::new();
+    for range in lines.chunk_by(|line, next| *next == line + 1) {
+        ranges.push(match range {
+            [first, .., last] => format!("{first} to {last}"),
+            line => line.iter().map(u64::to_string).collect(),
+        });
+    }
+    ranges
 }

@@ -237,6 +237,12 @@ fn plot_curves(arguments: &CurvesArguments) -> anyhow::Result<u8> {
 
 /// Reads the measured curves, and checks that the designs have the same units.
 fn measured(arguments: &CurvesArguments, cases: &[Case]) -> anyhow::Result<Option<MeasuredCurves>> {
+    let paths: Vec<_> = arguments.measured.iter().map(|file| file.canonicalize().ok()).collect();
+    for (k, file) in arguments.measured.iter().enumerate() {
+        if paths[k].is_some() && paths[..k].contains(&paths[k]) {
+            bail!("{}: given twice with --measured, expected each file once", file.display());
+        }
+    }
     let read = |file: &PathBuf| MeasuredCurve::read(file, arguments.measured_columns.as_deref());
     let read = arguments.measured.iter().map(read).collect::<Result<Vec<_>, _>>()?;
     // A file may hold several specimens.

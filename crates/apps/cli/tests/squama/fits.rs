@@ -1,5 +1,6 @@
 //! Measured curves: overlaid on solved curves, and fitted.
 
+use std::fmt::Write as _;
 use std::fs;
 
 use crate::Place;
@@ -49,7 +50,8 @@ fn incompatible_measured_curves_are_rejected() {
         |files: &str| place.refused(&format!("plot curves x.toml --design 1 {files} --out o"));
     insta::assert_snapshot!(plot("--measured a.csv"), @"error: x.toml: a.csv is in mm and N; to overlay it, the definition needs material.thickness_mm and material.substrate_modulus_MPa");
     insta::assert_snapshot!(plot("--measured a.csv --measured b.csv"), @"error: b.csv: differs from a.csv in its test or units; overlay curves of one test in the same units");
-    insta::assert_snapshot!(plot("--measured c.csv"), @"error: c.csv: its columns are displacement_mm force, expected two of one test: displacement_mm displacement_um displacement_cm displacement_m displacement_in displacement force_N force_mN force_cN force_kN force_gf force_kgf force_lbf force curvature_per_mm curvature_per_m curvature moment_N_mm moment_mN_m moment_N_m moment; columns = [...] in [[curve]], or --measured-columns, names the columns otherwise");
+    insta::assert_snapshot!(plot("--measured b.csv --measured ./b.csv"), @"error: ./b.csv: given twice with --measured, expected each file once");
+    insta::assert_snapshot!(plot("--measured c.csv"), @"error: c.csv:1: its columns are displacement_mm force: force has no known unit; expected displacement_mm (_um _cm _m _in) and force_N (_mN _cN _kN _gf _kgf _lbf), or curvature_per_mm (_per_m) and moment_N_mm (_mN_m _N_m); otherwise name the columns with columns = [...] in [[curve]], or --measured-columns");
     insta::assert_snapshot!(plot("--measured d.csv"), @"error: d.csv: cannot be read (No such file or directory), expected a CSV file");
     assert!(!place.path("o").exists());
 }
@@ -121,7 +123,10 @@ fn doubtful_fits_are_reported() {
     let text =
         fitted(&format!("Machine;7\nDisplacement (µm),Force [mN]\n{pulled}\n,\n40,-40\n"), 1);
     assert!(text.contains("(!) a.csv: no point has both displacement and force above 0"), "{text}");
-    assert!(text.contains("a.csv: 1 line outside the table of numbers left out: 32\n"), "{text}");
+    assert!(
+        text.contains("a.csv: 2 lines outside the table of numbers left out: 1, 32\n"),
+        "{text}"
+    );
     let wave = (1..60).map(|k| format!("{k},{}", 2 * k + 20 * (k / 10 % 2)));
     let wave = wave.collect::<Vec<_>>().join("\n");
     // So few residuals are independent that the curve excludes no modulus.
@@ -129,6 +134,35 @@ fn doubtful_fits_are_reported() {
     assert!(text.contains("(!) a.csv: neighbouring residuals are correlated (0."), "{text}");
     let text = fitted("displacement,force\n0.1,0.2\n0.2,0.4\n0.3,0.6\n", 1);
     assert!(text.contains("displacement and force have no units in the file"), "{text}");
+}
+
+/// The zero of the displacement is at contact, or `offsets` fits it.
+#[test]
+fn an_approach_is_reported_with_its_last_line() {
+    let skin = SKIN.replace("substrate_modulus_MPa = 0.5\n", "");
+    let place = Place::with(&format!(
+        "{skin}[variables]\nsubstrate_modulus_MPa = {{ from = 0.1, to = 9 }}\n[[curve]]\nfile = 'a.csv'\nkind = 'puncture'\n"
+    ));
+    let mut file = "displacement_mm,force_N\n".to_owned();
+    for x in (0..40).map(|k| 0.005 * f64::from(k)) {
+        writeln!(file, "{x},{}", SLOPE * (x - 0.1).max(0.0)).expect("a text");
+    }
+    fs::write(place.path("a.csv"), file).expect("writable");
+    let assert = place.squama("fit x.toml").assert();
+    let text = String::from_utf8_lossy(&assert.get_output().stdout).into_owned();
+    let approach = "a.csv: the force does not rise up to line 22, at the displacement 0.1";
+    assert!(text.contains(&format!("(!) {approach}")), "{text}");
+    assert!(text.contains("offsets = [\"displacement\"] in [[curve]] fits its end"), "{text}");
+    let offset = place.read("x.toml") + "offsets = ['displacement']\n";
+    fs::write(place.path("x.toml"), offset).expect("writable");
+    let text = place.prints("fit x.toml");
+    assert!(text.contains(&format!("\n  {approach}")), "{text}");
+    // Without an approach, nothing is reported.
+    let points = (1..40).map(|k| 0.005 * f64::from(k)).map(|x| format!("{x},{}\n", SLOPE * x));
+    let file = format!("displacement_mm,force_N\n{}", points.collect::<String>());
+    fs::write(place.path("a.csv"), file).expect("writable");
+    let text = place.prints("fit x.toml");
+    assert!(!text.contains("does not rise"), "{text}");
 }
 
 /// Stiffness before contact in newtons per millimetre, for a modulus of 0.5.

@@ -8,7 +8,7 @@ use super::Test;
 /// `M*`), as in the tables of `squama design`.
 type Column = (&'static str, Test, usize, Option<f64>);
 
-const COLUMNS: [Column; 21] = [
+static COLUMNS: [Column; 21] = [
     ("displacement_mm", Test::Puncture, 0, Some(1.0)),
     ("displacement_um", Test::Puncture, 0, Some(1e-3)),
     ("displacement_cm", Test::Puncture, 0, Some(10.0)),
@@ -52,6 +52,9 @@ const DISPLACEMENTS: [&str; 14] = [
 /// Words by which testing machines name the force.
 const FORCES: [&str; 8] =
     ["force", "load", "last", "kraft", "standardkraft", "prüfkraft", "effort", "charge"];
+/// Other spellings of units.
+const UNITS: [(&str, &str); 5] =
+    [("inch", "in"), ("inches", "in"), ("lb", "lbf"), ("lbs", "lbf"), ("kp", "kgf")];
 /// Words before the name of a quantity.
 const QUALIFIERS: [&str; 6] =
     ["tensile", "compressive", "compression", "axial", "standard", "machine"];
@@ -64,9 +67,10 @@ const OTHERS: [&str; 11] = [
 /// Normalises a column name.
 ///
 /// `Force [N]`, `force (N)` and `Force, N` become `force_N`; `Curvature (1/m)` becomes
-/// `curvature_per_m`.
+/// `curvature_per_m`. Units in symbols become words.
 pub(super) fn spelled(name: &str) -> String {
-    let name = name.replace("1/", "per ").replace(['µ', 'μ'], "u");
+    let name = name.replace("1/", "per ").replace(['µ', 'μ'], "u").replace('%', " percent ");
+    let name = name.replace("(\")", " in ").replace("[\"]", " in ").replace('″', " in ");
     let mut words = name.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
     let first = words.next().unwrap_or_default().to_lowercase();
     words.fold(first, |name, word| format!("{name}_{word}"))
@@ -81,18 +85,45 @@ fn translated(name: &str) -> String {
     let (Some((unit, words)), false) = (words.split_last(), words.len() < 2) else {
         return name.to_owned();
     };
+    let unit = UNITS.iter().find(|(other, _)| other == unit).map_or(*unit, |(_, unit)| unit);
     let words: Vec<_> = words.iter().map(|word| word.to_lowercase()).collect();
-    let is_other = words.iter().any(|word| OTHERS.contains(&word.as_str()));
-    let named = words.iter().find(|word| !QUALIFIERS.contains(&word.as_str()));
-    let quantity = match named.map(String::as_str) {
-        _ if is_other => None,
-        Some(word) if DISPLACEMENTS.contains(&word) => Some("displacement"),
-        Some(word) if FORCES.contains(&word) => Some("force"),
-        _ => None,
-    };
+    let quantity = quantity(&words);
     let translated = quantity.map(|quantity| format!("{quantity}_{unit}"));
     let is_known = |name: &String| COLUMNS.iter().any(|column| column.0 == name);
     translated.filter(is_known).unwrap_or_else(|| name.to_owned())
+}
+
+/// Returns the quantity that the words of a name state.
+fn quantity(words: &[String]) -> Option<&'static str> {
+    if words.iter().any(|word| OTHERS.contains(&word.as_str())) {
+        return None;
+    }
+    let word = words.iter().find(|word| !QUALIFIERS.contains(&word.as_str()))?.as_str();
+    let quantities = ["displacement", "force", "curvature", "moment"];
+    match word {
+        _ if DISPLACEMENTS.contains(&word) => Some("displacement"),
+        _ if FORCES.contains(&word) => Some("force"),
+        _ => quantities.into_iter().find(|quantity| *quantity == word),
+    }
+}
+
+/// Returns the quantity that a name states, with or without a unit.
+fn quantity_of(name: &str) -> Option<&'static str> {
+    quantity(&name.split('_').map(str::to_lowercase).collect::<Vec<_>>())
+}
+
+/// Counts the quantities of a test among names, to find the row that looks most like a header.
+pub(super) fn quantities(names: &[String]) -> usize {
+    let mut quantities: Vec<_> = names.iter().filter_map(|name| quantity_of(name)).collect();
+    quantities.sort_unstable();
+    quantities.dedup();
+    quantities.len()
+}
+
+/// Removes the numbers of specimens: `extension_2_mm` becomes `extension_mm`.
+fn unnumbered(name: &str) -> String {
+    let words = name.split('_').filter(|word| !word.bytes().all(|byte| byte.is_ascii_digit()));
+    words.collect::<Vec<_>>().join("_")
 }
 
 /// Columns of one curve, by index, with the units in which they are written.
@@ -112,12 +143,18 @@ pub(super) struct CurveColumns {
 ///
 /// If no two columns belong to one test, or several could be the displacement or the force.
 pub(super) fn curves(names: &[String]) -> Result<Vec<CurveColumns>, String> {
+    let unnumbered: Vec<_> = names.iter().map(|name| unnumbered(name)).collect();
+    if let Ok(Some(curves)) = pairs(&unnumbered)
+        && curves.len() > 1
+    {
+        return Ok(curves);
+    }
     if let Some(curves) = pairs(names)? {
         return Ok(curves);
     }
-    let translations: Vec<_> = names.iter().map(|name| translated(name)).collect();
+    let translations: Vec<_> = unnumbered.iter().map(|name| translated(name)).collect();
     for axis in ["displacement_", "force_"] {
-        let mut alike: Vec<_> = names
+        let mut alike: Vec<_> = unnumbered
             .iter()
             .zip(&translations)
             .filter(|(_, translation)| translation.starts_with(axis))
@@ -129,20 +166,60 @@ pub(super) fn curves(names: &[String]) -> Result<Vec<CurveColumns>, String> {
             let all = alike.join(" and ");
             let quantity = axis.trim_end_matches('_');
             return Err(format!(
-                "the columns {all} could all be the {quantity}, expected one: name the columns with columns = [...] in [[curve]], or --measured-columns"
+                "the columns {all} could all be the {quantity}, expected one: {OTHERWISE}"
             ));
         }
     }
-    pairs(&translations)?.ok_or_else(|| {
-        let all = COLUMNS.map(|(name, ..)| name).join(" ");
-        let names = if names.is_empty() { "none".to_owned() } else { names.join(" ") };
-        format!(
-            "its columns are {names}, expected two of one test: {all}; \
-             columns = [...] in [[curve]], or --measured-columns, names the columns otherwise"
-        )
-    })
+    pairs(&translations)?.ok_or_else(|| missing(names))
 }
 
+/// Advice for files with other names.
+const OTHERWISE: &str = "name the columns with columns = [...] in [[curve]], or --measured-columns";
+
+/// Returns the known column with a name, as a testing machine may write it.
+fn known(name: &str) -> Option<&'static Column> {
+    let name = translated(name);
+    COLUMNS.iter().find(|column| column.0 == name)
+}
+
+/// Lists the columns of a quantity: the first name, and the units of the others.
+fn units_of(quantity: &str) -> String {
+    let of = COLUMNS.iter().filter_map(|column| column.0.strip_prefix(quantity)?.strip_prefix('_'));
+    let mut units = of.map(|unit| format!("_{unit}"));
+    let first = units.next().unwrap_or_default();
+    format!("{quantity}{first} ({})", units.collect::<Vec<_>>().join(" "))
+}
+
+/// Describes the columns that a header lacks.
+pub(super) fn missing(names: &[String]) -> String {
+    let mut units = names.iter().filter_map(|name| known(name)).map(|column| column.3);
+    let has_units = units.any(|unit| unit.is_some());
+    let mut reasons = Vec::new();
+    for axis in [["displacement", "curvature"], ["force", "moment"]] {
+        let named =
+            names.iter().filter(|name| quantity_of(name).is_some_and(|q| axis.contains(&q)));
+        let named: Vec<_> = named.collect();
+        match named.first() {
+            None => reasons.push(format!("no column is a {}", axis.join(" or a "))),
+            Some(name) => {
+                let mut columns = named.iter().filter_map(|name| known(name));
+                if !columns.any(|column| column.3.is_some() == has_units) {
+                    reasons.push(format!("{name} has no known unit"));
+                }
+            }
+        }
+    }
+    if reasons.is_empty() {
+        reasons.push("no two columns belong to one test".to_owned());
+    }
+    let shown = if names.is_empty() {
+        "has no header".to_owned()
+    } else {
+        format!("its columns are {}: {}", names.join(" "), reasons.join(", "))
+    };
+    let [x, y, curvature, moment] = ["displacement", "force", "curvature", "moment"].map(units_of);
+    format!("{shown}; expected {x} and {y}, or {curvature} and {moment}; otherwise {OTHERWISE}")
+}
 /// Returns the first two columns of one test in one system of units, for each specimen.
 ///
 /// # Errors
@@ -163,10 +240,7 @@ fn pairs(names: &[String]) -> Result<Option<Vec<CurveColumns>>, String> {
     if xs.len() != ys.len() {
         // Taking the first of several columns might be wrong.
         let column = if xs.len() > ys.len() { x } else { y };
-        return Err(format!(
-            "has several columns {0}, expected one: give the others another name",
-            column.0
-        ));
+        return Err(format!("has several columns {0}, expected one: {OTHERWISE}", column.0));
     }
     let (test, units) = (x.1, x.3.zip(y.3).map(|(x, y)| [x, y]));
     let curve = |(x, y)| CurveColumns { indices: [x, y], test, units };
@@ -190,6 +264,10 @@ mod tests {
             ("Traverse absolue mm", "traverse_absolue_mm"),
             ("Maximum Load (N)", "maximum_Load_N"),
             ("Load", "load"),
+            ("Travel (inch)", "displacement_in"),
+            ("Load lbs", "force_lbf"),
+            ("Travel (\")", "displacement_in"),
+            ("Force (%)", "force_percent"),
             ("Load (oz)", "load_oz"),
         ] {
             assert_eq!(translated(&spelled(name)), translation, "{name}");
@@ -201,6 +279,15 @@ mod tests {
         let names = ["Extension (mm)", "Load (N)", "Extension (mm)", "Load (N)"].map(spelled);
         let found: Vec<_> = curves(&names).expect("curves").iter().map(|c| c.indices).collect();
         assert_eq!(found, [[0, 1], [2, 3]]);
+        let names = ["Extension 1 (mm)", "Load 1 (N)", "Extension 2 (mm)", "Load 2 (N)"];
+        let found: Vec<_> =
+            curves(&names.map(spelled)).expect("curves").iter().map(|c| c.indices).collect();
+        assert_eq!(found, [[0, 1], [2, 3]]);
+        let names = ["force_N", "displacement_mm", "force_N.1", "displacement_mm.1"].map(spelled);
+        assert_eq!(curves(&names).expect("curves").len(), 2);
+        // A second force sensor is no specimen.
+        let names = ["force_N", "force_2_N", "displacement_mm"].map(spelled);
+        assert_eq!(curves(&names).expect("a curve").len(), 1);
         let names = ["Extension (mm)", "Stroke (mm)", "Load (N)"].map(spelled);
         let refused = curves(&names).expect_err("two displacements");
         assert!(

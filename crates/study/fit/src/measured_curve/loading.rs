@@ -17,9 +17,24 @@ const HELD: f64 = 1e-3;
 /// Least number of points of a hold, and least fraction of all points.
 const LEAST_HELD: (usize, f64) = (5, 0.05);
 
+/// Fraction of the largest force below which contact begins.
+const CONTACT: f64 = 0.3;
+/// Least fraction of the range, and least number of points, of an approach before contact.
+const LEAST_APPROACH: (f64, usize) = (0.1, 5);
+/// Rise of the force during an approach, as a fraction of the largest force.
+const FLAT: f64 = 0.02;
+/// Least F statistic of a contact point, in comparison with a straight line.
+///
+/// It is the largest of many positions, so it exceeds usual quantiles.
+const SIGNIFICANT: f64 = 20.0;
+/// Number of contact points that are compared.
+const CONTACTS: usize = 100;
+
 /// Kind of an event of a measured curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CurveEventKind {
+    /// The force or moment begins to rise after an approach without contact.
+    Touches,
     /// The displacement or curvature turns back, and unloading begins.
     TurnsBack,
     /// After unloading, the displacement or curvature grows again.
@@ -58,8 +73,9 @@ pub(crate) struct Branches {
 
 /// Detects axes with reversed signs, for example of machines that count compression as negative.
 ///
-/// The displacement is reversed if it decreases from the start and is negative. The force is
-/// reversed if it decreases while the displacement grows, and is negative where it is largest.
+/// The displacement is reversed if it decreases from the start, and is negative or the force grows
+/// meanwhile, as for the position of a crosshead that moves down. The force is reversed if it
+/// decreases while the displacement grows, and is negative where it is largest.
 pub(super) fn reversed_signs(points: &[[f64; 2]]) -> [bool; 2] {
     let largest = |axis: usize| {
         let values = points.iter().map(|point| point[axis]);
@@ -68,11 +84,14 @@ pub(super) fn reversed_signs(points: &[[f64; 2]]) -> [bool; 2] {
     let count = points.len() as f64;
     let mean = |axis: usize| points.iter().map(|point| point[axis]).sum::<f64>() / count;
     let [x, y] = [mean(0), mean(1)];
-    let covariance: f64 = points.iter().map(|point| (point[0] - x) * (point[1] - y)).sum();
+    let products = points.iter().map(|point| (point[0] - x) * (point[1] - y));
+    let covariance: f64 = products.sum::<f64>() * largest(1).signum();
     let first = points.first().map_or(0.0, |point| point[0]);
-    let is_reversed = largest(0) < 0.0 && largest(0) < first;
+    let lowest = points.iter().map(|point| point[0]).fold(first, f64::min);
+    let is_falling = points.iter().all(|p| p[0] <= first + TURNED_BACK * (first - lowest));
+    let is_reversed = (largest(0) < 0.0 && largest(0) < first) || (is_falling && covariance < 0.0);
     let covariance = if is_reversed { -covariance } else { covariance };
-    [is_reversed, largest(1) < 0.0 && covariance < 0.0]
+    [is_reversed, largest(1) < 0.0 && covariance > 0.0]
 }
 
 /// Divides a curve into its branches.
@@ -106,6 +125,8 @@ pub(super) fn branches(points: &[[f64; 2]], lines: &[u64]) -> Branches {
             events.push(event(CurveEventKind::TurnsAgain, lowest, back.len() - end));
         }
     }
+    let touching = last_before_contact(&along[..loaded]);
+    events.extend(touching.map(|last| event(CurveEventKind::Touches, kept[last], 0)));
     let drops = drops(&along[..loaded]).into_iter();
     events.extend(drops.map(|last| event(CurveEventKind::Drops, kept[last], 0)));
     events.sort_by_key(|event| event.line);
@@ -128,7 +149,8 @@ fn turn(points: &[[f64; 2]], direction: f64) -> Option<usize> {
     None
 }
 
-fn range(points: &[[f64; 2]]) -> f64 {
+/// Returns the range of the displacement.
+pub(super) fn range(points: &[[f64; 2]]) -> f64 {
     let ends = points
         .iter()
         .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| [low.min(p[0]), high.max(p[0])]);
@@ -151,6 +173,57 @@ fn holds(points: &[[f64; 2]]) -> Vec<Range<usize>> {
         start = end;
     }
     holds
+}
+
+/// Returns the last point of an approach without force.
+///
+/// The force is constant there, and rises from there in a straight line. This fits significantly
+/// better than a straight line through all points of the first contact.
+fn last_before_contact(points: &[[f64; 2]]) -> Option<usize> {
+    let largest = largest_force(points);
+    let end = points.iter().position(|point| point[1] > CONTACT * largest)? + 1;
+    let toe = &points[..end];
+    let step = end.div_ceil(CONTACTS);
+    let mut best: Option<(f64, usize)> = None;
+    for last in (0..end - 1).step_by(step) {
+        let hinge = toe.iter().map(|[x, y]| [(x - toe[last][0]).max(0.0), *y]);
+        let (_, squares) = line(hinge);
+        if best.is_none_or(|(least, _)| squares < least) {
+            best = Some((squares, last));
+        }
+    }
+    let (squares, last) = best?;
+    let extent = points[last][0] - points[0][0];
+    if last + 1 < LEAST_APPROACH.1 || extent < LEAST_APPROACH.0 * range(points) {
+        return None;
+    }
+    let (_, straight) = line(toe.iter().copied());
+    let variance = squares / (end as f64 - 3.0).max(1.0);
+    let (slope, around) = line(toe[..=last].iter().copied());
+    let mean = toe[..=last].iter().map(|point| point[0]).sum::<f64>() / (last + 1) as f64;
+    let spread: f64 = toe[..=last].iter().map(|point| (point[0] - mean).powi(2)).sum();
+    let error = (around / (last as f64 - 1.0).max(1.0) / spread).sqrt();
+    let is_flat = slope.abs() < 2.0 * error || slope.abs() * extent < FLAT * largest;
+    (is_flat && straight - squares > SIGNIFICANT * variance).then_some(last)
+}
+
+/// Fits a straight line. Returns its slope and the sum of the squared residuals.
+fn line(points: impl Iterator<Item = [f64; 2]> + Clone) -> (f64, f64) {
+    let (mut count, mut sums) = (0.0, [0.0; 2]);
+    for point in points.clone() {
+        count += 1.0;
+        sums = [sums[0] + point[0], sums[1] + point[1]];
+    }
+    let means = sums.map(|sum| sum / count);
+    let [mut xx, mut xy, mut yy] = [0.0; 3];
+    for point in points {
+        let [x, y] = [0, 1].map(|axis| point[axis] - means[axis]);
+        xx += x * x;
+        xy += x * y;
+        yy += y * y;
+    }
+    let slope = if xx > 0.0 { xy / xx } else { 0.0 };
+    (slope, (yy - slope * xy).max(0.0))
 }
 
 /// Returns the last point before the force drops in one step and does not recover.
@@ -207,8 +280,37 @@ mod tests {
     fn negative_compression_is_reversed_but_offsets_are_not() {
         assert_eq!(reversed_signs(&[[0.0, 0.0], [-1.0, -2.0], [-2.0, -5.0]]), [true, true]);
         assert_eq!(reversed_signs(&[[0.0, 0.0], [1.0, -2.0], [2.0, -5.0]]), [false, true]);
-        assert_eq!(reversed_signs(&[[3.0, 0.0], [2.0, 2.0], [1.0, 5.0]]), [false, false]);
+        assert_eq!(reversed_signs(&[[3.0, 0.0], [2.0, 2.0], [1.0, 5.0]]), [true, false]);
+        assert_eq!(reversed_signs(&[[3.0, 0.0], [2.0, -2.0], [1.0, -5.0]]), [true, true]);
+        // Unloading.
+        assert_eq!(reversed_signs(&[[3.0, 5.0], [2.0, 2.0], [1.0, 0.0]]), [false, false]);
         assert_eq!(reversed_signs(&[[-9.0, -5.0], [-8.0, -4.0], [-7.0, -2.0]]), [false, false]);
+    }
+
+    /// Returns a force of up to 1 that rises after an approach, with noise.
+    fn approach(length: f64, noise: f64) -> Vec<[f64; 2]> {
+        let mut points = Vec::new();
+        for k in 0..40_u32 {
+            let x = 0.05 * f64::from(k);
+            // Deterministic noise without a trend.
+            let error = noise * (f64::from(k * k) * 0.7).sin();
+            points.push([x, (x - length).max(0.0) + error]);
+        }
+        points
+    }
+
+    #[test]
+    fn contact_after_an_approach_is_reported() {
+        for noise in [0.0, 0.01, 0.03] {
+            let found = events(&approach(1.0, noise));
+            let [(CurveEventKind::Touches, line, 0)] = found[..] else { panic!("{found:?}") };
+            assert!((19..=23).contains(&line), "{noise}: {line}");
+            // A straight line, and a curve that becomes steeper, have no approach.
+            assert_eq!(events(&approach(0.0, noise)), [], "{noise}");
+        }
+        let steeper: Vec<_> = approach(0.0, 0.0).iter().map(|[x, y]| [*x, y * y]).collect();
+        assert_eq!(events(&steeper), []);
+        assert_eq!(events(&approach(0.1, 0.0)), []);
     }
 
     #[test]

@@ -22,6 +22,11 @@ pub(super) struct Row {
 }
 
 impl Row {
+    /// Returns the cell in a column; empty if the row has fewer columns.
+    pub(super) fn cell(&self, column: usize) -> &str {
+        self.cells.get(column).unwrap_or_default()
+    }
+
     fn is_empty(&self) -> bool {
         self.cells.iter().all(str::is_empty)
     }
@@ -42,11 +47,14 @@ impl Rows {
         let text = text.trim_start_matches('\u{feff}').replace("\r\n", "\n").replace('\r', "\n");
         let end = (SAMPLE..text.len()).find(|end| text.is_char_boundary(*end));
         let sample = &text[..end.unwrap_or(text.len())];
-        let mut best = (0, ',');
+        let mut best = ((0, 0), ',');
         for separator in SEPARATORS {
-            let longest = longest(&Self::split(sample, separator)?.runs(2)).len();
-            if longest > best.0 {
-                best = (longest, separator);
+            let rows = Self::split(sample, separator)?;
+            let longest = longest(&rows.runs(2));
+            // With a wrong separator, cells such as `20;2` remain.
+            let pure = longest.clone().filter(|row| rows.has_numbers_only(*row)).count();
+            if (pure, longest.len()) > best.0 {
+                best = ((pure, longest.len()), separator);
             }
         }
         Self::split(&text, best.1)
@@ -69,10 +77,39 @@ impl Rows {
 
     /// Returns the number in a cell.
     pub(super) fn number(&self, cell: &str) -> Option<f64> {
-        // In a cell with a point, a comma may separate thousands. Such a cell is refused.
-        let is_comma = self.decimal == ',' && !cell.contains('.');
-        let number = if is_comma { cell.replace(',', ".").parse() } else { cell.parse() };
+        // Word processors write a minus sign or a dash instead of a hyphen.
+        if let Some(digits) = cell.strip_prefix(['\u{2212}', '\u{2013}']) {
+            return self.number(digits).map(|number| -number);
+        }
+        let number = match [',', '.'].map(|sign| cell.find(sign)) {
+            // The last sign is the decimal one, the others separate thousands.
+            [Some(comma), Some(point)] => {
+                let (group, decimal) = if comma < point { (',', '.') } else { ('.', ',') };
+                ungrouped(cell, group, decimal)?.parse()
+            }
+            [Some(_), None] if self.decimal == ',' => cell.replace(',', ".").parse(),
+            _ => cell.parse(),
+        };
         number.ok().filter(|number: &f64| number.is_finite())
+    }
+
+    /// Returns true if all cells of a row are numbers or empty.
+    fn has_numbers_only(&self, row: usize) -> bool {
+        let mut cells = self.all[row].cells.iter();
+        cells.all(|cell| cell.is_empty() || self.number(cell).is_some())
+    }
+
+    /// Returns true if both cells of a row are numbers.
+    pub(super) fn are_numbers(&self, row: usize, columns: [usize; 2]) -> bool {
+        columns.iter().all(|column| self.number(self.all[row].cell(*column)).is_some())
+    }
+
+    /// Returns true if a row has no text in columns of numbers of the row `like`.
+    pub(super) fn is_like(&self, row: usize, like: usize) -> bool {
+        let mut cells = self.all[row].cells.iter().zip(&self.all[like].cells);
+        cells.all(|(cell, other)| {
+            cell.is_empty() || self.number(cell).is_some() || self.number(other).is_none()
+        })
     }
 
     fn count_numbers(&self, row: usize) -> usize {
@@ -110,9 +147,9 @@ impl Rows {
 
     /// Lists the tables of the file, each with its rows of numbers.
     ///
-    /// A row for which `is_header` holds begins another table. Runs of the same width without a
-    /// header between them form one table. A single row of numbers apart from the table is a size
-    /// or a result, not a reading.
+    /// The longest run of rows is a table. Runs of the same width continue it if only empty lines
+    /// and remarks lie between them. Further tables begin at a row for which `is_header` holds. All
+    /// other runs are sizes or results, not readings, and are left out, as single rows of numbers.
     pub(super) fn tables(&self, is_header: impl Fn(usize) -> bool) -> Vec<NumberTable> {
         let mut runs = self.runs(2);
         let mut longest = longest(&runs);
@@ -121,9 +158,11 @@ impl Rows {
             runs = self.runs(1);
             longest = runs.first().cloned().unwrap_or(0..0);
         }
+        let width = self.all.get(longest.start).map_or(0, |row| row.cells.len());
         runs.retain(|run| {
             run.len() >= longest.len().min(2)
-                && self.all[run.start].cells.len() == self.all[longest.start].cells.len()
+                && self.all[run.start].cells.len() == width
+                && self.is_like(run.start, longest.start)
         });
         let mut tables: Vec<NumberTable> = Vec::new();
         let mut end = 0;
@@ -136,25 +175,58 @@ impl Rows {
             // A row with one number continues the run: its other cells contain a mistake.
             let mistaken = (run.end..self.all.len())
                 .take_while(|row| self.continues(*row) && !self.is_text(*row));
+            let is_longest = run.contains(&longest.start);
             let run = run.start..run.end + mistaken.count();
             end = run.end;
+            let has_header = between.clone().any(&is_header);
+            let is_apart = between.clone().any(|row| self.begins_another_table(row, width));
             match tables.last_mut() {
-                Some(table) if !between.clone().any(&is_header) => {
+                Some(table) if !has_header && !is_apart => {
                     table.left_out.extend(between.map(|row| self.all[row].line));
                     table.rows.extend(run);
+                    table.is_longest |= is_longest;
                 }
-                _ => {
-                    let numbers = between.clone().filter(|row| self.count_numbers(*row) >= 2);
-                    let left_out = numbers.map(|row| self.all[row].line).collect();
-                    tables.push(NumberTable { above: between, rows: run.collect(), left_out });
-                }
+                _ => tables.push(NumberTable {
+                    above: between,
+                    rows: run.collect(),
+                    has_header,
+                    is_longest,
+                    left_out: Vec::new(),
+                }),
             }
         }
+        let mut tables = readings(tables);
         if let Some(table) = tables.last_mut() {
-            table.left_out.extend(self.all[end..].iter().map(|row| row.line));
+            let last = table.rows.last().map_or(0, |row| row + 1);
+            table.left_out.extend(self.all[last..].iter().map(|row| row.line));
         }
         tables
     }
+
+    /// Returns true if a row of text between two runs separates their tables.
+    ///
+    /// A header names several columns of the table. A title follows an empty line. Other rows are
+    /// remarks.
+    fn begins_another_table(&self, row: usize, width: usize) -> bool {
+        let Row { cells, is_after_blank, .. } = &self.all[row];
+        let names = cells.iter().filter(|cell| !cell.is_empty()).count();
+        self.is_text(row) && (*is_after_blank || (cells.len() == width && names > 1))
+    }
+}
+
+/// Returns the longest table and those with a header.
+///
+/// Rows of the other tables are added to the rows above the next table.
+fn readings(tables: Vec<NumberTable>) -> Vec<NumberTable> {
+    let mut readings: Vec<NumberTable> = Vec::new();
+    for mut table in tables {
+        if table.has_header || table.is_longest {
+            let last = readings.last().and_then(|table| table.rows.last());
+            table.above.start = last.map_or(0, |row| row + 1);
+            readings.push(table);
+        }
+    }
+    readings
 }
 
 /// Returns the first of the longest runs; empty if there is none.
@@ -169,7 +241,11 @@ pub(super) struct NumberTable {
     pub(super) above: Range<usize>,
     /// Rows of numbers.
     pub(super) rows: Vec<usize>,
-    /// Lines around the rows that do not belong to the table, without its header.
+    /// True if a header is above.
+    has_header: bool,
+    /// True if the table contains the longest run of numbers.
+    pub(super) is_longest: bool,
+    /// Lines between and below the rows that do not belong to the table.
     pub(super) left_out: Vec<u64>,
 }
 
@@ -243,6 +319,17 @@ impl LineCounter<'_> {
     }
 }
 
+/// Removes the signs between groups of three digits, and makes the decimal sign a point.
+///
+/// `None` unless all groups but the first have three digits, as in `1.047,60`.
+fn ungrouped(cell: &str, group: char, decimal: char) -> Option<String> {
+    let (whole, fraction) = cell.split_once(decimal)?;
+    let mut groups = whole.trim_start_matches(['-', '+']).split(group);
+    let first = groups.next().map_or(0, str::len);
+    let is_grouped = (1..=3).contains(&first) && groups.all(|group| group.len() == 3);
+    is_grouped.then(|| format!("{}.{fraction}", whole.replace(group, "")))
+}
+
 /// Returns true for a number with a comma that does not separate thousands.
 fn has_decimal_comma(cell: &str) -> bool {
     let Some((whole, fraction)) = cell.trim_start_matches('-').split_once(',') else {
@@ -270,7 +357,35 @@ mod tests {
     #[test]
     fn the_longest_run_of_numbers_is_the_table() {
         let text = "size,2,3\n\nx,y\n25,100\n\n1,2\n3,4\n\nEnd of test\n";
-        assert_eq!(lines(text), [(vec![6, 7], vec![1, 4, 9])]);
+        assert_eq!(lines(text), [(vec![6, 7], vec![9])]);
+    }
+
+    #[test]
+    fn tables_of_sizes_and_results_are_left_out() {
+        let text = "Calibration\n0,0\n1,10\n\nx,y\n1,2\n3,4\n5,6\n\nName,Peak\n1,5\n2,6\n";
+        assert_eq!(lines(text), [(vec![6, 7, 8], vec![10, 11, 12])]);
+        let text = "x,y\n1,2\n3,4\n5,6\n\nResults\n1,5\n2,6\n";
+        assert_eq!(lines(text), [(vec![2, 3, 4], vec![6, 7, 8])]);
+        // The first cell of readings is a number.
+        let text = "x,y,z\n1,2,3\n3,4,5\n5,6,7\n\nMean,5,6\nSD,6,7\n";
+        assert_eq!(lines(text), [(vec![2, 3, 4], vec![6, 7])]);
+    }
+
+    #[test]
+    fn the_last_sign_of_a_grouped_number_is_the_decimal_sign() {
+        let rows = Rows::new("x;y\n1,5;2\n").expect("rows");
+        for (cell, number) in [
+            ("1.047,60", Some(1047.6)),
+            ("-1,013.1", Some(-1013.1)),
+            ("1.234.567,5", Some(1_234_567.5)),
+            ("12.34,5", None),
+            ("1,5.5", None),
+            ("\u{2212}0,5", Some(-0.5)),
+            ("\u{2013}0,5", Some(-0.5)),
+            ("1,5,5", None),
+        ] {
+            assert_eq!(rows.number(cell), number, "{cell}");
+        }
     }
 
     #[test]
