@@ -11,7 +11,8 @@
 use std::fmt;
 
 use ranking::Requirement;
-use results::columns::{is_invalid_after_fold, measures_among, name};
+use results::Outcome;
+use results::columns::{is_invalid_after_fold, measures_among};
 use run::{CouplingChange, GapChange, WeakestPlace};
 use text::number;
 
@@ -30,8 +31,8 @@ pub struct DesignChecks {
     pub coupling: Option<CouplingChange>,
     /// Columns of the goal with gaps 10 % smaller and larger.
     pub gaps: Option<GapChange>,
-    /// Forces at other load positions; `None` unless the goal depends on a guided needle.
-    pub places: Option<WeakestPlace>,
+    /// Forces at other load positions, with full coupling; empty unless the needle is guided.
+    pub places: Vec<WeakestPlace>,
 }
 
 /// A check of a best design.
@@ -39,8 +40,9 @@ pub struct DesignChecks {
 pub enum Check {
     /// Full substrate coupling.
     Coupling,
-    /// Other load positions; the weakest of them, if it is known.
-    Places(Option<f64>),
+    /// Other load positions with full coupling; the weakest of them, or one where the path ended
+    /// early, with its outcome.
+    Places(f64, Outcome),
     /// New samples, and their number.
     Samples(usize),
 }
@@ -64,21 +66,12 @@ impl DesignChecks {
         let alone = goal.space.sweep().at(&best.row.case);
         let number = alone.grid().number(0).to_string();
         let columns = measures_among(goal.columns());
-        let is_about_force = columns.iter().any(|column| is_force(column).is_some());
         Self {
             coupling: CouplingChange::solve(&alone, &number, &columns),
             gaps: GapChange::solve(&alone, &number, &columns),
-            places: is_about_force.then(|| WeakestPlace::solve(&alone, &number)).flatten(),
+            places: WeakestPlace::solve(&alone, &number, &columns),
         }
     }
-}
-
-/// Returns whether a puncture force is in newtons; `None` for a column that is no puncture force.
-fn is_force(column: &str) -> Option<bool> {
-    let stem = column.strip_suffix("_N").unwrap_or(column);
-    let forces =
-        [name::CRITICAL_FORCE, name::SOUND_FORCE, name::FAILURE_FORCE, name::WEAKEST_FORCE];
-    forces.contains(&stem).then_some(stem != column)
 }
 
 impl BestDesign {
@@ -88,12 +81,13 @@ impl BestDesign {
         for requirement in &goal.requirements {
             let column = NumberColumn::named(goal.space.sweep(), &requirement.column);
             let searched = column.and_then(|column| column.value(&self.row));
-            let checked = [self.coupled(requirement), self.elsewhere(requirement)];
-            for (check, value) in checked.into_iter().flatten() {
-                if !value.is_some_and(|value| requirement.is_met(value)) {
-                    let requirement = requirement.clone();
-                    all.push(Contradiction { check, requirement, searched, value });
-                }
+            // Other load positions are solved with full coupling, too.
+            let checked = self.elsewhere(requirement).or_else(|| self.coupled(requirement));
+            if let Some((check, value)) = checked
+                && !value.is_some_and(|value| requirement.is_met(value))
+            {
+                let requirement = requirement.clone();
+                all.push(Contradiction { check, requirement, searched, value });
             }
         }
         let Some(made) = &self.confirmation else { return all };
@@ -122,10 +116,14 @@ impl BestDesign {
 
     /// Returns the force at the weakest load position, if a force is required.
     fn elsewhere(&self, requirement: &Requirement) -> Option<(Check, Option<f64>)> {
-        let is_physical =
-            is_force(&requirement.column).filter(|_| requirement.direction() > 0.0)?;
-        let places = self.checks.places.as_ref()?;
-        Some((Check::Places(places.place), places.weakest[usize::from(is_physical)]))
+        let weakest = self.checks.places.iter().find(|of| of.column == requirement.column)?;
+        let is_lower_limit = requirement.direction() > 0.0;
+        let check = if weakest.place == self.row.case.punctured().load_position {
+            Check::Coupling
+        } else {
+            Check::Places(weakest.place, weakest.outcome)
+        };
+        is_lower_limit.then_some((check, weakest.weakest))
     }
 }
 
@@ -133,8 +131,9 @@ impl fmt::Display for Check {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::Coupling => write!(f, "With full substrate coupling"),
-            Self::Places(None) => write!(f, "At another load position"),
-            Self::Places(Some(position)) => write!(f, "At {}", described(position)),
+            Self::Places(place, _) => {
+                write!(f, "At {}, with full substrate coupling", described(place))
+            }
             Self::Samples(count) => write!(f, "Over {} new samples", number::text(count as f64)),
         }
     }
@@ -154,15 +153,13 @@ pub fn described(position: f64) -> String {
 impl fmt::Display for Contradiction {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { check, requirement, value, .. } = self;
-        // The weakest place bounds every force.
-        let column = match (check, is_force(&requirement.column)) {
-            (Check::Places(_), Some(true)) => "the critical force in N",
-            (Check::Places(_), _) => "the critical force",
-            _ => &requirement.column,
-        };
-        match value {
-            Some(value) => write!(f, "{check}, {column} is {}", number::rounded(*value, 5))?,
-            None => write!(f, "{check}, {column} has no valid value")?,
+        let column = &requirement.column;
+        match (value, check) {
+            (Some(value), _) => write!(f, "{check}, {column} is {}", number::rounded(*value, 5))?,
+            (None, Check::Places(_, outcome)) if *outcome != Outcome::Complete => {
+                write!(f, "{check}, {column} has no valid value ({outcome})")?;
+            }
+            (None, _) => write!(f, "{check}, {column} has no valid value")?,
         }
         write!(f, ", which misses {requirement}")
     }

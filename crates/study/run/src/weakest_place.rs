@@ -1,42 +1,160 @@
-//! Solves a design again at more load positions.
+//! Solves a design again at more load positions, with full coupling of the substrate.
 
-use results::Quantity;
+use results::columns::{design_columns, is_invalid_after_fold, mode_column, name};
+use results::{Column, DesignRow, Outcome, Quantity};
 use serde::Serialize;
-use sweep::Sweep;
+use skin::Status;
+use substrate::Coupling;
+use sweep::{Case, Sweep};
 
 use crate::gap_change::again;
 
 /// Number of load positions on the top of a scale.
 pub const PLACES: usize = 11;
 
-/// Critical forces at the requested and at the weakest load position.
-///
-/// Forces are dimensionless, then in newtons if the material has a modulus and a thickness.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+/// A force of a design at its weakest load position, with full coupling of the substrate.
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct WeakestPlace {
-    /// Force at the requested position.
-    pub requested: [Option<f64>; 2],
-    /// Force at the weakest of [`PLACES`] positions; `None` if a path ended early.
-    pub weakest: [Option<f64>; 2],
-    /// The weakest position: 0 is the left corner of the top, 1 the right corner.
-    pub place: Option<f64>,
+    /// Column of the force.
+    pub column: String,
+    /// Force at the requested position, with the coupling of the design.
+    pub requested: f64,
+    /// Smallest force over [`PLACES`] positions; `None` if a path ended before it was reached.
+    pub weakest: Option<f64>,
+    /// The weakest position, or the one where the path ended: 0 is the left corner of the top, 1
+    /// the right corner.
+    pub place: f64,
+    /// How the path at that position ended.
+    pub outcome: Outcome,
+    /// First failure at the weakest position, for a failure force.
+    pub failure: Option<String>,
 }
 
 impl WeakestPlace {
-    /// Solves design `number` of `sweep` at [`PLACES`] load positions.
+    /// Solves design `number` of `sweep` at [`PLACES`] load positions and at the requested one.
     ///
-    /// Returns `None` if there is no such design, if it is slow to solve, if it has as many
-    /// positions already, or if its needle is not guided: a dead load is attached to its corner.
-    pub fn solve(sweep: &Sweep, number: &str) -> Option<Self> {
-        let index = sweep.grid().parse_number(number).ok()?;
-        let punctured = sweep.grid().case(index).punctured();
-        let has_all = punctured.places.is_some_and(|places| places >= PLACES);
-        (punctured.needle.is_guided() && !has_all).then_some(())?;
-        let (case, [row]) =
-            again(sweep, number, [PLACES], |case, places| case.puncture.places = Some(places))?;
-        let measures = row.result.puncture?.measures;
-        let [requested, weakest] = [measures.critical_force, measures.weakest.force]
-            .map(|force| [force, force.and_then(|f| Quantity::Force.physical(f, &case))]);
-        Some(Self { requested, weakest, place: measures.weakest.place })
+    /// `columns` are columns of `sweep`; those without a number, that are no puncture force, or that
+    /// compare as many positions already are omitted. Returns an empty list if there is no such design, if it is slow to solve, or if its
+    /// needle is not guided: a dead load is attached to its corner.
+    pub fn solve(sweep: &Sweep, number: &str, columns: &[&str]) -> Vec<Self> {
+        let Ok(index) = sweep.grid().parse_number(number) else { return Vec::new() };
+        if !sweep.grid().case(index).punctured().needle.is_guided() {
+            return Vec::new();
+        }
+        let solved = again(sweep, number, variants(), |case, variant| variant.apply(case));
+        let Some((_, [requested, coupled @ ..])) = solved else { return Vec::new() };
+        let known = design_columns(sweep);
+        columns.iter().filter_map(|column| weakest(column, &requested, &coupled, &known)).collect()
     }
+}
+
+/// A change of a design.
+#[derive(Clone, Copy)]
+enum Variant {
+    Unchanged,
+    FullCoupling,
+    /// Full coupling, at one of [`PLACES`] load positions.
+    Place(usize),
+}
+
+/// Returns the unchanged design, then those with full coupling.
+fn variants() -> [Variant; PLACES + 2] {
+    std::array::from_fn(|k| match k {
+        0 => Variant::Unchanged,
+        1 => Variant::FullCoupling,
+        _ => Variant::Place(k - 2),
+    })
+}
+
+impl Variant {
+    fn apply(self, case: &mut Case) {
+        if let Self::Unchanged = self {
+            return;
+        }
+        case.coupling = Coupling::Full;
+        if let Self::Place(place) = self {
+            // A design of its own for each position, because `puncture.places` locates no failures.
+            case.load_inset = None;
+            case.puncture.load_position = case.punctured().positions(PLACES, &case.design)[place];
+        }
+        case.puncture.places = None;
+    }
+}
+
+/// Returns the column of a single load position whose minimum `column` is.
+fn position_column(column: &str) -> Option<String> {
+    let stem = column.strip_suffix("_N").unwrap_or(column);
+    let suffix = &column[stem.len()..];
+    match stem {
+        name::CRITICAL_FORCE | name::SOUND_FORCE | name::FAILURE_FORCE => Some(column.to_owned()),
+        name::WEAKEST_FORCE => Some(format!("{}{suffix}", name::CRITICAL_FORCE)),
+        _ => None,
+    }
+}
+
+/// Selects the smallest force over the rows of several load positions.
+fn weakest(
+    column: &str,
+    requested: &DesignRow,
+    positions: &[DesignRow],
+    known: &[Column<DesignRow>],
+) -> Option<WeakestPlace> {
+    let named = |name: &str| known.iter().find(|column| column.name == name);
+    let asked = named(column)?.cell(requested).number()?;
+    let single = position_column(column)?;
+    let has_all = requested.case.puncture.places.is_some_and(|places| places >= PLACES);
+    if single != column && has_all {
+        return None;
+    }
+    let force = named(&single)?;
+    let fold = |row: &DesignRow| row.result.puncture?.measures.fold_force;
+    let mut weakest: Option<(f64, &DesignRow)> = None;
+    let mut ended: Option<(f64, &DesignRow)> = None;
+    for row in positions {
+        // With full coupling only, the surface folds and the force is not valid.
+        let is_folded =
+            is_invalid_after_fold(column) && fold(row).is_some() && fold(requested).is_none();
+        match force.cell(row).number().filter(|_| !is_folded) {
+            Some(force) => keep_smaller(&mut weakest, force, row),
+            None => {
+                if let Some(borne) = borne_before_end(row, column) {
+                    keep_smaller(&mut ended, borne, row);
+                }
+            }
+        }
+    }
+    // The skin may be weaker where a path ended early.
+    let is_open = ended.is_some_and(|(borne, _)| weakest.is_none_or(|(force, _)| borne < force));
+    let (force, row) = if is_open { ended } else { weakest }?;
+    let mode = mode_column(column);
+    Some(WeakestPlace {
+        column: column.to_owned(),
+        requested: asked,
+        weakest: (!is_open).then_some(force),
+        place: row.case.punctured().load_position,
+        outcome: row.result.puncture?.outcome,
+        failure: mode
+            .filter(|_| !is_open)
+            .and_then(|mode| Some(named(mode)?.cell(row).to_string())),
+    })
+}
+
+/// Keeps the row with the smaller force, or the first of equal ones.
+fn keep_smaller<'a>(kept: &mut Option<(f64, &'a DesignRow)>, force: f64, row: &'a DesignRow) {
+    if kept.is_none_or(|(smallest, _)| force < smallest) {
+        *kept = Some((force, row));
+    }
+}
+
+/// Returns the largest force of a path that ended early; `None` if the load tilts no scale at all.
+fn borne_before_end(row: &DesignRow, column: &str) -> Option<f64> {
+    let puncture = row.result.puncture?;
+    let tilts_nothing = puncture.outcome == Status::Untilted.into() && puncture.points == 1;
+    let force = puncture.measures.peak_force.unwrap_or_default();
+    let in_units = if column.ends_with("_N") {
+        Quantity::Force.physical(force, &row.case)
+    } else {
+        Some(force)
+    };
+    in_units.filter(|_| !tilts_nothing)
 }

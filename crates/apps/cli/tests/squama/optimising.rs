@@ -251,19 +251,22 @@ fn a_search_does_not_touch_the_folder_of_a_run() {
 /// The force at one load position is not the smallest force of the skin.
 #[test]
 fn a_weaker_load_position_of_the_best_design_is_reported() {
-    let goal = "name = 'pinned'\nmeasures = 'puncture'\n[variables]\nslant_deg = { from = 70, to = 75 }\n\
-        [designs]\ngap_over_t = 0.1\nlength_over_t = 1\n[puncture]\nneedle = 'guided'\nneedle_friction = 0.3\n\
+    let goal = "name = 'pinned'\nmeasures = 'puncture'\n[variables]\nslant_deg = { from = 30, to = 40 }\n\
+        [designs]\ngap_over_t = 0.1\nlength_over_t = 1\n[puncture]\nneedle = 'guided'\nneedle_friction = 0.3\nload_inset_over_t = 0.3\n\
         [material]\nthickness_mm = 2\nsubstrate_modulus_MPa = 0.5\n[goal]\nsound = false\nmaximize = 'critical_force'\nsamples = 2\n";
     let told = |goal: &str, name: &str| {
         let place = Place::with(goal);
         let text = place.prints("optimise x.toml");
-        let found = place.prints("design results/pinned --json --set puncture.places=11");
+        let found = place.prints(
+            "design results/pinned --json --set puncture.places=11 --set substrate.coupling=full",
+        );
         let found: serde_json::Value = serde_json::from_str(&found).expect("JSON");
         (text, found["measures"][name].as_f64().expect("a number"))
     };
-    let (text, weakest) = told(goal, "weakest_force_N");
-    let (_, line) = text.split_once("Weakest place: ").expect("a sentence");
-    let force = line.split_once(", ").and_then(|(_, rest)| rest.split_once(" N ("));
+    let (text, weakest) = told(goal, "weakest_force");
+    let (_, line) = text.split_once("Weakest place, ").expect("a sentence");
+    let force =
+        line.split_once("critical_force = ").and_then(|(_, rest)| rest.split_once(" there, "));
     let printed: f64 = force.expect("a force").0.parse().expect("a number");
     assert!((printed / weakest - 1.0).abs() < 1e-4, "{line} {weakest}");
     // A goal on the weakest position needs no note, and a dead load has only one position.
@@ -273,6 +276,43 @@ fn a_weaker_load_position_of_the_best_design_is_reported() {
     assert!(!text.contains("Weakest place"), "{text}");
     let (text, _) = told(&goal.replace("'guided'", "'free'"), "weakest_force");
     assert!(!text.contains("Weakest place"), "{text}");
+}
+
+/// A failure force is judged at every load position with full coupling, in one check.
+#[test]
+fn a_failure_at_another_load_position_fails_the_search() {
+    let goal = "name = 'pinned'\nmeasures = 'puncture'\n[variables]\nlength_over_t = { from = 1, to = 2 }\n\
+        [designs]\ngap_over_t = 0.6\nslant_deg = 60\n[puncture]\nneedle = 'guided'\nneedle_friction = 0.3\n\
+        load_inset_over_t = 0.4\nscale_strength_over_substrate = 30\n[goal]\nminimize = 'length_over_t'\n\
+        require = 'failure_force >= 0.1'\nsamples = 2\n";
+    let place = Place::with(goal);
+    let output = place.squama("optimise x.toml --json").assert().code(1);
+    let record: serde_json::Value =
+        serde_json::from_slice(&output.get_output().stdout).expect("JSON");
+    let weakest = &record["optimum"]["weakest_place"][0];
+    assert!((weakest["requested"].as_f64().expect("a force") - 0.1).abs() < 1e-7, "{weakest}");
+    assert_eq!(weakest["place"], 1.0);
+    // A definition with this position and coupling has the same failure.
+    let again = place.prints("design results/pinned --json --set substrate.coupling=full --set puncture.load_inset_over_t=0");
+    let again: serde_json::Value = serde_json::from_str(&again).expect("JSON");
+    assert_eq!(again["measures"]["failure_force"], weakest["weakest"]);
+    assert_eq!(again["measures"]["first_failure"], weakest["failure"]);
+    let failed = "At the right corner of the scale, with full substrate coupling, failure_force is 0.065255, which misses failure_force >= 0.1";
+    assert_eq!(record["optimum"]["failed_checks"], serde_json::json!([failed]));
+}
+
+/// A path that ends early at another load position confirms no force.
+#[test]
+fn a_load_position_without_a_force_fails_the_search() {
+    let goal = "name = 'pinned'\nmeasures = 'puncture'\n[variables]\nlength_over_t = { from = 0.8, to = 1 }\n\
+        [designs]\ngap_over_t = 0.1\nslant_deg = 45\n[puncture]\nneedle = 'guided'\nneedle_friction = 0.3\n\
+        scale_strength_over_substrate = 30\n[goal]\nminimize = 'length_over_t'\n\
+        require = 'failure_force >= 0.2'\nsamples = 2\n";
+    let place = Place::with(goal);
+    let output = place.squama("optimise x.toml").assert().code(1);
+    let text = String::from_utf8_lossy(&output.get_output().stdout).into_owned();
+    let failed = "At the left corner of the scale, with full substrate coupling, failure_force has no valid value (off the edge)";
+    assert!(text.contains(failed), "{text}");
 }
 
 /// Full coupling lowers the force of the best design below its limit.

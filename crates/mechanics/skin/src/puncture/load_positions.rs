@@ -84,6 +84,19 @@ fn tied(places: &[LoadPosition], force: f64) -> impl Iterator<Item = &LoadPositi
 }
 
 impl PunctureParameters {
+    /// Returns `count` equally spaced load positions, in units of the top: 0 is its left corner.
+    pub fn positions(&self, count: usize, design: &Design) -> Vec<f64> {
+        // A round tip may be anywhere. One pitch to the right it is in an equivalent position on
+        // the next scale, so omit that end.
+        let pitch = 1.0 + design.gap / (2.0 * design.half_base());
+        // The top is as wide as the base.
+        let (last, width) = match self.needle_radius {
+            Some(_) => (count as f64, pitch),
+            None => (count.saturating_sub(1) as f64, 1.0),
+        };
+        (0..count).map(|k| k as f64 * width / last).collect()
+    }
+
     /// Returns the parameters for another load position.
     fn at_place(&self, position: f64) -> Self {
         Self {
@@ -124,20 +137,12 @@ impl Puncture {
 impl Problem<'_> {
     /// Solves the puncture at each requested load position.
     pub(super) fn load_positions(&self) -> Result<Vec<LoadPosition>, OutOfRange> {
-        let count = self.parameters.places.unwrap_or(0);
-        // A round tip may be anywhere. One pitch to the right it is in an equivalent position on
-        // the next scale, so omit that end.
-        let pitch = 1.0 + self.design.gap / (2.0 * self.design.half_base());
-        // Positions are in units of the top, which is as wide as the base.
-        let (last, width) = match self.parameters.needle_radius {
-            Some(_) => (count as f64, pitch),
-            None => (count.saturating_sub(1) as f64, 1.0),
-        };
+        let positions = self.parameters.positions(self.parameters.places.unwrap_or(0), self.design);
         // All positions together may take as long as one path.
         let mut left = self.settings.max_work;
-        let mut places = Vec::with_capacity(count);
-        for k in 0..count {
-            let (place, work) = self.at_place(k as f64 * width / last, left)?;
+        let mut places = Vec::with_capacity(positions.len());
+        for position in positions {
+            let (place, work) = self.at_place(position, left)?;
             left = left.saturating_sub(work);
             places.push(place);
         }

@@ -10,7 +10,7 @@ use optimisation::{
 use ranking::{Requirement, Unmet};
 use results::Outcome;
 use results::columns::{Cell, design_columns, is_invalid_after_fold, mode_column};
-use run::{CouplingChange, PLACES, WeakestPlace};
+use run::{CouplingChange, WeakestPlace};
 use sweep::JudgedModes;
 use text::number::same;
 
@@ -99,7 +99,10 @@ impl SearchReport<'_> {
             let rows: Vec<_> = bindings.map(row).collect();
             let _ = write!(text, " It is limited by\n{}", aligned(&rows));
         }
-        text += &best.checks.places.and_then(|places| weakest_place(&places)).unwrap_or_default();
+        // At the requested position only the coupling differs, which is reported below.
+        let requested = best.row.case.punctured().load_position;
+        let places = best.checks.places.iter().filter(|of| of.place != requested);
+        text += &places.filter_map(weakest_place).collect::<String>();
         let coupling = best.checks.coupling.clone();
         let named = coupling
             .map(|change| CouplingChange { design: "the best design".to_owned(), ..change });
@@ -303,21 +306,16 @@ const FOLDED_MEANS: &str =
 const WEAKER: f64 = 0.99;
 
 /// States the weakest load position, if it is weaker than the position of the search.
-fn weakest_place(places: &WeakestPlace) -> Option<String> {
-    let WeakestPlace { requested, weakest, place } = places;
-    // In newtons where the material has a modulus, because the goal then uses them too.
-    let [dimensionless, physical] = [0, 1].map(|k| requested[k].zip(weakest[k]));
-    let (suffix, unit) = if physical.is_some() { ("_N", " N") } else { ("", "") };
-    let (requested, weakest) = physical.or(dimensionless)?;
-    (weakest < WEAKER * requested).then(|| {
-        format!(
-            "\nWeakest place: {}, {}{unit} ({}{unit} at the place requested)\n  \
-             To search for the largest force at the weakest place, use weakest_force{suffix} with puncture.places = {PLACES}.\n",
-            described((*place).unwrap_or_default()),
-            digits(weakest),
-            digits(requested),
-        )
-    })
+fn weakest_place(place: &WeakestPlace) -> Option<String> {
+    let weakest = place.weakest.filter(|weakest| *weakest < WEAKER * place.requested)?;
+    let failure = place.failure.as_ref().map(|mode| format!(" ({mode})")).unwrap_or_default();
+    Some(format!(
+        "\nWeakest place, with full substrate coupling: {}\n  {} = {}{failure} there, {} at the place of the search\n",
+        described(place.place),
+        place.column,
+        digits(weakest),
+        digits(place.requested),
+    ))
 }
 
 /// Returns the force at which the surface folds, if that invalidates a column of the goal.
