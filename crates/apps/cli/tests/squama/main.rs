@@ -14,6 +14,7 @@ mod fronts;
 mod images;
 mod imperfections;
 mod json;
+mod json_schema;
 mod kills;
 mod making;
 mod materials;

@@ -1,0 +1,115 @@
+//! Validation against the part of JSON Schema (draft 7) that `squama schema` uses.
+//!
+//! Published validators bring dozens of dependencies into every build. `scripts/check-python` runs
+//! one of them, taplo, on all definitions under `sweeps/`.
+
+use serde_json::{Map, Value};
+
+/// Returns why `value` does not conform to `schema`.
+///
+/// # Panics
+/// If the schema has a keyword that is not known here.
+pub fn mismatch(schema: &Value, value: &Value) -> Option<String> {
+    let Value::Object(keywords) = schema else { panic!("no schema: {schema}") };
+    let conforms = |(keyword, expected): (&String, &Value)| match &**keyword {
+        "$schema" | "title" | "description" | "default" => true,
+        "type" => has_type(expected, value),
+        "enum" => list(expected).iter().any(|one| is_equal(one, value)),
+        "anyOf" => list(expected).iter().any(|one| mismatch(one, value).is_none()),
+        "not" => mismatch(expected, value).is_some(),
+        "minimum" => value.as_f64().is_none_or(|number| number >= limit(expected)),
+        "maximum" => value.as_f64().is_none_or(|number| number <= limit(expected)),
+        "exclusiveMinimum" => value.as_f64().is_none_or(|number| number > limit(expected)),
+        "exclusiveMaximum" => value.as_f64().is_none_or(|number| number < limit(expected)),
+        "minItems" => value.as_array().is_none_or(|items| items.len() as f64 >= limit(expected)),
+        "maxItems" => value.as_array().is_none_or(|items| items.len() as f64 <= limit(expected)),
+        "minProperties" => {
+            value.as_object().is_none_or(|fields| fields.len() as f64 >= limit(expected))
+        }
+        "minLength" => {
+            value.as_str().is_none_or(|text| text.chars().count() as f64 >= limit(expected))
+        }
+        "maxLength" => {
+            value.as_str().is_none_or(|text| text.chars().count() as f64 <= limit(expected))
+        }
+        "pattern" => value.as_str().is_none_or(|text| matches(expected, text)),
+        "items" => value
+            .as_array()
+            .is_none_or(|items| items.iter().all(|item| mismatch(expected, item).is_none())),
+        "uniqueItems" => value.as_array().is_none_or(|items| {
+            (1..items.len()).all(|k| !items[..k].iter().any(|one| is_equal(one, &items[k])))
+        }),
+        "required" => value.as_object().is_none_or(|fields| {
+            list(expected).iter().all(|key| fields.contains_key(key.as_str().expect("a key")))
+        }),
+        "properties" => value.as_object().is_none_or(|fields| {
+            fields.iter().all(|(key, field)| {
+                expected.get(key).is_none_or(|schema| mismatch(schema, field).is_none())
+            })
+        }),
+        "additionalProperties" => {
+            value.as_object().is_none_or(|fields| others_conform(keywords, expected, fields))
+        }
+        _ => panic!("unknown keyword {keyword} of a schema"),
+    };
+    let (keyword, expected) = keywords.iter().find(|keyword| !conforms(*keyword))?;
+    Some(format!("{value} violates {keyword} {expected}"))
+}
+
+/// Returns whether the fields that `properties` does not name conform to `expected`.
+fn others_conform(
+    keywords: &Map<String, Value>,
+    expected: &Value,
+    fields: &Map<String, Value>,
+) -> bool {
+    let named = keywords.get("properties").and_then(Value::as_object);
+    let is_other = |key: &str| named.is_none_or(|named| !named.contains_key(key));
+    fields.iter().filter(|(key, _)| is_other(key)).all(|(_, field)| match expected {
+        Value::Bool(allowed) => *allowed,
+        schema => mismatch(schema, field).is_none(),
+    })
+}
+
+fn has_type(expected: &Value, value: &Value) -> bool {
+    match expected.as_str().expect("one type") {
+        "object" => value.is_object(),
+        "array" => value.is_array(),
+        "string" => value.is_string(),
+        "boolean" => value.is_boolean(),
+        "number" => value.is_number(),
+        // 21.0 is an integer, too.
+        "integer" => value.as_f64().is_some_and(|number| number.fract() == 0.0),
+        other => panic!("unknown type {other} of a schema"),
+    }
+}
+
+/// Compares values; numbers are equal if their values are, as 1 and 1.0.
+fn is_equal(one: &Value, other: &Value) -> bool {
+    match (one, other) {
+        (Value::Array(one), Value::Array(other)) => {
+            one.len() == other.len() && one.iter().zip(other).all(|(a, b)| is_equal(a, b))
+        }
+        (Value::Number(one), Value::Number(other)) => one.as_f64() == other.as_f64(),
+        _ => one == other,
+    }
+}
+
+/// Matches a list of words in any case, such as `^([Pp][Ll][Aa]|[Tt][Pp][Uu])$`.
+fn matches(pattern: &Value, text: &str) -> bool {
+    let pattern = pattern.as_str().expect("a pattern");
+    let words = pattern.strip_prefix("^(").and_then(|rest| rest.strip_suffix(")$"));
+    words.expect("a list of words").split('|').any(|word| {
+        // Each letter stands in brackets, in upper and lower case; a blank stands alone.
+        let letters: String =
+            word.split(['[', ']']).filter_map(|class| class.chars().last()).collect();
+        letters == text.to_lowercase()
+    })
+}
+
+fn list(expected: &Value) -> &[Value] {
+    expected.as_array().expect("a list")
+}
+
+fn limit(expected: &Value) -> f64 {
+    expected.as_f64().expect("a number")
+}
