@@ -73,7 +73,7 @@ impl Variant {
         }
         case.coupling = Coupling::Full;
         if let Self::Place(place) = self {
-            // A design of its own for each position, because `puncture.places` locates no failures.
+            // `puncture.places` locates no failures, so each position is a design of its own.
             case.load_inset = None;
             case.puncture.load_position = case.punctured().positions(PLACES, &case.design)[place];
         }
@@ -81,7 +81,7 @@ impl Variant {
     }
 }
 
-/// Returns the column of a single load position whose minimum `column` is.
+/// Returns the column of a single load position; the minimum over the positions is compared.
 fn position_column(column: &str) -> Option<String> {
     let stem = column.strip_suffix("_N").unwrap_or(column);
     let suffix = &column[stem.len()..];
@@ -99,21 +99,18 @@ fn weakest(
     positions: &[DesignRow],
     known: &[Column<DesignRow>],
 ) -> Option<WeakestPlace> {
-    let named = |name: &str| known.iter().find(|column| column.name == name);
-    let asked = named(column)?.cell(requested).number()?;
+    let asked = named(known, column)?.cell(requested).number()?;
     let single = position_column(column)?;
     let has_all = requested.case.puncture.places.is_some_and(|places| places >= PLACES);
     if single != column && has_all {
         return None;
     }
-    let force = named(&single)?;
-    let fold = |row: &DesignRow| row.result.puncture?.measures.fold_force;
+    let force = named(known, &single)?;
     let mut weakest: Option<(f64, &DesignRow)> = None;
     let mut ended: Option<(f64, &DesignRow)> = None;
     for row in positions {
         // With full coupling only, the surface folds and the force is not valid.
-        let is_folded =
-            is_invalid_after_fold(column) && fold(row).is_some() && fold(requested).is_none();
+        let is_folded = is_invalid_after_fold(column) && folds(row) && !folds(requested);
         match force.cell(row).number().filter(|_| !is_folded) {
             Some(force) => keep_smaller(&mut weakest, force, row),
             None => {
@@ -135,8 +132,16 @@ fn weakest(
         outcome: row.result.puncture?.outcome,
         failure: mode
             .filter(|_| !is_open)
-            .and_then(|mode| Some(named(mode)?.cell(row).to_string())),
+            .and_then(|mode| Some(named(known, mode)?.cell(row).to_string())),
     })
+}
+
+fn named<'a>(known: &'a [Column<DesignRow>], name: &str) -> Option<&'a Column<DesignRow>> {
+    known.iter().find(|column| column.name == name)
+}
+
+fn folds(row: &DesignRow) -> bool {
+    row.result.puncture.is_some_and(|puncture| puncture.measures.fold_force.is_some())
 }
 
 /// Keeps the row with the smaller force, or the first of equal ones.

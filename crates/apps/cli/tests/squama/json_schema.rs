@@ -11,7 +11,15 @@ use serde_json::{Map, Value};
 /// If the schema has a keyword that is not known here.
 pub fn mismatch(schema: &Value, value: &Value) -> Option<String> {
     let Value::Object(keywords) = schema else { panic!("no schema: {schema}") };
-    let conforms = |(keyword, expected): (&String, &Value)| match &**keyword {
+    let mut violated =
+        keywords.iter().filter(|(keyword, expected)| !conforms(keywords, keyword, expected, value));
+    let (keyword, expected) = violated.next()?;
+    Some(format!("{value} violates {keyword} {expected}"))
+}
+
+/// Returns whether `value` conforms to one keyword of a schema.
+fn conforms(keywords: &Map<String, Value>, keyword: &str, expected: &Value, value: &Value) -> bool {
+    match keyword {
         "$schema" | "title" | "description" | "default" => true,
         "type" => has_type(expected, value),
         "enum" => list(expected).iter().any(|one| is_equal(one, value)),
@@ -51,9 +59,7 @@ pub fn mismatch(schema: &Value, value: &Value) -> Option<String> {
             value.as_object().is_none_or(|fields| others_conform(keywords, expected, fields))
         }
         _ => panic!("unknown keyword {keyword} of a schema"),
-    };
-    let (keyword, expected) = keywords.iter().find(|keyword| !conforms(*keyword))?;
-    Some(format!("{value} violates {keyword} {expected}"))
+    }
 }
 
 /// Returns whether the fields that `properties` does not name conform to `expected`.
@@ -63,8 +69,9 @@ fn others_conform(
     fields: &Map<String, Value>,
 ) -> bool {
     let named = keywords.get("properties").and_then(Value::as_object);
-    let is_other = |key: &str| named.is_none_or(|named| !named.contains_key(key));
-    fields.iter().filter(|(key, _)| is_other(key)).all(|(_, field)| match expected {
+    let mut others =
+        fields.iter().filter(|(key, _)| named.is_none_or(|named| !named.contains_key(*key)));
+    others.all(|(_, field)| match expected {
         Value::Bool(allowed) => *allowed,
         schema => mismatch(schema, field).is_none(),
     })
