@@ -200,13 +200,7 @@ impl Limits<'_> {
         let mut best = answer(search, history, plan, points)?;
         for _ in 0..TIGHTER {
             let Some(wider) = self.tighten(&mut best) else { break };
-            let judge = Judge::rescaling(&self.tightened.nominal(), self.rescaled);
-            let search = Search { judge: &judge, ..*search };
-            for candidate in history.iter_mut() {
-                let row = search.evaluations.row(0, &candidate.point, &candidate.result);
-                candidate.verdict = judge.verdict(&row);
-            }
-            let next = answer(&search, history, Plan::AGAIN, points)?;
+            let next = self.nominal_again(search, history, points)?;
             if matches!(next, Answer::Infeasible(_)) {
                 self.tightened = wider;
                 break;
@@ -216,6 +210,22 @@ impl Limits<'_> {
         Ok(best)
     }
 
+    /// Searches nominal designs again, with the tightened limits.
+    fn nominal_again(
+        &self,
+        search: &Search<'_>,
+        history: &mut Vec<Candidate>,
+        points: usize,
+    ) -> Result<Answer, Halt> {
+        let judge = Judge::rescaling(&self.tightened.nominal(), self.rescaled);
+        let search = Search { judge: &judge, ..*search };
+        for candidate in history.iter_mut() {
+            let row = search.evaluations.row(0, &candidate.point, &candidate.result);
+            candidate.verdict = judge.verdict(&row);
+        }
+        answer(&search, history, Plan::AGAIN, points)
+    }
+
     /// Returns the answer by sampled designs; see [`Self::nominal_answer`].
     fn sampled_answer(
         &mut self,
@@ -223,10 +233,11 @@ impl Limits<'_> {
         history: &mut Vec<Candidate>,
         first: Answer,
     ) -> Result<Answer, Halt> {
-        let known = history.clone();
-        let mut best = self.sampled(search, history, first.clone(), Plan::SAMPLED)?;
+        let mut again = history.clone();
+        let mut best = self.sampled(search, history, first, Plan::SAMPLED)?;
         if let Some(wider) = self.tighten(&mut best) {
-            let mut again = known;
+            // No known design may meet the tightened limits.
+            let first = self.nominal_again(search, &mut again, NOMINAL_POINTS)?;
             let next = self.sampled(search, &mut again, first, Plan::AGAIN)?;
             if matches!(next, Answer::Infeasible(_)) {
                 self.tightened = wider;

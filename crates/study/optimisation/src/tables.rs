@@ -90,15 +90,18 @@ fn statistic_columns(goal: &DesignGoal) -> Vec<(String, &'static str, &'static s
 
 /// Returns the cells of these columns.
 fn statistic_cells(goal: &DesignGoal, best: &BestDesign) -> Cells {
-    let Some(confirmation) = &best.confirmation else { return Vec::new() };
     let mut cells: Cells = Vec::new();
+    let confirmation = best.confirmation.as_ref();
     for (name, _) in Judge::new(goal).statistics() {
-        let of = confirmation.estimate(&name);
+        let of = confirmation.and_then(|confirmation| confirmation.estimate(&name));
         let [low, high] = of.map(|of| of.interval).unwrap_or_default();
         let values = [of.and_then(|of| of.value), low, high, of.and_then(|of| of.seen)];
         cells.extend(values.map(Cell::from));
     }
-    cells.push(confirmation.fresh.into());
+    if !cells.is_empty() {
+        let fresh = confirmation.map_or(Cell::Empty, |confirmation| confirmation.fresh.into());
+        cells.push(fresh);
+    }
     cells
 }
 

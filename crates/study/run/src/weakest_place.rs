@@ -33,9 +33,10 @@ pub struct WeakestPlace {
 impl WeakestPlace {
     /// Solves design `number` of `sweep` at [`PLACES`] load positions and at the requested one.
     ///
-    /// `columns` are columns of `sweep`; those without a number, that are no puncture force, or that
-    /// compare as many positions already are omitted. Returns an empty list if there is no such design, if it is slow to solve, or if its
-    /// needle is not guided: a dead load is attached to its corner.
+    /// `columns` are columns of `sweep`. Columns are omitted if they have no number, are no puncture
+    /// force, or compare as many positions already. Returns an empty list if there is no such
+    /// design, if it is slow to solve, or if its needle is not guided: a dead load is attached to
+    /// its corner.
     pub fn solve(sweep: &Sweep, number: &str, columns: &[&str]) -> Vec<Self> {
         let Ok(index) = sweep.grid().parse_number(number) else { return Vec::new() };
         if !sweep.grid().case(index).punctured().needle.is_guided() {

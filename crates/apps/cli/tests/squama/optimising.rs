@@ -248,6 +248,19 @@ fn a_search_does_not_touch_the_folder_of_a_run() {
     insta::assert_snapshot!(place.refused("optimise g.toml --out r --fresh"), @"error: r: holds the results of a run; choose another folder with --out DIR");
 }
 
+/// The limits of the search cannot be tightened far enough: the answer fails its check.
+#[test]
+fn a_sampled_search_that_cannot_be_confirmed_keeps_its_best_design() {
+    let goal = "name = 'firm'\nmeasures = ['coverage', 'puncture']\n[variables]\n\
+        length_over_t = { from = 0.3, to = 0.79 }\n[designs]\ngap_over_t = 0.3\nslant_deg = 60\n\
+        [tolerance]\nlength_over_t = { batch_sd = 0.001 }\n[goal]\nminimize = 'length_over_t'\n\
+        require = ['critical_force >= 0.3', 'yield >= 0.5']\nsamples = 8\nskins = 20\nconfirm = true\n";
+    let place = Place::with(goal);
+    let output = place.squama("optimise x.toml").assert().code(1);
+    let text = String::from_utf8_lossy(&output.get_output().stdout).into_owned();
+    assert!(text.contains("fails a check"), "{text}");
+}
+
 /// The force at one load position is not the smallest force of the skin.
 #[test]
 fn a_weaker_load_position_of_the_best_design_is_reported() {
