@@ -95,6 +95,13 @@ fn value(rng: &mut ChaCha8Rng, parameter: &Parameter) -> String {
     }
 }
 
+/// Returns true for a list of numbers that do not ascend, which a schema cannot express.
+fn is_out_of_order(value: &serde_json::Value) -> bool {
+    let numbers: Option<Vec<f64>> =
+        value.as_array().and_then(|items| items.iter().map(serde_json::Value::as_f64).collect());
+    numbers.is_some_and(|numbers| !numbers.is_sorted_by(|a, b| a < b))
+}
+
 /// Every definition that the schema refuses is refused by the parser. The parser refuses no other
 /// definition but for problems of several keys together.
 #[test]
@@ -124,7 +131,8 @@ fn schema_and_parser_agree_on_random_definitions() {
             (None, Err(error)) => {
                 let error = error.to_string();
                 let is_together = TOGETHER.iter().any(|problem| error.contains(problem));
-                assert!(is_together, "the schema accepts\n{text}{error}");
+                let is_out_of_order = is_out_of_order(&value[section][key]);
+                assert!(is_together || is_out_of_order, "the schema accepts\n{text}{error}");
             }
         }
     }
