@@ -12,16 +12,36 @@ pub struct Common {
     pub friction: f64,
     /// Step sizes and tolerances of path following.
     pub solver: Settings,
-    /// True to record everything that path tables and drawings show.
+    /// Extent of the record of a puncture path.
+    pub detail: PathDetail,
+}
+
+/// Extent of the record of a puncture path. The path itself does not depend on it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum PathDetail {
+    /// The measures of the critical state, of the first fold and of failure.
     ///
-    /// These are the gap stretches at every point and all folds. Measures need only the first fold.
-    pub whole_path: bool,
+    /// Measures of other points have no value: the largest load and stiffness, first contact,
+    /// the stiffness at rest, stability and snaps.
+    Critical,
+    /// All measures.
+    Measures,
+    /// Everything that path tables and drawings show.
+    ///
+    /// In addition, these are the gap stretches and energies at every point, and all folds.
+    #[default]
+    Whole,
 }
 
 impl Default for Common {
     /// Uses the contact law as printed by Shafiei et al. (2021).
     fn default() -> Self {
-        Self { law: Law::PRINTED, friction: 0.0, solver: Settings::default(), whole_path: true }
+        Self {
+            law: Law::PRINTED,
+            friction: 0.0,
+            solver: Settings::default(),
+            detail: PathDetail::Whole,
+        }
     }
 }
 

@@ -66,7 +66,7 @@ mod sensitivity;
 mod status;
 mod unloading;
 
-pub use common::Common;
+pub use common::{Common, PathDetail};
 pub use contacts::{Contact, ContactChange};
 pub use design::{Base, Design};
 pub use imperfection::{Imperfection, Sample};

@@ -40,7 +40,7 @@ use system::{Chain, RowLayout};
 use crate::arrangement::Arrangement;
 use crate::contacts::pair_constraints;
 use crate::record::{ContactEvent, Iteration, PathFunction, Record};
-use crate::{Common, Design, Sample, Status, Unloading};
+use crate::{Common, Design, PathDetail, Sample, Status, Unloading};
 
 pub use failure::{FailureMeasures, FailureMode, Strengths};
 pub use load_positions::{LoadPosition, Weakest, load_positions};
@@ -378,7 +378,11 @@ impl Followed {
         let end = || (status == Status::Complete).then(|| &path.point().state);
         measures.force_at_depth =
             deep.and_then(|deep| Some(path.system().force(deep.or_else(end)?)));
-        let (instability, snaps) = needle.finish(path, &mut measures);
+        let (instability, snaps) = if path.system().is_critical_only() {
+            (Vec::new(), Vec::new())
+        } else {
+            needle.finish(path, &mut measures)
+        };
         let mut measures = match status {
             Status::Complete => measures,
             _ => measures.without_final_values(),
@@ -428,7 +432,7 @@ struct Problem<'a> {
     endless: Option<FarField>,
     law: ContactLaw,
     settings: Settings,
-    whole_path: bool,
+    detail: PathDetail,
     parameters: &'a PunctureParameters,
 }
 
@@ -476,9 +480,8 @@ impl<'a> Problem<'a> {
             })?),
             RowLength::Scales(_) => None,
         };
-        let Common { solver: settings, whole_path, .. } = *common;
-        let problem =
-            Self { rows, design, stiffness, endless, law, settings, whole_path, parameters };
+        let Common { solver: settings, detail, .. } = *common;
+        let problem = Self { rows, design, stiffness, endless, law, settings, detail, parameters };
         let radius = parameters.needle_radius;
         let is_in_reach = radius.is_none() || problem.reach().is_some();
         let expected = "at most 62 pitches of the row";
@@ -654,7 +657,7 @@ impl<'a> Problem<'a> {
         let exterior = RowExterior::new(self.rows, layout, beyond, parameters.body())?;
         let row = self.rows.row(layout)?;
         let mut chain = Chain::new(row, stiffness, *law, layout, exterior, parameters, design);
-        chain.whole_path = self.whole_path;
+        chain.detail = self.detail;
         Ok(chain)
     }
 

@@ -22,6 +22,17 @@ pub enum Answer {
     Infeasible(Option<usize>),
 }
 
+impl Answer {
+    /// Returns the best designs.
+    pub(crate) fn best_mut(&mut self) -> &mut [BestDesign] {
+        match self {
+            Self::Optimum(best) => std::slice::from_mut(best),
+            Self::Front(front) => &mut front.designs,
+            Self::Infeasible(_) => &mut [],
+        }
+    }
+}
+
 /// Searches for the answer to a goal from the known designs.
 ///
 /// A front gets `points` points.

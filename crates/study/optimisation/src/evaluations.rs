@@ -8,9 +8,9 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use journal::Journal;
 use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
-use results::{DesignResult, DesignRow, OutputError};
+use results::{DesignResult, DesignRow, OutputError, changed_parameters, neighbours};
 use run::{Evaluator, Program, uninterrupted};
-use sweep::{Case, DesignNumber, Measure};
+use sweep::{Case, DesignNumber, Measure, Parameter};
 use uncertainty::Sampler;
 
 use crate::error::OptimisationError;
@@ -44,6 +44,8 @@ pub(crate) struct Evaluations<'a> {
     space: &'a DesignSpace,
     plain: Evaluator,
     differentiating: Evaluator,
+    /// Solves reported designs with all measures.
+    reporting: Evaluator,
     sampler: Sampler,
     journal: Mutex<Journal<Known>>,
     stop: &'a AtomicBool,
@@ -62,11 +64,14 @@ impl<'a> Evaluations<'a> {
         let journal = evaluation_journal::begin(folder, goal.to_toml(), program, start)?;
         let measures = goal.space.sweep().plain_measures();
         let all = [measures.as_slice(), &[Measure::Sensitivity]].concat();
+        let sampling = Evaluator::for_columns(&measures, goal.measured_columns());
+        let deviations = goal.space.sweep().deviations();
         Ok(Self {
             space: &goal.space,
-            plain: Evaluator::new(&measures),
-            differentiating: Evaluator::new(&all),
-            sampler: Sampler::new(&measures, goal.space.sweep().deviations()),
+            plain: Evaluator::for_columns(&measures, goal.measured_columns()),
+            differentiating: Evaluator::for_columns(&all, goal.measured_columns()),
+            reporting: Evaluator::new(&measures),
+            sampler: Sampler::with(sampling, deviations),
             journal: Mutex::new(journal),
             stop,
             progress,
@@ -104,6 +109,17 @@ impl<'a> Evaluations<'a> {
         DesignRow { number, case: self.space.case(point), result: result.clone() }
     }
 
+    /// Solves the design at `point` with all measures, for a table.
+    ///
+    /// # Errors
+    ///
+    /// If a stop was requested.
+    pub fn reported_row(&self, point: &SpacePoint) -> Result<DesignRow, Halt> {
+        let case = self.space.case(&self.unscaled(point));
+        let row = self.solved(|| self.reporting.row(self.number(0), &case))?;
+        Ok(self.row(0, point, &row.result))
+    }
+
     fn number(&self, index: u64) -> DesignNumber {
         self.space.sweep().grid().number(index)
     }
@@ -118,9 +134,13 @@ impl<'a> Evaluations<'a> {
         point: &SpacePoint,
         differentiated: bool,
     ) -> Result<Arc<DesignResult>, Halt> {
-        let evaluator = if differentiated { &self.differentiating } else { &self.plain };
         let point = self.unscaled(point);
-        self.known_or(&point, differentiated, None, &self.space.case(&point), evaluator)
+        let case = self.space.case(&point);
+        let mut changed = Vec::new();
+        for interval in self.space.intervals().iter().filter(|_| differentiated) {
+            changed.extend(DesignRow::changed_by(&case, interval.parameter));
+        }
+        self.known_or(&point, differentiated.then_some(&changed), None, &case)
     }
 
     /// Solves a sample with derivatives, without scatter between scales.
@@ -131,10 +151,17 @@ impl<'a> Evaluations<'a> {
         point: &SpacePoint,
         sample: u64,
     ) -> Result<Option<Arc<DesignResult>>, Halt> {
-        let case = self.even_case(&self.space.case(point), sample);
-        let solved =
-            case.map(|case| self.known_or(point, true, Some(sample), &case, &self.differentiating));
-        solved.transpose()
+        let nominal = self.space.case(point);
+        let Some(case) = self.even_case(&nominal, sample) else { return Ok(None) };
+        // Deviations move with the variables: a modulus that varies changes the ratio of moduli.
+        let mut changed = Vec::new();
+        for interval in self.space.intervals() {
+            for moved in neighbours(&nominal, interval.parameter) {
+                let moved = self.even_case(&moved, sample);
+                changed.extend(moved.iter().flat_map(|to| changed_parameters(&case, to)));
+            }
+        }
+        self.known_or(point, Some(&changed), Some(sample), &case).map(Some)
     }
 
     /// Returns the case of a sample of `nominal`, without scatter between scales.
@@ -143,41 +170,40 @@ impl<'a> Evaluations<'a> {
     }
 
     /// Returns the result of a case, and solves it if it is unknown.
+    ///
+    /// `changed` lists the parameters of the derivatives, if the result has any.
     fn known_or(
         &self,
         point: &SpacePoint,
-        differentiated: bool,
+        changed: Option<&Vec<&'static Parameter>>,
         sample: Option<u64>,
         case: &Case,
-        evaluator: &Evaluator,
     ) -> Result<Arc<DesignResult>, Halt> {
         // Results with and without derivatives are separate, because derivatives cost more and are
         // often unnecessary.
+        let differentiated = changed.is_some();
         let key = EvaluationKey { differentiated, sample, point: PointKey::of(point) };
         if let Some(known) = self.journal().records().solved.get(&key) {
             return Ok(Arc::clone(known));
         }
         self.go_on()?;
         // Solved without the lock: two threads may solve the same point and append the same line.
-        let solve = || evaluator.row(self.number(0), case);
-        let row = uninterrupted(|| self.progress.slow().track("a design of the search", solve));
-        let mut result = row.ok_or(Halt::Interrupted)?.result;
-        // Keep all derivatives where one variable changes other parameters: lengths in mm,
-        // followers, and samples with varying material.
-        let has_material = self.space.parameters().any(|p| p.section == "material");
-        let is_variable = |key| self.space.parameters().any(|p| p.key == key);
-        let sweep = self.space.sweep();
-        let moves =
-            sweep.gives_millimetres() || self.space.parameters().any(|p| sweep.has_followers(p));
-        let moves_more = moves || (sample.is_some() && has_material);
-        result.sensitivity.retain(|d| moves_more || is_variable(d.parameter));
-        // Free the memory of dropped derivatives: every result is kept to the end.
-        result.sensitivity.shrink_to_fit();
+        let result = self.solved(|| match changed {
+            Some(of) => self.differentiating.row_with_derivatives(self.number(0), case, of),
+            None => self.plain.row(self.number(0), case),
+        });
+        let result = result?.result;
         let SpacePoint { shares, chosen } = point.clone();
         let line = SolvedLine { differentiated, sample, shares, chosen, result };
         let mut journal = self.journal();
         journal.append(JournalLine::Solved(Box::new(line))).map_err(Halt::Output)?;
         Ok(Arc::clone(&journal.records().solved[&key]))
+    }
+
+    /// Solves a design, and reports it if it is slow.
+    fn solved(&self, solve: impl FnOnce() -> DesignRow) -> Result<DesignRow, Halt> {
+        let row = uninterrupted(|| self.progress.slow().track("a design of the search", solve));
+        row.ok_or(Halt::Interrupted)
     }
 
     /// Returns the values of samples of the design at `point`.

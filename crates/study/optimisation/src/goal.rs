@@ -79,6 +79,12 @@ impl DesignGoal {
         objectives.chain(self.requirements.iter().map(|requirement| requirement.column.as_str()))
     }
 
+    /// Returns the columns of objectives, requirements and criteria of the fitness.
+    pub(crate) fn measured_columns(&self) -> impl Iterator<Item = &str> {
+        let criteria = self.fitness.iter().flat_map(|fitness| &fitness.criteria);
+        self.columns().chain(criteria.map(|criterion| criterion.column.as_ref()))
+    }
+
     /// Returns true if an objective or requirement is a statistic over samples.
     pub fn is_about_samples(&self) -> bool {
         self.columns().any(|column| self.statistic(column).is_some())

@@ -8,7 +8,7 @@ use std::sync::atomic::AtomicBool;
 use ranking::{CriterionEnds, Requirement};
 use rayon::iter::{
     IndexedParallelIterator as _, IntoParallelIterator as _, IntoParallelRefIterator as _,
-    ParallelIterator as _,
+    IntoParallelRefMutIterator as _, ParallelIterator as _,
 };
 use results::columns::name;
 use results::{DesignRow, Outcome};
@@ -155,6 +155,11 @@ fn find(
     if let Answer::Optimum(best) = &mut answer {
         best.checks = DesignChecks::solve(goal, best);
     }
+    // The search measures only what the goal is about.
+    answer.best_mut().par_iter_mut().try_for_each(|best| {
+        best.row = evaluations.reported_row(&best.candidate.point)?;
+        Ok(())
+    })?;
     let judge = Judge::rescaling(&limits.tightened, &rescaled);
     let search = Search { judge: &judge, ..nominal };
     let left_out = LeftOutDesigns::of(&search, &history);

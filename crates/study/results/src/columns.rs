@@ -80,6 +80,13 @@ pub fn is_invalid_after_fold(name: &str) -> bool {
     })
 }
 
+/// Returns true if [`skin::PathDetail::Critical`] omits the value of a column.
+///
+/// The name may also be a derived one, such as a quantile.
+pub fn is_along_path(name: &str) -> bool {
+    about(name).is_some_and(|(value, _)| value.is_along_path())
+}
+
 /// Returns the column that names the failure mode of a force, if the force is a failure force.
 ///
 /// Every answer shows the two together, also for quantiles and in physical units.

@@ -67,7 +67,7 @@ pub use contents::derivation::Derivation;
 pub use contents::verified_folder::{Completeness, InvalidFolder, VerifiedFolder, verify_record};
 pub use contents::{Contents, JournalExtent};
 pub use design::design_result::{DesignResult, FlexureResult, PunctureResult, SEPARATOR};
-pub use design::extrapolated::SlopeSide;
+pub use design::extrapolated::{SlopeSide, changed_parameters, neighbours};
 pub use design::failure::{Failure, PathEnd, finite};
 pub use design::outcome::Outcome;
 pub use design::parameter_derivative::ParameterDerivative;

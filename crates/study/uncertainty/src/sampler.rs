@@ -27,7 +27,12 @@ pub struct Sample {
 impl Sampler {
     /// Creates a sampler of `measures` under these deviations.
     pub fn new(measures: &[Measure], deviations: &[Deviation]) -> Self {
-        Self { evaluator: Evaluator::new(measures), deviations: deviations.to_vec() }
+        Self::with(Evaluator::new(measures), deviations)
+    }
+
+    /// Creates a sampler that solves samples with `evaluator`.
+    pub fn with(evaluator: Evaluator, deviations: &[Deviation]) -> Self {
+        Self { evaluator, deviations: deviations.to_vec() }
     }
 
     /// Solves sample `sample`, counted from 1, of the design `case`.

@@ -240,6 +240,9 @@ impl FailureObserver {
     fn visit(&mut self, path: &Continuation<Chain>, from: Option<&Arc<SkinPoint>>) {
         let values = path.system().row_values(&path.point().state);
         self.fractions = values.fractions;
+        if path.system().is_critical_only() {
+            return;
+        }
         for (peak, value) in self.maxima.iter_mut().zip(values.tracked) {
             peak.visit_value(path, from, value);
         }

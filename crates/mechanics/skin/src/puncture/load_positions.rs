@@ -13,7 +13,7 @@ use super::sensitivity::{CRITICAL_FORCE, PunctureInput};
 use super::{Problem, Puncture, PunctureParameters, Rows};
 use crate::record::Skin;
 use crate::sensitivity::Derivative;
-use crate::{Common, Design, Status};
+use crate::{Common, Design, PathDetail, Status};
 
 /// Relative difference below which two forces count as equal.
 ///
@@ -175,10 +175,10 @@ impl Problem<'_> {
         Ok((place, path.work()))
     }
 
-    /// Returns the same problem with other parameters.
+    /// Returns the same problem with other parameters, for the measures of the critical state.
     fn with<'p>(&'p self, parameters: &'p PunctureParameters) -> Problem<'p> {
         let (stiffness, endless) = (self.stiffness.clone(), self.endless.clone());
-        Problem { stiffness, endless, parameters, ..*self }
+        Problem { stiffness, endless, parameters, detail: PathDetail::Critical, ..*self }
     }
 
     /// Differentiates the smallest force over `places`.

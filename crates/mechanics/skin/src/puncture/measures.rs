@@ -158,10 +158,16 @@ impl PunctureMeasures {
         folds: &[Fold],
         path: &mut Continuation<Chain>,
     ) -> Self {
-        let max_stiffness = record.stiffness_summit(path).map(|summit| summit.value);
+        let max_stiffness = if path.system().is_critical_only() {
+            None
+        } else {
+            record.stiffness_summit(path).map(|summit| summit.value)
+        };
         let (chain, state) = (path.system(), &path.point().state);
         let (end, modulus) = (chain.path_point(path.point()), chain.plane_modulus);
-        let peak = peak(&record.path);
+        let along_path = !chain.is_critical_only();
+        let peak = peak(&record.path).filter(|_| along_path);
+        let first_contact = record.first_contact().filter(|_| along_path);
         let scales = 0..chain.layout.scales();
         let stretch = chain.gap_stretches(state);
         let fold = folds.first().map(|fold| fold.point);
@@ -172,11 +178,11 @@ impl PunctureMeasures {
             critical_displacement: Some(end.displacement),
             penetration: Some(chain.penetration(&state.z)),
             sink: nodes.reduce(f64::max),
-            first_contact_displacement: record.first_contact().map(|point| point.displacement),
+            first_contact_displacement: first_contact.map(|point| point.displacement),
             contacts: Some(end.contacts),
             engaged_scales: Some(chain.contacts.engaged(state)),
             scales: chain.row_length(),
-            initial_stiffness: Some(modulus * record.initial_stiffness),
+            initial_stiffness: along_path.then_some(modulus * record.initial_stiffness),
             max_stiffness: max_stiffness.map(|stiffness| modulus * stiffness),
             // `F*` is divided by `L`, a stiffness is not. A needle that is through at rest has no
             // secant.

@@ -58,7 +58,9 @@ impl PathObservers {
         self.passage.follow(path.system(), segment);
         // The record comes last, so that its number of events excludes this segment.
         let events_before = self.record.events.len();
-        self.needle.follow(path, [from, to], events_before);
+        if !path.system().is_critical_only() {
+            self.needle.follow(path, [from, to], events_before);
+        }
         self.tilts.follow(path, from, to);
         self.depth.follow(path, from, to);
         self.requested.follow(path, from, to);

@@ -21,11 +21,12 @@ pub struct PuncturePoint {
     pub tilt_deg: f64,
     /// Closed contacts.
     pub contacts: usize,
-    /// Elastic energy of the substrate, over `E* t³`.
+    /// Elastic energy of the substrate, over `E* t³`; NaN unless the whole path is recorded.
     pub substrate_energy: f64,
     /// Elastic energy of the contacts and of the bending of elastic scales, over `E* t³`.
     ///
-    /// Without friction, substrate and contact energy add up to the work `∫ F du` of the load.
+    /// Without friction, substrate and contact energy add up to the work `∫ F du` of the load. NaN
+    /// unless the whole path is recorded.
     pub contact_energy: f64,
     /// Frictional dissipation between scales up to here, over `E* t³`.
     ///
@@ -58,17 +59,17 @@ impl Skin for Chain {
     }
 
     fn path_point(&self, point: &SkinPoint) -> PuncturePoint {
-        let state = &point.state;
+        let (state, is_whole) = (&point.state, self.is_recorded_whole());
         PuncturePoint {
             displacement: self.depth(&state.z),
             force: self.force(state),
             lateral_force: self.lateral_force(state) / self.length,
             tilt_deg: self.angle_deg(state),
             contacts: Contacts::closed(state),
-            substrate_energy: self.substrate_energy(state),
-            contact_energy: self.energy_of_scales(state),
+            substrate_energy: if is_whole { self.substrate_energy(state) } else { f64::NAN },
+            contact_energy: if is_whole { self.energy_of_scales(state) } else { f64::NAN },
             friction_work: None,
-            gap_stretch: self.whole_path.then(|| self.gap_stretches(state)).flatten(),
+            gap_stretch: is_whole.then(|| self.gap_stretches(state)).flatten(),
         }
     }
 

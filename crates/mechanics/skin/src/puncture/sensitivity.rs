@@ -18,7 +18,7 @@ use crate::sensitivity::{
     derivatives, end, first_contact, missing, quantity, rest,
 };
 use crate::unloading::unloaded;
-use crate::{Common, Design, Status};
+use crate::{Common, Design, PathDetail, Status};
 
 /// Complete input of a puncture problem.
 #[derive(Clone, Debug)]
@@ -140,7 +140,8 @@ impl Problem<'_> {
         &self,
         variations: &[Neighbours<PunctureInput>],
     ) -> Result<(Followed, Vec<Derivative>), OutOfRange> {
-        let mut followed = self.follow(&FOLLOWED, &[])?;
+        let functions: &[_] = if self.detail == PathDetail::Critical { &[] } else { &FOLLOWED };
+        let mut followed = self.follow(functions, &[])?;
         let derivatives = match followed.status {
             Status::Complete => self.derivatives(&mut followed, variations)?,
             _ => Vec::new(),
@@ -214,7 +215,8 @@ impl Problem<'_> {
         let PathObservers { record, needle, passage, failure, depth: marked, .. } = watch;
         let FoldObserver { folds, first } = &watch.folds;
         let settings = &self.settings;
-        let stiffest = record.stiffness_summit(path);
+        let along_path = !path.system().is_critical_only();
+        let stiffest = if along_path { record.stiffness_summit(path) } else { None };
         let stiffest = sensitivity::summit(stiffest, path, Chain::stiffness, settings);
         let highest = record.highest_point(LOAD);
         let highest = sensitivity::summit(highest.as_ref(), path, FOLLOWED[LOAD], settings);
@@ -234,7 +236,8 @@ impl Problem<'_> {
         let load_limit = load_limit.and_then(|point| sensitivity::turn(chain, point, LOAD_RATE));
         let depth_limit = needle.depth_limit.as_ref();
         let depth_limit = depth_limit.and_then(|point| sensitivity::turn(chain, point, DEPTH_RATE));
-        let touching = record.touching.as_ref().and_then(|point| first_contact(chain, point));
+        let touching = record.touching.as_ref().filter(|_| along_path);
+        let touching = touching.and_then(|point| first_contact(chain, point));
         let spot = |place, quantities| MeasuredPoint { place, quantities };
         let folded = first.as_ref().zip(folds.first());
         let folded = folded.map(|(point, fold)| chain.folded_at(point, fold));
@@ -270,7 +273,10 @@ impl Problem<'_> {
         at_rest.state = chain.at_rest();
         let stresses = maxima.into_iter().zip(largest_stresses());
         let stresses = stresses.map(|(place, quantity)| spot(place, vec![quantity]));
-        let mut resting = vec![stiffness("initial_stiffness")];
+        let mut resting = Vec::new();
+        if along_path {
+            resting.push(stiffness("initial_stiffness"));
+        }
         if failure.is_some() {
             resting.push(quantity("clearance", |chain, _, _, _| {
                 chain.clearance().unwrap_or(f64::NAN)
@@ -286,7 +292,7 @@ impl Problem<'_> {
             at_turn(load_limit, [force("load_stability_force")]),
             at_turn(depth_limit, [force("depth_stability_force")]),
             spot(touching, vec![depth("first_contact_displacement")]),
-            spot(Some(at_rest), resting),
+            spot(Some(at_rest).filter(|_| !resting.is_empty()), resting),
             spot(stiffest, vec![stiffness("max_stiffness")]),
             spot(failed, vec![force(FAILURE_FORCE)]),
         ];

@@ -67,7 +67,7 @@ impl FoldObserver {
         events_before: usize,
     ) {
         // Measures need only the first fold, so a sweep does not solve for the others.
-        if self.first.is_some() && !path.system().whole_path {
+        if self.first.is_some() && !path.system().is_recorded_whole() {
             return;
         }
         let crossings = crossings(path, from, to);

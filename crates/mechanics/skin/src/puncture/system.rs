@@ -11,9 +11,9 @@ use super::failure::Strengths;
 use super::needle::{GuidedNeedle, Needle, NeedleMode};
 use super::row_exterior::RowExterior;
 use super::{Bending, PunctureParameters};
-use crate::Design;
 use crate::arrangement::Arrangement;
 use crate::contacts::{Contacts, SkinMode, SkinState};
+use crate::{Design, PathDetail};
 
 /// Depth unit of a guided needle as the control parameter, over `t`.
 ///
@@ -183,8 +183,8 @@ pub(crate) struct Chain {
     /// Constraint numbers that only grow.
     monotone: Vec<usize>,
     pub(super) controls: Vec<Control>,
-    /// [`Common::whole_path`](crate::Common::whole_path).
-    pub(super) whole_path: bool,
+    /// [`Common::detail`](crate::Common::detail).
+    pub(super) detail: PathDetail,
     /// Blocks of the tangent; `None` if couplings exceed the block structure.
     blocks: Option<Blocks>,
     units: Vec<f64>,
@@ -280,7 +280,7 @@ impl Chain {
             needle,
             constraints,
             controls,
-            whole_path: true,
+            detail: PathDetail::Whole,
             units: layout.units(direct),
         };
         // The rest position of a round tip depends on the scales of the row, so it is computed
@@ -291,6 +291,16 @@ impl Chain {
             needle.tip = centre;
         }
         chain
+    }
+
+    /// Returns true if only the measures of [`PathDetail::Critical`] are taken.
+    pub(super) fn is_critical_only(&self) -> bool {
+        self.detail == PathDetail::Critical
+    }
+
+    /// Returns true if everything that path tables and drawings show is recorded.
+    pub(super) fn is_recorded_whole(&self) -> bool {
+        self.detail == PathDetail::Whole
     }
 
     /// Returns the three displacements of a scale.

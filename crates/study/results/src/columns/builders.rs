@@ -34,6 +34,7 @@ const BLANK: MeasuredValue = MeasuredValue {
     at_tilts: None,
     shown: Shown::Chosen,
     is_of_guided_needle: false,
+    needs_path: false,
     needs: NONE,
 };
 
@@ -118,6 +119,11 @@ impl MeasuredValue {
     /// Restricts the value to runs with a guided needle.
     pub(super) const fn guided(self) -> Self {
         Self { is_of_guided_needle: true, ..self }
+    }
+
+    /// Marks a value of a puncture that needs more of the path than its critical state.
+    pub(super) const fn along_path(self) -> Self {
+        Self { needs_path: true, ..self }
     }
 
     /// Restricts the value to runs that set one of these parameters.

@@ -41,6 +41,8 @@ pub struct MeasuredValue {
     pub shown: Shown,
     /// Whether the value exists only in runs with a guided needle.
     pub(super) is_of_guided_needle: bool,
+    /// Whether the value of a puncture needs more of the path than its critical state.
+    pub(super) needs_path: bool,
     /// Parameters, in both units, that define how the value is measured.
     ///
     /// It exists only in runs that set one of them.
@@ -236,6 +238,13 @@ impl MeasuredValue {
         // The table of coverage contains the mass, but the mass needs no measure to be solved.
         let is_solved = !matches!(self.value, Value::ArealMass);
         MEASURE_TABLES.iter().find_map(of).filter(|_| is_solved)
+    }
+
+    /// Returns true if [`skin::PathDetail::Critical`] omits the value.
+    pub(super) fn is_along_path(&self) -> bool {
+        let is_before_end =
+            matches!(self.place, Place::Rest | Place::Contact | Place::Instability | Place::Peak);
+        self.measure() == Some(Measure::Puncture) && (is_before_end || self.needs_path)
     }
 
     /// Returns true if `parameter` defines how the value is measured.

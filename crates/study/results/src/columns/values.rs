@@ -120,7 +120,7 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
         "number of scales in the solved row";
     stiffness(name::INITIAL_STIFFNESS, Rest, |m| &mut m.initial_stiffness):
         "puncture stiffness at rest";
-    stiffness(name::MAX_STIFFNESS, Anywhere, |m| &mut m.max_stiffness).then():
+    stiffness(name::MAX_STIFFNESS, Anywhere, |m| &mut m.max_stiffness).along_path().then():
         "largest puncture stiffness on the path";
     stiffness(name::SECANT_STIFFNESS, End, |m| &mut m.secant_stiffness):
         "puncture force over displacement at the critical tilt";
@@ -168,15 +168,15 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
         "downward displacement of the punctured point at the largest force";
     number("peak_tilt_deg", Peak, |m| &mut m.peak_tilt_deg).in_unit("deg"):
         "tilt of the punctured scale at the largest force";
-    other("stable_under_load", FORCE, |r| measured(r, |m| m.stable_under_load.map(yes_or_no))):
+    other("stable_under_load", FORCE, |r| measured(r, |m| m.stable_under_load.map(yes_or_no))).along_path():
         "yes or no: whether the row is stable at the critical tilt under a constant load";
-    other("stable_under_depth", FORCE, |r| measured(r, |m| m.stable_under_depth.map(yes_or_no))):
+    other("stable_under_depth", FORCE, |r| measured(r, |m| m.stable_under_depth.map(yes_or_no))).along_path():
         "yes or no: whether the row is stable at the critical tilt at a constant depth of the punctured point";
     force("load_stability_force", Instability, |m| &mut m.load_stability_force):
         "puncture force at which the row becomes unstable under load control; empty if it does not";
     force("depth_stability_force", Instability, |m| &mut m.depth_stability_force):
         "puncture force at which the row becomes unstable under depth control; empty if it does not";
-    other("snaps", FORCE, |r| punctured(r, |p| p.measures.snaps)).at(Anywhere):
+    other("snaps", FORCE, |r| punctured(r, |p| p.measures.snaps)).at(Anywhere).along_path():
         "number of snaps of the row under a needle with increasing depth";
     number(name::GAP_STRETCH_MIN, End, |m| &mut m.gap_stretch_min).large().then():
         "width of the tightest gap between bases at the critical tilt over its width at rest; 0 or less where the surface is folded";
@@ -226,16 +226,16 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
         .at(Anywhere).then().needing(FAILURE):
         "mode of the first failure: tilt, through, fold, break, bend, debond, perforate or across; modes without a strength are not judged";
     number("scale_stress_max", Anywhere, |m| &mut m.failure.scale_stress)
-        .in_unit("E_s").physical(&[same(Quantity::Stress)]).small().then().needing(FAILURE):
+        .in_unit("E_s").physical(&[same(Quantity::Stress)]).small().then().along_path().needing(FAILURE):
         "largest bending stress of any scale, as a beam, up to the end of the path";
     depth("scale_deflection_max", Anywhere, |m| &mut m.failure.scale_deflection)
-        .small().needing(FAILURE):
+        .small().along_path().needing(FAILURE):
         "largest deflection of the tip of any scale, as a beam, up to the end of the path";
     number("bond_stress_max", Anywhere, |m| &mut m.failure.bond_stress)
-        .in_unit("E_s").physical(&[same(Quantity::Stress)]).small().needing(FAILURE):
+        .in_unit("E_s").physical(&[same(Quantity::Stress)]).small().along_path().needing(FAILURE):
         "largest traction at any base, in tension or mean shear, up to the end of the path";
     number("tissue_pressure_max", Anywhere, |m| &mut m.failure.tissue_pressure)
-        .in_unit("E_s").physical(&[same(Quantity::Pressure)]).small().needing(FAILURE):
+        .in_unit("E_s").physical(&[same(Quantity::Pressure)]).small().along_path().needing(FAILURE):
         "largest mean pressure of any base on the substrate up to the end of the path";
     depth("clearance", Nowhere, |m| &mut m.failure.clearance).needing(FAILURE):
         "distance between the faces of two neighbours at rest";

@@ -16,6 +16,9 @@ use super::sample_statistics::SampleStatistics;
 use crate::columns::measured_value;
 use crate::columns::values::VALUES;
 
+/// Relative step to find the parameters that follow another one.
+const STEP: f64 = 1e-6;
+
 /// The one-sided derivative used for extrapolation.
 ///
 /// Both sides agree except at kinks.
@@ -47,6 +50,16 @@ impl DesignRow {
     #[must_use]
     pub fn extrapolated(&self, to: &Case, side: SlopeSide) -> Self {
         self.changed(to, &changes(&self.case, to), side)
+    }
+
+    /// Returns the parameters that a change of one `parameter` changes, itself included.
+    ///
+    /// [`Self::extrapolated_by`] needs derivatives by these alone.
+    pub fn changed_by(case: &Case, parameter: &'static Parameter) -> Vec<&'static Parameter> {
+        if parameter.has(Role::Continuous) {
+            return vec![parameter];
+        }
+        neighbours(case, parameter).flat_map(|to| changed_parameters(case, &to)).collect()
     }
 
     /// Returns the extrapolated row of the case with `parameter` larger by `by`.
@@ -87,7 +100,19 @@ impl DesignRow {
     }
 }
 
+/// Returns the cases with a slightly smaller and a slightly larger `parameter`.
+pub fn neighbours(case: &Case, parameter: &Parameter) -> impl Iterator<Item = Case> {
+    let step = parameter.size(case).map(|size| STEP * size);
+    let steps = step.into_iter().flat_map(|step| [-step, step]);
+    steps.filter_map(|by| parameter.moved(case, by))
+}
+
 /// Returns the parameters that differ between two cases.
+pub fn changed_parameters(from: &Case, to: &Case) -> Vec<&'static Parameter> {
+    changes(from, to).into_iter().map(|moved| moved.parameter).collect()
+}
+
+/// Returns the parameters that differ between two cases, with their differences.
 fn changes(from: &Case, to: &Case) -> Vec<MovedParameter<'static>> {
     let change = |parameter: &'static Parameter| {
         let by = parameter.get(to).number()? - parameter.get(from).number()?;

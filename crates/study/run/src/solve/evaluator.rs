@@ -4,17 +4,19 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
 use geometry::OutOfRange;
+use results::columns::is_along_path;
 use results::{
     DesignResult, DesignRow, Failure, FlexureResult, Outcome, ParameterDerivative, PathEnd,
     PunctureResult, SampleStatistics, SolvedDesign, finite,
 };
-use skin::Common;
 use skin::flexure::{self, Flexure, Method};
 use skin::puncture::{self, Puncture};
+use skin::{Common, PathDetail};
 use substrate::{Calibrations, RowStiffness, StiffnessSlopes};
-use sweep::{Case, DesignNumber, Measure};
+use sweep::{Case, DesignNumber, Measure, Parameter};
 
 use super::between::{self, WorstBody};
+use super::sensitivity::Wanted;
 use super::work::{DesignWork, WorkMeter};
 use super::{samples, scatter, sensitivity};
 
@@ -27,6 +29,8 @@ const LONGEST_CHAIN: usize = 100_000;
 #[derive(Debug)]
 pub struct Evaluator {
     measures: Vec<Measure>,
+    /// Extent of the record of the paths of rows of tables.
+    detail: PathDetail,
     calibrations: Calibrations,
 }
 
@@ -36,7 +40,23 @@ type Evaluated<R, P> = Option<Result<(R, P), Outcome>>;
 impl Evaluator {
     /// Creates an evaluator of `measures`.
     pub fn new(measures: &[Measure]) -> Self {
-        Self { measures: measures.to_vec(), calibrations: Calibrations::default() }
+        Self {
+            measures: measures.to_vec(),
+            detail: PathDetail::Measures,
+            calibrations: Calibrations::default(),
+        }
+    }
+
+    /// Creates an evaluator of `measures` for rows and samples with these `columns`.
+    ///
+    /// Measures along the path ([`is_along_path`]) have no value unless a column needs one.
+    pub fn for_columns<'c>(
+        measures: &[Measure],
+        mut columns: impl Iterator<Item = &'c str>,
+    ) -> Self {
+        let detail =
+            if columns.any(is_along_path) { PathDetail::Measures } else { PathDetail::Critical };
+        Self { detail, ..Self::new(measures) }
     }
 
     fn measures(&self, measure: Measure) -> bool {
@@ -45,7 +65,7 @@ impl Evaluator {
 
     /// Solves `case`. A failure or panic affects this design only.
     pub fn solve(&self, number: DesignNumber, case: &Case) -> SolvedDesign {
-        self.solved(number, case, &WorkMeter::default())
+        self.solved(number, case, Wanted::All, &WorkMeter::default())
     }
 
     /// Solves a design faster than [`Self::solve`], for one row of the tables.
@@ -55,6 +75,16 @@ impl Evaluator {
         self.row_metered(number, case, &WorkMeter::default())
     }
 
+    /// Solves a design like [`Self::row`], with derivatives by these `parameters` alone.
+    pub fn row_with_derivatives(
+        &self,
+        number: DesignNumber,
+        case: &Case,
+        parameters: &[&'static Parameter],
+    ) -> DesignRow {
+        self.row_of(number, case, Wanted::Only(parameters), &WorkMeter::default())
+    }
+
     /// Solves a design like [`Self::row`], and reports its work to `meter`.
     pub(crate) fn row_metered(
         &self,
@@ -62,20 +92,38 @@ impl Evaluator {
         case: &Case,
         meter: &WorkMeter,
     ) -> DesignRow {
-        DesignRow { case: *case, ..self.solved(number, &without_path(case), meter).row }
+        self.row_of(number, case, Wanted::All, meter)
     }
 
-    fn solved(&self, number: DesignNumber, case: &Case, meter: &WorkMeter) -> SolvedDesign {
+    fn row_of(
+        &self,
+        number: DesignNumber,
+        case: &Case,
+        wanted: Wanted<'_>,
+        meter: &WorkMeter,
+    ) -> DesignRow {
+        let row = self.solved(number, &recorded(case, self.detail), wanted, meter).row;
+        DesignRow { case: *case, ..row }
+    }
+
+    fn solved(
+        &self,
+        number: DesignNumber,
+        case: &Case,
+        wanted: Wanted<'_>,
+        meter: &WorkMeter,
+    ) -> SolvedDesign {
         let work = DesignWork::new(meter, case, &self.measures);
         let coverage = self.measures(Measure::Coverage).then(|| coverage(case)).flatten();
         let mut sensitivity = Vec::new();
         if self.differentiates() && self.measures(Measure::Coverage) {
-            sensitivity.extend(guarded(|| sensitivity::coverage(case)).unwrap_or_default());
+            sensitivity.extend(guarded(|| sensitivity::coverage(case, wanted)).unwrap_or_default());
         }
         let punctured =
-            self.measures(Measure::Puncture).then(|| self.puncture(case, &mut sensitivity));
+            self.measures(Measure::Puncture).then(|| self.puncture(case, wanted, &mut sensitivity));
         let (puncture, puncture_path) = taken_apart(punctured, PunctureResult::without_path);
-        let bent = self.measures(Measure::Flexure).then(|| self.flexure(case, &mut sensitivity));
+        let bent =
+            self.measures(Measure::Flexure).then(|| self.flexure(case, wanted, &mut sensitivity));
         let (flexure, flexure_path) = taken_apart(bent, FlexureResult::without_path);
         let (samples, settings) = (self.samples(case, &work), String::new());
         let failures = Vec::new();
@@ -122,7 +170,9 @@ impl Evaluator {
     fn punctured_sample(&self, case: &Case, sample: u64) -> Result<PunctureResult, Outcome> {
         let substrate = guarded(|| self.substrate(case)).flatten()?;
         let punctured = || {
-            samples::common(case, sample).and_then(|row| samples::punctured(case, &substrate, &row))
+            let case = recorded(case, self.detail);
+            samples::common(&case, sample)
+                .and_then(|row| samples::punctured(&case, &substrate, &row))
         };
         let mut result = guarded(punctured)?.ok_or(Outcome::Internal)?;
         // The row across has no scatter.
@@ -158,6 +208,7 @@ impl Evaluator {
     fn puncture(
         &self,
         case: &Case,
+        wanted: Wanted<'_>,
         sensitivity: &mut Vec<ParameterDerivative>,
     ) -> Result<(PunctureResult, Puncture), Outcome> {
         if solved(|| puncture::overlaps_at_rest(&case.design, case.body()))? {
@@ -166,11 +217,13 @@ impl Evaluator {
         if self.differentiates() {
             let slopes = guarded(|| self.slopes(case)).flatten()?;
             let error = slopes.stiffness.estimated_error();
-            let (puncture, mut derivatives) = solved(|| sensitivity::puncture(case, &slopes))?;
+            let (puncture, mut derivatives) =
+                solved(|| sensitivity::puncture(case, wanted, &slopes))?;
             let mut result = PunctureResult::new(&puncture, error);
             if let Some(across) = case.across() {
                 let punctured = guarded(|| self.slopes(&across)).flatten().and_then(|slopes| {
-                    let (puncture, of_across) = solved(|| sensitivity::across(case, &slopes))?;
+                    let (puncture, of_across) =
+                        solved(|| sensitivity::across(case, wanted, &slopes))?;
                     derivatives.extend(of_across);
                     Ok(puncture)
                 });
@@ -179,7 +232,8 @@ impl Evaluator {
             }
             if let Some(worst) = self.puncture_between(case, &mut result) {
                 let fraction = worst.fraction;
-                derivatives.extend(solved(|| sensitivity::between(case, fraction, &slopes))?);
+                derivatives
+                    .extend(solved(|| sensitivity::between(case, wanted, fraction, &slopes))?);
             }
             sensitivity.extend(derivatives);
             return Ok((result, puncture));
@@ -213,7 +267,7 @@ impl Evaluator {
     ///
     /// The outcome of a puncture without a critical force.
     pub fn critical_force(&self, case: &Case) -> Result<f64, Outcome> {
-        let Case { design, common, .. } = case;
+        let Case { design, common, .. } = &recorded(case, PathDetail::Critical);
         if solved(|| puncture::overlaps_at_rest(design, case.body()))? {
             return Err(Outcome::Overlapping);
         }
@@ -226,7 +280,7 @@ impl Evaluator {
     /// Punctures the row across, if requested, and adds its force to a result.
     fn puncture_across(&self, case: &Case, result: &mut PunctureResult) {
         let Some(across) = case.across() else { return };
-        let Case { design, common, .. } = &without_path(&across);
+        let Case { design, common, .. } = &recorded(&across, PathDetail::Critical);
         let parameters = across.punctured();
         let punctured = guarded(|| self.substrate(&across)).flatten().and_then(|substrate| {
             solved(|| puncture::solve(design, &*substrate, common, &parameters))
@@ -240,13 +294,14 @@ impl Evaluator {
     fn flexure(
         &self,
         case: &Case,
+        wanted: Wanted<'_>,
         sensitivity: &mut Vec<ParameterDerivative>,
     ) -> Result<(FlexureResult, Flexure), Outcome> {
         if case.flexure.method == Method::Chain {
             chain_fits(case)?;
         }
         let flexure = if self.differentiates() {
-            let (flexure, derivatives) = solved(|| sensitivity::flexure(case))?;
+            let (flexure, derivatives) = solved(|| sensitivity::flexure(case, wanted))?;
             sensitivity.extend(derivatives);
             flexure
         } else {
@@ -301,9 +356,9 @@ impl Evaluator {
     }
 }
 
-/// Returns the case reduced to the parts of a path that measures need.
-pub(super) fn without_path(case: &Case) -> Case {
-    let common = Common { whole_path: false, ..case.common };
+/// Returns the case with another extent of the record of its path.
+pub(super) fn recorded(case: &Case, detail: PathDetail) -> Case {
+    let common = Common { detail, ..case.common };
     Case { common, ..*case }
 }
 

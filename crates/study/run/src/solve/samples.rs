@@ -1,13 +1,13 @@
 //! Solves imperfect samples of a design.
 
 use results::{FlexureResult, PunctureResult, SampleStatistics, Statistics};
-use skin::Sample;
 use skin::flexure::{self, BentSample};
 use skin::puncture;
+use skin::{PathDetail, Sample};
 use substrate::RowStiffness;
 use sweep::Case;
 
-use super::evaluator::without_path;
+use super::evaluator::recorded;
 use super::work::DesignWork;
 
 /// Punctures the samples of `case` on `substrate`.
@@ -20,6 +20,7 @@ pub(super) fn puncture(
     work: &DesignWork<'_>,
 ) {
     let (mut force, mut penetration) = (Vec::new(), Vec::new());
+    let case = &recorded(case, PathDetail::Critical);
     for number in 1..=case.samples.count as u64 {
         // A sample with overlapping scales counts as failed. Drawing again would distort the
         // distribution.
@@ -71,7 +72,7 @@ pub(super) fn punctured(
     substrate: &RowStiffness,
     row: &Sample,
 ) -> Option<PunctureResult> {
-    let Case { design, common, .. } = &without_path(case);
+    let Case { design, common, .. } = case;
     let parameters = case.punctured();
     let puncture = puncture::solve_sample(design, substrate, common, &parameters, row).ok()?;
     Some(PunctureResult::new(&puncture, substrate.estimated_error()))

@@ -9,7 +9,7 @@ use skin::puncture::{self, PerturbedScale, PunctureInput};
 use substrate::RowStiffness;
 use sweep::{Case, Parameter};
 
-use super::sensitivity::{self, STEP, named};
+use super::sensitivity::{self, STEP, Wanted, named};
 
 /// Maximum number of varied scales on each side of the punctured one.
 ///
@@ -75,7 +75,7 @@ pub(super) fn flexure(case: &Case) -> Result<Vec<ParameterDerivative>, OutOfRang
     let mut fixed = *case;
     // Another gap would change the number of gaps in the strip, which is a jump.
     fixed.flexure.gaps = Some(gaps);
-    let (_, mut derivatives) = sensitivity::flexure(&fixed)?;
+    let (_, mut derivatives) = sensitivity::flexure(&fixed, Wanted::All)?;
     derivatives.retain(|derivative| SCATTERED.contains(&derivative.parameter));
     let share = (gaps as f64).sqrt().recip();
     for derivative in &mut derivatives {

@@ -5,37 +5,62 @@ use results::ParameterDerivative;
 use results::columns::name;
 use skin::flexure::{self, Flexure, FlexureInput};
 use skin::puncture::{self, FailureMode, Puncture, PunctureInput, PunctureMeasures};
-use skin::{Derivative, Neighbours};
+use skin::{Derivative, Neighbours, PathDetail};
 use substrate::{RowStiffness, StiffnessSlopes};
 use sweep::{Case, Measure, PARAMETERS, Parameter, Role};
+
+use super::evaluator::recorded;
 
 /// Relative step of finite differences of explicit functions.
 // The optimum for central differences is the cube root of the rounding error, 6e-6; a third of it
 // avoids nearby kinks.
 pub(super) const STEP: f64 = 2e-6;
 
-/// Returns the continuous parameters on which a measure of `case` depends.
-fn parameters(case: &Case, of: Measure) -> Vec<&'static Parameter> {
-    let belongs = |p: &&Parameter| p.has(Role::Continuous) && of.sections().contains(&p.section);
-    PARAMETERS.iter().filter(belongs).filter(|p| p.size(case).is_some()).collect()
+/// Parameters of the derivatives.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Wanted<'a> {
+    /// All continuous parameters.
+    All,
+    /// These alone.
+    Only(&'a [&'static Parameter]),
+}
+
+impl Wanted<'_> {
+    fn contains(self, parameter: &Parameter) -> bool {
+        let Self::Only(parameters) = self else { return true };
+        parameters.iter().any(|listed| {
+            // The derivatives by the prefactor follow from the derivatives by a modulus.
+            let gives_prefactor = listed.key == PREFACTOR && MODULI.contains(&parameter.key);
+            listed.key == parameter.key || gives_prefactor
+        })
+    }
+
+    /// Returns the wanted continuous parameters on which a measure of `case` depends.
+    fn parameters(self, case: &Case, of: Measure) -> Vec<&'static Parameter> {
+        let belongs = |p: &&Parameter| {
+            p.has(Role::Continuous) && of.sections().contains(&p.section) && self.contains(p)
+        };
+        PARAMETERS.iter().filter(belongs).filter(|p| p.size(case).is_some()).collect()
+    }
 }
 
 /// Prefactor of the contact law, and the moduli that are multiplied by it.
 const PREFACTOR: &str = "c1";
 const MODULI: [&str; 2] = ["contact_modulus_over_substrate", "contact_modulus_over_membrane"];
 
-/// Returns the parameters of a path's derivatives, each with its variation.
+/// Returns the wanted parameters of a path's derivatives, each with its variation.
 ///
 /// The prefactor of the contact law is omitted: forces depend on its product with the modulus only,
 /// so [`with_prefactor`] computes its derivatives from the derivatives for the modulus. If the
 /// first failure is sought, it is included, because the modulus also bends the scales.
 fn variations<P>(
     case: &Case,
+    wanted: Wanted<'_>,
     of: Measure,
     variation: impl Fn(&'static Parameter) -> Option<Neighbours<P>>,
 ) -> (Vec<&'static Parameter>, Vec<Neighbours<P>>) {
     let bends = of == Measure::Puncture && case.punctured().failure.is_some();
-    let solved = parameters(case, of).into_iter().filter(|p| p.key != PREFACTOR || bends);
+    let solved = wanted.parameters(case, of).into_iter().filter(|p| p.key != PREFACTOR || bends);
     solved.filter_map(|parameter| Some((parameter, variation(parameter)?))).unzip()
 }
 
@@ -64,11 +89,12 @@ fn with_prefactor(case: &Case, solved: &[ParameterDerivative]) -> Vec<ParameterD
 /// Punctures the design of `case`, and differentiates its measures.
 pub(super) fn puncture(
     case: &Case,
+    wanted: Wanted<'_>,
     slopes: &StiffnessSlopes,
 ) -> Result<(Puncture, Vec<ParameterDerivative>), OutOfRange> {
     let varied = |parameter| Varied { case, parameter, slopes: Some(slopes) };
     let (parameters, variations) =
-        variations(case, Measure::Puncture, |p| varied(p).variation(Varied::punctured));
+        variations(case, wanted, Measure::Puncture, |p| varied(p).variation(Varied::punctured));
     let input = punctured(case, slopes.stiffness.clone());
     let (puncture, derivatives) = puncture::differentiate(&input, &variations)?;
     Ok((puncture, with_prefactor(case, &named(case, &parameters, derivatives))))
@@ -77,11 +103,12 @@ pub(super) fn puncture(
 /// Punctures the row across the one of `case`, and differentiates its force.
 pub(super) fn across(
     case: &Case,
+    wanted: Wanted<'_>,
     slopes: &StiffnessSlopes,
 ) -> Result<(Puncture, Vec<ParameterDerivative>), OutOfRange> {
     let across = case.across().unwrap_or(*case);
     let ForceDerivatives { puncture, parameters, mut derivatives } =
-        ForceDerivatives::of(case, &across, slopes, Varied::punctured_across)?;
+        ForceDerivatives::of(case, wanted, &across, slopes, Varied::punctured_across)?;
     let factor = case.across_factor();
     for derivative in &mut derivatives {
         let parameter = parameters[derivative.parameter];
@@ -108,14 +135,16 @@ impl ForceDerivatives {
     /// `vary` returns this row for a changed parameter of `case`.
     fn of<'a>(
         case: &'a Case,
+        wanted: Wanted<'_>,
         solved: &Case,
         slopes: &'a StiffnessSlopes,
         vary: impl Fn(&Varied<'a>, f64) -> Option<PunctureInput>,
     ) -> Result<Self, OutOfRange> {
-        let (parameters, variations) = variations(case, Measure::Puncture, |parameter| {
+        let (parameters, variations) = variations(case, wanted, Measure::Puncture, |parameter| {
             Varied { case, parameter, slopes: Some(slopes) }.variation(&vary)
         });
-        let input = punctured(solved, slopes.stiffness.clone());
+        let solved = recorded(solved, PathDetail::Critical);
+        let input = punctured(&solved, slopes.stiffness.clone());
         let (puncture, mut derivatives) = puncture::differentiate(&input, &variations)?;
         derivatives.retain(|derivative| derivative.measure == name::CRITICAL_FORCE);
         Ok(Self { puncture, parameters, derivatives })
@@ -128,12 +157,13 @@ impl ForceDerivatives {
 /// vanishes, so the position is kept.
 pub(super) fn between(
     case: &Case,
+    wanted: Wanted<'_>,
     fraction: f64,
     slopes: &StiffnessSlopes,
 ) -> Result<Vec<ParameterDerivative>, OutOfRange> {
     let on_body = case.on_body_between(fraction).unwrap_or(*case);
     let ForceDerivatives { parameters, mut derivatives, .. } =
-        ForceDerivatives::of(case, &on_body, slopes, |varied, by| {
+        ForceDerivatives::of(case, wanted, &on_body, slopes, |varied, by| {
             varied.punctured_between(fraction, by)
         })?;
     for derivative in &mut derivatives {
@@ -181,18 +211,21 @@ pub(super) fn choose_direction(
 }
 
 /// Bends the design of `case`, and differentiates its measures.
-pub(super) fn flexure(case: &Case) -> Result<(Flexure, Vec<ParameterDerivative>), OutOfRange> {
+pub(super) fn flexure(
+    case: &Case,
+    wanted: Wanted<'_>,
+) -> Result<(Flexure, Vec<ParameterDerivative>), OutOfRange> {
     let varied = |parameter| Varied { case, parameter, slopes: None };
     let (parameters, variations) =
-        variations(case, Measure::Flexure, |p| varied(p).variation(Varied::bent));
+        variations(case, wanted, Measure::Flexure, |p| varied(p).variation(Varied::bent));
     let (flexure, derivatives) = flexure::differentiate(&bent(case), &variations)?;
     Ok((flexure, with_prefactor(case, &named(case, &parameters, derivatives))))
 }
 
 /// Returns the derivatives of the coverage of `case`.
-pub(super) fn coverage(case: &Case) -> Vec<ParameterDerivative> {
+pub(super) fn coverage(case: &Case, wanted: Wanted<'_>) -> Vec<ParameterDerivative> {
     let Ok(row) = case.design.row() else { return Vec::new() };
-    let parameters = parameters(case, Measure::Coverage);
+    let parameters = wanted.parameters(case, Measure::Coverage);
     if !case.body().is_flat() {
         return coverage_on_body(case, &parameters);
     }

@@ -1,13 +1,14 @@
 //! Rows do not depend on other designs that are solved.
 
 use std::collections::BTreeSet;
+use std::iter;
 use std::sync::LazyLock;
 
 use proptest::prelude::*;
-use results::columns::design_columns;
+use results::columns::{Cell, design_columns, is_along_path};
 use run::{Evaluator, GapChange};
 use skin::Design;
-use sweep::{Case, Sweep};
+use sweep::{Case, Measure, Parameter, Sweep};
 
 /// Returns the axes of a small grid.
 fn axes() -> Vec<(&'static str, Vec<f64>)> {
@@ -67,6 +68,74 @@ fn rows_do_not_depend_on_whether_paths_are_stored() {
         assert!(puncture.folds.len() > 1, "design {index}");
         assert!(puncture.path.iter().all(|point| point.gap_stretch.is_some()), "design {index}");
     }
+}
+
+/// Skins with every needle, friction, failure, a row across and several load positions.
+const SKINS: [&str; 4] = [
+    "[designs]\ngap_over_t = [0.1, 0.5]\nlength_over_t = 0.4\nslant_deg = [0, 45, 70]",
+    "[designs]\ngap_over_t = [0.1, 0.5]\nlength_over_t = 0.4\nslant_deg = [45, 70]\n\
+     [puncture]\nneedle = 'guided'\nneedle_friction = 0.3\nload_inset_over_t = 0.05\n\
+     places = 3\nfailure = true",
+    "[designs]\ngap_over_t = 0.2\nlength_over_t = 0.4\nslant_deg = [45, 70]\n\
+     [contact]\nfriction = 0.2\n[array]\nacross = true\n[puncture]\nfailure = true",
+    "[designs]\ngap_over_t = 0.2\nlength_over_t = 0.8\nslant_deg = 70\n\
+     [puncture]\nneedle = 'guided'\nneedle_radius_over_t = 0.3\ncritical_tilt_deg = [5, 10]",
+];
+
+/// Calls `check` with the sweep of each skin and each of its cases.
+fn for_each_skin(mut check: impl FnMut(&Sweep, u64)) {
+    for skin in SKINS {
+        let text = format!("name = 'x'\nmeasures = ['coverage', 'puncture', 'flexure']\n{skin}");
+        let sweep = Sweep::parse(&text, "x.toml", &[]).expect("a valid sweep");
+        (0..sweep.grid().len()).for_each(|index| check(&sweep, index));
+    }
+}
+
+/// Rows for the critical state omit the values along the path, and have all others.
+#[test]
+fn rows_for_the_critical_state_have_all_values_but_those_along_the_path() {
+    let (mut compared, mut omitted) = (0, BTreeSet::new());
+    for_each_skin(|sweep, index| {
+        let measures = [sweep.measures(), &[Measure::Sensitivity]].concat();
+        let (number, case) = (sweep.grid().number(index), sweep.grid().case(index));
+        let whole = Evaluator::new(&measures).row(number, &case);
+        let critical = Evaluator::for_columns(&measures, iter::empty()).row(number, &case);
+        for column in design_columns(sweep) {
+            let [expected, found] = [&whole, &critical].map(|row| column.cell(row));
+            if !is_along_path(&column.name) {
+                assert_eq!(found.to_string(), expected.to_string(), "{} {index}", column.name);
+                compared += 1;
+            } else if !matches!(expected, Cell::Empty) {
+                // A count of zero is a number, too.
+                assert!(matches!(found, Cell::Empty | Cell::Count(0)), "{}", column.name);
+                omitted.insert(column.name.to_string());
+            }
+        }
+        let mut derivatives = whole.result.sensitivity;
+        derivatives.retain(|derivative| !is_along_path(derivative.measure));
+        assert_eq!(critical.result.sensitivity, derivatives, "{index}");
+    });
+    assert!(compared > 500 && omitted.len() > 12, "{compared} {omitted:?}");
+}
+
+/// Derivatives by some parameters are the same as among all.
+#[test]
+fn derivatives_by_some_parameters_are_those_among_all() {
+    let keys = ["gap_over_t", "slant_deg", "c1", "needle_friction"];
+    let chosen: Vec<&Parameter> = keys.into_iter().filter_map(Parameter::named).collect();
+    let mut compared = 0;
+    for_each_skin(|sweep, index| {
+        let evaluator = Evaluator::new(&[sweep.measures(), &[Measure::Sensitivity]].concat());
+        let (number, case) = (sweep.grid().number(index), sweep.grid().case(index));
+        let mut all = evaluator.row(number, &case).result.sensitivity;
+        all.retain(|derivative| keys.contains(&derivative.parameter));
+        let mut some = evaluator.row_with_derivatives(number, &case, &chosen).result.sensitivity;
+        // The modulus gives the derivatives by the prefactor of the contact law.
+        some.retain(|derivative| keys.contains(&derivative.parameter));
+        assert_eq!(some, all, "{index}");
+        compared += some.len();
+    });
+    assert!(compared > 300, "{compared}");
 }
 
 /// The coverage of slanted scales changes with the gap as in the closed form.

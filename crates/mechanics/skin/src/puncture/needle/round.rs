@@ -274,7 +274,8 @@ impl Chain {
     ///
     /// `None` for other needles, and unless the whole path is recorded.
     pub(in crate::puncture) fn tip_forces(&self, state: &SkinState) -> Option<TipForces> {
-        let needle = self.needle.as_ref().filter(|needle| self.whole_path && needle.is_round())?;
+        let needle =
+            self.needle.as_ref().filter(|needle| self.is_recorded_whole() && needle.is_round())?;
         Some(
             state
                 .mode
