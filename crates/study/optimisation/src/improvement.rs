@@ -101,7 +101,7 @@ pub(crate) fn improved(
         let is_feasible = |candidate: &Candidate| met(search, candidate, target).is_some();
         let is_full = effort.rounds > 0 && known.clone().any(is_feasible);
         let known = known.filter(|candidate| !is_full || is_feasible(candidate));
-        let starts = starts(search, known, target, count);
+        let starts = distinct(starts(search, known, target, count));
         let walks = starts.par_iter().map(|start| {
             let walk = search.improve(target, start, effort)?;
             let best = search.best(walk.iter().chain([start]), target);
@@ -110,15 +110,25 @@ pub(crate) fn improved(
         });
         let walks: Vec<_> = walks.collect::<Result<_, Halt>>()?;
         // Only the last stage converges. Its starts are the ends of searches by another method, so
-        // they count too. Starts on both sides of a region border are one point, and count once.
-        let is_distinct = |k: usize| {
-            let earlier = &starts[..k];
-            earlier.iter().all(|start| start.point.distance(&starts[k].point) >= DISTINCT)
-        };
-        let distinct = walks.iter().enumerate().filter(|(k, _)| is_distinct(*k));
-        let both = distinct.flat_map(|(k, (_, end))| [met(search, &starts[k], target), *end]);
+        // they count too.
+        let both = starts.iter().zip(&walks);
+        let both = both.flat_map(|(start, (_, end))| [met(search, start, target), *end]);
         ends = both.flatten().collect();
         evaluated.extend(walks.into_iter().flat_map(|(walk, _)| walk));
     }
     Ok(Improved { evaluated, ends })
+}
+
+/// Drops starts beside an earlier start.
+///
+/// Starts on both sides of a region border are one point, and searches from them end at the same
+/// design.
+fn distinct(starts: Vec<Candidate>) -> Vec<Candidate> {
+    let mut kept: Vec<Candidate> = Vec::new();
+    for start in starts {
+        if kept.iter().all(|earlier| earlier.point.distance(&start.point) >= DISTINCT) {
+            kept.push(start);
+        }
+    }
+    kept
 }

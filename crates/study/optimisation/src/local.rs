@@ -4,6 +4,7 @@
 //! search handles jumps.
 
 mod bundle;
+mod certainty;
 mod gradient_search;
 mod polish;
 mod problem;
@@ -19,6 +20,7 @@ use crate::judge::Judge;
 use crate::judgement::Judgement;
 use crate::progress::{SearchProgress, SearchTask};
 use crate::space::{DesignSpace, SpacePoint};
+pub(crate) use problem::CLEAR;
 use samples::SampledPoint;
 
 /// Maximum number of rounds of ridge search, polish and gradient search.
@@ -266,6 +268,9 @@ impl Search<'_> {
         let (mut reach, variables) = (effort.reach, start.point.shares.len());
         walk.climb(effort)?;
         for _ in 0..effort.rounds {
+            if walk.is_certain()? {
+                break;
+            }
             let before = walk.best_merit();
             // The ridge search goes first: tangents give a direction along the ridge, which the
             // polls of a direct search rarely hit.

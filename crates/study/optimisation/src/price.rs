@@ -15,7 +15,7 @@ use crate::contact_margin::{contact_margin, contact_margin_slopes};
 use crate::evaluated_row::{EvaluatedRow, StatisticUse};
 use crate::evaluations::Halt;
 use crate::judgement::Judgement;
-use crate::local::{Search, floor_size};
+use crate::local::{CLEAR, Search, floor_size};
 use crate::slopes::Slopes;
 
 /// Distance, relative to its size, within which a limit counts as binding.
@@ -26,6 +26,9 @@ const NEAR_SAMPLES: f64 = 1e-3;
 
 /// Fraction of the gradient that the multipliers may leave unbalanced.
 const BALANCED: f64 = 1e-3;
+
+/// As [`BALANCED`], for a certain optimum.
+const CERTAIN: f64 = 1e-5;
 
 /// A binding limit with its multiplier.
 #[derive(Clone, Debug, PartialEq)]
@@ -126,34 +129,90 @@ fn prices(
     target: &Target,
     limits: &[Limit],
 ) -> Option<Vec<f64>> {
-    let judge = search.judge;
+    let Gradients { objective, limits: columns } = Gradients::of(search, row, target, limits)?;
+    let multipliers = multipliers(&columns, &objective, BALANCED)?;
     let intervals = search.space.intervals();
-    // All multipliers balance one gradient: a kink along any variable leaves all unknown.
-    let gradient = |slopes: &dyn Fn(&Parameter) -> Slopes| -> Option<DVector<f64>> {
-        let slope = intervals
-            .iter()
-            .map(|interval| Some(slopes(interval.parameter).smooth()? * interval.length()));
-        Some(DVector::from_vec(slope.collect::<Option<_>>()?))
-    };
-    let objective = gradient(&|p| judge.objective_slopes(target.objective, row, p))?;
-    let mut columns = Vec::new();
-    for limit in limits {
-        columns.push(match *limit {
-            Limit::Requirement(k) => gradient(&|p| judge.margin_slopes(k, row, p))?,
-            Limit::Floor(k) => gradient(&|p| judge.objective_slopes(k, row, p))?,
-            Limit::Lower(j) => unit(intervals.len(), j, 1.0),
-            Limit::Upper(j) => unit(intervals.len(), j, -1.0),
-            Limit::Touch => gradient(&|p| contact_margin_slopes(&row.nominal.case, p))?,
-        });
-    }
-    let multipliers = multipliers(&columns, &objective)?;
-    let requirements: Vec<_> = judge.requirements().collect();
+    let requirements: Vec<_> = search.judge.requirements().collect();
     let unit = |limit: &Limit| match *limit {
         Limit::Requirement(k) => requirements[k].size(),
         Limit::Floor(_) | Limit::Touch => 1.0,
         Limit::Lower(j) | Limit::Upper(j) => intervals[j].length(),
     };
     Some(limits.iter().zip(multipliers).map(|(limit, x)| x / unit(limit)).collect())
+}
+
+/// Bounds the gain of the objective that is left to first order, relative to the objective.
+///
+/// Also returns whether the bound needs the border of contact in bending. `None` at a kink, or if
+/// multipliers do not balance the gradient.
+pub(crate) fn first_order_gain(
+    search: &Search<'_>,
+    best: &Candidate,
+    row: &EvaluatedRow,
+    target: &Target,
+) -> Option<(f64, bool)> {
+    let Judgement::Judged(worth) = &best.verdict else { return None };
+    let limits = binding_limits(search, best, target);
+    let gradients = Gradients::of(search, row, target, &limits)?;
+    let multipliers = multipliers(&gradients.limits, &gradients.objective, CERTAIN)?;
+    let mut gain = 0.0;
+    for (limit, price) in limits.iter().zip(&multipliers) {
+        let margin = match *limit {
+            Limit::Requirement(k) => worth.margins[k],
+            Limit::Floor(k) => {
+                let floor = target.floors.iter().find(|(other, _)| *other == k);
+                let turned = search.judge.sign(k) * worth.objectives[k];
+                floor.map_or(0.0, |(_, floor)| turned - floor)
+            }
+            Limit::Lower(j) => best.point.shares[j],
+            Limit::Upper(j) => 1.0 - best.point.shares[j],
+            // The search keeps this distance from contact.
+            Limit::Touch => contact_margin(&search.space.case(&best.point)) - CLEAR,
+        };
+        gain += price * margin.max(0.0);
+    }
+    let mut needed = limits.iter().zip(&multipliers).filter(|(_, price)| **price > 0.0);
+    let objective = worth.objectives[target.objective].abs();
+    Some((gain / objective, needed.any(|(limit, _)| *limit == Limit::Touch)))
+}
+
+/// Gradients over the fractions of the intervals.
+struct Gradients {
+    objective: DVector<f64>,
+    /// Gradients of the margins.
+    limits: Vec<DVector<f64>>,
+}
+
+impl Gradients {
+    /// Returns the gradients at a differentiated design; `None` at a kink.
+    fn of(
+        search: &Search<'_>,
+        row: &EvaluatedRow,
+        target: &Target,
+        limits: &[Limit],
+    ) -> Option<Self> {
+        let judge = search.judge;
+        let intervals = search.space.intervals();
+        // All multipliers balance one gradient: a kink along any variable leaves all unknown.
+        let gradient = |slopes: &dyn Fn(&Parameter) -> Slopes| -> Option<DVector<f64>> {
+            let slope = intervals
+                .iter()
+                .map(|interval| Some(slopes(interval.parameter).smooth()? * interval.length()));
+            Some(DVector::from_vec(slope.collect::<Option<_>>()?))
+        };
+        let objective = gradient(&|p| judge.objective_slopes(target.objective, row, p))?;
+        let mut columns = Vec::new();
+        for limit in limits {
+            columns.push(match *limit {
+                Limit::Requirement(k) => gradient(&|p| judge.margin_slopes(k, row, p))?,
+                Limit::Floor(k) => gradient(&|p| judge.objective_slopes(k, row, p))?,
+                Limit::Lower(j) => unit(intervals.len(), j, 1.0),
+                Limit::Upper(j) => unit(intervals.len(), j, -1.0),
+                Limit::Touch => gradient(&|p| contact_margin_slopes(&row.nominal.case, p))?,
+            });
+        }
+        Some(Self { objective, limits: columns })
+    }
 }
 
 fn unit(count: usize, j: usize, sign: f64) -> DVector<f64> {
@@ -164,8 +223,13 @@ fn unit(count: usize, j: usize, sign: f64) -> DVector<f64> {
 
 /// Computes non-negative multipliers that balance `objective`, by least squares.
 ///
-/// Limits with a negative multiplier are dropped. Returns `None` if the residual is too large.
-fn multipliers(columns: &[DVector<f64>], objective: &DVector<f64>) -> Option<Vec<f64>> {
+/// Limits with a negative multiplier are dropped. Returns `None` if they leave more than the
+/// fraction `unbalanced` of the gradient.
+fn multipliers(
+    columns: &[DVector<f64>],
+    objective: &DVector<f64>,
+    unbalanced: f64,
+) -> Option<Vec<f64>> {
     // Normalised, so that each limit counts the same in any unit.
     let norms: Vec<f64> = columns.iter().map(DVector::norm).collect();
     let mut open: Vec<usize> = (0..columns.len()).filter(|&k| norms[k] > 0.0).collect();
@@ -187,7 +251,7 @@ fn multipliers(columns: &[DVector<f64>], objective: &DVector<f64>) -> Option<Vec
             open.iter().zip(solved.iter()).for_each(|(&k, x)| all[k] = x / norms[k]);
             objective + matrix * solved
         };
-        return (rest.norm() <= BALANCED * objective.norm()).then_some(all);
+        return (rest.norm() <= unbalanced * objective.norm()).then_some(all);
     }
 }
 
@@ -203,17 +267,17 @@ mod tests {
     fn multipliers_balance_the_gradient() {
         // Maximise x + 2 y with x ≤ 1 and x + y ≤ 1.5. At (1, 0.5), both limits bind.
         let columns = [vector([-1.0, -1.0]), vector([1.0, 0.0])];
-        let found = multipliers(&columns, &vector([1.0, 2.0])).expect("balanced");
+        let found = multipliers(&columns, &vector([1.0, 2.0]), BALANCED).expect("balanced");
         assert!((found[0] - 2.0).abs() < 1e-12 && (found[1] - 1.0).abs() < 1e-12, "{found:?}");
     }
 
     #[test]
     fn limits_with_negative_multipliers_are_dropped() {
         let away = [vector([1.0, 0.0]), vector([0.0, -1.0])];
-        assert_eq!(multipliers(&away, &vector([1.0, 0.0])), None);
-        let found = multipliers(&away, &vector([0.0, 3.0])).expect("balanced");
+        assert_eq!(multipliers(&away, &vector([1.0, 0.0]), BALANCED), None);
+        let found = multipliers(&away, &vector([0.0, 3.0]), BALANCED).expect("balanced");
         assert_eq!(found[0], 0.0);
         assert!((found[1] - 3.0).abs() < 1e-12);
-        assert_eq!(multipliers(&[], &vector([0.0, 0.0])), Some(vec![]));
+        assert_eq!(multipliers(&[], &vector([0.0, 0.0]), BALANCED), Some(vec![]));
     }
 }

@@ -28,7 +28,7 @@ const STALLED: usize = 3;
 /// Slack before contact that the search keeps in bending.
 ///
 /// A gradient search ends up to about 1e-9 beyond its limits, and the compliance jumps at contact.
-const CLEAR: f64 = 1e-7;
+pub(crate) const CLEAR: f64 = 1e-7;
 
 /// Scaling of the objective to a cost of about 1.
 #[derive(Clone, Copy)]

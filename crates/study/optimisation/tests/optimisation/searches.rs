@@ -49,6 +49,27 @@ fn goals_accept_levels_of_standards() {
     );
 }
 
+/// The reference search ends at a corner of limits, which derivatives prove to be the optimum.
+///
+/// Ridge search and polish would only confirm it. The reported design still has all values.
+#[test]
+fn a_search_does_not_confirm_an_optimum_that_derivatives_prove() {
+    let text = "name = 'x'\nmeasures = ['coverage', 'puncture', 'flexure']\n[variables]\n\
+        gap_over_t = { from = 0.1, to = 1 }\nlength_over_t = { from = 0.025, to = 1 }\n\
+        slant_deg = { from = 0, to = 75 }\n[goal]\nmaximize = 'critical_force'\n\
+        require = ['coverage >= 0.5', 'compliance >= 0.2']\nsamples = 64\n";
+    let found = found(&DesignGoal::parse(text, "x.toml", &[]).expect("a goal"));
+    let best = optimum(&found);
+    assert!((objectives(best)[0] - 2.141_936_6).abs() < 2e-6, "{:?}", objectives(best));
+    let of_stage = |stage| found.history.iter().filter(|c| c.stage == stage).count();
+    // One of three full searches still follows a ridge, for a single round: each would need 43 designs.
+    let confirming = of_stage(SearchStage::Ridge) + of_stage(SearchStage::Polish);
+    assert!(confirming < 43, "{confirming}");
+    let searched = found.history.iter().filter_map(|c| c.result.puncture);
+    assert!(searched.into_iter().all(|p| p.measures.max_stiffness.is_none()));
+    assert!(best.row.result.puncture.is_some_and(|p| p.measures.max_stiffness.is_some()));
+}
+
 fn found(goal: &DesignGoal) -> Found {
     let folder = tempfile::tempdir().expect("a folder");
     found_in(folder.path(), goal, 1, Start::New)

@@ -1,0 +1,71 @@
+//! Certificate of a local optimum by derivatives.
+//!
+//! At an optimum the gradients of the binding limits balance the gradient of the objective (O1). By
+//! weak duality, the objective of the linearised problem can then rise at most by the sum of the
+//! multipliers times the margins that are left. If this is nothing and no value has a kink, ridge
+//! search and polish can only confirm the design.
+
+use super::LocalSearch;
+use crate::candidate::{Candidate, Merit, SearchStage};
+use crate::contact_margin::{contact_margin, contact_margin_slopes};
+use crate::evaluations::Halt;
+use crate::price::first_order_gain;
+use crate::space::SpacePoint;
+
+/// Largest first-order gain of a certain optimum, relative to the objective.
+const GAIN: f64 = 1e-8;
+
+/// Negative slack before contact of the design behind the border of contact in bending.
+const BEHIND: f64 = 1e-4;
+
+/// Relative shortfall up to which the design behind the border counts as feasible.
+const NEARLY: f64 = 1e-2;
+
+impl LocalSearch<'_> {
+    /// Returns true if derivatives show that the best design is a local optimum.
+    pub(super) fn is_certain(&self) -> Result<bool, Halt> {
+        let (search, best) = (self.search, self.best.borrow().clone());
+        // A statistic over samples is not smooth.
+        if search.judge.samples().is_some() || !matches!(self.best_merit(), Merit::Met(_)) {
+            return Ok(false);
+        }
+        // The gradient search has evaluated its end already.
+        let (_, row) = search.evaluate(SearchStage::Gradient, &best.point, true)?;
+        match first_order_gain(search, &best, &row, self.target) {
+            Some((gain, is_beside_contact)) if gain <= GAIN => {
+                Ok(!is_beside_contact || self.ends_at_contact(&best)?)
+            }
+            _ => Ok(false),
+        }
+    }
+
+    /// Returns true if designs with contact in bending are no continuation of the best design.
+    ///
+    /// The compliance jumps at contact. If it remains large enough there, the design behind the
+    /// border may be as good.
+    fn ends_at_contact(&self, best: &Candidate) -> Result<bool, Halt> {
+        let Some(behind) = self.behind_contact(best) else { return Ok(false) };
+        let candidate = self.search.evaluate(SearchStage::Polish, &behind, false)?.0;
+        self.note(&candidate);
+        let merit = self.search.merit_within(&candidate, self.target, NEARLY);
+        Ok(!matches!(merit, Merit::Met(_)))
+    }
+
+    /// Returns the nearest point behind the border of contact in bending.
+    fn behind_contact(&self, best: &Candidate) -> Option<SpacePoint> {
+        let case = self.search.space.case(&best.point);
+        let intervals = self.search.space.intervals();
+        let slopes = intervals.iter().map(|interval| {
+            let slopes = contact_margin_slopes(&case, interval.parameter);
+            Some(slopes.left.or(slopes.right)? * interval.length())
+        });
+        let slopes: Vec<f64> = slopes.collect::<Option<_>>()?;
+        let square: f64 = slopes.iter().map(|slope| slope * slope).sum();
+        let fall = (contact_margin(&case) + BEHIND) / square;
+        let moved = best.point.shares.iter().zip(&slopes);
+        let shares = moved.map(|(share, slope)| (share - fall * slope).clamp(0.0, 1.0)).collect();
+        let behind = SpacePoint { shares, chosen: best.point.chosen.clone() };
+        let is_behind = contact_margin(&self.search.space.case(&behind)) < 0.0;
+        is_behind.then_some(behind)
+    }
+}
