@@ -225,19 +225,8 @@ impl FitDefinition {
         let evaluator = Evaluator::new(&[]);
         let mut residuals = Residuals::new(self, &evaluator, (stop, work));
         let sizes: Vec<_> = residuals.noise.iter().map(|noise| noise.deviation).collect();
-        let mut minimum = residuals.best()?;
-        for restarts in 0..RESTARTS {
-            minimum = residuals.weight(minimum, &sizes)?;
-            match residuals.intervals(&minimum) {
-                Ok((intervals, covariance)) => {
-                    let fitted = residuals.fitted(&minimum.shares, intervals, &covariance)?;
-                    return Ok(Fitted { restarts, ..fitted });
-                }
-                Err(Aborted::Better(start)) => minimum = residuals.improve(start)?,
-                Err(Aborted::Failed(error)) => return Err(error),
-            }
-        }
-        Err(FitError::Unsettled)
+        let minimum = residuals.best()?;
+        residuals.settle(minimum, &sizes)
     }
 }
 
@@ -269,6 +258,22 @@ impl Directions {
 }
 
 impl Residuals<'_> {
+    /// Computes the result at a minimum, or at better ones that profiles find.
+    fn settle(&mut self, mut minimum: Minimum, sizes: &[f64]) -> Result<Fitted, FitError> {
+        for restarts in 0..RESTARTS {
+            minimum = self.weight(minimum, sizes)?;
+            match self.intervals(&minimum) {
+                Ok((intervals, covariance)) => {
+                    let fitted = self.fitted(&minimum.shares, intervals, &covariance)?;
+                    return Ok(Fitted { restarts, ..fitted });
+                }
+                Err(Aborted::Better(start)) => minimum = self.improve(start)?,
+                Err(Aborted::Failed(error)) => return Err(error),
+            }
+        }
+        Err(FitError::Unsettled)
+    }
+
     /// Alternates between weights from the noise and unknowns, which change the noise.
     fn weight(&mut self, mut minimum: Minimum, sizes: &[f64]) -> Result<Minimum, FitError> {
         for _ in 0..ROUNDS {
@@ -502,4 +507,49 @@ fn trend(residuals: &[f64]) -> Option<f64> {
     let correlation = products / squares;
     let chance = BEYOND_CHANCE / (residuals.len() as f64).sqrt();
     (correlation > chance).then_some(correlation)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fmt::Write as _;
+
+    use super::*;
+
+    #[test]
+    fn a_better_minimum_on_a_profile_restarts_the_fit() {
+        let shared = "name = 'palm'\ndesigns.length_over_t = 0.8\ndesigns.slant_deg = 60\n\
+                      puncture.needle = 'guided'\npuncture.load_inset_over_t = 0.05\n";
+        let truth = format!("{shared}designs.gap_over_t = 0.2\npuncture.needle_friction = 0.3\n");
+        let case = Sweep::parse(&truth, "skin.toml", &[]).expect("a skin").grid().case(0);
+        let evaluator = Evaluator::new(&[]);
+        let places: Vec<_> = (1..=30).map(|k| 0.008 * f64::from(k)).collect();
+        let curve = evaluator.force_curve(&case, &[], &places).expect("a curve");
+        let mut text = "displacement,force\n".to_owned();
+        for (k, (x, point)) in places.iter().zip(&curve).enumerate() {
+            let force = point.as_ref().expect("a point").value;
+            // Deterministic noise.
+            writeln!(text, "{x},{}", force + 1e-3 * (7.0 * k as f64).sin()).expect("a text");
+        }
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("test.toml");
+        std::fs::write(folder.path().join("a.csv"), text).expect("writable");
+        let sought = format!(
+            "{shared}[variables]\ngap_over_t = {{ from = 0.1, to = 0.6 }}\n\
+             needle_friction = {{ from = 0.02, to = 0.9 }}\n[[curve]]\nfile = 'a.csv'\nkind = 'puncture'\n"
+        );
+        std::fs::write(&path, sought).expect("writable");
+        let definition = FitDefinition::read(&path, &[]).expect("a definition");
+        let (stop, work) = (AtomicBool::new(false), WorkMeter::default());
+        let best = definition.fit(&stop, &work).expect("a fit");
+        let mut residuals = Residuals::new(&definition, &evaluator, (&stop, &work));
+        let sizes: Vec<_> = residuals.noise.iter().map(|noise| noise.deviation).collect();
+        // This point is no minimum: any profile finds better ones.
+        let shares = vec![0.9, 0.9];
+        let poor = Minimum { cost: residuals.cost(&shares).expect("a cost"), shares };
+        let settled = residuals.settle(poor, &sizes).expect("a fit");
+        assert!(settled.restarts > 0);
+        for (estimate, best) in settled.estimates.iter().zip(&best.estimates) {
+            assert!((estimate.value / best.value - 1.0).abs() < 1e-3, "{estimate:?} {best:?}");
+        }
+    }
 }

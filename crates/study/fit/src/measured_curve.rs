@@ -12,7 +12,7 @@ use results::{Quantity, bending_units, puncture_units};
 use sweep::{Case, read_input_bytes};
 use text::reason;
 
-use self::columns::{CurveColumns, curves, missing, quantities, spelled};
+use self::columns::{CurveColumns, contradiction, curves, missing, quantities, spelled};
 pub(crate) use self::loading::Branches;
 pub use self::loading::{CurveEvent, CurveEventKind};
 pub use self::mean::MeanCurve;
@@ -344,6 +344,8 @@ fn utf_16_without_mark(bytes: &[u8]) -> Option<&'static encoding_rs::Encoding> {
 /// Column names above a table.
 struct Header {
     names: Vec<String>,
+    /// Names in the file above the columns, if the definition names them.
+    in_file: Vec<String>,
     /// True if the names come from the definition. It may name only the first columns.
     is_given: bool,
     /// True if the names and units of a test were found in the file.
@@ -359,7 +361,8 @@ impl Header {
     fn find(rows: &Rows, above: Range<usize>, given: Option<&[String]>) -> Self {
         let start = above.start.max(above.end.saturating_sub(LONGEST_PREAMBLE));
         if let Some(names) = given {
-            return Self { names: names.to_vec(), is_given: true, ..Self::nearest(rows, above) };
+            let Self { names: in_file, rows, .. } = Self::nearest(rows, above);
+            return Self { names: names.to_vec(), in_file, is_given: true, is_known: true, rows };
         }
         let known = (start..above.end).rev().find_map(|row| Self::known(rows, row));
         // The error message shows the row that has most of the words of a header.
@@ -382,6 +385,7 @@ impl Header {
         let Some(last) = last else {
             return Self {
                 names: Vec::new(),
+                in_file: Vec::new(),
                 is_given: false,
                 is_known: false,
                 rows: above.end..above.end,
@@ -418,18 +422,28 @@ impl Header {
             let unit = if units > 0 { rows.all[row + units].cell(column) } else { "" };
             names.push(spelled(&format!("{name} {unit}")));
         }
-        Self { names, is_given: false, is_known: false, rows: row..row + units + 1 }
+        let rows = row..row + units + 1;
+        Self { names, in_file: Vec::new(), is_given: false, is_known: false, rows }
     }
 
     fn curves(&self) -> Result<Vec<CurveColumns>, String> {
         let curves = curves(&self.names)?;
-        if self.is_given || self.is_known { Ok(curves) } else { Err(missing(&self.names)) }
+        for column in curves.iter().flat_map(|curve| curve.indices) {
+            let given = &self.names[column];
+            let in_file = self.in_file.get(column);
+            if let Some(stated) = in_file.and_then(|name| contradiction(given, name)) {
+                let column = column + 1;
+                return Err(format!(
+                    "the unit of column {column} makes it {stated}, but columns names it {given}; expected the same unit"
+                ));
+            }
+        }
+        if self.is_known { Ok(curves) } else { Err(missing(&self.names)) }
     }
 
     /// Returns the line of the names, if they are in the file.
     fn line(&self, rows: &Rows) -> Option<u64> {
-        let is_in_file = !self.is_given && !self.rows.is_empty();
-        is_in_file.then(|| rows.all[self.rows.start].line)
+        (!self.rows.is_empty()).then(|| rows.all[self.rows.start].line)
     }
 
     /// Returns the row above the header that may name specimens.
@@ -538,6 +552,12 @@ mod tests {
         let expected = "a.csv:3: its columns are time_sec gauge_mm load_N: no column is a displacement or a curvature;";
         assert!(message.starts_with(expected), "{message}");
         let names = ["time", "displacement_mm", "force_N"].map(str::to_owned);
+        let message = MeasuredCurve::parse(&text.replace("(N)", "(lbf)"), "a.csv", Some(&names));
+        let message = message.expect_err("another unit").to_string();
+        assert_eq!(
+            message,
+            "a.csv:3: the unit of column 3 makes it force_lbf, but columns names it force_N; expected the same unit"
+        );
         let curve = MeasuredCurve::parse(text, "a.csv", Some(&names)).expect("a curve");
         assert_eq!(curve[0].points, [[1.0, 2.0], [3.0, 4.0]]);
     }

@@ -16,7 +16,7 @@ use crate::model::ModelCurve;
 
 /// Number of starting points per unknown, and number of the best that are improved.
 const STARTS: usize = 8;
-const IMPROVED: usize = 4;
+const IMPROVED: usize = 6;
 
 /// Maximum number of steps of a local search.
 ///

@@ -278,7 +278,7 @@ fn text(fitted: &Fitted) -> String {
     if differenced > 0 {
         let _ = writeln!(
             text,
-            "  {differenced} derivatives are finite differences of whole solutions, because a contact sticks there"
+            "  {differenced} derivatives are finite differences of whole solutions, where a contact sticks or the skin is unloaded"
         );
     }
     text

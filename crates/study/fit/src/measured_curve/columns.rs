@@ -52,9 +52,9 @@ const DISPLACEMENTS: [&str; 14] = [
 /// Words by which testing machines name the force.
 const FORCES: [&str; 8] =
     ["force", "load", "last", "kraft", "standardkraft", "prüfkraft", "effort", "charge"];
-/// Other spellings of units.
-const UNITS: [(&str, &str); 5] =
-    [("inch", "in"), ("inches", "in"), ("lb", "lbf"), ("lbs", "lbf"), ("kp", "kgf")];
+/// Other spellings of units. The µ of DOS code pages is an æ of Windows-1252.
+const UNITS: [(&str, &str); 6] =
+    [("inch", "in"), ("inches", "in"), ("lb", "lbf"), ("lbs", "lbf"), ("kp", "kgf"), ("æm", "um")];
 /// Words before the name of a quantity.
 const QUALIFIERS: [&str; 6] =
     ["tensile", "compressive", "compression", "axial", "standard", "machine"];
@@ -176,6 +176,26 @@ pub(super) fn curves(names: &[String]) -> Result<Vec<CurveColumns>, String> {
 /// Advice for files with other names.
 const OTHERWISE: &str = "name the columns with columns = [...] in [[curve]], or --measured-columns";
 
+/// Returns the column that a name in the file states, if its unit contradicts a given name.
+///
+/// The name in the file may be a unit alone.
+pub(super) fn contradiction(given: &str, in_file: &str) -> Option<&'static str> {
+    let quantity = given.split('_').next().unwrap_or_default();
+    let (words, unit) =
+        in_file.rsplit_once('_').map_or(("", in_file), |(words, unit)| (words, unit));
+    let unit = UNITS.iter().find(|(other, _)| *other == unit).map_or(unit, |(_, unit)| unit);
+    let in_file = format!("_{words}_{unit}");
+    let mut stated: Option<&str> = None;
+    for (name, ..) in &COLUMNS {
+        let unit = name.strip_prefix(quantity).filter(|unit| unit.starts_with('_'));
+        let is_stated = unit.is_some_and(|unit| in_file.ends_with(unit));
+        if is_stated && stated.is_none_or(|other| other.len() < name.len()) {
+            stated = Some(name);
+        }
+    }
+    stated.filter(|name| *name != given)
+}
+
 /// Returns the known column with a name, as a testing machine may write it.
 fn known(name: &str) -> Option<&'static Column> {
     let name = translated(name);
@@ -266,11 +286,28 @@ mod tests {
             ("Load", "load"),
             ("Travel (inch)", "displacement_in"),
             ("Load lbs", "force_lbf"),
+            ("Weg [æm]", "displacement_um"),
             ("Travel (\")", "displacement_in"),
             ("Force (%)", "force_percent"),
             ("Load (oz)", "load_oz"),
         ] {
             assert_eq!(translated(&spelled(name)), translation, "{name}");
+        }
+    }
+
+    #[test]
+    fn given_names_may_not_contradict_units_in_the_file() {
+        for (given, name, stated) in [
+            ("displacement_mm", "Weg (mm)", None),
+            ("displacement_mm", "(in)", Some("displacement_in")),
+            ("displacement_mm", "inch", Some("displacement_in")),
+            ("force_N", "Kraft [kN]", Some("force_kN")),
+            ("force", "Load (N)", Some("force_N")),
+            ("force_N", "Load", None),
+            ("curvature_per_m", "Kappa (1/mm)", Some("curvature_per_mm")),
+            ("moment_N_mm", "Moment (N mm)", None),
+        ] {
+            assert_eq!(contradiction(given, &spelled(name)), stated, "{given} {name}");
         }
     }
 
