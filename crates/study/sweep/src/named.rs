@@ -90,6 +90,13 @@ pub(crate) struct NameKey {
     pub known: &'static [NamedValues],
 }
 
+impl NameKey {
+    /// Returns the values of a name, in upper or lower case.
+    pub fn find(&self, name: &str) -> Option<&'static NamedValues> {
+        self.known.iter().find(|known| known.name.eq_ignore_ascii_case(name))
+    }
+}
+
 /// Keys that name materials or a body. The first key of a section may also be given as the value
 /// of the whole section, as in `material = "PLA"`.
 pub(crate) const NAME_KEYS: [NameKey; 3] = [

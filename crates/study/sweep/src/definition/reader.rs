@@ -81,11 +81,12 @@ impl Reader {
     /// Reads the name of a material or body.
     fn read_name_of(
         &mut self,
-        NameKey { section, key, known }: &NameKey,
+        name_key: &'static NameKey,
         entry: &KeyValue,
     ) -> Result<(), InvalidDefinition> {
+        let NameKey { section, key, known } = name_key;
         let named = match &entry.value {
-            Value::Text(name) => known.iter().find(|known| known.name.eq_ignore_ascii_case(name)),
+            Value::Text(name) => name_key.find(name),
             _ => None,
         };
         let Some(named) = named else {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::suggestion::VARIABLES;
 use crate::case::Case;
-use crate::named::short_name_key;
+use crate::named::{NAME_KEYS, short_name_key};
 use crate::parameter::{Parameter, key};
 use text::toml_source::{self, KeyValue, KeyValues, Place, Value};
 
@@ -133,6 +133,7 @@ impl Setting {
     /// exclude each other. Values from the file are removed. Values from other settings stay and
     /// are refused as contradictions.
     fn supersede(&self, table: &mut KeyValues) {
+        self.supersede_named_values(table);
         let Some(parameter) = self.parameter() else { return };
         for section in ["designs", VARIABLES, parameter.section] {
             if section != self.path[0] {
@@ -142,6 +143,27 @@ impl Setting {
         for other in parameter.others_in(&case_of(table)) {
             for section in ["designs", VARIABLES, other.section] {
                 drop_from_file(table, section, other.key);
+            }
+        }
+    }
+}
+
+impl Setting {
+    /// Removes from the file the fixed values that a named material or body replaces.
+    ///
+    /// A name in the file supplies only values that the file does not give. A name that is set
+    /// replaces them, also in definitions that squama wrote, which give every value. Axes and
+    /// variables stay.
+    fn supersede_named_values(&self, table: &mut KeyValues) {
+        let ([section, key], Value::Text(value)) = (self.path.as_slice(), &self.value) else {
+            return;
+        };
+        let mut names = NAME_KEYS.iter().filter(|name| name.section == section && name.key == key);
+        let Some(named) = names.find_map(|name| name.find(value)) else { return };
+        let case = case_of(table);
+        for parameter in named.values.iter().filter_map(|(key, _)| Parameter::named(key)) {
+            for replaced in std::iter::once(parameter).chain(parameter.others_in(&case)) {
+                drop_from_file(table, replaced.section, replaced.key);
             }
         }
     }
@@ -191,6 +213,28 @@ mod tests {
         insta::assert_snapshot!(message("=3"), @"--set =3: `` is not a key, expected KEY=VALUE with a dotted key, e.g. puncture.scales=41");
         insta::assert_snapshot!(message("designs.slant_deg=[0,"), @"--set designs.slant_deg=[0,: `[0,` is not a TOML value (unclosed array, expected `]`), expected KEY=VALUE with a dotted key, e.g. puncture.scales=41");
         insta::assert_snapshot!(message("scale.base="), @"--set scale.base=: `` is not a TOML value (string values must be quoted, expected literal string), expected KEY=VALUE with a dotted key, e.g. puncture.scales=41");
+    }
+
+    /// A definition that squama wrote gives every value.
+    #[test]
+    fn a_set_name_replaces_values_of_the_file() {
+        let text = "name = 'x'\nmeasures = 'puncture'\n[designs]\ngap_over_t = 0.2\nlength_over_t = 0.5\n\
+            slant_deg = 60\n[body]\ncurvature_times_t = 0\n[material]\nthickness_mm = 1\n\
+            substrate_modulus_MPa = 1\nscale_modulus_MPa = 2500\nscale_strength_MPa = 50\n";
+        let case = |settings: &[&str]| {
+            let settings: Vec<_> =
+                settings.iter().map(|text| Setting::parse(text).expect("valid")).collect();
+            crate::Sweep::parse(text, "x.toml", &settings).expect("a sweep").grid().case(0)
+        };
+        assert_eq!(case(&["body=finger"]).body_radius, Some(10.0));
+        let tpu = case(&["material.scale=TPU"]);
+        assert_ne!(tpu.material.scale_strength_mpa, Some(50.0));
+        assert_eq!(tpu, case(&["material.scale=tpu"]));
+        // Values that are set, too, have precedence.
+        let both = case(&["material.scale=TPU", "material.scale_strength_MPa=7"]);
+        assert_eq!(both.material.scale_strength_mpa, Some(7.0));
+        let both = case(&["body.radius_mm=30", "body=finger"]);
+        assert_eq!(both.body_radius, Some(30.0));
     }
 
     #[test]
