@@ -12,4 +12,5 @@
 //! design, but the margin `m₍ₖ₎` is continuous.
 
 pub(crate) mod confirmation;
+pub(crate) mod margins;
 pub(crate) mod search;

@@ -31,6 +31,7 @@ use crate::progress::{SearchPart, SearchProgress};
 use crate::requirement_bounds::has_folded;
 use crate::restarts::restart_evaluations;
 use crate::sampled::confirmation::FRESH;
+use crate::sampled::margins;
 use crate::sampled::search::{NOMINAL_POINTS, REFINED, SEEDS, Searches};
 use crate::space::SpacePoint;
 use crate::space_filling;
@@ -178,6 +179,9 @@ fn find(
 /// Number of searches with tighter limits after the first.
 const TIGHTER: usize = 3;
 
+/// Number of nominal searches with margins for deviations, because deviations differ between designs.
+const SAFER: usize = 2;
+
 /// The limits of the requirements in a search.
 struct Limits<'a> {
     /// The goal with the limits of the user.
@@ -205,7 +209,7 @@ impl Limits<'_> {
         let mut best = answer(search, history, plan, points)?;
         for _ in 0..TIGHTER {
             let Some(wider) = self.tighten(&mut best) else { break };
-            let next = self.nominal_again(search, history, points)?;
+            let next = self.nominal_again(&self.tightened, search, history, points)?;
             if matches!(next, Answer::Infeasible(_)) {
                 self.tightened = wider;
                 break;
@@ -215,14 +219,15 @@ impl Limits<'_> {
         Ok(best)
     }
 
-    /// Searches nominal designs again, with the tightened limits.
+    /// Searches nominal designs again, with the limits of `goal`.
     fn nominal_again(
         &self,
+        goal: &DesignGoal,
         search: &Search<'_>,
         history: &mut Vec<Candidate>,
         points: usize,
     ) -> Result<Answer, Halt> {
-        let judge = Judge::rescaling(&self.tightened.nominal(), self.rescaled);
+        let judge = Judge::rescaling(&goal.nominal(), self.rescaled);
         let search = Search { judge: &judge, ..*search };
         for candidate in history.iter_mut() {
             let row = search.evaluations.row(0, &candidate.point, &candidate.result);
@@ -242,7 +247,7 @@ impl Limits<'_> {
         let mut best = self.sampled(search, history, first, Plan::SAMPLED)?;
         if let Some(wider) = self.tighten(&mut best) {
             // No known design may meet the tightened limits.
-            let first = self.nominal_again(search, &mut again, NOMINAL_POINTS)?;
+            let first = self.nominal_again(&self.tightened, search, &mut again, NOMINAL_POINTS)?;
             let next = self.sampled(search, &mut again, first, Plan::AGAIN)?;
             if matches!(next, Answer::Infeasible(_)) {
                 self.tightened = wider;
@@ -266,7 +271,30 @@ impl Limits<'_> {
             .map(|goal| Judge::rescaling(goal, self.rescaled));
         let [nominal, sampled, finer] = judges.each_ref().map(|judge| Search { judge, ..*search });
         let searches = Searches { nominal: &nominal, sampled: &sampled, finer: &finer };
+        let first = self.with_margins(&searches, history, first)?;
         searches.answer(goal, history, first, plan)
+    }
+
+    /// Moves a nominal optimum away from its limits, towards the yield that the goal requires.
+    fn with_margins(
+        &self,
+        searches: &Searches<'_>,
+        history: &mut Vec<Candidate>,
+        first: Answer,
+    ) -> Result<Answer, Halt> {
+        let mut answer = first;
+        for _ in 0..SAFER {
+            let Answer::Optimum(best) = &answer else { break };
+            let safer = margins::with_margins(searches.sampled, &self.tightened, best)?;
+            let Some(safer) = safer else { break };
+            let mut known = history.clone();
+            let next = self.nominal_again(&safer, searches.nominal, &mut known, NOMINAL_POINTS)?;
+            if matches!(next, Answer::Infeasible(_)) {
+                break;
+            }
+            (answer, *history) = (next, known);
+        }
+        Ok(answer)
     }
 
     /// Tightens the limits by the checks of an optimum; returns the limits before, if they changed.
