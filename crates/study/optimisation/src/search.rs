@@ -179,7 +179,7 @@ fn find(
 /// Number of searches with tighter limits after the first.
 const TIGHTER: usize = 3;
 
-/// Number of nominal searches with margins for deviations, because deviations differ between designs.
+/// Number of nominal searches with margins; deviations differ from design to design.
 const SAFER: usize = 2;
 
 /// The limits of the requirements in a search.

@@ -193,25 +193,24 @@ fn forged_evaluations_are_rejected() {
     let (journal, sound) = ("found/evaluations.jsonl", place.read("found/evaluations.jsonl"));
     let tables = ["history.csv", "optimum.csv"];
     let tables = tables.map(|file| (file, place.read(&format!("found/{file}"))));
-    // A change in a column of the goal redirects the search; a change in another column shows only
-    // in the best design.
-    let better = |line: &mut serde_json::Value| {
+    // A change in a column of the goal redirects the search.
+    reseal(&place, journal, "optimisation", |line: &mut serde_json::Value| {
         let coverage = &mut line["solved"]["result"]["coverage"];
         if coverage.as_f64().is_some_and(|coverage| coverage > 0.76) {
             *coverage = 0.9.into();
         }
-    };
-    let stiffer = |line: &mut serde_json::Value| {
+    });
+    let message = place.refused("optimise x.toml --out found --resume");
+    assert!(message.starts_with(&format!("error: {journal}: ")), "{message}");
+    assert!(message.contains("differs from history.csv"), "{message}");
+    fs::write(place.path(journal), &sound).expect("writable");
+    // A change in another column has no effect, because the best design is solved again.
+    reseal(&place, journal, "optimisation", |line: &mut serde_json::Value| {
         line["solved"]["result"]["flexure"]["measures"]["initial_compliance"] = 0.5.into();
-    };
-    let changes: [&dyn Fn(&mut serde_json::Value); 2] = [&better, &stiffer];
-    for (change, (file, table)) in changes.iter().zip(&tables) {
-        reseal(&place, journal, "optimisation", change);
-        let message = place.refused("optimise x.toml --out found --resume");
-        assert!(message.starts_with(&format!("error: {journal}: ")), "{message}");
-        assert!(message.contains(&format!("differs from {file}")), "{message}");
+    });
+    place.prints("optimise x.toml --out found --resume --csv excel-eu");
+    for (file, table) in &tables {
         assert_eq!(place.read(&format!("found/{file}")), *table);
-        fs::write(place.path(journal), &sound).expect("writable");
     }
     // Lost lines are solved again; the order of the others does not matter.
     let mut lines: Vec<&str> = sound.lines().collect();
