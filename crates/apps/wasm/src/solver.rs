@@ -3,7 +3,7 @@
 use ranking::Requirement;
 use results::DesignRow;
 use results::columns::{design_columns, name};
-use run::{Evaluator, GapChange, validity_warnings};
+use run::{Evaluator, GapChange, Patience, validity_warnings};
 use skin::Imperfection;
 use skin::flexure::{self, Flexure};
 use skin::puncture::{self, At};
@@ -92,6 +92,7 @@ impl Solver {
                 &own,
                 &row.number.to_string(),
                 &[name::CRITICAL_FORCE, name::COMPLIANCE],
+                Patience::Milliseconds,
             )
         });
         let walk =

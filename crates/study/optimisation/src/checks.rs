@@ -13,7 +13,7 @@ use std::fmt;
 use ranking::Requirement;
 use results::Outcome;
 use results::columns::{is_invalid_after_fold, measures_among};
-use run::{CouplingChange, GapChange, WeakestPlace};
+use run::{CouplingChange, GapChange, Patience, WeakestPlace};
 use text::number;
 
 use crate::best::BestDesign;
@@ -67,8 +67,8 @@ impl DesignChecks {
         let number = alone.grid().number(0).to_string();
         let columns = measures_among(goal.columns());
         Self {
-            coupling: CouplingChange::solve(&alone, &number, &columns),
-            gaps: GapChange::solve(&alone, &number, &columns),
+            coupling: CouplingChange::solve(&alone, &number, &columns, Patience::Unlimited),
+            gaps: GapChange::solve(&alone, &number, &columns, Patience::Unlimited),
             places: WeakestPlace::solve(&alone, &number, &columns),
         }
     }

@@ -3,9 +3,9 @@
 use results::columns::{design_columns, name};
 use serde::Serialize;
 use substrate::Coupling;
-use sweep::Sweep;
+use sweep::{Case, Sweep};
 
-use crate::gap_change::again;
+use crate::gap_change::{Patience, again};
 
 /// Measures of a design with nearest-neighbour and with full coupling.
 ///
@@ -35,11 +35,17 @@ impl CouplingChange {
     /// Solves design `number` of `sweep` with both couplings.
     ///
     /// `columns` are the measures; columns without a number are omitted. Returns `None` if there is
-    /// no such design, if its coupling is already full, if no measure changes, or if it is slow to
-    /// solve. Samples of imperfect rows are not solved.
-    pub fn solve(sweep: &Sweep, number: &str, columns: &[&str]) -> Option<Self> {
+    /// no such design, if its coupling is already full, if no measure changes, or if it takes longer
+    /// than `patience`. Samples of imperfect rows are not solved.
+    pub fn solve(
+        sweep: &Sweep,
+        number: &str,
+        columns: &[&str],
+        patience: Patience,
+    ) -> Option<Self> {
         let couplings = [Coupling::Nearest, Coupling::Full];
-        let (case, solved) = again(sweep, number, couplings, |case, own| case.coupling = own)?;
+        let change = |case: &mut Case, own| case.coupling = own;
+        let (case, solved) = again(sweep, number, patience, couplings, change)?;
         (case.coupling == Coupling::Nearest).then_some(())?;
         let known = design_columns(sweep);
         let values = |wanted: &str| {

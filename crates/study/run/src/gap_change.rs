@@ -21,6 +21,15 @@ const CLIFF: f64 = 1.5;
 /// Maximum number of paths per design, so that users do not have to wait.
 const MOST_WORK: u64 = 500;
 
+/// How long the solution of a design again may take.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Patience {
+    /// Designs that take longer are not solved, because users wait, for example for a ranking.
+    Milliseconds,
+    /// Every design is solved, as after a search, which has solved hundreds of designs like it.
+    Unlimited,
+}
+
 /// Measures of a design with a gap 10 % smaller and 10 % larger.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GapChange {
@@ -67,10 +76,17 @@ impl GapChange {
     /// Solves design `number` of `sweep` with both gaps.
     ///
     /// `columns` are the measures; columns without a number are omitted. Returns `None` if there is
-    /// no such design, or if it is slow to solve. Samples of imperfect rows are not solved.
-    pub fn solve(sweep: &Sweep, number: &str, columns: &[&str]) -> Option<Self> {
+    /// no such design, or if it takes longer than `patience`. Samples of imperfect rows are not
+    /// solved.
+    pub fn solve(
+        sweep: &Sweep,
+        number: &str,
+        columns: &[&str],
+        patience: Patience,
+    ) -> Option<Self> {
         let gaps = [1.0, PARTS[0], PARTS[1]];
-        let (case, solved) = again(sweep, number, gaps, |case, part| case.design.gap *= part)?;
+        let change = |case: &mut Case, part| case.design.gap *= part;
+        let (case, solved) = again(sweep, number, patience, gaps, change)?;
         let meant = case.design.gap;
         let known = design_columns(sweep);
         let column = |name: &&str| known.iter().find(|column| column.name == **name);
@@ -92,17 +108,18 @@ fn measure(column: &Column<DesignRow>, solved: &[DesignRow; 3]) -> Option<Measur
 ///
 /// Returns `None` if the design does not exist or is slow to solve.
 pub fn solved_row(sweep: &Sweep, number: &str) -> Option<DesignRow> {
-    let (_, [row]) = again(sweep, number, [()], |_, ()| ())?;
+    let (_, [row]) = again(sweep, number, Patience::Milliseconds, [()], |_, ()| ())?;
     Some(row)
 }
 
 /// Returns design `number` of `sweep` and its variants with each of the `changes`.
 ///
-/// Returns `None` if the design does not exist or is slow to solve. Samples of imperfect rows are not
-/// solved.
+/// Returns `None` if the design does not exist or takes longer than `patience`. Samples of imperfect
+/// rows are not solved.
 pub(crate) fn again<T: Copy, const N: usize>(
     sweep: &Sweep,
     number: &str,
+    patience: Patience,
     changes: [T; N],
     change: impl Fn(&mut Case, T),
 ) -> Option<(Case, [DesignRow; N])> {
@@ -111,8 +128,7 @@ pub(crate) fn again<T: Copy, const N: usize>(
     let mut case = grid.case(index);
     // Random samples take hundreds of paths, and hide cliffs of the nominal design.
     case.imperfection = Imperfection::default();
-    // Users wait for this when they rank designs.
-    is_quick(sweep, &case).then_some(())?;
+    (patience == Patience::Unlimited || is_quick(sweep, &case)).then_some(())?;
     let evaluator = Evaluator::new(&sweep.plain_measures());
     let solved = changes.map(|own| {
         let mut case = case;

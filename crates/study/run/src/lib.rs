@@ -79,7 +79,7 @@ pub use coupling_change::{CoupledMeasure, CouplingChange};
 pub use curved_body::curved_body_warning;
 pub use estimate::Estimate;
 pub use filter::{ColumnFilter, Filter, InvalidColumnFilter, InvalidFilter};
-pub use gap_change::{GapChange, MeasureChange, solved_row};
+pub use gap_change::{GapChange, MeasureChange, Patience, solved_row};
 pub use journal::{JournalError, Program, Start};
 pub use merge::{MergeError, Merged, merge};
 pub use options::Options;

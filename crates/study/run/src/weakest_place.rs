@@ -7,7 +7,7 @@ use skin::Status;
 use substrate::Coupling;
 use sweep::{Case, Sweep};
 
-use crate::gap_change::again;
+use crate::gap_change::{Patience, again};
 
 /// Number of load positions on the top of a scale.
 pub const PLACES: usize = 11;
@@ -35,14 +35,14 @@ impl WeakestPlace {
     ///
     /// `columns` are columns of `sweep`. Columns are omitted if they have no number, are no puncture
     /// force, or compare as many positions already. Returns an empty list if there is no such
-    /// design, if it is slow to solve, or if its needle is not guided: a dead load is attached to
-    /// its corner.
+    /// design, or if its needle is not guided: a dead load is attached to its corner.
     pub fn solve(sweep: &Sweep, number: &str, columns: &[&str]) -> Vec<Self> {
         let Ok(index) = sweep.grid().parse_number(number) else { return Vec::new() };
         if !sweep.grid().case(index).punctured().needle.is_guided() {
             return Vec::new();
         }
-        let solved = again(sweep, number, variants(), |case, variant| variant.apply(case));
+        let change = |case: &mut Case, variant: Variant| variant.apply(case);
+        let solved = again(sweep, number, Patience::Unlimited, variants(), change);
         let Some((_, [requested, coupled @ ..])) = solved else { return Vec::new() };
         let known = design_columns(sweep);
         columns.iter().filter_map(|column| weakest(column, &requested, &coupled, &known)).collect()

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use report::{Explorer, Fact, GapFactors, Page, PageDesign, drawings};
 use results::columns::design_columns;
 use results::{bending_units, puncture_units};
-use run::{GapChange, MeasureChange};
+use run::{GapChange, MeasureChange, Patience};
 use skin::{flexure, puncture};
 use sweep::{Case, Sweep};
 use text::shell_word;
@@ -242,7 +242,7 @@ fn scaled([x, y]: [f64; 2], units: Option<[f64; 3]>) -> [f64; 2] {
 /// Computes the change of the criteria with the gap.
 fn gap_factors(results: &FolderContents, number: &str) -> Vec<GapFactors> {
     let columns: Vec<&str> = CRITERIA.iter().map(|criterion| criterion.column.as_ref()).collect();
-    let change = GapChange::solve(&results.sweep, number, &columns);
+    let change = GapChange::solve(&results.sweep, number, &columns, Patience::Milliseconds);
     let measures = change.map_or_else(Vec::new, |change| change.measures);
     let factors = |MeasureChange { column, value, changed }| {
         // A measure of zero has no factor.

@@ -248,6 +248,19 @@ fn a_search_does_not_touch_the_folder_of_a_run() {
     insta::assert_snapshot!(place.refused("optimise g.toml --out r --fresh"), @"error: r: holds the results of a run; choose another folder with --out DIR");
 }
 
+/// Finite tissue is slow to solve, and checked nevertheless.
+#[test]
+fn a_design_on_finite_tissue_is_checked() {
+    let goal = "name = 'firm'\nmeasures = ['coverage', 'puncture']\n[variables]\n\
+        length_over_t = { from = 0.3, to = 1 }\n[designs]\ngap_over_t = 0.3\nslant_deg = 60\n[substrate]\n\
+        tissue_thickness_over_t = 10\n[goal]\nminimize = 'length_over_t'\nrequire = 'critical_force >= 0.3'\n\
+        samples = 2\n";
+    let place = Place::with(goal);
+    let output = place.squama("optimise x.toml").assert().code(1);
+    let text = String::from_utf8_lossy(&output.get_output().stdout).into_owned();
+    assert!(text.contains("✗ With full substrate coupling, critical_force is "), "{text}");
+}
+
 /// The limits of the search cannot be tightened far enough: the answer fails its check.
 #[test]
 fn a_sampled_search_that_cannot_be_confirmed_keeps_its_best_design() {

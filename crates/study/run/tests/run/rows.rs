@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 
 use proptest::prelude::*;
 use results::columns::{Cell, design_columns, is_along_path};
-use run::{Evaluator, GapChange};
+use run::{Evaluator, GapChange, Patience};
 use skin::Design;
 use sweep::{Case, Measure, Parameter, Sweep};
 
@@ -146,7 +146,8 @@ fn gap_changes_match_the_closed_form_of_the_coverage() {
     let text = "name = 'x'\nmeasures = 'coverage'\n[designs]\ngap_over_t = [0.2, 0.4]\nlength_over_t = 0.5\nslant_deg = 60";
     let sweep = Sweep::parse(text, "x.toml", &[]).expect("a valid sweep");
     let change =
-        GapChange::solve(&sweep, "0002", &["critical_force", "coverage"]).expect("a design");
+        GapChange::solve(&sweep, "0002", &["critical_force", "coverage"], Patience::Milliseconds)
+            .expect("a design");
     assert_eq!((change.design.as_str(), change.gap), ("0002", 0.4));
     let [coverage] = change.measures.as_slice() else { panic!("{change:?}") };
     let expected = |gap: f64| {
@@ -159,7 +160,7 @@ fn gap_changes_match_the_closed_form_of_the_coverage() {
     assert_eq!(coverage.value, expected(0.4));
     assert_eq!(coverage.changed, [Some(expected(0.9 * 0.4)), Some(expected(1.1 * 0.4))]);
     assert!(coverage.changed[0] > Some(coverage.value));
-    assert_eq!(GapChange::solve(&sweep, "0003", &["coverage"]), None);
+    assert_eq!(GapChange::solve(&sweep, "0003", &["coverage"], Patience::Milliseconds), None);
 }
 
 #[test]
@@ -172,6 +173,7 @@ fn gap_changes_are_not_solved_for_long_chains() {
             &Sweep::parse(&text, "x.toml", &[]).expect("a valid sweep"),
             "1",
             &["coverage"],
+            Patience::Milliseconds,
         )
     };
     assert!(change(20).is_some());

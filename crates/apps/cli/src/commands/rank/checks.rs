@@ -3,7 +3,7 @@
 use ranking::{Preferences, RankedDesign, Ranking, Requirement};
 use results::Results;
 use results::columns::is_invalid_after_fold;
-use run::{CouplingChange, GapChange};
+use run::{CouplingChange, GapChange, Patience};
 
 use super::gap_changes::measured_columns;
 use super::report::is_folded;
@@ -57,15 +57,20 @@ fn passes(results: &Results, preferences: &Preferences, design: &RankedDesign<'_
     }
     // Designs that are slow to solve are not checked, and pass.
     let Some(sweep) = results.definition() else { return true };
-    let coupled = CouplingChange::solve(sweep, design.design(), &columns);
+    let coupled = CouplingChange::solve(sweep, design.design(), &columns, Patience::Milliseconds);
     let is_coupled = coupled.is_none_or(|change| {
         let mut requirements = preferences.requirements.iter();
         !(depends_on_fold && change.folds) && requirements.all(|r| is_met_coupled(&change, r))
     });
     is_coupled
-        && GapChange::solve(sweep, design.design(), &columns).is_none_or(|change| {
-            preferences.requirements.iter().all(|requirement| is_met_nearby(&change, requirement))
-        })
+        && GapChange::solve(sweep, design.design(), &columns, Patience::Milliseconds).is_none_or(
+            |change| {
+                preferences
+                    .requirements
+                    .iter()
+                    .all(|requirement| is_met_nearby(&change, requirement))
+            },
+        )
 }
 
 /// Returns true if a requirement is met with full coupling.

@@ -4,7 +4,7 @@ use ranking::{Preferences, RankedDesign, Ranking, Requirement, Weights};
 use rayon::prelude::*;
 use results::Results;
 use results::columns::measures_among;
-use run::{CouplingChange, GapChange, MeasureChange};
+use run::{CouplingChange, GapChange, MeasureChange, Patience};
 
 use crate::print::aligned;
 
@@ -29,7 +29,10 @@ pub fn gap_changes(results: &Results, ranking: &Ranking<'_>) -> Vec<GapChange> {
             numbers.push(number);
         }
     }
-    numbers.par_iter().filter_map(|number| GapChange::solve(sweep, number, &columns)).collect()
+    numbers
+        .par_iter()
+        .filter_map(|number| GapChange::solve(sweep, number, &columns, Patience::Milliseconds))
+        .collect()
 }
 
 /// Solves the best design, and the best without a fold, with full substrate coupling.
@@ -39,7 +42,7 @@ pub fn couplings(results: &Results, ranking: &Ranking<'_>) -> Vec<CouplingChange
     let best = [Some(ranking.winner(ranking.preferences().weights)), ranking.best_unfolded()];
     best.iter()
         .flatten()
-        .filter_map(|d| CouplingChange::solve(sweep, d.design(), &columns))
+        .filter_map(|d| CouplingChange::solve(sweep, d.design(), &columns, Patience::Milliseconds))
         .collect()
 }
 
