@@ -146,9 +146,7 @@ impl Setting {
             }
         }
     }
-}
 
-impl Setting {
     /// Removes from the file the fixed values that a named material or body replaces.
     ///
     /// A name in the file supplies only values that the file does not give. A name that is set
