@@ -109,7 +109,7 @@ fn schema_and_parser_agree_on_random_definitions() {
     let schema = schema();
     let mut rng = ChaCha8Rng::seed_from_u64(51);
     let (mut accepted, mut refused) = (0, 0);
-    for _ in 0..if long_campaigns() { 100_000 } else { 8_000 } {
+    for _ in 0..if long_campaigns() { 100_000 } else { 4_000 } {
         let parameter = PARAMETERS.choose(&mut rng).expect("a parameter");
         let section = match rng.random_range(0..8) {
             0..3 => parameter.section,
@@ -136,7 +136,7 @@ fn schema_and_parser_agree_on_random_definitions() {
             }
         }
     }
-    assert!(accepted > 500 && refused > 500, "{accepted} {refused}");
+    assert!(accepted > 300 && refused > 300, "{accepted} {refused}");
 }
 
 /// Goals and fits have keys of their own.

