@@ -3,8 +3,9 @@
 //! Formats are 3MF and STL for 3D printers, STEP for CAD programs, DXF and SVG for laser cutters,
 //! and a [deck](deck()) for finite-element programs.
 //!
-//! All solids are [prisms](Prism): a scale is a parallelogram, the membrane a rectangle, extruded
-//! across the rows. The formats are written without libraries, because each writer takes a page.
+//! All solids are [prisms](Prism): a scale is a parallelogram, the membrane a rectangle or, on a
+//! curved body, a bent strip, extruded across the rows. Decks and outlines are flat. The formats are
+//! written without libraries, because each writer takes a page.
 
 mod deck;
 mod dxf;
@@ -17,7 +18,7 @@ mod svg;
 mod three_mf;
 
 pub use deck::{NoDeck, Puncture, deck};
-pub use patch::{NoPatch, Patch, Prism};
+pub use patch::{NoPatch, Patch, Prism, Solids};
 pub use sheet::{NoSheet, Outline, Sheet};
 
 /// A file format for a patch.
@@ -67,7 +68,7 @@ impl Format {
 
 #[cfg(test)]
 mod tests {
-    use geometry::{Parallelogram, Row};
+    use geometry::{Body, Parallelogram, Row};
 
     use super::*;
 
@@ -82,7 +83,11 @@ mod tests {
                 let row = Row::new(Parallelogram::new(0.5, slant).expect("a scale"), 0.3);
                 let lengths = [width, 0.1 * width, 0.3 * width];
                 let patch = Patch::new(row.expect("a row"), thickness, lengths, [2, 2]);
-                let Some(patch) = patch.ok() else { continue };
+                let Some(mut patch) = patch.ok() else { continue };
+                // Every second patch lies on a body with a radius of 100 t.
+                if made % 2 == 1 {
+                    patch = patch.on_body(Body { curvature: 0.01 }).unwrap_or(patch);
+                }
                 for (kerf, template) in [(0.0, 0.0), (0.1, 1.0), (1e5, 1e6)] {
                     let Ok(sheet) = Sheet::new(&patch, kerf, template) else { continue };
                     assert!(sheet.web().is_finite());

@@ -3,8 +3,8 @@
 use crate::Prism;
 
 /// Returns the triangles of a prism as corner indices, counter-clockwise seen from outside.
-pub(crate) fn triangles() -> impl Iterator<Item = [usize; 3]> {
-    Prism::FACES.into_iter().flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]])
+pub(crate) fn triangles(prism: &Prism) -> impl Iterator<Item = [usize; 3]> {
+    prism.faces().into_iter().flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]])
 }
 
 /// Returns six times the volume enclosed by the triangles.
@@ -20,21 +20,37 @@ pub(crate) fn volume(corners: &[[f64; 3]], triangles: impl Iterator<Item = [usiz
 
 #[cfg(test)]
 mod tests {
+    use geometry::Body;
+
     use super::*;
     use crate::patch::tests::patch;
 
     #[test]
     fn prisms_are_closed_and_oriented_outwards() {
-        let edges: Vec<_> = triangles().flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
-        for [from, to] in &edges {
-            // Each edge occurs once in each direction, so the surface is closed.
-            assert_eq!(edges.iter().filter(|edge| **edge == [*from, *to]).count(), 1);
-            assert_eq!(edges.iter().filter(|edge| **edge == [*to, *from]).count(), 1);
-        }
-        let patch = patch();
-        for scale in patch.scale_prisms() {
-            let enclosed = volume(&scale.corners(), triangles());
-            assert!((enclosed / patch.scale_volume() - 1.0).abs() < 1e-12, "{enclosed}");
+        let curved = [10.0, -40.0].map(|radius| Body { curvature: 2.0 / radius });
+        let curved = curved.map(|body| patch().brick_laid().on_body(body).expect("a patch"));
+        for patch in [patch()].into_iter().chain(curved) {
+            let solids = patch.solids();
+            for prism in solids.all() {
+                let edges: Vec<_> =
+                    triangles(prism).flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
+                for [from, to] in &edges {
+                    // Each edge occurs once in each direction, so the surface is closed.
+                    assert_eq!(edges.iter().filter(|edge| **edge == [*from, *to]).count(), 1);
+                    assert_eq!(edges.iter().filter(|edge| **edge == [*to, *from]).count(), 1);
+                }
+            }
+            for scale in &solids.scales {
+                let enclosed = volume(&scale.corners(), triangles(scale));
+                assert!((enclosed / patch.scale_volume() - 1.0).abs() < 1e-12, "{enclosed}");
+            }
+            // The membrane of a convex body is shorter below its top, of a concave one longer.
+            let [length, width, h] = patch.membrane_size();
+            let mean = patch.radius().map_or(1.0, |radius| 1.0 - 0.5 * h / radius);
+            let enclosed: f64 =
+                solids.membrane.iter().map(|of| volume(&of.corners(), triangles(of))).sum();
+            let ratio = enclosed / (length * width * h * mean);
+            assert!((ratio - 1.0).abs() < 5e-3, "{ratio}");
         }
     }
 }

@@ -1,6 +1,8 @@
 //! The solids of a patch.
 
-use geometry::Row;
+use std::f64::consts::TAU;
+
+use geometry::{Body, Frame, Row, Vec2, polygon_distance};
 
 /// Maximum number of scales, at which files reach some 100 MB.
 const MOST_SCALES: usize = 20_000;
@@ -16,6 +18,10 @@ pub(crate) const LENGTHS: [f64; 2] = [1e-6, 1e6];
 /// `x` runs along a row, `y` across the rows, `z` upwards. The origin is the lowest corner of the
 /// membrane. The bases of the scales stand on its upper face, which extends a gap beyond them on
 /// every side.
+///
+/// On a curved body the rows lie on its arc, with their middle on top, and the nodes of the scales
+/// at equal arc lengths. The upper face of the membrane is
+/// plane under each base and in each gap. The origin is then the lowest corner of the bounding box.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Patch {
     row: Row,
@@ -26,6 +32,7 @@ pub struct Patch {
     gap_across: f64,
     /// True if every second row is shifted by half a pitch.
     is_brick: bool,
+    body: Body,
 }
 
 /// Errors of a patch.
@@ -37,17 +44,38 @@ pub enum NoPatch {
     /// No scale, or too many.
     #[error("{0}x{1} scales: out of range, expected at least 1x1 and at most {MOST_SCALES} in all")]
     Scales(usize, usize),
+    /// The rows are longer than the circumference of the body.
+    #[error(
+        "the membrane is {0:.4} mm long, but the body has a circumference of {1:.4} mm: choose fewer scales along"
+    )]
+    Circumference(f64, f64),
+    /// Neighbours overlap on a concave body.
+    #[error("neighbouring scales overlap on a body with a radius of {0:.4} mm")]
+    Overlap(f64),
+    /// The membrane is thicker than the radius of the body.
+    #[error("the membrane is {0} mm thick, but the body has a radius of only {1:.4} mm")]
+    Membrane(f64, f64),
 }
 
 /// A solid between two parallel faces.
 ///
-/// The outline lies in the x–z plane and is extruded along `y`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// The outline lies in the x–z plane and is extruded along `y`. It is a strip of convex
+/// quadrilaterals: of `n` corners, `k` and `n − 1 − k` are opposite ends of a rung.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Prism {
     /// Corners of the outline, `[x, z]`, mm, counter-clockwise seen along `y`.
-    pub outline: [[f64; 2]; 4],
+    pub outline: Vec<[f64; 2]>,
     /// Start and end of the extrusion in `y`, mm.
     pub across: [f64; 2],
+}
+
+/// The solids of a patch.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solids {
+    /// The membrane; one strip per row if rows are shifted on a curved body.
+    pub membrane: Vec<Prism>,
+    /// The scales, row by row.
+    pub scales: Vec<Prism>,
 }
 
 impl Patch {
@@ -69,7 +97,8 @@ impl Patch {
             _ => return Err(NoPatch::Scales(along, across)),
         }
         let [low, high] = LENGTHS;
-        let patch = Self { row, thickness, width, membrane, scales, gap_across, is_brick: false };
+        let (is_brick, body) = (false, Body::default());
+        let patch = Self { row, thickness, width, membrane, scales, gap_across, is_brick, body };
         let [length, breadth, _] = patch.membrane_size();
         let lengths = [
             ("the length of the membrane", length),
@@ -94,6 +123,51 @@ impl Patch {
     #[must_use]
     pub fn brick_laid(self) -> Self {
         Self { is_brick: true, ..self }
+    }
+
+    /// Returns the patch on a curved body.
+    ///
+    /// # Errors
+    /// If the rows are longer than the circumference, neighbours overlap, or the membrane is
+    /// thicker than the radius.
+    pub fn on_body(self, body: Body) -> Result<Self, NoPatch> {
+        let patch = Self { body, ..self };
+        let Some(radius) = patch.radius() else { return Ok(patch) };
+        let ([length, ..], around) = (patch.membrane_size(), TAU * radius.abs());
+        if length >= around {
+            return Err(NoPatch::Circumference(length, around));
+        }
+        // Inside a concave body the membrane has room.
+        if (0.0..=patch.membrane).contains(&radius) {
+            return Err(NoPatch::Membrane(patch.membrane, radius));
+        }
+        let [left, right] = patch.neighbours();
+        if !are_apart(&left, &right) {
+            return Err(NoPatch::Overlap(radius));
+        }
+        Ok(patch)
+    }
+
+    /// Returns the radius of the body, negative for a concave one; `None` for a flat patch.
+    pub fn radius(&self) -> Option<f64> {
+        (!self.body.is_flat()).then(|| self.thickness / self.body.curvature)
+    }
+
+    /// Returns the angle between the ends of the membrane, degrees.
+    pub fn arc_deg(&self) -> f64 {
+        self.radius().map_or(0.0, |radius| (self.membrane_size()[0] / radius.abs()).to_degrees())
+    }
+
+    /// Returns the distance between the faces of two neighbours in a row.
+    pub fn clearance(&self) -> f64 {
+        let [left, right] = self.neighbours();
+        polygon_distance(&left, &right) * self.thickness
+    }
+
+    /// Returns the corners of two neighbours in the frame of the left one, over the thickness.
+    fn neighbours(&self) -> [[Vec2; 4]; 2] {
+        let (corners, frame) = (self.row.scale().corners(), self.body.frame(self.row.pitch()));
+        [corners, corners.map(|corner| frame.origin + frame.outward(corner))]
     }
 
     /// Returns the shift of a row along itself.
@@ -164,12 +238,6 @@ impl Patch {
         [[0.0, 0.0], [base, 0.0], [base + shift, t], [shift, t]]
     }
 
-    /// Returns the membrane.
-    pub fn membrane(&self) -> Prism {
-        let [length, width, h] = self.membrane_size();
-        Prism { outline: [[0.0, 0.0], [length, 0.0], [length, h], [0.0, h]], across: [0.0, width] }
-    }
-
     /// Returns the lower left corners of the bases (`x`, `y`), row by row.
     pub fn places(&self) -> impl Iterator<Item = [f64; 2]> {
         let ([gx, gy], [px, py], [nx, ny]) = (self.gaps(), self.pitches(), self.scales);
@@ -179,28 +247,135 @@ impl Patch {
         })
     }
 
-    /// Returns the scales, row by row.
-    pub fn scale_prisms(&self) -> impl Iterator<Item = Prism> {
-        let (profile, h, width) = (self.profile(), self.membrane, self.width);
-        self.places().map(move |[x, y]| Prism {
-            outline: profile.map(|[along, up]| [x + along, h + up]),
-            across: [y, y + width],
+    /// Returns membrane and scales.
+    pub fn solids(&self) -> Solids {
+        if self.body.is_flat() { self.flat_solids() } else { self.curved_solids() }
+    }
+
+    fn flat_solids(&self) -> Solids {
+        let ([length, breadth, h], profile) = (self.membrane_size(), self.profile());
+        let outline = vec![[0.0, 0.0], [length, 0.0], [length, h], [0.0, h]];
+        let scales = self.places().map(|[x, y]| Prism {
+            outline: profile.iter().map(|[along, up]| [x + along, h + up]).collect(),
+            across: [y, y + self.width],
+        });
+        Solids {
+            membrane: vec![Prism { outline, across: [0.0, breadth] }],
+            scales: scales.collect(),
+        }
+    }
+
+    /// Returns the solids on the arc of the body.
+    fn curved_solids(&self) -> Solids {
+        let (mut membrane, mut scales) = (Vec::new(), Vec::new());
+        let ([length, breadth, _], places) =
+            (self.membrane_size(), self.places().collect::<Vec<_>>());
+        for (j, row) in places.chunks(self.scales[0]).enumerate() {
+            // The surface of the body, from left to right, each point above its lower side.
+            let mut rungs = vec![self.rung(&self.frame(0.0), 0.0)];
+            for [x, y] in row {
+                let frame = self.frame(x + 0.5 * self.base());
+                let outline = self.row.scale().corners().map(|corner| self.placed(&frame, corner));
+                scales.push(Prism { outline: outline.to_vec(), across: [*y, y + self.width] });
+                let half_base = self.row.scale().half_base();
+                rungs.extend([-half_base, half_base].map(|along| self.rung(&frame, along)));
+            }
+            rungs.push(self.rung(&self.frame(length), 0.0));
+            // Shifted rows bend the membrane at other places, in strips that meet between rows.
+            let rows = if self.is_brick { self.scales[1] } else { 1 };
+            if j < rows {
+                let from = if j == 0 { 0.0 } else { self.middle_before(j) };
+                let to = if j + 1 == rows { breadth } else { self.middle_before(j + 1) };
+                let below = rungs.iter().map(|[_, lower]| *lower);
+                let outline = below.chain(rungs.iter().rev().map(|[upper, _]| *upper)).collect();
+                membrane.push(Prism { outline, across: [from, to] });
+            }
+        }
+        let mut solids = Solids { membrane, scales };
+        solids.move_to_origin();
+        solids
+    }
+
+    /// Returns the middle of the gap before a row, across the rows.
+    fn middle_before(&self, row: usize) -> f64 {
+        0.5 * self.gap_across + row as f64 * self.pitches()[1]
+    }
+
+    /// Returns the tangent frame at a distance from the left end of the membrane, along the arc.
+    fn frame(&self, x: f64) -> Frame {
+        self.body.frame((x - 0.5 * self.membrane_size()[0]) / self.thickness)
+    }
+
+    /// Returns a point of a tangent frame, given over the thickness.
+    fn placed(&self, frame: &Frame, point: Vec2) -> [f64; 2] {
+        ((frame.origin + frame.outward(point)) * self.thickness).into()
+    }
+
+    /// Returns a point on top of the membrane and the point below it, along the radius.
+    fn rung(&self, frame: &Frame, along: f64) -> [[f64; 2]; 2] {
+        let upper = Vec2::new(along, 0.0);
+        let outwards = Vec2::new(along * self.body.curvature, 1.0).normalize();
+        let lower = upper - outwards * (self.membrane / self.thickness);
+        [upper, lower].map(|point| self.placed(frame, point))
+    }
+}
+
+/// Returns true if two convex polygons do not overlap: an edge of one of them separates them.
+fn are_apart(one: &[Vec2; 4], other: &[Vec2; 4]) -> bool {
+    [(one, other), (other, one)].into_iter().any(|(polygon, points)| {
+        (0..4).any(|k| {
+            let edge = polygon[(k + 1) % 4] - polygon[k];
+            // Corners run counter-clockwise, so the right side of an edge is outside.
+            points.iter().all(|point| edge.perp(&(point - polygon[k])) < 0.0)
         })
+    })
+}
+
+impl Solids {
+    /// Returns all solids, the scales first.
+    pub fn all(&self) -> impl Iterator<Item = &Prism> {
+        self.scales.iter().chain(&self.membrane)
+    }
+
+    /// Moves the lowest corner of the bounding box to the origin.
+    fn move_to_origin(&mut self) {
+        let corners = self.all().flat_map(|prism| &prism.outline);
+        let lowest = corners
+            .fold([f64::INFINITY; 2], |lowest, at| [lowest[0].min(at[0]), lowest[1].min(at[1])]);
+        for prism in self.membrane.iter_mut().chain(&mut self.scales) {
+            for at in &mut prism.outline {
+                *at = [at[0] - lowest[0], at[1] - lowest[1]];
+            }
+        }
     }
 }
 
 impl Prism {
     /// Returns the corners: first the face at the smaller `y`, then the opposite face.
-    pub fn corners(&self) -> [[f64; 3]; 8] {
-        std::array::from_fn(|k| {
-            let [x, z] = self.outline[k % 4];
-            [x, self.across[k / 4], z]
-        })
+    pub fn corners(&self) -> Vec<[f64; 3]> {
+        let mut corners = Vec::new();
+        for y in self.across {
+            corners.extend(self.outline.iter().map(|[x, z]| [*x, y, *z]));
+        }
+        corners
     }
 
-    /// The faces as corner indices, counter-clockwise seen from outside.
-    pub const FACES: [[usize; 4]; 6] =
-        [[0, 1, 2, 3], [7, 6, 5, 4], [0, 4, 5, 1], [1, 5, 6, 2], [2, 6, 7, 3], [3, 7, 4, 0]];
+    /// Returns the plane faces as corner indices, counter-clockwise seen from outside.
+    pub fn faces(&self) -> Vec<[usize; 4]> {
+        let n = self.outline.len();
+        let mut faces = Vec::new();
+        for k in 0..n / 2 - 1 {
+            faces.push([k, k + 1, n - 2 - k, n - 1 - k]);
+        }
+        for k in 0..n / 2 - 1 {
+            faces.push([n + n - 1 - k, n + n - 2 - k, n + k + 1, n + k]);
+        }
+        for k in 0..n {
+            let next = (k + 1) % n;
+            faces.push([k, n + k, n + next, next]);
+        }
+        faces
+    }
 }
 
 #[cfg(test)]
@@ -218,9 +393,9 @@ pub(crate) mod tests {
     #[test]
     fn scales_stand_on_the_membrane_at_their_pitch() {
         let patch = patch();
-        let scales: Vec<_> = patch.scale_prisms().collect();
+        let scales = patch.solids().scales;
         assert_eq!(scales.len(), 20);
-        let [first, second, sixth] = [scales[0], scales[1], scales[5]];
+        let [first, second, sixth] = [&scales[0], &scales[1], &scales[5]];
         assert_eq!(first.outline[0], [0.6, 0.25], "a gap from the rim, on top of the membrane");
         assert!((second.outline[0][0] - first.outline[0][0] - 2.2).abs() < 1e-12);
         assert!((second.outline[0][0] - first.outline[1][0] - 0.6).abs() < 1e-12, "the gap");
@@ -239,6 +414,106 @@ pub(crate) mod tests {
         assert_eq!(places[10][0], places[0][0]);
         let end = places[9][0] + patch.base();
         assert!((patch.membrane_size()[0] - end - 0.6).abs() < 1e-12, "a gap from the rim");
+    }
+
+    /// A finger with a radius of 10 mm, and the inner side of a joint.
+    fn curved() -> [Patch; 2] {
+        [10.0, -40.0]
+            .map(|radius| patch().on_body(Body { curvature: 2.0 / radius }).expect("a patch"))
+    }
+
+    #[test]
+    fn scales_stand_along_the_normals_of_a_curved_body() {
+        for patch in curved() {
+            let radius = patch.radius().expect("curved");
+            let solids = patch.solids();
+            let nodes: Vec<_> = solids.scales[..5]
+                .iter()
+                .map(|scale| [0, 1].map(|k| 0.5 * (scale.outline[0][k] + scale.outline[1][k])))
+                .collect();
+            // The third of five scales is in the middle, where the normal is vertical.
+            let [_, _, top, next, _] = nodes[..] else { panic!("five") };
+            let centre = [top[0], top[1] - radius];
+            for (node, scale) in nodes.iter().zip(&solids.scales) {
+                let normal = [node[0] - centre[0], node[1] - centre[1]];
+                assert!((normal[0].hypot(normal[1]) - radius.abs()).abs() < 1e-12);
+                let [from, to] = [scale.outline[0], scale.outline[1]];
+                let along = (to[0] - from[0]) * normal[0] + (to[1] - from[1]) * normal[1];
+                assert!(along.abs() < 1e-12, "the base is a tangent");
+            }
+            // Equal arc lengths: 2 R sin(p/2R) is the chord of a pitch.
+            let chord = 2.0 * radius * (patch.pitches()[0] / (2.0 * radius)).sin();
+            assert!(((next[0] - top[0]).hypot(next[1] - top[1]) - chord).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn faces_on_a_curved_body_are_as_far_apart_as_in_the_contact_model() {
+        use contact::{CornerEdge, Pair, Pose};
+        for patch in curved() {
+            let frame = patch.body.frame(patch.row.pitch());
+            let pair = Pair::between([*patch.row.scale(); 2], frame.origin);
+            let (left, right) = (Pose::new(0.0, 0.0, 0.0), Pose::new(0.0, 0.0, -frame.angle));
+            let sides = [CornerEdge::TopRightOnLeftEdge, CornerEdge::BottomLeftOnRightEdge];
+            let gaps = sides.map(|of| pair.gap(of, &left, &right));
+            let on_edge = gaps.iter().filter(|gap| (0.0..=1.0).contains(&gap.foot));
+            let least = on_edge.map(|gap| gap.value).fold(f64::INFINITY, f64::min);
+            assert!((patch.clearance() / (2.0 * least) - 1.0).abs() < 1e-12, "{least}");
+            // The distance of the written corners from the written edges.
+            let solids = patch.solids();
+            let [left, right] = [1, 2].map(|k| -> [Vec2; 4] {
+                std::array::from_fn(|c| Vec2::from(solids.scales[k].outline[c]))
+            });
+            let written = polygon_distance(&left, &right);
+            assert!((written / patch.clearance() - 1.0).abs() < 1e-12, "{written}");
+        }
+    }
+
+    #[test]
+    fn bases_stand_on_the_membrane_of_a_curved_body() {
+        for patch in curved().map(Patch::brick_laid) {
+            let solids = patch.solids();
+            assert_eq!(solids.membrane.len(), 4, "one strip per row");
+            for (row, strip) in solids.scales.chunks(5).zip(&solids.membrane) {
+                let n = strip.outline.len();
+                for corner in row.iter().flat_map(|scale| &scale.outline[..2]) {
+                    let k = strip.outline.iter().position(|at| at == corner).expect("a corner");
+                    let [x, z] = strip.outline[n - 1 - k];
+                    assert!(((x - corner[0]).hypot(z - corner[1]) - 0.25).abs() < 1e-12);
+                }
+            }
+            for pair in solids.membrane.windows(2) {
+                assert_eq!(pair[0].across[1], pair[1].across[0]);
+            }
+        }
+    }
+
+    #[test]
+    fn a_nearly_flat_body_gives_the_flat_patch() {
+        let nearly = patch().on_body(Body { curvature: 1e-9 }).expect("a patch").solids();
+        let flat = patch().solids();
+        let lowest = flat.all().flat_map(|p| &p.outline).fold(f64::INFINITY, |x, at| x.min(at[0]));
+        assert_eq!(lowest, 0.0);
+        for (one, other) in nearly.scales.iter().zip(&flat.scales) {
+            for (a, b) in one.outline.iter().zip(&other.outline) {
+                assert!((a[0] - b[0]).abs() < 1e-6 && (a[1] - b[1]).abs() < 1e-6, "{a:?} {b:?}");
+            }
+        }
+        assert_eq!(nearly.membrane[0].across, flat.membrane[0].across);
+    }
+
+    #[test]
+    fn patches_that_do_not_fit_a_body_are_refused() {
+        let [convex, concave] = [1.8, -4.0]
+            .map(|radius| patch().on_body(Body { curvature: 2.0 / radius }).unwrap_err());
+        // Five pitches of 2.2 mm and a gap.
+        assert!(
+            matches!(convex, NoPatch::Circumference(length, _) if (length - 11.6).abs() < 1e-9)
+        );
+        assert!(matches!(concave, NoPatch::Overlap(_)));
+        let thick = Patch { membrane: 3.0, ..patch() };
+        let refused = thick.on_body(Body { curvature: 2.0 / 2.5 }).unwrap_err();
+        assert_eq!(refused, NoPatch::Membrane(3.0, 2.5));
     }
 
     #[test]

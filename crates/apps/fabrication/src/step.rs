@@ -1,10 +1,11 @@
-//! STEP (ISO 10303-21, AP214): each prism as a solid of six plane faces.
+//! STEP (ISO 10303-21, AP214): each prism as a solid of plane faces.
 
+use std::collections::HashMap;
 use std::fmt::Write as _;
 
 use nalgebra::Vector3;
 
-use crate::{Patch, Prism};
+use crate::{Patch, Prism, Solids};
 
 /// The header: a product in millimetres with an accuracy of 1e-7 mm. Its representation (#20)
 /// follows the solids.
@@ -42,9 +43,11 @@ const REPRESENTATION: usize = 20;
 
 pub(crate) fn write(patch: &Patch) -> String {
     let mut entities = Entities { text: PRODUCT.to_owned(), last: REPRESENTATION };
-    let mut solids = vec![entities.solid("membrane", &patch.membrane())];
-    for (n, scale) in patch.scale_prisms().enumerate() {
-        solids.push(entities.solid(&format!("scale {}", n + 1), &scale));
+    let Solids { membrane, scales } = patch.solids();
+    let mut solids: Vec<usize> =
+        membrane.iter().map(|strip| entities.solid("membrane", strip)).collect();
+    for (n, scale) in scales.iter().enumerate() {
+        solids.push(entities.solid(&format!("scale {}", n + 1), scale));
     }
     let solids = references(&solids);
     let representation = format!(
@@ -76,21 +79,21 @@ impl Entities {
     }
 
     fn solid(&mut self, name: &str, prism: &Prism) -> usize {
-        let corners = prism.corners().map(Vector3::from);
-        let points = corners.map(|corner| self.point(corner));
-        let vertices = points.map(|point| self.add(&format!("VERTEX_POINT('',#{point})")));
+        let corners: Vec<_> = prism.corners().into_iter().map(Vector3::from).collect();
+        let points: Vec<usize> = corners.iter().map(|corner| self.point(*corner)).collect();
+        let vertices = points.iter().map(|point| self.add(&format!("VERTEX_POINT('',#{point})")));
+        let vertices: Vec<usize> = vertices.collect();
         // Two faces share each edge, and traverse it in opposite directions.
-        let mut edges: Vec<([usize; 2], usize)> = Vec::new();
+        let mut edges: HashMap<[usize; 2], usize> = HashMap::new();
         let mut faces = Vec::new();
-        for face in Prism::FACES {
+        for face in prism.faces() {
             let sides = [0, 1, 2, 3].map(|k| [face[k], face[(k + 1) % 4]]);
             let sides = sides.map(|[from, to]| {
-                let known = edges.iter().find(|(ends, _)| *ends == [to, from]);
-                let (edge, sense) = if let Some((_, edge)) = known {
+                let (edge, sense) = if let Some(edge) = edges.get(&[to, from]) {
                     (*edge, ".F.")
                 } else {
                     let edge = self.edge([from, to], &corners, &points, &vertices);
-                    edges.push(([from, to], edge));
+                    edges.insert([from, to], edge);
                     (edge, ".T.")
                 };
                 self.add(&format!("ORIENTED_EDGE('',*,*,#{edge},{sense})"))
@@ -104,9 +107,9 @@ impl Entities {
     fn edge(
         &mut self,
         [from, to]: [usize; 2],
-        corners: &[Vector3<f64>; 8],
-        points: &[usize; 8],
-        vertices: &[usize; 8],
+        corners: &[Vector3<f64>],
+        points: &[usize],
+        vertices: &[usize],
     ) -> usize {
         let direction = self.direction((corners[to] - corners[from]).normalize());
         let vector = self.add(&format!("VECTOR('',#{direction},1.)"));
@@ -118,7 +121,7 @@ impl Entities {
     fn face(
         &mut self,
         [a, b, _, d]: [usize; 4],
-        corners: &[Vector3<f64>; 8],
+        corners: &[Vector3<f64>],
         origin: usize,
         sides: &[usize; 4],
     ) -> usize {

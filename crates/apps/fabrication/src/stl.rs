@@ -13,10 +13,12 @@ pub(crate) fn write(patch: &Patch) -> Vec<u8> {
     header.resize(HEADER, b' ');
     let mut facets = Vec::new();
     let mut count: u32 = 0;
-    for prism in patch.scale_prisms().chain([patch.membrane()]) {
+    for prism in patch.solids().all() {
         // Round before computing normals, so that equal corners stay equal and the mesh closed.
-        let corners = prism.corners().map(|corner| Vector3::from(corner).map(|at| at as f32));
-        for triangle in triangles() {
+        let corners = prism.corners().into_iter();
+        let corners: Vec<_> =
+            corners.map(|corner| Vector3::from(corner).map(|at| at as f32)).collect();
+        for triangle in triangles(prism) {
             let [a, b, c] = triangle.map(|k| corners[k]);
             let [u, v] = [b, c].map(|to| (to - a).map(f64::from));
             // Rounding may flatten a facet. Readers compute a normal that is given as zero.

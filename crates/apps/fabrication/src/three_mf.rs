@@ -43,8 +43,9 @@ pub(crate) fn write(patch: &Patch) -> Vec<u8> {
 ///
 /// Slicers assign a material to each part and keep their relative positions.
 fn model(patch: &Patch) -> String {
-    let scales = object(1, "scales", patch.scale_prisms());
-    let membrane = object(2, "membrane", [patch.membrane()].into_iter());
+    let solids = patch.solids();
+    let scales = object(1, "scales", &solids.scales);
+    let membrane = object(2, "membrane", &solids.membrane);
     format!(
         r#"<?xml version="1.0" encoding="UTF-8"?>
 <model unit="millimeter" xml:lang="en" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">
@@ -60,16 +61,19 @@ fn model(patch: &Patch) -> String {
     )
 }
 
-fn object(id: u32, name: &str, prisms: impl Iterator<Item = Prism>) -> String {
+fn object(id: u32, name: &str, prisms: &[Prism]) -> String {
     let (mut vertices, mut faces) = (String::new(), String::new());
-    for (n, prism) in prisms.enumerate() {
-        for [x, y, z] in prism.corners() {
+    let mut first = 0;
+    for prism in prisms {
+        let corners = prism.corners();
+        for [x, y, z] in &corners {
             let _ = writeln!(vertices, r#"    <vertex x="{x}" y="{y}" z="{z}"/>"#);
         }
-        // Each prism has its own eight corners, so it is a closed mesh.
-        for [a, b, c] in triangles().map(|triangle| triangle.map(|k| 8 * n + k)) {
+        // Each prism has its own corners, so it is a closed mesh.
+        for [a, b, c] in triangles(prism).map(|triangle| triangle.map(|k| first + k)) {
             let _ = writeln!(faces, r#"    <triangle v1="{a}" v2="{b}" v3="{c}"/>"#);
         }
+        first += corners.len();
     }
     format!(
         "  <object id=\"{id}\" type=\"model\" name=\"{name}\"><mesh>\n   <vertices>\n{vertices}   </vertices>\n   \

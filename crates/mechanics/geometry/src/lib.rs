@@ -40,7 +40,7 @@ pub use body::{Body, Frame};
 pub use out_of_range::OutOfRange;
 pub use parallelogram::{Corner, Parallelogram};
 pub use row::{Row, RowChange};
-pub use uneven_row::{UnevenRow, clearance};
+pub use uneven_row::{UnevenRow, clearance, polygon_distance};
 
 /// Point or vector of the plane, in units of `t`.
 pub type Vec2 = nalgebra::Vector2<f64>;

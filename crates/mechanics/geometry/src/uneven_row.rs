@@ -1,6 +1,6 @@
 //! Rows of scales with unequal slants at unequal gaps.
 
-use crate::{OutOfRange, Parallelogram};
+use crate::{OutOfRange, Parallelogram, Vec2};
 
 /// Row with individual slants of the scales and individual widths of the gaps.
 ///
@@ -73,6 +73,21 @@ impl UnevenRow {
 /// Negative if they overlap.
 pub fn clearance(left: &Parallelogram, right: &Parallelogram, gap: f64) -> f64 {
     gap.min(gap + right.shift() - left.shift())
+}
+
+/// Computes the distance of two polygons that do not overlap.
+pub fn polygon_distance(one: &[Vec2; 4], other: &[Vec2; 4]) -> f64 {
+    let mut least = f64::INFINITY;
+    for (corners, edges) in [(one, other), (other, one)] {
+        for corner in corners {
+            for (k, start) in edges.iter().enumerate() {
+                let (along, to_corner) = (edges[(k + 1) % 4] - start, corner - start);
+                let foot = (to_corner.dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
+                least = least.min((to_corner - foot * along).norm());
+            }
+        }
+    }
+    least
 }
 
 #[cfg(test)]

@@ -1,7 +1,9 @@
 //! The scales of a row at rest.
 
 use contact::Pair;
-use geometry::{Body, Frame, OutOfRange, Parallelogram, Row, UnevenRow, Vec2, clearance};
+use geometry::{
+    Body, Frame, OutOfRange, Parallelogram, Row, UnevenRow, clearance, polygon_distance,
+};
 
 /// Equal scales at a constant gap, or scales with individual slants and gaps.
 #[derive(Clone, Debug)]
@@ -114,19 +116,4 @@ impl Arrangement {
 fn pair_on(body: Body, scales: [Parallelogram; 2], distance: f64) -> (Pair, Frame) {
     let frame = body.frame(distance);
     (Pair::between(scales, frame.origin), frame)
-}
-
-/// Computes the distance of two polygons that do not overlap.
-fn polygon_distance(one: &[Vec2; 4], other: &[Vec2; 4]) -> f64 {
-    let mut least = f64::INFINITY;
-    for (corners, edges) in [(one, other), (other, one)] {
-        for corner in corners {
-            for (k, start) in edges.iter().enumerate() {
-                let (along, to_corner) = (edges[(k + 1) % 4] - start, corner - start);
-                let foot = (to_corner.dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
-                least = least.min((to_corner - foot * along).norm());
-            }
-        }
-    }
-    least
 }

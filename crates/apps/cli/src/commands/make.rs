@@ -32,7 +32,8 @@ Examples:
   squama make results/palm --design 1 --kerf 0.12 --template-mm 0.1 --out palm.dxf
 
 Writes a patch of skin in millimetres: scales on their membrane, which extends one gap beyond their bases on every
-side. The design needs a thickness (material.thickness_mm). The extension of --out selects the format:
+side. The design needs a thickness (material.thickness_mm). If it has a [body], solids lie on its arc, unless
+--flat; outlines and decks are flat. The extension of --out selects the format:
   .3mf          printers; names its unit; scales and membrane are two parts, for two materials
   .stl          printers; has no unit, so tell the slicer that lengths are in mm
   .step, .stp   CAD programs; exact solids
@@ -66,6 +67,10 @@ pub struct Arguments {
     /// Shift every second row by half a pitch, like bricks
     #[arg(long)]
     pub brick: bool,
+
+    /// Lay the patch flat, to be glued round the body of the design
+    #[arg(long)]
+    pub flat: bool,
 
     /// Gap between neighbouring rows, mm [default: the gap across of the design, or its gap]
     #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = decimal)]
@@ -123,7 +128,14 @@ pub fn make(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> 
     };
     let searched = SearchedDesign::read(&arguments.definition.path)?;
     let case = design.case();
-    let patch = patch(&case, arguments)?;
+    let is_solid = format.is_some_and(|format| !format.is_flat());
+    let mut patch = patch(&case, arguments)?;
+    if is_solid && !arguments.flat {
+        patch = patch.on_body(case.body())?;
+    }
+    if format.is_none() && !case.body().is_flat() {
+        note("the finite-element deck is flat, although the design has a body");
+    }
     // Before the analysis, because a row may be too long.
     let deck = match format {
         None => deck(&patch, &puncture(&case), &design.title())?,
@@ -267,6 +279,13 @@ fn parts(patch: &Patch, case: &Case) -> String {
         ("  width", width, "mm"),
         ("  thickness", height, "mm"),
     ]);
+    if let Some(radius) = patch.radius() {
+        rows.extend([
+            ("on a body with the radius", radius, "mm"),
+            ("  angle around it", patch.arc_deg(), "deg"),
+            ("  distance of the faces of neighbours", patch.clearance(), "mm"),
+        ]);
+    }
     let row =
         |(name, value, unit): (&str, f64, &str)| [name.to_owned(), rounded(value), unit.to_owned()];
     aligned(&rows.into_iter().map(row).collect::<Vec<_>>())

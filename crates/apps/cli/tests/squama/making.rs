@@ -50,6 +50,37 @@ fn a_patch_has_at_most_the_requested_size() {
     assert!(refusal.contains("--patch: smaller than one scale"), "{refusal}");
 }
 
+/// Solids lie on the arc of a body, outlines for laser cutters and `--flat` do not.
+#[test]
+fn a_patch_lies_on_the_arc_of_a_body() {
+    let place = Place::with(&format!("{SKIN}[body]\nradius_mm = 10\n"));
+    std::fs::write(place.path("flat.toml"), SKIN).expect("a file");
+    let text = place.prints("make x.toml --design 1 --out arc.stl");
+    let line = text.lines().find(|line| line.contains("on a body with the radius"));
+    assert!(line.is_some_and(|line| line.contains(" 10 ")), "{text}");
+    place.prints("make x.toml --design 1 --flat --out glued.stl");
+    place.prints("make flat.toml --design 1 --out flat.stl");
+    assert_eq!(
+        std::fs::read(place.path("glued.stl")).ok(),
+        std::fs::read(place.path("flat.stl")).ok()
+    );
+    // The ends of the arc are lower than its middle by R − R cos θ, with θ = 11.6 mm/2R, or more.
+    let bytes = std::fs::read(place.path("arc.stl")).expect("a file");
+    let heights =
+        bytes[84..].chunks(50).flat_map(|facet| [20, 32, 44].map(|at| &facet[at..at + 4]));
+    let heights = heights.map(|bytes| f32::from_le_bytes(bytes.try_into().expect("four bytes")));
+    let highest = heights.fold(0.0, f32::max);
+    assert!(highest > 2.25 + 10.0 * (1.0 - 0.58_f32.cos()), "{highest}");
+    for flat in ["dxf", "svg"] {
+        for (definition, name) in [("x", "of-body"), ("flat", "of-plane")] {
+            place.prints(&format!("make {definition}.toml --design 1 --out {name}.{flat}"));
+        }
+        assert_eq!(place.read(&format!("of-body.{flat}")), place.read(&format!("of-plane.{flat}")));
+    }
+    let refusal = place.refused("make x.toml --design 1 --scales 40x1 --out ring.stl");
+    assert!(refusal.contains("a circumference of 62.8319 mm"), "{refusal}");
+}
+
 #[test]
 fn make_uses_the_optimum_of_a_search() {
     let place = Place::with(SKIN);
