@@ -32,6 +32,8 @@ pub struct BestDesign {
     pub target: Target,
     /// Binding limits with their multipliers.
     pub bindings: Vec<Binding>,
+    /// Why this design is best, in one sentence; `None` for a point of a front.
+    pub reason: Option<String>,
     /// Check with independent samples, if the goal is about samples.
     pub confirmation: Option<Confirmation>,
     /// Agreement of the searches for it; `None` for a point of a front.
@@ -55,6 +57,7 @@ pub(crate) fn best_design(
         row,
         target,
         bindings,
+        reason: None,
         confirmation: None,
         agreement: None,
         checks: DesignChecks::default(),

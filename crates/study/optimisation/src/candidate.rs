@@ -21,6 +21,8 @@ pub enum SearchStage {
     Polish,
     /// First sampling of a nominal design.
     Tolerance,
+    /// A design rounded to multiples of a step.
+    Rounded,
 }
 
 impl SearchStage {
@@ -32,6 +34,7 @@ impl SearchStage {
             Self::Ridge => "ridge",
             Self::Polish => "polish",
             Self::Tolerance => "tolerance",
+            Self::Rounded => "rounded",
         }
     }
 }

@@ -34,6 +34,8 @@ pub struct DesignGoal {
     pub sound: bool,
     /// True if the best design must meet the requirements in the checks, too.
     pub confirm: bool,
+    /// Step of the lengths of a rounded best design, mm, or over the thickness if it is unknown.
+    pub round: Option<f64>,
     /// Number of space-filling points.
     pub samples: usize,
     /// Number of points of a front.
@@ -88,6 +90,12 @@ impl DesignGoal {
     /// Returns true if an objective or requirement is a statistic over samples.
     pub fn is_about_samples(&self) -> bool {
         self.columns().any(|column| self.statistic(column).is_some())
+    }
+
+    /// Returns true if the goal requires a yield.
+    pub(crate) fn requires_yield(&self) -> bool {
+        let mut required = self.requirements.iter();
+        required.any(|requirement| self.statistic(&requirement.column) == Some(Statistic::Yield))
     }
 
     /// Returns the goal for nominal designs, with which a search begins.

@@ -23,6 +23,8 @@
 //! | [`Judge`], [`Judgement`], [`NominalWorth`] | judgement of a design by the goal |
 //! | [`Statistic`] | quantile or yield over samples |
 //! | [`Confirmation`], [`Estimate`] | check of statistics with independent samples |
+//! | [`MissedRequirement`] | requirement with the fraction of samples that miss it |
+//! | [`Rounding`] | rounding of a best design to multiples of a step |
 //! | [`DesignChecks`], [`Check`], [`Contradiction`] | check of a best design with finer models |
 //! | [`optimise`], [`SearchOptions`] | runs a search |
 //! | [`SearchProgress`], [`SearchPart`] | progress of a search |
@@ -78,8 +80,10 @@ mod judgement;
 mod local;
 mod price;
 mod progress;
+mod reason;
 mod requirement_bounds;
 mod restarts;
+mod rounding;
 mod sample;
 mod sampled;
 mod search;
@@ -104,6 +108,8 @@ pub use judgement::{Judgement, NominalWorth};
 pub use price::{Binding, Limit};
 pub use progress::{SearchPart, SearchProgress};
 pub use restarts::Agreement;
+pub use rounding::Rounding;
+pub use sample::MissedRequirement;
 pub use sampled::confirmation::{Confirmation, Estimate};
 pub use search::{Found, LeftOutDesigns, SearchOptions, optimise};
 pub use space::{Choice, DesignSpace, Interval, SpacePoint};

@@ -16,7 +16,9 @@ use crate::evaluated_row::{EvaluatedRow, StatisticUse};
 use crate::evaluations::Halt;
 use crate::judgement::Judgement;
 use crate::local::{CLEAR, Search, floor_size};
+use crate::sample::MissedRequirement;
 use crate::slopes::Slopes;
+use crate::space::SpacePoint;
 
 /// Distance, relative to its size, within which a limit counts as binding.
 const NEAR: f64 = 1e-5;
@@ -29,6 +31,13 @@ const BALANCED: f64 = 1e-3;
 
 /// As [`BALANCED`], for a certain optimum.
 const CERTAIN: f64 = 1e-5;
+
+/// As [`BALANCED`], for a nominal design behind a sampled optimum, which deviations keep off its
+/// limits.
+const ROUGHLY: f64 = 0.2;
+
+/// Fraction of the samples above which a missed requirement limits a sampled design.
+const OFTEN: f64 = 0.01;
 
 /// A binding limit with its multiplier.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,9 +79,8 @@ pub(crate) fn bindings(
     // A polish or a scaling evaluates the best design without derivatives, so evaluate it again.
     let (evaluated, row) = search.evaluate(SearchStage::Gradient, &best.point, true)?;
     let is_whole = matches!(evaluated.verdict, Judgement::Judged(_));
-    let prices = if is_whole { prices(search, &row, target, &limits) } else { None };
-    let prices =
-        prices.map_or_else(|| vec![None; limits.len()], |p| p.into_iter().map(Some).collect());
+    let prices = if is_whole { prices(search, &row, target, &limits, BALANCED) } else { None };
+    let prices = each(prices, limits.len());
     // A yield is a step function, so its multiplier is undefined.
     let is_yield = |limit: &Limit| matches!(*limit, Limit::Requirement(k) if search.judge.is_yield(StatisticUse::Requirement(k)));
     let bindings = limits.into_iter().zip(prices);
@@ -81,6 +89,34 @@ pub(crate) fn bindings(
         limit,
     };
     Ok(bindings.map(binding).collect())
+}
+
+/// Returns the limits of the nominal design behind a sampled optimum, with rough multipliers.
+///
+/// They are the requirements that samples miss, and ends of intervals. `nominal` judges nominal
+/// designs.
+pub(crate) fn limits_of_samples(
+    nominal: &Search<'_>,
+    best: &Candidate,
+    target: &Target,
+    missed: &[MissedRequirement],
+) -> Result<Vec<Binding>, Halt> {
+    let mut limits = Vec::new();
+    for (k, requirement) in nominal.judge.requirements().enumerate() {
+        let mut often = missed.iter().filter(|missed| missed.share >= OFTEN);
+        if often.any(|missed| missed.requirement.as_ref() == Some(requirement)) {
+            limits.push(Limit::Requirement(k));
+        }
+    }
+    limits.extend(end_limits(&best.point, NEAR));
+    let row = nominal.evaluate(SearchStage::Gradient, &best.point, true)?.1;
+    let prices = each(prices(nominal, &row, target, &limits, ROUGHLY), limits.len());
+    Ok(limits.into_iter().zip(prices).map(|(limit, price)| Binding { limit, price }).collect())
+}
+
+/// Returns one multiplier per limit; `None` for each if none are known.
+fn each(prices: Option<Vec<f64>>, count: usize) -> Vec<Option<f64>> {
+    prices.map_or_else(|| vec![None; count], |prices| prices.into_iter().map(Some).collect())
 }
 
 fn binding_limits(search: &Search<'_>, best: &Candidate, target: &Target) -> Vec<Limit> {
@@ -107,30 +143,38 @@ pub(crate) fn near_limits(
             limits.push(Limit::Floor(k));
         }
     }
-    for (j, share) in best.point.shares.iter().enumerate() {
-        if *share <= nearness {
-            limits.push(Limit::Lower(j));
-        } else if *share >= 1.0 - nearness {
-            limits.push(Limit::Upper(j));
-        }
-    }
+    limits.extend(end_limits(&best.point, nearness));
     let case = search.space.case(&best.point);
     let touches = search.judge.is_about(Measure::Flexure) && contact_margin(&case).abs() < nearness;
     limits.extend(touches.then_some(Limit::Touch));
     limits
 }
 
+/// Returns the ends of intervals within the fraction `nearness` of a point.
+fn end_limits(point: &SpacePoint, nearness: f64) -> Vec<Limit> {
+    let mut limits = Vec::new();
+    for (j, share) in point.shares.iter().enumerate() {
+        if *share <= nearness {
+            limits.push(Limit::Lower(j));
+        } else if *share >= 1.0 - nearness {
+            limits.push(Limit::Upper(j));
+        }
+    }
+    limits
+}
+
 /// Computes the multipliers, in units of the objective per unit of the limit.
 ///
-/// `None` if they do not balance the gradient.
+/// `None` if they leave more than the fraction `unbalanced` of the gradient.
 fn prices(
     search: &Search<'_>,
     row: &EvaluatedRow,
     target: &Target,
     limits: &[Limit],
+    unbalanced: f64,
 ) -> Option<Vec<f64>> {
     let Gradients { objective, limits: columns } = Gradients::of(search, row, target, limits)?;
-    let multipliers = multipliers(&columns, &objective, BALANCED)?;
+    let multipliers = multipliers(&columns, &objective, unbalanced)?;
     let intervals = search.space.intervals();
     let requirements: Vec<_> = search.judge.requirements().collect();
     let unit = |limit: &Limit| match *limit {

@@ -27,6 +27,8 @@ pub enum SearchPart {
     Refine,
     /// Checking the best designs with independent samples.
     Check,
+    /// Rounding the best design.
+    Round,
 }
 
 /// Progress of a search: written by the search, read by the display.
@@ -71,6 +73,7 @@ impl SearchPart {
             Self::Samples => "first samples",
             Self::Refine => "near the best with more samples",
             Self::Check => "checking with other samples",
+            Self::Round => "rounding the best",
         }
     }
 }

@@ -5,7 +5,7 @@ use results::{DesignRow, QUANTILES, quantile_places};
 use serde::{Deserialize, Serialize};
 
 use crate::column::NumberColumn;
-use crate::requirement_bounds::Bounds;
+use crate::requirement_bounds::{Bound, Bounds};
 use crate::statistic::Statistic;
 
 /// Values of the samples of a design.
@@ -32,6 +32,15 @@ pub(crate) struct SampleJudge {
     pub statistics: Vec<UsedStatistic>,
     /// Number of samples of each design.
     pub count: usize,
+}
+
+/// Fraction of the samples of a design that miss a requirement.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MissedRequirement {
+    /// The requirement; `None` for samples without any value.
+    pub requirement: Option<Requirement>,
+    /// Fraction of the samples.
+    pub share: f64,
 }
 
 /// A sample that determines a statistic, with its weight.
@@ -96,6 +105,27 @@ impl SampleJudge {
     /// Returns the least margin of a sample; negative if it violates a bound.
     fn margin(&self, values: &[Option<f64>]) -> f64 {
         self.bounds.margin(values.iter().copied())
+    }
+
+    /// Returns the bounds that samples miss, with the largest fraction first.
+    pub fn missed(&self, samples: &Samples) -> Vec<MissedRequirement> {
+        let bounds = &self.bounds.all;
+        let mut valid: Vec<&Vec<Option<f64>>> = samples.0.iter().collect();
+        // An impossible sample misses no bound in particular.
+        valid.retain(|v| bounds.is_empty() || v[..bounds.len()].iter().any(Option::is_some));
+        let mut counts = vec![(None, samples.0.len() - valid.len())];
+        for (k, Bound { requirement, .. }) in bounds.iter().enumerate() {
+            let missed = valid.iter().filter(|v| !v[k].is_some_and(|v| requirement.is_met(v)));
+            counts.push((Some(requirement.clone()), missed.count()));
+        }
+        counts.retain(|(_, count)| *count > 0);
+        // Stable, so that equal fractions keep the order of the goal.
+        counts.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+        let missed = counts.into_iter().map(|(requirement, count)| MissedRequirement {
+            requirement,
+            share: count as f64 / samples.0.len() as f64,
+        });
+        missed.collect()
     }
 
     /// Returns the sort key of a sample for statistic `q`.

@@ -15,7 +15,7 @@ use results::{DesignRow, Outcome};
 use run::{Program, Start};
 
 use crate::answer::{Answer, answer};
-use crate::best::{Region, region};
+use crate::best::{BestDesign, Region, region};
 use crate::candidate::{Candidate, SearchStage};
 use crate::checks::{self, DesignChecks};
 use crate::column::ends_over;
@@ -27,9 +27,13 @@ use crate::improvement::Plan;
 use crate::judge::Judge;
 use crate::judgement::Judgement;
 use crate::local::{Effort, Search, evaluation_units};
+use crate::price;
 use crate::progress::{SearchPart, SearchProgress};
+use crate::reason::reason;
 use crate::requirement_bounds::has_folded;
 use crate::restarts::restart_evaluations;
+use crate::rounding::{self, Rounding};
+use crate::sample::MissedRequirement;
 use crate::sampled::confirmation::FRESH;
 use crate::sampled::margins;
 use crate::sampled::search::{NOMINAL_POINTS, REFINED, SEEDS, Searches};
@@ -70,6 +74,10 @@ pub struct Found {
     pub rescaled: Vec<CriterionEnds>,
     /// Requirements with the limits of the last search; they differ from the goal if it confirms.
     pub searched: Vec<Requirement>,
+    /// Requirements that samples of the nearest design miss, if no design is feasible.
+    pub missed: Vec<MissedRequirement>,
+    /// Rounding of the best design, if the goal wants it.
+    pub rounding: Option<Rounding>,
 }
 
 /// Designs without a valid judgement, by reason.
@@ -153,7 +161,11 @@ fn find(
     if goal.is_about_samples() {
         answer = limits.sampled_answer(&nominal, &mut history, answer)?;
     }
+    let missed = limits.missed(&nominal, &history, &answer)?;
+    let mut rounding = None;
     if let Answer::Optimum(best) = &mut answer {
+        best.reason = limits.reason(&nominal, best)?;
+        rounding = limits.round(&nominal, best, &mut history)?;
         best.checks = DesignChecks::solve(goal, best);
     }
     // The search measures only what the goal is about.
@@ -173,7 +185,18 @@ fn find(
     }
     let (starts, evaluations) = (progress.starts(), evaluations.count());
     let (searched, regions) = (limits.tightened.requirements, regions.len());
-    Ok(Found { history, answer, left_out, starts, regions, evaluations, rescaled, searched })
+    Ok(Found {
+        history,
+        answer,
+        left_out,
+        starts,
+        regions,
+        evaluations,
+        rescaled,
+        searched,
+        missed,
+        rounding,
+    })
 }
 
 /// Number of searches with tighter limits after the first.
@@ -295,6 +318,51 @@ impl Limits<'_> {
             (answer, *history) = (next, known);
         }
         Ok(answer)
+    }
+
+    /// Returns why a best design is best, by its limits and their multipliers.
+    fn reason(&self, search: &Search<'_>, best: &BestDesign) -> Result<Option<String>, Halt> {
+        let goal = &self.tightened;
+        // A yield has no multiplier, but the requirements behind it have.
+        let Some(made) = best.confirmation.as_ref().filter(|_| goal.requires_yield()) else {
+            return Ok(reason(goal, best, &best.bindings, false));
+        };
+        let goal = goal.nominal();
+        let judge = Judge::rescaling(&goal, self.rescaled);
+        let search = Search { judge: &judge, ..*search };
+        let bindings =
+            price::limits_of_samples(&search, &best.candidate, &best.target, &made.missed)?;
+        Ok(reason(&goal, best, &bindings, true))
+    }
+
+    /// Rounds a best design, if the goal wants it.
+    fn round(
+        &self,
+        search: &Search<'_>,
+        best: &mut BestDesign,
+        history: &mut Vec<Candidate>,
+    ) -> Result<Option<Rounding>, Halt> {
+        let judges = [&self.tightened, &self.tightened.finer()]
+            .map(|goal| Judge::rescaling(goal, self.rescaled));
+        let [coarse, finer] = judges.each_ref().map(|judge| Search { judge, ..*search });
+        rounding::round(self.goal, [&coarse, &finer], best, history)
+    }
+
+    /// Returns the requirements that samples of the nearest infeasible design miss.
+    fn missed(
+        &self,
+        search: &Search<'_>,
+        history: &[Candidate],
+        answer: &Answer,
+    ) -> Result<Vec<MissedRequirement>, Halt> {
+        let Answer::Infeasible(Some(nearest)) = answer else { return Ok(Vec::new()) };
+        let Candidate { point, verdict, .. } = &history[*nearest];
+        let judge = Judge::rescaling(&self.tightened, self.rescaled);
+        // A nominal design has no samples.
+        let judge = judge.samples().filter(|_| matches!(verdict, Judgement::Judged(_)));
+        let Some(judge) = judge else { return Ok(Vec::new()) };
+        let samples = search.evaluations.samples(point, 1, judge.count, judge)?;
+        Ok(judge.missed(&samples))
     }
 
     /// Tightens the limits by the checks of an optimum; returns the limits before, if they changed.

@@ -1,6 +1,15 @@
 //! Design space: variables, points, and their cases.
 
+use std::ops::RangeInclusive;
+
 use sweep::{Case, Parameter, Scalar, Sweep, VariableValues};
+use text::number;
+
+/// Step of rounded angles, degrees.
+const ANGLE_STEP_DEG: f64 = 1.0;
+
+/// Round-off of a quotient of a value and its step.
+const ROUND_OFF: f64 = 1e-9;
 
 /// A parameter that varies between two numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,6 +20,8 @@ pub struct Interval {
     pub from: f64,
     /// Largest value.
     pub to: f64,
+    /// Step of the values of a rounded design; `None` if they are not rounded.
+    pub step: Option<f64>,
 }
 
 /// A parameter that takes one of a few values.
@@ -46,12 +57,61 @@ impl Interval {
     pub fn value(&self, share: f64) -> f64 {
         let value = self.from + share * (self.to - self.from);
         // Round-off could show as 59.99999999999999 instead of 60 in tables.
-        if share >= 1.0 { self.to } else { value.clamp(self.from, self.to) }
+        let value = if share >= 1.0 { self.to } else { value.clamp(self.from, self.to) };
+        // Nor may a rounded design show as 0.35000000000000003.
+        let multiple = self.step.map(|step| multiple((value / step).round(), step));
+        let size = self.from.abs().max(self.to.abs());
+        multiple.filter(|m| (m - value).abs() <= 4.0 * f64::EPSILON * size).unwrap_or(value)
+    }
+
+    /// Returns the fraction of the interval at a value.
+    pub(crate) fn share(&self, value: f64) -> f64 {
+        ((value - self.from) / self.length()).clamp(0.0, 1.0)
+    }
+
+    /// Returns the multiples of the step in the interval, as factors of the step; `None` without a
+    /// step.
+    pub(crate) fn multiples(&self) -> Option<RangeInclusive<i64>> {
+        let step = self.step?;
+        let first = (self.from / step - ROUND_OFF).ceil() as i64;
+        Some(first..=(self.to / step + ROUND_OFF).floor() as i64)
+    }
+
+    /// Returns the multiples of the step below and above the value at a fraction of the interval.
+    ///
+    /// They are equal at a multiple and beyond the last one. `None` without a multiple.
+    pub(crate) fn multiples_around(&self, share: f64) -> Option<[i64; 2]> {
+        let (first, last) = self.multiples()?.into_inner();
+        let quotient = self.value(share) / self.step?;
+        let around = [(quotient + ROUND_OFF).floor(), (quotient - ROUND_OFF).ceil()];
+        (first <= last).then(|| around.map(|k| (k as i64).clamp(first, last)))
+    }
+
+    /// Returns the fraction of the interval at a multiple of the step.
+    pub(crate) fn share_of_multiple(&self, factor: i64) -> Option<f64> {
+        Some(self.share(multiple(factor as f64, self.step?)))
     }
 
     /// Returns the length of the interval.
     pub fn length(&self) -> f64 {
         self.to - self.from
+    }
+}
+
+/// Returns a multiple of a step as the decimal number that is meant.
+fn multiple(factor: f64, step: f64) -> f64 {
+    number::short_decimal(factor * step, factor * step)
+}
+
+/// Returns the step of a rounded parameter; `None` for a parameter that is no size.
+///
+/// `round` is the step of lengths in mm, or over the thickness if that is unknown.
+fn step(parameter: &Parameter, round: f64, thickness: Option<f64>) -> Option<f64> {
+    match parameter.unit {
+        "mm" => Some(round),
+        "t" => Some(thickness.map_or(round, |thickness| round / thickness)),
+        "deg" => Some(ANGLE_STEP_DEG),
+        _ => None,
     }
 }
 
@@ -70,14 +130,16 @@ impl SpacePoint {
 impl DesignSpace {
     /// Creates the space of the variables of `sweep`.
     ///
-    /// Its other axes have one value each.
-    pub(crate) fn new(sweep: Sweep) -> Self {
+    /// Its other axes have one value each. Sizes of rounded designs are multiples of `round`.
+    pub(crate) fn new(sweep: Sweep, round: Option<f64>) -> Self {
         let (mut intervals, mut choices) = (Vec::new(), Vec::new());
+        let thickness = sweep.grid().case(0).material.thickness_mm;
         for variable in sweep.variables() {
             let parameter = variable.parameter();
             match variable.values() {
                 &VariableValues::Between(from, to) => {
-                    intervals.push(Interval { parameter, from, to });
+                    let step = round.and_then(|round| step(parameter, round, thickness));
+                    intervals.push(Interval { parameter, from, to, step });
                 }
                 VariableValues::OneOf(values) => {
                     choices.push(Choice { parameter, values: values.clone() });

@@ -123,7 +123,7 @@ pub fn history_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
         plain("evaluation", "number of the evaluation, in the order of the search"),
         plain(
             "stage",
-            "sample: points that fill the space; gradient: a step along derivatives; ridge: a step along those on both sides of a kink; polish: a step without; tolerance: the first look at the samples of a design",
+            "sample: points that fill the space; gradient: a step along derivatives; ridge: a step along those on both sides of a kink; polish: a step without; tolerance: the first look at the samples of a design; rounded: sizes in multiples of `goal.round`",
         ),
     ];
     let parameters = goal.space.parameters().map(|p| (p.key.to_owned(), p.unit, p.meaning));

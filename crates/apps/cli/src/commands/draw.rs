@@ -139,7 +139,7 @@ impl Drawing<'_> {
 
     /// Returns the end of the path, preceded by the frames of an animation.
     fn states_to_end(&self) -> anyhow::Result<Vec<puncture::RowSnapshot>> {
-        let Snapshots { end, is_critical, .. } = self.solve(&[])?;
+        let Snapshots { end, is_critical, .. } = solve(&self.case, &[])?;
         ensure!(
             is_critical,
             "design {}: the path does not reach the critical tilt",
@@ -156,14 +156,8 @@ impl Drawing<'_> {
         Ok(states)
     }
 
-    fn solve(&self, at: &[puncture::At]) -> anyhow::Result<Snapshots> {
-        let case = &self.case;
-        let substrate = substrate(case)?;
-        Ok(puncture::snapshots(&case.design, &substrate, &case.common, &case.punctured(), at)?)
-    }
-
     fn puncture_states(&self, at: &[puncture::At]) -> anyhow::Result<Vec<puncture::RowSnapshot>> {
-        let solved = self.solve(at)?;
+        let solved = solve(&self.case, at)?;
         let reached = |(at, state): (&puncture::At, Option<puncture::RowSnapshot>)| match state {
             Some(state) => Ok(state),
             None => bail!("design {}: the path does not reach {}", self.design.label(), place(*at)),
@@ -215,6 +209,22 @@ impl Drawing<'_> {
             at => at.to_vec(),
         }
     }
+}
+
+/// Draws the row of a case at rest, and at the critical tilt if `with_load`.
+///
+/// A path that does not reach the critical tilt leaves the row at rest alone.
+pub fn draw_row(name: &str, case: &Case, with_load: bool) -> anyhow::Result<String> {
+    let solved = with_load.then(|| solve(case, &[])).transpose()?;
+    let end = solved.filter(|solved| solved.is_critical).map(|solved| solved.end);
+    let drawing = drawings::PunctureDrawing { name, case, states: end.as_slice() };
+    Ok(drawing.svg()?)
+}
+
+/// Solves the puncture of a case with the states of a drawing.
+fn solve(case: &Case, at: &[puncture::At]) -> anyhow::Result<Snapshots> {
+    let substrate = substrate(case)?;
+    Ok(puncture::snapshots(&case.design, &substrate, &case.common, &case.punctured(), at)?)
 }
 
 /// Computes the stiffness of the substrate under a row.

@@ -14,8 +14,9 @@ use clap::Args;
 use optimisation::{Answer, DesignGoal, Found, SearchOptions, SearchProgress, write_found};
 use ranking::TILTING_ONLY;
 use results::ResultsFolder;
+use sweep::Setting;
 
-use super::options::{EarlierResults, SolveOptions, TableFormat};
+use super::options::{EarlierResults, SolveOptions, TableFormat, decimal};
 use super::requirement_args::RequirementArgs;
 use super::source::{folder_of, print_notes, settings};
 use super::{DONE, INCOMPLETE, PROGRAM};
@@ -34,6 +35,7 @@ Examples:
   squama optimise sweeps/goals/strong-and-covered.toml
   squama optimise glove.toml --set 'goal.require=[\"coverage >= 0.6\"]' --out results/glove-60
   squama optimise sweeps/goals/pin.toml --require 'failure_force_N >= 5' --require 'gap_mm >= 0.4'
+  squama optimise sweeps/goals/pin.toml --require 'failure_force_N >= 5' --round 0.05
   squama optimise glove.toml --set goal.seed=1 --fresh
   squama optimise glove.toml --resume
 
@@ -52,13 +54,14 @@ skins = 200 samples of each design, with the same deviations for all, and five t
 Finally it solves 1000 new samples of the best design, and shows their statistics beside those of the search.
 The search first solves samples = 128 designs that fill the space; a front has points = 30 designs; seed = 0
 selects the random numbers.
-Writes optimum.csv and optimum.toml, the definition of the best design, or front.csv; history.csv with every
-design of the search; and evaluations.jsonl, from which --resume continues. The results do not depend on the
-number of threads.
+Writes optimum.csv, optimum.toml, the definition of the best design, and optimum.svg, its drawing, or front.csv;
+history.csv with every design of the search; and evaluations.jsonl, from which --resume continues. The results do
+not depend on the number of threads.
 Checks solve the best design with full substrate coupling, at 11 load positions under a guided needle, and with
 new samples. A requirement that a check contradicts is reported below the answer. With confirm = true in [goal]
-the search tightens the limits until the checks pass.
-Exit code: 0 done, 1 no design meets the constraints, or a check of the best contradicts one, 2 bad input or a
+the search tightens the limits until the checks pass. With --round the answer is the best rounded design near the
+best one that still meets the requirements, and states the loss.
+Exit code: 0 done, 1 no design meets the constraints, also rounded, or a check of the best contradicts one, 2 bad input or a
 disk error, 130, 143 or 129 ended by SIGINT, SIGTERM or SIGHUP.")]
 pub struct Arguments {
     /// Goal in TOML
@@ -71,6 +74,12 @@ pub struct Arguments {
 
     #[command(flatten)]
     pub required: RequirementArgs,
+
+    /// Round the lengths of the best design to multiples of STEP mm, and angles to whole degrees
+    ///
+    /// The same as goal.round. Without a thickness in mm the step is a fraction of it.
+    #[arg(long, value_name = "STEP", allow_hyphen_values = true, value_parser = decimal)]
+    pub round: Option<f64>,
 
     /// Results folder [default: results/NAME]
     #[arg(long, value_name = "DIR")]
@@ -88,7 +97,10 @@ pub struct Arguments {
 
 /// Searches for the best designs of a goal and writes them.
 pub fn optimise(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
-    let (settings, required) = (settings(&arguments.settings)?, arguments.required.read()?);
+    let (mut settings, required) = (settings(&arguments.settings)?, arguments.required.read()?);
+    if let Some(step) = arguments.round {
+        settings.push(Setting::parse(&format!("goal.round={step}"))?);
+    }
     let goal = DesignGoal::read_with(&arguments.path, &settings, &required)?;
     print_notes(goal.space.sweep());
     for standard in &goal.standards {
@@ -111,7 +123,7 @@ pub fn optimise(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<
     };
     let written = ResultsFolder::new(&folder);
     let format = arguments.format.csv.unwrap_or_else(|| written.csv_format());
-    let figures = figures(&goal, &found);
+    let figures = figures(&goal, &found)?;
     let figures = figures.into_iter().map(|Figure { name, svg }| (format!("{name}.svg"), svg));
     let files = write_found(&written, &goal, &found, &figures.collect::<Vec<_>>(), format)?;
     let report = SearchReport { goal: &goal, found: &found };
@@ -135,7 +147,10 @@ fn options<'i>(
 
 fn exit_code(goal: &DesignGoal, found: &Found) -> u8 {
     let is_met = match &found.answer {
-        Answer::Optimum(best) => best.contradictions(goal).is_empty(),
+        Answer::Optimum(best) => {
+            let is_unrounded = found.rounding.as_ref().is_some_and(|of| of.rounded.is_none());
+            !is_unrounded && best.contradictions(goal).is_empty()
+        }
         Answer::Front(_) => true,
         Answer::Infeasible(_) => false,
     };

@@ -26,7 +26,9 @@ fn the_optimum_is_a_valid_definition() {
       coverage >= 0.5                0.01 more coverage adds 0.00497 kg/m^2 of areal_mass_kg_m2
       slant_deg at its upper end 60  1 more slant_deg would gain 0.01 kg/m^2 of areal_mass_kg_m2
 
-    results/light: goal.toml history.csv optimum.csv optimum.toml history.svg
+    coverage and slant_deg at its upper end 60 limit this design: with 1 % less required coverage, areal_mass_kg_m2 falls by 0.46 %.
+
+    results/light: goal.toml history.csv optimum.csv optimum.toml history.svg optimum.svg
     ");
     let design = place.prints("design results/light/optimum.toml --design 1");
     assert!(design.contains("0.866025"), "{design}");
@@ -106,6 +108,7 @@ fn json_output_contains_the_optimum() {
     let best = &record["optimum"];
     assert_eq!(best["variables"]["slant_deg"], 60.0);
     assert_eq!(best["binding"][0]["limit"], "coverage >= 0.5");
+    assert!(best["reason"].as_str().is_some_and(|reason| reason.contains("falls by 0.46 %")));
     let infeasible = "optimise x.toml --json --out y --set goal.require=['coverage>=0.9','areal_mass_kg_m2<=0.8']";
     let output = place.squama(infeasible).assert().code(1).get_output().stdout.clone();
     let record: serde_json::Value = serde_json::from_slice(&output).expect("JSON");
@@ -119,6 +122,48 @@ fn json_output_contains_the_optimum() {
     assert_eq!(infeasible["requirements"][0]["nearest"], infeasible["nearest"]["gap_over_t"]);
     // The nearest design is a valid definition, like the best one.
     place.squama("run y/nearest.toml -q --out z").assert().code(0);
+}
+
+/// The drawing shows the row at rest, and under its load if the goal measures it.
+#[test]
+fn the_best_design_is_drawn() {
+    let place = Place::with(GOAL);
+    place.squama("optimise x.toml --quiet").assert().code(0);
+    let drawing = place.read("results/light/optimum.svg");
+    assert!(drawing.contains("light: the best design") && drawing.contains("(a)"), "{drawing}");
+    assert!(!drawing.contains("(b)"));
+    let goal = "name = 'firm'\nmeasures = 'puncture'\n[variables]\nlength_over_t = { from = 0.3, to = 1 }\n\
+        [designs]\ngap_over_t = 0.3\nslant_deg = 60\n[goal]\nminimize = 'length_over_t'\nsamples = 2\n";
+    let place = Place::with(goal);
+    place.squama("optimise x.toml --quiet").assert().code(0);
+    assert!(place.read("results/firm/optimum.svg").contains("(b)"));
+    // The same panels as those of `draw`.
+    let told = place.prints("draw results/firm --design 1");
+    let drawn = std::fs::read_to_string(place.path(told.trim())).expect("a drawing");
+    let (_, panels) = drawn.split_once("(a)").expect("a panel");
+    let panels = panels.trim_end().trim_end_matches("<!-- squama -->").trim_end();
+    assert!(place.read("results/firm/optimum.svg").contains(panels));
+}
+
+#[test]
+fn a_rounded_design_states_its_loss() {
+    let place = Place::with(GOAL);
+    let text = place.prints("optimise x.toml --round 0.1");
+    let sentence = "Lengths are multiples of 0.1 mm, angles whole degrees: areal_mass_kg_m2 is 3.7 % \
+                    worse than before rounding (0.53590).";
+    assert!(text.contains(sentence), "{text}");
+    assert!(text.contains("Before rounding, it is limited by"), "{text}");
+    assert!(place.read("results/light/optimum.toml").contains("gap_over_t = [0.8]\n"));
+    // The stored goal rounds, too.
+    let record = place.prints("optimise results/light/goal.toml --out again --json");
+    let record: serde_json::Value = serde_json::from_str(&record).expect("JSON");
+    assert_eq!(record["optimum"]["variables"]["gap_over_t"], 0.8);
+    assert_eq!(record["optimum"]["rounding"]["step"], 0.1);
+    // Between a coverage of 0.5 and this mass is no multiple.
+    let goal = GOAL.replace("'coverage >= 0.5'", "['coverage >= 0.5', 'areal_mass_kg_m2 <= 0.54']");
+    let output = Place::with(&goal).squama("optimise x.toml --round 0.1").assert().code(1);
+    let text = String::from_utf8_lossy(&output.get_output().stdout).into_owned();
+    assert!(text.contains("this design is not rounded"), "{text}");
 }
 
 #[test]
@@ -152,6 +197,9 @@ fn bad_goals_are_reported_on_one_line() {
         ("samples = 64", "samples = 1"),
         ("samples = 64", "sample = 64"),
         ("samples = 64", "sound = 'no'"),
+        ("samples = 64", "round = 0"),
+        ("samples = 64", "round = 2"),
+        ("samples = 64", "round = 0.1\nmaximize = 'coverage'"),
         ("samples = 64", "weights = { coverage = 1 }"),
         ("minimize = 'areal_mass_kg_m2'", "maximize = 'fitness'\nweights = { critical_force = 1 }"),
         ("minimize = 'areal_mass_kg_m2'", "maximize = 'fitness'\nweights = { coverage = 0 }"),
@@ -193,9 +241,11 @@ fn the_fitness_reports_its_criteria_and_their_bounds() {
       gap_over_t at its upper end 1  0.01 more gap_over_t would gain 0.00409 of fitness
       slant_deg at its upper end 60  1 more slant_deg would gain 0.0115 of fitness
 
+    slant_deg at its upper end 60 and gap_over_t at its upper end 1 limit this design: with 1 % more slant_deg, fitness rises by 0.83 %.
+
     The criteria were rescaled between their worst and best values; to keep these bounds: rescale = { coverage = [3.3402e-4, 0.88453], areal_mass_kg_m2 = [0.90909, 0.50000] }
 
-    results/light: goal.toml history.csv optimum.csv optimum.toml history.svg
+    results/light: goal.toml history.csv optimum.csv optimum.toml history.svg optimum.svg
     ");
     assert!(place.read("results/light/optimum.csv").contains(",fitness,binding,"));
     // With explicit bounds of the criteria the result is the same without samples.

@@ -30,6 +30,22 @@ fn the_best_design_is_confirmed_on_new_samples() {
     assert_eq!(made["estimates"][0]["quantity"], "yield");
 }
 
+/// A yield alone does not show which requirement is the obstacle.
+#[test]
+fn a_refusal_names_the_requirements_that_samples_miss() {
+    let required = "['coverage >= 0.5', 'areal_mass_kg_m2 <= 0.54', 'yield >= 0.99']";
+    let place = Place::with(&GOAL.replace("['coverage >= 0.5', 'yield >= 0.9']", required));
+    let output = place.squama("optimise x.toml").assert().code(1);
+    let text = String::from_utf8_lossy(&output.get_output().stdout).into_owned();
+    assert!(text.contains(" % of the samples, ") && text.contains(" is missed by "), "{text}");
+    let output = place.squama("optimise x.toml --json --fresh").assert().code(1);
+    let record: serde_json::Value =
+        serde_json::from_slice(&output.get_output().stdout).expect("JSON");
+    let missed = record["infeasible"]["missed"].as_array().expect("a list");
+    assert_eq!(missed.len(), 2, "{missed:?}");
+    assert!(missed[0]["share"].as_f64() > Some(0.1), "{missed:?}");
+}
+
 #[test]
 fn tolerance_confirms_the_yield_of_a_search() {
     let place = Place::with(GOAL);

@@ -7,18 +7,18 @@ use ranking::{FitnessGoal, Relation, Requirement};
 use results::columns::{design_columns, measure_of};
 use results::measurement_conditions;
 use sweep::{
-    Axis, InvalidDefinition, Problem, Role, Setting, Sweep, Variable, VariableValues, entries,
+    Axis, InvalidDefinition, Problem, Role, Setting, Sweep, Variable, VariableValues, entries, key,
     read_entries, refuse,
 };
 use text::nearest;
 use text::toml_source::{KeyValue, KeyValues, Place, Value};
 
 use super::bounds::out_of_bounds;
-use super::refusal::not_accepted;
+use super::refusal::{no_effect, not_accepted};
 use super::section::{GoalSection, Written};
 use super::{DesignGoal, statistics};
 use crate::column::NumberColumn;
-use crate::space::DesignSpace;
+use crate::space::{DesignSpace, Interval};
 use crate::statistic::Statistic;
 
 impl DesignGoal {
@@ -100,8 +100,9 @@ impl DesignGoal {
         if refused.is_empty() {
             refused.extend(senseless(&section, fitness.as_ref(), &sweep));
         }
-        let space = DesignSpace::new(sweep);
+        let space = DesignSpace::new(sweep, section.round.as_ref().map(|(round, _)| *round));
         if refused.is_empty() {
+            refused.extend(not_rounded(&section, &space));
             refused.extend(out_of_bounds(&section, &space));
         }
         if !refused.is_empty() {
@@ -113,6 +114,7 @@ impl DesignGoal {
             standards,
             sound,
             confirm,
+            round,
             samples,
             points,
             skins,
@@ -127,6 +129,7 @@ impl DesignGoal {
             fitness,
             sound,
             confirm,
+            round: round.map(|(round, _)| round),
             samples,
             points,
             realisations: skins,
@@ -317,6 +320,31 @@ fn out_of_reach<'a>(
         let expected = format!("a bound that values from {from} to {to} can meet");
         (!is_met).then(|| not_accepted(place, "goal.require", requirement, expected))
     })
+}
+
+/// Returns the reason why a best design cannot be rounded.
+fn not_rounded(goal: &GoalSection, space: &DesignSpace) -> Option<InvalidDefinition> {
+    let (round, place) = goal.round.as_ref()?;
+    let name = "goal.round";
+    if goal.objectives.len() > 1 {
+        return Some(no_effect(place, name, "it rounds one best design, and a front has several"));
+    }
+    let mut sizes = space.intervals().iter().filter(|interval| interval.step.is_some());
+    if sizes.clone().next().is_none() {
+        return Some(no_effect(place, name, "no variable is a length or an angle"));
+    }
+    let varies_thickness = space.parameters().any(|parameter| parameter.key == key::THICKNESS);
+    let over_t = sizes.clone().find(|interval| interval.parameter.unit == "t");
+    if let Some(interval) = over_t.filter(|_| varies_thickness) {
+        let thickness = key::THICKNESS;
+        let found = format!("{round} beside {} and {thickness}", interval.parameter.key);
+        let expected = "variables in mm, e.g. gap_mm, because the thickness varies";
+        return Some(not_accepted(place, name, found, expected));
+    }
+    let coarse = sizes.find(|interval| interval.multiples().is_none_or(|all| all.is_empty()))?;
+    let Interval { parameter, from, to, .. } = *coarse;
+    let expected = format!("a step with a multiple in {} from {from} to {to}", parameter.key);
+    Some(not_accepted(place, name, round, expected))
 }
 
 /// Formats keys and values as TOML.

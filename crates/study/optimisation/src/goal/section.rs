@@ -15,9 +15,9 @@ use super::refusal::not_accepted;
 const MOST_OBJECTIVES: usize = 4;
 
 /// Keys of the section.
-const KEYS: [&str; 12] = [
+const KEYS: [&str; 13] = [
     "maximize", "minimize", "require", "protects", "weights", "rescale", "sound", "confirm",
-    "samples", "points", "skins", "seed",
+    "round", "samples", "points", "skins", "seed",
 ];
 
 /// A column, with the key and the position in the file.
@@ -35,6 +35,7 @@ pub(super) struct GoalSection {
     pub fitness: FitnessSection,
     pub sound: bool,
     pub confirm: bool,
+    pub round: Option<(f64, Place)>,
     pub samples: usize,
     pub points: usize,
     pub skins: usize,
@@ -42,6 +43,8 @@ pub(super) struct GoalSection {
     pub seed: u64,
 }
 
+/// Largest accepted step of rounded lengths.
+const COARSEST: f64 = 100.0;
 /// Accepted numbers of space-filling points.
 const SAMPLES: [usize; 2] = [2, 10_000_000];
 /// Accepted numbers of points of a front.
@@ -82,6 +85,10 @@ pub fn goal_schema() -> Json {
             "type": "boolean", "default": default.confirm,
             "description": "meet the requirements with full substrate coupling and at eleven load positions, too",
         }),
+        json!({
+            "type": "number", "exclusiveMinimum": 0, "maximum": COARSEST,
+            "description": "round the lengths of the best design to multiples of this step in mm, or of the thickness if that is unknown, and angles to whole degrees",
+        }),
         count(SAMPLES, default.samples, "number of space-filling points"),
         count(POINTS, default.points, "number of points of a front"),
         count(SKINS, default.skins, "number of samples of each design, for yields and quantiles"),
@@ -105,6 +112,7 @@ impl Default for GoalSection {
             fitness: FitnessSection::default(),
             sound: true,
             confirm: false,
+            round: None,
             samples: 128,
             points: 30,
             skins: 200,
@@ -126,6 +134,7 @@ impl GoalSection {
             "rescale" => self.fitness.rescale(entry)?,
             "sound" => self.sound = switch(entry)?,
             "confirm" => self.confirm = switch(entry)?,
+            "round" => self.round = Some((step(entry)?, entry.place.clone())),
             "samples" => self.samples = count(entry, SAMPLES)?,
             "points" => self.points = count(entry, POINTS)?,
             "skins" => {
@@ -233,6 +242,17 @@ fn switch(entry: &KeyValue) -> Result<bool, InvalidDefinition> {
         Value::Other(text) if text == "false" => Ok(false),
         value => Err(wrong(entry, value, "true or false")),
     }
+}
+
+/// Reads the step of rounded lengths.
+fn step(entry: &KeyValue) -> Result<f64, InvalidDefinition> {
+    let read = match &entry.value {
+        Value::Number(text) => text.parse().ok().filter(|step| *step > 0.0 && *step <= COARSEST),
+        _ => None,
+    };
+    read.ok_or_else(|| {
+        wrong(entry, &entry.value, format!("a number above 0, at most {COARSEST}, e.g. 0.05"))
+    })
 }
 
 fn count(entry: &KeyValue, [low, high]: [usize; 2]) -> Result<usize, InvalidDefinition> {

@@ -7,7 +7,7 @@ use uncertainty::{Proportion, SampledQuantile};
 use crate::evaluated_row::StatisticUse;
 use crate::evaluations::Halt;
 use crate::local::Search;
-use crate::sample::{SampleJudge, Samples};
+use crate::sample::{MissedRequirement, SampleJudge, Samples};
 use crate::space::SpacePoint;
 use crate::statistic::Statistic;
 
@@ -27,6 +27,8 @@ pub struct Confirmation {
     pub estimates: Vec<Estimate>,
     /// Requirements on statistics that the independent samples violate.
     pub broken: Vec<Requirement>,
+    /// Requirements that single independent samples miss.
+    pub missed: Vec<MissedRequirement>,
 }
 
 /// Statistic over the samples of a best design.
@@ -60,7 +62,7 @@ impl Confirmation {
 /// Checks the design at `point` with independent samples.
 ///
 /// `None` if the goal is not about samples.
-pub(super) fn confirm(
+pub(crate) fn confirm(
     search: &Search<'_>,
     point: &SpacePoint,
 ) -> Result<Option<Confirmation>, Halt> {
@@ -84,7 +86,8 @@ pub(super) fn confirm(
             estimates.push(estimate);
         }
     }
-    Ok(Some(Confirmation { seen: seen.0.len(), fresh: FRESH, estimates, broken }))
+    let missed = judge.missed(&fresh);
+    Ok(Some(Confirmation { seen: seen.0.len(), fresh: FRESH, estimates, broken, missed }))
 }
 
 fn estimate(judge: &SampleJudge, q: usize, seen: &Samples, fresh: &Samples) -> Estimate {

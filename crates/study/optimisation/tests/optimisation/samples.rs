@@ -1,6 +1,6 @@
 //! Goals about samples with optima in closed form.
 
-use optimisation::{Answer, BestDesign, DesignGoal, Estimate, Found, Limit};
+use optimisation::{Answer, BestDesign, DesignGoal, Estimate, Found, Judgement, Limit};
 use run::Start;
 
 use crate::searches::{found_in, objectives, optimum};
@@ -61,6 +61,21 @@ fn a_required_yield_moves_the_gap_by_its_quantile() {
     let [low, high] = of.interval.map(|end| end.expect("an end"));
     assert!(low < high && (low..=high).contains(&of.value.expect("a yield")));
     assert!((of.value.expect("a yield") - 0.9).abs() < 4.0 * (0.09_f64 / 1000.0).sqrt() + 0.01);
+    // A yield has no multiplier. The limits behind it have, here S/(1 + d)² · λ/m = 0.47 %.
+    let reason = "coverage and slant_deg at its upper end 60 limit this design: \
+                  with 1 % less required coverage, areal_mass_kg_m2 falls by about 0.47 %.";
+    assert_eq!(best.reason.as_deref(), Some(reason));
+}
+
+#[test]
+fn a_rounded_design_meets_a_required_yield() {
+    // The gap may be at most 0.84 for a yield of 0.9, and 0.866 without deviations.
+    let text = "minimize = 'areal_mass_kg_m2'\nrequire = ['coverage >= 0.5', 'yield >= 0.9']\nround = 0.02";
+    let found = found(&goal(text));
+    let best = optimum(&found);
+    assert!([0.82, 0.84].contains(&best.row.case.design.gap), "{:?}", best.row.case.design);
+    assert!(estimate(best, "yield").value.is_some_and(|value| value >= 0.87));
+    assert!(found.rounding.is_some_and(|rounding| rounding.rounded.is_some()));
 }
 
 #[test]
@@ -179,11 +194,21 @@ fn samples_do_not_depend_on_threads_or_interruptions() {
 #[test]
 fn infeasible_yields_report_the_nearest_sampled_design() {
     let text = "maximize = 'gap_over_t'\nrequire = ['coverage >= 0.5', 'areal_mass_kg_m2 <= 0.54', 'yield >= 0.99']";
-    let Answer::Infeasible(Some(nearest)) = found(&goal(text)).answer else { panic!("no design") };
+    let found = found(&goal(text));
+    let Answer::Infeasible(Some(nearest)) = found.answer else { panic!("no design") };
     assert!(
         nearest > 64,
         "a design of which skins were made is nearer than any that is only drawn"
     );
+    // The gap would have to be between 0.852 and 0.866, with a standard deviation of 0.02. No sample
+    // misses both limits.
+    let Judgement::Judged(worth) = &found.history[nearest].verdict else { panic!("sampled") };
+    let missed: f64 = found.missed.iter().map(|missed| missed.share).sum();
+    assert!((missed - (1.0 - worth.required[2])).abs() < 1e-12, "{:?}", found.missed);
+    let names = found.missed.iter().filter_map(|m| Some(m.requirement.as_ref()?.column.as_str()));
+    let mut names: Vec<_> = names.collect();
+    names.sort_unstable();
+    assert_eq!(names, ["areal_mass_kg_m2", "coverage"]);
 }
 
 #[test]

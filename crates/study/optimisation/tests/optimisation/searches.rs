@@ -5,8 +5,8 @@ use std::sync::atomic::AtomicBool;
 
 use journal::Seal;
 use optimisation::{
-    Answer, BestDesign, DesignGoal, Found, Judgement, Limit, SearchOptions, SearchProgress,
-    SearchStage, optimise, write_found,
+    Answer, BestDesign, DesignGoal, Found, Judgement, Limit, Rounding, SearchOptions,
+    SearchProgress, SearchStage, optimise, write_found,
 };
 use results::{CsvFormat, Results};
 use run::{Program, Start};
@@ -104,6 +104,36 @@ fn binding_limits_have_the_exact_multipliers() {
     assert!((binding(Limit::Requirement(0)) - price).abs() < 1e-6);
     let rate = (1.0 + reach * reach) * 1_f64.to_radians();
     assert!((binding(Limit::Upper(1)) - 0.5 * rate / (1.0 + gap).powi(2)).abs() < 1e-6);
+    // 1 % of the limit changes the mass by dm/dλ · λ/m = 0.464 %.
+    let reason = "coverage and slant_deg at its upper end 60 limit this design: \
+                  with 1 % less required coverage, areal_mass_kg_m2 falls by 0.46 %.";
+    assert_eq!(best.reason.as_deref(), Some(reason));
+}
+
+/// The gap may be at most 0.866, so rounding to the nearest multiple would miss the coverage.
+#[test]
+fn a_rounded_design_meets_the_requirements() {
+    let text = "minimize = 'areal_mass_kg_m2'\nrequire = 'coverage >= 0.5'\nround = 0.1";
+    let found = found(&goal(text));
+    let best = optimum(&found);
+    let design = best.row.case.design;
+    assert_eq!((design.gap, design.slant_deg), (0.8, 60.0));
+    let Some(Rounding { step, unit, exact, rounded: Some(rounded) }) = found.rounding else {
+        panic!("rounded")
+    };
+    assert_eq!((step, unit), (0.1, "mm"));
+    assert!((exact - 1.0 / (1.0 + 0.5 * 60_f64.to_radians().tan())).abs() < 1e-9);
+    assert!((rounded - 1.0 / 1.8).abs() < 1e-12, "{rounded}");
+}
+
+#[test]
+fn a_goal_without_a_feasible_rounded_design_keeps_the_exact_one() {
+    // The gap is between 0.852 and 0.866.
+    let text = "maximize = 'gap_over_t'\nrequire = ['coverage >= 0.5', 'areal_mass_kg_m2 <= 0.54']\nround = 0.1";
+    let found = found(&goal(text));
+    assert_eq!(found.rounding.as_ref().expect("tried").rounded, None);
+    let gap = optimum(&found).row.case.design.gap;
+    assert!((gap - 0.5 * 60_f64.to_radians().tan()).abs() < 1e-9, "{gap}");
 }
 
 #[test]

@@ -1,16 +1,29 @@
-//! Figures of a search.
+//! Figures of a search, and the drawing of its best design.
 
 use optimisation::{Answer, BestDesign, DesignGoal, Found, Judgement};
 use ranking::Goal;
 use report::{Figure, SearchFigure, SearchedDesign};
+use sweep::Measure;
 
-/// Draws the history of the search, and the front if there is one.
-pub fn figures(goal: &DesignGoal, found: &Found) -> Vec<Figure> {
+use super::super::draw::draw_row;
+
+/// Draws the history of the search, and the front or the best design if there is one.
+pub fn figures(goal: &DesignGoal, found: &Found) -> anyhow::Result<Vec<Figure>> {
     let mut figures = vec![history(goal, found)];
-    if let Answer::Front(front) = &found.answer {
-        figures.push(self::front(goal, found, &front.designs));
+    match &found.answer {
+        Answer::Optimum(best) => figures.push(optimum(goal, best)?),
+        Answer::Front(front) => figures.push(self::front(goal, found, &front.designs)),
+        Answer::Infeasible(_) => {}
     }
-    figures
+    Ok(figures)
+}
+
+/// Draws the best design, with its load if the goal measures the puncture.
+fn optimum(goal: &DesignGoal, best: &BestDesign) -> anyhow::Result<Figure> {
+    let with_load = goal.space.sweep().measures().contains(&Measure::Puncture);
+    let title = format!("{}: the best design", goal.name());
+    let svg = draw_row(&title, &best.row.case, with_load)?;
+    Ok(Figure { name: "optimum".to_owned(), svg })
 }
 
 /// Lists the evaluated designs with their position in a figure.

@@ -1,6 +1,8 @@
 //! JSON output of `squama optimise`.
 
-use optimisation::{Answer, BestDesign, BindingText, Candidate, DesignGoal, Found, Judgement};
+use optimisation::{
+    Answer, BestDesign, BindingText, Candidate, DesignGoal, Found, Judgement, Rounding,
+};
 use ranking::Requirement;
 use results::columns::design_columns;
 use serde_json::{Map, Value, json};
@@ -26,6 +28,11 @@ pub fn record(report: &SearchReport<'_>) -> Value {
         Answer::Optimum(best) => {
             let mut optimum = design(goal, &words, best);
             optimum["answer"] = report.answer(best).record(best.checks.gaps.as_ref());
+            optimum["reason"] = json!(best.reason);
+            if let Some(Rounding { step, unit, exact, rounded }) = &found.rounding {
+                optimum["rounding"] =
+                    json!({ "step": step, "unit": unit, "exact": exact, "rounded": rounded });
+            }
             ("optimum", optimum)
         }
         Answer::Front(front) => {
@@ -114,6 +121,7 @@ fn infeasible(
         |c: &&Candidate| matches!(c.verdict, Judgement::Judged(_) | Judgement::Nominal(_));
     json!({
         "requirements": unmet.requirements.iter().map(requirement).collect::<Vec<_>>(),
+        "missed": found.missed,
         "nearest": nearest.filter(is_judged).map(|candidate| variables(goal, candidate)),
     })
 }

@@ -5,9 +5,9 @@ use std::time::Duration;
 
 use optimisation::{
     Agreement, Answer, BestDesign, BindingText, Candidate, DesignGoal, Found, Front, Judgement,
-    described,
+    Rounding, described,
 };
-use ranking::{Requirement, Unmet};
+use ranking::{Goal, Requirement, Unmet};
 use results::Outcome;
 use results::columns::{Cell, design_columns, is_invalid_after_fold, mode_column};
 use run::{CouplingChange, WeakestPlace};
@@ -86,6 +86,7 @@ impl SearchReport<'_> {
         if !constant.is_empty() {
             return text + &constant_text(&constant);
         }
+        text += &self.rounding();
         let covered = self.coverage_of_search();
         let _ = write!(text, "\nThe search found no better design{covered}{}.", agreement(best));
         if best.bindings.is_empty() {
@@ -97,7 +98,12 @@ impl SearchReport<'_> {
                 [words.limit(&binding.limit, &best.target), price.unwrap_or_default()]
             };
             let rows: Vec<_> = bindings.map(row).collect();
-            let _ = write!(text, " It is limited by\n{}", aligned(&rows));
+            let is_rounded = self.found.rounding.as_ref().is_some_and(|of| of.rounded.is_some());
+            let it = if is_rounded { "Before rounding, it" } else { "It" };
+            let _ = write!(text, " {it} is limited by\n{}", aligned(&rows));
+        }
+        if let Some(reason) = &best.reason {
+            let _ = writeln!(text, "\n{reason}");
         }
         // At the requested position only the coupling differs, which is reported below.
         let requested = best.row.case.punctured().load_position;
@@ -112,6 +118,29 @@ impl SearchReport<'_> {
         }
         text += &best.confirmation.as_ref().map(samples::text).unwrap_or_default();
         text + &self.tightened() + &self.contradicted(best)
+    }
+
+    /// States the loss of a rounded design; empty if the goal does not round.
+    fn rounding(&self) -> String {
+        let Some(Rounding { step, unit, exact, rounded }) = &self.found.rounding else {
+            return String::new();
+        };
+        let step = text::number::text(*step);
+        let Some(value) = rounded else {
+            return format!(
+                "\n{FAILED} No design near it with lengths in multiples of {step} {unit} meets all requirements: this design is not rounded.\n"
+            );
+        };
+        let objective = &self.goal.objectives[0];
+        let sign = if objective.goal == Goal::Maximize { 1.0 } else { -1.0 };
+        let gain = sign * (value - exact) / exact.abs();
+        let percent = text::number::rounded(100.0 * gain.abs(), 2);
+        let change = if gain > 0.0 { "better" } else { "worse" };
+        format!(
+            "\nLengths are multiples of {step} {unit}, angles whole degrees: {} is {percent} % {change} than before rounding ({}).\n",
+            objective.column,
+            digits(*exact)
+        )
     }
 
     /// Lists the limits that the search tightened, so that the checks pass.
@@ -282,10 +311,10 @@ impl SearchReport<'_> {
         let words = BindingText::new(self.goal);
         let requirements: Vec<Requirement> = words.requirements().into_iter().cloned().collect();
         let unmet = unmet(self.goal, self.found, &requirements, nearest);
-        // Requirements on columns also act within a yield, so designs without one were not
-        // evaluated.
-        let obstacle = if self.goal.is_about_samples() {
-            samples::shortfalls(&unmet)
+        // Designs that miss a requirement on a column have no samples, so their counts by
+        // requirement would not be comparable.
+        let obstacle = if has_samples(self.goal, self.found) {
+            samples::shortfalls(&unmet, &self.found.missed)
         } else {
             obstacle(&unmet)
         };
@@ -385,6 +414,12 @@ fn agreement(best: &BestDesign) -> String {
     }
 }
 
+/// Returns true if the goal is about samples, and some design was sampled.
+fn has_samples(goal: &DesignGoal, found: &Found) -> bool {
+    let mut judged = found.history.iter().map(|c| matches!(c.verdict, Judgement::Judged(_)));
+    goal.is_about_samples() && judged.any(|is_judged| is_judged)
+}
+
 /// Finds the obstacle to the requirements among all evaluated designs.
 ///
 /// If no design has samples, only requirements on nominal values count.
@@ -394,7 +429,7 @@ pub fn unmet(
     requirements: &[Requirement],
     nearest: Option<usize>,
 ) -> Unmet {
-    let has_skins = found.history.iter().any(|c| matches!(c.verdict, Judgement::Judged(_)));
+    let has_skins = has_samples(goal, found);
     let is_told = |r: &&Requirement| has_skins || goal.statistic(&r.column).is_none();
     let requirements: Vec<Requirement> = requirements.iter().filter(is_told).cloned().collect();
     let values = |candidate: &Candidate| match &candidate.verdict {

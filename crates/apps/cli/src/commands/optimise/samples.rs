@@ -2,11 +2,11 @@
 
 use std::fmt::Write as _;
 
-use optimisation::{BestDesign, Confirmation, Estimate};
+use optimisation::{BestDesign, Confirmation, Estimate, MissedRequirement};
 use ranking::{Requirement, Unmet};
 
 use super::super::rank::distance;
-use crate::print::{aligned, counted, digits};
+use crate::print::{aligned, counted, digits, rounded};
 
 /// Formats the statistics of the best design.
 pub fn text(made: &Confirmation) -> String {
@@ -22,6 +22,9 @@ pub fn text(made: &Confirmation) -> String {
         text::number::text(made.fresh as f64),
         aligned(&rows)
     );
+    if !made.missed.is_empty() {
+        let _ = write!(text, "  {}", missed(&made.missed));
+    }
     let (open, broken): (Vec<_>, Vec<_>) = made.broken.iter().partition(|r| made.is_open(r));
     if !broken.is_empty() {
         let _ = writeln!(
@@ -40,12 +43,32 @@ pub fn text(made: &Confirmation) -> String {
     text
 }
 
-/// Lists the distance of the nearest design from each requirement.
-pub fn shortfalls(unmet: &Unmet) -> String {
+/// Names the requirements that samples miss, in one sentence; empty if none is missed.
+pub fn missed(missed: &[MissedRequirement]) -> String {
+    let (mut parts, mut invalid) = (Vec::new(), None);
+    for MissedRequirement { requirement, share } in missed {
+        let share = format!("{} %", text::number::rounded(100.0 * share, 3));
+        let Some(Requirement { column, relation, limit }) = requirement else {
+            invalid = Some(share);
+            continue;
+        };
+        let limit = format!("{column} {} {}", relation.sign(), rounded(*limit));
+        parts.push(if parts.is_empty() {
+            format!("{limit} is missed by {share} of the samples")
+        } else {
+            format!("{limit} by {share}")
+        });
+    }
+    parts.extend(invalid.map(|share| format!("{share} of the samples have no valid path")));
+    if parts.is_empty() { String::new() } else { format!("{}.\n", parts.join(", ")) }
+}
+
+/// Lists the distance of the nearest design from each requirement, and those that its samples miss.
+pub fn shortfalls(unmet: &Unmet, of_samples: &[MissedRequirement]) -> String {
     let header = ["requirement", "nearest", "short by"].map(str::to_owned);
     let rows: Vec<_> =
         [header].into_iter().chain(unmet.requirements.iter().map(distance)).collect();
-    format!("{}\n", aligned(&rows))
+    format!("{}\n{}", aligned(&rows), missed(of_samples))
 }
 
 fn joined(requirements: &[&Requirement]) -> String {

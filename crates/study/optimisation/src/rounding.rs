@@ -1,0 +1,202 @@
+//! Rounds a best design to sizes that a machine can make.
+//!
+//! The designs with all sizes in multiples of their steps form a lattice. The search starts with the
+//! corners of the cell around the best design, and moves to a neighbour while it is better. The
+//! best feasible designs are then checked like a best design.
+
+use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
+
+use crate::best::BestDesign;
+use crate::candidate::{Candidate, Merit, SearchStage, Target, best};
+use crate::checks::DesignChecks;
+use crate::evaluations::Halt;
+use crate::goal::DesignGoal;
+use crate::judgement::Judgement;
+use crate::local::{Search, evaluation_units};
+use crate::progress::SearchPart;
+use crate::sampled::confirmation::confirm;
+use crate::space::{Interval, SpacePoint};
+
+/// Maximum number of variables that are rounded in both directions, and moved in pairs.
+const BOTH_WAYS: usize = 6;
+
+/// Maximum number of moves on the lattice.
+const MOVES: usize = 8;
+
+/// Maximum number of rounded designs that are solved with more samples, and that are checked.
+const FINER: usize = 12;
+const CHECKED: usize = 4;
+
+/// Rounding of a best design.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rounding {
+    /// Step of the lengths, in `unit`.
+    pub step: f64,
+    /// `mm`, or `t` if the thickness is unknown.
+    pub unit: &'static str,
+    /// Objective of the best design before rounding.
+    pub exact: f64,
+    /// Objective of the rounded design; `None` if no rounded design meets all requirements.
+    pub rounded: Option<f64>,
+}
+
+/// Evaluated points of the lattice, as factors of the steps.
+type Known = Vec<(Vec<i64>, Candidate)>;
+
+/// Rounds `best` if the goal wants it, in place.
+///
+/// If no rounded design meets all requirements, `best` stays. `search` and `finer` judge by the
+/// limits of the search, `finer` with more samples. Adds the evaluated designs to `history`.
+pub(crate) fn round(
+    goal: &DesignGoal,
+    [search, finer]: [&Search<'_>; 2],
+    best: &mut BestDesign,
+    history: &mut Vec<Candidate>,
+) -> Result<Option<Rounding>, Halt> {
+    let (Some(step), Some(exact)) = (goal.round, objective(&best.candidate)) else {
+        return Ok(None);
+    };
+    let thickness = goal.space.sweep().grid().case(0).material.thickness_mm;
+    let unit = if thickness.is_some() { "mm" } else { "t" };
+    let known = feasible_first(search, evaluated(search, best)?, &best.target);
+    history.extend(known.iter().cloned());
+    let (mut found, mut checked) = (None, 0);
+    for mut candidate in known.into_iter().filter(|c| is_met(search, c, best)).take(FINER) {
+        if goal.is_about_samples() {
+            candidate = finer.evaluate(SearchStage::Rounded, &candidate.point, false)?.0;
+            history.push(candidate.clone());
+            if !is_met(finer, &candidate, best) {
+                continue;
+            }
+        }
+        let row = finer.evaluations.row(0, &candidate.point, &candidate.result);
+        let confirmation = confirm(finer, &candidate.point)?;
+        let mut rounded = BestDesign { candidate, row, confirmation, ..best.clone() };
+        if goal.confirm {
+            rounded.checks = DesignChecks::solve(goal, &rounded);
+            if !rounded.contradictions(goal).is_empty() {
+                checked += 1;
+                if checked == CHECKED {
+                    break;
+                }
+                continue;
+            }
+        }
+        found = Some(rounded);
+        break;
+    }
+    let rounded = found.as_ref().and_then(|rounded| objective(&rounded.candidate));
+    *best = found.unwrap_or_else(|| best.clone());
+    Ok(Some(Rounding { step, unit, exact, rounded }))
+}
+
+fn is_met(search: &Search<'_>, candidate: &Candidate, best: &BestDesign) -> bool {
+    matches!(search.merit(candidate, &best.target), Merit::Met(_))
+}
+
+/// Returns the first objective of a judged design.
+fn objective(candidate: &Candidate) -> Option<f64> {
+    let Judgement::Judged(worth) = &candidate.verdict else { return None };
+    worth.objectives.first().copied()
+}
+
+/// Sorts designs by merit, the best first.
+fn feasible_first(search: &Search<'_>, known: Known, target: &Target) -> Vec<Candidate> {
+    let mut designs: Vec<Candidate> = known.into_iter().map(|(_, candidate)| candidate).collect();
+    designs.sort_by(|a, b| search.merit(b, target).compare(search.merit(a, target)));
+    designs
+}
+
+/// Evaluates rounded designs around `best`.
+fn evaluated(search: &Search<'_>, best: &BestDesign) -> Result<Known, Halt> {
+    let (start, target) = (&best.candidate.point, &best.target);
+    let mut known = Known::new();
+    add(search, start, corners(search, start), &mut known)?;
+    let mut at = best_of(search, &known, target);
+    for _ in 0..MOVES {
+        let Some(current) = at else { break };
+        let mut next = neighbours(search, &known[current].0);
+        next.retain(|factors| known.iter().all(|(other, _)| other != factors));
+        add(search, start, next, &mut known)?;
+        at = best_of(search, &known, target);
+        if at == Some(current) {
+            break;
+        }
+    }
+    Ok(known)
+}
+
+/// Returns the index of the best evaluated point.
+fn best_of(search: &Search<'_>, known: &[(Vec<i64>, Candidate)], target: &Target) -> Option<usize> {
+    best(known.iter().map(|(_, candidate)| search.merit(candidate, target)))
+}
+
+/// Evaluates points of the lattice; variables that are not rounded keep their values in `start`.
+fn add(
+    search: &Search<'_>,
+    start: &SpacePoint,
+    points: Vec<Vec<i64>>,
+    known: &mut Known,
+) -> Result<(), Halt> {
+    let units = evaluation_units(search.judge.samples().map_or(0, |judge| judge.count));
+    search.progress.begin(SearchPart::Round, points.len(), points.len() as u64 * units);
+    let evaluated = points.into_par_iter().map(|factors| {
+        let _task = search.progress.task(units);
+        let mut point = start.clone();
+        for (j, interval) in search.space.intervals().iter().enumerate() {
+            point.shares[j] = interval.share_of_multiple(factors[j]).unwrap_or(point.shares[j]);
+        }
+        Ok((factors, search.evaluate(SearchStage::Rounded, &point, false)?.0))
+    });
+    let evaluated: Known = evaluated.collect::<Result<_, Halt>>()?;
+    known.extend(evaluated);
+    Ok(())
+}
+
+/// Returns the corners of the cell of the lattice around a point.
+fn corners(search: &Search<'_>, start: &SpacePoint) -> Vec<Vec<i64>> {
+    let mut corners: Vec<Vec<i64>> = vec![Vec::new()];
+    let mut both_ways = 0;
+    for (interval, share) in search.space.intervals().iter().zip(&start.shares) {
+        // A variable without a step has a single, meaningless factor.
+        let [below, above] = interval.multiples_around(*share).unwrap_or([0, 0]);
+        let mut factors = vec![below];
+        if above != below && both_ways < BOTH_WAYS {
+            both_ways += 1;
+            factors.push(above);
+        }
+        let mut longer = Vec::new();
+        for corner in corners.iter().map(Vec::as_slice) {
+            longer.extend(factors.iter().map(|factor| [corner, [*factor].as_slice()].concat()));
+        }
+        corners = longer;
+    }
+    corners
+}
+
+/// Returns the points of the lattice with one or two factors changed by one.
+fn neighbours(search: &Search<'_>, at: &[i64]) -> Vec<Vec<i64>> {
+    let ranges: Vec<_> = search.space.intervals().iter().map(Interval::multiples).collect();
+    let rounded: Vec<usize> = (0..at.len()).filter(|&j| ranges[j].is_some()).collect();
+    let mut moves: Vec<Vec<(usize, i64)>> = Vec::new();
+    for (n, &j) in rounded.iter().enumerate() {
+        moves.extend([-1, 1].map(|by| vec![(j, by)]));
+        for &other in rounded.iter().skip(n + 1).filter(|_| rounded.len() <= BOTH_WAYS) {
+            for by in [-1, 1] {
+                moves.extend([-1, 1].map(|further| vec![(j, by), (other, further)]));
+            }
+        }
+    }
+    let mut points = Vec::new();
+    for step in moves {
+        let mut point = at.to_vec();
+        for (j, by) in step {
+            point[j] += by;
+        }
+        let mut ranges = ranges.iter().zip(&point);
+        if ranges.all(|(range, factor)| range.as_ref().is_none_or(|all| all.contains(factor))) {
+            points.push(point);
+        }
+    }
+    points
+}
