@@ -15,6 +15,8 @@ pub enum Status {
     /// The path stopped before its end.
     Stopped(Termination),
     /// Load, depth and tilt have all turned back, and none recovered its maximum.
+    ///
+    /// In bending: the moment of several gaps in series has reached its maximum.
     LimitPoint,
     /// A row of automatic length would need more scales than allowed.
     ///

@@ -3,7 +3,7 @@
 use contact::ContactLaw;
 use geometry::{OutOfRange, Row};
 use membrane::{Membrane, Section, Span};
-use solver::{Continuation, Termination};
+use solver::{Continuation, Settings, Termination};
 
 use super::accuracy::change;
 use super::first_contact::{contact_curvature, first_of_gaps};
@@ -203,7 +203,9 @@ impl<'a> FlexureProblem<'a> {
         let rest = SkinState::at_rest(&strip);
         let alike = matches!(self.row, Arrangement::Even(_));
         let mut steps = vec![strip.steps(&rest.z)];
-        let mut path = Continuation::new(strip, rest, self.common.solver);
+        let solver = self.common.solver;
+        let settings = Settings { max_work: solver.max_work / WORK_PER_UNKNOWN, ..solver };
+        let mut path = Continuation::new(strip, rest, settings);
         let mut record = Record::new(&path, functions);
         let repeats = path.system().repeats;
         let mut locator = PointLocator::new(
@@ -232,6 +234,14 @@ impl<'a> FlexureProblem<'a> {
         let status = match Status::of(&path, stop.unwrap_or(Termination::Reached)) {
             Status::Stopped(stop) if stop.is_numerical() && (flush || locks(&record.path)) => {
                 Status::Locked
+            }
+            Status::Stopped(stop)
+                if stop.is_numerical()
+                    && alike
+                    && self.parameters.method == Method::Chain
+                    && ends_at_largest_moment(&record.path) =>
+            {
+                Status::LimitPoint
             }
             status => status,
         };
@@ -297,6 +307,23 @@ pub(super) const LOCKED: f64 = 100.0;
 
 /// Membrane strain beyond the validity of the small-strain law.
 const BEYOND_LAW: f64 = 1.0;
+
+/// Time for an unknown of a strip over the time for an unknown of a punctured row, rounded.
+///
+/// Each gap solves its membrane, and many tangents of a strip need row exchanges.
+const WORK_PER_UNKNOWN: u64 = 4;
+
+/// Stiffness relative to rest below which the moment has reached a maximum.
+const LEVEL: f64 = 1e-3;
+
+/// Returns true if the moment reaches a maximum at the end of a path.
+///
+/// Beyond the maximum the bending of a strip with several equal gaps localises: one of them bends
+/// further, the others open. The path bifurcates there, so Newton's method fails.
+fn ends_at_largest_moment(path: &[FlexurePoint]) -> bool {
+    let ends = path.first().zip(path.last());
+    ends.is_some_and(|(first, last)| last.stiffness.abs() <= LEVEL * first.stiffness)
+}
 
 /// Returns true if scales lock a strip at the end of its path.
 ///

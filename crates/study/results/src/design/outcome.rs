@@ -41,6 +41,8 @@ pub enum Outcome {
     /// The load reached zero.
     Unloaded,
     /// Load, depth and tilt decreased together and did not recover.
+    ///
+    /// In bending: the moment of several gaps in series reached its maximum.
     LimitPoint,
     /// A needle pushed a scale straight down and tilted none critically.
     Untilted,
@@ -136,7 +138,7 @@ impl Outcome {
                 "the load returned to zero: a needle cannot pull, and the scale has lost contact"
             }
             Self::LimitPoint => {
-                "load, depth and tilt decreased together, and the path ends before any of them recovers"
+                "load, depth and tilt decreased together, and the path ends before any of them recovers; in bending, the moment reached its maximum, beyond which a single gap bends"
             }
             Self::Untilted => "a needle pushes a scale straight down and tilts none critically",
             Self::Bent => "an elastic scale bends by more than 5°, where linear bending ends",
