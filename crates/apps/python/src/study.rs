@@ -157,11 +157,12 @@ pub fn rank(
         columns.into_iter().map(move |column| Criterion::new(&column, goal))
     });
     let criteria: Vec<_> = criteria.collect();
-    let criteria = if criteria.is_empty() { ranking::CRITERIA.to_vec() } else { criteria };
+    let results = results(&folder, ResultsFolder::DESIGNS)?;
+    let criteria =
+        if criteria.is_empty() { Criterion::usual(results.definition()) } else { criteria };
     let weights = weights.map(|of| Weights::new(&of)).transpose().or_failed("rank")?;
     let preferences = Preferences::new(requirements, criteria, weights, ranking::Scale::Paper);
     let preferences = preferences.or_failed("rank")?;
-    let results = results(&folder, ResultsFolder::DESIGNS)?;
     ranking::check_comparable(&results, &preferences).or_failed("rank")?;
     let ranking = Ranking::by(&results, preferences, TetrahedralGrid::default());
     let ranking = ranking.or_failed("rank")?;

@@ -4,8 +4,9 @@ use std::borrow::Cow;
 use std::fmt;
 use std::str::FromStr;
 
-use results::columns::{Goal, name, plain_goal};
+use results::columns::{Goal, ValueColumn, name, plain_goal};
 use serde::{Serialize, Serializer};
+use sweep::{Sweep, key};
 
 /// Criterion: a column to be maximised or minimised.
 ///
@@ -36,6 +37,13 @@ pub static CRITERIA: [Criterion; 4] = [
     Criterion::known("flexural compliance", name::COMPLIANCE, Goal::Maximize),
 ];
 
+/// Parameters that define the units of dimensionless values.
+const UNITS: [&str; 3] = [key::THICKNESS, key::SUBSTRATE_MODULUS, key::MEMBRANE_MODULUS];
+
+fn units_vary(sweep: &Sweep) -> bool {
+    UNITS.iter().any(|key| sweep.grid().axis(key).is_some_and(|axis| axis.len() > 1))
+}
+
 /// Text that is not a criterion.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{found} is not accepted, expected max:COLUMN or min:COLUMN, e.g. max:{}", column(found))]
@@ -53,6 +61,22 @@ fn column(found: &str) -> &str {
 impl Criterion {
     const fn known(name: &'static str, column: &'static str, goal: Goal) -> Self {
         Self { name: Cow::Borrowed(name), column: Cow::Borrowed(column), goal }
+    }
+
+    /// Returns the criteria for a ranking without criteria of its own: those of the paper.
+    ///
+    /// Designs of different thickness or moduli are compared in physical units.
+    pub fn usual(sweep: Option<&Sweep>) -> Vec<Self> {
+        let Some(sweep) = sweep.filter(|sweep| units_vary(sweep)) else { return CRITERIA.to_vec() };
+        let mut criteria = CRITERIA.to_vec();
+        for criterion in &mut criteria {
+            let column = ValueColumn::in_units_of(sweep, &criterion.column);
+            let column = column.and_then(|column| Some((column.name(), column.good()?)));
+            if let Some((name, goal)) = column {
+                *criterion = Self::new(name, goal);
+            }
+        }
+        criteria
     }
 
     /// Creates the criterion to maximise or minimise a column.

@@ -23,12 +23,13 @@ use sweep::{Axis, Measure, Parameter, Role, Sweep, key};
 use crate::design::row::{DesignRow, FailureRow};
 use crate::folder::{MEASURE_TABLES, ResultsFolder};
 use crate::quantity::Quantity;
-use derived_columns::{COLUMNS, ValueColumn};
+use derived_columns::COLUMNS;
 use tilts::{explain_tilt_value, tilt_columns};
 use values::VALUES;
 
 pub use cell::Cell;
 pub use column::{Column, measures_among, number, parameter_of, tells_apart};
+pub use derived_columns::ValueColumn;
 pub use failures::failure_detail_columns;
 pub use measured_value::{Goal, MeasuredValue, Shown};
 pub use path::{
@@ -159,8 +160,9 @@ pub fn design_columns(sweep: &Sweep) -> Vec<Column<DesignRow>> {
 
 /// Returns the columns of one measure table, or of `designs.csv` for `None`.
 ///
-/// Order: number and geometry, leading values, axes that not every sweep has, other values, values
-/// at several tilts, values in physical units.
+/// Order: number, geometry, leading values, axes that not every sweep has, other values, values at
+/// several tilts, values in physical units. In a sweep with a thickness, lengths in mm come before
+/// the geometry, and values in physical units before the dimensionless values that they replace.
 fn columns(sweep: &Sweep, table: Option<&str>) -> Vec<Column<DesignRow>> {
     let leads = |column: &ValueColumn| match table {
         Some(table) => column.name == table,
@@ -170,15 +172,30 @@ fn columns(sweep: &Sweep, table: Option<&str>) -> Vec<Column<DesignRow>> {
     let (physical, values): (Vec<_>, Vec<_>) = standing.partition(|column| column.is_physical());
     let (leading, others): (Vec<_>, Vec<_>) = values.into_iter().partition(|column| leads(column));
     let made = |columns: Vec<&'static ValueColumn>| columns.into_iter().map(ValueColumn::column);
-    let mut columns = geometry_columns();
+    let mut columns = vec![number_column()];
+    if sweep.gives(key::THICKNESS) {
+        let (replaced, leading): (Vec<_>, Vec<_>) =
+            leading.into_iter().partition(|column| column.has_physical_unit());
+        if table.is_none() {
+            columns.extend(columns_in_mm(sweep));
+        }
+        columns.extend(geometry_columns());
+        columns.extend(axis_columns(sweep));
+        columns.extend(made(leading));
+        columns.extend(made(physical));
+        columns.extend(made(replaced));
+        columns.extend(made(others));
+        columns.extend(tilt_columns(sweep, table));
+        if table.is_none() {
+            columns.extend(width_column(sweep));
+        }
+        return columns;
+    }
+    columns.extend(geometry_columns());
     columns.extend(made(leading));
     columns.extend(axis_columns(sweep));
     columns.extend(made(others));
     columns.extend(tilt_columns(sweep, table));
-    // Append the columns of `[material]`, so that the earlier columns keep their positions.
-    if table.is_none() && sweep.gives(key::THICKNESS) {
-        columns.extend(length_columns(sweep));
-    }
     columns.extend(made(physical));
     columns
 }
@@ -190,17 +207,19 @@ pub fn value_columns() -> impl Iterator<Item = Column<DesignRow>> {
 
 /// Returns the columns of `failures.csv`.
 pub fn failure_columns(sweep: &Sweep) -> Vec<Column<FailureRow>> {
-    let mut columns = geometry_columns();
+    let mut columns = vec![number_column()];
+    columns.extend(geometry_columns());
     columns.extend(axis_columns(sweep));
     columns.extend(failure_detail_columns());
     columns
 }
 
-/// Returns the columns of design number and geometry.
-fn geometry_columns<R: Borrow<DesignRow>>() -> Vec<Column<R>> {
-    let mut columns = vec![number(|row: &R| row.borrow().number.to_string().into())];
-    columns.extend(Parameter::with(Role::Geometry).map(parameter_column));
-    columns
+fn number_column<R: Borrow<DesignRow>>() -> Column<R> {
+    number(|row: &R| row.borrow().number.to_string().into())
+}
+
+fn geometry_columns<R: Borrow<DesignRow>>() -> impl Iterator<Item = Column<R>> {
+    Parameter::with(Role::Geometry).map(parameter_column)
 }
 
 /// Returns the columns of the axes of `sweep` that not every grid has.
@@ -209,16 +228,19 @@ fn axis_columns<R: Borrow<DesignRow>>(sweep: &Sweep) -> impl Iterator<Item = Col
     axes.filter(|parameter| !parameter.has(Role::Geometry)).map(parameter_column)
 }
 
-/// Returns the columns of the width and of the lengths in mm, except for axes.
-fn length_columns(sweep: &Sweep) -> impl Iterator<Item = Column<DesignRow>> {
-    let is_axis = |parameter: &&Parameter| sweep.grid().axis(parameter.key).is_some();
-    let width = Parameter::named(key::WIDTH).filter(|width| !is_axis(width)).map(parameter_column);
+/// Returns the columns of lengths in mm, except for axes.
+fn columns_in_mm(sweep: &Sweep) -> impl Iterator<Item = Column<DesignRow>> {
     let lengths = LENGTHS_IN_MM.into_iter().filter_map(Parameter::named);
-    let in_mm = lengths.filter(move |parameter| !is_axis(parameter)).map(|parameter| {
+    lengths.filter(|parameter| sweep.grid().axis(parameter.key).is_none()).map(|parameter| {
         let length = |row: &DesignRow| parameter.millimetres(&row.case).into();
         Column::parameter(parameter, length)
-    });
-    width.into_iter().chain(in_mm)
+    })
+}
+
+/// Returns the column of the width, unless it is an axis.
+fn width_column(sweep: &Sweep) -> Option<Column<DesignRow>> {
+    let width = Parameter::named(key::WIDTH)?;
+    sweep.grid().axis(width.key).is_none().then(|| parameter_column(width))
 }
 
 fn parameter_column<R: Borrow<DesignRow>>(parameter: &'static Parameter) -> Column<R> {

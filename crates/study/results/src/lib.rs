@@ -85,7 +85,7 @@ pub use measure_table::{DesignMeasure, MEASURE_COLUMNS, write_measures};
 pub use path_tables::{PathTable, path_tables, write_path_tables};
 pub use quantity::{Quantity, areal_mass, bending_units, puncture_units};
 pub use reader::table::Table;
-pub use reader::{InvalidResults, Results, words};
+pub use reader::{InvalidResults, Results, definition, words};
 pub use tables::csv_file::{CsvFile, write_rows};
 pub use tables::csv_format::{CsvFormat, UnknownCsvFormat};
 pub use tables::written_table::WrittenTable;

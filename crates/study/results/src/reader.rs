@@ -292,8 +292,12 @@ impl Results {
     }
 }
 
-/// Reads the sweep, if there is a record of the run.
-fn definition(folder: &VerifiedFolder) -> Result<Option<Sweep>, InvalidFolder> {
+/// Reads the sweep of a folder, if there is a record of the run.
+///
+/// # Errors
+///
+/// If the record cannot be read.
+pub fn definition(folder: &VerifiedFolder) -> Result<Option<Sweep>, InvalidFolder> {
     if !folder.holds(ResultsFolder::RUN_INFO) {
         return Ok(None);
     }

@@ -8,12 +8,13 @@ mod report;
 use anyhow::Context as _;
 use clap::Args;
 use ranking::{
-    CRITERIA, Criterion, Goal, InvalidRanking, Preferences, Ranking, Scale, TetrahedralGrid, Unmet,
-    Weights, check_comparable,
+    Criterion, Goal, InvalidRanking, Preferences, Ranking, Scale, TetrahedralGrid, Unmet, Weights,
+    check_comparable,
 };
 use results::columns::name;
 use results::{Results, ResultsFolder};
 use serde_json::json;
+use sweep::Sweep;
 
 use super::options::whole;
 use super::requirement_args::RequirementArgs;
@@ -40,7 +41,8 @@ Examples:
   squama rank sweeps/paper.toml --json
 
 Ranks the designs that meet all requirements and have a value for every criterion. The criteria are those of
-the paper (coverage, critical force, penetration resistance, flexural compliance), those of --criteria, or
+the paper (coverage, critical force, penetration resistance, flexural compliance; in newtons and millimetres if
+designs differ in thickness or moduli), those of --criteria, or
 those of --maximize and --minimize. The fitness of a design is the product of its criteria, each rescaled from
 0 (the worst) to 1 (the best) and raised to the power of its weight; with --scale linear or log it is their
 weighted mean. A criterion is ignored if its weight is 0, or if all designs have the same value but for
@@ -109,9 +111,9 @@ pub struct Arguments {
 
 /// Ranks the designs of a run and writes the ranking.
 pub fn rank(arguments: &Arguments) -> anyhow::Result<u8> {
-    let preferences = preferences(arguments)?;
     let grid: TetrahedralGrid = option("--resolution", &arguments.resolution)?;
     let verified = verified_folder(&arguments.results, arguments.partial.completeness())?;
+    let preferences = preferences(arguments, results::definition(&verified)?.as_ref())?;
     let results = Ranking::results(&verified, &preferences)?;
     // Checked before the ranking: values measured under different parameters cannot be compared.
     check_comparable(&results, &preferences)?;
@@ -173,22 +175,25 @@ fn none_meets(
 }
 
 /// Returns the preferences of the ranking.
-fn preferences(arguments: &Arguments) -> anyhow::Result<Preferences> {
+fn preferences(arguments: &Arguments, sweep: Option<&Sweep>) -> anyhow::Result<Preferences> {
     let requirements = arguments.required.read()?;
     let scale: Scale = option("--scale", &arguments.scale)?;
     let given = arguments.weights.as_ref();
     let weights: Option<Weights> = given.map(|text| option("--weights", text)).transpose()?;
-    let preferences = Preferences::new(requirements, criteria(arguments)?, weights, scale);
+    let preferences = Preferences::new(requirements, criteria(arguments, sweep)?, weights, scale);
     match given {
         Some(text) => preferences.with_context(|| format!("--weights {text}")),
         None => Ok(preferences?),
     }
 }
 
-/// Returns the requested criteria, or the paper's.
+/// Criteria that `--sound` replaces.
+const FORCES: [&str; 2] = [name::CRITICAL_FORCE, "critical_force_N"];
+
+/// Returns the requested criteria, or the usual ones.
 ///
 /// `--sound` replaces the critical force by the valid force.
-fn criteria(arguments: &Arguments) -> anyhow::Result<Vec<Criterion>> {
+fn criteria(arguments: &Arguments, sweep: Option<&Sweep>) -> anyhow::Result<Vec<Criterion>> {
     let goals = [(Goal::Maximize, &arguments.maximize), (Goal::Minimize, &arguments.minimize)];
     let of = |(goal, columns): (Goal, &Vec<String>)| -> Vec<Criterion> {
         columns.iter().map(|column| Criterion::new(column.trim(), goal)).collect()
@@ -199,13 +204,15 @@ fn criteria(arguments: &Arguments) -> anyhow::Result<Vec<Criterion>> {
             let read = |text: &str| option::<Criterion>("--criteria", text);
             criteria.split(',').map(read).collect::<anyhow::Result<_>>()?
         }
-        None if own.is_empty() => CRITERIA.to_vec(),
+        None if own.is_empty() => Criterion::usual(sweep),
         None => own,
     };
     if arguments.sound {
-        let force = criteria.iter_mut().find(|criterion| criterion.column == name::CRITICAL_FORCE);
+        let mut criteria = criteria.iter_mut();
+        let force = criteria.find(|criterion| FORCES.contains(&&*criterion.column));
         let force = force.context("--sound has no effect: critical_force is no criterion")?;
-        *force = Criterion::new(name::SOUND_FORCE, force.goal);
+        let sound = force.column.replace(name::CRITICAL_FORCE, name::SOUND_FORCE);
+        *force = Criterion::new(&sound, force.goal);
     }
     Ok(criteria)
 }

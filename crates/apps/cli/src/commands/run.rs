@@ -220,7 +220,7 @@ fn folded_row(finished: &Finished) -> Option<[String; 2]> {
 }
 
 fn best_rows(finished: &Finished) -> impl Iterator<Item = [String; 2]> {
-    finished.summary.best().map(|best| [best.what.to_owned(), best_text(&best)])
+    finished.summary.best().map(|best| [best.label.to_owned(), best_text(&best)])
 }
 
 /// Formats the best value of a measure, and the best valid one if the surface folds.
@@ -228,21 +228,22 @@ fn best_text(best: &Best) -> String {
     if let Some(parameter) = best.apart {
         return format!("not comparable between designs of different {parameter}");
     }
-    let text = leader_text(&best.leader);
+    let text = leader_text(&best.leader, best.unit);
     match (best.is_folded, &best.unfolded) {
         (false, _) => text,
         (true, None) => format!("{text} {FOLDED} not valid, the surface folds"),
         (true, Some(unfolded)) => {
-            let unfolded = leader_text(unfolded);
+            let unfolded = leader_text(unfolded, best.unit);
             format!("{text} {FOLDED} not valid, the surface folds; without a fold {unfolded}")
         }
     }
 }
 
-fn leader_text(leader: &Leader<DesignNumber>) -> String {
+fn leader_text(leader: &Leader<DesignNumber>, unit: Option<&str>) -> String {
     let ties = match leader.ties {
         0 => String::new(),
         ties => format!(", and {ties} more"),
     };
-    format!("{:.6} (design {}{ties})", leader.value, leader.first)
+    let unit = unit.map_or_else(String::new, |unit| format!(" {unit}"));
+    format!("{:.6}{unit} (design {}{ties})", leader.value, leader.first)
 }

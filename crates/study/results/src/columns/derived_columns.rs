@@ -16,7 +16,8 @@ use crate::design::sample_statistics::{QUANTILES, Statistics};
 use crate::quantity::{MASS_NEEDS, Quantity, areal_mass};
 
 /// A column derived from the entry of a measured value.
-pub(super) struct ValueColumn {
+#[derive(Debug)]
+pub struct ValueColumn {
     pub(super) value: &'static MeasuredValue,
     pub(super) quantity: Option<Quantity>,
     /// Index into [`STATISTICS`], for a statistic over imperfect samples.
@@ -143,6 +144,38 @@ impl MeasuredValue {
 }
 
 impl ValueColumn {
+    /// Returns the column of a nominal value, in physical units if `sweep` defines them.
+    ///
+    /// `None` if the designs of `sweep` do not have the value.
+    pub fn in_units_of(sweep: &Sweep, name: &str) -> Option<&'static Self> {
+        let dimensionless = Self::named(name)?;
+        let of_value = COLUMNS.iter().filter(|column| {
+            std::ptr::eq(column.value, dimensionless.value) && column.statistic.is_none()
+        });
+        let mut standing = of_value.filter(|column| column.stands(sweep, None));
+        standing.clone().find(|column| column.quantity.is_some()).or_else(|| standing.next())
+    }
+
+    /// Returns the header.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Returns the physical unit. `None` if the value is dimensionless.
+    pub fn physical_unit(&self) -> Option<&'static str> {
+        self.quantity.map(Quantity::unit)
+    }
+
+    /// Returns the number in a row, if it has one.
+    pub fn number(&self, row: &DesignRow) -> Option<f64> {
+        self.cell(row).number()
+    }
+
+    /// Returns whether large or small numbers are better. `None` if that is ambiguous.
+    pub fn good(&self) -> Option<Goal> {
+        self.value.good_as(self.quantity)
+    }
+
     /// Returns the column with this name.
     pub(super) fn named(name: &str) -> Option<&'static Self> {
         COLUMNS.iter().find(|column| column.name == name)
@@ -158,6 +191,11 @@ impl ValueColumn {
                 && std::ptr::eq(column.value, self.value)
                 && column.statistic == self.statistic
         })
+    }
+
+    /// Returns true if the value has a column in physical units.
+    pub(super) fn has_physical_unit(&self) -> bool {
+        !self.value.physical.is_empty()
     }
 
     /// Returns true for statistics and counts of imperfect samples.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use results::columns::{MeasuredValue, is_invalid_after_fold, measured_value, name};
+use results::columns::{ValueColumn, is_invalid_after_fold, measure_name, name};
 use results::round_off::Leader;
 use results::{DesignRow, Outcome, incomparable_by};
 use sweep::{DesignNumber, Measure, Sweep};
@@ -25,7 +25,9 @@ pub struct Summary {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Best {
     /// Label of the value.
-    pub what: &'static str,
+    pub label: &'static str,
+    /// Physical unit of the value. `None` without a material.
+    pub unit: Option<&'static str>,
     /// Value, its first design, and the number of ties.
     pub leader: Leader<DesignNumber>,
     /// Parameter that makes the value incomparable between designs, if any.
@@ -39,8 +41,8 @@ pub struct Best {
 /// A measure with its best value so far.
 #[derive(Clone, Copy, Debug)]
 struct Contest {
-    what: &'static str,
-    value: &'static MeasuredValue,
+    label: &'static str,
+    column: &'static ValueColumn,
     best: Option<Leader<DesignNumber>>,
     /// Best value of the designs without a fold.
     unfolded: Option<Leader<DesignNumber>>,
@@ -49,22 +51,32 @@ struct Contest {
     is_invalid_after_fold: bool,
 }
 
-/// Measures of the summary: labels and column names.
+/// Measures of the summary: column names and labels.
 const TOLD: [(&str, &str); 5] = [
-    ("best coverage", name::COVERAGE),
-    ("largest critical force", name::CRITICAL_FORCE),
-    ("least penetration", name::PENETRATION),
-    ("largest compliance", name::COMPLIANCE),
-    ("largest force before a fold", name::SOUND_FORCE),
+    (name::COVERAGE, "best coverage"),
+    (name::CRITICAL_FORCE, "largest critical force"),
+    (name::PENETRATION, "least penetration"),
+    (name::COMPLIANCE, "largest compliance"),
+    (name::SOUND_FORCE, "largest force before a fold"),
 ];
+
+/// Label of the compliance in physical units: its inverse, the rigidity.
+const RIGIDITY: &str = "least flexural rigidity";
 
 impl Summary {
     /// Creates an empty summary of a sweep.
     pub(crate) fn new(sweep: &Sweep) -> Self {
-        let contest = |(what, name)| {
-            let (value, apart) = (measured_value(name)?, incomparable_by(sweep, name));
-            let is_invalid_after_fold = is_invalid_after_fold(name);
-            Some(Contest { what, value, best: None, unfolded: None, apart, is_invalid_after_fold })
+        let contest = |(name, label)| {
+            let column = ValueColumn::in_units_of(sweep, name)?;
+            let is_rigidity = name == name::COMPLIANCE && column.physical_unit().is_some();
+            Some(Contest {
+                label: if is_rigidity { RIGIDITY } else { label },
+                column,
+                best: None,
+                unfolded: None,
+                apart: incomparable_by(sweep, column.name()),
+                is_invalid_after_fold: is_invalid_after_fold(name),
+            })
         };
         Self { contests: TOLD.into_iter().filter_map(contest).collect(), ..Self::default() }
     }
@@ -85,8 +97,8 @@ impl Summary {
         let fold = row.result.puncture.and_then(|puncture| puncture.measures.fold_force);
         self.folded += u64::from(fold.is_some());
         for contest in &mut self.contests {
-            let value = contest.value;
-            let Some((number, goal)) = value.number(&row.result).zip(value.good) else { continue };
+            let column = contest.column;
+            let Some((number, goal)) = column.number(row).zip(column.good()) else { continue };
             Leader::enter(&mut contest.best, row.number, number, goal);
             if fold.is_none() || !contest.is_invalid_after_fold {
                 Leader::enter(&mut contest.unfolded, row.number, number, goal);
@@ -101,13 +113,16 @@ impl Summary {
     /// Returns the best values that exist.
     pub fn best(&self) -> impl Iterator<Item = Best> {
         // Without folds, the force before a fold equals the critical force and would repeat it.
-        let is_told =
-            |contest: &&Contest| contest.value.name != name::SOUND_FORCE || self.folded > 0;
+        let is_told = |contest: &&Contest| {
+            self.folded > 0 || measure_name(contest.column.name()) != name::SOUND_FORCE
+        };
         self.contests.iter().filter(is_told).filter_map(|contest| {
             let (leader, unfolded) = (contest.best?, contest.unfolded);
             let is_folded = unfolded.is_none_or(|unfolded| unfolded.first != leader.first);
             let unfolded = unfolded.filter(|_| is_folded);
-            Some(Best { what: contest.what, leader, apart: contest.apart, is_folded, unfolded })
+            let Contest { label, column, apart, .. } = *contest;
+            let unit = column.physical_unit();
+            Some(Best { label, unit, leader, apart, is_folded, unfolded })
         })
     }
 }
@@ -142,7 +157,7 @@ mod tests {
         let counts = &summary.statuses[&Measure::Puncture];
         assert_eq!((counts["complete"], counts["row limit"]), (2, 1));
         let best: Vec<_> =
-            summary.best().map(|b| (b.what, b.leader.first.to_string(), b.leader.ties)).collect();
+            summary.best().map(|b| (b.label, b.leader.first.to_string(), b.leader.ties)).collect();
         let expected = [
             ("largest critical force", "0001", 1),
             ("least penetration", "0003", 0),

@@ -235,11 +235,19 @@ impl RankReport<'_> {
     }
 }
 
+/// Returns true for a parameter, unless the table has the same length in mm, too.
+fn is_shown_parameter(column: &str, header: &[String]) -> bool {
+    let parameter = parameter_of(column);
+    parameter.is_some_and(|parameter| {
+        !parameter.in_mm().any(|in_mm| header.iter().any(|column| column == in_mm.key))
+    })
+}
+
 /// Returns the displayed columns: number, parameters, criteria and required columns.
 fn shown_columns(results: &Results, preferences: &Preferences) -> Vec<String> {
     let mut columns = vec!["design".to_owned()];
-    columns
-        .extend(results.header().iter().filter(|column| parameter_of(column).is_some()).cloned());
+    let header = results.header();
+    columns.extend(header.iter().filter(|column| is_shown_parameter(column, header)).cloned());
     for column in preferred_columns(preferences) {
         for column in std::iter::once(column).chain(mode_column(column)) {
             if !columns.iter().any(|shown| shown == column) {
