@@ -84,6 +84,60 @@ export default ({ openFile, open, place, results, run, problems }) => {
       for (const one of await page.locator("#live [role=slider], #live input, #live button:visible").all()) assert.ok((await one.evaluate((own) => own.getAttribute("aria-label") ?? own.labels?.[0]?.textContent ?? own.textContent)).length > 0);
       assert.match(await page.locator("#live-set-gap_over_t").getAttribute("aria-valuetext"), /^[\d.]+ mm$/);
       await page.close();
+    }], [`the row lies on the arc of its body, at ${size.width} pixels`, async () => {
+      const page = await explore(size);
+      if (size.width < 1000) await page.locator("#live-sheet").click();
+      const field = page.locator(".control", { hasText: "Body radius" }).locator("input[type=text]");
+      const type = (text) => after(page, async () => { await field.fill(text); await field.press("Enter"); });
+      /** Lowest points of the drawn scales, from left to right, relative to the punctured scale, px. */
+      const bases = (id) => page.evaluate((own) => {
+        const scales = [...document.querySelectorAll(`#${own} .scale:not(.ghost)`)].map((one) => ({ base: one.getAttribute("points").split(" ").slice(0, 2).map((point) => point.split(",").map(Number)), hit: one.classList.contains("punctured") }));
+        const middle = ({ base: [[x, y], [u, v]] }) => [(x + u) / 2, (y + v) / 2], [x, y] = middle(scales.find(({ hit }) => hit));
+        return scales.map(middle).map(([u, v]) => [u - x, y - v]);
+      }, id);
+      const force = async () => (await values(page)).critical_force, forces = {}, sides = {};
+      for (const text of ["flat", "10", "-150"]) {
+        await type(text);
+        assert.equal(await field.getAttribute("aria-invalid"), "false", text);
+        forces[text] = await force();
+        const rest = await bases("live-rest");
+        sides[text] = [rest[0], rest.at(-1)].map(([x, y]) => [Math.abs(x), y]);
+        assert.equal(await page.locator("#live-bent .body").count(), text === "flat" ? 0 : 1);
+        assert.match(await page.locator("#live-command").textContent(), { flat: /body\.curvature_times_t=0$/, 10: /^(?!.*body)/, "-150": /body\.radius_mm=-150$/ }[text]);
+        if (process.env.SHOTS) await page.screenshot({ path: `${process.env.SHOTS}/body-${text}-${size.width}.png`, fullPage: true });
+      }
+      assert.ok(sides.flat.every(([, y]) => Math.abs(y) < 0.2) && sides["10"].every(([, y]) => y < -5) && sides["-150"].every(([, y]) => y > 0.5), JSON.stringify(sides));
+      assert.ok(forces["10"] < forces.flat && forces["-150"] > forces.flat, JSON.stringify(forces));
+      for (const text of ["1", "abc", "0", ""]) {
+        await field.fill(text);
+        await field.press("Enter");
+        assert.equal(await field.getAttribute("aria-invalid"), "true", text);
+      }
+      // Nodes at rest lie on a circle: the drop is x²/(R + √(R² − x²)).
+      await type("20");
+      const [scale, thickness] = await page.evaluate(() => { const [a, b] = [...document.querySelectorAll("#live-rest .scale.punctured")].flatMap((one) => one.getAttribute("points").split(" ").slice(0, 2).map((point) => Number(point.split(",")[0]))); return [(b - a) / squama.live.value("length_over_t"), squama.live.value("thickness_mm")]; });
+      const radius = (scale * 20) / thickness;
+      for (const [x, y] of await bases("live-rest")) if (Math.abs(x) < 0.9 * radius) assert.ok(Math.abs(y + (x * x) / (radius + Math.sqrt(radius * radius - x * x))) < 0.5, `${x} ${y} ${radius}`);
+      const grip = async () => { const { x, y, width, height } = await page.locator("#live-handle-gap .grip").boundingBox(); return [x + width / 2, y + height / 2]; };
+      const [x, y] = await grip();
+      await page.mouse.move(x, y);
+      await page.mouse.down();
+      for (let step = 1; step <= 5; step++) await page.mouse.move(x + 2 * step, y + step);
+      const [right] = await grip();
+      assert.ok(Math.abs(right - x - 10) < 3, `${right - x}`);
+      await page.mouse.up();
+      await settled(page);
+      const address = await page.evaluate(() => location.hash), own = await force();
+      assert.match(address, /live\.radius_mm=20(&|$)/);
+      const other = await explore(size, address);
+      assert.equal((await values(other)).critical_force, own);
+      // The radius in mm stays if the thickness changes, and the slider reaches a flat body.
+      await after(page, () => page.evaluate(() => squama.live.set({ thickness_mm: 0.8 })));
+      assert.equal(await field.inputValue(), "20");
+      await after(page, () => page.evaluate(() => { const slider = document.querySelector("#live-set-radius_mm"); slider.value = 0.0004; slider.dispatchEvent(new Event("input")); }));
+      assert.equal(await field.inputValue(), "flat");
+      assert.equal(await page.locator("#live-set-radius_mm").getAttribute("aria-valuetext"), "flat");
+      for (const one of [page, other]) await one.close();
     }]]),
     async "a guided needle has its own sliders"() {
       const page = await explore(SIZES[0]), friction = page.locator("#live-set-needle_friction");

@@ -71,6 +71,8 @@ struct Control {
     words: Option<[&'static str; 2]>,
     /// The kind of needle to which the parameter applies, if it is restricted.
     only: Option<&'static str>,
+    /// True if range, step and value are curvatures, which the page shows as radii.
+    is_radius: bool,
 }
 
 /// Default control of a parameter: key, label, range, initial fraction of the range, optional.
@@ -78,6 +80,9 @@ struct Control {
 /// The range and initial value apply if the definition has none. An optional parameter has a
 /// control only if the definition gives it.
 type Offered = (&'static str, &'static str, [f64; 2], f64, bool);
+
+/// Largest curvatures of a concave and a convex body with a control, in 1/mm and in 1/t.
+const BODIES: [[f64; 2]; 2] = [[-1.0 / 40.0, 1.0 / 8.0], [-1.0 / 20.0, 1.0 / 4.0]];
 
 /// The controls, with overlapping scales as the initial design.
 const OFFERED: [Offered; 11] = [
@@ -201,7 +206,7 @@ impl Explorer {
             base: Parameter::named("base")
                 .map_or_else(String::new, |parameter| parameter.get(base).to_string()),
             thickness: base.material.thickness_mm,
-            controls: OFFERED.iter().filter_map(|offered| self.control(offered)).collect(),
+            controls: self.controls(),
             measures: measures(self.sweep.grid().case(0).judged_modes().is_some()),
             requirements: &self.requirements,
         };
@@ -209,6 +214,49 @@ impl Explorer {
             "module" => out.write_all(in_sevens(MODULE).as_bytes()),
             "worker" => out.write_all(WORKER.as_bytes()),
             _ => fill_json(out, &data),
+        })
+    }
+
+    /// Creates the controls of the page.
+    fn controls(&self) -> Vec<Control> {
+        let offered = OFFERED.iter().filter_map(|offered| self.control(offered));
+        offered.chain(self.body_control()).collect()
+    }
+
+    /// Creates the control of the body: its curvature, because a flat body has no radius.
+    ///
+    /// The range contains the bodies of the definition.
+    fn body_control(&self) -> Option<Control> {
+        let grid = self.sweep.grid();
+        let case = grid.case(0);
+        let keys = [key::CURVATURE, key::RADIUS_MM, key::RADIUS];
+        let axis = keys.into_iter().find_map(|key| grid.axis(key));
+        let in_mm = case.material.thickness_mm.map(|_| key::RADIUS_MM);
+        let key = axis.map_or(in_mm.unwrap_or(key::RADIUS), |axis| axis.parameter().key);
+        let is_in_mm = key == key::RADIUS_MM;
+        // A radius in mm is kept, because the division by the thickness rounds it.
+        let given = Parameter::named(key)?.get(&case).number();
+        let value = match (given, case.material.thickness_mm) {
+            (Some(number), _) => curvature(key, number),
+            (None, Some(thickness)) if is_in_mm => case.body().curvature / thickness,
+            (None, _) => case.body().curvature,
+        };
+        let [mut min, mut max] = BODIES[usize::from(!is_in_mm)];
+        let ends = axis.and_then(span).map(|ends| ends.map(|end| curvature(key, end)));
+        for own in ends.into_iter().flatten().chain([value]) {
+            (min, max) = (min.min(own), max.max(own));
+        }
+        Some(Control {
+            key,
+            label: "Body radius",
+            unit: if is_in_mm { "mm" } else { "t" },
+            min,
+            max,
+            step: (max - min) / 100.0,
+            value: value.into(),
+            words: None,
+            only: None,
+            is_radius: true,
         })
     }
 
@@ -245,8 +293,13 @@ impl Explorer {
             _ => (None, number.into()),
         };
         let (unit, step) = (parameter.unit, (max - min) / 100.0);
-        Some(Control { key, label, unit, min, max, step, value, words, only })
+        Some(Control { key, label, unit, min, max, step, value, words, only, is_radius: false })
     }
+}
+
+/// Returns the curvature of a body with this value of the parameter `key`, a curvature or a radius.
+fn curvature(key: &str, value: f64) -> f64 {
+    if key == key::CURVATURE { value } else { value.recip() }
 }
 
 /// Returns the ends of an axis with several numeric values.

@@ -27,6 +27,8 @@ pub struct PuncturedRow {
     /// `u*` and `F*` of the drawn state.
     pub at: Option<[f64; 2]>,
     /// Number, displacement and rotation (counter-clockwise) of every scale in the drawn state.
+    ///
+    /// Displacements are in the tangent frames of the body.
     pub scales: Vec<[f64; 4]>,
     /// Closed contacts of the drawn state, with the origin at the punctured scale at rest.
     pub contacts: Vec<PlacedContact>,
@@ -111,10 +113,10 @@ fn scales(state: &RowSnapshot) -> impl Iterator<Item = [f64; 4]> {
 /// The solver measures from its first scale.
 fn contacts(case: &Case, state: &RowSnapshot) -> Vec<PlacedContact> {
     let first = state.scales.first().map_or(0.0, |scale| scale.scale as f64);
-    let pitch = case.design.row().map_or(0.0, |row| row.pitch());
+    let frame = case.body().frame(first * case.pitch());
     let placed = |contact: &Contact| {
-        let point = [contact.point[0] + first * pitch, contact.point[1]].map(rounded);
-        (point[0], point[1], contact.slips)
+        let point = frame.origin + frame.outward(contact.point.into());
+        (rounded(point.x), rounded(point.y), contact.slips)
     };
     state.contacts.iter().map(placed).collect()
 }

@@ -174,3 +174,88 @@ fn slopes_report_the_improving_direction() {
     assert_eq!(better("coverage", "gap_over_t"), Some(-1));
     assert_eq!(better("contact_curvature", "gap_over_t"), Some(1));
 }
+
+/// Solves a design of slant 60° and gap 0.2 with a further parameter, and returns its force and its
+/// last setting.
+fn on_body(definition: &str, key: &str, value: f64) -> (f64, String) {
+    let mut set = json!({ "slant_deg": 60, "gap_over_t": 0.2 });
+    set[key] = json!(value);
+    let answer = ask(&json!({ "definition": definition, "set": set }));
+    // The definition of this design alone has the same body.
+    let again = ask(&json!({ "definition": answer["toml"] }));
+    assert_eq!(number(&again, "critical_force"), number(&answer, "critical_force"));
+    let settings = answer["settings"].as_array().expect("settings");
+    let last = settings.last().and_then(Value::as_str).unwrap_or_default();
+    (number(&answer, "critical_force"), last.to_owned())
+}
+
+/// A slider sets a radius, or a curvature of 0 for a flat body, whatever the definition gives.
+#[test]
+fn a_set_body_replaces_the_body_of_the_definition() {
+    let (flat, _) = on_body(DEFINITION, "thickness_mm", 2.0);
+    let (finger, _) =
+        on_body(&format!("{DEFINITION}\n[body]\nradius_mm = 10"), "thickness_mm", 2.0);
+    assert!(finger < 0.5 * flat, "{finger} {flat}");
+    let bodies = ["radius_mm = 45", "radius_over_t = 16", "curvature_times_t = -0.01"];
+    let mut definitions = bodies.map(|body| format!("{DEFINITION}\n[body]\n{body}")).to_vec();
+    definitions.push(DEFINITION.replace("[designs]", "[designs]\nradius_mm = [20, 30]"));
+    definitions.push(DEFINITION.to_owned());
+    for definition in definitions {
+        let (force, setting) = on_body(&definition, "radius_mm", 10.0);
+        assert_eq!(force, finger, "{definition}");
+        assert!(setting.contains("radius_mm=10"), "{definition}");
+        let (force, setting) = on_body(&definition, "curvature_times_t", 0.0);
+        assert_eq!(force, flat, "{definition}");
+        let is_set = setting == "--set body.curvature_times_t=0";
+        assert_eq!(is_set, definition != DEFINITION, "{definition}");
+    }
+    // A radius in mm stays if the thickness changes.
+    let in_mm = format!("{DEFINITION}\n[body]\nradius_mm = 10");
+    let over_t = format!("{DEFINITION}\n[body]\nradius_over_t = 10");
+    assert_eq!(on_body(&in_mm, "thickness_mm", 1.0).0, on_body(&over_t, "thickness_mm", 2.0).0);
+}
+
+/// Returns the numbers of a list.
+fn numbers(value: &Value) -> Vec<f64> {
+    value.as_array().expect("numbers").iter().filter_map(Value::as_f64).collect()
+}
+
+/// Rotates a vector counter-clockwise and adds it to an origin.
+fn placed([x, y]: [f64; 2], [u, v]: [f64; 2], angle: f64) -> [f64; 2] {
+    let (sin, cos) = angle.sin_cos();
+    [x + u * cos - v * sin, y + u * sin + v * cos]
+}
+
+/// Contacts are drawn at a corner of a scale in its place on the body.
+#[test]
+fn contacts_on_a_body_are_drawn_at_corners_of_its_scales() {
+    for curvature in [0.0, 0.1, -0.02] {
+        let set = json!({ "slant_deg": 60, "gap_over_t": 0.1, "curvature_times_t": curvature });
+        let answer = ask(&json!({ "definition": DEFINITION, "set": set, "drawn": [1.0, 0.0] }));
+        let row = &answer["puncture"];
+        let mut corners = Vec::new();
+        for scale in row["scales"].as_array().expect("scales") {
+            let [i, x, y, turn] = numbers(scale)[..] else { panic!("a scale") };
+            // Scales are half as long as they are thick.
+            let (arc, shift) = (0.6 * i, 60.0_f64.to_radians().tan());
+            let angle = arc * curvature;
+            let node = if curvature == 0.0 {
+                [arc, 0.0]
+            } else {
+                [angle.sin() / curvature, (angle.cos() - 1.0) / curvature]
+            };
+            for corner in [[-0.25, 0.0], [0.25, 0.0], [shift - 0.25, 1.0], [shift + 0.25, 1.0]] {
+                let local = placed([x, y], corner, turn.to_radians());
+                corners.push(placed(node, local, -angle));
+            }
+        }
+        let contacts = row["contacts"].as_array().expect("contacts");
+        assert!(!contacts.is_empty(), "{curvature}");
+        for contact in contacts {
+            let [x, y] = numbers(contact)[..2] else { panic!("a contact") };
+            let distances = corners.iter().map(|[u, v]| (u - x).hypot(v - y));
+            let nearest = distances.fold(f64::INFINITY, f64::min);
+            assert!(nearest < 0.02, "{curvature}: ({x}, {y}) is {nearest} from a corner");
+        }
+    }
+}

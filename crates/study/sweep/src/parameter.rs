@@ -284,9 +284,13 @@ impl Parameter {
 
     /// Returns `case` with this parameter alone changed.
     ///
-    /// Lengths in mm are updated to agree.
+    /// Lengths in mm are updated to agree. A number that is given instead of this parameter is
+    /// removed.
     pub fn replace(&self, case: &Case, value: Scalar) -> Case {
         let mut changed = *case;
+        for instead in self.others_in(case).filter(|other| other.replaces(self)) {
+            instead.assign(&mut changed, Scalar::Word(NOT_GIVEN));
+        }
         self.assign(&mut changed, value);
         length::keep_in_step(&mut changed, self);
         changed

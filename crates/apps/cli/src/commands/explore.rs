@@ -24,12 +24,13 @@ use crate::print::{note, print};
 #[command(after_help = "\
 Examples:
   squama explore sweeps/glove.toml
-  squama explore sweeps/glove.toml --require 'coverage >= 0.6' --require 'failure_force_N >= 1.2'
+  squama explore sweeps/glove.toml --require 'coverage >= 0.4' --require 'failure_force_N >= 0.5'
   squama explore sweeps/goals/strong-and-covered.toml --out goal.html --no-open
 
 Drag a scale or a slider, and the page solves the design. It is one file that contains the solver; it needs
-no network and no server. Sliders range from the smallest to the largest value in the definition. The
-requirements come from [goal], if there is one, and from --require.")]
+no network and no server. Sliders range from the smallest to the largest value in the definition; the one of
+the body ranges from a concave over a flat to a convex body. The requirements come from [goal], if there is
+one, and from --require.")]
 pub struct Arguments {
     #[command(flatten)]
     pub definition: Definition,

@@ -10,44 +10,60 @@
     return element("div", { class: "control" }, element("label", { for: `live-set-${control.key}` }, control.label), chosen);
   };
 
+  /** Parses a radius or "flat", and returns the curvature; null if it is invalid or out of range. */
+  const typedRadius = (control, text) => {
+    const plain = text.trim().toLowerCase(), radius = Number(plain.replace(",", ".").replace("−", "-").replace(/\s*(mm|t)$/, "")) / live.shownAs(control)[0];
+    const curvature = plain === "flat" ? 0 : 1 / radius, slack = 1e-9 * (control.max - control.min);
+    return plain !== "" && curvature >= control.min - slack && curvature <= control.max + slack ? curvature : null;
+  };
+  /** Describes the accepted values of a control. */
+  const accepted = (control) => {
+    const [factor, unit] = live.shownAs(control), { min, max } = control;
+    if (!control.is_radius) return `a number from ${live.digits(min * factor)} to ${live.digits(max * factor)} ${unit}`;
+    return `"flat", a radius of at least ${live.digits(factor / max)} ${unit}, or of at most ${live.digits(factor / min)} ${unit} for a concave body`;
+  };
   /** Parses a number with a decimal point or comma; null if it is invalid or out of range. */
   const typed = (control, text) => {
+    if (control.is_radius) return typedRadius(control, text);
     const number = Number(text.trim().replace(",", ".").replace(/\s*(mm|MPa|t|°)$/, "")) / live.shownAs(control)[0];
     const slack = 1e-9 * (control.max - control.min);
     return text.trim() !== "" && number >= control.min - slack && number <= control.max + slack ? number : null;
   };
 
+  /** Returns the value of a slider; a nearly flat body becomes flat. */
+  const snapped = ({ is_radius, step }, value) => (is_radius && Math.abs(value) < 0.99 * step ? 0 : value);
+
   const slider = (control) => {
     const range = element("input", { type: "range", id: `live-set-${control.key}`, min: control.min, max: control.max, step: control.step,
-      oninput: () => live.set({ [control.key]: Number(range.value) }) });
+      oninput: () => live.set({ [control.key]: snapped(control, Number(range.value)) }) });
     const field = element("input", { type: "text", inputmode: "decimal", "aria-label": `${control.label}, type a value`,
       onchange: () => {
         const number = typed(control, field.value);
         field.setAttribute("aria-invalid", String(number === null));
-        const [factor, unit] = live.shownAs(control);
-        field.title = number === null ? `a number from ${live.digits(control.min * factor)} to ${live.digits(control.max * factor)} ${unit}` : "";
+        field.title = number === null ? accepted(control) : "";
         if (number !== null) live.set({ [control.key]: number });
       } });
     const unit = element("span", { class: "unit" });
-    control.arrow = element("button", { type: "button", class: "arrow", onclick: () => live.follow(control.key, control.better > 0) });
+    // The body is given, and no arrow changes it.
+    control.arrow = control.is_radius ? null : element("button", { type: "button", class: "arrow", onclick: () => live.follow(control.key, control.better > 0) });
     control.show = () => {
       const [factor, name] = live.shownAs(control);
       // Any step, because a fixed one would round values that were typed or dragged.
       Object.assign(range, { min: control.min, max: control.max, step: "any", value: control.value });
       range.setAttribute("aria-valuetext", live.text(control.key));
       if (document.activeElement !== field || field.getAttribute("aria-invalid") !== "true") {
-        field.value = live.digits(control.value * factor);
+        field.value = control.is_radius ? (control.value === 0 ? "flat" : live.digits(factor / control.value)) : live.digits(control.value * factor);
         field.setAttribute("aria-invalid", "false");
       }
-      unit.textContent = name;
+      unit.textContent = control.is_radius && control.value === 0 ? "" : name;
     };
     range.addEventListener("keydown", (event) => {
       const step = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: 10, PageDown: -10 }[event.key];
       if (!step) return;
       event.preventDefault();
-      live.set({ [control.key]: control.value + step * control.step });
+      live.set({ [control.key]: snapped(control, control.value + step * control.step) });
     });
-    return element("div", { class: "control" }, element("label", { for: range.id }, control.label), range, field, unit, control.arrow);
+    return element("div", { class: "control" }, element("label", { for: range.id }, control.label), range, field, unit, ...(control.arrow ? [control.arrow] : []));
   };
 
   const showArrow = (control) => {

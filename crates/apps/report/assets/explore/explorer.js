@@ -28,7 +28,8 @@
 
   /** Opens a design by keys and values of its parameters; others keep their initial values. */
   squama.take = (pairs) => {
-    const known = pairs.filter(([key, value]) => value !== null && live.control(key));
+    const given = pairs.filter(([key, value]) => value !== null && live.control(key));
+    const known = given.map(([key, value]) => [key, live.inside(live.control(key), value)]);
     // Values of a search may exceed the range of the sweep.
     for (const [control, value] of known.map(([key, own]) => [live.control(key), own])) Object.assign(control, { min: Math.min(control.min, value), max: Math.max(control.max, value) });
     live.set({ ...live.opened, ...Object.fromEntries(known) });

@@ -8,16 +8,24 @@
   /** Computes half-base, gap, shift of the top, and pitch, over the thickness. */
   const form = (values) => {
     const half = values.length_over_t / (live.data.base === "2L" ? 1 : 2), gap = values.gap_over_t;
-    return { half, gap, shift: Math.tan(radians(values.slant_deg)), pitch: 2 * half + gap };
+    return { half, gap, shift: Math.tan(radians(values.slant_deg)), pitch: 2 * half + gap, curvature: live.curvature(values) };
   };
-  const now = () => form({ length_over_t: live.value("length_over_t"), gap_over_t: live.value("gap_over_t"), slant_deg: live.value("slant_deg") });
+  const now = () => form(live.values());
+  /** Computes the tangent frame of the body at an arc length: origin, cosine and sine of its clockwise rotation. */
+  const frame = (curvature, arc) => {
+    const angle = arc * curvature, [cos, sin] = [Math.cos(angle), Math.sin(angle)];
+    return { x: curvature ? sin / curvature : arc, y: curvature ? (cos - 1) / curvature : 0, cos, sin };
+  };
+  // Scales farther round the body face away from the load and are not solved.
+  const farthest = ({ curvature }) => radians(80) / Math.abs(curvature);
 
   const place = (view, [x, y]) => [view.left + view.scale * x, view.base - view.scale * y];
   const points = (view, line) => line.map((point) => place(view, point).map((c) => c.toFixed(1)).join(",")).join(" ");
-  /** Computes the outline of a scale at a pose: node position and rotation. */
-  const outline = ({ half, shift }, [x, y, turn]) => {
+  /** Computes the outline of a scale at a pose in a frame: node position and rotation. */
+  const outline = ({ half, shift }, [x, y, turn], at = frame(0, 0)) => {
     const [cos, sin] = [Math.cos(turn), Math.sin(turn)];
-    return [[-half, 0], [half, 0], [half + shift, 1], [-half + shift, 1]].map(([u, v]) => [x + u * cos - v * sin, y + u * sin + v * cos]);
+    const local = [[-half, 0], [half, 0], [half + shift, 1], [-half + shift, 1]].map(([u, v]) => [x + u * cos - v * sin, y + u * sin + v * cos]);
+    return local.map(([u, v]) => [at.x + at.cos * u + at.sin * v, at.y + at.cos * v - at.sin * u]);
   };
   const box = (id) => {
     const { width, height } = at(id).getBoundingClientRect();
@@ -29,9 +37,17 @@
     const known = contacts.filter(([, , slips]) => slips !== null), slipping = known.filter(([, , slips]) => slips).length;
     at(id).textContent = known.length > 0 ? `Where scales touch: ● ${known.length - slipping} stick, ○ ${slipping} slip` : "";
   };
-  const soil = (view, { width, height }) => svg("rect", { x: 0, y: view.base, width, height: Math.max(0, height - view.base), fill: "var(--soil)" });
+  /** Lists points of the surface of the body up to an arc length on both sides. */
+  const surface = (own, most) => {
+    const far = Math.min(most, farthest(own));
+    return Array.from({ length: 81 }, (_, k) => frame(own.curvature, ((k - 40) / 40) * far)).map(({ x, y }) => [x, y]);
+  };
+  const soil = (view, own, { width, height }) => {
+    const line = surface(own, (2 * width) / view.scale), low = (view.base - height) / view.scale - 1;
+    return svg("polygon", { points: points(view, [...line, [line.at(-1)[0], low], [line[0][0], low]]), fill: "var(--soil)" });
+  };
   const row = (view, own, poses, kind) => poses.map(({ number, pose }) =>
-    svg("polygon", { points: points(view, outline(own, pose)), class: `scale ${kind ?? (number === 0 ? "punctured" : "")}` }));
+    svg("polygon", { points: points(view, outline(own, pose, frame(own.curvature, number * own.pitch))), class: `scale ${kind ?? (number === 0 ? "punctured" : "")}` }));
   const dots = (view, contacts) => contacts.map((contact) => {
     const [x, y, slips] = contact;
     const [cx, cy] = place(view, [x, y]);
@@ -39,22 +55,31 @@
   });
   /** Lists the scales within a drawing of this width; those not in `moved` are at rest. */
   const poses = (own, view, width, moved = new Map()) => {
-    const [first, last] = [-view.left / view.scale - own.half - own.shift, (width - view.left) / view.scale + own.half].map((x) => x / own.pitch);
+    const ends = [-view.left / view.scale - own.half - own.shift, (width - view.left) / view.scale + own.half];
+    // An arc is at most 1.5 times as long as its chord.
+    const [first, last] = ends.map((x) => Math.max(-farthest(own), Math.min(farthest(own), own.curvature ? 1.5 * x : x)) / own.pitch);
     return Array.from({ length: Math.min(400, Math.floor(last) - Math.ceil(first) + 1) }, (_, k) => k + Math.ceil(first)).map((number) => {
       const [x, y, turn] = moved.get(number) ?? [0, 0, 0];
-      return { number, pose: [number * own.pitch + x, y, radians(turn)] };
+      return { number, pose: [x, y, radians(turn)] };
     });
   };
   /** Fits a row of about five scales into the available space. */
   const fitted = (own, { width, height }, most) => {
-    const scale = Math.min(width / Math.max(3.4, 4.5 * own.pitch + own.shift), height / 1.9, most);
-    return { scale, left: width / 2 - scale * own.shift / 2, base: 0.72 * height };
+    const wide = Math.min(width / Math.max(3.4, 4.5 * own.pitch + own.shift), height / 1.9, most);
+    // A body falls or rises from the punctured scale to the sides of the drawing.
+    const drop = Math.max(-1, Math.min(1, frame(own.curvature, Math.min(width / 2 / wide, farthest(own))).y)), high = 1.9 + Math.abs(drop);
+    const scale = Math.min(wide, height / high);
+    return { scale, left: width / 2 - scale * own.shift / 2, base: (height * (1.368 + Math.max(0, drop))) / high };
   };
 
   /** Lists the handles: position, and a function from a dragged position to parameters. */
   const handles = (own, scale) => {
     // Far enough from the first handle for touch input.
-    const far = Math.max(1, Math.ceil(130 / (scale * own.pitch)));
+    const far = Math.max(1, Math.ceil(130 / (scale * own.pitch))), { curvature } = own;
+    const [corner] = outline(own, [0, 0, 0], frame(curvature, far * own.pitch));
+    // Arc lengths from the node of a scale to its corner, and from the punctured scale to a point.
+    const toCorner = (half) => (curvature ? Math.atan(curvature * half) / curvature : half);
+    const toPoint = ([x, y]) => (curvature ? Math.atan2(curvature * x, 1 + curvature * y) / curvature : x);
     return [
       // The drawn base stays and the corner follows the pointer, which changes the thickness on
       // paper. Lengths over the thickness change accordingly.
@@ -62,8 +87,8 @@
         drag: ([x, y], _, { length, half }) => ({ length_over_t: length / Math.max(0.02, y), slant_deg: Math.atan2(Math.max(0, x - half), Math.max(0.02, y)) / radians(1) }) },
       { id: "length", key: "length_over_t", spot: [-own.half, 0],
         drag: ([x]) => ({ length_over_t: Math.max(0, -x) * (live.data.base === "2L" ? 1 : 2) }) },
-      { id: "gap", key: "gap_over_t", spot: [far * own.pitch - own.half, 0],
-        drag: ([x], { half }) => ({ gap_over_t: (x + half) / far - 2 * half }) },
+      { id: "gap", key: "gap_over_t", spot: corner,
+        drag: (point, { half }) => ({ gap_over_t: (toPoint(point) + toCorner(half)) / far - 2 * half }) },
     ];
   };
   const handle = (view, width, { id, key, spot, above, drag }) => {
@@ -89,7 +114,7 @@
     const own = now(), size = box("live-rest"), view = { ...(grabbed?.view ?? fitted(own, size, 170)) };
     if (grabbed?.id === "slant") view.scale = Math.min(view.scale * grabbed.half / own.half, 0.7 * size.height);
     const pinned = live.pinned ? row(view, form(live.pinned.values), poses(form(live.pinned.values), view, size.width), "ghost") : [];
-    at("live-rest").replaceChildren(soil(view, size), ...row(view, own, poses(own, view, size.width)), ...pinned, ...handles(own, view.scale).map((one) => handle(view, size.width, one)));
+    at("live-rest").replaceChildren(soil(view, own, size), ...row(view, own, poses(own, view, size.width)), ...pinned, ...handles(own, view.scale).map((one) => handle(view, size.width, one)));
   };
 
   const needle = () => {
@@ -100,7 +125,7 @@
     // A guided tip moves straight down; a free load follows its point on the scale.
     const [x, y] = place(view, puncture?.tip ?? [0, 1].map((k) => left[k] + share * (right[k] - left[k])));
     const round = view.scale * (puncture?.tip?.[2] ?? 0), shaft = Math.max(round, 5), nose = round || 16;
-    at("live-needle").replaceChildren(soil(view, size), ...row(view, own, poses(own, view, size.width), "ghost"), ...row(view, own, stands), ...dots(view, puncture?.contacts ?? []),
+    at("live-needle").replaceChildren(soil(view, own, size), ...row(view, own, poses(own, view, size.width), "ghost"), ...row(view, own, stands), ...dots(view, puncture?.contacts ?? []),
       svg("path", { d: `M${x} ${y} ${round ? `a${round} ${round} 0 0 1` : "l"}${-shaft} ${-nose} V0 h${2 * shaft} V${y - nose} ${round ? `a${round} ${round} 0 0 1 ${-round} ${round}` : ""} z`, class: round ? "needle round" : "needle" }));
     const [depth, force] = puncture?.at ?? [0, 0];
     const text = units?.force ? `${live.digits(force * units.force, 3)} N` : `F* = ${live.digits(force, 3)}`;
@@ -120,11 +145,13 @@
     const view = { scale, left: size.width / 2 - (scale * (low[0] + high[0])) / 2, base: size.height / 2 + (scale * (low[1] + high[1])) / 2 };
     const outlined = outlines.map((line) => `M${points(view, line)}Z`).join(" ");
     const axes = (flexure?.membrane ?? []).map((line) => `M${points(view, line)}`).join(" ");
-    at("live-bent").replaceChildren(svg("path", { d: axes, class: "membrane" }), svg("path", { d: outlined, class: "scale" }), ...dots(view, flexure?.contacts ?? []));
+    const body = own.curvature ? [svg("polyline", { points: points(view, surface(own, high[0] - low[0])), class: "body" }, svg("title", {}, "The body"))] : [];
+    at("live-bent").replaceChildren(...body, svg("path", { d: axes, class: "membrane" }), svg("path", { d: outlined, class: "scale" }), ...dots(view, flexure?.contacts ?? []));
     const [curvature] = flexure?.at ?? [0];
     const radius = curvature ? Math.abs(1 / curvature) * (units?.length ?? 1) : null;
     stuck("live-bent-stuck", flexure?.contacts ?? []);
-    at("live-bent-words").textContent = live.solving() ?? (radius ? `to a radius of ${live.digits(radius, 3)} ${units?.length ? "mm" : "t"}` : "at rest");
+    const worn = own.curvature ? " (dashed: the body)" : "";
+    at("live-bent-words").textContent = live.solving() ?? (radius ? `to a radius of ${live.digits(radius, 3)} ${units?.length ? "mm" : "t"}` : "at rest") + worn;
   };
 
   addEventListener("pointermove", (event) => {

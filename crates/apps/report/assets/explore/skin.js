@@ -19,6 +19,7 @@ squama.live = (() => {
   live.controls = () => [...controls.values()].filter(({ only }) => !only || live.guided() === (only === "guided"));
   live.control = (key) => controls.get(key);
   live.value = (key) => controls.get(key).value;
+  live.values = () => Object.fromEntries([...controls.values()].map(({ key, value }) => [key, value]));
 
   live.digits = (number, count = 4) => (number === null || number === undefined ? "–" : String(Number(number.toPrecision(count))));
   /** Returns the thickness in mm, the unit of lengths over t, if it is known. */
@@ -32,25 +33,48 @@ squama.live = (() => {
   live.text = (key) => {
     const control = controls.get(key), [factor, unit] = live.shownAs(control);
     if (control.words) return control.value;
+    if (control.is_radius) return control.value === 0 ? "flat" : `${control.value < 0 ? "concave" : "convex"}, ${live.digits(Math.abs(factor / control.value), 3)} ${unit}`;
     return `${live.digits(control.value * factor, 3)}${unit === "°" ? "" : " "}${unit}`.trim();
   };
 
   /** Returns the requirements: of the page of a run, otherwise of the definition. */
   live.required = () => squama.required?.().filter(({ sign }) => sign !== "~").map(squama.ranking.written) ?? data.requirements;
 
+  // The control of a radius holds a curvature, because its range contains a flat body.
+  const holdsCurvature = ({ is_radius, key }) => is_radius && key !== "curvature_times_t";
+  const isFlat = (control) => control.is_radius && control.value === 0;
+  /** Returns the value of a parameter for the value that its control holds. */
+  const outside = (control, value) => {
+    if (!holdsCurvature(control)) return value;
+    return value === 0 ? "flat" : Number((1 / value).toPrecision(6));
+  };
+  /** Returns the value that a control holds for the value of its parameter. */
+  const inside = (control, value) => {
+    if (!holdsCurvature(control)) return value;
+    return value === "flat" ? 0 : 1 / value;
+  };
+  live.inside = inside;
+  /** Returns the curvature of the body in 1/t. */
+  live.curvature = (values) => {
+    const { key, unit } = [...controls.values()].find(({ is_radius }) => is_radius);
+    return values[key] * (unit === "mm" ? values.thickness_mm ?? data.thickness : 1);
+  };
+
   const request = () => ({
     definition: data.definition, require: live.required(), drawn: live.drawn,
-    set: Object.fromEntries(live.controls().map(({ key, value }) => [key, value])),
+    set: Object.fromEntries(live.controls().map((control) => (isFlat(control) ? ["curvature_times_t", 0] : [control.key, outside(control, control.value)]))),
   });
   live.solve = () => squama.solver.solve(request());
 
   // Rounded to six digits, as in the address.
-  const clamped = ({ words, min, max }, value) => {
+  const clamped = (control, value) => {
+    const { words, min, max } = control;
     if (words) return words.includes(value) ? value : words[0];
+    if (control.is_radius) return inside(control, outside(control, Math.min(max, Math.max(min, value))));
     return Number(Math.min(max, Math.max(min, value)).toPrecision(6));
   };
   for (const control of controls.values()) control.value = clamped(control, control.value);
-  live.opened = Object.fromEntries([...controls.values()].map(({ key, value }) => [key, value]));
+  live.opened = live.values();
   // Duration of an animated change to a limit, ms: slow enough to follow.
   const WALK = 1200;
   let walking = null;
@@ -79,7 +103,7 @@ squama.live = (() => {
     squama.solver.follow(request(), { key, to: up ? max : min, measure: live.chosen });
   };
   live.pin = () => {
-    live.pinned = live.pinned ? null : { answer: live.answer, values: Object.fromEntries(live.controls().map(({ key, value }) => [key, value])) };
+    live.pinned = live.pinned ? null : { answer: live.answer, values: live.values() };
     tell("moved");
     tell("answered");
   };
@@ -105,12 +129,14 @@ squama.live = (() => {
 
   const KEY = "live.";
   /** Formats the parameters for the address. */
-  live.written = () => (live.moved ? [...controls.values()].map(({ key, value }) => `${KEY}${key}=${value}`).join("&") : "");
+  live.written = () => (live.moved ? [...controls.values()].map((control) => `${KEY}${control.key}=${outside(control, control.value)}`).join("&") : "");
   live.read = (text) => {
     const parts = new URLSearchParams(text);
     for (const control of controls.values()) {
       const value = parts.get(KEY + control.key);
-      if (value !== null && (control.words || (value !== "" && Number.isFinite(Number(value))))) control.value = clamped(control, control.words ? value : Number(value));
+      if (value === null || value === "") continue;
+      const number = inside(control, value === "flat" ? value : Number(value));
+      if (control.words || Number.isFinite(number)) control.value = clamped(control, control.words ? value : number);
     }
   };
   live.remember = () => {

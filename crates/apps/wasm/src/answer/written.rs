@@ -16,7 +16,7 @@ pub(crate) fn settings(sweep: &Sweep, base: &Case, case: &Case) -> Vec<String> {
         words.extend(parameter.map(|parameter| format!("{option} {}", parameter.get(case))));
     }
     let axes = sweep.grid().axes().iter().map(Axis::parameter);
-    let axes = axes.filter(|one| !by_option.contains(&Some(one)));
+    let axes = axes.filter(|one| !by_option.contains(&Some(one)) && one.is_given(case));
     words.extend(axes.map(|axis| format!("--set designs.{}={}", axis.key, axis.get(case))));
     words.extend(others(sweep, base, case).map(|setting| format!("--set {setting}")));
     words
@@ -43,7 +43,8 @@ fn others(sweep: &Sweep, base: &Case, case: &Case) -> impl Iterator<Item = Strin
     let differs = |one: &&Parameter| {
         let is_axis =
             sweep.grid().axis(one.key).is_some() || OPTIONS.iter().any(|(key, _)| one.key == *key);
-        !is_axis && !one.follows(case) && one.get(case) != one.get(base)
+        let is_changed = one.get(case) != one.get(base) || one.supersedes(base, case);
+        !is_axis && one.is_given(case) && !one.follows(case) && is_changed
     };
     PARAMETERS.iter().filter(differs).map(|one| format!("{}={}", one.path(), one.get(case)))
 }

@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use super::{PARAMETERS, Parameter, key};
+use super::{PARAMETERS, Parameter, ParameterKind, key};
 use crate::case::Case;
 
 /// Role of a parameter in the model.
@@ -64,6 +64,17 @@ impl Parameter {
         let is_needle = || self.origin() == key::CRITICAL_TILT && case.puncture.needle.is_guided();
         let is_same = other.key != self.key && origin(other) == origin(self) && !is_needle();
         is_same || self.excludes(other)
+    }
+
+    /// Returns true if this optional number, in any unit, may be given instead of `other`.
+    pub(super) fn replaces(&self, other: &Self) -> bool {
+        let is_number = matches!(self.kind, ParameterKind::OptionalNumber { .. });
+        is_number && self.over_t().unwrap_or(self).has(Role::InsteadOf(other.key))
+    }
+
+    /// Returns true if an alternative of this parameter is given in `before`, but not in `case`.
+    pub fn supersedes(&self, before: &Case, case: &Case) -> bool {
+        self.others_in(before).any(|other| other.is_given(before) && !other.is_given(case))
     }
 
     /// Returns the key that this parameter finally determines, or its own.
