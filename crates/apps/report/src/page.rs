@@ -79,6 +79,8 @@ pub struct Page {
     pub columns: Vec<(String, String)>,
     /// Facts about the run.
     pub run: Vec<Fact>,
+    /// Warnings about the sweep as a whole.
+    pub notes: Vec<String>,
     /// Key, value and meaning of each parameter shared by all designs.
     pub shared: Vec<[String; 3]>,
     /// True if the curves (puncture, bending) are in physical units.

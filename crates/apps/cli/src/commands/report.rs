@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use report::{Explorer, Fact, GapFactors, Page, PageDesign, drawings};
 use results::columns::design_columns;
 use results::{bending_units, puncture_units};
-use run::{GapChange, MeasureChange, Patience};
+use run::{GapChange, MeasureChange, Patience, curved_body_warning, solved_row};
 use skin::{flexure, puncture};
 use sweep::{Case, Sweep};
 use text::shell_word;
@@ -120,6 +120,7 @@ fn page(results: &FolderContents) -> anyhow::Result<Page> {
         axes: grid.axes().iter().map(|axis| axis.parameter().key.to_owned()).collect(),
         columns: results.designs.headers().iter().map(column).collect(),
         run: [results.run.clone(), judged_modes(sweep)].concat(),
+        notes: flat_body(sweep, &rankings).into_iter().collect(),
         shared: shared.collect(),
         is_physical: [puncture_units, bending_units].map(|units| units(&grid.case(0)).is_some()),
         solved: solved(results, &rankings),
@@ -140,6 +141,20 @@ fn judged_modes(sweep: &Sweep) -> Vec<Fact> {
         )
     });
     facts.collect()
+}
+
+/// Describes how much less a leading design bears on curved bodies, if the sweep was solved flat.
+///
+/// Returns `None` if no leading design bears less.
+fn flat_body(sweep: &Sweep, rankings: &[Ranking<'_>]) -> Option<String> {
+    let best = rankings.iter().flat_map(|ranking| {
+        let named = std::iter::once(Weights::BALANCED).chain(Weights::alone());
+        named.map(|weights| ranking.winner(weights).design())
+    });
+    best.take(DRAWN).find_map(|design| {
+        let warning = curved_body_warning(sweep, &solved_row(sweep, design)?)?;
+        Some(format!("The skin was solved flat. Design {design}: {warning}"))
+    })
 }
 
 /// Formats the preferences of the last ranking for the address of the page.

@@ -80,6 +80,7 @@ pub(super) fn of(page: &Page, figures: &[Value]) -> Value {
         "count": page.designs.count(),
         "slants": slants(page.designs.values("slant_deg")),
         "run": page.run,
+        "notes": page.notes,
         "shared": page.shared,
         "drawings": page.solved.iter().map(solved).collect::<Vec<_>>(),
         "figures": figures,

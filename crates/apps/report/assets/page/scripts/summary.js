@@ -44,6 +44,7 @@
     ["on the Pareto front", squama.element("span", { id: "front-count" }, "…")],
     ...folds(),
   ]);
+  squama.at("notes").replaceChildren(...squama.notes.map((text) => squama.element("p", { class: "doubt" }, `⚠ ${text}`)));
   facts("run-list", squama.run);
   facts("shared-list", squama.shared.map(([key, value, meaning]) => [`${meaning} (${key})`, value]));
 
