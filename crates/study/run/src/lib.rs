@@ -57,6 +57,7 @@
 //! ```
 
 mod audit;
+mod bare_needle;
 mod coupling_change;
 mod curved_body;
 mod estimate;
@@ -75,6 +76,7 @@ mod warnings;
 mod weakest_place;
 
 pub use audit::{Audit, LargestDifference, SecondWay};
+pub use bare_needle::{BareNeedle, bare_needle};
 pub use coupling_change::{CoupledMeasure, CouplingChange};
 pub use curved_body::curved_body_warning;
 pub use estimate::Estimate;

@@ -4,7 +4,9 @@ use optimisation::{DesignGoal, FAILED_CHECKS, GOAL, OPTIMUM, OPTIMUM_DEFINITION}
 use ranking::{Relation, Requirement};
 use results::columns::{Cell, Column, design_columns, mode_column, name};
 use results::{Completeness, DesignRow, Results, VerifiedFolder};
-use run::{GapChange, curved_body_warning, printing_warnings, validity_warnings};
+use run::{
+    BareNeedle, GapChange, bare_needle, curved_body_warning, printing_warnings, validity_warnings,
+};
 use serde_json::{Value, json};
 use std::path::Path;
 use sweep::Sweep;
@@ -42,6 +44,10 @@ impl<'a> DesignAnswer<'a> {
             rows.extend(mode.map(|(mode, cell)| vec![mode.to_owned(), cell]));
         }
         rows.extend(self.depth());
+        rows.extend(self.bare_needle().map(|bare| {
+            let words = format!("kPa; the skin lowers it {} times", digits(bare.reduction));
+            vec!["bare needle".to_owned(), digits(bare.pressure_kpa), words]
+        }));
         rows
     }
 
@@ -54,6 +60,13 @@ impl<'a> DesignAnswer<'a> {
         let is_given = self.requirements.iter().any(|r| r.column == column);
         let depth = self.cell(column)?.number().filter(|_| !is_given)?;
         Some(vec![column.to_owned(), digits(depth), "depth of the load".to_owned()])
+    }
+
+    /// Returns the pressure of the bare needle, if the pressure on the tissue is required.
+    fn bare_needle(&self) -> Option<BareNeedle> {
+        let mut columns = self.requirements.iter().map(|r| &r.column);
+        columns.find(|column| column.starts_with("tissue_pressure_max"))?;
+        bare_needle(self.row)
     }
 
     fn cell(&self, name: &str) -> Option<Cell> {
@@ -93,7 +106,15 @@ impl<'a> DesignAnswer<'a> {
                 "margin": value.map(|value| requirement.margin(value)),
             }))
         });
-        json!({ "requirements": requirements.collect::<Vec<_>>(), "warnings": self.warnings(change) })
+        let mut record = json!({
+            "requirements": requirements.collect::<Vec<_>>(),
+            "warnings": self.warnings(change),
+        });
+        if let Some(BareNeedle { pressure_kpa, reduction }) = self.bare_needle() {
+            record["bare_needle"] =
+                json!({ "pressure_kPa": pressure_kpa, "pressure_reduction": reduction });
+        }
+        record
     }
 }
 

@@ -1,6 +1,7 @@
 //! Runs: independent rows, damaged journals, derivatives and reference results.
 
 mod across;
+mod bare_needle;
 mod between;
 mod curved_body;
 mod fuzz;

@@ -1,0 +1,33 @@
+//! The pressure of a bare needle on the tissue, for comparison with the pressure under a skin.
+
+use results::{DesignRow, Quantity};
+
+/// A round needle on bare tissue, with the force at the end of the path of a puncture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BareNeedle {
+    /// Mean pressure, kPa.
+    pub pressure_kpa: f64,
+    /// This pressure over the largest pressure under the skin.
+    pub reduction: f64,
+}
+
+/// Computes the mean pressure of the needle of a design on a bare half-space.
+///
+/// The tip is a rigid sphere of radius `r` without friction, which touches a circle of radius
+/// `a = (3 F r/4E*)^(1/3)` (Hertz; Johnson, *Contact Mechanics*, 1985, equation 4.22). At most the
+/// shaft touches, `a = r`, as for a flat end. Returns `None` without a round tip, a modulus, or a
+/// pressure and a force at the end of the path.
+pub fn bare_needle(row: &DesignRow) -> Option<BareNeedle> {
+    let case = &row.case;
+    let radius = case.punctured().needle_radius.filter(|radius| *radius > 0.0)?;
+    let measures = row.result.puncture?.measures;
+    let [force, under_skin] = [measures.critical_force?, measures.failure.tissue_pressure?];
+    // Over `E* t²`, with lengths over `t`.
+    let force = force * case.design.length;
+    let touched = (0.75 * force * radius).cbrt().min(radius);
+    let over_modulus = force / (std::f64::consts::PI * touched.powi(2));
+    // `E* = E_s/(1 − ν²)`.
+    let pressure = over_modulus / (1.0 - case.puncture.poisson_ratio.powi(2));
+    let pressure_kpa = Quantity::Pressure.physical(pressure, case)?;
+    Some(BareNeedle { pressure_kpa, reduction: pressure / under_skin })
+}

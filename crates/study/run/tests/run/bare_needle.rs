@@ -1,0 +1,46 @@
+//! The pressure of a bare needle.
+
+use run::{BareNeedle, Evaluator, bare_needle};
+use sweep::{Measure, Sweep};
+
+/// Modulus of the tissue, `MPa`.
+const MODULUS: f64 = 1.5;
+
+/// Solves a design, and returns the bare needle, the force in N and the pressure in kPa.
+fn solved(radius: &str) -> (Option<BareNeedle>, f64, f64) {
+    let text = format!(
+        "name = 'x'\nmeasures = 'puncture'\n[designs]\ngap_over_t = 0.2\nlength_over_t = 0.8\n\
+         slant_deg = 45\n[puncture]\nneedle = 'guided'\n{radius}\n\
+         failure = true\n[substrate]\npoisson_ratio = 0.4\n[material]\nthickness_mm = 2\n\
+         substrate_modulus_MPa = {MODULUS}"
+    );
+    let sweep = Sweep::parse(&text, "x.toml", &[]).expect("a sweep");
+    let case = sweep.grid().case(0);
+    let row = Evaluator::new(&[Measure::Puncture]).row(sweep.grid().number(0), &case);
+    let measures = row.result.puncture.expect("a puncture").measures;
+    let force = measures.critical_force.expect("a force");
+    // `F = F* E* L t`, with a length of 1.6 mm.
+    let force = force * MODULUS / (1.0 - 0.4 * 0.4) * 1.6 * 2.0;
+    let pressure = 1e3 * MODULUS * measures.failure.tissue_pressure.expect("a pressure");
+    (bare_needle(&row), force, pressure)
+}
+
+#[test]
+fn a_bare_needle_presses_as_a_sphere_or_with_its_whole_shaft() {
+    // A thin needle sinks in up to its shaft, a thick one touches a part of its tip.
+    for (radius, is_shaft) in [(0.1, true), (2.0, false)] {
+        let (bare, force, under_skin) = solved(&format!("needle_radius_mm = {radius}"));
+        let bare = bare.expect("a round needle");
+        let touched = (0.75 * force * radius * (1.0 - 0.4 * 0.4) / MODULUS).cbrt();
+        assert_eq!(touched > radius, is_shaft, "{touched}");
+        let pressure = 1e3 * force / (std::f64::consts::PI * touched.min(radius).powi(2));
+        assert!((bare.pressure_kpa / pressure - 1.0).abs() < 1e-9, "{bare:?} {pressure}");
+        let reduction = pressure / under_skin;
+        assert!((bare.reduction / reduction - 1.0).abs() < 1e-9, "{bare:?} {reduction}");
+    }
+}
+
+#[test]
+fn a_sharp_needle_has_no_bare_pressure() {
+    assert_eq!(solved("").0, None);
+}
