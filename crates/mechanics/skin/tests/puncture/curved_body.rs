@@ -8,6 +8,9 @@ use rand_distr::{Distribution, Uniform};
 use rayon::prelude::*;
 use skin::puncture::{self, Needle, Puncture, PunctureInput, PunctureParameters, RowLength};
 use skin::{Base, Common, Design, Neighbours, Status};
+use substrate::{Coupling, RowStiffness};
+
+use crate::samples::long_campaigns;
 
 fn design(gap: f64, length: f64, slant_deg: f64) -> Design {
     Design { gap, length, slant_deg, base: Base::L, width: 1.0 }
@@ -307,29 +310,86 @@ fn draw(random: &mut ChaCha8Rng, from: f64, to: f64) -> f64 {
     Uniform::new(from, to).unwrap().sample(random)
 }
 
+/// A design on a body, with its needle, friction and tissue.
+#[derive(Debug)]
+struct WornSkin {
+    design: Design,
+    parameters: PunctureParameters,
+    friction: f64,
+    /// Thickness of the tissue on a rigid base; a half-space without one.
+    tissue: Option<f64>,
+}
+
+/// Draws true or false.
+fn draw_either(random: &mut ChaCha8Rng) -> bool {
+    draw(random, 0.0, 1.0) < 0.5
+}
+
+/// Draws skins on bodies with radii from 4 t to 64 t, convex and concave, under free, guided and
+/// round needles. Every second skin has friction between scales, and one of `layers` a layer.
+fn random_worn_skins(count: usize, layers: usize) -> Vec<WornSkin> {
+    let mut random = ChaCha8Rng::seed_from_u64(52);
+    let mut all = Vec::new();
+    while all.len() < count {
+        let random = &mut random;
+        let gap = draw(random, 0.05, 1.0);
+        let mut design = design(gap, draw(random, 0.1, 1.2), draw(random, 0.0, 75.0));
+        design.base = if draw_either(random) { Base::L } else { Base::TwoL };
+        let curvature = draw(random, 4_f64.ln(), 64_f64.ln()).exp().recip();
+        let curvature = if draw_either(random) { curvature } else { -curvature };
+        let mut parameters =
+            PunctureParameters { load_position: draw(random, 0.6, 1.0), ..on_body(curvature) };
+        if draw_either(random) {
+            parameters.needle = Needle::Guided { friction: draw(random, 0.0, 0.5) };
+            let radius = draw(random, 0.01_f64.ln(), 2_f64.ln()).exp();
+            parameters.needle_radius = draw_either(random).then_some(radius);
+        }
+        let friction = if draw_either(random) { draw(random, 0.0, 0.5) } else { 0.0 };
+        let tissue = draw(random, 0.5, 10.0);
+        let tissue = all.len().is_multiple_of(layers).then_some(tissue);
+        if !puncture::overlaps_at_rest(&design, Body { curvature }).unwrap() {
+            all.push(WornSkin { design, parameters, friction, tissue });
+        }
+    }
+    all
+}
+
+impl WornSkin {
+    fn status(&self) -> Status {
+        let Self { design, parameters, friction, tissue } = self;
+        let mut footprint = design.footprint(parameters.poisson_ratio).unwrap();
+        if let Some(thickness) = tissue {
+            footprint = footprint.on_layer(thickness / design.half_base()).unwrap();
+        }
+        let row = RowStiffness::compute(&footprint, Coupling::Nearest).unwrap();
+        let common = Common { friction: *friction, ..Common::default() };
+        puncture::solve(design, &row, &common, parameters).unwrap().status
+    }
+}
+
 #[test]
-fn random_bodies_end_for_mechanical_reasons() {
-    // A long campaign draws 5,000 designs; 1 in 1,000 may end for a numeric reason.
-    let is_long = std::env::var("SQUAMA_CAMPAIGNS").is_ok_and(|value| value == "long");
-    let count = if is_long { 5000 } else { 200 };
-    let ends: Vec<_> = random_bodies(count, 52)
-        .par_iter()
-        .map(|(design, parameters)| solve(design, parameters).status)
-        .collect();
-    let numeric: Vec<_> = ends.iter().filter(|status| is_numeric(**status)).collect();
-    assert!(1000 * numeric.len() <= count, "{} of {count}: {numeric:?}", numeric.len());
+fn random_worn_skins_end_for_mechanical_reasons() {
+    // A long campaign draws 5,000 designs; 1 in 1,000 may end for a numeric reason. The springs of
+    // layers take most of the time.
+    let (count, layers) = if long_campaigns() { (5000, 5) } else { (200, 40) };
+    let skins = random_worn_skins(count, layers);
+    let ends: Vec<_> = skins.par_iter().map(|skin| (skin, skin.status())).collect();
+    let numeric: Vec<_> = ends.iter().filter(|(_, status)| is_numeric(*status)).collect();
+    let complete = ends.iter().filter(|(_, status)| *status == Status::Complete).count();
+    println!("{complete} of {count} complete, {} without a mechanical reason", numeric.len());
+    assert!(1000 * numeric.len() <= count, "{} of {count}: {numeric:#?}", numeric.len());
 }
 
 /// Returns true if a path ended without a mechanical reason.
 fn is_numeric(status: Status) -> bool {
-    use solver::Termination::{Jumps, NoProgress, Unloaded};
+    use solver::Termination::{Jumps, Unloaded};
     !matches!(
         status,
         Status::Complete
             | Status::LimitPoint
             | Status::Untilted
             | Status::OffEdge
-            | Status::Stopped(Unloaded | Jumps | NoProgress)
+            | Status::Stopped(Unloaded | Jumps)
     )
 }
 
