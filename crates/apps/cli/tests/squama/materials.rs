@@ -170,3 +170,26 @@ fn design_states_which_failure_modes_were_judged() {
     assert_eq!(modes["through"], "the needle is not guided");
     assert!(!place.prints("design x.toml --design 1 --json").contains("failure_modes"));
 }
+
+/// The page repeats the sentence of `design` about a design that was solved flat.
+#[test]
+fn the_page_of_a_flat_sweep_names_the_forces_on_bodies() {
+    let definition = FEW.replace("slant_deg = ", "slant_deg = 60 # ");
+    let place = Place::with(&format!("{definition}{MATERIAL}"));
+    let note = notes_of_page(&place, "");
+    let (_, note) = note.split_once("The skin was solved flat. Design ").expect("a note");
+    let (design, sentence) = note.trim_end_matches('"').split_once(": ").expect("a number");
+    assert!(sentence.contains(" on a finger (radius 10 mm)"), "{sentence}");
+    let answer = place.prints(&format!("design x.toml --design {design} --json --out d"));
+    assert!(answer.contains(sentence), "{sentence}\n{answer}");
+    assert_eq!(notes_of_page(&place, "--set body.radius_mm=10"), "");
+}
+
+/// Runs `x.toml` with a setting, and returns the notes on its page.
+fn notes_of_page(place: &Place, set: &str) -> String {
+    place.squama(&format!("run x.toml -q --fresh --out r {set}")).assert().code(0);
+    place.squama("report r").assert().code(0);
+    let page = place.read("r/report.html");
+    let (_, notes) = page.split_once("\"notes\":[").expect("notes");
+    notes.split_once(']').expect("an end").0.to_owned()
+}

@@ -108,4 +108,14 @@ fn the_readme_quotes_values_of_the_tables() {
     for line in answer[0].lines() {
         assert!(printed.lines().any(|printed| printed == line), "{line}\n{printed}");
     }
+    // On a flat body 9 designs of the glove meet requirements that none meets on a finger.
+    assert!(text.contains("On a flat body 9 of 240 designs cover 0.6 and withstand 1.2 N, on the"));
+    let require = "--require coverage>=0.6 --require failure_force_N>=1.2";
+    place.prints("run sweeps/glove.toml --set body.curvature_times_t=0");
+    let flat = place.prints(&format!("rank results/glove {require}"));
+    assert!(flat.contains("9 of 240 designs ranked"), "{flat}");
+    place.prints("run sweeps/glove.toml --fresh");
+    let finger = place.squama(&format!("rank results/glove {require}")).assert().code(1);
+    let finger = String::from_utf8_lossy(&finger.get_output().stdout).into_owned();
+    assert!(finger.contains("none of 240 designs meets all requirements"), "{finger}");
 }

@@ -1,7 +1,9 @@
 //! Flat designs that are worn on curved bodies.
 
+use std::path::Path;
+
 use run::{Evaluator, curved_body_warning};
-use sweep::Sweep;
+use sweep::{Measure, Sweep};
 
 /// Solves a steep design with further lines, and returns the warning and the critical force.
 fn warned(further: &str) -> (Option<String>, f64) {
@@ -30,4 +32,88 @@ fn a_flat_design_is_compared_with_named_bodies() {
     let ratio = number(" on a finger (radius 10 mm)") / number(" on a flat body");
     assert!((ratio / (worn / flat) - 1.0).abs() < 0.01, "{warning} {worn} {flat}");
     assert!(warning.starts_with("critical_force_N is "), "{warning}");
+}
+
+/// Number of thicknesses in the radius of each named body, for scales of 2 mm.
+const RADII: [(&str, f64); 5] =
+    [("flat", f64::INFINITY), ("torso", 72.5), ("thigh", 49.5), ("forearm", 22.5), ("finger", 5.0)];
+
+/// A design with its values on a body.
+#[derive(Clone, Copy, Debug)]
+struct OnBody {
+    /// Gap and length over the thickness, and slant.
+    design: [f64; 3],
+    coverage: f64,
+    force: f64,
+}
+
+/// Solves 75 designs under the recommended needle.
+fn designs_on(radius: f64) -> Vec<OnBody> {
+    let text = format!(
+        "name = 'x'\n[designs]\ngap_over_t = [0.1, 0.2, 0.3]\n\
+         length_over_t = [0.2, 0.4, 0.6, 0.8, 1.0]\nslant_deg = [0, 15, 30, 45, 60]\n\
+         [puncture]\nneedle = 'guided'\nneedle_friction = 0.3\nload_inset_over_t = 0.05\n\
+         [body]\ncurvature_times_t = {}",
+        radius.recip()
+    );
+    let sweep = Sweep::parse(&text, "x.toml", &[]).expect("a sweep");
+    let evaluator = Evaluator::new(&[Measure::Coverage, Measure::Puncture]);
+    let mut all = Vec::new();
+    for index in 0..sweep.grid().len() {
+        let case = sweep.grid().case(index);
+        let result = evaluator.row(sweep.grid().number(index), &case).result;
+        let measures = result.puncture.expect("a puncture").measures;
+        all.push(OnBody {
+            design: [case.design.gap, case.design.length, case.design.slant_deg],
+            coverage: result.coverage.expect("a coverage"),
+            force: measures.critical_force.expect("a force"),
+        });
+    }
+    all
+}
+
+/// Returns the rank of each force.
+fn ranks(designs: &[OnBody]) -> impl Iterator<Item = f64> {
+    let below = designs.iter().map(|own| designs.iter().filter(|d| d.force < own.force).count());
+    below.map(|count| count as f64)
+}
+
+/// Computes Spearman's rank correlation of the forces of two lists without ties.
+fn rank_correlation(one: &[OnBody], other: &[OnBody]) -> f64 {
+    let squares: f64 = ranks(one).zip(ranks(other)).map(|(a, b)| (a - b).powi(2)).sum();
+    let count = one.len() as f64;
+    1.0 - 6.0 * squares / (count * (count * count - 1.0))
+}
+
+/// Returns the strongest design that covers half.
+fn strongest(designs: &[OnBody]) -> OnBody {
+    let covering = designs.iter().filter(|design| design.coverage >= 0.5);
+    *covering.max_by(|a, b| a.force.total_cmp(&b.force)).expect("a design")
+}
+
+/// Computes a row of the table of advice in `docs/needle.md`.
+fn row_of_advice(name: &str, radius: f64, flat: &[OnBody]) -> String {
+    let here = designs_on(radius);
+    let mut ratios: Vec<f64> = here.iter().zip(flat).map(|(h, f)| h.force / f.force).collect();
+    let halved = ratios.iter().filter(|ratio| **ratio < 0.5).count();
+    ratios.sort_by(f64::total_cmp);
+    let median = ratios[ratios.len() / 2];
+    let rank = rank_correlation(flat, &here);
+    let OnBody { design: [gap, length, slant], force, .. } = strongest(&here);
+    let best_flat = strongest(flat).design;
+    let of_flat = here.iter().find(|d| d.design == best_flat).expect("a design").force;
+    let radius = if name == "flat" { "–".to_owned() } else { format!("{radius} t") };
+    format!(
+        "| {name} | {radius} | {median:.2} | {halved} | {rank:.2} | {gap}, {length}, {slant}° \
+         | {force:.3} | {of_flat:.3} |"
+    )
+}
+
+#[test]
+fn the_page_on_needles_quotes_forces_on_bodies() {
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../docs/needle.md");
+    let page = std::fs::read_to_string(page).expect("a page");
+    let flat = designs_on(f64::INFINITY);
+    let rows = RADII.map(|(name, radius)| row_of_advice(name, radius, &flat)).join("\n");
+    assert!(page.contains(&rows), "docs/needle.md lacks the rows\n{rows}");
 }
