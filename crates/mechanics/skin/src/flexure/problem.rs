@@ -311,7 +311,7 @@ const BEYOND_LAW: f64 = 1.0;
 /// Time for an unknown of a strip over the time for an unknown of a punctured row, rounded.
 ///
 /// Each gap solves its membrane, and many tangents of a strip need row exchanges.
-const WORK_PER_UNKNOWN: u64 = 4;
+const WORK_PER_UNKNOWN: u64 = 3;
 
 /// Stiffness relative to rest below which the moment has reached a maximum.
 const LEVEL: f64 = 1e-3;
