@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use geometry::{Body, Frame, Row, Vec2, polygon_distance};
+use geometry::{Body, Frame, Row, Vec2};
 
 /// Maximum number of scales, at which files reach some 100 MB.
 const MOST_SCALES: usize = 20_000;
@@ -160,8 +160,7 @@ impl Patch {
 
     /// Returns the distance between the faces of two neighbours in a row.
     pub fn clearance(&self) -> f64 {
-        let [left, right] = self.neighbours();
-        polygon_distance(&left, &right) * self.thickness
+        self.row.clearance_on(self.body) * self.thickness
     }
 
     /// Returns the corners of two neighbours in the frame of the left one, over the thickness.
@@ -450,6 +449,7 @@ pub(crate) mod tests {
     #[test]
     fn faces_on_a_curved_body_are_as_far_apart_as_in_the_contact_model() {
         use contact::{CornerEdge, Pair, Pose};
+        use geometry::polygon_distance;
         for patch in curved() {
             let frame = patch.body.frame(patch.row.pitch());
             let pair = Pair::between([*patch.row.scale(); 2], frame.origin);

@@ -1,6 +1,6 @@
 //! Rows of identical scales at a constant gap.
 
-use crate::{Body, Corner, OutOfRange, Parallelogram, Vec2, coverage};
+use crate::{Body, Corner, OutOfRange, Parallelogram, Vec2, coverage, polygon_distance};
 
 /// Row of identical scales with the gap `d` at the base.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,6 +42,18 @@ impl Row {
     /// The coverage is 0 for an exposed substrate, and always below 1.
     pub fn coverage(&self) -> f64 {
         coverage::coverage(self.scale.shift(), 2.0 * self.scale.half_base(), self.pitch())
+    }
+
+    /// Returns the distance between the faces of two neighbours on a body, over `t`.
+    ///
+    /// It has no meaning if they overlap.
+    pub fn clearance_on(&self, body: Body) -> f64 {
+        if body.is_flat() {
+            return self.gap * self.scale.slant().cos();
+        }
+        let (corners, frame) = (self.scale.corners(), body.frame(self.pitch()));
+        let neighbour = corners.map(|corner| frame.origin + frame.outward(corner));
+        polygon_distance(&corners, &neighbour)
     }
 
     /// Returns the coverage of the row on a curved body.

@@ -116,8 +116,10 @@ pub fn printing_warnings(case: &Case) -> Vec<String> {
     let slant = case.design.slant_deg.abs();
     let upright = slant.to_radians().cos();
     let mut sentences = Vec::new();
-    let clearance = case.design.gap * thickness * upright;
-    if clearance < NOZZLE_MM {
+    let clearance = case.design.row().map(|row| row.clearance_on(case.body()) * thickness);
+    if let Ok(clearance) = clearance
+        && clearance < NOZZLE_MM
+    {
         sentences.push(format!(
             "The faces of two scales are {} mm apart, less than a nozzle of {NOZZLE_MM} mm: prints may fuse them.",
             rounded(clearance, 3)

@@ -77,6 +77,11 @@ fn a_patch_lies_on_the_arc_of_a_body() {
         }
         assert_eq!(place.read(&format!("of-body.{flat}")), place.read(&format!("of-plane.{flat}")));
     }
+    // On a concave body the faces are closer than on a plane, 0.3 mm.
+    let text = place.prints("make x.toml --design 1 --set body.radius_mm=-40 --out concave.stl");
+    let line = text.lines().find(|line| line.contains("distance of the faces"));
+    assert!(line.is_some_and(|line| line.contains(" 0.0944567 ")), "{text}");
+    assert!(text.contains("The faces of two scales are 0.0945 mm apart"), "{text}");
     let refusal = place.refused("make x.toml --design 1 --scales 40x1 --out ring.stl");
     assert!(refusal.contains("a circumference of 62.8319 mm"), "{refusal}");
 }

@@ -391,9 +391,15 @@ impl Chain {
     ///
     /// `None` for a single scale and at the end of a row.
     pub(super) fn clearance(&self) -> Option<f64> {
-        let (arrangement, scale) = (&self.contacts.arrangement, self.layout.left);
-        let slant = arrangement.scale(scale).slant();
-        (self.layout.right > 0).then(|| arrangement.gap(scale) * slant.cos())
+        let (contacts, scale) = (&self.contacts, self.layout.left);
+        let (arrangement, body) = (&contacts.arrangement, contacts.body);
+        (self.layout.right > 0).then(|| {
+            if body.is_flat() {
+                arrangement.gap(scale) * arrangement.scale(scale).slant().cos()
+            } else {
+                arrangement.clearance(scale, body)
+            }
+        })
     }
 
     /// Evaluates the marker of a limit of a scale: the excess of its fraction over 1.

@@ -6,7 +6,9 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng as _;
 use rand_distr::{Distribution, Uniform};
 use rayon::prelude::*;
-use skin::puncture::{self, Needle, Puncture, PunctureInput, PunctureParameters, RowLength};
+use skin::puncture::{
+    self, Needle, Puncture, PunctureInput, PunctureParameters, RowLength, Strengths,
+};
 use skin::{Base, Common, Design, Neighbours, Status};
 use substrate::{Coupling, RowStiffness};
 
@@ -65,6 +67,22 @@ fn an_isolated_scale_does_not_feel_the_curvature() {
     for curvature in [0.25, -0.05] {
         let force = critical_force(&design, &PunctureParameters { curvature, ..alone });
         assert_relative_eq!(force, flat, max_relative = 1e-12);
+    }
+}
+
+/// The nearest corners of two upright blocks lie symmetrically beside the line between them.
+#[test]
+fn faces_of_upright_blocks_are_apart_as_on_the_arc() {
+    let (gap, length) = (0.3, 0.6);
+    let failure = Some(Strengths::default());
+    for radius in [16.0_f64, -16.0] {
+        let parameters = PunctureParameters { failure, ..on_body(1.0 / radius) };
+        let measures = solve(&design(gap, length, 0.0), &parameters).measures;
+        let half = 0.5 * (gap + length) / radius.abs();
+        // The bases on a convex body, the tops on a concave one.
+        let corners = if radius > 0.0 { radius } else { -radius - 1.0 };
+        let expected = 2.0 * (corners * half.sin() - 0.5 * length * half.cos());
+        assert_relative_eq!(measures.failure.clearance.unwrap(), expected, max_relative = 1e-12);
     }
 }
 
