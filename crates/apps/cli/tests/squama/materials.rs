@@ -49,6 +49,16 @@ fn a_material_adds_columns_and_changes_none() {
     );
 }
 
+/// The mark of a fold also begins other warnings.
+#[test]
+fn warnings_about_walls_do_not_explain_a_fold() {
+    let thin = MATERIAL.replace("thickness_mm = 2", "thickness_mm = 0.5");
+    let place = Place::with(&format!("{FEW}{thin}"));
+    place.squama("run x.toml -q --out r").assert().code(0);
+    let printed = place.prints("rank r --require coverage>=0.2");
+    assert!(printed.contains("nozzle") && !printed.contains("surface of the substrate folds"));
+}
+
 #[test]
 fn missing_material_constants_add_no_columns() {
     let place = Place::with(FEW);

@@ -48,7 +48,10 @@ impl RankReport<'_> {
         let requirements = &self.preferences().requirements;
         text.push_str(&gap_changes_report(self.changes, requirements));
         text.push_str(&couplings_report(self.couplings, requirements));
+        // The answer has warnings, which begin with the mark of a fold.
+        let mut has_fold = text.contains(FOLDED);
         text.push_str(&self.answer());
+        let answered = text.len();
         if let Some(modes) = judged_modes(self.results, self.ranking) {
             let _ = write!(text, "\n{modes}");
         }
@@ -56,8 +59,9 @@ impl RankReport<'_> {
             let _ = write!(text, "\n{}", self.winners());
         }
         let _ = write!(text, "\n{}", self.front());
+        has_fold |= text[answered..].contains(FOLDED);
         let mut legend = String::new();
-        if text.contains(FOLDED) {
+        if has_fold {
             legend.push_str(FOLDED_MEANS);
         }
         if text.contains(FAILED) {
