@@ -65,7 +65,7 @@ impl<'a> DesignAnswer<'a> {
     /// Returns the pressure of the bare needle, if the pressure on the tissue is required.
     fn bare_needle(&self) -> Option<BareNeedle> {
         let mut columns = self.requirements.iter().map(|r| &r.column);
-        columns.find(|column| column.starts_with("tissue_pressure_max"))?;
+        columns.find(|column| column.starts_with(name::TISSUE_PRESSURE_MAX))?;
         bare_needle(self.row)
     }
 

@@ -32,6 +32,8 @@ pub const FORCE_ACROSS: &str = "force_across";
 pub const FORCE_ANY_DIRECTION: &str = "force_any_direction";
 /// Smallest puncture force on bodies between two radii.
 pub const WORST_FORCE_BETWEEN: &str = "worst_force_between";
+/// Largest pressure on the tissue.
+pub const TISSUE_PRESSURE_MAX: &str = "tissue_pressure_max";
 /// Mode of the first failure.
 pub const FIRST_FAILURE: &str = "first_failure";
 /// Event that ended the path of a guided needle.

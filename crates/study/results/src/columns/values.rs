@@ -234,7 +234,7 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
     number("bond_stress_max", Anywhere, |m| &mut m.failure.bond_stress)
         .in_unit("E_s").physical(&[same(Quantity::Stress)]).small().along_path().needing(FAILURE):
         "largest traction at any base, in tension or mean shear, up to the end of the path";
-    number("tissue_pressure_max", Anywhere, |m| &mut m.failure.tissue_pressure)
+    number(name::TISSUE_PRESSURE_MAX, Anywhere, |m| &mut m.failure.tissue_pressure)
         .in_unit("E_s").physical(&[same(Quantity::Pressure)]).small().along_path().needing(FAILURE):
         "largest mean pressure of any base on the substrate up to the end of the path";
     depth("clearance", Nowhere, |m| &mut m.failure.clearance).needing(FAILURE):
