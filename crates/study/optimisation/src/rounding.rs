@@ -1,7 +1,7 @@
 //! Rounds a best design to sizes that a machine can make.
 //!
-//! The designs with all sizes in multiples of their steps form a lattice. The search starts with the
-//! corners of the cell around the best design, and moves to a neighbour while it is better. The
+//! The designs with all sizes in multiples of their steps form a lattice. The search starts with
+//! the corners of the cell around the best design, and moves to a neighbour while it is better. The
 //! best feasible designs are then checked like a best design.
 
 use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
@@ -60,34 +60,46 @@ pub(crate) fn round(
     let unit = if thickness.is_some() { "mm" } else { "t" };
     let known = feasible_first(search, evaluated(search, best)?, &best.target);
     history.extend(known.iter().cloned());
-    let (mut found, mut checked) = (None, 0);
-    for mut candidate in known.into_iter().filter(|c| is_met(search, c, best)).take(FINER) {
-        if goal.is_about_samples() {
-            candidate = finer.evaluate(SearchStage::Rounded, &candidate.point, false)?.0;
-            history.push(candidate.clone());
-            if !is_met(finer, &candidate, best) {
-                continue;
-            }
+    let mut contradicted = 0;
+    for candidate in known.into_iter().filter(|c| is_met(search, c, best)).take(FINER) {
+        let Some(rounded) = refined(goal, finer, best, candidate, history)? else { continue };
+        if !goal.confirm || rounded.contradictions(goal).is_empty() {
+            let value = objective(&rounded.candidate);
+            *best = rounded;
+            return Ok(Some(Rounding { step, unit, exact, rounded: value }));
         }
-        let row = finer.evaluations.row(0, &candidate.point, &candidate.result);
-        let confirmation = confirm(finer, &candidate.point)?;
-        let mut rounded = BestDesign { candidate, row, confirmation, ..best.clone() };
-        if goal.confirm {
-            rounded.checks = DesignChecks::solve(goal, &rounded);
-            if !rounded.contradictions(goal).is_empty() {
-                checked += 1;
-                if checked == CHECKED {
-                    break;
-                }
-                continue;
-            }
+        contradicted += 1;
+        if contradicted == CHECKED {
+            break;
         }
-        found = Some(rounded);
-        break;
     }
-    let rounded = found.as_ref().and_then(|rounded| objective(&rounded.candidate));
-    *best = found.unwrap_or_else(|| best.clone());
-    Ok(Some(Rounding { step, unit, exact, rounded }))
+    Ok(Some(Rounding { step, unit, exact, rounded: None }))
+}
+
+/// Solves a rounded design like a best design: with more samples, new samples and checks.
+///
+/// `None` if more samples contradict its requirements.
+fn refined(
+    goal: &DesignGoal,
+    finer: &Search<'_>,
+    best: &BestDesign,
+    mut candidate: Candidate,
+    history: &mut Vec<Candidate>,
+) -> Result<Option<BestDesign>, Halt> {
+    if goal.is_about_samples() {
+        candidate = finer.evaluate(SearchStage::Rounded, &candidate.point, false)?.0;
+        history.push(candidate.clone());
+        if !is_met(finer, &candidate, best) {
+            return Ok(None);
+        }
+    }
+    let row = finer.evaluations.row(0, &candidate.point, &candidate.result);
+    let confirmation = confirm(finer, &candidate.point)?;
+    let mut rounded = BestDesign { candidate, row, confirmation, ..best.clone() };
+    if goal.confirm {
+        rounded.checks = DesignChecks::solve(goal, &rounded);
+    }
+    Ok(Some(rounded))
 }
 
 fn is_met(search: &Search<'_>, candidate: &Candidate, best: &BestDesign) -> bool {
