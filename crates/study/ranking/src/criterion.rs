@@ -63,9 +63,9 @@ impl Criterion {
         Self { name: Cow::Borrowed(name), column: Cow::Borrowed(column), goal }
     }
 
-    /// Returns the criteria for a ranking without criteria of its own: those of the paper.
+    /// Returns the default criteria: coverage, critical force, penetration and compliance.
     ///
-    /// Designs of different thickness or moduli are compared in physical units.
+    /// If designs differ in thickness or moduli, the criteria are in physical units.
     pub fn usual(sweep: Option<&Sweep>) -> Vec<Self> {
         let Some(sweep) = sweep.filter(|sweep| units_vary(sweep)) else { return CRITERIA.to_vec() };
         let mut criteria = CRITERIA.to_vec();

@@ -35,8 +35,8 @@ impl CouplingChange {
     /// Solves design `number` of `sweep` with both couplings.
     ///
     /// `columns` are the measures; columns without a number are omitted. Returns `None` if there is
-    /// no such design, if its coupling is already full, if no measure changes, or if it takes longer
-    /// than `patience`. Samples of imperfect rows are not solved.
+    /// no such design, if its coupling is already full, if no measure changes, or if it takes
+    /// longer than `patience`. Samples of imperfect rows are not solved.
     pub fn solve(
         sweep: &Sweep,
         number: &str,

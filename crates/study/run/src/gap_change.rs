@@ -114,8 +114,8 @@ pub fn solved_row(sweep: &Sweep, number: &str) -> Option<DesignRow> {
 
 /// Returns design `number` of `sweep` and its variants with each of the `changes`.
 ///
-/// Returns `None` if the design does not exist or takes longer than `patience`. Samples of imperfect
-/// rows are not solved.
+/// Returns `None` if the design does not exist or takes longer than `patience`. Samples of
+/// imperfect rows are not solved.
 pub(crate) fn again<T: Copy, const N: usize>(
     sweep: &Sweep,
     number: &str,

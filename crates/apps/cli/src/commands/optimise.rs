@@ -61,8 +61,8 @@ Checks solve the best design with full substrate coupling, at 11 load positions 
 new samples. A requirement that a check contradicts is reported below the answer. With confirm = true in [goal]
 the search tightens the limits until the checks pass. With --round the answer is the best rounded design near the
 best one that still meets the requirements, and states the loss.
-Exit code: 0 done, 1 no design meets the constraints, also rounded, or a check of the best contradicts one, 2 bad input or a
-disk error, 130, 143 or 129 ended by SIGINT, SIGTERM or SIGHUP.")]
+Exit code: 0 done, 1 no design meets the constraints, no rounded design meets them, or a check of the best
+contradicts one, 2 bad input or a disk error, 130, 143 or 129 ended by SIGINT, SIGTERM or SIGHUP.")]
 pub struct Arguments {
     /// Goal in TOML
     #[arg(value_name = "GOAL.toml")]

@@ -137,7 +137,7 @@ fn the_best_design_is_drawn() {
     let place = Place::with(goal);
     place.squama("optimise x.toml --quiet").assert().code(0);
     assert!(place.read("results/firm/optimum.svg").contains("(b)"));
-    // The same panels as those of `draw`.
+    // `squama draw` draws the same panels.
     let told = place.prints("draw results/firm --design 1");
     let drawn = std::fs::read_to_string(place.path(told.trim())).expect("a drawing");
     let (_, panels) = drawn.split_once("(a)").expect("a panel");
