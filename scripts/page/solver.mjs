@@ -27,9 +27,11 @@ const definition = "name = 'x'\nmeasures = ['coverage', 'puncture', 'flexure']\n
 const guided = (k) => (k % 2 ? { needle: "guided", needle_friction: 0.6 * share(k + 1, 7) } : {});
 // Every second row has friction between scales, under needles of both kinds.
 const rubbing = (k) => (k % 4 < 2 ? { friction: 0.4 * share(k + 1, 11) } : {});
+// Every tenth row lies on a layer, which needs boundary elements.
+const layered = (k) => (k % 10 === 9 ? { tissue_thickness_over_t: 0.5 + 5 * share(k + 1, 13) } : {});
 const requests = Array.from({ length: DESIGNS }, (_, k) => JSON.stringify({
   id: k, definition, drawn: [1, 0.5],
-  set: { gap_over_t: 0.05 + 0.95 * share(k + 1, 2), length_over_t: 0.1 + 0.9 * share(k + 1, 3), slant_deg: 70 * share(k + 1, 5), ...guided(k), ...rubbing(k) },
+  set: { gap_over_t: 0.05 + 0.95 * share(k + 1, 2), length_over_t: 0.1 + 0.9 * share(k + 1, 3), slant_deg: 70 * share(k + 1, 5), ...guided(k), ...rubbing(k), ...layered(k) },
 }));
 
 const { status, stdout, stderr } = spawnSync(process.argv[2], { input: requests.join("\n"), encoding: "utf8", maxBuffer: 1 << 30 });

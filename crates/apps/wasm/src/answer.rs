@@ -30,7 +30,7 @@ pub struct Answer {
     pub puncture: Option<PuncturedRow>,
     /// The bending; `None` if it could not be started.
     pub flexure: Option<BentStrip>,
-    /// The derivatives of the measures, in a complete answer.
+    /// The derivatives of the measures, in a complete answer; empty if they take too long.
     pub slopes: Vec<Slope>,
     /// The nearest design on the grid of the sweep.
     pub closest: Option<Closest>,

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use serde::Deserialize;
+use substrate::Coupling;
 use sweep::{Case, Measure, Parameter};
 use text::number;
 use text::toml_source::Value;
@@ -56,10 +57,14 @@ pub struct Follow {
 }
 
 impl Request {
-    /// Returns the measures to compute.
-    pub(crate) fn measures(&self) -> Vec<Measure> {
+    /// Returns the measures to compute for `case`.
+    ///
+    /// Derivatives on a layer take nine calibrations, and with full coupling each takes seconds.
+    pub(crate) fn measures(&self, case: &Case) -> Vec<Measure> {
+        let is_slow = case.tissue_thickness.is_some() && case.coupling == Coupling::Full;
+        let differentiates = self.fine && !is_slow;
         let all = [Measure::Coverage, Measure::Puncture, Measure::Flexure, Measure::Sensitivity];
-        all[..if self.fine { 4 } else { 3 }].to_vec()
+        all[..if differentiates { 4 } else { 3 }].to_vec()
     }
 
     /// Applies the parameters of the request to `case`.

@@ -7,7 +7,7 @@ use run::{Evaluator, GapChange, Patience, validity_warnings};
 use skin::Imperfection;
 use skin::flexure::{self, Flexure};
 use skin::puncture::{self, At};
-use sweep::{Case, Measure, Sweep, key};
+use sweep::{Case, Measure, Sweep};
 
 use crate::answer::{Answer, Required, Slope, Units, Value, written};
 use crate::follow::follow;
@@ -50,18 +50,12 @@ impl Solver {
         // Omit imperfect samples, which take hundreds of times as long.
         let base = Case { imperfection: Imperfection::default(), ..sweep.grid().case(0) };
         let case = request.case(&base)?;
-        if case.tissue_thickness.is_some() {
-            let key = key::TISSUE;
-            return Err(format!(
-                "{key}: a page solves skins on a half-space alone, `squama run` those on a layer"
-            ));
-        }
         let own = written::alone(&sweep, &base, &case)?;
         let requirements = request.require.iter().map(|text| text.parse());
         let requirements: Vec<Requirement> = requirements
             .collect::<Result<_, ranking::InvalidRequirement>>()
             .map_err(|error| error.to_string())?;
-        let evaluator = self.evaluator(request.measures());
+        let evaluator = self.evaluator(request.measures(&case));
         let solved = evaluator.solve(own.grid().number(0), &case);
         let drawn = request.drawn.unwrap_or_default();
         // Measures use the steps of the definition, like the command; finer steps are only for

@@ -1,6 +1,8 @@
 //! Answers to the requests of pages.
 
+use run::Evaluator;
 use serde_json::{Value, json};
+use sweep::Sweep;
 use wasm::Solver;
 
 /// A sweep of overlapping scales, in millimetres and newtons.
@@ -27,10 +29,6 @@ fn errors_are_answered_with_their_reason() {
         (refused(json!({ "gap": 1 }), &[]), "gap: no such parameter"),
         (refused(json!({ "slant_deg": 90 }), &[]), "slant_deg: 90"),
         (refused(json!({}), &["coverage"]), "coverage is not accepted"),
-        (
-            refused(json!({ "tissue_thickness_over_t": 2 }), &[]),
-            "tissue_thickness_over_t: a page solves skins on a half-space alone",
-        ),
     ];
     for (answer, reason) in answers {
         assert_eq!(answer["id"], 7);
@@ -213,6 +211,26 @@ fn a_set_body_replaces_the_body_of_the_definition() {
     let in_mm = format!("{DEFINITION}\n[body]\nradius_mm = 10");
     let over_t = format!("{DEFINITION}\n[body]\nradius_over_t = 10");
     assert_eq!(on_body(&in_mm, "thickness_mm", 1.0).0, on_body(&over_t, "thickness_mm", 2.0).0);
+}
+
+/// A layer is solved with its boundary elements, as in a run.
+///
+/// With full coupling derivatives would take seconds, so arrows are left out.
+#[test]
+fn a_layer_is_solved_as_in_a_run() {
+    for (coupling, has_slopes) in [("nearest", true), ("full", false)] {
+        let definition =
+            format!("{DEFINITION}\n[body]\nname = 'finger'\n[substrate]\ncoupling = '{coupling}'");
+        let sweep = Sweep::parse(&definition, "definition", &[]).expect("a definition");
+        let row =
+            Evaluator::new(sweep.measures()).row(sweep.grid().number(1), &sweep.grid().case(1));
+        let of_run = row.result.puncture.and_then(|own| own.measures.critical_force);
+        let request = json!({ "definition": definition, "set": { "slant_deg": 60 }, "fine": true });
+        let answer = ask(&request);
+        assert_eq!(Some(number(&answer, "critical_force")), of_run, "{coupling}");
+        let slopes = answer["slopes"].as_array().expect("slopes");
+        assert_eq!(!slopes.is_empty(), has_slopes, "{coupling}");
+    }
 }
 
 /// Returns the numbers of a list.

@@ -102,9 +102,6 @@ impl Neighbour {
     }
 }
 
-/// True if boundary elements are compiled; otherwise only the table exists.
-pub(crate) const SOLVES: bool = cfg!(feature = "boundary-elements");
-
 impl RowStiffness {
     /// Returns the stiffness of a row, from the table or solved outside it.
     ///
@@ -118,9 +115,6 @@ impl RowStiffness {
         };
         // A layer adds to the half-space, so the table serves both.
         if footprint.is_on_layer() {
-            if !SOLVES {
-                return Err(Unresolved { footprint: *footprint, cells: 0 });
-            }
             let stiffer = layered::addition(footprint, footprint, coupling)?;
             // The signs of the errors are unknown, so add their magnitudes.
             let error = row.error + stiffer.error;
@@ -153,11 +147,8 @@ impl RowStiffness {
     /// The two parts of `c` are equal by Betti's theorem; their difference counts as an error.
     ///
     /// # Errors
-    /// If the gap vanishes by rounding, and always without the feature `boundary-elements`.
+    /// If the gap vanishes by rounding.
     pub fn solve(footprint: &Footprint, neighbours: usize) -> Result<Self, Unresolved> {
-        if !SOLVES {
-            return Err(Unresolved { footprint: *footprint, cells: 0 });
-        }
         let on =
             |n: usize| row_reactions(footprint, neighbours, n).map(|reactions| reactions.numbers());
         let [coarse, medium, fine] = [on(CELLS[0])?, on(CELLS[1])?, on(CELLS[2])?];

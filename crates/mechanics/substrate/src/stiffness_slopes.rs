@@ -1,6 +1,5 @@
 //! Derivatives of the stiffness of a row with respect to its footprint.
 
-use crate::row_stiffness::SOLVES;
 use crate::{Bases, Coupling, Footprint, RowStiffness, Unresolved, layered, table};
 
 /// Stiffness of a row with its derivatives by the parameters of the footprint.
@@ -38,7 +37,7 @@ impl StiffnessSlopes {
             None => differences(footprint, coupling)?,
         };
         let mut by_thickness = None;
-        if SOLVES && footprint.is_on_layer() {
+        if footprint.is_on_layer() {
             let [gap, width, ratio, thickness] = layered::slopes(footprint, coupling)?;
             (by_gap, by_width) = (by_gap + gap, by_width + width);
             by_poisson_ratio = by_poisson_ratio + ratio;

@@ -4,12 +4,11 @@ use std::io::IsTerminal as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use anyhow::ensure;
 use clap::Args;
 use optimisation::Statistic;
 use ranking::Requirement;
 use report::Explorer;
-use sweep::{Sweep, key};
+use sweep::Sweep;
 use text::shell_word;
 
 use super::answer::SearchedDesign;
@@ -51,12 +50,6 @@ pub struct Arguments {
 pub fn explore(arguments: &Arguments) -> anyhow::Result<u8> {
     let (sweep, mut requirements) = sweep_and_goal(&arguments.definition)?;
     SearchedDesign::read(&arguments.definition.path)?;
-    // A layer needs boundary elements, which are too large and slow for an interactive page.
-    ensure!(
-        !sweep.gives(key::TISSUE),
-        "{}: the page solves skins on a half-space only; use `squama run` for a layer of finite thickness",
-        key::TISSUE
-    );
     requirements.extend(arguments.required.read()?);
     // On the page they would never have a value.
     let of_samples = requirements.extract_if(.., |of| Statistic::named(&of.column).is_some());

@@ -106,8 +106,7 @@ fn page(results: &FolderContents) -> anyhow::Result<Page> {
     let rankings = results.rankings()?;
     let grid = sweep.grid();
     Ok(Page {
-        // The interactive solver does not support layers.
-        explorer: (!sweep.gives(sweep::key::TISSUE)).then(|| Explorer {
+        explorer: Some(Explorer {
             sweep: sweep.clone(),
             source: shell_word(&results.folder.display().to_string()),
             // The page of a run provides the requirements.

@@ -40,15 +40,11 @@ fn calibrate_prints_the_couplings_of_a_layer() {
     assert!(text.contains("a quarter of the half-width"), "{text}");
 }
 
-/// The interactive page cannot solve layers.
 #[test]
-fn explore_rejects_a_layer_with_the_reason() {
-    let place = Place::with("name = 'x'\nsubstrate.tissue_thickness_over_t = 2");
-    let text = place.refused("explore x.toml --no-open");
-    assert!(
-        text.contains("tissue_thickness_over_t: the page solves skins on a half-space only"),
-        "{text}"
-    );
+fn explore_accepts_a_layer() {
+    let place = Place::with("name = 'x'\nbody = 'finger'\nmaterial.thickness_mm = 2");
+    place.prints("explore x.toml --no-open");
+    assert!(place.read("explore.html").contains("tissue_thickness_mm = 5"));
 }
 
 /// Requirements on samples do not apply to a single design, which has no value for them.

@@ -44,6 +44,7 @@
     const said = [...(live.error ? [live.error] : []), ...(answer?.warnings ?? [])];
     at("live-warnings").replaceChildren(...said.map((text) => element("p", { class: "doubt" }, `⚠ ${text}`)));
     at("live-required").replaceChildren(...(answer?.requirements ?? []).map(requirement));
-    at("live-said").textContent = live.said || `Arrows show how to improve ${live.data.measures.find(({ name }) => name === live.chosen).label.toLowerCase()}; press one to move there.`;
+    const hint = answer?.fine && answer.slopes.length === 0 ? "No arrows: derivatives on a layer with full coupling take too long." : `Arrows show how to improve ${live.data.measures.find(({ name }) => name === live.chosen).label.toLowerCase()}; press one to move there.`;
+    at("live-said").textContent = live.said || hint;
   });
 })();

@@ -5,7 +5,11 @@ squama.solver = (() => {
   const REST = 160;
   // Grace time of an obsolete request, ms: restarting the thread is faster than a slow request.
   const GRACE = 60;
-  let module, worker, listen, ready = false, asked = null, waiting = null, resting, giving = null, id = 0;
+  // Time after which the page shows that it is solving, ms: layers may take seconds.
+  const BUSY = 300;
+  let module, worker, listen, ready = false, asked = null, waiting = null, resting, giving = null, busy, id = 0;
+
+  const showBusy = (is) => squama.at("live").classList.toggle("busy", is);
 
   const start = () => {
     worker?.terminate();
@@ -20,6 +24,8 @@ squama.solver = (() => {
 
   const take = (answer) => {
     clearTimeout(giving);
+    clearTimeout(busy);
+    showBusy(false);
     giving = null;
     const question = asked;
     asked = null;
@@ -33,6 +39,8 @@ squama.solver = (() => {
     if (!ready || asked || !waiting) return;
     [asked, waiting] = [waiting, null];
     worker.postMessage(asked.request);
+    // A complete answer after a fast one only adds details.
+    if (!asked.request.fine) busy = setTimeout(showBusy, BUSY, true);
   };
 
   const ask = (request, more = {}) => {
