@@ -49,6 +49,19 @@ fn a_material_adds_columns_and_changes_none() {
     );
 }
 
+#[test]
+fn a_gap_that_cannot_close_bends_to_any_radius() {
+    let place = Place::with(&format!("{FEW}{MATERIAL}"));
+    place.squama("run x.toml -q --out r --set designs.gap_over_t=[0.5,4]").assert().code(0);
+    let table = place.read("r/designs.csv");
+    let curvatures = cells(&table, "contact_curvature");
+    let radii = numbers(&table, "bend_radius_mm");
+    assert!(curvatures.iter().any(|cell| cell.is_empty()));
+    for (curvature, radius) in curvatures.iter().zip(radii) {
+        assert_eq!(curvature.is_empty(), radius == 0.0, "{curvature} {radius}");
+    }
+}
+
 /// The mark of a fold also begins other warnings.
 #[test]
 fn warnings_about_walls_do_not_explain_a_fold() {

@@ -238,6 +238,12 @@ impl ValueColumn {
         match (self.quantity, dimensionless) {
             (None, cell) => cell,
             (Some(quantity), Cell::Number(value)) => quantity.physical(value, &row.case).into(),
+            // Without a closing gap there is no contact curvature: the skin bends to any radius.
+            (Some(Quantity::Radius), Cell::Empty)
+                if self.statistic.is_none() && row.result.flexure.is_some() =>
+            {
+                row.case.material.thickness_mm.map(|_| 0.0).into()
+            }
             (Some(_), _) => Cell::Empty,
         }
     }
