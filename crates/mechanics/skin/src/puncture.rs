@@ -128,6 +128,8 @@ pub struct PunctureParameters {
     pub needle_radius: Option<f64>,
     /// Depth `u*` at which to report the force as well.
     pub depth: Option<f64>,
+    /// Force `F*` at which to report the pressure on the tissue as well.
+    pub force: Option<f64>,
     /// True to remove the load again at the end.
     pub unload: bool,
     /// Strengths of scales and bonds, if the first failure is sought.
@@ -158,6 +160,7 @@ impl Default for PunctureParameters {
             needle: Needle::Free,
             needle_radius: None,
             depth: None,
+            force: None,
             unload: false,
             failure: None,
             places: None,
@@ -315,6 +318,7 @@ impl PunctureParameters {
         let tilt = self.critical_tilt_deg;
         let (ratio, position) = (self.poisson_ratio, self.load_position);
         let depth = self.depth.unwrap_or(1.0);
+        let force = self.force.unwrap_or(1.0);
         let radius = self.needle_radius.unwrap_or(0.0);
         let places = self.places.unwrap_or(2) as f64;
         let curvature = self.curvature;
@@ -324,6 +328,7 @@ impl PunctureParameters {
             ((0.0..=0.5).contains(&ratio), "poisson's ratio", ratio, "a ratio from 0 to 0.5"),
             (position.is_finite(), "load position", position, "a number"),
             (depth > 0.0, "depth", depth, "a length above 0"),
+            (force > 0.0, "force", force, "a force above 0"),
             (radius >= 0.0, "needle radius", radius, "a length"),
             (
                 radius == 0.0 || self.needle.is_guided(),
@@ -356,8 +361,8 @@ impl Followed {
     /// With `unload` also follows the unloading path.
     fn puncture(self, unload: bool) -> Puncture {
         let Self { watch, passage, mut path, status } = self;
-        let PathObservers { record, needle, folds, failure, passage: at_tip, tilts, depth, .. } =
-            watch;
+        let PathObservers { record, needle, folds, failure, tilts, depth, force, .. } = watch;
+        let at_tip = watch.passage;
         let FoldObserver { folds, .. } = folds;
         let path = &mut path;
         let mut measures = PunctureMeasures::new(&record, &folds, path);
@@ -371,6 +376,9 @@ impl Followed {
             };
             measures.failure = failure.measures(path, at_end);
         }
+        let loaded = force.points.first().and_then(Option::as_ref);
+        measures.tissue_pressure_at_force =
+            loaded.map(|point| path.system().tissue_pressure(&point.state));
         // The outer option tells whether a depth was requested, the inner one whether it was
         // reached.
         let deep = depth.points.first().map(|found| found.as_ref().map(|deep| &deep.state));

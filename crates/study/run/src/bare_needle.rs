@@ -2,7 +2,7 @@
 
 use results::{DesignRow, Quantity};
 
-/// A round needle on bare tissue, with the force at the end of the path of a puncture.
+/// A round needle on bare tissue, with the given force or the force at the end of the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BareNeedle {
     /// Mean pressure, kPa.
@@ -15,19 +15,22 @@ pub struct BareNeedle {
 ///
 /// The tip is a rigid sphere of radius `r` without friction, which touches a circle of radius
 /// `a = (3 F r/4E*)^(1/3)` (Hertz; Johnson, *Contact Mechanics*, 1985, equation 4.22). At most the
-/// shaft touches, `a = r`, as for a flat end. Returns `None` without a round tip, a modulus, or a
-/// pressure and a force at the end of the path.
+/// shaft touches, `a = r`, as for a flat end. The force is the given one, otherwise the force at the
+/// end of the path. Returns `None` without a round tip, a modulus, or a pressure under the skin.
 pub fn bare_needle(row: &DesignRow) -> Option<BareNeedle> {
     let case = &row.case;
     let radius = case.punctured().needle_radius.filter(|radius| *radius > 0.0)?;
     let measures = row.result.puncture?.measures;
-    let [force, under_skin] = [measures.critical_force?, measures.failure.tissue_pressure?];
-    // Over `E* t²`, with lengths over `t`.
-    let force = force * case.design.length;
+    // `E* = E_s/(1 − ν²)`.
+    let plane_strain = 1.0 - case.puncture.poisson_ratio.powi(2);
+    // Forces over `E* t²`, with lengths over `t`.
+    let (force, under_skin) = match case.needle_force {
+        Some(force) => (force * plane_strain, measures.tissue_pressure_at_force?),
+        None => (measures.critical_force? * case.design.length, measures.failure.tissue_pressure?),
+    };
     let touched = (0.75 * force * radius).cbrt().min(radius);
     let over_modulus = force / (std::f64::consts::PI * touched.powi(2));
-    // `E* = E_s/(1 − ν²)`.
-    let pressure = over_modulus / (1.0 - case.puncture.poisson_ratio.powi(2));
+    let pressure = over_modulus / plane_strain;
     let pressure_kpa = Quantity::Pressure.physical(pressure, case)?;
     Some(BareNeedle { pressure_kpa, reduction: pressure / under_skin })
 }

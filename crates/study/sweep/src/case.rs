@@ -30,6 +30,10 @@ pub struct Case {
     pub strengths: Strengths,
     /// Whether the first failure is sought even without a strength.
     pub judge_failure: bool,
+    /// Force of the needle, over `E_s t²`, at which the pressure on the tissue is measured.
+    pub needle_force: Option<f64>,
+    /// The same force in N, if it is given in N.
+    pub needle_force_n: Option<f64>,
     /// Whether the row across is solved.
     pub across: bool,
     /// Gap across the row over the thickness. `None`: the gap along the row.
@@ -114,11 +118,16 @@ impl Case {
         let inside = |inset: f64| (1.0 - inset / top).max(0.5);
         let position = self.puncture.load_position.min(1.0 + self.design.gap / top);
         let load_position = self.load_inset.map_or(position, inside);
-        let seeks_failure = self.judge_failure || self.strengths != Strengths::default();
+        let seeks_failure = self.judge_failure
+            || self.needle_force.is_some()
+            || self.strengths != Strengths::default();
         let failure = seeks_failure.then_some(self.strengths);
         let curvature = self.body().curvature;
+        // `F*` is over `E_s/(1 − ν²) L t`.
+        let plane_strain = 1.0 - self.puncture.poisson_ratio.powi(2);
+        let force = self.needle_force.map(|force| force * plane_strain / self.design.length);
         let mut punctured =
-            puncture::PunctureParameters { load_position, failure, curvature, ..self.puncture };
+            PunctureParameters { load_position, failure, curvature, force, ..self.puncture };
         match (self.needle_friction, &mut punctured.needle) {
             (Some(Scalar::Number(given)), Needle::Guided { friction }) => *friction = given,
             (Some(given), Needle::Free) => {
@@ -152,6 +161,7 @@ impl Case {
             curvature,
             tilts_before_deg: None,
             depth: None,
+            force: None,
             places: None,
             unload: false,
             ..self.puncture
@@ -160,6 +170,8 @@ impl Case {
             puncture,
             strengths: Strengths::default(),
             judge_failure: false,
+            needle_force: None,
+            needle_force_n: None,
             across: false,
             gap_across: None,
             body_radius: None,
@@ -274,6 +286,8 @@ impl Default for Case {
             load_inset: None,
             strengths: Strengths::default(),
             judge_failure: false,
+            needle_force: None,
+            needle_force_n: None,
             across: false,
             gap_across: None,
             flexure: flexure::FlexureParameters::default(),

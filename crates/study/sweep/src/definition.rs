@@ -168,7 +168,7 @@ impl Sweep {
     /// A length over the thickness follows from the thickness, a contact ratio from a modulus.
     pub fn has_followers(&self, parameter: &Parameter) -> bool {
         match parameter.key {
-            key::THICKNESS => self.gives_millimetres(),
+            key::THICKNESS => self.gives_millimetres() || self.gives(key::NEEDLE_FORCE_N),
             key::SUBSTRATE_MODULUS | key::MEMBRANE_MODULUS => PARAMETERS.iter().any(|above| {
                 let mut ratios = above.ratios();
                 ratios.any(|(_, below)| below == parameter.key) && self.gives(above.key)

@@ -65,7 +65,8 @@ impl<'a> DesignAnswer<'a> {
     /// Returns the pressure of the bare needle, if the pressure on the tissue is required.
     fn bare_needle(&self) -> Option<BareNeedle> {
         let mut columns = self.requirements.iter().map(|r| &r.column);
-        columns.find(|column| column.starts_with(name::TISSUE_PRESSURE_MAX))?;
+        let pressures = [name::TISSUE_PRESSURE_MAX, name::TISSUE_PRESSURE_AT_FORCE];
+        columns.find(|column| pressures.iter().any(|pressure| column.starts_with(pressure)))?;
         bare_needle(self.row)
     }
 

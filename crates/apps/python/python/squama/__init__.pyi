@@ -174,6 +174,8 @@ class Skin:
         needle_friction: float | Sequence[float] | str | None = None,
         depth_over_t: float | None = None,
         depth_mm: float | None = None,
+        force_over_substrate: float | None = None,
+        force_N: float | None = None,
         places: int | str | None = None,
         contact_modulus_over_substrate: float | None = None,
         failure: bool | None = None,
@@ -282,6 +284,10 @@ class Skin:
     def depth_over_t(self) -> float | None: ...
     @property
     def depth_mm(self) -> float | None: ...
+    @property
+    def force_over_substrate(self) -> float | None: ...
+    @property
+    def force_N(self) -> float | None: ...
     @property
     def places(self) -> int | str: ...
     @property

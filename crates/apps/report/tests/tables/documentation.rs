@@ -55,11 +55,12 @@ fn columns<R>(columns: &[Column<R>]) -> String {
 const MATERIAL: &str = "[material]\nthickness_mm = 1\nsubstrate_modulus_MPa = 1\nmembrane_modulus_MPa = 1\nscale_density_kg_m3 = 1";
 
 /// Requests of columns: words of the heading, and keys of a definition.
-const REQUESTS: [(&str, &str); 9] = [
+const REQUESTS: [(&str, &str); 10] = [
     ("a guided needle", "puncture.needle = 'guided'"),
     ("`puncture.depth_over_t` or `depth_mm`", "puncture.depth_over_t = 0.2"),
     ("`puncture.places`", "puncture.places = 2"),
     ("`puncture.failure = true` or a strength", "puncture.failure = true"),
+    ("`puncture.force_N` or `force_over_substrate`", "puncture.force_N = 1"),
     ("`puncture.unload = true`", "puncture.unload = true"),
     ("`flexure.unbend = true`", "flexure.unbend = true"),
     ("`contact.friction`", "contact.friction = 0.1"),

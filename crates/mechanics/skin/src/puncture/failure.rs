@@ -157,6 +157,9 @@ pub(super) const MAXIMA: [PathFunction<Chain>; 4] = [
     |chain, state, _| chain.row_values(state).tracked[3],
 ];
 
+/// Position of the pressure on the tissue in [`MAXIMA`].
+pub(super) const TISSUE_PRESSURE: usize = 3;
+
 /// Step along the path direction, relative to its largest component, for the slope at its end.
 const STEP: f64 = 1e-6;
 
@@ -364,6 +367,11 @@ impl Chain {
     /// Computes the values of a scale.
     pub(super) fn scale_values(&self, state: &SkinState, scale: usize) -> ScaleValues {
         self.values_under(state, scale, &self.loads(state, scale))
+    }
+
+    /// Computes the largest mean pressure of any base on the substrate, over `E_s`.
+    pub(super) fn tissue_pressure(&self, state: &SkinState) -> f64 {
+        self.row_values(state).tracked[TISSUE_PRESSURE]
     }
 
     /// Computes the largest values of any scale.

@@ -105,6 +105,7 @@ impl PunctureParameters {
             tilts_before_deg: None,
             places: None,
             depth: None,
+            force: None,
             unload: false,
             failure: None,
             ..*self

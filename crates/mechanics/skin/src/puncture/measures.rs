@@ -72,6 +72,9 @@ pub struct PunctureMeasures {
     /// `F*` at the requested depth, or at the critical tilt if that comes first.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub force_at_depth: Option<f64>,
+    /// Largest mean pressure of any base on the substrate at the requested force, over `E_s`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tissue_pressure_at_force: Option<f64>,
     /// Frictional dissipation between scales up to the critical tilt, over `E* t³`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction_work: Option<f64>,
@@ -219,6 +222,7 @@ impl PunctureMeasures {
             fold_tilt_deg: self.fold_tilt_deg,
             // Evaluated along the path and valid however the path ended later.
             force_at_depth: self.force_at_depth,
+            tissue_pressure_at_force: self.tissue_pressure_at_force,
             unique: self.unique,
             failure: self.failure.without_final_values(),
             passage: self.passage,

@@ -25,6 +25,8 @@ pub(super) struct PathObservers {
     pub(super) tilts: PointLocator<Chain>,
     /// The additional depth at which the force is measured, if requested.
     pub(super) depth: PointLocator<Chain>,
+    /// The force at which the pressure on the tissue is measured, if requested.
+    pub(super) force: PointLocator<Chain>,
     /// Points requested by the caller: snapshots, curves, other tilts.
     pub(super) requested: PointLocator<Chain>,
 }
@@ -38,6 +40,7 @@ impl PathObservers {
     ) -> Self {
         let tilts = parameters.tilts_deg().map(|tilt| At::Tilt(tilt).location());
         let depth = parameters.depth.map(|depth| At::Displacement(depth).location());
+        let force = parameters.force.map(|force| At::Force(force).location());
         Self {
             record: Record::new(path, functions),
             needle: SnapObserver::default(),
@@ -47,6 +50,7 @@ impl PathObservers {
             passage: PassageObserver::default(),
             tilts: PointLocator::new(path, tilts),
             depth: PointLocator::new(path, depth),
+            force: PointLocator::new(path, force),
             requested: PointLocator::new(path, places.iter().map(|place| place.location())),
         }
     }
@@ -63,6 +67,7 @@ impl PathObservers {
         }
         self.tilts.follow(path, from, to);
         self.depth.follow(path, from, to);
+        self.force.follow(path, from, to);
         self.requested.follow(path, from, to);
         let is_open = self.folds.first.is_none();
         self.folds.follow(path, [from, to], events_before);
@@ -79,7 +84,7 @@ impl PathObservers {
         // shorter row.
         let SnapObserver { load_limit, depth_limit, .. } = &mut self.needle;
         let single = [load_limit, depth_limit, &mut self.folds.first, &mut self.record.touching];
-        let located = [&mut self.tilts, &mut self.depth, &mut self.requested];
+        let located = [&mut self.tilts, &mut self.depth, &mut self.force, &mut self.requested];
         let located = located.into_iter().flat_map(|located| &mut located.points);
         let points = single.into_iter().chain(located).flatten();
         let segments = self.history.segments.iter_mut().chain(&mut self.passage.passed);

@@ -4,12 +4,12 @@ use geometry::OutOfRange;
 use solver::{AnchoredPoint, Continuation, Neighbours, PathAnchor};
 use substrate::RowStiffness;
 
-use super::failure::MAXIMA;
+use super::failure::{MAXIMA, TISSUE_PRESSURE};
 use super::needle::{HistoryVariable, anchors, event_before, history, with};
 use super::observers::PathObservers;
 use super::snapshot::farther;
 use super::surface_fold::{Fold, FoldObserver};
-use super::system::{Chain, DEPTH_MARK, DEPTH_RATE, LOAD_RATE, RowLayout};
+use super::system::{Chain, DEPTH_MARK, DEPTH_RATE, FORCE_MARK, LOAD_RATE, RowLayout};
 use super::{At, Followed, PerturbedScale, Problem, Puncture, PunctureParameters, Rows};
 use crate::contacts::{SkinMode, SkinPoint, SkinState};
 use crate::record::{PathFunction, Skin};
@@ -212,7 +212,9 @@ impl Problem<'_> {
         watch: &PathObservers,
         path: &mut Continuation<Chain>,
     ) -> Vec<MeasuredPoint<Chain>> {
-        let PathObservers { record, needle, passage, failure, depth: marked, .. } = watch;
+        let PathObservers {
+            record, needle, passage, failure, depth: marked, force: loaded, ..
+        } = watch;
         let FoldObserver { folds, first } = &watch.folds;
         let settings = &self.settings;
         let along_path = !path.system().is_critical_only();
@@ -243,6 +245,8 @@ impl Problem<'_> {
         let folded = folded.map(|(point, fold)| chain.folded_at(point, fold));
         let deep = marked.points.iter().flatten().next();
         let deep = deep.map(|p| AnchoredPoint::arriving(p, PathAnchor::Marker(DEPTH_MARK)));
+        let loaded = loaded.points.iter().flatten().next();
+        let loaded = loaded.map(|p| AnchoredPoint::arriving(p, PathAnchor::Marker(FORCE_MARK)));
         let (mut end_quantities, fold_quantities) = at_end_and_fold(folded.is_some());
         // A path that ends before this depth reports its final force instead.
         if !marked.points.is_empty() && deep.is_none() {
@@ -287,6 +291,7 @@ impl Problem<'_> {
             spot(folded, fold_quantities),
             spot(passed, passing),
             spot(deep, vec![force("force_at_depth")]),
+            spot(loaded, vec![tissue_pressure("tissue_pressure_at_force")]),
             spot(highest, vec![force("peak_force")]),
             at_turn(peak, [depth("peak_displacement"), tilt("peak_tilt_deg")]),
             at_turn(load_limit, [force("load_stability_force")]),
@@ -411,16 +416,23 @@ fn critical() -> Vec<MeasuredQuantity<Chain>> {
 
 /// Lists the largest stresses on the path, in the order of [`MAXIMA`].
 fn largest_stresses() -> [MeasuredQuantity<Chain>; MAXIMA.len()] {
-    let values: [(&'static str, ValueOf<Chain>); MAXIMA.len()] = [
-        ("scale_stress_max", |chain, state, _, i| chain.scale_values(state, i).tracked[0]),
-        ("scale_deflection_max", |chain, state, _, i| chain.scale_values(state, i).tracked[1]),
-        ("bond_stress_max", |chain, state, _, i| chain.scale_values(state, i).tracked[2]),
-        ("tissue_pressure_max", |chain, state, _, i| chain.scale_values(state, i).tracked[3]),
-    ];
-    values.map(|(measure, value)| MeasuredQuantity {
-        extreme: Some(f64::max),
-        ..quantity(measure, value)
-    })
+    [
+        largest("scale_stress_max", |chain, state, _, i| chain.scale_values(state, i).tracked[0]),
+        largest("scale_deflection_max", |chain, state, _, i| {
+            chain.scale_values(state, i).tracked[1]
+        }),
+        largest("bond_stress_max", |chain, state, _, i| chain.scale_values(state, i).tracked[2]),
+        tissue_pressure("tissue_pressure_max"),
+    ]
+}
+
+fn tissue_pressure(measure: &'static str) -> MeasuredQuantity<Chain> {
+    largest(measure, |chain, state, _, i| chain.scale_values(state, i).tracked[TISSUE_PRESSURE])
+}
+
+/// Measures the largest value of any scale.
+fn largest(measure: &'static str, value: ValueOf<Chain>) -> MeasuredQuantity<Chain> {
+    MeasuredQuantity { extreme: Some(f64::max), ..quantity(measure, value) }
 }
 
 /// Returns the stretch of a gap.

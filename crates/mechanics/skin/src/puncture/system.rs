@@ -28,6 +28,9 @@ const DEEPEST: f64 = 2.0;
 /// Number of the marker that vanishes at the requested depth; others are gaps.
 pub(super) const DEPTH_MARK: usize = usize::MAX;
 
+/// Number of the marker that vanishes at the requested force.
+pub(super) const FORCE_MARK: usize = usize::MAX - 1;
+
 /// Numbers of the markers that vanish where a strength is reached; smaller numbers are gaps.
 pub(super) const FIRST_LIMIT_MARK: usize = usize::MAX / 2;
 
@@ -176,6 +179,8 @@ pub(crate) struct Chain {
     pub(super) load_arm: Vec2,
     /// Additional depth at which the force is measured.
     marked_depth: Option<f64>,
+    /// Force at which the pressure on the tissue is measured.
+    marked_force: Option<f64>,
     /// `None` for a free needle, which is a load.
     pub(super) needle: Option<GuidedNeedle>,
     /// Unknowns of the contact forces, and of the constraints of a guided needle.
@@ -277,6 +282,7 @@ impl Chain {
             exterior,
             load_arm,
             marked_depth: parameters.depth,
+            marked_force: parameters.force,
             needle,
             constraints,
             controls,
@@ -601,6 +607,7 @@ impl System for Chain {
     fn marker(&self, state: &SkinState, number: usize) -> f64 {
         match number {
             DEPTH_MARK => self.marked_depth.map_or(f64::NAN, |depth| self.depth(&state.z) - depth),
+            FORCE_MARK => self.marked_force.map_or(f64::NAN, |force| self.force(state) - force),
             pair if pair < FIRST_LIMIT_MARK => self.gap_stretch(state, pair),
             limit => self.limit_marker(state, limit - FIRST_LIMIT_MARK),
         }

@@ -45,6 +45,37 @@ fn strong_designs_of_the_reference_study_would_break_or_bend() {
     }
 }
 
+/// Before contact the pressure of an upright scale follows from the load and the tilt. The value
+/// of a row ends at its largest force.
+#[test]
+fn the_pressure_at_a_force_belongs_to_the_equilibrium_with_that_force() {
+    let known = Calibrations::default();
+    let solved = |design: &Design, force: f64, scales| {
+        let parameters =
+            PunctureParameters { scales, force: Some(force), ..parameters(Strengths::default()) };
+        solve_as(&known, design, &Common::default(), &parameters)
+    };
+    let isolated = design(100.0, 0.5, 0.0, Base::L);
+    let puncture = solved(&isolated, 0.01, RowLength::Scales(1));
+    let tilts = puncture.path.windows(2).find(|pair| pair[1].force >= 0.01).expect("reached");
+    // `F` over `E_s t²` on a base of area 0.5; the tilt is between those of two points.
+    let pressures = [tilts[0].tilt_deg, tilts[1].tilt_deg]
+        .map(|tilt| 0.01 * 0.5 / 0.75 * tilt.to_radians().cos() / 0.5);
+    let pressure = puncture.measures.tissue_pressure_at_force.expect("reached");
+    assert!(pressures[1] <= pressure && pressure <= pressures[0], "{pressure} {pressures:?}");
+
+    let slanted = design(0.2, 0.5, 60.0, Base::L);
+    let whole = complete(&solved(&slanted, 1e-3, RowLength::Auto));
+    let (last, largest) =
+        (whole.critical_force.expect("a force"), whole.failure.tissue_pressure.expect("pressure"));
+    let almost = complete(&solved(&slanted, last * (1.0 - 1e-9), RowLength::Auto));
+    let almost = almost.tissue_pressure_at_force.expect("reached");
+    assert_relative_eq!(almost, largest, max_relative = 1e-7);
+    assert!(whole.tissue_pressure_at_force.expect("reached") < 0.1 * largest);
+    let beyond = complete(&solved(&slanted, 1.001 * last, RowLength::Auto));
+    assert_eq!(beyond.tissue_pressure_at_force, None);
+}
+
 /// An isolated scale: every value follows from the load and its arm.
 #[test]
 fn stresses_of_an_isolated_scale_follow_from_its_load() {

@@ -34,6 +34,8 @@ pub const FORCE_ANY_DIRECTION: &str = "force_any_direction";
 pub const WORST_FORCE_BETWEEN: &str = "worst_force_between";
 /// Largest pressure on the tissue.
 pub const TISSUE_PRESSURE_MAX: &str = "tissue_pressure_max";
+/// Pressure on the tissue at the given force of the needle.
+pub const TISSUE_PRESSURE_AT_FORCE: &str = "tissue_pressure_at_force";
 /// Mode of the first failure.
 pub const FIRST_FAILURE: &str = "first_failure";
 /// Event that ended the path of a guided needle.

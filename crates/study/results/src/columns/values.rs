@@ -47,6 +47,8 @@ const BETWEEN: &[&str] = &[key::RADIUS_TO, key::RADIUS_TO_MM];
 /// Parameters that request the first failure.
 const FAILURE: &[&str] = &[
     key::FAILURE,
+    key::NEEDLE_FORCE,
+    key::NEEDLE_FORCE_N,
     key::SCALE_STRENGTH_OVER_SUBSTRATE,
     key::BOND_STRENGTH_OVER_SUBSTRATE,
     key::SCALE_STRENGTH,
@@ -237,6 +239,9 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
     number(name::TISSUE_PRESSURE_MAX, Anywhere, |m| &mut m.failure.tissue_pressure)
         .in_unit("E_s").physical(&[same(Quantity::Pressure)]).small().along_path().needing(FAILURE):
         "largest mean pressure of any base on the substrate up to the end of the path";
+    number(name::TISSUE_PRESSURE_AT_FORCE, Anywhere, |m| &mut m.tissue_pressure_at_force)
+        .in_unit("E_s").physical(&[same(Quantity::Pressure)]).small().needing(&[key::NEEDLE_FORCE, key::NEEDLE_FORCE_N]):
+        "largest mean pressure of any base on the substrate when the needle first presses with the given force; empty for a skin that does not withstand that force";
     depth("clearance", Nowhere, |m| &mut m.failure.clearance).needing(FAILURE):
         "distance between the faces of two neighbours at rest";
     other(name::FRICTION_WORK, BOTH, |r| measured(r, |m| m.friction_work))
@@ -270,7 +275,7 @@ pub(crate) static VALUES: &[MeasuredValue] = values! {
         "curvature above which the scales stick to each other and lock the strip; empty if it does not lock";
     bending(name::CONTACT_CURVATURE, Contact, |m| &mut m.contact_curvature)
         .in_unit("1/t")
-        .physical(&[other_thing(Quantity::Radius, "bend_radius", "smallest radius to which the skin bends before scales touch")])
+        .physical(&[other_thing(Quantity::Radius, "bend_radius", "smallest radius to which the skin bends before scales touch; 0 for a gap that cannot close")])
         .large().then():
         "curvature at which scales touch, even if bending ends before; empty for a gap that cannot close";
     // In a perfect strip all gaps close at the same curvature, so only imperfect samples have a

@@ -40,11 +40,11 @@ fn every_parameter_may_be_an_axis_with_a_column_of_its_own() {
         // same length in other ways.
         let is_other = |p: &sweep::Parameter| {
             let unit = p.is_in_mm() != in_mm && (p.is_in_mm() || p.in_mm().next().is_some());
-            let of_scale =
-                ["scale_modulus_MPa", "scale_strength_MPa", "bond_strength_MPa"].contains(&p.key);
-            let is_modulus = of_scale && !in_mm;
-            let is_ratio = p.key.contains("modulus_over_") || p.key.contains("strength_over_");
-            let is_ratio = is_ratio && in_mm;
+            let numerators =
+                ["scale_modulus_MPa", "scale_strength_MPa", "bond_strength_MPa", "force_N"];
+            let is_modulus = numerators.contains(&p.key) && !in_mm;
+            let ratios = ["modulus_over_", "strength_over_", "force_over_"];
+            let is_ratio = in_mm && ratios.iter().any(|ratio| p.key.contains(ratio));
             unit || is_modulus || is_ratio || p.key == "pitch_mm" || others.contains(&p.key)
         };
         let chosen = sweep::PARAMETERS.iter().filter(|p| !is_other(p));

@@ -20,16 +20,19 @@ fn solved(radius: &str) -> (Option<BareNeedle>, f64, f64) {
     let measures = row.result.puncture.expect("a puncture").measures;
     let force = measures.critical_force.expect("a force");
     // `F = F* E* L t`, with a length of 1.6 mm.
-    let force = force * MODULUS / (1.0 - 0.4 * 0.4) * 1.6 * 2.0;
-    let pressure = 1e3 * MODULUS * measures.failure.tissue_pressure.expect("a pressure");
-    (bare_needle(&row), force, pressure)
+    let at_end = force * MODULUS / (1.0 - 0.4 * 0.4) * 1.6 * 2.0;
+    let pressure = measures.tissue_pressure_at_force.or(measures.failure.tissue_pressure);
+    let pressure = 1e3 * MODULUS * pressure.expect("a pressure");
+    (bare_needle(&row), case.needle_force_n.unwrap_or(at_end), pressure)
 }
 
 #[test]
 fn a_bare_needle_presses_as_a_sphere_or_with_its_whole_shaft() {
     // A thin needle sinks in up to its shaft, a thick one touches a part of its tip.
-    for (radius, is_shaft) in [(0.1, true), (2.0, false)] {
-        let (bare, force, under_skin) = solved(&format!("needle_radius_mm = {radius}"));
+    // Once at the end of the path and once at a smaller force.
+    let needles = [("0.1", 0.1, true), ("2", 2.0, false), ("2\nforce_N = 0.3", 2.0, false)];
+    for (given, radius, is_shaft) in needles {
+        let (bare, force, under_skin) = solved(&format!("needle_radius_mm = {given}"));
         let bare = bare.expect("a round needle");
         let touched = (0.75 * force * radius * (1.0 - 0.4 * 0.4) / MODULUS).cbrt();
         assert_eq!(touched > radius, is_shaft, "{touched}");

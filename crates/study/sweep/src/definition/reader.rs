@@ -221,6 +221,7 @@ impl Reader {
         wrong.extend(checked.into_iter().filter_map(Result::err));
         wrong.extend(self.lengths_without_thickness());
         wrong.extend(self.ratios_without_modulus());
+        wrong.extend(self.force_without_thickness());
         // The default in place of a refused step says nothing about the other steps.
         if self.refused.is_empty() {
             wrong.extend(self.check_steps(file).err());
@@ -398,6 +399,13 @@ impl Reader {
             let (_, below) = needed.find(|(_, below)| !self.says(below))?;
             Some(refuse(place, &key, Problem::Needs(format!("material.{below}"))))
         })
+    }
+
+    /// Returns an error for a needle force in N without a thickness.
+    fn force_without_thickness(&self) -> Option<InvalidDefinition> {
+        let mut written = self.written().filter(|_| !self.says(key::THICKNESS));
+        let (key, _, place) = written.find(|(_, p, _)| p.key == key::NEEDLE_FORCE_N)?;
+        Some(refuse(place, &key, Problem::Needs(format!("material.{}", key::THICKNESS))))
     }
 
     /// Refuses a parameter with a value (`gives`) if an alternative has one too.

@@ -68,6 +68,12 @@ pub const DEPTH: &str = "depth_over_t";
 /// The same depth in mm.
 pub const DEPTH_MM: &str = "depth_mm";
 
+/// Force of the needle at which the pressure on the tissue is measured.
+pub const NEEDLE_FORCE: &str = "force_over_substrate";
+
+/// The same force in N.
+pub const NEEDLE_FORCE_N: &str = "force_N";
+
 /// Number of load positions that are evaluated.
 pub const PLACES: &str = "places";
 

@@ -125,6 +125,8 @@ fn product(length: f64, thickness: f64) -> f64 {
 pub(super) fn keep_in_step(case: &mut Case, changed: &Parameter) {
     if changed.is_in_mm() || changed.key == key::THICKNESS {
         settle(case);
+        // A force in N is over the square of the thickness.
+        modulus::settle(case);
     } else if changed.is_modulus() {
         modulus::settle(case);
     } else {
@@ -164,6 +166,9 @@ pub(crate) fn with_thickness(case: &Case, thickness: f64) -> Option<Case> {
         }
     }
     moved.material.thickness_mm = Some(thickness);
+    // A force is over the square of the thickness.
+    moved.needle_force = case.needle_force.map(|force| force * factor.powi(2));
     settle(&mut moved);
+    modulus::settle(&mut moved);
     Some(moved)
 }

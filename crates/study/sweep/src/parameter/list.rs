@@ -255,6 +255,12 @@ pub static PARAMETERS: &[Parameter] = parameters! {
         key::DEPTH_MM, "mm", [InMm(key::DEPTH)],
             optional(POSITIVE, |c| &mut c.in_mm.depth),
             in_mm!("depth", "depth at which force_at_depth is measured");
+        key::NEEDLE_FORCE, "E_s t^2", [Continuous, Made],
+            optional(POSITIVE, |c| &mut c.needle_force),
+            "force of the needle at which tissue_pressure_at_force is measured";
+        key::NEEDLE_FORCE_N, "N", [],
+            optional(POSITIVE, |c| &mut c.needle_force_n),
+            "force of the needle, instead of force_over_substrate; with thickness_mm and substrate_modulus_MPa in [material]";
         key::PLACES, "-", [],
             count_or("none", 2, 1000, |c| c.puncture.places, |c, count| c.puncture.places = count),
             "number of load positions evaluated for weakest_force, from the left corner of the top to the right, for a round tip over one pitch";

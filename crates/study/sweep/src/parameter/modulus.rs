@@ -1,7 +1,7 @@
-//! Moduli and strengths in `MPa`, and the ratios that follow from them.
+//! Moduli and strengths in `MPa` and a force in N, and the ratios that follow from them.
 //!
-//! The solvers read only the contact ratios `E_ct/E_s` and `E_ct/E_m` of Eq. (5), and the strengths
-//! over `E_s`. The stiffness and the strength of a scale are properties of its material, not of its
+//! The solvers read only the contact ratios `E_ct/E_s` and `E_ct/E_m` of Eq. (5), the strengths
+//! over `E_s`, and the force over `E_s t²`. The stiffness and the strength of a scale are properties of its material, not of its
 //! substrate. If they are given in `MPa`, the ratios therefore follow from them, also when another
 //! modulus varies.
 
@@ -9,11 +9,12 @@ use super::{Parameter, key};
 use crate::case::Case;
 
 /// Keys of a ratio, of its numerator and of its denominator.
-const RATIOS: [[&str; 3]; 4] = [
+const RATIOS: [[&str; 3]; 5] = [
     [key::CONTACT_OVER_SUBSTRATE, key::SCALE_MODULUS, key::SUBSTRATE_MODULUS],
     [key::CONTACT_OVER_MEMBRANE, key::SCALE_MODULUS, key::MEMBRANE_MODULUS],
     [key::SCALE_STRENGTH_OVER_SUBSTRATE, key::SCALE_STRENGTH, key::SUBSTRATE_MODULUS],
     [key::BOND_STRENGTH_OVER_SUBSTRATE, key::BOND_STRENGTH, key::SUBSTRATE_MODULUS],
+    [key::NEEDLE_FORCE, key::NEEDLE_FORCE_N, key::SUBSTRATE_MODULUS],
 ];
 
 impl Parameter {
@@ -24,7 +25,7 @@ impl Parameter {
         })
     }
 
-    /// Returns true for a ratio with its numerator given in `MPa`.
+    /// Returns true for a ratio with its numerator given in `MPa` or N.
     pub(super) fn follows_modulus(&self, case: &Case) -> bool {
         RATIOS
             .iter()
@@ -49,6 +50,7 @@ fn numerator(case: &Case, key: &str) -> Option<f64> {
         key::SCALE_MODULUS => material.scale_modulus_mpa,
         key::SCALE_STRENGTH => material.scale_strength_mpa,
         key::BOND_STRENGTH => material.bond_strength_mpa,
+        key::NEEDLE_FORCE_N => case.needle_force_n,
         _ => None,
     }
 }
@@ -60,7 +62,7 @@ fn ratio(above: Option<f64>, below: Option<f64>) -> Option<f64> {
     Some(above? / below?)
 }
 
-/// Computes the ratios from the moduli and strengths in `MPa`.
+/// Computes the ratios from the moduli, the strengths and the force.
 pub(super) fn settle(case: &mut Case) {
     let material = case.material;
     let below = material.substrate_modulus_mpa;
@@ -73,15 +75,23 @@ pub(super) fn settle(case: &mut Case) {
     let strengths = &mut case.strengths;
     strengths.scale = ratio(material.scale_strength_mpa, below).or(strengths.scale);
     strengths.bond = ratio(material.bond_strength_mpa, below).or(strengths.bond);
+    let force = ratio(case.needle_force_n, force_unit(case));
+    case.needle_force = force.or(case.needle_force);
 }
 
-/// Updates the numerator in `MPa` after a change of the ratio `moved`.
+/// Returns `E_s t²`, in N.
+fn force_unit(case: &Case) -> Option<f64> {
+    Some(case.material.substrate_modulus_mpa? * case.material.thickness_mm?.powi(2))
+}
+
+/// Updates the numerator in `MPa` or N after a change of the ratio `moved`.
 pub(super) fn restate(case: &mut Case, moved: &Parameter) {
     if !moved.follows_modulus(case) {
         return;
     }
     let below = match moved.key {
         key::CONTACT_OVER_MEMBRANE => case.material.membrane_modulus_mpa,
+        key::NEEDLE_FORCE => force_unit(case),
         _ => case.material.substrate_modulus_mpa,
     };
     let (Some(ratio), Some(below)) = (moved.get(case).number(), below) else { return };
@@ -89,6 +99,7 @@ pub(super) fn restate(case: &mut Case, moved: &Parameter) {
     let above = match moved.key {
         key::SCALE_STRENGTH_OVER_SUBSTRATE => &mut material.scale_strength_mpa,
         key::BOND_STRENGTH_OVER_SUBSTRATE => &mut material.bond_strength_mpa,
+        key::NEEDLE_FORCE => &mut case.needle_force_n,
         _ => &mut material.scale_modulus_mpa,
     };
     *above = Some(ratio * below);

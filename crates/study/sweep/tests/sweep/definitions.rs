@@ -105,8 +105,30 @@ fn load_position_and_depth_are_written_back_in_their_notation() {
     let refused = |text: &str| read(text).unwrap_err().to_string();
     let text = refused("puncture.depth_mm = 1");
     assert!(text.contains("puncture.depth_mm") && text.contains("material.thickness_mm"), "{text}");
+    let text = refused("puncture.force_N = 1\nmaterial.substrate_modulus_MPa = 1");
+    assert!(text.contains("puncture.force_N") && text.contains("material.thickness_mm"), "{text}");
+    let text = refused("puncture.force_N = 1\nmaterial.thickness_mm = 1");
+    assert!(text.contains("material.substrate_modulus_MPa"), "{text}");
     let both = refused("puncture = { load_inset_over_t = 0.05, load_position = 0.5 }");
     assert!(both.contains("cannot be combined"), "{both}");
+}
+
+/// `F/(E_s t²)` changes with the thickness and the modulus, `F*` also with the length.
+#[test]
+fn a_force_in_newtons_stays_the_same_force() {
+    let text = "name = 'x'\npuncture.force_N = 6\n[material]\n\
+        substrate_modulus_MPa = 0.5\n[designs]\nthickness_mm = [1, 2]\nlength_over_t = 0.5\ngap_over_t = 0.1\n\
+        slant_deg = 0";
+    let sweep = Sweep::parse(text, "x.toml", &[]).unwrap();
+    let forces = [0, 1].map(|index| sweep.grid().case(index).needle_force);
+    assert_eq!(forces, [Some(12.0), Some(3.0)]);
+    // (1 − 0.5²)/0.5
+    assert_eq!(sweep.grid().case(0).punctured().force, Some(12.0 * 1.5));
+    let thickness = Parameter::named("thickness_mm").unwrap();
+    let moved = thickness.moved(&sweep.grid().case(0), 1.0).unwrap();
+    assert_eq!((moved.needle_force, moved.needle_force_n), (Some(3.0), Some(6.0)));
+    let again = Sweep::parse(&sweep.to_toml(), "again.toml", &[]).unwrap();
+    assert_eq!(again.grid().case(1), sweep.grid().case(1));
 }
 
 #[test]

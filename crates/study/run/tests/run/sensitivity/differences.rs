@@ -145,6 +145,7 @@ pub fn value(result: &DesignResult, name: &str) -> Option<f64> {
         "scale_deflection_max" => puncture.failure.scale_deflection,
         "bond_stress_max" => puncture.failure.bond_stress,
         "tissue_pressure_max" => puncture.failure.tissue_pressure,
+        "tissue_pressure_at_force" => puncture.tissue_pressure_at_force,
         "clearance" => puncture.failure.clearance,
         "compliance" => flexure.compliance,
         "initial_compliance" => flexure.initial_compliance,

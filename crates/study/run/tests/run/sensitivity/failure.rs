@@ -9,12 +9,13 @@ use super::designs::{number, random_case};
 use super::differences::Differences;
 use super::{compare_components, derivatives};
 
-const MEASURES: [&str; 6] = [
+const MEASURES: [&str; 7] = [
     "failure_force",
     "scale_stress_max",
     "scale_deflection_max",
     "bond_stress_max",
     "tissue_pressure_max",
+    "tissue_pressure_at_force",
     "clearance",
 ];
 
@@ -31,6 +32,10 @@ fn derivatives_of_the_first_failure_are_those_of_whole_solutions() {
         let mut case = random_case(number);
         case.judge_failure = true;
         let whole = failure(&case);
+        // Half of the force at the first failure, over `E_s t²`.
+        let plane_strain = 1.0 - case.puncture.poisson_ratio.powi(2);
+        case.needle_force =
+            whole.force.map(|force| 0.5 * force * case.design.length / plane_strain);
         case.strengths = match number % 3 {
             0 => Strengths { scale: whole.scale_stress.map(|stress| 0.6 * stress), bond: None },
             1 => Strengths { scale: None, bond: whole.bond_stress.map(|stress| 0.4 * stress) },
