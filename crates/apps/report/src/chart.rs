@@ -3,7 +3,7 @@
 use crate::axis::ChartAxis;
 use crate::colors::{FAINT, GRID, INK, RED};
 use crate::designs::Designs;
-use crate::label::{Anchor, label, upright, width};
+use crate::label::{Anchor, fitting, label, upright, width};
 use crate::palette::{Mark, SlantPalette};
 use crate::svg::{Element, Spot, line, rect};
 
@@ -95,7 +95,9 @@ impl<'a> ChartPanel<'a> {
     /// Draws frame, grid, ticks and title.
     pub(crate) fn frame(&self) -> Element {
         let area = &self.area;
-        let title = label(&self.title, [area.center()[0], area.top - 6.0], 12.0, Anchor::Middle);
+        // Labels of the y axis of the next panel may stand beside the title.
+        let size = fitting(&self.title, 12.0, area.width + 20.0);
+        let title = label(&self.title, [area.center()[0], area.top - 6.0], size, Anchor::Middle);
         Element::group("frame")
             .containing(self.x_ticks())
             .containing(self.y_ticks())
@@ -148,25 +150,28 @@ impl<'a> ChartPanel<'a> {
     /// Returns the label of the x axis under the panel.
     pub(crate) fn x_name(&self) -> Element {
         let spot = [self.area.center()[0], self.area.bottom() + 36.0];
-        let size = fitting(&self.x.label, 1.1 * self.area.width);
+        let size = fitting(&self.x.label, NAME, 1.1 * self.area.width);
         label(&self.x.label, spot, size, Anchor::Middle).with("fill", INK)
     }
 
     /// Returns the label of the y axis beside the panel, `away` px from it.
     pub(crate) fn y_name(&self, away: f64) -> Element {
         let spot = [self.area.left - away, self.area.center()[1]];
-        let label = &self.y.label;
-        // A long label is cut before its formula, because it would be longer than the panel is
-        // high.
-        let is_long = width(label, NAME) > self.area.height;
-        let name = label.split(" = ").next().filter(|_| is_long).unwrap_or(label);
-        upright(name, spot, fitting(name, self.area.height)).with("fill", INK)
+        upright_name(&self.y.label, spot, self.area.height)
     }
 }
 
-/// Returns the font size at which a label fits into `room` px.
-fn fitting(label: &str, room: f64) -> f64 {
-    NAME * (room / width(label, NAME)).min(1.0)
+/// Draws the name of a vertical axis around a spot, in `room` px.
+///
+/// A long name loses its formula first, and keeps its unit. Then its letters shrink.
+pub(crate) fn upright_name(name: &str, spot: Spot, room: f64) -> Element {
+    let is_long = width(name, NAME) > room;
+    let short = name.split_once(" = ").filter(|_| is_long).map(|(symbol, formula)| {
+        let unit = formula.rsplit_once(", ").map_or("", |(_, unit)| unit);
+        if unit.is_empty() { symbol.to_owned() } else { format!("{symbol}, {unit}") }
+    });
+    let name = short.as_deref().unwrap_or(name);
+    upright(name, spot, fitting(name, NAME, room)).with("fill", INK)
 }
 
 /// Radius of a circle with the area of a mark, px.
@@ -250,8 +255,18 @@ pub(crate) fn design_mark(
     Some(mark.with("data-design", designs.design(row)))
 }
 
-/// Returns a legend of the slants and the styles of marks.
-pub(crate) fn mark_legend(palette: &SlantPalette, has_folds: bool, [x, y]: Spot) -> Element {
+/// Height of a line of a legend, px.
+pub(crate) const LINE: f64 = 18.0;
+
+/// Returns a legend of the slants and the styles of marks, and the position below it.
+///
+/// Entries beyond `right` start a new line.
+pub(crate) fn mark_legend(
+    palette: &SlantPalette,
+    has_folds: bool,
+    [x, mut y]: Spot,
+    right: f64,
+) -> (Element, f64) {
     let name = label("slant $α$", [x, y + 4.0], 12.0, Anchor::Start).with("fill", INK);
     // The legend also defines the shapes, because every figure with marks has a legend.
     let mut legend = Element::group("legend").containing([shapes(palette), name]);
@@ -262,9 +277,12 @@ pub(crate) fn mark_legend(palette: &SlantPalette, has_folds: bool, [x, y]: Spot)
     let folded =
         last.map(|&slant| (slant, MarkLook::Folded, "surface folds: do not trust".to_owned()));
     for (slant, look, text) in slants.chain(folded) {
+        if left + 9.0 + width(&text, 12.0) > right {
+            (left, y) = (x + 6.0, y + LINE);
+        }
         legend.add(mark(palette, slant, [left, y], look));
         legend.add(label(&text, [left + 9.0, y + 4.0], 12.0, Anchor::Start).with("fill", INK));
         left += 28.0 + width(&text, 12.0);
     }
-    legend
+    (legend, y + LINE)
 }

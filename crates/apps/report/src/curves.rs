@@ -12,20 +12,25 @@ use crate::chart::{Area, ChartPanel};
 use crate::colors::{INK, RED, shaded};
 use crate::drawings::geometry_label;
 use crate::figures::{Figure, columns, sheet};
-use crate::label::{Anchor, label, width};
+use crate::label::{Anchor, fitting, label, width, wrapped};
 use crate::palette::SlantPalette;
+use crate::paper::Paper;
 use crate::svg::{Element, Spot, circle, line, polygon, polyline};
 
 const WIDTH: f64 = 760.0;
 /// Margins for the axes, px: left, right, below.
 const MARGINS: [f64; 3] = [78.0, 24.0, 62.0];
-const HEIGHT: f64 = 430.0;
+/// Height of a panel on wide and narrow paper, px.
+const HEIGHT: f64 = 292.0;
+const NARROW_HEIGHT: f64 = 230.0;
 /// Vertical position of the first line of the legend, px.
 const LEGEND: f64 = 70.0;
 /// Minimum distance between crosses, px.
 const CROSS: f64 = 9.0;
 /// Width and height of a panel of energies, px.
 const ENERGY_PANEL: [f64; 2] = [330.0, 300.0];
+/// Minimum width of a panel of energies on narrow paper, px.
+const LEAST_ENERGY_PANEL: f64 = 220.0;
 
 /// Dashes and shades that distinguish designs of one slant.
 const DASHES: [&str; 5] = ["none", "7 4", "2 3", "9 3 2 3", "12 5"];
@@ -78,19 +83,21 @@ pub fn curves(
     name: &str,
     designs: &[DesignCurves],
     measured: Option<&MeasuredCurves>,
+    paper: Paper,
 ) -> Vec<Figure> {
     let over = |bending: bool| measured.filter(|measured| measured.bending == bending);
-    let one_panel = |text, values, measured| one_panel(name, text, designs, values, measured);
+    let one_panel =
+        |text, values, measured| one_panel(name, text, designs, values, measured, paper);
     let candidates = [
         ("force-displacement-curves", one_panel(&FORCE, puncture, over(false))),
         ("force-over-place", one_panel(&PLACES, places, None)),
         ("force-over-radius", one_panel(&BODIES, bodies, None)),
         ("moment-curvature-curves", one_panel(&MOMENT, flexure, over(true))),
-        ("puncture-energies", panels(name, &PUNCTURE_ENERGY, designs, puncture_energies)),
-        ("flexure-energies", panels(name, &FLEXURE_ENERGY, designs, flexure_energies)),
+        ("puncture-energies", panels(name, &PUNCTURE_ENERGY, designs, puncture_energies, paper)),
+        ("flexure-energies", panels(name, &FLEXURE_ENERGY, designs, flexure_energies, paper)),
     ];
     let drawn = candidates.into_iter();
-    drawn.filter_map(|(name, svg)| Some(Figure { name: name.to_owned(), svg: svg? })).collect()
+    drawn.filter_map(|(name, svg)| Some(Figure::new(name, svg?))).collect()
 }
 
 /// The texts of a kind of figure.
@@ -293,6 +300,7 @@ fn one_panel(
     designs: &[DesignCurves],
     values: ValuesOf,
     measured: Option<&MeasuredCurves>,
+    paper: Paper,
 ) -> Option<String> {
     // Compare measured curves without units with dimensionless curves.
     let is_wanted = measured.is_none_or(|measured| measured.is_physical);
@@ -310,15 +318,9 @@ fn one_panel(
     let (x, y) = axes(labels, &points.collect::<Vec<_>>());
     let y = logarithmic(labels[1], &curves).unwrap_or(y);
     let lines = curves.len() + measured.len() + usize::from(!band.is_empty());
-    let area = Area {
-        left: MARGINS[0],
-        top: LEGEND + 6.0 + 20.0 * lines as f64,
-        width: WIDTH - MARGINS[0] - MARGINS[1],
-        height: HEIGHT - LEGEND - 6.0 - MARGINS[2],
-    };
-    let panel = ChartPanel::new(area, &x, &y);
-    let note = [MARGINS[0], 48.0];
-    let mut inside = panel.axes(56.0).to_vec();
+    let full = paper.width(WIDTH);
+    // On narrow paper the legend starts at the left edge.
+    let left = if paper.is_narrow(WIDTH) { 20.0 } else { MARGINS[0] };
     let any = |has: fn(&CurveValues) -> bool| curves.iter().any(|curve| has(&curve.values));
     let [always, ring, dotted] = text.notes;
     let notes = [
@@ -330,56 +332,79 @@ fn one_panel(
     ];
     // Show only the notes that apply: all of them are wider than the figure.
     let told = notes.into_iter().filter(|(words, occurs)| *occurs && !words.is_empty());
-    let words = told.map(|(words, _)| words).collect::<Vec<_>>().join(";  ");
-    inside.push(label(&words, note, 12.0, Anchor::Start).with("fill", INK));
+    let words = told.map(|(words, _)| words).collect::<Vec<_>>().join("; ");
+    let words = wrapped(&words, 12.0, full - left - 12.0);
+    // The legend is below the notes.
+    let entries = LEGEND + 16.0 * words.len().saturating_sub(1) as f64;
+    let entries = [left, entries];
+    let area = Area {
+        left: MARGINS[0],
+        top: entry(entries, lines)[1] + 6.0,
+        width: full - MARGINS[0] - MARGINS[1],
+        height: if paper.is_narrow(WIDTH) { NARROW_HEIGHT } else { HEIGHT },
+    };
+    let panel = ChartPanel::new(area, &x, &y);
+    let mut inside = panel.axes(56.0).to_vec();
+    inside.extend(words.iter().enumerate().map(|(k, words)| {
+        label(words, [left, 48.0 + 16.0 * k as f64], 12.0, Anchor::Start).with("fill", INK)
+    }));
     if !band.is_empty() {
-        let y = LEGEND + 20.0 * (curves.len() + measured.len()) as f64;
-        inside.extend(mean_band(&panel, band, y, measured.len()));
+        let spot = entry(entries, curves.len() + measured.len());
+        inside.extend(mean_band(&panel, band, spot, measured.len()));
     }
     for (k, curve) in curves.iter().enumerate() {
-        inside.extend([drawn(&panel, curve), legend(curve, LEGEND + 20.0 * k as f64)]);
+        let room = full - left - 60.0;
+        inside.extend([drawn(&panel, curve), legend(curve, entry(entries, k), room)]);
     }
     for (k, (name, points)) in measured.iter().enumerate() {
-        let color = MEASURED[k % MEASURED.len()];
-        let y = LEGEND + 20.0 * (curves.len() + k) as f64;
-        inside.push(dots(&panel, points, color));
-        inside.push(dot([MARGINS[0] + 20.0, y], color));
+        let [x, y] = entry(entries, curves.len() + k);
+        let dashes = DASHES[k % DASHES.len()];
+        let curve = thin_line(&panel.spots(points.iter().copied()), dashes);
+        inside.push(Element::group("measured").containing([curve]));
+        inside.push(thin_line(&[[x, y], [x + 40.0, y]], dashes));
         // File names are plain text, without formulas.
-        let text = Element::new("text").at("x", MARGINS[0] + 50.0).at("y", y + 4.0);
-        inside.push(text.at("font-size", 12.0).with("fill", INK).text(name));
+        let size = 12.0 * ((full - x - 60.0) / (6.4 * name.chars().count() as f64)).min(1.0);
+        let text = Element::new("text").at("x", x + 50.0).at("y", y + 4.0);
+        inside.push(text.at("font-size", size).with("fill", INK).text(name));
     }
     let height = area.bottom() + MARGINS[2] - 8.0;
-    Some(sheet(WIDTH, height, &format!("{name}: {}", text.title), inside))
+    Some(sheet(full, height, &format!("{name}: {}", text.title), inside))
 }
 
-/// Colours of measured points.
-const MEASURED: [&str; 3] = [RED, INK, "#1b7f4b"];
+/// Returns the spot of entry `k` of a legend.
+fn entry([x, y]: Spot, k: usize) -> Spot {
+    [x, y + 20.0 * k as f64]
+}
 
-/// Draws the mean of specimens with the band of one standard deviation, and its legend at `y`.
-fn mean_band(panel: &ChartPanel, band: &[[f64; 3]], y: f64, specimens: usize) -> [Element; 4] {
+/// Colour of measured curves.
+const BLACK: &str = "#000";
+
+/// Draws a measured curve.
+fn thin_line(points: &[Spot], dashes: &'static str) -> Element {
+    let line = polyline(points).with("stroke", BLACK).at("stroke-width", 0.9);
+    line.with("stroke-dasharray", dashes).with("stroke-linejoin", "round")
+}
+
+/// Draws the mean of specimens with the band of one standard deviation, and its legend at a spot.
+fn mean_band(
+    panel: &ChartPanel,
+    band: &[[f64; 3]],
+    [x, y]: Spot,
+    specimens: usize,
+) -> [Element; 4] {
     let [low, middle, high] = [-1.0, 0.0, 1.0].map(|side| {
         panel.spots(band.iter().map(|[x, mean, deviation]| [*x, mean + side * deviation]))
     });
     let around: Vec<Spot> = high.into_iter().chain(low.into_iter().rev()).collect();
-    let mark = [MARGINS[0] + 5.0, MARGINS[0] + 37.0];
+    let mark = [x + 5.0, x + 37.0];
     let legend = [[mark[0], y - 5.0], [mark[1], y - 5.0], [mark[1], y + 5.0], [mark[0], y + 5.0]];
     let [around, legend] = [around.as_slice(), &legend].map(|points| {
         polygon(points).with("class", "band").with("fill", RED).with("fill-opacity", "0.16")
     });
     let mean = polyline(&middle).with("stroke", RED).at("stroke-width", 1.2);
     let words = format!("mean of {specimens} specimens ± standard deviation");
-    let words = label(&words, [MARGINS[0] + 50.0, y + 4.0], 12.0, Anchor::Start);
+    let words = label(&words, [x + 50.0, y + 4.0], 12.0, Anchor::Start);
     [around, mean, legend, words.with("fill", INK)]
-}
-
-/// Draws measured points.
-fn dots(panel: &ChartPanel, points: &[[f64; 2]], color: &str) -> Element {
-    let spots = panel.spots(points.iter().copied()).into_iter();
-    Element::group("measured").containing(spots.map(|spot| dot(spot, color)))
-}
-
-fn dot(spot: Spot, color: &str) -> Element {
-    circle(spot, 2.6).with("fill", "none").with("stroke", color).at("stroke-width", 1.1)
 }
 
 /// Returns a curve for each design, with distinct shades and dashes for designs of one slant.
@@ -489,10 +514,11 @@ fn apart(spots: Vec<Spot>) -> Vec<Spot> {
     kept
 }
 
-fn legend(curve: &Curve, y: f64) -> Element {
-    let sample = line([MARGINS[0], y], [MARGINS[0] + 40.0, y], &curve.color, 2.2)
-        .with("stroke-dasharray", curve.dashes);
-    let name = label(&curve.name, [MARGINS[0] + 50.0, y + 4.0], 12.0, Anchor::Start);
+fn legend(curve: &Curve, [x, y]: Spot, room: f64) -> Element {
+    let sample =
+        line([x, y], [x + 40.0, y], &curve.color, 2.2).with("stroke-dasharray", curve.dashes);
+    let size = fitting(&curve.name, 12.0, room);
+    let name = label(&curve.name, [x + 50.0, y + 4.0], size, Anchor::Start);
     Element::group("legend").containing([sample, name.with("fill", INK)])
 }
 
@@ -502,6 +528,7 @@ fn panels(
     text: &FigureText,
     designs: &[DesignCurves],
     values: fn(&DesignCurves) -> Option<Energies>,
+    paper: Paper,
 ) -> Option<String> {
     let units = text.physical(designs);
     let labels = text.axes[usize::from(units.is_some())];
@@ -520,8 +547,17 @@ fn panels(
     if solved.is_empty() {
         return None;
     }
-    let columns = columns(solved.len()).min(3);
     let [w, h] = ENERGY_PANEL;
+    let wanted = columns(solved.len()).min(3);
+    let natural = MARGINS[0] + wanted as f64 * (w + 84.0) - 60.0;
+    let full = paper.width(natural);
+    let room = full - MARGINS[0] - MARGINS[1];
+    let columns = paper.columns(wanted, room, LEAST_ENERGY_PANEL, 84.0);
+    let (w, h) = if paper.is_narrow(natural) {
+        ((room - 84.0 * (columns - 1) as f64) / columns as f64, NARROW_HEIGHT)
+    } else {
+        (w, h)
+    };
     let first = Area { left: MARGINS[0], top: 86.0, width: w, height: h };
     let mut inside =
         vec![label(text.notes[0], [20.0, 48.0], 12.0, Anchor::Start).with("fill", INK)];
@@ -536,8 +572,8 @@ fn panels(
     }
     let rows = solved.len().div_ceil(columns) as f64;
     let title = format!("{name}: {}", text.title);
-    let paper = MARGINS[0] + columns as f64 * (w + 84.0) - 60.0;
     // One panel alone is narrower than its title.
-    let paper = paper.max(width(&title, 15.0) + 60.0);
-    Some(sheet(paper, 86.0 + rows * (h + 84.0) - 20.0, &title, inside))
+    let full =
+        if paper.is_narrow(natural) { full } else { natural.max(width(&title, 15.0) + 60.0) };
+    Some(sheet(full, 86.0 + rows * (h + 84.0) - 20.0, &title, inside))
 }

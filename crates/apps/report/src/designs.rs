@@ -68,6 +68,11 @@ impl Designs {
         (0..self.count()).filter_map(move |row| self.number(column, row))
     }
 
+    /// Returns for each design whether its value in a column is positive.
+    pub(crate) fn positive(&self, column: &str) -> Vec<bool> {
+        (0..self.count()).map(|row| self.number(column, row).is_some_and(|v| v > 0.0)).collect()
+    }
+
     /// Returns the column names of the varied parameters.
     pub(crate) fn varied(&self) -> Vec<&str> {
         let headers = self.headers().iter().map(String::as_str);
@@ -91,6 +96,24 @@ impl Designs {
             pairs.len() > 1
                 && [self.texts(varied).len(), self.texts(column).len()] == [pairs.len(); 2]
         })
+    }
+
+    /// Returns the column of a length over the thickness in mm if the table has it, else itself.
+    pub(crate) fn in_mm(&self, axis: &str) -> String {
+        let in_mm = axis.replace("_over_t", "_mm");
+        if self.are_equivalent(axis, &in_mm) { in_mm } else { axis.to_owned() }
+    }
+
+    /// Returns true if two columns of numbers determine each other.
+    pub(crate) fn are_equivalent(&self, one: &str, other: &str) -> bool {
+        let (ones, others) = (self.distinct(one), self.distinct(other));
+        let mut pairs = BTreeSet::new();
+        for row in 0..self.count() {
+            let numbers = self.number(one, row).zip(self.number(other, row));
+            let places = numbers.map(|(a, b)| (ones.position(a), others.position(b)));
+            pairs.extend(places);
+        }
+        !pairs.is_empty() && [ones.as_slice().len(), others.as_slice().len()] == [pairs.len(); 2]
     }
 
     /// Returns the column names of the varied parameters besides gap, aspect ratio and slant.

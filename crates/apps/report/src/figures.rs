@@ -12,26 +12,36 @@ pub(crate) mod weight_slices;
 
 use std::borrow::Cow;
 
-use ranking::{RankedDesign, Ranking, Weights};
+use ranking::{CRITERIA, Ranking, Weights};
 use results::Quantity::{Force, Length, Moment, Stiffness};
 use results::columns::{is_invalid_after_fold, name, physical_source};
 
 pub(crate) use names::in_words;
 use names::with_value;
-pub use search::{SearchFigure, SearchedDesign};
+pub use search::{EVALUATION, SearchFigure, SearchedDesign};
 
 use crate::designs::{AxisValues, Designs};
-use crate::label::{Anchor, label, plain};
+use crate::label::{Anchor, fitting, label, plain, wrapped};
+use crate::paper::Paper;
 use crate::svg::{Element, document, heading};
 pub use map::{InvalidMap, MapRequest, map};
 
 /// A figure: file name and drawing.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Figure {
     /// Name, without an extension.
     pub name: String,
     /// The drawing, as SVG.
     pub svg: String,
+    /// The panels that narrow paper has no room for, in words.
+    pub omitted: Option<String>,
+}
+
+impl Figure {
+    /// Creates a figure that omits no panel.
+    pub fn new(name: &str, svg: String) -> Self {
+        Self { name: name.to_owned(), svg, omitted: None }
+    }
 }
 
 /// A quantity in figures: its column, and for random gaps the columns of the quantile band.
@@ -99,28 +109,48 @@ pub(crate) const PARTS: usize = 24;
 /// With a ranking it includes the Pareto fronts and the best designs for all weights. If a sweep has
 /// axes besides gap, aspect ratio and slant, each combination of their values has its own figures,
 /// for at most 24 combinations. Their names and titles include the values.
-pub fn figures(name: &str, designs: &Designs, ranking: Option<&Ranking<'_>>) -> Vec<Figure> {
+///
+/// The fronts and the best designs are those of the ranking, even if `designs` are fewer. On narrow
+/// paper figures have fewer panels.
+pub fn figures(
+    name: &str,
+    designs: &Designs,
+    ranking: Option<(&Designs, &Ranking<'_>)>,
+    paper: Paper,
+) -> Vec<Figure> {
     let parts = designs.parts();
     let part = |(values, part): &(AxisValues<'_>, Designs)| {
-        let all = of_part(&title(name, values), part).into_iter();
-        all.map(|(file, svg)| Figure { name: file_name(&file, values), svg }).collect::<Vec<_>>()
+        let all = of_part(&title(name, values), part, paper).into_iter();
+        all.map(|figure| Figure { name: file_name(&figure.name, values), ..figure })
+            .collect::<Vec<_>>()
     };
     let mut figures: Vec<Figure> = parts.iter().take(PARTS).flat_map(part).collect();
-    if let Some(ranking) = ranking {
-        let worth =
-            |design: RankedDesign<'_>| (design.row(), std::array::from_fn(|k| design.criterion(k)));
+    if let Some((designs, ranking)) = ranking {
         // User-defined criteria may have other axes, or fewer.
-        let is_drawn = ranking.preferences().are_the_papers();
+        let is_drawn = are_the_papers(ranking);
         let ranked = is_drawn.then(|| ranking.by_fitness(Weights::BALANCED));
-        let mut worths: Vec<_> = ranked.into_iter().flatten().map(worth).collect();
+        let mut rows: Vec<usize> = ranked.into_iter().flatten().map(|d| d.row()).collect();
         // In the order of the table, as on the page.
-        worths.sort_by_key(|(row, _)| *row);
-        let fronts = pareto::figure(name, designs, &worths);
-        figures.extend(fronts.map(|svg| Figure { name: "pareto-fronts-pairwise".to_owned(), svg }));
-        let svg = quaternary::figure(name, designs, ranking);
-        figures.push(Figure { name: "best-designs-by-weights-tetrahedron".to_owned(), svg });
+        rows.sort_unstable();
+        let axes = pareto::physical_axes(designs);
+        let fronts = pareto::figure(name, designs, &rows, &axes, paper);
+        figures.extend(fronts.map(|svg| Figure::new("pareto-fronts-pairwise", svg)));
+        if is_drawn {
+            let svg = quaternary::figure(name, designs, ranking, paper);
+            figures.push(Figure::new("best-designs-by-weights-tetrahedron", svg));
+        }
     }
     figures
+}
+
+/// Returns true if the criteria are the four of the paper, in any unit.
+fn are_the_papers(ranking: &Ranking<'_>) -> bool {
+    let criteria = &ranking.preferences().criteria;
+    criteria.len() == CRITERIA.len()
+        && criteria.iter().zip(&CRITERIA).all(|(own, papers)| {
+            let source = physical_source(&own.column).map(|(source, _)| source);
+            own.column == papers.column || source == Some(papers.column.as_ref())
+        })
 }
 
 /// Returns the title of the figures of a part, with the values of its further axes.
@@ -145,31 +175,48 @@ pub(crate) const MULTIPLES: [(&str, Option<&str>); 3] = [
 ];
 
 /// Draws the figures of designs that differ in gap, aspect ratio and slant.
-fn of_part(name: &str, designs: &Designs) -> Vec<(String, String)> {
+fn of_part(name: &str, designs: &Designs, paper: Paper) -> Vec<Figure> {
     let measured = MULTIPLES.into_iter().filter(|(measure, _)| designs.has(measure));
     let multiples = measured.map(|(measure, filled)| {
-        let file = format!("{}-by-gap-aspect-slant", measure.replace('_', "-"));
-        (file, multiples::figure(name, designs, &Quantity::of(designs, measure), filled))
+        let quantity = Quantity::of(designs, measure);
+        Figure {
+            name: format!("{}-by-gap-aspect-slant", measure.replace('_', "-")),
+            svg: multiples::figure(name, designs, &quantity, filled, paper),
+            omitted: multiples::omitted(designs, paper),
+        }
     });
     let mut figures: Vec<_> = multiples.collect();
     if designs.has(name::CRITICAL_FORCE) {
-        figures.push(("stiffness-against-critical-force".into(), stiffness::figure(name, designs)));
+        let svg = stiffness::figure(name, designs, paper);
+        figures.push(Figure::new("stiffness-against-critical-force", svg));
     }
     if designs.has(name::COVERAGE) {
-        figures
-            .push(("coverage-maps-by-slant".into(), map::by_slant(name, designs, name::COVERAGE)));
+        let map = map::by_slant(name, designs, name::COVERAGE, paper);
+        figures.push(Figure { name: "coverage-maps-by-slant".to_owned(), ..map });
     }
     let has_modes =
         (0..designs.count()).any(|row| !designs.text(name::FIRST_FAILURE, row).is_empty());
     if has_modes {
-        figures.push(("first-failure-by-gap-slant".into(), map::of_failures(name, designs)));
+        let map = map::of_failures(name, designs, paper);
+        figures.push(Figure { name: "first-failure-by-gap-slant".to_owned(), ..map });
     }
     figures
 }
 
-/// Returns a titled figure.
+/// Size of a title, and the smallest size on narrow paper, px.
+const TITLE: [f64; 2] = [15.0, 10.0];
+
+/// Returns a titled figure. A title that does not fit at the smallest size is cut.
 pub(crate) fn sheet(width: f64, height: f64, title: &str, inside: Vec<Element>) -> String {
-    let head = heading(label(title, [20.0, 26.0], 15.0, Anchor::Start));
+    // Bold letters are wider.
+    let room = (width - 36.0) / 1.05;
+    let size = fitting(title, TITLE[0], room).max(TITLE[1]);
+    let lines = wrapped(title, size, room);
+    let shown = match lines.as_slice() {
+        [first, _, ..] => format!("{first} …"),
+        _ => title.to_owned(),
+    };
+    let head = heading(label(&shown, [20.0, 26.0], size, Anchor::Start));
     document(width, height, &plain(title), std::iter::once(head).chain(inside).collect())
 }
 

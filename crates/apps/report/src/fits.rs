@@ -22,14 +22,18 @@ pub struct FitPanel<'a> {
 
 /// Width and height of a panel, px.
 const PANEL: [f64; 2] = [330.0, 230.0];
+/// Top of the first panel, px.
+const TOP: f64 = 92.0;
 /// Margins around a panel, px.
 const ROOM: [f64; 2] = [92.0, 92.0];
 
 /// Draws each curve and its residuals, with the 95 % range of random residuals.
 pub fn fit_figure(name: &str, curves: &[FitPanel]) -> String {
     let [width, height] = PANEL;
-    let first = Area { left: 78.0, top: 74.0, width, height };
-    let mut inside = Vec::new();
+    let first = Area { left: 78.0, top: TOP, width, height };
+    let note = "left: measured points and the fitted curve; right: the outer lines hold 95 % of \
+                the points, if chance alone scatters them";
+    let mut inside = vec![label(note, [20.0, 48.0], 12.0, Anchor::Start).with("fill", INK)];
     for (row, curve) in curves.iter().enumerate() {
         let [left, right] = [0, 1].map(|column| first.panel(2 * row + column, 2, ROOM));
         inside.extend(curve.curve(left));
@@ -38,7 +42,7 @@ pub fn fit_figure(name: &str, curves: &[FitPanel]) -> String {
         let text = text.at("font-size", 13.0);
         inside.push(text.with("fill", INK).text(curve.file));
     }
-    let paper = [2.0 * width + ROOM[0] + 110.0, 74.0 + curves.len() as f64 * (height + ROOM[1])];
+    let paper = [2.0 * width + ROOM[0] + 110.0, TOP + curves.len() as f64 * (height + ROOM[1])];
     sheet(paper[0], paper[1], &format!("{name}: measured and fitted, and the difference"), inside)
 }
 
@@ -68,19 +72,8 @@ impl FitPanel<'_> {
             let [_, y] = panel.place(self.points[0][0], value)?;
             Some(line([area.left, y], [area.right(), y], FAINT, 1.0))
         };
-        let upper = panel.place(self.points[0][0], bounds[2]);
-        let words = "between the outer lines: 95 % of the points, if chance alone scatters them";
-        let words = upper.map(|[_, y]| {
-            label(words, [area.left, y - 4.0], 10.0, Anchor::Start).with("fill", INK)
-        });
         let bounds = bounds.into_iter().filter_map(across);
-        panel
-            .axes(58.0)
-            .into_iter()
-            .chain(bounds)
-            .chain(words)
-            .chain(dots(panel.spots(left)))
-            .collect()
+        panel.axes(58.0).into_iter().chain(bounds).chain(dots(panel.spots(left))).collect()
     }
 
     /// Returns the axis of the measured positions.

@@ -61,6 +61,29 @@ pub(crate) fn width(source: &str, size: f64) -> f64 {
     runs(source).into_iter().map(run).sum::<f64>() * size
 }
 
+/// Returns the font size, at most `size`, at which `source` fits into `room` px.
+pub(crate) fn fitting(source: &str, size: f64, room: f64) -> f64 {
+    let full = width(source, size);
+    if full > room { size * room / full } else { size }
+}
+
+/// Splits `source` at spaces into lines of at most `room` px.
+///
+/// A longer word has a line of its own.
+pub(crate) fn wrapped(source: &str, size: f64, room: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in source.split(' ').filter(|word| !word.is_empty()) {
+        match lines.last_mut() {
+            Some(line) if width(&format!("{line} {word}"), size) <= room => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}
+
 /// Returns `source` as an SVG text at a spot.
 pub(crate) fn label(source: &str, [x, y]: Spot, size: f64, anchor: Anchor) -> Element {
     let mut text = Element::new("text").at("x", x).at("y", y).at("font-size", size);
@@ -102,7 +125,18 @@ pub(crate) fn upright(source: &str, spot: Spot, size: f64) -> Element {
 
 #[cfg(test)]
 mod tests {
-    use super::{Anchor, label, plain};
+    use super::{Anchor, label, plain, width, wrapped};
+
+    #[test]
+    fn wrapped_lines_fit_and_keep_all_words() {
+        let text = "× a contact closes;  ○ the surface folds over;  fine dots: unstable";
+        let lines = wrapped(text, 12.0, 150.0);
+        assert!(
+            lines.len() > 2 && lines.iter().all(|line| width(line, 12.0) <= 150.0),
+            "{lines:?}"
+        );
+        assert_eq!(lines.join(" ").split(' ').count(), text.split_whitespace().count());
+    }
 
     #[test]
     fn indices_and_spaces_are_laid_out_in_svg() {

@@ -55,6 +55,7 @@ mod label;
 mod packed;
 mod page;
 mod palette;
+mod paper;
 #[cfg(feature = "png")]
 mod png;
 mod spreads;
@@ -66,10 +67,13 @@ pub use explore::Explorer;
 #[cfg(feature = "xlsx")]
 pub use export::{ExportError, Exported, OtherTable, export};
 pub use facts::facts;
-pub use figures::{Figure, InvalidMap, MapRequest, SearchFigure, SearchedDesign, figures, map};
+pub use figures::{
+    EVALUATION, Figure, InvalidMap, MapRequest, SearchFigure, SearchedDesign, figures, map,
+};
 pub use fits::{FitPanel, fit_figure};
 pub use page::{Fact, GapFactors, Page, PageDesign, PageFront};
 pub use palette::{Mark, SlantPalette};
+pub use paper::Paper;
 #[cfg(feature = "png")]
 pub use png::{NoImage, png};
 pub use spreads::{Histogram, Shares, share_bars};

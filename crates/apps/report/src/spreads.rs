@@ -3,8 +3,9 @@
 use crate::axis::{ChartAxis, ends};
 use crate::chart::{Area, ChartPanel};
 use crate::colors::{INK, RED, map_color};
+use crate::figures::names::axis_label;
 use crate::figures::{in_words, sheet};
-use crate::label::{Anchor, label, width};
+use crate::label::{Anchor, fitting, label, width};
 use crate::svg::{Element, Spot, line, rect};
 
 const WIDTH: f64 = 760.0;
@@ -18,13 +19,13 @@ const BARS: [usize; 2] = [8, 40];
 pub struct Histogram<'a> {
     /// Name of the design.
     pub name: &'a str,
-    /// The measure with its unit.
+    /// The column of the measure.
     pub measure: &'a str,
     /// The samples, at least one.
     pub values: &'a [f64],
     /// The nominal value of the design.
     pub drawn: Option<f64>,
-    /// The bounds, each with its text.
+    /// The bounds, each with its text, such as `≥ 2`.
     pub bounds: &'a [(String, f64)],
 }
 
@@ -34,7 +35,7 @@ impl Histogram<'_> {
         let shown = self.values.iter().copied().chain(self.drawn);
         // Include bounds beyond all samples, because their distance matters.
         let (low, high) = ends(shown.chain(self.bounds.iter().map(|(_, at)| *at)));
-        let x = ChartAxis::linear(&in_words(self.measure), low, high);
+        let x = ChartAxis::linear(&axis_label(self.measure), low, high);
         let bars = self.bars();
         let y = ChartAxis::spanning("samples", bars.iter().map(|(.., count)| *count));
         let height = HISTOGRAM_HEIGHT - 150.0;
@@ -89,7 +90,7 @@ fn marked(
     let top = panel.area.top;
     let is_right = x > panel.area.center()[0];
     let anchor = if is_right { Anchor::End } else { Anchor::Start };
-    let text = label(&in_words(text), [x, top - 8.0 - above], 12.0, anchor).with("fill", color);
+    let text = label(text, [x, top - 8.0 - above], 12.0, anchor).with("fill", color);
     Some(
         Element::group("mark")
             .containing([line([x, top - 4.0 - above], [x, bottom], color, 1.6), text]),
@@ -115,7 +116,9 @@ pub fn share_bars(name: &str, measures: &[Shares]) -> String {
     let top = 62.0 + 18.0 * sources.len().div_ceil(2) as f64;
     for (row, (measure, shares)) in measures.iter().enumerate() {
         let y = top + ROW * row as f64;
-        let name = label(&in_words(measure), [NAMES - 8.0, y + 16.0], 12.0, Anchor::End);
+        let name = in_words(measure);
+        let size = fitting(&name, 12.0, NAMES - 20.0);
+        let name = label(&name, [NAMES - 8.0, y + 16.0], size, Anchor::End);
         inside.push(name.with("fill", INK));
         inside.extend(parts(shares, &sources, y));
     }
@@ -126,7 +129,9 @@ pub fn share_bars(name: &str, measures: &[Shares]) -> String {
 /// Draws the legend of source `k`: its colour and name.
 fn legend(k: usize, source: &str, sources: &[&str]) -> [Element; 2] {
     let [x, y] = [24.0 + 360.0 * (k % 2) as f64, 50.0 + 18.0 * (k / 2) as f64];
-    let name = label(&in_words(source), [x + 18.0, y + 2.0], 12.0, Anchor::Start);
+    let (parameter, level) = source.split_once(' ').unwrap_or((source, ""));
+    let name = format!("{} {level}", in_words(parameter));
+    let name = label(name.trim_end(), [x + 18.0, y + 2.0], 12.0, Anchor::Start);
     [block([x, y - 9.0], [12.0, 12.0], &color(k, sources)), name.with("fill", INK)]
 }
 

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, ensure};
 use clap::Args;
-use report::{resized, smallest_letters, untitled};
+use report::{Figure, Paper, resized, smallest_letters, untitled};
 use results::{AtomicFile, VerifiedFolder};
 
 use super::derivation;
@@ -30,8 +30,8 @@ pub struct FigureOutput {
     #[arg(long)]
     pub no_title: bool,
 
-    /// Width of the figures on paper in mm, e.g. 85 for a column; text shrinks in proportion
-    /// [default: 1 px for 1/96 inch]
+    /// Width of the figures on paper in mm, e.g. 85 for a column, where figures have fewer panels
+    /// and drawings shrink [default: 1 px for 1/96 inch]
     #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = decimal)]
     pub width: Option<f64>,
 
@@ -43,6 +43,13 @@ pub struct FigureOutput {
     /// Folder for the figures [default: a folder in the results of the sweep]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+}
+
+impl FigureOutput {
+    /// Returns the paper that figures are laid out for.
+    pub fn paper(&self) -> Paper {
+        self.width.map_or(Paper::WIDE, Paper::of_width)
+    }
 }
 
 /// Smallest font size accepted by journals, pt.
@@ -88,6 +95,14 @@ impl<'a> FigureFiles<'a> {
         let marked = format!("{svg}<!-- squama -->\n");
         self.write(format!("{name}.svg"), marked.as_bytes())?;
         image.map_or(Ok(()), |image| self.write(format!("{name}.png"), &image))
+    }
+
+    /// Writes a figure, and prints a note about the panels that the paper has no room for.
+    pub fn figure(&mut self, figure: &Figure) -> anyhow::Result<()> {
+        if let Some(omitted) = &figure.omitted {
+            note(&format!("{}.svg: {omitted}", figure.name));
+        }
+        self.svg(&figure.name, &figure.svg)
     }
 
     /// Writes a page.

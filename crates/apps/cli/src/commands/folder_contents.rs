@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use ranking::{
-    InvalidRanking, Preferences, Ranking, TetrahedralGrid, check_comparable, comparable_groups,
+    Criterion, InvalidRanking, Preferences, Ranking, TetrahedralGrid, check_comparable,
+    comparable_groups,
 };
 use report::{Designs, Fact, facts};
 use results::{InvalidResults, Results, ResultsFolder, VerifiedFolder};
@@ -71,13 +72,16 @@ impl FolderContents {
 
     /// Returns the ranking if all designs are comparable; otherwise prints a note.
     pub fn comparable_ranking(&self) -> Result<Option<Ranking<'_>>, InvalidRanking> {
-        match check_comparable(&self.results, &Preferences::paper()) {
+        let paper = Preferences::paper();
+        let usual = Criterion::usual(Some(&self.sweep));
+        let preferences = Preferences::new(Vec::new(), usual, None, paper.scale).unwrap_or(paper);
+        match check_comparable(&self.results, &preferences) {
             Err(InvalidRanking::Incomparable(why)) => {
                 note(&format!("the figure of the best designs is left out: {why}"));
                 Ok(None)
             }
             // Missing columns are handled by the ranking.
-            Ok(()) | Err(_) => self.ranking(Preferences::paper()),
+            Ok(()) | Err(_) => self.ranking(preferences),
         }
     }
 

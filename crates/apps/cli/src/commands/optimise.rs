@@ -124,7 +124,7 @@ pub fn optimise(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<
     let written = ResultsFolder::new(&folder);
     let format = arguments.format.csv.unwrap_or_else(|| written.csv_format());
     let figures = figures(&goal, &found)?;
-    let figures = figures.into_iter().map(|Figure { name, svg }| (format!("{name}.svg"), svg));
+    let figures = figures.into_iter().map(|Figure { name, svg, .. }| (format!("{name}.svg"), svg));
     let files = write_found(&written, &goal, &found, &figures.collect::<Vec<_>>(), format)?;
     let report = SearchReport { goal: &goal, found: &found };
     let text = || report.text(begun.elapsed(), arguments.solving.threads.count());

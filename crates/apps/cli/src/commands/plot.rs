@@ -10,7 +10,7 @@ use run::Evaluator;
 use skin::Status;
 use skin::flexure::{self, Flexure};
 use skin::puncture::{self, Puncture, PunctureParameters};
-use sweep::{Case, PARAMETERS};
+use sweep::{Case, PARAMETERS, Parameter, Scalar, key};
 
 use super::draw::{check_place, substrate};
 use super::figure_file::{FigureFiles, FigureOutput, check_sizes, joined};
@@ -31,6 +31,7 @@ use crate::progress::with_bar;
 Examples:
   squama plot results/paper
   squama plot results/paper --png --out figures
+  squama plot results/paper --width 85 --at gap_over_t=0.1 --at gap_over_t=0.5
   squama plot curves sweeps/paper.toml --design 0417,0418
   squama plot map results/paper --x gap_over_t --y slant_deg --of critical_force"
 )]
@@ -42,6 +43,11 @@ pub struct Arguments {
     /// Results folder of a run, or its definition
     #[arg(value_name = "RESULTS")]
     pub results: Option<PathBuf>,
+
+    /// Show only designs with this value of a parameter (may be repeated, also for one parameter);
+    /// the fronts and the best designs stay those of all designs
+    #[arg(long, value_name = "COLUMN=VALUE")]
+    pub at: Vec<String>,
 
     #[command(flatten)]
     pub output: FigureOutput,
@@ -83,7 +89,8 @@ pub struct MapArguments {
     #[arg(long, value_name = "COLUMN")]
     pub of: String,
 
-    /// Fix another parameter (may be repeated); the others get a map for each of their values
+    /// Fix another parameter (may be repeated, also for one parameter); the others get a map for
+    /// each of their values
     #[arg(long, value_name = "COLUMN=VALUE")]
     pub at: Vec<String>,
 
@@ -155,33 +162,46 @@ fn plot_results(results: &Path, arguments: &Arguments) -> anyhow::Result<u8> {
         &verified_folder(results, arguments.partial.completeness())?,
         usize::MAX,
     )?;
+    let shown = results.designs.at(&fixed(&arguments.at)?)?;
     let mut files = FigureFiles::new(&arguments.output, || results.folder.join("figures"))?;
     let ranking = results.comparable_ranking()?;
-    for figure in figures(&results.title(), &results.designs, ranking.as_ref()) {
-        files.svg(&figure.name, &figure.svg)?;
+    let ranking = ranking.as_ref().map(|ranking| (&results.designs, ranking));
+    for figure in figures(&results.title(), &shown, ranking, arguments.output.paper()) {
+        files.figure(&figure)?;
     }
     files.note(results.verified())?;
     files.print()?;
     Ok(DONE)
 }
 
-fn plot_map(arguments: &MapArguments) -> anyhow::Result<u8> {
-    check_sizes(&arguments.output)?;
-    let held = |text: &String| {
+/// Reads columns with their fixed values.
+fn fixed(at: &[String]) -> anyhow::Result<Vec<(String, String)>> {
+    let mut fixed = Vec::new();
+    for text in at {
         let parts = text.split_once('=').map(|(axis, value)| (axis.trim(), value.trim()));
         let (axis, value) = parts.with_context(|| {
             format!("--at {text}: is not accepted, expected COLUMN=VALUE, e.g. length_over_t=0.1")
         })?;
-        Ok((axis.to_owned(), value.to_owned()))
-    };
-    let at = arguments.at.iter().map(held).collect::<anyhow::Result<Vec<_>>>()?;
+        fixed.push((axis.to_owned(), value.to_owned()));
+    }
+    Ok(fixed)
+}
+
+fn plot_map(arguments: &MapArguments) -> anyhow::Result<u8> {
+    check_sizes(&arguments.output)?;
+    let at = fixed(&arguments.at)?;
     let verified = verified_folder(&arguments.results, arguments.partial.completeness())?;
     let results = FolderContents::read(&verified, usize::MAX)?;
-    let request =
-        MapRequest { x: arguments.x.clone(), y: arguments.y.clone(), of: arguments.of.clone(), at };
+    let request = MapRequest {
+        x: arguments.x.clone(),
+        y: arguments.y.clone(),
+        of: arguments.of.clone(),
+        at,
+        paper: arguments.output.paper(),
+    };
     let figure = map(&results.title(), &results.designs, &request)?;
     let mut files = FigureFiles::new(&arguments.output, || results.folder.join("figures"))?;
-    files.svg(&figure.name, &figure.svg)?;
+    files.figure(&figure)?;
     files.note(results.verified())?;
     files.print()?;
     Ok(DONE)
@@ -221,7 +241,7 @@ fn plot_curves(arguments: &CurvesArguments) -> anyhow::Result<u8> {
     let mut files = FigureFiles::new(&arguments.output, folder)?;
     let names: Vec<_> = designs.iter().map(SelectedDesign::label).collect();
     let names = joined(&names, "designs");
-    for figure in curves(sweep.name(), &shown, measured.as_ref()) {
+    for figure in curves(sweep.name(), &shown, measured.as_ref(), arguments.output.paper()) {
         // The end of the path is part of the file name of these curves.
         let to = arguments.to.filter(|_| OF_PUNCTURES.contains(&figure.name.as_str()));
         let to = to.map_or_else(String::new, |to| format!("-to-u-{to}"));
@@ -331,8 +351,10 @@ fn number(design: &SelectedDesign, cases: &[Case]) -> String {
     let number = design.number.map_or("off the grid".to_owned(), |number| number.to_string());
     let own = design.case();
     let differing = PARAMETERS.iter().filter(|parameter| {
-        let is_told = ["gap_over_t", "length_over_t", "slant_deg"].contains(&parameter.key);
-        !is_told && cases.iter().any(|other| parameter.get(other) != parameter.get(&own))
+        // The geometry includes the thickness, which also scales lengths in mm.
+        let is_told = ["gap_over_t", "length_over_t", "slant_deg", key::THICKNESS];
+        !is_told.contains(&parameter.key)
+            && cases.iter().any(|other| !is_alike(parameter, other, &own))
     });
     let values = differing.map(|parameter| {
         format!(
@@ -343,4 +365,17 @@ fn number(design: &SelectedDesign, cases: &[Case]) -> String {
     });
     let values: Vec<_> = values.collect();
     if values.is_empty() { number } else { format!("{}  ({number})", values.join(", ")) }
+}
+
+/// Returns true if a parameter is the same in two cases, in mm or over the thickness.
+fn is_alike(parameter: &Parameter, one: &Case, other: &Case) -> bool {
+    let values = [one, other].map(|case| parameter.get(case));
+    let in_mm = [(one, &values[0]), (other, &values[1])].map(|(case, value)| match value {
+        Scalar::Number(value) if parameter.key.ends_with("_over_t") => {
+            Some(value * case.material.thickness_mm?)
+        }
+        _ => None,
+    });
+    let is_same_in_mm = matches!(in_mm, [Some(a), Some(b)] if text::number::same(a, b));
+    values[0] == values[1] || is_same_in_mm
 }

@@ -16,6 +16,39 @@ pub(super) fn contours(
     squares.flat_map(|(i, j)| square([i, j], value, level).unwrap_or_default()).collect()
 }
 
+/// Joins segments that share ends into lines.
+pub(super) fn joined(segments: Vec<[Place; 2]>) -> Vec<Vec<Place>> {
+    let mut lines: Vec<Vec<Place>> = Vec::new();
+    let mut left = segments;
+    while let Some(first) = left.pop() {
+        let mut line = first.to_vec();
+        for _ in 0..2 {
+            while let Some(k) = left.iter().position(|segment| continued(&line, segment).is_some())
+            {
+                let segment = left.swap_remove(k);
+                line.extend(continued(&line, &segment));
+            }
+            // Continue from the other end.
+            line.reverse();
+        }
+        lines.push(line);
+    }
+    lines
+}
+
+/// Returns the end of a segment at which it continues a line, if it does.
+fn continued(line: &[Place], [from, to]: &[Place; 2]) -> Option<Place> {
+    let end = line[line.len() - 1];
+    is_same(end, *from).then_some(*to).or(is_same(end, *to).then_some(*from))
+}
+
+/// Returns true for equal places.
+///
+/// Neighbouring squares compute a shared end in opposite directions, equal up to round-off.
+fn is_same(a: Place, b: Place) -> bool {
+    (a[0] - b[0]).abs() + (a[1] - b[1]).abs() < 1e-6
+}
+
 /// Returns the pieces within one square.
 fn square(
     [i, j]: [usize; 2],
@@ -57,7 +90,19 @@ fn between(from: [usize; 2], to: [usize; 2], part: f64) -> Place {
 
 #[cfg(test)]
 mod tests {
-    use super::contours;
+    use super::{contours, joined};
+
+    #[test]
+    fn segments_are_joined_into_lines() {
+        let hill =
+            |i: usize, j: usize| Some(-((i as f64 - 3.0).powi(2) + (j as f64 - 3.0).powi(2)));
+        let ring = joined(contours([7, 7], &hill, -4.5));
+        assert_eq!(ring.len(), 1);
+        assert_eq!(ring[0].first(), ring[0].last());
+        let ramp = |i: usize, j: usize| Some(i as f64 + 0.1 * j as f64);
+        let lines = joined(contours([4, 6], &ramp, 1.7));
+        assert_eq!((lines.len(), lines[0].len()), (1, 6), "{lines:?}");
+    }
 
     #[test]
     fn contours_of_a_plane_lie_at_their_level() {

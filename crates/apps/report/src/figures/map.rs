@@ -5,15 +5,16 @@ use std::collections::{BTreeSet, HashMap};
 use results::columns::name;
 use text::number::{self, DistinctNumbers};
 
-use super::contours::contours;
+use super::contours::{contours, joined};
 use super::names::{axis_label, in_short, in_words, with_value};
 use super::{Figure, columns, is_touched_by_folds, sheet};
 use crate::axis::ChartAxis;
-use crate::chart::{Area, NAME};
+use crate::chart::{Area, NAME, upright_name};
 use crate::colors::{FAILURES, FAINT, INK, RED, failure_color, map_color};
 use crate::designs::{AxisValues, Designs};
-use crate::label::{Anchor, label, upright};
-use crate::svg::{Element, line, rect};
+use crate::label::{Anchor, fitting, label, width};
+use crate::paper::{Paper, some};
+use crate::svg::{Element, Spot, line, polyline, rect};
 
 const WIDTH: f64 = 1000.0;
 const LEFT: f64 = 74.0;
@@ -22,6 +23,10 @@ const TOP: f64 = 74.0;
 const BETWEEN: [f64; 2] = [16.0, 34.0];
 /// Height of a map among several, and of a single map, px.
 const HEIGHTS: [f64; 2] = [200.0, 420.0];
+/// Minimum width of a map, px.
+const LEAST: f64 = 90.0;
+/// Size of the values at contours, px.
+const VALUE: f64 = 10.0;
 /// Maximum number of maps in a figure.
 const MAPS: usize = 24;
 /// Number of steps of the colour bar.
@@ -39,9 +44,11 @@ pub struct MapRequest {
     pub y: String,
     /// Column to show.
     pub of: String,
-    /// Fixed parameters by column name, with their values. The remaining ones have a map for each
-    /// value.
+    /// Fixed parameters by column name, with their values. A parameter may have several values.
+    /// The remaining ones have a map for each value.
     pub at: Vec<(String, String)>,
+    /// The paper of the figure.
+    pub paper: Paper,
 }
 
 /// The reason why a map cannot be drawn.
@@ -92,10 +99,11 @@ pub fn map(name: &str, designs: &Designs, request: &MapRequest) -> Result<Figure
     // A parameter with words varies, too, but cannot be an axis.
     let known = designs.varied().into_iter().filter(|axis| designs.has(axis));
     let known: Vec<String> = known.map(str::to_owned).collect();
+    let held = designs.at(&request.at)?;
     let mut axes = Vec::new();
     for (option, axis) in [("--x", &request.x), ("--y", &request.y)] {
         // A length in mm stands for the length over the thickness.
-        let varied = designs.varied_as(axis).filter(|varied| designs.has(varied));
+        let varied = held.varied_as(axis).filter(|varied| designs.has(varied));
         axes.push(varied.ok_or_else(|| InvalidMap::NoAxis {
             option,
             found: axis.clone(),
@@ -110,8 +118,10 @@ pub fn map(name: &str, designs: &Designs, request: &MapRequest) -> Result<Figure
     if !is_shown || !designs.headers().contains(&request.of) || request.of == "design" {
         return Err(InvalidMap::NoNumbers(request.of.clone()));
     }
-    let held = held(designs, &request.at)?;
-    let (x, y, of) = (request.x.as_str(), request.y.as_str(), request.of.as_str());
+    // A parameter that is requested in mm is shown in mm.
+    let x = if designs.has(&request.x) { request.x.as_str() } else { axes[0] };
+    let y = if designs.has(&request.y) { request.y.as_str() } else { axes[1] };
+    let of = request.of.as_str();
     let parts = held.parts_by(&axes);
     if parts.len() > MAPS {
         return Err(too_many(&parts));
@@ -119,61 +129,91 @@ pub fn map(name: &str, designs: &Designs, request: &MapRequest) -> Result<Figure
     // One scale for all maps, so that their colours are comparable.
     let scale = ChartAxis::fit(&axis_label(of), held.numbers(of));
     let subject = MapSubject { x, y, of, scale };
-    let at = request.at.iter().map(|(axis, value)| (axis.as_str(), value.as_str().into()));
+    let at = request.at.iter().filter(|(axis, _)| is_single(&request.at, axis));
+    let at = at.map(|(axis, value)| (axis.as_str(), value.as_str().into()));
     let at: AxisValues<'_> = at.collect();
     let title = super::title(
         &format!("{name}: {} over {} and {}", in_words(of), in_short(x), in_short(y)),
         &at,
     );
     let file = format!("map-of-{of}-over-{x}-and-{y}").replace('_', "-");
-    Ok(Figure { name: super::file_name(&file, &at), svg: subject.figure(&title, &parts) })
+    let figure = subject.figure(&title, &parts, request.paper);
+    Ok(Figure { name: super::file_name(&file, &at), ..figure })
+}
+
+/// Returns true if a parameter is fixed at one value.
+fn is_single(at: &[(String, String)], axis: &str) -> bool {
+    at.iter().filter(|(other, _)| other == axis).count() == 1
 }
 
 /// Draws a column over gap and aspect ratio, a map for each slant.
-pub(crate) fn by_slant(name: &str, designs: &Designs, of: &str) -> String {
-    let (x, y) = ("length_over_t", "gap_over_t");
+pub(crate) fn by_slant(name: &str, designs: &Designs, of: &str, paper: Paper) -> Figure {
+    let axes = ["length_over_t", "gap_over_t"];
+    let [x, y] = axes.map(|axis| designs.in_mm(axis));
     let label = axis_label(of);
     let scale = match of {
         COVERAGE => ChartAxis::exact(&format!("{label}; white: none"), 0.0, 1.0),
         _ => ChartAxis::fit(&label, designs.numbers(of)),
     };
     let title = format!("{name}: {} by gap, aspect ratio and slant", in_words(of));
-    MapSubject { x, y, of, scale }.figure(&title, &designs.parts_by(&[x, y]))
+    MapSubject { x: &x, y: &y, of, scale }.figure(&title, &designs.parts_by(&axes), paper)
 }
 
 /// Draws the first failure over gap and slant, a map for each aspect ratio.
-pub(crate) fn of_failures(sweep: &str, designs: &Designs) -> String {
-    let (x, y, of) = ("gap_over_t", "slant_deg", name::FIRST_FAILURE);
+pub(crate) fn of_failures(sweep: &str, designs: &Designs, paper: Paper) -> Figure {
+    let axes = ["gap_over_t", "slant_deg"];
+    let ([x, y], of) = (axes.map(|axis| designs.in_mm(axis)), name::FIRST_FAILURE);
     // The scale of numbers is not used.
     let scale = ChartAxis::exact("", 0.0, 1.0);
     let title = format!("{sweep}: first failure by gap, slant and aspect ratio");
-    MapSubject { x, y, of, scale }.figure(&title, &designs.parts_by(&[x, y]))
+    MapSubject { x: &x, y: &y, of, scale }.figure(&title, &designs.parts_by(&axes), paper)
 }
 
-/// Returns the designs with the given values.
-fn held(designs: &Designs, at: &[(String, String)]) -> Result<Designs, InvalidMap> {
-    let mut held = designs.clone();
-    for (axis, value) in at {
+impl Designs {
+    /// Returns the designs with the given values of columns. A column may have several values.
+    ///
+    /// # Errors
+    /// If no design has one of the values.
+    pub fn at(&self, at: &[(String, String)]) -> Result<Self, InvalidMap> {
+        let mut chosen: Vec<bool> = vec![true; self.count()];
+        for (axis, _) in at {
+            let values = at.iter().filter(|(other, _)| other == axis);
+            let mut is_at = vec![false; self.count()];
+            for (_, value) in values {
+                for row in self.rows_at(axis, value)? {
+                    is_at[row] = true;
+                }
+            }
+            chosen.iter_mut().zip(is_at).for_each(|(chosen, is_at)| *chosen &= is_at);
+        }
+        let rows: Vec<usize> = (0..self.count()).filter(|row| chosen[*row]).collect();
+        match at.last() {
+            Some((axis, value)) if rows.is_empty() => Err(self.no_value(axis, value)),
+            _ => Ok(self.only(&rows)),
+        }
+    }
+
+    /// Returns the rows with a value in a column, at least one.
+    fn rows_at(&self, axis: &str, value: &str) -> Result<Vec<usize>, InvalidMap> {
         // The same number may have another notation than in the table, as 0.10 for 0.1.
         let number = value.parse::<f64>().ok();
-        let is_number =
-            |row| held.number(axis, row).zip(number).is_some_and(|(a, b)| number::same(a, b));
-        let is_at = |&row: &usize| held.text(axis, row) == *value || is_number(row);
-        let rows: Vec<usize> = (0..held.count()).filter(is_at).collect();
-        if rows.is_empty() {
-            let known: Vec<&str> =
-                if designs.texts(axis).len() > 1 { vec![axis.as_str()] } else { designs.varied() };
-            let all = known.into_iter().flat_map(|axis| {
-                designs.texts(axis).into_iter().map(move |value| format!("{axis}={value}"))
-            });
-            return Err(InvalidMap::NoValue {
-                found: format!("{axis}={value}"),
-                known: all.collect(),
-            });
+        let mut rows = Vec::new();
+        for row in 0..self.count() {
+            let both = self.number(axis, row).zip(number);
+            if self.text(axis, row) == value || both.is_some_and(|(a, b)| number::same(a, b)) {
+                rows.push(row);
+            }
         }
-        held = held.only(&rows);
+        if rows.is_empty() { Err(self.no_value(axis, value)) } else { Ok(rows) }
     }
-    Ok(held)
+
+    fn no_value(&self, axis: &str, value: &str) -> InvalidMap {
+        let known: Vec<&str> = if self.texts(axis).len() > 1 { vec![axis] } else { self.varied() };
+        let all = known.into_iter().flat_map(|axis| {
+            self.texts(axis).into_iter().map(move |value| format!("{axis}={value}"))
+        });
+        InvalidMap::NoValue { found: format!("{axis}={value}"), known: all.collect() }
+    }
 }
 
 fn too_many(parts: &[(AxisValues<'_>, Designs)]) -> InvalidMap {
@@ -193,12 +233,24 @@ struct MapSubject<'a> {
 }
 
 impl MapSubject<'_> {
-    fn figure(&self, title: &str, parts: &[(AxisValues<'_>, Designs)]) -> String {
-        let count = columns(parts.len());
+    /// Draws a map for each of `parts`. The name of the figure is empty.
+    fn figure(&self, title: &str, parts: &[(AxisValues<'_>, Designs)], paper: Paper) -> Figure {
+        let full = paper.width(WIDTH);
+        let [left, right] = if paper.is_narrow(WIDTH) { [56.0, 96.0] } else { [LEFT, RIGHT] };
+        let room = full - left - right;
+        let count = paper.columns(columns(parts.len()), room, LEAST, BETWEEN[0]);
+        let all = parts.len();
+        let omitted = parts.first().and_then(|(values, _)| values.first());
+        let omitted = omitted.map(|(axis, value)| format!("--at {axis}={value}"));
+        let parts = &some(parts.to_vec(), paper.panels(WIDTH, count, all));
+        let omitted = omitted.filter(|_| parts.len() < all).map(|example| {
+            format!("shows {} of {all} maps; choose with --at, e.g. {example}", parts.len())
+        });
         let rows = parts.len().div_ceil(count);
-        let width = (WIDTH - LEFT - RIGHT - BETWEEN[0] * (count - 1) as f64) / count as f64;
-        let height = HEIGHTS[usize::from(parts.len() == 1)];
-        let first = Area { left: LEFT, top: TOP, width, height };
+        let width = (room - BETWEEN[0] * (count - 1) as f64) / count as f64;
+        // Maps on narrow paper are about square.
+        let height = HEIGHTS[usize::from(parts.len() == 1)].min((1.1 * width).max(120.0));
+        let first = Area { left, top: TOP, width, height };
         let mut inside = Vec::new();
         for (k, (values, designs)) in parts.iter().enumerate() {
             let map = Map {
@@ -212,26 +264,26 @@ impl MapSubject<'_> {
             inside.extend(map.drawn(&title, k + count >= parts.len(), k % count == 0));
         }
         let bottom = TOP + rows as f64 * (height + BETWEEN[1]) - BETWEEN[1];
-        let middle = 0.5 * (LEFT + WIDTH - RIGHT);
+        let middle = 0.5 * (left + full - right);
         let across = axis_label(self.x);
+        let size = fitting(&across, NAME, room);
         inside
-            .push(label(&across, [middle, bottom + 38.0], NAME, Anchor::Middle).with("fill", INK));
+            .push(label(&across, [middle, bottom + 38.0], size, Anchor::Middle).with("fill", INK));
         let up = axis_label(self.y);
-        inside.push(upright(&up, [20.0, 0.5 * (TOP + bottom)], NAME).with("fill", INK));
-        let scale = if self.is_of_modes() { self.modes(parts) } else { self.bar(bottom - TOP) };
+        inside.push(upright_name(&up, [20.0, 0.5 * (TOP + bottom)], bottom - TOP));
+        let bar = [full - right + 22.0, full - 12.0];
+        let scale = if self.is_of_modes() {
+            self.modes(parts, bar[0])
+        } else {
+            self.bar(bottom - TOP, bar)
+        };
         inside.push(scale);
         if self.marks_folds() && parts.iter().any(|(_, part)| part.any_folded()) {
-            inside.push(
-                label(
-                    "struck through: the surface folds, so the force is not valid",
-                    [LEFT, 46.0],
-                    12.0,
-                    Anchor::Start,
-                )
-                .with("fill", INK),
-            );
+            let text = "struck through: the surface folds, so the force is not valid";
+            let size = fitting(text, 12.0, full - left - 12.0);
+            inside.push(label(text, [left, 46.0], size, Anchor::Start).with("fill", INK));
         }
-        sheet(WIDTH, bottom + 54.0, title, inside)
+        Figure { name: String::new(), svg: sheet(full, bottom + 54.0, title, inside), omitted }
     }
 
     /// Returns true if a fold of the substrate surface invalidates the column.
@@ -254,10 +306,9 @@ impl MapSubject<'_> {
     }
 
     /// Returns the legend of the failure modes that occur.
-    fn modes(&self, parts: &[(AxisValues<'_>, Designs)]) -> Element {
+    fn modes(&self, parts: &[(AxisValues<'_>, Designs)], left: f64) -> Element {
         let cells = parts.iter().map(|(_, part)| part.texts(self.of));
         let occurring: BTreeSet<_> = cells.flatten().collect();
-        let left = WIDTH - RIGHT + 22.0;
         let all = FAILURES.into_iter().chain([("", "#fff")]);
         let entries = all.filter(|(mode, _)| occurring.contains(*mode)).enumerate();
         let drawn = entries.flat_map(|(k, (mode, color))| {
@@ -281,19 +332,19 @@ impl MapSubject<'_> {
         self.scale.place(value).map(map_color)
     }
 
-    /// Returns the levels of the contours as positions on the scale.
-    fn levels(&self) -> Vec<f64> {
-        let ticks = self.scale.ticks(6).into_iter().filter(|tick| tick.label.is_some());
+    /// Returns the levels of the contours as positions on the scale, with their values as text.
+    fn levels(&self) -> Vec<(f64, String)> {
+        let ticks = self.scale.ticks(6).into_iter();
         ticks
-            .filter_map(|tick| self.scale.place(tick.value))
+            .filter_map(|tick| Some((self.scale.place(tick.value)?, tick.label?)))
             // A contour at an end of the scale would separate nothing.
-            .filter(|place| (0.01..0.99).contains(place))
+            .filter(|(place, _)| (0.01..0.99).contains(place))
             .collect()
     }
 
-    /// Returns the colour bar, labelled at the levels of the contours.
-    fn bar(&self, height: f64) -> Element {
-        let (left, width) = (WIDTH - RIGHT + 22.0, 16.0);
+    /// Returns the colour bar between `left` and its name, labelled at the levels of the contours.
+    fn bar(&self, height: f64, [left, name]: [f64; 2]) -> Element {
+        let width = 16.0;
         let step = height / f64::from(STEPS);
         let cells = (0..STEPS).map(|k| {
             rect([left, TOP + height - f64::from(k + 1) * step], [width, step + 0.3])
@@ -304,12 +355,14 @@ impl MapSubject<'_> {
             let text = label(&tick.label?, [left + width + 7.0, y + 4.0], 11.0, Anchor::Start);
             Some([line([left, y], [left + width + 4.0, y], FAINT, 0.8), text.with("fill", INK)])
         });
-        let name = upright(&self.scale.label, [WIDTH - 12.0, TOP + 0.5 * height], 12.0);
-        Element::group("scale")
-            .containing(cells)
-            .containing(ticks.flatten())
-            .containing([name.with("fill", INK)])
+        let name = upright_name(&self.scale.label, [name, TOP + 0.5 * height], height);
+        Element::group("scale").containing(cells).containing(ticks.flatten()).containing([name])
     }
+}
+
+/// Returns half the width and height of a value at a contour, with its halo.
+fn half_size(text: &str) -> [f64; 2] {
+    [0.5 * width(text, VALUE) + 3.0, 0.5 * VALUE + 2.0]
 }
 
 /// One map: a cell for each pair of values.
@@ -374,7 +427,7 @@ impl Map<'_> {
         map
     }
 
-    /// Returns the contours at the labelled ticks of the colour scale.
+    /// Returns the contours at the labelled ticks of the colour scale, with their values.
     fn contours(&self, at: &HashMap<[usize; 2], usize>) -> Element {
         let value = |i, j| {
             let value = self.designs.number(self.subject.of, *at.get(&[i, j])?)?;
@@ -387,19 +440,64 @@ impl Map<'_> {
             [self.area.left + (i + 0.5) * width, self.area.bottom() - (j + 0.5) * height]
         };
         let size = self.size();
-        let lines =
-            self.subject.levels().into_iter().flat_map(|level| contours(size, &value, level));
-        let drawn = lines.flat_map(|[from, to]| {
-            // A dark line over a wider light one is visible on all colours.
-            [("#fff", 2.8), (INK, 1.4)]
-                .map(|(color, width)| line(place(from), place(to), color, width))
+        let (mut drawn, mut values) = (Vec::new(), Vec::new());
+        for (level, text) in self.subject.levels() {
+            for line in joined(contours(size, &value, level)) {
+                let line: Vec<Spot> = line.into_iter().map(place).collect();
+                // A dark line over a wider light one is visible on all colours.
+                drawn.extend([("#fff", 2.8), (INK, 1.2)].map(|(color, width)| {
+                    polyline(&line).with("stroke", color).at("stroke-width", width)
+                }));
+                values.extend(self.free_spot(&line, &text, &values).map(|at| (at, text.clone())));
+            }
+        }
+        let values = values.into_iter().map(|([x, y], text)| {
+            let text = label(&text, [x, y + 3.5], VALUE, Anchor::Middle).with("fill", INK);
+            text.with("stroke", "#fff").at("stroke-width", 3.0).with("paint-order", "stroke")
         });
-        Element::group("contours").with("stroke-linecap", "round").containing(drawn)
+        Element::group("contours")
+            .with("stroke-linecap", "round")
+            .with("stroke-linejoin", "round")
+            .containing(drawn)
+            .containing(values)
+    }
+
+    /// Returns a spot on a contour for its value, inside the map and clear of other values.
+    ///
+    /// `None` for a contour that is shorter than its value.
+    fn free_spot(&self, line: &[Spot], text: &str, others: &[(Spot, String)]) -> Option<Spot> {
+        let [across, down] = half_size(text);
+        let lengths = line.windows(2).map(|w| (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1]));
+        if lengths.sum::<f64>() < 2.5 * across {
+            return None;
+        }
+        let is_free = |&[x, y]: &Spot| {
+            let area = &self.area;
+            let is_inside = (area.left + across..area.right() - across).contains(&x)
+                && (area.top + down..area.bottom() - down).contains(&y);
+            is_inside
+                && others.iter().all(|([left, top], other)| {
+                    let [wide, high] = half_size(other);
+                    (x - left).abs() > across + wide || (y - top).abs() > down + high
+                })
+        };
+        // Middles of segments, starting at the middle of the line.
+        let middle = line.len() as f64 / 2.0 - 1.0;
+        let mut spots: Vec<(f64, Spot)> = line
+            .windows(2)
+            .enumerate()
+            .map(|(k, w)| {
+                ((k as f64 - middle).abs(), [0, 1].map(|axis| 0.5 * (w[0][axis] + w[1][axis])))
+            })
+            .collect();
+        spots.sort_by(|a, b| a.0.total_cmp(&b.0));
+        spots.into_iter().map(|(_, spot)| spot).find(is_free)
     }
 
     fn frame(&self, title: &str, x_labels: bool, y_labels: bool) -> Element {
         let Area { left, top, width, height } = self.area;
-        let title = label(title, [left + 0.5 * width, top - 7.0], 12.0, Anchor::Middle);
+        let size = fitting(title, 12.0, width + 12.0);
+        let title = label(title, [left + 0.5 * width, top - 7.0], size, Anchor::Middle);
         let mut frame =
             Element::group("frame").containing([self.area.border(), title.with("fill", INK)]);
         let [w, h] = self.cell();

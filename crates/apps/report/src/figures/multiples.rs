@@ -5,11 +5,14 @@ use text::number::same;
 use super::names::{axis_label, with_value};
 use super::{Quantity, columns, is_touched_by_folds, sheet};
 use crate::axis::ChartAxis;
-use crate::chart::{Area, ChartPanel, MarkLook, NAME, design_mark, mark, mark_legend};
+use crate::chart::{
+    Area, ChartPanel, LINE, MarkLook, NAME, design_mark, mark, mark_legend, upright_name,
+};
 use crate::colors::INK;
 use crate::designs::Designs;
-use crate::label::{Anchor, label, upright};
+use crate::label::{Anchor, fitting, label};
 use crate::palette::SlantPalette;
+use crate::paper::{Paper, some};
 use crate::svg::{Element, Spot, polygon, polyline};
 
 const WIDTH: f64 = 1000.0;
@@ -20,16 +23,43 @@ const BOTTOM: f64 = 54.0;
 /// Spacing of panels, px: across and down.
 const BETWEEN: [f64; 2] = [12.0, 28.0];
 const HEIGHT: f64 = 190.0;
+/// Minimum width of a panel, px.
+const LEAST: f64 = 120.0;
 /// Maximum number of panels; of more gaps only some are shown.
 const PANELS: usize = 15;
 
 /// Returns the column of the horizontal axis and the column of the panels.
 ///
-/// Of gap and aspect ratio, the one with more values is the axis.
-fn lengths(designs: &Designs) -> [&'static str; 2] {
+/// Of gap and aspect ratio, the one with more values is the axis. Both are in mm if the table has
+/// these columns.
+fn lengths(designs: &Designs) -> [String; 2] {
     let (gap, length) = ("gap_over_t", "length_over_t");
     let is_longer = designs.values(length).len() >= designs.values(gap).len();
-    if is_longer { [length, gap] } else { [gap, length] }
+    let axes = if is_longer { [length, gap] } else { [gap, length] };
+    axes.map(|axis| designs.in_mm(axis))
+}
+
+/// Returns the number of columns of panels, and the values of the panels.
+fn panels(designs: &Designs, across: &str, paper: Paper) -> (usize, Vec<f64>) {
+    let values = designs.values(across);
+    let room = paper.width(WIDTH) - LEFT - RIGHT;
+    let wanted = columns(values.len().min(PANELS));
+    let columns = paper.columns(wanted, room, LEAST, BETWEEN[0]);
+    (columns, some(values, paper.panels(WIDTH, columns, PANELS)))
+}
+
+/// Describes the panels that a figure has no room for.
+pub(crate) fn omitted(designs: &Designs, paper: Paper) -> Option<String> {
+    let across = &lengths(designs)[1];
+    let all = designs.values(across).len();
+    let (_, shown) = panels(designs, across, paper);
+    let example = designs.values(across).first().copied()?;
+    (shown.len() < all).then(|| {
+        format!(
+            "shows {} of {all} values of {across}; choose with --at, e.g. --at {across}={example}",
+            shown.len()
+        )
+    })
 }
 
 /// Draws a quantity; marks are filled if the column `filled` holds `yes`.
@@ -38,24 +68,34 @@ pub(crate) fn figure(
     designs: &Designs,
     quantity: &Quantity,
     filled: Option<&str>,
+    paper: Paper,
 ) -> String {
-    let [along, across] = lengths(designs);
+    let [along, across] = &lengths(designs);
+    let full = paper.width(WIDTH);
     let x = ChartAxis::fit(&axis_label(along), designs.numbers(along));
     let y = ChartAxis::fit(&axis_label(&quantity.column), quantity.numbers(designs));
-    let values = some(designs.values(across));
-    let columns = columns(values.len());
-    let width = (WIDTH - LEFT - RIGHT - BETWEEN[0] * (columns - 1) as f64) / columns as f64;
-    let first = Area { left: LEFT, top: TOP, width, height: HEIGHT };
+    let (columns, values) = panels(designs, across, paper);
+    let width = (full - LEFT - RIGHT - BETWEEN[0] * (columns - 1) as f64) / columns as f64;
     let palette = designs.palette();
     let has_folds = is_touched_by_folds(&quantity.column) && designs.any_folded();
-    let mut inside = vec![mark_legend(&palette, has_folds, [LEFT, 50.0])];
-    inside.extend(filled.map(|_| contact_legend(&palette, [LEFT + 630.0, 50.0])));
-    inside.extend(quantity.band.as_ref().map(|_| {
+    // On narrow paper the legend starts at the left edge.
+    let start = if paper.is_narrow(WIDTH) { 20.0 } else { LEFT };
+    let (legend, mut below) = mark_legend(&palette, has_folds, [start, 50.0], full - RIGHT);
+    let mut inside = vec![legend];
+    let is_beside = start + 630.0 + CONTACT_LEGEND < full;
+    if filled.is_some() {
+        let spot = if is_beside { [start + 630.0, 50.0] } else { [start + 6.0, below] };
+        inside.push(contact_legend(&palette, spot));
+        below += if is_beside { 0.0 } else { LINE };
+    }
+    if quantity.band.is_some() {
         let text = "line: median; band: 5 % to 95 % of the samples";
-        label(text, [LEFT, 68.0], 12.0, Anchor::Start).with("fill", INK)
-    }));
+        inside.push(label(text, [start, below], 12.0, Anchor::Start).with("fill", INK));
+        below += LINE;
+    }
+    let first = Area { left: LEFT, top: TOP.max(below + 16.0), width, height: HEIGHT };
     for (k, &value) in values.iter().enumerate() {
-        let title = with_value(&(across, &value.to_string()));
+        let title = with_value(&(across.as_str(), &text::number::text(value)));
         let (x_labels, y_labels) = (k + columns >= values.len(), k % columns == 0);
         let area = first.panel(k, columns, BETWEEN);
         let panel = ChartPanel { title, x_labels, y_labels, ..ChartPanel::new(area, &x, &y) };
@@ -67,26 +107,20 @@ pub(crate) fn figure(
         inside.extend(palette.slants().iter().map(|&slant| here.series(&panel, slant)));
     }
     let bottom = first.panel(values.len().saturating_sub(1), columns, BETWEEN).bottom();
-    let middle = 0.5 * (LEFT + WIDTH - RIGHT);
-    inside.push(label(&x.label, [middle, bottom + 38.0], NAME, Anchor::Middle).with("fill", INK));
-    inside.push(upright(&y.label, [18.0, 0.5 * (TOP + bottom)], NAME).with("fill", INK));
+    let middle = 0.5 * (LEFT + full - RIGHT);
+    let size = fitting(&x.label, NAME, full - LEFT - RIGHT);
+    inside.push(label(&x.label, [middle, bottom + 38.0], size, Anchor::Middle).with("fill", INK));
+    let (center, room) = (0.5 * (first.top + bottom), bottom - first.top);
+    inside.push(upright_name(&y.label, [18.0, center], room));
     let title = format!("{name}: {}", super::in_words(&quantity.column));
-    sheet(WIDTH, bottom + BOTTOM, &title, inside)
-}
-
-/// Selects at most [`PANELS`] of `values`, evenly and with both ends.
-fn some(values: Vec<f64>) -> Vec<f64> {
-    if values.len() <= PANELS {
-        return values;
-    }
-    (0..PANELS).map(|k| values[k * (values.len() - 1) / (PANELS - 1)]).collect()
+    sheet(full, bottom + BOTTOM, &title, inside)
 }
 
 /// The designs of one panel.
 struct PanelSeries<'a> {
     designs: &'a Designs,
     palette: &'a SlantPalette,
-    along: &'static str,
+    along: &'a str,
     rows: Vec<usize>,
     quantity: &'a Quantity,
     filled: Option<&'a str>,
@@ -162,6 +196,9 @@ impl PanelSeries<'_> {
         self.filled.is_none_or(|column| self.designs.text(column, row) == "yes")
     }
 }
+
+/// Width of the legend of contact, px.
+const CONTACT_LEGEND: f64 = 230.0;
 
 fn contact_legend(palette: &SlantPalette, [x, y]: Spot) -> Element {
     let slant = palette.slants().first().copied().unwrap_or(0.0);

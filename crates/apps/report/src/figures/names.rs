@@ -5,7 +5,7 @@
 use results::columns::{explain_value, name};
 
 /// Columns with a symbol: words, symbol, and the definition of the symbol, used where it fits.
-const NAMED: [(&str, &str, &str, &str); 13] = [
+const NAMED: [(&str, &str, &str, &str); 15] = [
     (name::COVERAGE, "coverage", "$λ$", ""),
     (name::CRITICAL_FORCE, "critical force", "$F_c^*$", " = $F_c$(1 − $ν$^2)/($E_s L t$)"),
     (name::PENETRATION, "penetration", "$u_{max}/t$", ""),
@@ -13,7 +13,9 @@ const NAMED: [(&str, &str, &str, &str); 13] = [
     (name::MAX_STIFFNESS, "largest stiffness", "$K_{max}^*$", " = $K_{max}$/($E_s t$)"),
     (name::SECANT_STIFFNESS, "secant stiffness", "$K_{sec}^*$", " = $K_{sec}$/($E_s t$)"),
     ("gap_over_t", "gap", "$d/t$", ""),
+    ("gap_mm", "gap", "$d$", ""),
     ("length_over_t", "aspect ratio", "$L/t$", ""),
+    ("length_mm", "length", "$L$", ""),
     ("width_over_t", "width", "$b/t$", ""),
     ("membrane_thickness_over_t", "membrane thickness", "$h/t$", ""),
     ("critical_tilt_deg", "critical tilt", "$θ_c$", ""),
@@ -22,11 +24,12 @@ const NAMED: [(&str, &str, &str, &str); 13] = [
 ];
 
 /// Unit suffixes of column names, the longest first, with their printed form.
-const UNITS: [(&str, &str); 7] = [
+const UNITS: [(&str, &str); 8] = [
     ("_N_mm2", "N mm²"),
     ("_kg_m2", "kg/m²"),
     ("_N_mm", "N mm"),
     ("_MPa", "MPa"),
+    ("_kPa", "kPa"),
     ("_mm", "mm"),
     ("_N", "N"),
     ("_deg", "°"),

@@ -1,7 +1,9 @@
 //! Pareto fronts of the four criteria in pairs.
 
-use results::columns::name;
+use results::Quantity;
+use results::columns::{Goal, name, physical_source, plain_goal};
 
+use super::names::{axis_label, in_words};
 use super::{of_perfect, sheet, thinned};
 use crate::axis::ChartAxis;
 use crate::chart::{Area, ChartPanel, MarkLook, design_mark, mark_legend};
@@ -9,20 +11,73 @@ use crate::colors::{FAINT, INK};
 use crate::designs::Designs;
 use crate::label::{Anchor, label};
 use crate::palette::SlantPalette;
+use crate::paper::Paper;
 use crate::svg::{Element, Spot, circle, polyline};
 
 const WIDTH: f64 = 1000.0;
 const LEFT: f64 = 74.0;
 const BETWEEN: [f64; 2] = [74.0, 62.0];
-const FIRST: Area = Area { left: LEFT, top: 80.0, width: 244.0, height: 240.0 };
+/// Margin at the right, px.
+const MARGIN: f64 = 46.0;
+const FIRST_TOP: f64 = 80.0;
+/// Maximum height of a panel, px.
+const HEIGHT: f64 = 240.0;
 
-/// The criteria, all to be maximised, with their columns; the labels fit along a panel.
-const CRITERIA: [(&str, &str); 4] = [
-    (name::COVERAGE, "coverage $λ$, dimensionless"),
-    (name::CRITICAL_FORCE, "critical force $F_c^*$, dimensionless"),
-    (name::PENETRATION, "resistance $t/u_{max}$, dimensionless"),
-    (name::COMPLIANCE, "compliance $C_f^*$, dimensionless"),
-];
+/// Minimum width of a panel, px.
+const LEAST: f64 = 110.0;
+
+/// A criterion on an axis.
+pub(crate) struct CriterionAxis {
+    /// Column of the criterion of the paper.
+    papers: &'static str,
+    /// Column shown.
+    column: String,
+    /// Label and short label, which fit along a panel on wide and narrow paper.
+    labels: [String; 2],
+    /// True to show the inverse of the column.
+    is_inverse: bool,
+    /// Sign of better values.
+    sign: f64,
+}
+
+/// Returns the axes of the criteria of the paper, all to be maximised.
+pub(crate) fn papers_axes() -> [CriterionAxis; 4] {
+    let axes = [
+        (name::COVERAGE, "coverage ", "$λ$"),
+        (name::CRITICAL_FORCE, "critical force ", "$F_c^*$"),
+        (name::PENETRATION, "resistance ", "$t/u_{max}$"),
+        (name::COMPLIANCE, "compliance ", "$C_f^*$"),
+    ];
+    axes.map(|(papers, words, symbol)| CriterionAxis {
+        papers,
+        column: papers.to_owned(),
+        labels: [format!("{words}{symbol}, dimensionless"), symbol.to_owned()],
+        is_inverse: papers == name::PENETRATION,
+        sign: 1.0,
+    })
+}
+
+/// Returns the axes of the criteria in N and mm, where the table has such columns.
+pub(crate) fn physical_axes(designs: &Designs) -> [CriterionAxis; 4] {
+    papers_axes().map(|axis| {
+        let headers = designs.headers().iter();
+        let mut own = headers.filter_map(|header| {
+            let (source, quantity) = physical_source(header)?;
+            let is_shown = quantity != Quantity::ForcePerWidth;
+            (source == axis.papers && is_shown).then_some(header)
+        });
+        let Some((column, goal)) = own.find_map(|h| Some((h, plain_goal(h)?))) else {
+            return axis;
+        };
+        CriterionAxis {
+            column: column.clone(),
+            labels: [axis_label(column), in_words(column)],
+            is_inverse: false,
+            sign: if goal == Goal::Maximize { 1.0 } else { -1.0 },
+            ..axis
+        }
+    })
+}
 const PAIRS: [(usize, usize); 6] = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)];
 /// Colour of dominated designs.
 const BEATEN: &str = "#b5b5b5";
@@ -31,32 +86,54 @@ const BEATEN: &str = "#b5b5b5";
 pub(crate) fn figure(
     name: &str,
     designs: &Designs,
-    worths: &[(usize, [f64; 4])],
+    rows: &[usize],
+    criteria: &[CriterionAxis; 4],
+    paper: Paper,
 ) -> Option<String> {
-    if worths.len() < 2 {
+    if rows.len() < 2 {
         return None;
     }
-    let axis = |k: usize| ChartAxis::fit(CRITERIA[k].1, worths.iter().map(|(_, worth)| worth[k]));
+    let full = paper.width(WIDTH);
+    let between = if paper.is_narrow(WIDTH) { [64.0, 58.0] } else { BETWEEN };
+    let [left, margin] = if paper.is_narrow(WIDTH) { [60.0, 16.0] } else { [LEFT, MARGIN] };
+    let room = full - left - margin;
+    let columns = paper.columns(3, room, LEAST, between[0]);
+    let width = (room - between[0] * (columns - 1) as f64) / columns as f64;
+    let value = |k: usize, row| {
+        let CriterionAxis { column, is_inverse, .. } = &criteria[k];
+        let value = designs.number(column, row)?;
+        Some(if *is_inverse { value.recip() } else { value })
+    };
+    let axis = |k: usize| {
+        let label = &criteria[k].labels[usize::from(width < 200.0)];
+        ChartAxis::fit(label, rows.iter().filter_map(|row| value(k, *row)))
+    };
     let axes: Vec<ChartAxis> = (0..4).map(axis).collect();
     let palette = designs.palette();
     let dot = circle([0.0, 0.0], 1.6).with("fill", "currentColor").with("id", "dot");
-    let mut inside = vec![mark_legend(&palette, designs.any_folded(), [LEFT, 50.0])];
+    let start = if paper.is_narrow(WIDTH) { 20.0 } else { LEFT };
+    let (marks, below) = mark_legend(&palette, designs.any_folded(), [start, 50.0], full - 16.0);
     let legend = "on the line: no other is better in both; grey: the others";
-    let legend = label(legend, [LEFT, 68.0], 12.0, Anchor::Start).with("fill", INK);
-    inside.extend([Element::new("defs").containing([dot]), legend]);
+    let legend = label(legend, [start, below], 12.0, Anchor::Start).with("fill", INK);
+    let mut inside = vec![marks, Element::new("defs").containing([dot]), legend];
+    let top = FIRST_TOP.max(below + 12.0);
+    // Square panels on narrow paper.
+    let first = Area { left, top, width, height: width.min(HEIGHT) };
     for (k, (i, j)) in PAIRS.into_iter().enumerate() {
-        let panel = ChartPanel::new(FIRST.panel(k, 3, BETWEEN), &axes[i], &axes[j]);
+        let panel = ChartPanel::new(first.panel(k, columns, between), &axes[i], &axes[j]);
         inside.extend(panel.axes(48.0));
-        let point = |(row, worth): &(usize, [f64; 4])| {
-            let criteria = [worth[i], worth[j]];
-            Some(Point { row: *row, criteria, spot: panel.place(criteria[0], criteria[1])? })
+        let point = |&row: &usize| {
+            let [x, y] = [value(i, row)?, value(j, row)?];
+            let better = [criteria[i].sign * x, criteria[j].sign * y];
+            Some(Point { row, criteria: better, spot: panel.place(x, y)? })
         };
-        let points: Vec<Point> = worths.iter().filter_map(point).collect();
-        let pair = [CRITERIA[i].0, CRITERIA[j].0].join(" ");
+        let points: Vec<Point> = rows.iter().filter_map(point).collect();
+        let pair = [criteria[i].papers, criteria[j].papers].join(" ");
         inside.push(front(&points, designs, &palette).with("data-criteria", pair));
     }
     let title = format!("{name}: non-dominated designs in two criteria{}", of_perfect(designs));
-    Some(sheet(WIDTH, FIRST.top + 2.0 * (FIRST.height + BETWEEN[1]), &title, inside))
+    let rows = PAIRS.len().div_ceil(columns) as f64;
+    Some(sheet(full, top + rows * (first.height + between[1]), &title, inside))
 }
 
 /// A design in a panel.

@@ -4,21 +4,30 @@
 use geometry::{Parallelogram, Row};
 use ranking::{RankedDesign, Ranking, Weights};
 
+use super::names::with_value;
 use super::weight_slices::{RegionLook, WeightSlices};
 use super::{in_words, of_perfect, sheet};
 use crate::colors::{FAINT, INK, RED, shaded};
 use crate::designs::Designs;
-use crate::label::{Anchor, label};
+use crate::label::{Anchor, fitting, label};
+use crate::paper::Paper;
 use crate::svg::{Element, Spot, circle, line, polygon, rect};
 
 const WIDTH: f64 = 1000.0;
-const HEIGHT: f64 = 640.0;
-/// Maximum number of listed winners, limited by the sheet.
-const LISTED: usize = 9;
+/// Maximum number of listed winners on wide and on narrow paper.
+const LISTED: [usize; 2] = [9, 4];
+/// Height of an entry of the list, px.
+const ENTRY: f64 = 58.0;
+/// Width that has no room for a list beside the slices, px.
+const NARROW: f64 = 700.0;
 
-pub(super) fn figure(name: &str, designs: &Designs, ranking: &Ranking<'_>) -> String {
+pub(super) fn figure(name: &str, designs: &Designs, ranking: &Ranking<'_>, paper: Paper) -> String {
     let winners = ranking.winners();
-    let regions = regions(designs, &winners);
+    // The list is beside the slices, or below them on narrow paper.
+    let is_narrow = paper.width(WIDTH) < NARROW;
+    let full = if is_narrow { paper.width(WIDTH) } else { WIDTH };
+    let listed = LISTED[usize::from(is_narrow)];
+    let regions = regions(designs, &winners, listed);
     let weights = WeightSlices {
         resolution: ranking.grid().resolution(),
         winners: ranking
@@ -26,16 +35,20 @@ pub(super) fn figure(name: &str, designs: &Designs, ranking: &Ranking<'_>) -> St
             .iter()
             .map(|best| (std::array::from_fn(|c| best.weights.values()[c]), best.row()))
             .collect(),
+        size: if is_narrow { full / 610.0 } else { 1.0 },
     };
+    let bottom = weights.bottom();
+    let first = if is_narrow { [32.0, bottom + 50.0] } else { [604.0, 78.0] };
     let best: Vec<_> = Weights::alone().map(|alone| ranking.winner(alone).design()).collect();
     let mut inside = weights.drawn(designs, &regions, &best);
     inside.extend(regions.iter().zip(&winners).enumerate().map(|(k, (region, winner))| {
-        entry(designs, region, winner.share(), [604.0, 78.0 + 58.0 * k as f64])
+        let spot = [first[0], first[1] + ENTRY * k as f64];
+        entry(designs, region, winner.share(), spot, full)
     }));
-    if winners.len() > LISTED {
-        let rest: f64 = winners[LISTED..].iter().map(RankedDesign::share).sum();
-        let text = format!("{} more designs: {:.1} %", winners.len() - LISTED, 100.0 * rest);
-        let spot = [596.0, 78.0 + 58.0 * LISTED as f64];
+    if winners.len() > listed {
+        let rest: f64 = winners[listed..].iter().map(RankedDesign::share).sum();
+        let text = format!("{} more designs: {:.1} %", winners.len() - listed, 100.0 * rest);
+        let spot = [first[0] - 8.0, first[1] + ENTRY * listed as f64];
         inside.push(label(&text, spot, 12.0, Anchor::Start).with("fill", FAINT));
     }
     let balanced =
@@ -46,16 +59,17 @@ pub(super) fn figure(name: &str, designs: &Designs, ranking: &Ranking<'_>) -> St
         "{name}: the best design for every weighting of the four criteria{}",
         of_perfect(designs)
     );
-    sheet(WIDTH, HEIGHT, &title, inside)
+    let last = first[1] + ENTRY * (listed.min(winners.len()) as f64 + 0.2);
+    sheet(full, if is_narrow { last } else { bottom + 16.0 }, &title, inside)
 }
 
 /// Returns the look of the listed regions.
 ///
 /// The slant of the winner determines the colour; further winners of the same slant are lighter or
 /// darker.
-fn regions(designs: &Designs, winners: &[RankedDesign<'_>]) -> Vec<RegionLook> {
+fn regions(designs: &Designs, winners: &[RankedDesign<'_>], listed: usize) -> Vec<RegionLook> {
     const SHADES: [f64; 6] = [0.0, 0.55, -0.45, 0.3, -0.25, 0.78];
-    let rows = || winners.iter().map(RankedDesign::row).take(LISTED);
+    let rows = || winners.iter().map(RankedDesign::row).take(listed);
     let slant = |row: usize| designs.number("slant_deg", row).unwrap_or(90.0);
     let palette = designs.palette();
     let region = |((k, row), letter): ((usize, usize), char)| {
@@ -74,15 +88,20 @@ fn badge(text: &str, [x, y]: Spot) -> Element {
 }
 
 /// Draws an entry of the list: letter, parameters, share of the weights, and the row at rest.
-fn entry(designs: &Designs, region: &RegionLook, share: f64, [x, y]: Spot) -> Element {
+///
+/// The entry ends 14 px left of `right`.
+fn entry(designs: &Designs, region: &RegionLook, share: f64, [x, y]: Spot, right: f64) -> Element {
     let value = |column| designs.text(column, region.row);
-    let text = format!(
-        "{}:  $d/t$ = {},  $L/t$ = {},  $α$ = {}°",
-        value("design"),
-        value("gap_over_t"),
-        value("length_over_t"),
-        value("slant_deg")
-    );
+    let lengths = ["gap", "length"].map(|length| {
+        let in_mm = format!("{length}_mm");
+        let column = if designs.has(&in_mm) { in_mm } else { format!("{length}_over_t") };
+        with_value(&(column.as_str(), designs.text(&column, region.row)))
+    });
+    let slant = value("slant_deg");
+    let text = format!("{}:  {},  $α$ = {slant}°", value("design"), lengths.join(",  "));
+    // Narrow paper has no room for the row.
+    let row = (right >= NARROW).then_some(right - 120.0);
+    let room = row.unwrap_or(right) - x - 44.0;
     let share = format!("best for {:.1} % of the weights", 100.0 * share);
     let doubt = designs.folded(region.row).then(|| "surface folds".to_owned());
     let share = [share].into_iter().chain(doubt).collect::<Vec<_>>().join(",  ");
@@ -94,22 +113,23 @@ fn entry(designs: &Designs, region: &RegionLook, share: f64, [x, y]: Spot) -> El
     let entry = Element::group("entry").containing([
         badge(&region.letter, [x, y]),
         swatch,
-        label(&text, [x + 34.0, y - 2.0], 12.5, Anchor::Start).with("fill", INK),
-        label(&share, [x + 34.0, y + 15.0], 12.0, Anchor::Start).with("fill", FAINT),
+        label(&text, [x + 34.0, y - 2.0], fitting(&text, 12.5, room), Anchor::Start)
+            .with("fill", INK),
+        label(&share, [x + 34.0, y + 15.0], fitting(&share, 12.0, room), Anchor::Start)
+            .with("fill", FAINT),
     ]);
-    let entry = entry.containing(further(designs, region.row, [x + 34.0, y + 30.0]));
-    entry.containing(small_row(designs, region.row, [x + 276.0, y + 16.0]))
+    let entry = entry.containing(further(designs, region.row, [x + 34.0, y + 30.0], right));
+    entry.containing(row.and_then(|row| small_row(designs, region.row, [row, y + 16.0])))
 }
 
 /// Draws the values of the axes besides gap, aspect ratio and slant below the row.
 ///
 /// The font shrinks to the width of the list.
-fn further(designs: &Designs, row: usize, spot: Spot) -> Option<Element> {
+fn further(designs: &Designs, row: usize, spot: Spot, right: f64) -> Option<Element> {
     let axes = designs.further_axes().into_iter();
     let values = axes.map(|axis| format!("{} {}", in_words(axis), designs.text(axis, row)));
     let text = values.collect::<Vec<_>>().join(",  ");
-    // A character is about half as wide as its font size.
-    let size = (2.0 * (WIDTH - spot[0]) / text.chars().count() as f64).min(11.0);
+    let size = fitting(&text, 11.0, right - spot[0]);
     (!text.is_empty()).then(|| label(&text, spot, size, Anchor::Start).with("fill", FAINT))
 }
 

@@ -1,6 +1,7 @@
 //! Figures of a search: its history and its front.
 
-use super::{in_words, sheet};
+use super::names::axis_label;
+use super::sheet;
 use crate::axis::ChartAxis;
 use crate::chart::{Area, ChartPanel};
 use crate::colors::{INK, RED};
@@ -14,6 +15,9 @@ const AREA: Area =
 
 /// Colours of designs that violate a requirement, and of feasible designs.
 const SHADES: [&str; 2] = ["#d8d8d8", "#7f9fbf"];
+
+/// Name of the axis that counts evaluations.
+pub const EVALUATION: &str = "evaluation";
 
 /// A design evaluated by a search.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,12 +44,17 @@ pub struct SearchFigure<'a> {
 }
 
 impl SearchFigure<'_> {
+    /// Returns the label of an axis. A count of evaluations has no unit.
+    fn name(&self, k: usize) -> String {
+        if self.axes[k] == EVALUATION { EVALUATION.to_owned() } else { axis_label(self.axes[k]) }
+    }
+
     /// Returns the chart as SVG.
     pub fn svg(&self) -> String {
         let axis = |k: usize| {
             let designs = self.designs.iter().map(|design| design.place[k]);
             let all = designs.chain(self.line.iter().map(|place| place[k]));
-            ChartAxis::fit(&in_words(self.axes[k]), all)
+            ChartAxis::fit(&self.name(k), all)
         };
         let (x, y) = (axis(0), axis(1));
         let panel = ChartPanel::new(AREA, &x, &y);

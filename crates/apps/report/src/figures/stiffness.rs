@@ -7,9 +7,9 @@ use super::{of_perfect, physical, sheet, thinned};
 use crate::axis::ChartAxis;
 use crate::chart::{Area, ChartPanel, MarkLook, design_mark, mark_legend};
 use crate::designs::Designs;
+use crate::paper::Paper;
 
 const WIDTH: f64 = 1000.0;
-const HEIGHT: f64 = 520.0;
 
 /// The stiffnesses of a puncture, each with its description.
 const STIFFNESSES: [(&str, &str); 2] = [
@@ -17,19 +17,36 @@ const STIFFNESSES: [(&str, &str); 2] = [
     (name::SECANT_STIFFNESS, "secant at the critical tilt"),
 ];
 
-pub(crate) fn figure(name: &str, designs: &Designs) -> String {
+/// Margins left and right of a panel, and spacing of panels, px.
+const MARGINS: [f64; 2] = [78.0, 20.0];
+/// Minimum width of a panel, px.
+const LEAST: f64 = 240.0;
+/// Height of a panel on wide and narrow paper, px.
+const HEIGHTS: [f64; 2] = [368.0, 220.0];
+
+pub(crate) fn figure(name: &str, designs: &Designs, paper: Paper) -> String {
     let palette = designs.palette();
-    let mut inside = vec![mark_legend(&palette, designs.any_folded(), [78.0, 50.0])];
+    let full = paper.width(WIDTH);
+    let between = [MARGINS[0], 76.0];
+    let room = full - MARGINS[0] - MARGINS[1];
+    let columns = paper.columns(STIFFNESSES.len(), room, LEAST, between[0]);
+    let start = if paper.is_narrow(WIDTH) { 20.0 } else { MARGINS[0] };
+    let (legend, below) = mark_legend(&palette, designs.any_folded(), [start, 50.0], full - 16.0);
+    let mut inside = vec![legend];
     // Samples have no stiffness, so both axes show the perfect design.
     let physical = |measure: &str| physical(designs, measure).unwrap_or(measure.to_owned());
     let force = physical(name::CRITICAL_FORCE);
     let x = ChartAxis::fit(&axis_label(&force), designs.numbers(&force));
-    let width = 0.5 * (WIDTH - 2.0 * 78.0 - 20.0);
+    let first = Area {
+        left: MARGINS[0],
+        top: (below + 24.0).max(92.0),
+        width: (room - between[0] * (columns - 1) as f64) / columns as f64,
+        height: HEIGHTS[usize::from(columns == 1)],
+    };
     for (k, (measure, title)) in STIFFNESSES.into_iter().enumerate() {
         let stiffness = physical(measure);
         let y = ChartAxis::fit(&axis_label(&stiffness), designs.numbers(&stiffness));
-        let left = 78.0 + k as f64 * (width + 78.0);
-        let area = Area { left, top: 92.0, width, height: HEIGHT - 92.0 - 60.0 };
+        let area = first.panel(k, columns, between);
         let title = title.to_owned();
         let panel = ChartPanel { title, ..ChartPanel::new(area, &x, &y) };
         inside.extend(panel.axes(52.0));
@@ -45,5 +62,6 @@ pub(crate) fn figure(name: &str, designs: &Designs) -> String {
         }));
     }
     let title = format!("{name}: puncture stiffness against critical force{}", of_perfect(designs));
-    sheet(WIDTH, HEIGHT, &title, inside)
+    let last = first.panel(STIFFNESSES.len() - 1, columns, between);
+    sheet(full, last.bottom() + 60.0, &title, inside)
 }

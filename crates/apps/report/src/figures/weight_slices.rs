@@ -2,18 +2,20 @@
 
 use crate::colors::{FAINT, INK, RED};
 use crate::designs::Designs;
-use crate::label::{Anchor, label};
+use crate::label::{Anchor, label, wrapped};
 use crate::svg::{Element, Spot, circle, line, polygon};
 
 /// Number of slices, not counting the corner with all weight on coverage.
 const SLICES: u32 = 5;
-/// Side of the largest slice, px.
+/// Side of the largest slice on wide paper, px.
 const SIDE: f64 = 286.0;
 /// Height of an equilateral triangle relative to its side.
 const RISE: f64 = 0.866_025_403_784_438_6;
-/// Left end and base of each slice and of the corner.
+/// Left end and base of each slice and of the corner, on wide paper.
 const PLACES: [Spot; SLICES as usize + 1] =
-    [[44.0, 340.0], [352.0, 340.0], [44.0, 552.0], [258.0, 552.0], [412.0, 552.0], [520.0, 552.0]];
+    [[44.0, 340.0], [352.0, 340.0], [44.0, 566.0], [258.0, 566.0], [412.0, 566.0], [520.0, 566.0]];
+/// Distance of the lowest text from the lowest base, px.
+const BELOW: f64 = 74.0;
 /// Radius of the letter of a region, and maximum radius of a dot, px.
 const LETTER: f64 = 6.6;
 const LARGEST_DOT: f64 = 8.0;
@@ -34,6 +36,8 @@ pub(crate) struct WeightSlices {
     pub(crate) resolution: u32,
     /// Weightings, each with the row of its best design.
     pub(crate) winners: Vec<([f64; 4], usize)>,
+    /// Size of the slices, 1 on wide paper.
+    pub(crate) size: f64,
 }
 
 /// A weighting as a point on paper.
@@ -81,9 +85,21 @@ impl WeightSlices {
     /// Returns the spot of a weighting on slice `k`.
     ///
     /// Corners: critical force at the top, penetration resistance left, compliance right.
-    fn spot(k: usize, [_, n, _, l]: [f64; 4]) -> Spot {
-        let [left, base] = PLACES[k];
-        [left + SIDE * (l + 0.5 * n), base - SIDE * RISE * n]
+    fn spot(&self, k: usize, [_, n, _, l]: [f64; 4]) -> Spot {
+        let [left, base] = PLACES[k].map(|place| self.size * place);
+        let side = self.size * SIDE;
+        // The letters above and between the slices do not shrink.
+        let down = (1.0 - self.size) * if base > self.size * PLACES[0][1] { 120.0 } else { 60.0 };
+        [left + side * (l + 0.5 * n), base + down - side * RISE * n]
+    }
+
+    /// Returns the position of the lowest text.
+    pub(crate) fn bottom(&self) -> f64 {
+        self.spot(2, [0.0; 4])[1] + BELOW
+    }
+
+    fn is_small(&self) -> bool {
+        self.size < 1.0
     }
 
     fn dots(&self) -> Vec<Dot> {
@@ -92,13 +108,13 @@ impl WeightSlices {
             let is_here = |steps: &u32| (self.weight(*steps) - weights[0]).abs() < 1e-9;
             // Weightings between two slices of a fine grid are not drawn.
             let slice = slices.iter().position(is_here)?;
-            Some(Dot { spot: Self::spot(slice, *weights), row: *row, slice, weights: *weights })
+            Some(Dot { spot: self.spot(slice, *weights), row: *row, slice, weights: *weights })
         };
         self.winners.iter().filter_map(dot).collect()
     }
 
     fn radius(&self) -> f64 {
-        (0.48 * SIDE / f64::from(self.resolution)).min(LARGEST_DOT)
+        (0.48 * self.size * SIDE / f64::from(self.resolution)).min(LARGEST_DOT)
     }
 
     /// Draws a weighting in the colour of its best design, crossed out if its surface folds.
@@ -127,8 +143,8 @@ impl WeightSlices {
             .with("fill", "none")
             .with("stroke", FAINT)
             .at("stroke-width", 0.8);
-        let title =
-            if m < 1.0 { format!("coverage $m$ = {}", short(m)) } else { "$m$ = 1".to_owned() };
+        let is_named = if self.is_small() { k == 0 } else { m < 1.0 };
+        let title = format!("{}$m$ = {}", if is_named { "coverage " } else { "" }, short(m));
         let below = [0.5 * (left[0] + right[0]), left[1] + 40.0];
         let mut frame = Element::group("slice").containing([outline, middle(&title, below, 12.5)]);
         frame = frame.containing(self.corner_names(k));
@@ -140,7 +156,11 @@ impl WeightSlices {
             let alone = format!(
                 "best alone: critical force {force}, penetration resistance {resistance}, compliance {compliance}"
             );
-            frame.add(label(&alone, [20.0, 622.0], 12.0, Anchor::Start).with("fill", FAINT));
+            let lines = wrapped(&alone, 12.0, self.size * 580.0).into_iter().enumerate();
+            frame = frame.containing(lines.map(|(k, line)| {
+                let spot = [20.0, self.bottom() + 16.0 * k as f64];
+                label(&line, spot, 12.0, Anchor::Start).with("fill", FAINT)
+            }));
         }
         frame
     }
@@ -151,13 +171,14 @@ impl WeightSlices {
         [1, 2, 3].map(|corner| {
             let mut weights = [m, 0.0, 0.0, 0.0];
             weights[corner] = 1.0 - m;
-            Self::spot(k, weights)
+            self.spot(k, weights)
         })
     }
 
     /// Returns the names of the criteria at the corners of slice `k`, as words for the first slice.
     fn corner_names(&self, k: usize) -> impl Iterator<Item = Element> {
         let names: [&str; 3] = match k {
+            0 if self.is_small() => ["critical force $n$", "resistance $k$", "compliance $l$"],
             0 => ["critical force $n$", "penetration resistance $k$", "compliance $l$"],
             _ if self.weight(self.slices()[k]) < 1.0 => ["$n$", "$k$", "$l$"],
             _ => ["", "", ""],
@@ -224,6 +245,7 @@ mod tests {
         let weights = all.map(|steps| steps.map(|step| f64::from(step) / f64::from(resolution)));
         WeightSlices {
             resolution,
+            size: 1.0,
             winners: weights.enumerate().map(|(row, weights)| (weights, row)).collect(),
         }
     }

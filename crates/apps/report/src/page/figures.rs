@@ -4,7 +4,7 @@
 
 use std::io::{self, Write};
 
-use ranking::TetrahedralGrid;
+use ranking::{CRITERIA, TetrahedralGrid};
 use results::columns::{name, parameter_of};
 use serde_json::{Map, Value, json};
 
@@ -14,12 +14,16 @@ use crate::designs::{AxisValues, Designs};
 use crate::figures::weight_slices::WeightSlices;
 use crate::figures::{MULTIPLES, PARTS, Quantity, map, multiples, pareto, sheet, stiffness};
 use crate::packed::write_packed;
+use crate::paper::Paper;
 use crate::svg::untitled;
 
 /// Maximum number of measures with a figure, in addition to the paper's criteria.
 const MEASURES: usize = 24;
 /// Approximate maximum number of marks in all their figures.
 const MARKS: usize = 60_000;
+
+/// The page lays its figures out for wide paper, and scales them.
+const PAGE: Paper = Paper::WIDE;
 
 /// Writes the figures of a page and collects their descriptions.
 struct FigureWriter<'w, W> {
@@ -65,18 +69,23 @@ impl<W: Write> FigureWriter<'_, W> {
         for (measure, filled) in MULTIPLES.into_iter().filter(is_there) {
             let quantity = Quantity::of(designs, measure);
             let kind = if measure == name::CRITICAL_FORCE { "critical-force" } else { measure };
-            self.add(kind, "", &part, &multiples::figure("", designs, &quantity, filled))?;
-            self.add("map", measure, &part, &map::by_slant("", designs, &quantity.column))?;
+            self.add(kind, "", &part, &multiples::figure("", designs, &quantity, filled, PAGE))?;
+            self.add(
+                "map",
+                measure,
+                &part,
+                &map::by_slant("", designs, &quantity.column, PAGE).svg,
+            )?;
         }
         if designs.has(name::CRITICAL_FORCE) && designs.has(name::MAX_STIFFNESS) {
-            self.add("stiffness", "", &part, &stiffness::figure("", designs))?;
+            self.add("stiffness", "", &part, &stiffness::figure("", designs, PAGE))?;
         }
         if designs.has(name::COVERAGE) {
-            self.add("coverage", "", &part, &map::by_slant("", designs, name::COVERAGE))?;
+            self.add("coverage", "", &part, &map::by_slant("", designs, name::COVERAGE, PAGE).svg)?;
         }
         for measure in measures.iter().filter(|measure| designs.has(measure)) {
             let quantity = Quantity { column: measure.clone(), band: None };
-            let svg = multiples::figure("", designs, &quantity, None);
+            let svg = multiples::figure("", designs, &quantity, None, PAGE);
             self.add("measure", measure, &part, &svg)?;
         }
         Ok(())
@@ -93,7 +102,11 @@ pub(super) fn write(out: &mut impl Write, page: &Page) -> io::Result<Vec<Value>>
     let measures = measures(designs);
     let mut figures = FigureWriter { out, written: Vec::new() };
     parts.iter().take(PARTS).try_for_each(|part| figures.part(part, &measures))?;
-    figures.only("pareto", "", pareto::figure("", designs, &worths(designs)))?;
+    figures.only(
+        "pareto",
+        "",
+        pareto::figure("", designs, &rankable(designs), &pareto::papers_axes(), PAGE),
+    )?;
     figures.only("weights", "", Some(weights()))?;
     for (choice, is_log) in [("linear", false), ("log", true)] {
         figures.only("curves", choice, curves::figure(page, is_log))?;
@@ -118,14 +131,10 @@ fn measures(designs: &Designs) -> Vec<String> {
     designs.headers().iter().filter(is_shown).take(most).cloned().collect()
 }
 
-/// Returns the criteria of the paper for the covered designs that have all four.
-fn worths(designs: &Designs) -> Vec<(usize, [f64; 4])> {
-    let worth = |row| {
-        let value = |column: &str| designs.number(column, row).filter(|value| *value > 0.0);
-        let [coverage, force] = [value(name::COVERAGE)?, value(name::CRITICAL_FORCE)?];
-        Some((row, [coverage, force, 1.0 / value(name::PENETRATION)?, value(name::COMPLIANCE)?]))
-    };
-    (0..designs.count()).filter_map(worth).collect()
+/// Returns the rows of the covered designs that have all criteria of the paper.
+fn rankable(designs: &Designs) -> Vec<usize> {
+    let positive = CRITERIA.each_ref().map(|criterion| designs.positive(&criterion.column));
+    (0..designs.count()).filter(|row| positive.iter().all(|rows| rows[*row])).collect()
 }
 
 /// Draws the slices of all weightings; the page colours them by the best design.
@@ -133,6 +142,6 @@ fn weights() -> String {
     let grid = TetrahedralGrid::default();
     // No rows: the page itself determines the best design for each weighting.
     let winners = grid.nodes().map(|steps| (grid.weights(steps), usize::MAX)).collect();
-    let slices = WeightSlices { resolution: grid.resolution(), winners };
-    sheet(600.0, 610.0, "weights", slices.drawn(&Designs::default(), &[], &[]))
+    let slices = WeightSlices { resolution: grid.resolution(), winners, size: 1.0 };
+    sheet(600.0, 624.0, "weights", slices.drawn(&Designs::default(), &[], &[]))
 }

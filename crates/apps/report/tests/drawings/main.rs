@@ -1,5 +1,6 @@
 //! Drawings show the solved values and are reproducible.
 
+mod labels;
 mod overlap;
 mod page;
 
@@ -72,7 +73,7 @@ fn with_a_material_everything_is_in_millimetres_and_newtons() {
         flexure: Some(&flexure),
         on_bodies: &[],
     };
-    let figures = report::curves("x", &[of(&case)], None);
+    let figures = report::curves("x", &[of(&case)], None, report::Paper::WIDE);
     assert_eq!(figures.len(), 4);
     for figure in &figures {
         let is_physical = ["N<", "N mm", "mJ"].iter().any(|unit| figure.svg.contains(unit));
@@ -80,7 +81,7 @@ fn with_a_material_everything_is_in_millimetres_and_newtons() {
     }
     // Next to a design without a material both are dimensionless.
     let plain = Case { material: sweep::Material::default(), ..case };
-    for figure in report::curves("x", &[of(&case), of(&plain)], None) {
+    for figure in report::curves("x", &[of(&case), of(&plain)], None, report::Paper::WIDE) {
         assert!(figure.svg.contains("dimensionless"), "{}", figure.name);
     }
 
@@ -116,7 +117,7 @@ fn a_needle_that_passes_is_marked_on_its_curve() {
             flexure: None,
             on_bodies: &[],
         };
-        let svg = report::curves("x", &[of], None).remove(0).svg;
+        let svg = report::curves("x", &[of], None, report::Paper::WIDE).remove(0).svg;
         [svg.matches("class=\"passing\"").count(), svg.matches("▼ passing").count()]
     };
     assert_eq!([marks("guided"), marks("free")], [[1, 1], [0, 0]]);

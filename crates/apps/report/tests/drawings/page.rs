@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::io::Read as _;
 
 use ranking::{Ranking, TetrahedralGrid};
-use report::{Designs, MapRequest, Page, PageDesign, figures, map, untitled};
+use report::{Designs, MapRequest, Page, PageDesign, Paper, figures, map, untitled};
 use results::Results;
 
 /// A table of 24 designs with made-up values.
@@ -63,7 +63,7 @@ fn figures_are_named_and_reproducible() {
     let results = results(&table());
     let ranking = Ranking::new(&results, TetrahedralGrid::default()).expect("designs to rank");
     let designs = Designs::of(&results);
-    let all = figures("x", &designs, Some(&ranking));
+    let all = figures("x", &designs, Some((&designs, &ranking)), Paper::WIDE);
     let names: Vec<_> = all.iter().map(|figure| figure.name.as_str()).collect();
     assert_eq!(
         names,
@@ -77,7 +77,7 @@ fn figures_are_named_and_reproducible() {
             "best-designs-by-weights-tetrahedron",
         ]
     );
-    assert_eq!(all, figures("x", &designs, Some(&ranking)));
+    assert_eq!(all, figures("x", &designs, Some((&designs, &ranking)), Paper::WIDE));
 }
 
 /// The page ranks each column in the same direction as `squama rank`.
@@ -114,7 +114,8 @@ fn columns_without_values_have_no_figure() {
     let table =
         "design,gap_over_t,length_over_t,slant_deg,coverage,critical_force\n0001,1,1,0,0,\n";
     let designs = Designs::of(&results(table));
-    let names: Vec<_> = figures("x", &designs, None).into_iter().map(|f| f.name).collect();
+    let names: Vec<_> =
+        figures("x", &designs, None, Paper::WIDE).into_iter().map(|f| f.name).collect();
     assert_eq!(names, ["coverage-maps-by-slant"]);
 }
 
@@ -125,7 +126,7 @@ fn further_axes_have_separate_figures_for_each_value() {
         line.push_str(if k == 0 { ",width_over_t" } else { [",0.5", ",2"][k % 2] });
     }
     let designs = Designs::of(&results(&lines.join("\n")));
-    let all = figures("x", &designs, None);
+    let all = figures("x", &designs, None, Paper::WIDE);
     let forces = all.iter().filter(|figure| figure.name.starts_with("critical-force"));
     let forces: Vec<_> = forces.collect();
     let names: Vec<_> = forces.iter().map(|figure| figure.name.as_str()).collect();
@@ -216,7 +217,7 @@ fn figures_of(html: &str) -> Vec<(String, String)> {
 fn a_page_has_the_same_figures_as_files() {
     let results = results(&table());
     let ranking = Ranking::new(&results, TetrahedralGrid::default()).expect("designs to rank");
-    let files = figures("x", &designs(), Some(&ranking));
+    let files = figures("x", &designs(), Some((&designs(), &ranking)), Paper::WIDE);
     let own = figures_of(&html_of(&page(designs())));
     let kinds = [
         ("critical-force-by-gap-aspect-slant", "critical-force "),
@@ -290,7 +291,7 @@ fn figures_of_random_gaps_show_the_median_and_the_band() {
     let sampled = |scale: [fn(u32) -> f64; 3]| {
         let names = ["critical_force_p05", "critical_force_p50", "critical_force_p95"];
         let columns: Vec<_> = names.into_iter().zip(scale).collect();
-        figures("x", &Designs::of(&results(&table_with(&columns))), None)
+        figures("x", &Designs::of(&results(&table_with(&columns))), None, Paper::WIDE)
     };
     let (one, other) = (
         sampled([|k| 0.1 * f64::from(k), |k| 0.2 * f64::from(k), |k| 0.5 * f64::from(k)]),
@@ -302,7 +303,7 @@ fn figures_of_random_gaps_show_the_median_and_the_band() {
     assert_ne!(marks(one), marks(other));
     assert_eq!(one.matches("class=\"band\"").count(), 8, "a band for each gap and slant");
     assert!(one.contains("median of critical force") && one.contains("band: 5 % to 95 %"));
-    let perfect = figures("x", &designs(), None);
+    let perfect = figures("x", &designs(), None, Paper::WIDE);
     assert!(!figure(&perfect, "critical-force").contains("class=\"band\""));
     assert!(figure(&sampled([|_| 1.0; 3]), "stiffness").contains("of the perfect designs"));
 }
@@ -312,13 +313,13 @@ fn figures_of_a_material_are_in_newtons_and_millimetres() {
     let columns: [Column; 2] =
         [("critical_force_N", |k| 7.0 / f64::from(k)), ("penetration_mm", f64::from)];
     let table = table_with(&columns);
-    let all = figures("x", &Designs::of(&results(&table)), None);
+    let all = figures("x", &Designs::of(&results(&table)), None, Paper::WIDE);
     for (name, label) in
         [("critical-force", "critical force (N)"), ("penetration", "penetration (mm)")]
     {
         assert!(figure(&all, name).contains(label), "{name}");
     }
-    let plain = figures("x", &designs(), None);
+    let plain = figures("x", &designs(), None, Paper::WIDE);
     assert_ne!(marks(figure(&all, "critical-force")), marks(figure(&plain, "critical-force")));
 }
 
@@ -329,8 +330,13 @@ fn only_measures_affected_by_folds_are_crossed_out() {
         ("bend_radius_mm", |k| f64::from(k)),
     ])));
     let struck = |of: &str| {
-        let request =
-            MapRequest { x: "gap_over_t".into(), y: "slant_deg".into(), of: of.into(), at: vec![] };
+        let request = MapRequest {
+            x: "gap_over_t".into(),
+            y: "slant_deg".into(),
+            of: of.into(),
+            at: vec![],
+            paper: Paper::WIDE,
+        };
         map("x", &designs, &request).expect("a map").svg.contains("struck through")
     };
     assert_eq!(
@@ -345,7 +351,7 @@ fn only_measures_affected_by_folds_are_crossed_out() {
         .map(struck),
         [true, true, true, false, false, false]
     );
-    let all = figures("x", &designs, None);
+    let all = figures("x", &designs, None, Paper::WIDE);
     assert!(figure(&all, "critical-force").contains("do not trust"));
     assert!(!figure(&all, "compliance").contains("do not trust"));
 }
@@ -359,6 +365,7 @@ fn titles_have_symbols_and_units() {
         y: "slant_deg".into(),
         of: "critical_force_N".into(),
         at: vec![("thickness_mm".into(), "1".into())],
+        paper: Paper::WIDE,
     };
     let map = map("x", &Designs::of(&results(&table)), &request).expect("a map");
     assert!(map.svg.contains("<title>x: critical force (N) over d/t and α, t = 1 mm</title>"));

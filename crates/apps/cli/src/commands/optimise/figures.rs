@@ -2,7 +2,7 @@
 
 use optimisation::{Answer, BestDesign, DesignGoal, Found, Judgement};
 use ranking::Goal;
-use report::{Figure, SearchFigure, SearchedDesign};
+use report::{EVALUATION, Figure, SearchFigure, SearchedDesign};
 use sweep::Measure;
 
 use super::super::draw::draw_row;
@@ -23,7 +23,7 @@ fn optimum(goal: &DesignGoal, best: &BestDesign) -> anyhow::Result<Figure> {
     let with_load = goal.space.sweep().measures().contains(&Measure::Puncture);
     let title = format!("{}: the best design", goal.name());
     let svg = draw_row(&title, &best.row.case, with_load)?;
-    Ok(Figure { name: "optimum".to_owned(), svg })
+    Ok(Figure::new("optimum", svg))
 }
 
 /// Lists the evaluated designs with their position in a figure.
@@ -50,12 +50,12 @@ fn history(goal: &DesignGoal, found: &Found) -> Figure {
     let title = format!("{}: the search", goal.name());
     let figure = SearchFigure {
         title: &title,
-        axes: ["evaluation", &goal.objectives[0].column],
+        axes: [EVALUATION, &goal.objectives[0].column],
         designs: &designs,
         line: &line,
         legend: "the best so far",
     };
-    Figure { name: "history".to_owned(), svg: figure.svg() }
+    Figure::new("history", figure.svg())
 }
 
 /// Draws the first two objectives of every design, and the front.
@@ -75,5 +75,5 @@ fn front(goal: &DesignGoal, found: &Found, front: &[BestDesign]) -> Figure {
         line: &line,
         legend: "non-dominated designs",
     };
-    Figure { name: "front".to_owned(), svg: figure.svg() }
+    Figure::new("front", figure.svg())
 }

@@ -2,7 +2,6 @@
 
 use ranking::Requirement;
 use report::{Histogram, Shares, share_bars};
-use results::columns::physical_source;
 use sweep::Sweep;
 use uncertainty::{DesignTolerance, DeviationLevel, MeasureTolerance, SourceShare};
 
@@ -50,12 +49,19 @@ fn histogram(
     let place = design.columns.iter().position(|column| *column == measure.name)?;
     let values: Vec<f64> = design.samples.iter().filter_map(|s| s.values[place]).collect();
     let own = requirements.iter().filter(|requirement| requirement.column == measure.name);
-    let bounds: Vec<_> = own.map(|r| (r.to_string(), r.limit)).collect();
-    // Column names in physical units already end in the unit.
-    let has_unit = measure.unit == "-" || physical_source(&measure.name).is_some();
-    let unit = if has_unit { String::new() } else { format!(", {}", measure.unit) };
-    let label = format!("{}{unit}", measure.name);
-    let histogram =
-        Histogram { name, measure: &label, values: &values, drawn: measure.value, bounds: &bounds };
+    let bounds: Vec<_> = own.map(|r| (bound(r), r.limit)).collect();
+    let histogram = Histogram {
+        name,
+        measure: &measure.name,
+        values: &values,
+        drawn: measure.value,
+        bounds: &bounds,
+    };
     (!values.is_empty()).then(|| histogram.svg())
+}
+
+/// Formats the bound of a requirement with the signs of print.
+fn bound(requirement: &Requirement) -> String {
+    let sign = requirement.relation.sign().replace(">=", "≥").replace("<=", "≤");
+    format!("required {sign} {}", text::number::text(requirement.limit))
 }
