@@ -101,7 +101,7 @@ impl NeedleMode {
     /// Returns the part of a scale that the tip touches.
     ///
     /// Scales are counted from the punctured one.
-    pub(super) fn place(&self, scale: i64) -> Option<OutlinePart> {
+    pub(in crate::puncture) fn place(&self, scale: i64) -> Option<OutlinePart> {
         self.all().find(|(_, touch)| touch.scale == scale).map(|(_, touch)| touch.place)
     }
 

@@ -113,6 +113,14 @@ impl Chain {
             let gaps = places().map(|(place, face)| (place, face.gap));
             return gaps.reduce(|a, b| if b.1 > a.1 { b } else { a });
         }
+        // A face opposite the centre is the nearest part of a convex outline. Comparing its distance
+        // with the distance of its corner would not tell them apart near the corner, where the two
+        // differ by the square of a small length.
+        let opposite =
+            places().find(|(_, face)| face.gap >= 0.0 && (0.0..=face.length).contains(&face.xi));
+        if let Some((place, face)) = opposite {
+            return Some((place, face.gap));
+        }
         let distances = places().map(|(place, face)| {
             let beyond = face.xi - face.xi.clamp(0.0, face.length);
             // The outline continues only beyond a top corner; there is no model below the bases.

@@ -85,24 +85,41 @@ fn derivatives_of_a_round_tip_match_differences() {
 /// Starts the path of a row of 21 scales under a round tip.
 ///
 /// The parameters are radius, friction and position.
-fn round_path(
-    [gap, length, slant]: [f64; 3],
+fn round_path([gap, length, slant]: [f64; 3], needle: [f64; 3], step: f64) -> Continuation<Chain> {
+    path_of(&design(gap, length, slant), needle, step)
+}
+
+fn path_of(
+    design: &Design,
     [radius, friction, load_position]: [f64; 3],
     step: f64,
 ) -> Continuation<Chain> {
-    let design = design(gap, length, slant);
     let reach = reach(radius, 2.0 * design.half_base() + design.gap).unwrap();
     let needle = unknowns(reach, friction > 0.0);
     let layout = RowLayout { left: 10, right: 10, needle, contacts: 6 };
-    let law = law(&design, Law::PRINTED, HARD);
+    let law = law(design, Law::PRINTED, HARD);
     let parameters = PunctureParameters {
         load_position,
         needle: Needle::Guided { friction },
         needle_radius: Some(radius),
         ..PunctureParameters::default()
     };
-    let chain = whole(&(&springs(&design)).into(), &design, law, layout, &parameters);
+    let chain = whole(&(&springs(design)).into(), design, law, layout, &parameters);
     let settings = Settings { first_step: step, max_step: step, ..Settings::default() };
     let rest = chain.at_rest();
     Continuation::new(chain, rest, settings)
+}
+
+/// The corner is the nearest part up to round-off; the first tilt moves the tip onto the top.
+#[test]
+fn a_tip_set_down_on_a_corner_starts_on_the_top() {
+    for (length, radius) in [(2.0, 0.7), (5.0, 0.3), (9.5, 0.7), (9.5, 2.0)] {
+        for (friction, position) in [(0.0, 0.0), (0.0, 1.0), (0.3, 0.0), (0.3, 1.0)] {
+            let design = Design { width: 16.0, ..design(1.0, length, 0.0) };
+            let mut path = path_of(&design, [radius, friction, position], 0.01);
+            let start = path.point().state.mode.needle.place(0);
+            assert_eq!(start, Some(OutlinePart::Top), "{length} {radius} {friction} {position}");
+            assert_eq!(path.by_ref().take(3).count(), 3, "{:?}", path.termination());
+        }
+    }
 }
