@@ -106,9 +106,9 @@ fn measure(column: &Column<DesignRow>, solved: &[DesignRow; 3]) -> Option<Measur
 
 /// Solves design `number` of `sweep`, without imperfect samples.
 ///
-/// Returns `None` if the design does not exist or is slow to solve.
-pub fn solved_row(sweep: &Sweep, number: &str) -> Option<DesignRow> {
-    let (_, [row]) = again(sweep, number, Patience::Milliseconds, [()], |_, ()| ())?;
+/// Returns `None` if the design does not exist or takes longer than `patience`.
+pub fn solved_row(sweep: &Sweep, number: &str, patience: Patience) -> Option<DesignRow> {
+    let (_, [row]) = again(sweep, number, patience, [()], |_, ()| ())?;
     Some(row)
 }
 

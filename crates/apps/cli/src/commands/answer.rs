@@ -43,12 +43,17 @@ impl<'a> DesignAnswer<'a> {
             let mode = mode.and_then(|mode| Some((mode, self.cell(mode)?.to_string())));
             rows.extend(mode.map(|(mode, cell)| vec![mode.to_owned(), cell]));
         }
-        rows.extend(self.depth());
-        rows.extend(self.bare_needle().map(|bare| {
+        rows.extend(self.further_rows());
+        rows
+    }
+
+    /// Lists the depth beside a required force, and the bare needle beside a required pressure.
+    pub fn further_rows(&self) -> Vec<Vec<String>> {
+        let bare = self.bare_needle().map(|bare| {
             let words = format!("kPa; the skin lowers it {} times", digits(bare.reduction));
             vec!["bare needle".to_owned(), digits(bare.pressure_kpa), words]
-        }));
-        rows
+        });
+        self.depth().into_iter().chain(bare).collect()
     }
 
     /// Returns the depth of the needle, if a force is required.

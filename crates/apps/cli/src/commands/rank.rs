@@ -1,5 +1,6 @@
 //! `squama rank`.
 
+mod answer;
 mod checks;
 mod gap_changes;
 mod record;
@@ -21,6 +22,7 @@ use super::requirement_args::RequirementArgs;
 use super::source::{Partial, verified_folder};
 use super::{DONE, INCOMPLETE, derivation};
 use crate::json;
+use answer::RankedAnswer;
 use checks::Checks;
 use gap_changes::{couplings, gap_changes};
 use record::{ranking_record, unmet_record};
@@ -50,6 +52,8 @@ round-off. Designs of equal fitness are listed in the order of their numbers.
 Writes ranking.csv (designs by fitness), pareto.csv (the Pareto front), ranking.toml (requirements, criteria
 and weights) and, with four criteria, winners.csv and quaternary.csv (the best design for all weights). If no
 design meets the requirements, shows the nearest design and the requirement that is the obstacle.
+Prints the ranking, and the answer: the best design that passes all checks, with its requirements and margins,
+its values with a gap 10 % smaller and larger and with full substrate coupling, and every warning.
 Exit code: 0 done, 1 no design meets the requirements, 2 bad input or a disk error.")]
 pub struct Arguments {
     /// Results folder of a run, or its definition
@@ -130,9 +134,12 @@ fn ranked(arguments: &Arguments, results: &Results, ranking: &Ranking<'_>) -> an
     let (files, lock) = ranking::write_ranking(folder, ranking)?;
     derivation::record(results.verified_folder(), ResultsFolder::RANKING_RECORD, folder, &files)?;
     drop(lock);
-    let changes = gap_changes(results, ranking);
-    let couplings = couplings(results, ranking);
     let checks = Checks::new(results, ranking);
+    let changes = gap_changes(results, ranking, checks.best);
+    let couplings = couplings(results, ranking, checks.best);
+    let best = checks.best.unwrap_or_else(|| ranking.winner(ranking.preferences().weights));
+    let answer = RankedAnswer::new(results, ranking.preferences(), best);
+    let change = changes.iter().find(|change| change.design == best.design());
     let top = arguments.top as usize;
     let record = || {
         let mut record = ranking_record(results, ranking, top);
@@ -141,6 +148,7 @@ fn ranked(arguments: &Arguments, results: &Results, ranking: &Ranking<'_>) -> an
         }
         record["gap_changes"] = json!(changes);
         record["full_coupling"] = json!(couplings);
+        record["answer"] = answer.record(change);
         record["fail_checks"] = json!(checks.failed);
         record["best_that_passes_checks"] = json!(checks.best.map(|best| best.design().to_owned()));
         record
@@ -152,6 +160,7 @@ fn ranked(arguments: &Arguments, results: &Results, ranking: &Ranking<'_>) -> an
         changes: &changes,
         couplings: &couplings,
         checks: &checks,
+        answer: &answer,
     };
     json::answer(arguments.json, record, || report.text(), (folder, &files))?;
     Ok(DONE)

@@ -151,7 +151,8 @@ fn flat_body(sweep: &Sweep, rankings: &[Ranking<'_>]) -> Option<String> {
         named.map(|weights| ranking.winner(weights).design())
     });
     best.take(DRAWN).find_map(|design| {
-        let warning = curved_body_warning(sweep, &solved_row(sweep, design)?)?;
+        let warning =
+            curved_body_warning(sweep, &solved_row(sweep, design, Patience::Milliseconds)?)?;
         Some(format!("The skin was solved flat. Design {design}: {warning}"))
     })
 }

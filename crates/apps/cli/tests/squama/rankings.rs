@@ -50,8 +50,8 @@ fn the_best_design_without_a_fold_is_listed_beside_a_folded_winner() {
     let place = Place::new();
     put(&place, "a", FOLDED);
     let printed = place.prints("rank a --weights 0,1,0,0");
-    let (_, others) = printed.split_once("folds under the best design").expect("a fold");
-    assert!(others.lines().nth(2).is_some_and(|best| best.contains("0002")), "{printed}");
+    let best = printed.lines().find(|line| line.contains("  0002 ")).expect("a row");
+    assert!(best.contains("best without a fold"), "{printed}");
     // It is marked wherever it is listed.
     let named = printed.lines().filter(|line| line.contains("0001"));
     assert!(
@@ -180,30 +180,66 @@ fn a_run_with_another_base_is_compared_design_by_design() {
     assert!(text.lines().any(|line| line.trim_start().starts_with("coverage  8 ")), "{text}");
 }
 
+/// Splits the output of a ranking before its answer.
+fn split(printed: &str) -> (String, String) {
+    let (ranking, answer) = printed.split_once("\nThe best design").expect("an answer");
+    (ranking.to_owned(), answer.to_owned())
+}
+
+/// Designs on a layer are slow to solve, but the answer is worth waiting for.
+#[test]
+fn a_ranking_on_a_layer_has_an_answer_with_warnings() {
+    let place = Place::with(
+        "name = 'x'\n[designs]\ngap_over_t = 0.1\nlength_over_t = [0.8, 1]\nslant_deg = 60\n\
+         [substrate]\ntissue_thickness_over_t = 3\n[material]\nthickness_mm = 1\n\
+         substrate_modulus_MPa = 1\nmembrane_modulus_MPa = 4.5\n",
+    );
+    place.squama("run x.toml -q --out x").assert().code(0);
+    let printed = place.prints("rank x --require coverage>=0.2");
+    let (_, answer) = printed.split_once("The best design: 0001").expect("an answer");
+    assert!(answer.contains(">= 0.2, margin"), "{printed}");
+    assert!(answer.contains("less than a nozzle") && answer.contains("overhang"), "{printed}");
+    let record: serde_json::Value =
+        serde_json::from_str(&place.prints("rank x --require coverage>=0.2 --json")).expect("JSON");
+    let warnings = record["answer"]["warnings"].as_array().expect("warnings");
+    for warning in warnings {
+        assert!(answer.contains(warning.as_str().expect("text")), "{warning}: {answer}");
+    }
+    assert_eq!(record["answer"]["requirements"][0]["requirement"], "coverage >= 0.2");
+}
+
+/// The text has two blocks: the ranking with its legend, and the answer.
+#[test]
+fn a_ranking_prints_two_blocks() {
+    let place = place();
+    let printed = place.prints("rank a --require coverage>=0.1");
+    let blocks: Vec<&str> = printed.trim_end().split("\n\n").collect();
+    // Also the title, and the names of the files.
+    assert_eq!(blocks.len(), 4, "{printed}");
+    assert!(blocks[1].starts_with("Best by") && blocks[2].starts_with("The best design: 0002"));
+    assert!(blocks[1].contains("best coverage") && blocks[1].contains("pareto.csv"), "{printed}");
+}
+
 #[test]
 fn tables_saved_by_spreadsheets_are_ranked() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --out r").assert().code(0);
-    let ranked = place.prints("rank r");
     // A table alone has no definition, so designs cannot be solved again.
-    let (before, gaps) = ranked.split_once("\nChange if the gap is").expect("gaps");
-    let (_, after) = gaps.split_once("(substrate.coupling = \"full\")").expect("couplings");
-    let (_, after) = after.split_once("\n\n").expect("more");
-    let ranked = format!("{before}\n{after}");
+    let (ranked, answer) = split(&place.prints("rank r"));
+    assert!(answer.contains("with full coupling"), "{answer}");
     let table = place.read("r/designs.csv");
     // In a separate folder: next to its journal, a table must be as written by the run.
     put(&place, "s", &format!("\u{feff}{table}"));
-    assert_eq!(
-        place.prints("rank s"),
-        ranked.replace("r: ", "s: "),
-        "commas after a byte-order mark"
-    );
+    let (own, answer) = split(&place.prints("rank s"));
+    assert_eq!(own, ranked.replace("r: ", "s: "), "commas after a byte-order mark");
+    assert!(answer.contains("critical_force") && !answer.contains("full coupling"), "{answer}");
     place.squama("run x.toml -q --out eu --csv excel-eu").assert().code(0);
     let table = place.read("eu/designs.csv");
     let without = table.trim_start_matches('\u{feff}');
     assert_ne!(without, table);
     put(&place, "own", without);
-    assert_eq!(place.prints("rank own"), ranked.replace("r: ", "own: "), "semicolons without one");
+    let (own, _) = split(&place.prints("rank own"));
+    assert_eq!(own, ranked.replace("r: ", "own: "), "semicolons without one");
 }
 
 #[test]
@@ -238,8 +274,9 @@ fn the_best_design_that_passes_all_checks_is_listed() {
         String::from_utf8(output.get_output().stdout.clone()).expect("text")
     };
     let printed = rank("1", "");
-    let (_, best) = printed.split_once("Best design that passes all\n").expect("a check fails");
-    assert!(best.lines().nth(1).is_some_and(|row| row.contains("0003 ")), "{printed}");
+    assert!(printed.contains("The best design that passes all checks: 0003\n"), "{printed}");
+    let row = printed.lines().find(|row| row.contains("  0003 ")).expect("a row");
+    assert!(row.contains("best that passes all checks"), "{printed}");
     let (_, rejected) = printed.split_once("Best by coverage").expect("a ranking");
     assert!(rejected.lines().nth(2).is_some_and(|row| row.contains("0002✗")), "{printed}");
     assert!(printed.contains("✗ fails a check"), "{printed}");

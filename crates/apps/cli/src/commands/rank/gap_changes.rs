@@ -6,20 +6,23 @@ use results::Results;
 use results::columns::measures_among;
 use run::{CouplingChange, GapChange, MeasureChange, Patience};
 
-use crate::print::aligned;
-
 /// Changes by this factor or its inverse are printed as factors.
 const LARGE: f64 = 2.0;
 
 /// Solves the best designs with other gaps: by weights, without a fold, by each criterion.
 ///
 /// Returns nothing if the results have no definition.
-pub fn gap_changes(results: &Results, ranking: &Ranking<'_>) -> Vec<GapChange> {
+pub fn gap_changes(
+    results: &Results,
+    ranking: &Ranking<'_>,
+    passing: Option<RankedDesign<'_>>,
+) -> Vec<GapChange> {
     let Some(sweep) = results.definition() else { return Vec::new() };
     let criteria = &ranking.preferences().criteria;
     let columns = measured_columns(ranking.preferences());
     let alone = Weights::alone_among(criteria.len()).map(|weights| ranking.winner(weights));
-    let best = [Some(ranking.winner(ranking.preferences().weights)), ranking.best_unfolded()];
+    let winner = ranking.winner(ranking.preferences().weights);
+    let best = [Some(winner), passing, ranking.best_unfolded()];
     // Remove duplicates: one design is often the best by several criteria, and each is solved three
     // times.
     let mut numbers: Vec<&str> = Vec::new();
@@ -35,15 +38,23 @@ pub fn gap_changes(results: &Results, ranking: &Ranking<'_>) -> Vec<GapChange> {
         .collect()
 }
 
-/// Solves the best design, and the best without a fold, with full substrate coupling.
-pub fn couplings(results: &Results, ranking: &Ranking<'_>) -> Vec<CouplingChange> {
+/// Solves the best designs with full substrate coupling: of all, without a fold, after the checks.
+pub fn couplings(
+    results: &Results,
+    ranking: &Ranking<'_>,
+    passing: Option<RankedDesign<'_>>,
+) -> Vec<CouplingChange> {
     let Some(sweep) = results.definition() else { return Vec::new() };
     let columns = measured_columns(ranking.preferences());
-    let best = [Some(ranking.winner(ranking.preferences().weights)), ranking.best_unfolded()];
-    best.iter()
-        .flatten()
-        .filter_map(|d| CouplingChange::solve(sweep, d.design(), &columns, Patience::Milliseconds))
-        .collect()
+    let winner = ranking.winner(ranking.preferences().weights);
+    let mut numbers = vec![winner.design()];
+    for design in [passing, ranking.best_unfolded()].iter().flatten() {
+        if !numbers.contains(&design.design()) {
+            numbers.push(design.design());
+        }
+    }
+    let patience = Patience::Milliseconds;
+    numbers.iter().filter_map(|n| CouplingChange::solve(sweep, n, &columns, patience)).collect()
 }
 
 /// Returns the measured columns among the criteria and requirements.
@@ -52,39 +63,14 @@ pub fn measured_columns(preferences: &Preferences) -> Vec<&str> {
     measures_among(criteria.chain(preferences.requirements.iter().map(|r| r.column.as_str())))
 }
 
-/// Formats a table of the changes, the large changes, and the missed requirements.
-pub fn gap_changes_report(changes: &[GapChange], requirements: &[Requirement]) -> String {
-    let mut columns: Vec<&str> = Vec::new();
-    for measure in changes.iter().flat_map(|change| &change.measures) {
-        if !columns.contains(&measure.column.as_str()) {
-            columns.push(&measure.column);
-        }
-    }
-    if columns.is_empty() {
-        return String::new();
-    }
-    let header = ["design", "gap_over_t"].iter().chain(&columns).map(ToString::to_string).collect();
-    let row = |change: &GapChange| {
-        // A design may lack a measure that others have.
-        let measure = |column: &&str| change.measures.iter().find(|m| m.column == **column);
-        let cells = columns.iter().map(|column| measure(column).map_or_else(String::new, cell));
-        [change.design.clone(), change.gap.to_string()].into_iter().chain(cells).collect()
-    };
-    let rows: Vec<Vec<String>> = std::iter::once(header).chain(changes.iter().map(row)).collect();
-    let cliffs: String = changes.iter().flat_map(cliffs).collect();
-    let missed: String = changes.iter().flat_map(|change| missed(change, requirements)).collect();
-    let title = "Change if the gap is 10 % smaller / 10 % larger";
-    format!("\n{title}\n{}{cliffs}{missed}", aligned(&rows))
-}
-
 /// Formats both changes of a measure.
-fn cell(measure: &MeasureChange) -> String {
+pub fn cell(measure: &MeasureChange) -> String {
     let [smaller, larger] = measure.changed.map(|changed| words(measure.value, changed));
     format!("{smaller} / {larger}")
 }
 
 /// Formats a change in percent, or as a factor if it is large.
-fn words(value: f64, changed: Option<f64>) -> String {
+pub fn words(value: f64, changed: Option<f64>) -> String {
     let Some(changed) = changed else { return "no value".to_owned() };
     let ratio = changed / value;
     match ratio {
@@ -97,45 +83,19 @@ fn words(value: f64, changed: Option<f64>) -> String {
     }
 }
 
-/// Returns a sentence for each measure that is sensitive to the gap.
-fn cliffs(change: &GapChange) -> Vec<String> {
-    let sentence = |measure: &MeasureChange, side: usize| {
-        let moved = moved(measure.changed[side]? / measure.value);
-        let (design, column) = (&change.design, &measure.column);
-        let side = ["smaller", "larger"][side];
-        Some(format!("  {design} is sensitive to its gap: 10 % {side}, and {column} {moved}\n"))
-    };
-    let sides = |measure: &MeasureChange| {
-        let cliffs = measure.cliffs();
-        let sides = (0..2).filter(move |&side| cliffs[side]);
-        sides.filter_map(|side| sentence(measure, side)).collect::<Vec<_>>()
-    };
-    change.measures.iter().flat_map(sides).collect()
-}
-
 /// Returns a sentence for each requirement that a design misses with another gap.
-fn missed(change: &GapChange, requirements: &[Requirement]) -> Vec<String> {
-    let sentence = |requirement: &Requirement, side: &str, changed: Option<f64>| {
-        // A design without a value meets no bound.
-        let is_missed = changed.is_none_or(|changed| !requirement.is_met(changed));
-        is_missed.then(|| {
-            format!("  {} misses {requirement} if its gap is 10 % {side}\n", change.design)
-        })
-    };
-    let both = |requirement: &Requirement| {
-        let measure = change.measures.iter().find(|measure| measure.column == requirement.column);
-        let [smaller, larger] = measure?.changed;
-        Some([sentence(requirement, "smaller", smaller), sentence(requirement, "larger", larger)])
-    };
-    requirements.iter().filter_map(both).flatten().flatten().collect()
-}
-
-/// Describes the change of a measure by a factor.
-fn moved(ratio: f64) -> String {
-    match ratio {
-        _ if ratio >= LARGE => format!("is {ratio:.1} times as large"),
-        _ if ratio >= 1.0 => format!("rises by {:.0} %", 100.0 * (ratio - 1.0)),
-        _ if ratio > LARGE.recip() => format!("falls by {:.0} %", 100.0 * (1.0 - ratio)),
-        _ => format!("falls by a factor of {:.1}", ratio.recip()),
+pub fn missed(change: &GapChange, requirements: &[Requirement]) -> Vec<String> {
+    let mut sentences = Vec::new();
+    for requirement in requirements {
+        let measures = change.measures.iter().filter(|m| m.column == requirement.column);
+        for (side, changed) in
+            measures.flat_map(|m| ["smaller", "larger"].into_iter().zip(m.changed))
+        {
+            // A design without a value meets no bound.
+            if changed.is_none_or(|changed| !requirement.is_met(changed)) {
+                sentences.push(format!("misses {requirement} if the gap is 10 % {side}"));
+            }
+        }
     }
+    sentences
 }

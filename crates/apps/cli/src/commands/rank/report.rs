@@ -2,24 +2,24 @@
 
 use std::fmt::Write as _;
 
-use ranking::{Preferences, RankedDesign, Ranking, Scale, Unmet, UnmetRequirement, Weights};
+use ranking::{
+    CRITERIA, Preferences, RankedDesign, Ranking, Scale, Unmet, UnmetRequirement, Weights,
+};
 use results::Results;
 use results::columns::{is_invalid_after_fold, mode_column, name, parameter_of};
 use run::{CouplingChange, GapChange};
 use sweep::JudgedModes;
 
-use super::super::answer::DesignAnswer;
-use super::super::couplings::couplings_report;
+use super::answer::RankedAnswer;
 use super::checks::Checks;
-use super::gap_changes::gap_changes_report;
 use crate::print::{FAILED, FOLDED, aligned, counted, digits, shortfall};
 
-/// Maximum number of listed designs.
-const LISTED: usize = 10;
+/// Maximum number of named designs that are best for some weights.
+const LISTED: usize = 5;
 
 const FOLDED_MEANS: &str =
-    "⚠ the surface of the substrate folds: the critical force is not valid\n";
-const FAILED_MEANS: &str = "✗ fails a check: with full substrate coupling or a gap 10 % smaller or \
+    "  ⚠ the surface of the substrate folds: the critical force is not valid\n";
+const FAILED_MEANS: &str = "  ✗ fails a check: with full substrate coupling or a gap 10 % smaller or \
     larger, a requirement is missed or the surface folds\n";
 
 /// Formats the ranking of a run.
@@ -34,41 +34,25 @@ pub struct RankReport<'a> {
     pub couplings: &'a [CouplingChange],
     /// Checks of the best designs against the requirements.
     pub checks: &'a Checks<'a>,
+    /// The best design that passes the checks.
+    pub answer: &'a RankedAnswer<'a>,
 }
 
 impl RankReport<'_> {
+    /// Formats the ranking with its legend, and the answer.
     pub fn text(&self) -> String {
         let mut text = self.title();
         let _ = write!(text, "\n{}", self.best());
-        text.push_str(&self.unfolded());
-        text.push_str(&self.checked());
-        if self.preferences().criteria.len() > 1 {
-            let _ = write!(text, "\nBest by one criterion alone\n{}", self.corners());
-        }
-        let requirements = &self.preferences().requirements;
-        text.push_str(&gap_changes_report(self.changes, requirements));
-        text.push_str(&couplings_report(self.couplings, requirements));
-        // The answer has warnings, which begin with the mark of a fold.
-        let mut has_fold = text.contains(FOLDED);
-        text.push_str(&self.answer());
-        let answered = text.len();
-        if let Some(modes) = judged_modes(self.results, self.ranking) {
-            let _ = write!(text, "\n{modes}");
-        }
-        if !self.ranking.winners().is_empty() {
-            let _ = write!(text, "\n{}", self.winners());
-        }
-        let _ = write!(text, "\n{}", self.front());
-        has_fold |= text[answered..].contains(FOLDED);
         let mut legend = String::new();
-        if has_fold {
+        if text.contains(FOLDED) {
             legend.push_str(FOLDED_MEANS);
         }
         if text.contains(FAILED) {
             legend.push_str(FAILED_MEANS);
         }
-        if !legend.is_empty() {
-            let _ = write!(text, "\n{legend}");
+        let _ = write!(text, "{legend}{}\n{}", self.sizes(), self.answer());
+        if let Some(modes) = judged_modes(self.results, self.ranking) {
+            let _ = write!(text, "\n{modes}");
         }
         text
     }
@@ -97,11 +81,21 @@ impl RankReport<'_> {
         text
     }
 
-    /// Lists the best designs by fitness, and the number of ties for the first place.
+    /// Lists the best designs by fitness, and others that are best in another sense.
     fn best(&self) -> String {
         let preferences = self.preferences();
-        let best = self.ranking.by_fitness(preferences.weights);
-        let listed: Vec<_> = best.take(self.top).collect();
+        let notes = self.notes();
+        let best = self.ranking.by_fitness(preferences.weights).enumerate();
+        let shown = best.filter(|(k, design)| {
+            *k < self.top || notes.iter().any(|(row, _)| *row == design.row())
+        });
+        let mut rows = vec![self.header("fitness")];
+        for (_, design) in shown {
+            let mut row = self.row(&design, format!("{:.6}", design.fitness));
+            let own = notes.iter().filter(|(row, _)| *row == design.row());
+            row.push(own.map(|(_, note)| note.as_str()).collect::<Vec<_>>().join(", "));
+            rows.push(row);
+        }
         let mut text = match preferences.criteria.as_slice() {
             [alone] => format!("Best by {}", alone.name),
             _ => format!("Best by {}", preferences.in_words()),
@@ -109,7 +103,7 @@ impl RankReport<'_> {
         if preferences.scale != Scale::Paper {
             let _ = write!(text, ", {} scale", preferences.scale);
         }
-        let _ = write!(text, "\n{}", self.table(&listed, "fitness", fitness));
+        let _ = write!(text, "\n{}", aligned(&rows));
         let equal = self.ranking.equals(preferences.weights);
         if equal > 0 {
             let _ = writeln!(text, "  the first {} have equal fitness", equal + 1);
@@ -117,109 +111,71 @@ impl RankReport<'_> {
         text
     }
 
-    /// Shows the best design without a fold, if the surface folds under the winner.
-    fn unfolded(&self) -> String {
-        let Some(best) = self.ranking.best_unfolded() else { return String::new() };
-        let title =
-            "The surface of the substrate folds under the best design. Best design without a fold";
-        format!("\n{title}\n{}", self.table(&[best], "fitness", fitness))
-    }
-
-    /// Shows the best design that passes all checks, if the winner fails one.
-    fn checked(&self) -> String {
-        let count = self.checks.failed.len();
-        match self.checks.best {
-            Some(best) => {
-                let table = self.table(&[best], "fitness", fitness);
-                format!("\nThe best design fails a check. Best design that passes all\n{table}")
-            }
-            None if count > 0 => {
-                format!("\nOf the first {} none passes all checks.\n", designs(count))
-            }
-            None => String::new(),
-        }
-    }
-
-    /// States required values, margins and warnings of the best design that passes the checks.
-    fn answer(&self) -> String {
-        let Preferences { requirements, weights, .. } = self.preferences();
-        let best = self.checks.best.unwrap_or_else(|| self.ranking.winner(*weights));
-        let solved = self.results.definition().filter(|_| !requirements.is_empty());
-        let Some((sweep, row)) =
-            solved.and_then(|sweep| Some((sweep, run::solved_row(sweep, best.design())?)))
-        else {
-            return String::new();
-        };
-        let answer = DesignAnswer::new(sweep, &row, requirements);
-        let (rows, warnings) = (aligned(&answer.rows()), answer.warnings_text(None));
-        format!("\nThe requirements of {}\n{rows}{warnings}", best.design())
-    }
-
-    /// Lists the best design by each criterion.
-    fn corners(&self) -> String {
+    /// Returns the rows of designs that are best in some sense, each with the sense in words.
+    fn notes(&self) -> Vec<(usize, String)> {
         let criteria = &self.preferences().criteria;
-        let mut header = self.header("criterion");
-        header.push(String::new());
-        let mut rows = vec![header];
-        for (criterion, weights) in criteria.iter().zip(Weights::alone_among(criteria.len())) {
-            let mut row = self.row(&self.ranking.winner(weights), criterion.name.to_string());
-            row.push(match self.ranking.equals(weights) {
-                0 => String::new(),
-                equal => format!("and {equal} equally good"),
-            });
-            rows.push(row);
+        let mut notes = Vec::new();
+        if let Some(best) = self.checks.best {
+            notes.push((best.row(), "best that passes all checks".to_owned()));
         }
-        aligned(&rows)
+        if let Some(best) = self.ranking.best_unfolded() {
+            notes.push((best.row(), "best without a fold".to_owned()));
+        }
+        let alone = criteria.iter().zip(Weights::alone_among(criteria.len()));
+        for (criterion, weights) in alone.filter(|_| criteria.len() > 1) {
+            // Names of criteria that users choose begin with "largest" or "least".
+            let is_known = CRITERIA.contains(criterion);
+            let best = if is_known { "best " } else { "" };
+            let mut note = format!("{best}{}", criterion.name);
+            match self.ranking.equals(weights) {
+                0 => {}
+                equal => _ = write!(note, " (and {equal} equally good)"),
+            }
+            notes.push((self.ranking.winner(weights).row(), note));
+        }
+        // The front of the paper's criteria is most of the designs.
+        let knee = self.ranking.knee().filter(|_| !self.preferences().are_the_papers());
+        notes.extend(knee.map(|knee| (knee.row(), "knee of the front".to_owned())));
+        notes
     }
 
-    /// Lists the designs that win the most choices of weights.
-    fn winners(&self) -> String {
+    /// States the size of the Pareto front, and the designs that are best for most weights.
+    fn sizes(&self) -> String {
+        let front = self.ranking.front().len();
+        let mut text = format!("  Pareto front: {} (pareto.csv)\n", designs(front));
         let winners = self.ranking.winners();
-        let count = winners.len();
-        let listed = &winners[..count.min(LISTED)];
-        let table = self.table(listed, "share", |s| format!("{:.2} %", 100.0 * s.share()));
-        let title = "Best for some choice of weights";
-        format!(
-            "{title}: {}, with their share of all choices\n{table}{}",
-            designs(count),
-            more(count)
-        )
-    }
-
-    /// States the size of the Pareto front; for custom criteria lists its designs and the knee.
-    fn front(&self) -> String {
-        let front = self.ranking.front();
-        let count = front.len();
-        let title = format!("Pareto front: {}\n", designs(count));
-        if self.preferences().are_the_papers() || self.preferences().criteria.len() == 1 {
-            return title;
+        if !winners.is_empty() {
+            let first = winners.iter().take(LISTED);
+            let first = first.map(|s| format!("{} {:.0} %", self.marked(s), 100.0 * s.share()));
+            let first = first.collect::<Vec<_>>().join(", ");
+            let count = designs(winners.len());
+            let more = if winners.len() > LISTED { ", …" } else { "" };
+            let _ = writeln!(text, "  Best for some weights: {count} (winners.csv): {first}{more}");
         }
-        let knee = self.ranking.knee();
-        let is_knee = |s: &RankedDesign<'_>| knee.is_some_and(|knee| knee.row() == s.row());
-        let mut listed: Vec<_> = front.iter().collect();
-        listed.sort_by(|a, b| b.criterion(0).total_cmp(&a.criterion(0)));
-        listed.truncate(LISTED.max(self.top));
-        // The knee is always listed, even beyond the limit.
-        let hidden = knee.filter(|knee| !listed.iter().any(|s| s.row() == knee.row()));
-        let mut rows = vec![self.header("")];
-        rows.extend(listed.iter().copied().chain(&hidden).map(|standing| {
-            let first = if is_knee(standing) { "knee" } else { "" };
-            self.row(standing, first.to_owned())
-        }));
-        let more = count.saturating_sub(rows.len() - 1);
-        let more = if more > 0 { format!("  and {more} more\n") } else { String::new() };
-        format!("{title}{}{more}", aligned(&rows))
+        text
     }
 
-    fn table(
-        &self,
-        standings: &[RankedDesign<'_>],
-        first: &str,
-        cell: fn(&RankedDesign<'_>) -> String,
-    ) -> String {
-        let mut rows = vec![self.header(first)];
-        rows.extend(standings.iter().map(|standing| self.row(standing, cell(standing))));
-        aligned(&rows)
+    /// Formats the best design that passes the checks.
+    fn answer(&self) -> String {
+        let winner = self.ranking.winner(self.preferences().weights);
+        let best = self.checks.best.unwrap_or(winner);
+        let (number, shown) = (best.design(), self.marked(&best));
+        let title = match (self.checks.best, self.checks.failed.len()) {
+            (Some(_), _) => format!("The best design that passes all checks: {shown}"),
+            (None, 0) => format!("The best design: {shown}"),
+            (None, count) => format!(
+                "Of the first {} none passes all checks. The best design: {shown}",
+                designs(count)
+            ),
+        };
+        let change = self.changes.iter().find(|change| change.design == number);
+        let coupling = self.couplings.iter().find(|change| change.design == number);
+        format!("{title}\n{}", self.answer.text(change, coupling))
+    }
+
+    /// Returns the number of a design with the marks of a fold and of a failed check.
+    fn marked(&self, design: &RankedDesign<'_>) -> String {
+        self.row(design, String::new()).swap_remove(1)
     }
 
     fn header(&self, first: &str) -> Vec<String> {
@@ -352,16 +308,6 @@ fn binding(unmet: &Unmet) -> String {
             )
         }
     }
-}
-
-/// States how many are not listed; empty if all are.
-fn more(count: usize) -> String {
-    let more = count.saturating_sub(LISTED);
-    if more > 0 { format!("  and {more} more\n") } else { String::new() }
-}
-
-fn fitness(standing: &RankedDesign<'_>) -> String {
-    format!("{:.6}", standing.fitness)
 }
 
 fn designs(count: usize) -> String {
