@@ -95,6 +95,11 @@ impl Tip {
         Self { normal, along: Vec2::new(normal.y, -normal.x), gap, xi: 0.0, ..self }
     }
 
+    /// Returns the outward normal of the face.
+    pub(super) fn normal(&self) -> Vec2 {
+        self.normal
+    }
+
     /// Returns the vector from the tip to the point `xi` of the face.
     pub(super) fn to_end(&self, xi: f64) -> Vec2 {
         (xi - self.xi) * self.along - self.gap * self.normal

@@ -108,7 +108,11 @@ impl Chain {
         let [left, top, right] = FACES.map(|place| self.tip(z, scale, place));
         let faces = [left?, top?, right?];
         let places = || FACES.into_iter().zip(&faces);
-        if faces.iter().all(|face| face.gap < 0.0) {
+        let [left, top, _] = &faces;
+        // Below the base of a scale is the body. On a convex body the tip is below the bases of
+        // scales far along the arc.
+        let is_above_base = left.to_end(0.0).dot(&top.normal()) <= 0.0;
+        if is_above_base && faces.iter().all(|face| face.gap < 0.0) {
             // Inside the scale, the nearest face has the smallest penetration.
             let gaps = places().map(|(place, face)| (place, face.gap));
             return gaps.reduce(|a, b| if b.1 > a.1 { b } else { a });
