@@ -3,14 +3,21 @@
 use std::collections::HashMap;
 
 use pyo3::prelude::*;
-use results::columns::{design_columns, measure_of};
+use ranking::{Criterion, Relation};
+use results::columns::{design_columns, measure_of, measures_among};
 use results::{Column, DesignRow, PathTable, SolvedDesign, path_tables};
 
+use run::{GapChange, Patience, design_warnings};
+
 use crate::skin::Skin;
+use crate::study::requirements;
 use crate::value::{NamedCells, PythonCell, table};
 
 /// Name, unit, meaning, value, and the reason for a missing value.
 type Value = (String, &'static str, &'static str, PythonCell, Option<&'static str>);
+
+/// Requirement, value, limit and margin.
+type Required = (String, Option<f64>, f64, Option<f64>);
 
 /// A solved skin with its paths.
 #[pyclass(frozen, module = "squama._squama")]
@@ -36,6 +43,37 @@ impl Solved {
             (name, column.unit, column.meaning, cell, reason(row, &column.name))
         };
         design_columns(&self.skin.get().sweep).iter().skip(1).map(value).collect()
+    }
+
+    /// Returns every warning about the design, in the words of the commands.
+    fn warnings(&self) -> Vec<String> {
+        design_warnings(&self.skin.get().sweep, &self.design.row, None, None)
+    }
+
+    /// Returns requirements with value, limit and margin, and every warning.
+    ///
+    /// Solves the design again with gaps 10 % smaller and larger.
+    fn answer(&self, require: Vec<String>) -> PyResult<(Vec<Required>, Vec<String>)> {
+        let requirements = requirements(&require)?;
+        let (sweep, row) = (&self.skin.get().sweep, &self.design.row);
+        let columns = design_columns(sweep);
+        let mut rows = Vec::new();
+        for requirement in &requirements {
+            let column = columns.iter().find(|column| column.name == requirement.column);
+            let value = column.and_then(|column| column.cell(row).number());
+            let margin = value.map(|value| requirement.margin(value));
+            rows.push((requirement.to_string(), value, requirement.limit, margin));
+        }
+        let radius = requirements.iter().find(|r| {
+            r.column == "bend_radius_mm" && matches!(r.relation, Relation::AtMost | Relation::Below)
+        });
+        let criteria = Criterion::usual(Some(sweep));
+        let names = criteria.iter().map(|criterion| criterion.column.as_ref());
+        let names = measures_among(names.chain(requirements.iter().map(|r| r.column.as_str())));
+        let number = sweep.grid().number(0).to_string();
+        let change = GapChange::solve(sweep, &number, &names, Patience::Milliseconds);
+        let radius = radius.map(|requirement| requirement.limit);
+        Ok((rows, design_warnings(sweep, row, radius, change.as_ref())))
     }
 
     /// Returns the tables of the solved paths, by name.

@@ -171,7 +171,7 @@ pub fn rank(
     Ok(table(&columns, ranking.by_fitness(ranking.preferences().weights)))
 }
 
-fn requirements(texts: &[String]) -> PyResult<Vec<Requirement>> {
+pub fn requirements(texts: &[String]) -> PyResult<Vec<Requirement>> {
     texts.iter().map(|text| text.parse().or_failed(text)).collect()
 }
 

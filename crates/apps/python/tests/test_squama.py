@@ -222,6 +222,31 @@ def test_unloading_paths_and_load_positions_are_tables():
     assert SKIN.solve().way_back.rows == 0
 
 
+def test_the_answer_has_the_words_of_the_command(tmp_path):
+    skin = squama.Skin(
+        **dict(gap_over_t=0.1, length_over_t=0.2, slant_deg=60),
+        **dict(thickness_mm=2, substrate_modulus_MPa=1, membrane_modulus_MPa=4.5),
+    )
+    result = skin.solve()
+    answer = result.answer(["coverage >= 0.5", "critical_force_N >= 100"])
+    first, second = answer["requirements"]
+    assert first == dict(requirement="coverage >= 0.5", value=result["coverage"], limit=0.5, margin=first["margin"])
+    assert first["margin"] > 0 > second["margin"] and second["value"] == result["critical_force_N"]
+    words = " ".join(answer["warnings"])
+    for topic in ("Sensitive to the gap", "less than a nozzle", "overhang", "on a finger"):
+        assert topic in words, (topic, words)
+    # Without other gaps there is no warning of a cliff.
+    assert set(result.warnings) < set(answer["warnings"])
+    assert pickle.loads(pickle.dumps(result)).answer("coverage >= 0.5")["requirements"] == [first]
+    if not os.environ.get("SQUAMA"):
+        pytest.skip("SQUAMA names no command to compare with")
+    (tmp_path / "skin.toml").write_text(skin.to_toml())
+    command = [os.environ["SQUAMA"], "design", tmp_path / "skin.toml", "--out", tmp_path / "out"]
+    printed = subprocess.run(command, capture_output=True, text=True).stdout
+    for warning in result.warnings:
+        assert warning in printed, (warning, printed)
+
+
 def stopped():
     """Returns a skin with a path that stops early."""
     return SKIN.replace(max_points=2)

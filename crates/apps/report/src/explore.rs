@@ -8,7 +8,7 @@ use serde_json::Value;
 use sweep::{Axis, Parameter, Scalar, Sweep, Variable, key};
 
 use crate::packed::in_sevens;
-use crate::page::{ELEMENTS, fill, fill_head, fill_json};
+use crate::page::{ELEMENTS, escaped, fill, fill_head, fill_json};
 
 const PAGE: &str = concat!(
     include_str!("../assets/page/head.html"),
@@ -45,6 +45,8 @@ pub struct Explorer {
     pub source: String,
     /// The requirements, such as `coverage >= 0.5`.
     pub requirements: Vec<String>,
+    /// Warnings in the header of the page, such as checks that an optimum fails.
+    pub notes: Vec<String>,
     /// The version of the program.
     pub version: String,
 }
@@ -191,6 +193,10 @@ impl Explorer {
     pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
         fill(out, PAGE, |out, place| match place {
             "style" => write!(out, "{}{STYLE}", STYLES.concat()),
+            "notes" => self
+                .notes
+                .iter()
+                .try_for_each(|note| writeln!(out, "<p class=\"doubt\">⚠ {}</p>", escaped(note))),
             "explorer" => self.write_section(out),
             "scripts" => write!(out, "{ELEMENTS}{}", without_comments(&SCRIPTS.concat())),
             _ => fill_head(out, place, self.sweep.name(), &self.version),

@@ -4,6 +4,7 @@ mod contours;
 pub(crate) mod map;
 pub(crate) mod multiples;
 pub(crate) mod names;
+mod parallel;
 pub(crate) mod pareto;
 mod quaternary;
 mod search;
@@ -18,6 +19,7 @@ use results::columns::{is_invalid_after_fold, name, physical_source};
 
 pub(crate) use names::in_words;
 use names::with_value;
+pub use parallel::ParallelFigure;
 pub use search::{EVALUATION, SearchFigure, SearchedDesign};
 
 use crate::designs::{AxisValues, Designs};

@@ -58,6 +58,7 @@ mod palette;
 mod paper;
 #[cfg(feature = "png")]
 mod png;
+mod search_page;
 mod spreads;
 mod svg;
 
@@ -68,7 +69,8 @@ pub use explore::Explorer;
 pub use export::{ExportError, Exported, OtherTable, export};
 pub use facts::facts;
 pub use figures::{
-    EVALUATION, Figure, InvalidMap, MapRequest, SearchFigure, SearchedDesign, figures, map,
+    EVALUATION, Figure, InvalidMap, MapRequest, ParallelFigure, SearchFigure, SearchedDesign,
+    figures, map,
 };
 pub use fits::{FitPanel, fit_figure};
 pub use page::{Fact, GapFactors, Page, PageDesign, PageFront};
@@ -76,5 +78,6 @@ pub use palette::{Mark, SlantPalette};
 pub use paper::Paper;
 #[cfg(feature = "png")]
 pub use png::{NoImage, png};
+pub use search_page::SearchPage;
 pub use spreads::{Histogram, Shares, share_bars};
 pub use svg::{resized, smallest_letters, untitled};

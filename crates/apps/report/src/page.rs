@@ -184,7 +184,7 @@ pub(crate) fn fill_json(out: &mut impl Write, data: &impl Serialize) -> io::Resu
     out.write_all(serde_json::to_string(data)?.replace('<', "\\u003c").as_bytes())
 }
 
-fn escaped(text: &str) -> String {
+pub(crate) fn escaped(text: &str) -> String {
     let text = text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
     text.replace('"', "&quot;").replace('\'', "&#39;")
 }

@@ -17,9 +17,10 @@ use crate::error::OptimisationError;
 use crate::goal::DesignGoal;
 use crate::progress::SearchProgress;
 use crate::sample::{SampleJudge, Samples};
-use crate::space::{DesignSpace, Interval, SpacePoint};
+use crate::space::{DesignSpace, SpacePoint};
+pub(crate) use evaluation_journal::Known;
 pub(crate) use evaluation_journal::read_journal;
-use evaluation_journal::{EvaluationKey, JournalLine, Known, PointKey, SamplesLine, SolvedLine};
+use evaluation_journal::{EvaluationKey, JournalLine, PointKey, SamplesLine, SolvedLine};
 
 /// Offset of sample numbers in a search.
 ///
@@ -80,15 +81,7 @@ impl<'a> Evaluations<'a> {
 
     /// Returns the intervals that only scale columns in physical units, not measures.
     pub fn scaling_intervals(&self) -> Vec<usize> {
-        let measures = self.space.sweep().measures();
-        let is_measured = |section: &str| measures.iter().any(|m| m.sections().contains(&section));
-        let intervals = self.space.intervals().iter().enumerate();
-        // A thickness also matters if lengths are in mm, and a modulus beside the modulus of the
-        // scales.
-        let scaling = intervals.filter(|(_, Interval { parameter, .. })| {
-            !(is_measured(parameter.section) || self.space.sweep().has_followers(parameter))
-        });
-        scaling.map(|(j, _)| j).collect()
+        self.space.scaling_intervals()
     }
 
     /// Returns the common representative of points that differ by scaling only.

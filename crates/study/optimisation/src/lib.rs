@@ -114,7 +114,7 @@ pub use sampled::confirmation::{Confirmation, Estimate};
 pub use search::{Found, LeftOutDesigns, SearchOptions, optimise};
 pub use space::{Choice, DesignSpace, Interval, SpacePoint};
 pub use statistic::Statistic;
-pub use status::SearchStatus;
+pub use status::{EvaluatedDesign, SearchStatus};
 pub use tables::{
     FAILED_CHECKS, FRONT, GOAL, HISTORY, NEAREST_DEFINITION, OPTIMUM, OPTIMUM_DEFINITION,
     history_columns, optimum_columns, write_found,

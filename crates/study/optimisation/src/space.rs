@@ -128,6 +128,19 @@ impl SpacePoint {
 }
 
 impl DesignSpace {
+    /// Returns the intervals that only scale columns in physical units, not measures.
+    pub(crate) fn scaling_intervals(&self) -> Vec<usize> {
+        let measures = self.sweep().measures();
+        let is_measured = |section: &str| measures.iter().any(|m| m.sections().contains(&section));
+        let intervals = self.intervals().iter().enumerate();
+        // A thickness also matters if lengths are in mm, and a modulus beside the modulus of the
+        // scales.
+        let scaling = intervals.filter(|(_, Interval { parameter, .. })| {
+            !(is_measured(parameter.section) || self.sweep().has_followers(parameter))
+        });
+        scaling.map(|(j, _)| j).collect()
+    }
+
     /// Creates the space of the variables of `sweep`.
     ///
     /// Its other axes have one value each. Sizes of rounded designs are multiples of `round`.

@@ -95,5 +95,5 @@ pub use solve::work::{WorkMeter, WorkPiece, report_slow};
 pub use solver::{interrupt_paths, uninterrupted};
 pub use status::RunStatus;
 pub use tables::summary::{Best, Summary};
-pub use warnings::{printing_warnings, validity_warnings};
+pub use warnings::{design_warnings, validity_warnings};
 pub use weakest_place::{PLACES, WeakestPlace};

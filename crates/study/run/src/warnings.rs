@@ -2,9 +2,10 @@
 
 use results::{DesignRow, Outcome};
 use skin::puncture::PunctureMeasures;
-use sweep::Case;
+use sweep::{Case, Sweep};
 use text::number::rounded;
 
+use crate::curved_body::curved_body_warning;
 use crate::gap_change::GapChange;
 
 /// Strain limit of the small-strain law of the membrane.
@@ -15,6 +16,21 @@ const NOZZLE_MM: f64 = 0.4;
 
 /// Largest overhang from the vertical that printers build without supports, degrees.
 const OVERHANG_DEG: f64 = 45.0;
+
+/// Returns every warning about a design: validity, curved bodies, and printing.
+///
+/// `radius_mm` is the required bend radius, `change` the measures with other gaps.
+pub fn design_warnings(
+    sweep: &Sweep,
+    row: &DesignRow,
+    radius_mm: Option<f64>,
+    change: Option<&GapChange>,
+) -> Vec<String> {
+    let mut sentences = validity_warnings(&row.case, row, radius_mm, change);
+    sentences.extend(curved_body_warning(sweep, row));
+    sentences.extend(printing_warnings(&row.case));
+    sentences
+}
 
 /// Returns warnings about the validity of the results of a design.
 ///
@@ -111,7 +127,7 @@ fn cliffs(change: &GapChange) -> impl Iterator<Item = String> {
 }
 
 /// Returns warnings about printing a design; none without a thickness in mm.
-pub fn printing_warnings(case: &Case) -> Vec<String> {
+fn printing_warnings(case: &Case) -> Vec<String> {
     let Some(thickness) = case.material.thickness_mm else { return Vec::new() };
     let slant = case.design.slant_deg.abs();
     let upright = slant.to_radians().cos();

@@ -4,9 +4,7 @@ use optimisation::{DesignGoal, FAILED_CHECKS, GOAL, OPTIMUM, OPTIMUM_DEFINITION}
 use ranking::{Relation, Requirement};
 use results::columns::{Cell, Column, design_columns, mode_column, name};
 use results::{Completeness, DesignRow, Results, VerifiedFolder};
-use run::{
-    BareNeedle, GapChange, bare_needle, curved_body_warning, printing_warnings, validity_warnings,
-};
+use run::{BareNeedle, GapChange, bare_needle, design_warnings};
 use serde_json::{Value, json};
 use std::path::Path;
 use sweep::Sweep;
@@ -86,11 +84,7 @@ impl<'a> DesignAnswer<'a> {
             r.column == "bend_radius_mm" && matches!(r.relation, Relation::AtMost | Relation::Below)
         });
         let radius = radius.map(|r| r.limit);
-        let case = &self.row.case;
-        let mut all = validity_warnings(case, self.row, radius, change);
-        all.extend(curved_body_warning(self.sweep, self.row));
-        all.extend(printing_warnings(case));
-        all
+        design_warnings(self.sweep, self.row, radius, change)
     }
 
     /// Formats the warnings, one per line; empty without one.

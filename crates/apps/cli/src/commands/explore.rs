@@ -49,7 +49,8 @@ pub struct Arguments {
 /// Writes the interactive page and opens it.
 pub fn explore(arguments: &Arguments) -> anyhow::Result<u8> {
     let (sweep, mut requirements) = sweep_and_goal(&arguments.definition)?;
-    SearchedDesign::read(&arguments.definition.path)?;
+    let SearchedDesign { failed_checks, .. } = SearchedDesign::read(&arguments.definition.path)?;
+    let failed = failed_checks.iter().map(|check| format!("The optimum fails a check: {check}"));
     requirements.extend(arguments.required.read()?);
     // On the page they would never have a value.
     let of_samples = requirements.extract_if(.., |of| Statistic::named(&of.column).is_some());
@@ -66,6 +67,7 @@ pub fn explore(arguments: &Arguments) -> anyhow::Result<u8> {
         sweep,
         source: shell_word(&path.display().to_string()) + &settings.collect::<String>(),
         requirements: requirements.iter().map(ToString::to_string).collect(),
+        notes: failed.collect(),
         version: PROGRAM.version.to_owned(),
     };
     let mut html = Vec::new();

@@ -1,11 +1,13 @@
 //! `squama report`.
 
 mod front;
+mod search;
 
 use std::path::PathBuf;
 
 use anyhow::ensure;
 use clap::Args;
+use optimisation::SearchStatus;
 use ranking::{CRITERIA, Preferences, Ranking, Weights};
 use rayon::prelude::*;
 use report::{Explorer, Fact, GapFactors, Page, PageDesign, drawings};
@@ -30,11 +32,14 @@ use crate::progress::with_bar;
 Examples:
   squama report results/paper
   squama report results/paper --out paper.html
+  squama report results/pin        # a search, also while it is running
   squama report results/paper --front results/front      # and the designs that squama optimise found
 
-Open the page in a browser; it needs no network and no server.")]
+Open the page in a browser; it needs no network and no server. For a search (squama optimise) the page has its
+status, its history and all designs in parallel coordinates; while the search is running, the command writes it
+again every few seconds, and the page reloads itself.")]
 pub struct Arguments {
-    /// Results folder of a run, or its definition
+    /// Results folder of a run or a search, or the definition of a run
     #[arg(value_name = "RESULTS")]
     pub results: PathBuf,
 
@@ -67,9 +72,16 @@ const DRAWING_BYTES: usize = 1_500_000;
 
 /// Writes the page of a sweep.
 pub fn report(arguments: &Arguments) -> anyhow::Result<u8> {
-    let verified = verified_folder(&arguments.results, arguments.partial.completeness())?;
-    let results = FolderContents::read(&verified, HELD)?;
-    let out: PathBuf = arguments.out.clone().unwrap_or_else(|| results.folder.join("report.html"));
+    let folder = &arguments.results;
+    let is_search = SearchStatus::is_search(folder);
+    let results = if is_search {
+        None
+    } else {
+        let verified = verified_folder(folder, arguments.partial.completeness())?;
+        Some(FolderContents::read(&verified, HELD)?)
+    };
+    let folder = results.as_ref().map_or(folder, |results| &results.folder);
+    let out: PathBuf = arguments.out.clone().unwrap_or_else(|| folder.join("report.html"));
     let ending = out.extension().unwrap_or("html".as_ref());
     ensure!(
         ending == "html",
@@ -77,8 +89,16 @@ pub fn report(arguments: &Arguments) -> anyhow::Result<u8> {
         out.display()
     );
     require_folder_of("--out", &out)?;
-    let front = arguments.front.as_deref().map(|folder| front::front(folder, &results));
-    let page = Page { front: front.transpose()?, ..page(&results)? };
+    let Some(results) = results else {
+        ensure!(arguments.front.is_none(), "--front needs the results of a run, not of a search");
+        return search::search_page(folder, &out);
+    };
+    let mut page = page(&results)?;
+    if let Some(folder) = &arguments.front {
+        let (front, failed) = front::front(folder, &results)?;
+        page.front = Some(front);
+        page.notes.extend(failed);
+    }
     let folder = out.parent().map_or_else(PathBuf::new, PathBuf::from);
     let file = out.with_extension("html");
     let name = utf8_name(&file)?;
@@ -111,6 +131,7 @@ fn page(results: &FolderContents) -> anyhow::Result<Page> {
             source: shell_word(&results.folder.display().to_string()),
             // The page of a run provides the requirements.
             requirements: Vec::new(),
+            notes: Vec::new(),
             version: PROGRAM.version.to_owned(),
         }),
         name: results.title(),

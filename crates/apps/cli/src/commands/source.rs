@@ -169,7 +169,7 @@ fn refuse_folder_of_runs(path: &Path) -> anyhow::Result<()> {
     let folder = path.display();
     ensure!(
         !path.join("history.csv").is_file(),
-        "{folder}: holds a search, not a run; use squama export, or squama report RESULTS --front {folder} to show it beside a sweep; its figures are in the folder"
+        "{folder}: holds a search, not a run; use squama export, or squama report {folder}; its figures are in the folder"
     );
     let is_analysis = ["tolerance.csv", "sobol.csv", "fit.csv"].map(|table| path.join(table));
     ensure!(

@@ -9,10 +9,11 @@ use results::Derivation;
 use serde_json::{Value, json};
 use sweep::DesignNumber;
 
+use super::answer::limit_text;
 use super::source::results_folder;
 use super::{DONE, INCOMPLETE};
 use crate::json;
-use crate::print::{aligned, counted, print, time};
+use crate::print::{aligned, counted, digits, print, time};
 
 /// Arguments of `squama status`.
 #[derive(Debug, Args)]
@@ -63,6 +64,8 @@ fn search_status(folder: &Path, json: bool) -> anyhow::Result<u8> {
             "is_complete": status.is_complete,
             "designs": status.designs,
             "sample_sets": status.sample_sets,
+            "seconds": status.time.map(|time| time.as_secs_f64()),
+            "best": status.best().map(|best| best_record(&status, best)),
             "program": status.program,
             "goal_sha256": status.goal_sha256,
             "problems": status.problems,
@@ -74,21 +77,59 @@ fn search_status(folder: &Path, json: bool) -> anyhow::Result<u8> {
     Ok(if is_done { DONE } else { INCOMPLETE })
 }
 
-fn search_report(status: &SearchStatus) -> String {
+pub fn search_report(status: &SearchStatus) -> String {
     let state = match (status.in_use, status.is_complete) {
         (true, _) => "search, running",
         (_, true) => "search, done",
         _ => "search, not finished; squama optimise --resume continues it",
     };
-    let rows = [
-        row("solved", counted(status.designs as u64, "design")),
-        row("sample sets", status.sample_sets.to_string()),
-        row("program", format!("squama {}", status.program)),
-        row("goal", format!("sha256 {}", status.goal_sha256)),
-    ];
+    let met = status.evaluations.iter().filter(|design| design.is_met).count();
+    let mut rows = vec![row("solved", counted(status.designs as u64, "design"))];
+    if !status.evaluations.is_empty() {
+        let nominal = counted(status.evaluations.len() as u64, "nominal design");
+        rows.push(row("evaluated", format!("{nominal}, {met} meet every requirement")));
+    }
+    rows.extend(status.time.map(|of| row("time", time(of))));
+    rows.push(row("sample sets", status.sample_sets.to_string()));
+    rows.push(row("program", format!("squama {}", status.program)));
+    rows.push(row("goal", format!("sha256 {}", status.goal_sha256)));
+    let best = status.best().map_or_else(String::new, |best| best_so_far(status, best));
     let problems = status.problems.iter().map(|problem| [problem.clone()]);
     let problems = titled("problems", &problems.collect::<Vec<_>>());
-    format!("{}: {state}\n{}{problems}", status.goal, aligned(&rows))
+    format!("{}: {state}\n{}{best}{problems}", status.goal, aligned(&rows))
+}
+
+/// Lists the variables, objectives and requirements of the best design so far.
+fn best_so_far(status: &SearchStatus, best: usize) -> String {
+    let (Some(goal), best) = (&status.definition, &status.evaluations[best]) else {
+        return String::new();
+    };
+    let mut rows = Vec::new();
+    for (parameter, value) in goal.space.parameters().zip(&best.variables) {
+        rows.extend(value.map(|v| [parameter.key.to_owned(), digits(v), String::new()]));
+    }
+    let (objectives, required) = best.values.split_at(goal.objectives.len());
+    for (objective, value) in goal.objectives.iter().zip(objectives) {
+        rows.push([objective.column.to_string(), digits(*value), String::new()]);
+    }
+    for (requirement, value) in goal.requirements.iter().zip(required) {
+        let limit = limit_text(requirement, Some(*value));
+        rows.push([requirement.column.clone(), digits(*value), limit]);
+    }
+    let title = if best.is_met { "best so far" } else { "nearest so far" };
+    titled(title, &rows)
+}
+
+/// Returns the best design so far as JSON.
+fn best_record(status: &SearchStatus, best: usize) -> Value {
+    let best = &status.evaluations[best];
+    let Some(goal) = &status.definition else { return Value::Null };
+    let names = goal.space.parameters().map(|parameter| parameter.key);
+    let variables: serde_json::Map<_, _> =
+        names.zip(&best.variables).map(|(name, value)| (name.to_owned(), json!(value))).collect();
+    let values: serde_json::Map<_, _> =
+        goal.columns().zip(&best.values).map(|(name, v)| (name.to_owned(), json!(v))).collect();
+    json!({ "met": best.is_met, "variables": variables, "values": values })
 }
 
 fn report(status: &run::RunStatus) -> String {

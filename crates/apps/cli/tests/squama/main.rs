@@ -26,6 +26,7 @@ mod rankings;
 mod reruns;
 mod runs;
 mod schema;
+mod searches;
 mod selection;
 mod shards;
 mod skins;

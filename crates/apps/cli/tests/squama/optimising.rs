@@ -408,6 +408,24 @@ fn a_requirement_that_a_check_contradicts_fails_the_search() {
         let warnings = String::from_utf8_lossy(&output.get_output().stderr).into_owned();
         assert!(warnings.contains(sentence), "{command}: {warnings}");
     }
+    // The pages repeat it, too.
+    place.prints("explore results/firm --out e.html");
+    let page = place.read("e.html");
+    let (_, header) = page.split_once("</h1>").expect("a header");
+    let header = header.split("<section").next().expect("a section");
+    let shown = sentence.replace(">=", "&gt;=");
+    assert!(header.contains(&shown) && header.matches("⚠").count() == 1, "{header}");
+    let grid = "run x.toml -q --out g --set designs.length_over_t=[0.4,0.6]";
+    std::fs::write(place.path("x.toml"), goal.split("[goal]").next().expect("a sweep"))
+        .expect("writable");
+    place.squama(grid).assert().code(0);
+    place.prints("report g --front results/firm");
+    assert!(
+        place
+            .read("g/report.html")
+            .contains("\"notes\":[\"The optimum of results/firm fails a check: ")
+    );
+    std::fs::write(place.path("x.toml"), goal).expect("writable");
     // The search continues with a tighter limit, and no longer.
     place.squama("optimise x.toml --set goal.confirm=true --out c").assert().code(0);
     let full = place.prints("design c --set substrate.coupling=full --json --out d");

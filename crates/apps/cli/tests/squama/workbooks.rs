@@ -63,7 +63,7 @@ fn searches_and_tolerances_are_exported_and_rejected_elsewhere() {
     }
     insta::assert_snapshot!(place.refused("tolerance front"), @"error: front: holds a Pareto front; choose one design of it with --design, in squama design, draw or make");
     insta::assert_snapshot!(place.refused("make t --out x.stl"), @"error: t: holds an analysis and no designs; give the definition or the results folder of the run");
-    insta::assert_snapshot!(place.refused("report front"), @"error: front: holds a search, not a run; use squama export, or squama report RESULTS --front front to show it beside a sweep; its figures are in the folder");
+    insta::assert_snapshot!(place.refused("plot front"), @"error: front: holds a search, not a run; use squama export, or squama report front; its figures are in the folder");
     insta::assert_snapshot!(place.refused("plot t"), @"error: t: holds an analysis, not a run; use squama export; its figures are in the folder");
 }
 

@@ -1,6 +1,6 @@
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from os import PathLike
-from typing import Any, Literal, overload
+from typing import Any, Literal, TypedDict, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -64,6 +64,16 @@ class Run(Table):
     ) -> Table: ...
     def report(self, out: Path | None = None) -> str: ...
 
+class Requirement(TypedDict):
+    requirement: str
+    value: float | None
+    limit: float
+    margin: float | None
+
+class Answer(TypedDict):
+    requirements: list[Requirement]
+    warnings: list[str]
+
 class Result:
     skin: Skin
     status: str
@@ -89,6 +99,7 @@ class Result:
     def __getitem__(self, name: str) -> Any: ...
     def keys(self) -> list[str]: ...
     def get(self, name: str, default: Any = ...) -> Any: ...
+    def answer(self, require: str | Iterable[str] = ()) -> Answer: ...
     def plot(self, axes: Any = None) -> Any: ...
 
 @overload

@@ -22,7 +22,7 @@ class Result:
     ==================  ==========================================================================================
     ``skin``            the skin
     ``status``          ``"complete"``, or the reason why a measure has no value
-    ``warnings``        texts: failures, and the limit of validity of the model
+    ``warnings``        texts: failures, limits of the model, curved bodies and printing, as the commands print them
     ``values``          all measures as a dict, ``None`` where there is none; ``units`` and ``meanings`` of them
     ``path``            puncture: displacement, force, tilt … at every equilibrium, as a `Table`
     ``events``          puncture: contacts that open, close and slide, folds and snaps
@@ -52,15 +52,29 @@ class Result:
     def _failures(self):
         return self._solved.failures()
 
+    @cached_property
+    def _warnings(self):
+        return self._solved.warnings()
+
     @property
     def status(self):
         return self._failures[0][1] if self._failures else "complete"
 
     @property
     def warnings(self):
-        fold = self.get(_squama.FOLD_FORCE)
-        folded = f"the surface folds at {_squama.FOLD_FORCE} {fold}: the model is not valid beyond it; sound_force is the largest valid force"
-        return [f"{measure}: {meaning}" for measure, _, meaning in self._failures] + [folded] * (fold == fold)
+        return [f"{measure}: {meaning}" for measure, _, meaning in self._failures] + self._warnings
+
+    def answer(self, require=()):
+        """Returns requirements, such as ``"coverage >= 0.6"``, with value, limit and margin, and every warning.
+
+        The answer is a dict with ``"requirements"``, a list of dicts, and ``"warnings"``, in the words of ``squama design``.
+        The skin is solved again with gaps 10 % smaller and larger, to warn of cliffs.
+        """
+        require = [require] if isinstance(require, str) else list(require)
+        solved = self._solved if self._solved is not None else self.skin.solve()._solved
+        rows, warnings = solved.answer(require)
+        named = [dict(zip(("requirement", "value", "limit", "margin"), row)) for row in rows]
+        return {"requirements": named, "warnings": warnings}
 
     @property
     def values(self):
@@ -98,7 +112,7 @@ class Result:
             return default
 
     def __getstate__(self):
-        for name in ("_values", "_failures", "_tables"):
+        for name in ("_values", "_failures", "_tables", "_warnings"):
             getattr(self, name)
         return {**self.__dict__, "_solved": None}
 

@@ -90,6 +90,8 @@ impl PointKey {
 pub(crate) struct Known {
     header: JournalHeader,
     pub solved: HashMap<EvaluationKey, Arc<DesignResult>>,
+    /// Points of nominal designs in the order in which they were solved, each once.
+    pub order: Vec<(SpacePoint, Arc<DesignResult>)>,
     pub sampled: HashMap<SamplesKey, Arc<Samples>>,
 }
 
@@ -101,16 +103,26 @@ impl Records for Known {
     const KEY: &'static str = "optimisation";
 
     fn begin(header: JournalHeader, _length: u64, _path: &Path) -> Result<Self, String> {
-        Ok(Self { header, solved: HashMap::new(), sampled: HashMap::new() })
+        let (solved, sampled) = (HashMap::new(), HashMap::new());
+        Ok(Self { header, solved, order: Vec::new(), sampled })
     }
 
     fn take(&mut self, line: JournalLine, _bytes: Range<u64>) -> Result<(), String> {
         match line {
             JournalLine::Solved(line) => {
                 let SolvedLine { differentiated, sample, shares, chosen, result } = *line;
-                let point = PointKey::of(&SpacePoint { shares, chosen });
-                let key = EvaluationKey { differentiated, sample, point };
-                self.solved.insert(key, Arc::new(result));
+                let point = SpacePoint { shares, chosen };
+                let key = PointKey::of(&point);
+                let result = Arc::new(result);
+                // A point may be solved with and without derivatives.
+                let other =
+                    EvaluationKey { differentiated: !differentiated, sample, point: key.clone() };
+                let is_new = sample.is_none() && !self.solved.contains_key(&other);
+                let key = EvaluationKey { differentiated, sample, point: key };
+                let before = self.solved.insert(key, Arc::clone(&result));
+                if is_new && before.is_none() {
+                    self.order.push((point, result));
+                }
             }
             JournalLine::Samples(SamplesLine { first, shares, chosen, values }) => {
                 let point = PointKey::of(&SpacePoint { shares, chosen });

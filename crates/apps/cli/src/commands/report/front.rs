@@ -13,9 +13,13 @@ use crate::commands::answer::SearchedDesign;
 use crate::commands::folder_contents::FolderContents;
 
 /// Reads the designs of a search, to show them beside the designs of `grid`.
-pub fn front(folder: &Path, grid: &FolderContents) -> anyhow::Result<PageFront> {
+///
+/// Also returns sentences about requirements of its optimum that a check contradicts.
+pub fn front(folder: &Path, grid: &FolderContents) -> anyhow::Result<(PageFront, Vec<String>)> {
     let name = folder.display();
-    SearchedDesign::read(folder)?;
+    let SearchedDesign { failed_checks, .. } = SearchedDesign::read(folder)?;
+    let failed_checks = failed_checks.into_iter();
+    let failed = failed_checks.map(|check| format!("The optimum of {name} fails a check: {check}"));
     // A search has no expected number of designs.
     let found = VerifiedFolder::open(folder, Completeness::Partial)?;
     let table = [FRONT, OPTIMUM].into_iter().find(|table| found.holds(table));
@@ -37,7 +41,7 @@ pub fn front(folder: &Path, grid: &FolderContents) -> anyhow::Result<PageFront> 
             grid.folder.display()
         );
     }
-    Ok(PageFront {
+    let front = PageFront {
         folder: name.to_string(),
         differences: differences(&goal, grid).into_iter().chain(tolerances_of(&goal)).collect(),
         variables: goal.space.parameters().map(|parameter| parameter.key.to_owned()).collect(),
@@ -46,7 +50,8 @@ pub fn front(folder: &Path, grid: &FolderContents) -> anyhow::Result<PageFront> 
         requirements: nominal.requirements,
         sound: goal.sound,
         designs,
-    })
+    };
+    Ok((front, failed.collect()))
 }
 
 /// Returns the nominal objectives; for a goal on yield only, the column of the first requirement.
