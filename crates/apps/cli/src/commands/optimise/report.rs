@@ -145,19 +145,19 @@ impl SearchReport<'_> {
 
     /// Lists the limits that the search tightened, so that the checks pass.
     fn tightened(&self) -> String {
-        let mut text = String::new();
-        for (meant, searched) in self.goal.requirements.iter().zip(&self.found.searched) {
-            if meant != searched {
-                let _ = writeln!(
-                    text,
-                    "\nThe search required {} {} {}, so that the checks meet {meant}.",
-                    searched.column,
-                    searched.relation.sign(),
-                    digits(searched.limit)
-                );
-            }
+        let limits = self.goal.requirements.iter().zip(&self.found.searched);
+        let limits = limits.filter(|(meant, searched)| meant != searched).map(|(_, searched)| {
+            let Requirement { column, relation, limit } = searched;
+            format!("{column} {} {}", relation.sign(), digits(*limit))
+        });
+        let limits: Vec<_> = limits.collect();
+        if limits.is_empty() {
+            return String::new();
         }
-        text
+        format!(
+            "\nThe search required {}, so that the checks meet the limits of the goal.\n",
+            limits.join(" and ")
+        )
     }
 
     /// Names the requirements that a check contradicts, with the remedy.
