@@ -266,17 +266,19 @@ impl Limits<'_> {
         history: &mut Vec<Candidate>,
         first: Answer,
     ) -> Result<Answer, Halt> {
-        let mut again = history.clone();
+        let nominal = history.clone();
         let mut best = self.sampled(search, history, first, Plan::SAMPLED)?;
-        if let Some(wider) = self.tighten(&mut best) {
+        for _ in 0..TIGHTER {
+            let Some(wider) = self.tighten(&mut best) else { break };
+            let mut again = nominal.clone();
             // No known design may meet the tightened limits.
             let first = self.nominal_again(&self.tightened, search, &mut again, NOMINAL_POINTS)?;
             let next = self.sampled(search, &mut again, first, Plan::AGAIN)?;
             if matches!(next, Answer::Infeasible(_)) {
                 self.tightened = wider;
-            } else {
-                (best, *history) = (next, again);
+                break;
             }
+            (best, *history) = (next, again);
         }
         Ok(best)
     }
