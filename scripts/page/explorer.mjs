@@ -5,7 +5,9 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 
 const SIZES = [{ width: 1400, height: 900 }, { width: 390, height: 844 }];
-const STATES = 25;
+const STATES = 12;
+/** The page of each size: on a half-space, and in millimetres on a layer. */
+const PAGES = { 1400: "explore.html", 390: "finger.html" };
 
 /** Waits for a complete answer of the solver. */
 const settled = (page) => page.waitForFunction(() => squama.live.answer?.fine && squama.solver.idle(), null, { timeout: 60_000 });
@@ -24,8 +26,8 @@ const isMeasured = (name) => !/_(error|iterations|points)$/.test(name);
 
 export default ({ openFile, open, place, results, run, problems }) => {
   const out = mkdtempSync(join(tmpdir(), "squama-explore-"));
-  const explore = async (size, state = "") => {
-    const page = await openFile(join(place, "explore.html"), state);
+  const explore = async (size, state = "", file = "explore.html") => {
+    const page = await openFile(join(place, file), state);
     await page.evaluate(() => {
       globalThis.longTasks = [];
       new PerformanceObserver((list) => globalThis.longTasks.push(...list.getEntries().map(({ startTime, duration }) => [startTime, duration]))).observe({ type: "longtask", buffered: true });
@@ -46,9 +48,9 @@ export default ({ openFile, open, place, results, run, problems }) => {
 
   return {
     ...of((size) => [[`the explorer solves ${STATES} random states as the command does, at ${size.width} pixels`, async () => {
-      const page = await explore(size), next = random(size.width);
+      const page = await explore(size, "", PAGES[size.width]), next = random(size.width);
       for (let k = 0; k < STATES; k++) {
-        const shares = Array.from({ length: 11 }, next);
+        const shares = Array.from({ length: 16 }, next);
         await after(page, () => page.evaluate((own) => {
           const pairs = squama.live.controls().filter(({ words }) => !words).map(({ key, min, max }, j) => [key, min + own[j] * (max - min)]);
           squama.live.set(Object.fromEntries(pairs));
@@ -84,9 +86,51 @@ export default ({ openFile, open, place, results, run, problems }) => {
       for (const one of await page.locator("#live [role=slider], #live input, #live button:visible").all()) assert.ok((await one.evaluate((own) => own.getAttribute("aria-label") ?? own.labels?.[0]?.textContent ?? own.textContent)).length > 0);
       assert.match(await page.locator("#live-set-gap_over_t").getAttribute("aria-valuetext"), /^[\d.]+ mm$/);
       await page.close();
-    }], [`the row lies on the arc of its body, at ${size.width} pixels`, async () => {
+    }], [`a sentence selects a design, and the needle moves sideways, at ${size.width} pixels`, async () => {
+      const page = await explore(size, "", "pin.html"), found = page.locator("#live-found");
+      const ask = async (sentence) => {
+        await page.locator("#live-sentence").fill(sentence);
+        await page.locator("#live-ask button").click();
+        await page.waitForFunction(() => !/^$|^Searching/.test(squama.at("live-found").textContent), null, { timeout: 60_000 });
+        await settled(page);
+        return found.textContent();
+      };
+      assert.match(await ask("a unicorn"), /^Not understood: a unicorn/);
+      assert.match(await ask("pin 3 mm, 2,5 N, bends to 25 mm"), /^This design meets it/);
+      const own = await values(page);
+      assert.ok(own.failure_force_N >= 2.5 && own.bend_radius_mm <= 25, JSON.stringify(own));
+      assert.match(await page.locator("#live-command").textContent(), /needle_radius_mm=1\.5/);
+      assert.equal(await page.locator("#live-required .unmet").count(), 0);
+      if (size.width > 1000) assert.match(await ask("5000 N"), /^None of \d+ solved designs meets it.*failure force ≥ 5000 N/);
+      const grip = page.locator("#live-handle-needle .grip"), { x, y, width } = await grip.boundingBox(), at = [x + width / 2, y + width / 2];
+      const place = () => page.evaluate(() => squama.live.answer.puncture.load_position), before = await place();
+      await after(page, async () => {
+        await page.mouse.move(...at);
+        await page.mouse.down();
+        await page.mouse.move(at[0] - 10, at[1]);
+        await page.mouse.up();
+      });
+      assert.ok(await place() < before - 0.02, `${await place()} and ${before}`);
+      assert.match(await page.locator("#live-command").textContent(), /--set puncture\.load_position=/);
+      await page.close();
+    }], [`four measures and four sliders come first, at ${size.width} pixels`, async () => {
       const page = await explore(size);
+      for (const card of await page.locator("#live-cards .card").all()) { const { y, height } = await card.boundingBox(); assert.ok(y + height <= size.height, `${y}`); }
       if (size.width < 1000) await page.locator("#live-sheet").click();
+      const counts = async () => [await page.locator("#live .card:visible").count(), await page.locator("#live-controls .control:visible").count()];
+      assert.deepEqual(await counts(), [4, 4]);
+      await page.locator("#live-more").click();
+      assert.ok((await counts()).every((count) => count > 6), String(await counts()));
+      assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), size.width);
+      await page.emulateMedia({ colorScheme: "dark" });
+      await page.waitForFunction(() => getComputedStyle(document.body).backgroundColor === "rgb(20, 24, 29)");
+      const printed = await page.pdf({ format: "A4" });
+      assert.equal(printed.toString("latin1").match(/\/Type\s*\/Page\b/g).length, 1);
+      await page.close();
+    }]]),
+    async "the row lies on the arc of its body"() {
+      const size = SIZES[0], page = await explore(size);
+      await page.locator("#live-more").click();
       const field = page.locator(".control", { hasText: "Body radius" }).locator("input[type=text]");
       const type = (text) => after(page, async () => { await field.fill(text); await field.press("Enter"); });
       /** Lowest points of the drawn scales, from left to right, relative to the punctured scale, px. */
@@ -118,6 +162,7 @@ export default ({ openFile, open, place, results, run, problems }) => {
       const [scale, thickness] = await page.evaluate(() => { const [a, b] = [...document.querySelectorAll("#live-rest .scale.punctured")].flatMap((one) => one.getAttribute("points").split(" ").slice(0, 2).map((point) => Number(point.split(",")[0]))); return [(b - a) / squama.live.value("length_over_t"), squama.live.value("thickness_mm")]; });
       const radius = (scale * 20) / thickness;
       for (const [x, y] of await bases("live-rest")) if (Math.abs(x) < 0.9 * radius) assert.ok(Math.abs(y + (x * x) / (radius + Math.sqrt(radius * radius - x * x))) < 0.5, `${x} ${y} ${radius}`);
+      await page.locator("#live-rest").scrollIntoViewIfNeeded();
       const grip = async () => { const { x, y, width, height } = await page.locator("#live-handle-gap .grip").boundingBox(); return [x + width / 2, y + height / 2]; };
       const [x, y] = await grip();
       await page.mouse.move(x, y);
@@ -138,9 +183,11 @@ export default ({ openFile, open, place, results, run, problems }) => {
       assert.equal(await field.inputValue(), "flat");
       assert.equal(await page.locator("#live-set-radius_mm").getAttribute("aria-valuetext"), "flat");
       for (const one of [page, other]) await one.close();
-    }]]),
+    },
     async "a guided needle has its own sliders"() {
-      const page = await explore(SIZES[0]), friction = page.locator("#live-set-needle_friction");
+      const page = await explore(SIZES[0]);
+      await page.locator("#live-more").click();
+      const friction = page.locator("#live-set-needle_friction");
       assert.equal(await friction.count(), 1);
       assert.ok(!await page.locator("#live-dead-load").isVisible());
       await after(page, () => page.locator("#live-set-needle").selectOption("free"));
@@ -186,29 +233,29 @@ export default ({ openFile, open, place, results, run, problems }) => {
       assert.ok(await gap() > 0.3);
       await page.close();
     },
-    async "a dragged corner follows the pointer, and changes slant and length"() {
+    async "a dragged corner follows the pointer, and changes slant and thickness"() {
       const page = await explore(SIZES[0]), grip = async () => { const { x, y, width, height } = await page.locator("#live-handle-slant .grip").boundingBox(); return [x + width / 2, y + height / 2]; };
-      const parameters = () => page.evaluate(() => ["slant_deg", "length_over_t", "gap_over_t"].map(squama.live.value));
-      const [x, y] = await grip(), [slant, length, gap] = await parameters();
+      const parameters = () => page.evaluate(() => [squama.live.value("slant_deg"), squama.live.value("thickness_mm"), squama.live.value("gap_over_t") * squama.live.millimetres()]);
+      const [x, y] = await grip(), [slant, thickness, gap] = await parameters();
       await page.mouse.move(x, y);
       await page.mouse.down();
       for (let step = 1; step <= 10; step++) { await page.mouse.move(x - 3 * step, y - 2 * step); await page.waitForTimeout(20); }
-      const [left, top] = await grip(), [less, shorter, same] = await parameters();
+      const [left, top] = await grip(), [less, thicker, same] = await parameters();
       assert.ok(Math.abs(left - x + 30) < 1.5 && Math.abs(top - y + 20) < 1.5, `${left - x} ${top - y}`);
-      assert.ok(less < slant && shorter < length && same === gap, `${less} ${shorter}`);
+      assert.ok(less < slant && thicker > thickness && Math.abs(same - gap) < 1e-5, `${less} ${thicker} ${same - gap}`);
       await page.mouse.up();
       await settled(page);
       await page.close();
     },
     async "an arrow moves the design to a limit, which is named"() {
       const page = await explore(SIZES[0]);
-      const before = (await values(page)).critical_force;
+      const before = (await values(page)).failure_force;
       const arrow = page.locator(".control", { hasText: "Length" }).locator(".arrow");
       await page.evaluate(() => { globalThis.seen = []; squama.live.listen("moved", () => globalThis.seen.push(squama.live.value("length_over_t"))); });
       await after(page, () => arrow.click());
       const seen = await page.evaluate(() => globalThis.seen), ways = seen.slice(1).map((own, k) => Math.sign(own - seen[k]));
       assert.ok(seen.length > 10 && ways.every((way) => way === 0 || way === ways.find(Boolean)), `${seen.length} steps`);
-      assert.ok((await values(page)).critical_force >= before);
+      assert.ok((await values(page)).failure_force >= before);
       assert.match(await page.locator("#live-said").textContent(), /^Length: /);
       await page.close();
     },
@@ -241,7 +288,7 @@ export default ({ openFile, open, place, results, run, problems }) => {
       for (const [file, unit, radius] of [["explore.html", "mm", (own) => own.bend_radius_mm], ["plain.html", "t", (own) => 1 / own.contact_curvature]]) {
         const page = await openFile(join(place, file));
         await settled(page);
-        const own = await values(page), card = (name) => page.locator(`#live-cards [data-measure=${name}]`).textContent();
+        const own = await values(page), card = (name) => page.locator(`#live [data-measure=${name}]`).textContent();
         const written = (number) => `${Number(number.toPrecision(4))} ${unit}`;
         assert.ok((await card("contact_curvature")).includes(`Bends freely to${written(radius(own))}`), await card("contact_curvature"));
         const depth = (name) => own[`${name}_mm`] ?? own[name];
@@ -274,7 +321,7 @@ export default ({ openFile, open, place, results, run, problems }) => {
       await page.close();
     },
     async "the pages are small enough to be sent"() {
-      assert.ok(statSync(join(place, "explore.html")).size < 800_000, String(statSync(join(place, "explore.html")).size));
+      assert.ok(statSync(join(place, "explore.html")).size < 830_000, String(statSync(join(place, "explore.html")).size));
       assert.ok(statSync(join(results, "report.html")).size < 2_000_000);
     },
   };

@@ -50,7 +50,7 @@ const tests = {
   ...explorer(shared), ...charts(shared), ...designs(shared), ...choosing(shared), ...sweeps(shared), ...fronts(shared), ...window(shared), ...randomTables(shared),
   async "no errors and no requests except the pages"() {
     assert.deepEqual(problems, []);
-    assert.ok(requests.every((url) => /^file:.*\/(report|explore|plain)\.html(#.*)?$/.test(url)), String(requests));
+    assert.ok(requests.every((url) => /^file:.*\/(report|explore|plain|pin|finger)\.html(#.*)?$/.test(url)), String(requests));
   },
 };
 

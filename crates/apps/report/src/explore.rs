@@ -22,13 +22,14 @@ pub(crate) const STYLE: &str = include_str!("../assets/explore/explore.css");
 const STYLES: [&str; 2] =
     [include_str!("../assets/page/styles/theme.css"), include_str!("../assets/explore/page.css")];
 /// The scripts of the page, in the order in which they run.
-pub(crate) const SCRIPTS: [&str; 7] = [
+pub(crate) const SCRIPTS: [&str; 8] = [
     include_str!("../assets/explore/solver.js"),
     include_str!("../assets/explore/skin.js"),
     include_str!("../assets/explore/pictures.js"),
     include_str!("../assets/explore/controls.js"),
     include_str!("../assets/explore/measures.js"),
     include_str!("../assets/explore/curves.js"),
+    include_str!("../assets/explore/sentence.js"),
     include_str!("../assets/explore/explorer.js"),
 ];
 /// The script of the worker thread, which runs the solver.
@@ -41,6 +42,10 @@ const MODULE: &[u8] = include_bytes!("../assets/explore/solver.wasm.gz");
 pub struct Explorer {
     /// The definition of the sweep.
     pub sweep: Sweep,
+    /// The variables of the search that found the design, if it is an optimum.
+    pub variables: Vec<Variable>,
+    /// Solved designs of the sweep, as candidates for requirements.
+    pub solved: SolvedTable,
     /// The definition or results folder with its settings, as on the command line.
     pub source: String,
     /// The requirements, such as `coverage >= 0.5`.
@@ -49,6 +54,15 @@ pub struct Explorer {
     pub notes: Vec<String>,
     /// The version of the program.
     pub version: String,
+}
+
+/// Solved designs: values by design, in the order of the columns.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct SolvedTable {
+    /// The axes and columns.
+    pub columns: Vec<String>,
+    /// The values, if any, of each design.
+    pub rows: Vec<Vec<Option<f64>>>,
 }
 
 /// Removes comment lines from a script to shorten the page.
@@ -61,14 +75,18 @@ fn without_comments(script: &str) -> String {
 #[derive(Clone, Debug, Serialize)]
 struct Control {
     key: &'static str,
+    /// The key of the same length over the thickness, for a length in mm; otherwise the key.
+    over_t: &'static str,
     label: &'static str,
     unit: &'static str,
     min: f64,
     max: f64,
     /// The change per key press.
     step: f64,
-    /// The initial value: a number or a word.
+    /// The initial value: a number, a word, or null if the definition determines it otherwise.
     value: Value,
+    /// The word for the value 0: `flat`, or `sharp` if 0 stands for an absent parameter.
+    zero: Option<&'static str>,
     /// The allowed words of a parameter that takes words.
     words: Option<[&'static str; 2]>,
     /// The kind of needle to which the parameter applies, if it is restricted.
@@ -79,24 +97,32 @@ struct Control {
 
 /// Default control of a parameter: key, label, range, initial fraction of the range, optional.
 ///
-/// The range and initial value apply if the definition has none. An optional parameter has a
-/// control only if the definition gives it.
+/// Lengths are over the thickness; a definition in mm has controls in mm. The range and initial
+/// value apply if the definition has none. An optional parameter has a control only if the
+/// definition gives it.
 type Offered = (&'static str, &'static str, [f64; 2], f64, bool);
+
+/// Thickness that converts default ranges to mm if the definition has none, mm.
+const DEFAULT_THICKNESS: f64 = 1.0;
 
 /// Largest curvatures of a concave and a convex body with a control, in 1/mm and in 1/t.
 const BODIES: [[f64; 2]; 2] = [[-1.0 / 40.0, 1.0 / 8.0], [-1.0 / 20.0, 1.0 / 4.0]];
 
-/// The controls, with overlapping scales as the initial design.
-const OFFERED: [Offered; 11] = [
+/// The controls, with overlapping scales as the initial design. The page shows the first four, and
+/// the others on request.
+const OFFERED: [Offered; 14] = [
     (key::GAP, "Gap", [0.02, 1.0], 0.1, false),
     (key::LENGTH, "Length", [0.05, 2.0], 0.5, false),
     (key::SLANT, "Slant", [0.0, 80.0], 0.7, false),
-    (key::WIDTH, "Width", [0.25, 2.0], 0.5, false),
     (key::THICKNESS, "Thickness", [0.1, 10.0], 0.5, true),
-    ("membrane_thickness_over_t", "Membrane", [0.02, 0.5], 0.5, false),
-    (key::SUBSTRATE_MODULUS, "Tissue", [0.01, 10.0], 0.5, true),
+    (key::WIDTH, "Width", [0.25, 2.0], 0.5, false),
+    (key::MEMBRANE_THICKNESS, "Membrane", [0.02, 0.5], 0.5, false),
+    (key::SUBSTRATE_MODULUS, "Tissue modulus", [0.01, 10.0], 0.5, true),
+    (key::TISSUE, "Tissue depth", [0.5, 20.0], 0.25, true),
     (key::FRICTION, "Scale friction", [0.0, 0.5], 0.0, false),
     (key::NEEDLE, "Needle", [0.0, 0.0], 0.0, false),
+    (key::LOAD_POSITION, "Needle place", [0.0, 1.0], 1.0, false),
+    (key::NEEDLE_RADIUS, "Needle radius", [0.0, 2.0], 0.0, false),
     (key::NEEDLE_FRICTION, "Needle friction", [0.0, 1.0], 0.2, false),
     (key::CRITICAL_TILT, "Critical tilt", [2.0, 30.0], 0.5, false),
 ];
@@ -118,6 +144,9 @@ struct Shown {
     mode: Option<&'static str>,
 }
 
+/// Number of measures that the page always shows.
+const FIRST_MEASURES: usize = 4;
+
 fn shown(
     name: &'static str,
     label: &'static str,
@@ -129,7 +158,8 @@ fn shown(
     Shown { name, label, physical, words, is_curvature, has_goal, mode }
 }
 
-/// Returns the displayed measures, with the failure force if it is sought.
+/// Returns the displayed measures, with the failure force if it is sought. The page shows the first
+/// four, and the others on request.
 fn measures(seeks_failure: bool) -> Vec<Shown> {
     let mut measures = vec![
         shown(name::COVERAGE, "Coverage", "", "fraction of the scale layer that is solid scale"),
@@ -140,23 +170,23 @@ fn measures(seeks_failure: bool) -> Vec<Shown> {
             "force at which a scale tilts over",
         ),
         shown(
-            name::PENETRATION,
-            "Penetration of bases",
-            "penetration_mm",
-            "how far scales sink into the tissue at the critical force",
-        ),
-        shown(
             name::CRITICAL_DISPLACEMENT,
             "Needle depth",
             "critical_displacement_mm",
             "how far the needle moves down up to the critical force",
         ),
-        shown(name::COMPLIANCE, "Flexibility", "", "1: bends as easily as the membrane alone"),
         shown(
             name::CONTACT_CURVATURE,
             "Bends freely to",
             "bend_radius_mm",
             "radius at which scales touch",
+        ),
+        shown(name::COMPLIANCE, "Flexibility", "", "1: bends as easily as the membrane alone"),
+        shown(
+            name::PENETRATION,
+            "Penetration of bases",
+            "penetration_mm",
+            "how far scales sink into the tissue at the critical force",
         ),
         shown(
             name::SOUND_FORCE,
@@ -167,7 +197,10 @@ fn measures(seeks_failure: bool) -> Vec<Shown> {
     ];
     if seeks_failure {
         let words = "force at the first failure";
-        measures.insert(2, shown(name::FAILURE_FORCE, "Failure force", "failure_force_N", words));
+        measures.insert(1, shown(name::FAILURE_FORCE, "Failure force", "failure_force_N", words));
+        // The tilt is one of the failures.
+        let critical = measures.remove(2);
+        measures.insert(FIRST_MEASURES, critical);
     }
     measures
 }
@@ -182,7 +215,10 @@ struct Data<'a> {
     thickness: Option<f64>,
     controls: Vec<Control>,
     measures: Vec<Shown>,
+    /// Number of measures that are always shown.
+    first_measures: usize,
     requirements: &'a [String],
+    solved: &'a SolvedTable,
 }
 
 impl Explorer {
@@ -214,7 +250,9 @@ impl Explorer {
             thickness: base.material.thickness_mm,
             controls: self.controls(),
             measures: measures(self.sweep.grid().case(0).judged_modes().is_some()),
+            first_measures: FIRST_MEASURES,
             requirements: &self.requirements,
+            solved: &self.solved,
         };
         fill(out, SECTION, |out, place| match place {
             "module" => out.write_all(in_sevens(MODULE).as_bytes()),
@@ -254,12 +292,14 @@ impl Explorer {
         }
         Some(Control {
             key,
+            over_t: key,
             label: "Body radius",
             unit: if is_in_mm { "mm" } else { "t" },
             min,
             max,
             step: (max - min) / 100.0,
             value: value.into(),
+            zero: Some("flat"),
             words: None,
             only: None,
             is_radius: true,
@@ -268,13 +308,21 @@ impl Explorer {
 
     /// Creates the control of a parameter, over the values of its axis or variable, or a default
     /// range.
-    fn control(&self, &(key, label, range, opens_at, if_given): &Offered) -> Option<Control> {
-        let parameter = Parameter::named(key)?;
+    fn control(&self, &(over_t, label, range, opens_at, if_given): &Offered) -> Option<Control> {
         let grid = self.sweep.grid();
-        let own = parameter.get(&grid.case(0));
-        let variables = || self.sweep.variables().iter();
-        let span = grid.axis(key).and_then(span);
-        let span = span.or_else(|| variables().find_map(|variable| interval(variable, key)));
+        let case = grid.case(0);
+        let offered = Parameter::named(over_t)?;
+        // A needle keeps its radius if the thickness moves.
+        let is_needle = over_t == key::NEEDLE_RADIUS
+            && self.sweep.gives(key::THICKNESS)
+            && !self.sweep.gives(over_t);
+        let in_mm =
+            offered.in_mm().find(|one| one.key != key::PITCH && (is_needle || self.gives(one)));
+        let (parameter, factor) =
+            in_mm.map_or((offered, 1.0), |parameter| (parameter, self.thickness()));
+        let (key, own) = (parameter.key, parameter.get(&case));
+        let axis = grid.axis(key).and_then(span);
+        let span = axis.or_else(|| self.variables().find_map(|variable| interval(variable, key)));
         if if_given && span.is_none() && own.number().is_none() {
             return None;
         }
@@ -283,23 +331,66 @@ impl Explorer {
         let friction_is_given =
             grid.base().needle_friction.is_some() || grid.axis(key::NEEDLE_FRICTION).is_some();
         let friction_says_tilt = friction_is_given && !self.sweep.is_guided();
-        let only = match key {
+        let only = match over_t {
             key::NEEDLE_FRICTION if !friction_says_tilt => Some("guided"),
             key::CRITICAL_TILT if friction_says_tilt => Some("guided"),
+            key::NEEDLE_RADIUS => Some("guided"),
             _ => None,
         };
-        let [min, max] = span.unwrap_or(range);
-        // The first design is a corner of the grid and seldom a good one.
+        let [min, max] = span.unwrap_or(range.map(|end| end * factor));
+        // The first design of several is a corner of the grid and seldom a good one.
         let middle = min + opens_at * (max - min);
-        let number = own.number().filter(|_| span.is_none()).unwrap_or(middle);
+        let is_variable = self.sweep.variables().iter().any(|one| one.parameter() == parameter);
+        let is_fixed = axis.is_none() && !is_variable;
+        let number = own.number().filter(|_| is_fixed).unwrap_or(middle);
         // The value in a definition may lie outside the default range.
-        let (min, max) = (min.min(number), max.max(number));
+        let (mut min, max) = (min.min(number), max.max(number));
+        let is_sharp = over_t == key::NEEDLE_RADIUS && own.number().is_none();
+        if over_t == key::NEEDLE_RADIUS && !is_sharp {
+            // A radius of 0 is refused.
+            min = min.max(1e-3 * max);
+        }
         let (words, value) = match own {
             Scalar::Word(word) if key == key::NEEDLE => (Some(["free", "guided"]), word.into()),
+            // The inset of the definition holds until the needle is dragged.
+            _ if key == key::LOAD_POSITION && case.load_inset.is_some() => (None, Value::Null),
             _ => (None, number.into()),
         };
-        let (unit, step) = (parameter.unit, (max - min) / 100.0);
-        Some(Control { key, label, unit, min, max, step, value, words, only, is_radius: false })
+        Some(Control {
+            key,
+            over_t,
+            label,
+            unit: parameter.unit,
+            min,
+            max,
+            step: (max - min) / 100.0,
+            value,
+            zero: is_sharp.then_some("sharp"),
+            words,
+            only,
+            is_radius: false,
+        })
+    }
+
+    /// Returns true if the definition gives a parameter, as a value, an axis or a variable.
+    fn gives(&self, parameter: &Parameter) -> bool {
+        let grid = self.sweep.grid();
+        grid.axis(parameter.key).is_some()
+            || parameter.is_given(&grid.case(0))
+            || self.variables().any(|variable| variable.parameter() == parameter)
+    }
+
+    /// Returns the variables of the definition and of the search that found it.
+    fn variables(&self) -> impl Iterator<Item = &Variable> {
+        self.sweep.variables().iter().chain(&self.variables)
+    }
+
+    /// Returns the thickness of the scales, in the middle of its range if it varies, mm.
+    fn thickness(&self) -> f64 {
+        let range = self.variables().find_map(|variable| interval(variable, key::THICKNESS));
+        let middle = range.map(|[from, to]| 0.5 * (from + to));
+        let own = self.sweep.grid().case(0).material.thickness_mm;
+        own.or(middle).unwrap_or(DEFAULT_THICKNESS)
     }
 }
 

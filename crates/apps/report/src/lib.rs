@@ -64,7 +64,7 @@ mod svg;
 
 pub use curves::{DesignCurves, MeasuredCurves, curves};
 pub use designs::Designs;
-pub use explore::Explorer;
+pub use explore::{Explorer, SolvedTable};
 #[cfg(feature = "xlsx")]
 pub use export::{ExportError, Exported, OtherTable, export};
 pub use facts::facts;

@@ -36,7 +36,7 @@ pub struct Answer {
     pub closest: Option<Closest>,
     /// Command-line options with which `squama design` solves this design.
     pub settings: Vec<String>,
-    /// A definition of only this design.
+    /// A definition of only this design, with its requirements in a comment.
     pub toml: String,
     /// The result of following a parameter, if requested.
     pub follow: Option<Followed>,
@@ -64,6 +64,8 @@ pub struct Required {
     pub text: String,
     /// The value of its column, if there is one.
     pub value: Option<f64>,
+    /// The margin relative to the limit, negative if it is missed; `None` without a value.
+    pub margin: Option<f64>,
     /// True if the value meets it; false without a value.
     pub met: bool,
     /// True for the requirement that is closest to its limit.
@@ -128,6 +130,7 @@ impl Required {
         let one = |(one, margin): (&Requirement, f64)| Self {
             text: one.to_string(),
             value: Value::number(values, &one.column),
+            margin: Some(margin).filter(|margin| margin.is_finite()),
             met: margin >= 0.0,
             limits: margin <= least,
         };

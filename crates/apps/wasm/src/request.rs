@@ -26,6 +26,9 @@ pub struct Request {
     /// True for a complete answer, with derivatives, smooth curves and neighbouring gaps.
     #[serde(default)]
     pub fine: bool,
+    /// True for the measures alone, without paths and drawings.
+    #[serde(default)]
+    pub bare: bool,
     /// Fractions of the paths of puncture and bending to draw: 0 at rest, 1 at the end.
     #[serde(default)]
     pub drawn: Option<[f64; 2]>,

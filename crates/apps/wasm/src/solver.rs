@@ -1,8 +1,8 @@
 //! The solver that answers requests.
 
 use ranking::Requirement;
-use results::DesignRow;
 use results::columns::{design_columns, name};
+use results::{DesignRow, SolvedDesign};
 use run::{Evaluator, GapChange, Patience, validity_warnings};
 use skin::Imperfection;
 use skin::flexure::{self, Flexure};
@@ -56,7 +56,12 @@ impl Solver {
             .collect::<Result<_, ranking::InvalidRequirement>>()
             .map_err(|error| error.to_string())?;
         let evaluator = self.evaluator(request.measures(&case));
-        let solved = evaluator.solve(own.grid().number(0), &case);
+        let number = own.grid().number(0);
+        let solved = if request.bare {
+            SolvedDesign { row: evaluator.row(number, &case), puncture: None, flexure: None }
+        } else {
+            evaluator.solve(number, &case)
+        };
         let drawn = request.drawn.unwrap_or_default();
         // Measures use the steps of the definition, like the command; finer steps are only for
         // curves.
@@ -103,7 +108,7 @@ impl Solver {
             slopes: row.result.sensitivity.iter().map(Slope::new).collect(),
             closest: written::closest(&sweep, &case),
             settings: written::settings(&sweep, &base, &case),
-            toml: own.to_toml(),
+            toml: written::definition(&own, &requirements),
             follow: walk.transpose()?,
         })
     }

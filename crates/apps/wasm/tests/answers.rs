@@ -142,6 +142,44 @@ fn designs_between_grid_points_have_a_closest_design_and_a_command() {
     assert_eq!(number(&again, "critical_force"), number(&answer, "critical_force"));
 }
 
+/// A goal in mm has no designs of its own; the copied definition is the design in mm.
+#[test]
+fn a_copied_definition_keeps_millimetres_and_requirements_under_a_free_name() {
+    let goal = "name = 'pin'\n[variables]\ngap_mm = { from = 0.2, to = 2 }\nlength_mm = { from = 1, to = 4 }\n\
+                thickness_mm = { from = 1, to = 2 }\n[designs]\nslant_deg = 60\n[material]\nsubstrate_modulus_MPa = 1";
+    let set = json!({ "gap_mm": 0.5, "length_mm": 2, "thickness_mm": 1.6 });
+    let require = ["critical_force_N >= 0.5", "coverage >= 0.3"];
+    let answer = ask(&json!({ "definition": goal, "set": set, "require": require }));
+    let toml = answer["toml"].as_str().expect("a definition");
+    for line in ["gap_mm = [0.5]", "length_mm = [2]", "thickness_mm = [1.6]"] {
+        assert!(toml.contains(line), "{toml}");
+    }
+    for requirement in require {
+        assert!(toml.contains(&format!("#     --require '{requirement}'")), "{toml}");
+    }
+    let name = toml.lines().find(|line| line.starts_with("name")).expect("a name");
+    assert!(name.starts_with("name = \"pin-") && name.len() == "name = \"pin-0000\"".len());
+    let again = ask(&json!({ "definition": toml }));
+    assert_eq!(number(&again, "critical_force"), number(&answer, "critical_force"));
+    assert_eq!(number(&again, "gap_mm"), 0.5);
+}
+
+/// A search needs no drawings.
+#[test]
+fn bare_answers_have_the_same_measures_and_margins() {
+    let solve = |bare: bool| {
+        let require = ["coverage >= 0.5"];
+        ask(&json!({ "definition": DEFINITION, "require": require, "bare": bare }))
+    };
+    let (bare, whole) = (solve(true), solve(false));
+    for column in ["coverage", "critical_force", "contact_curvature"] {
+        assert_eq!(number(&bare, column), number(&whole, column));
+    }
+    assert!(bare["puncture"].is_null() && whole["puncture"].is_object());
+    let margin = bare["requirements"][0]["margin"].as_f64().expect("a margin");
+    assert!((margin - (number(&bare, "coverage") / 0.5 - 1.0)).abs() < 1e-12);
+}
+
 #[test]
 fn parameters_are_followed_to_their_limit() {
     let follow = |to: f64, require: &[&str]| {

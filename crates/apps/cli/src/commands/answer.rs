@@ -7,7 +7,7 @@ use results::{Completeness, DesignRow, Results, VerifiedFolder};
 use run::{BareNeedle, GapChange, bare_needle, design_warnings};
 use serde_json::{Value, json};
 use std::path::Path;
-use sweep::Sweep;
+use sweep::{Sweep, Variable};
 
 use crate::print::{FOLDED, digits, marked, warning};
 
@@ -140,6 +140,8 @@ pub fn limit_text(requirement: &Requirement, value: Option<f64>) -> String {
 pub struct SearchedDesign {
     /// Requirements on columns of designs.
     pub requirements: Vec<Requirement>,
+    /// Variables of the search.
+    pub variables: Vec<Variable>,
     /// Sentences about requirements that a check contradicts.
     pub failed_checks: Vec<String>,
 }
@@ -172,6 +174,7 @@ impl SearchedDesign {
         for sentence in &failed_checks {
             warning(&format!("this design fails a check: {sentence}"));
         }
-        Ok(Self { requirements, failed_checks })
+        let variables = goal.space.sweep().variables().to_vec();
+        Ok(Self { requirements, variables, failed_checks })
     }
 }

@@ -7,7 +7,9 @@ use std::process::{Command, Stdio};
 use clap::Args;
 use optimisation::Statistic;
 use ranking::Requirement;
-use report::Explorer;
+use report::{Explorer, SolvedTable};
+use results::columns::name;
+use results::{Completeness, Results, ResultsFolder, VerifiedFolder};
 use sweep::Sweep;
 use text::shell_word;
 
@@ -29,7 +31,8 @@ Examples:
 Drag a scale or a slider, and the page solves the design. It is one file that contains the solver; it needs
 no network and no server. Sliders range from the smallest to the largest value in the definition; the one of
 the body ranges from a concave over a flat to a convex body. The requirements come from [goal], if there is
-one, and from --require.")]
+one, and from --require; a field on the page takes others in words and searches a design that meets them. A
+results folder adds its solved designs to this search.")]
 pub struct Arguments {
     #[command(flatten)]
     pub definition: Definition,
@@ -49,8 +52,10 @@ pub struct Arguments {
 /// Writes the interactive page and opens it.
 pub fn explore(arguments: &Arguments) -> anyhow::Result<u8> {
     let (sweep, mut requirements) = sweep_and_goal(&arguments.definition)?;
-    let SearchedDesign { failed_checks, .. } = SearchedDesign::read(&arguments.definition.path)?;
-    let failed = failed_checks.iter().map(|check| format!("The optimum fails a check: {check}"));
+    let searched = SearchedDesign::read(&arguments.definition.path)?;
+    let failed = searched.failed_checks.iter();
+    let failed = failed.map(|check| format!("The optimum fails a check: {check}"));
+    requirements.extend(searched.requirements);
     requirements.extend(arguments.required.read()?);
     // On the page they would never have a value.
     let of_samples = requirements.extract_if(.., |of| Statistic::named(&of.column).is_some());
@@ -61,10 +66,13 @@ pub fn explore(arguments: &Arguments) -> anyhow::Result<u8> {
     }
     require_folder_of("--out", &arguments.out)?;
     let Definition { path, settings } = &arguments.definition;
+    let solved = solved_designs(path, &sweep)?;
     // Quoted for a shell, because the page contains a command to copy.
     let settings = settings.iter().map(|setting| format!(" --set {}", shell_word(setting)));
     let page = Explorer {
+        solved,
         sweep,
+        variables: searched.variables,
         source: shell_word(&path.display().to_string()) + &settings.collect::<String>(),
         requirements: requirements.iter().map(ToString::to_string).collect(),
         notes: failed.collect(),
@@ -80,6 +88,34 @@ pub fn explore(arguments: &Arguments) -> anyhow::Result<u8> {
         note("no browser was found: open the page by hand");
     }
     Ok(DONE)
+}
+
+/// Columns that the sentence on the page may require.
+const REQUIRED: [&str; 7] = [
+    name::COVERAGE,
+    "failure_force_N",
+    "critical_force_N",
+    "bend_radius_mm",
+    "clearance_mm",
+    "critical_displacement_mm",
+    "areal_mass_kg_m2",
+];
+/// Maximum number of solved designs on a page.
+const MOST_SOLVED: usize = 5000;
+
+/// Returns the solved designs of a results folder; empty for a definition.
+fn solved_designs(path: &Path, sweep: &Sweep) -> anyhow::Result<SolvedTable> {
+    if !path.join(ResultsFolder::RUN_INFO).is_file() {
+        return Ok(SolvedTable::default());
+    }
+    let results =
+        Results::thinned(&VerifiedFolder::open(path, Completeness::Partial)?, MOST_SOLVED)?;
+    let axes = sweep.grid().axes().iter().map(|axis| axis.parameter().key);
+    let known = axes.chain(REQUIRED).filter_map(|name| Some((name, results.column(name).ok()?)));
+    let (columns, places): (Vec<_>, Vec<_>) =
+        known.map(|(name, place)| (name.to_owned(), place)).unzip();
+    let row = |row| places.iter().map(|place| results.number(row, *place).ok().flatten()).collect();
+    Ok(SolvedTable { columns, rows: (0..results.len()).map(row).collect() })
 }
 
 /// Returns the sweep of a definition, and the requirements of its goal if it has one.

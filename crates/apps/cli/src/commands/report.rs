@@ -10,7 +10,7 @@ use clap::Args;
 use optimisation::SearchStatus;
 use ranking::{CRITERIA, Preferences, Ranking, Weights};
 use rayon::prelude::*;
-use report::{Explorer, Fact, GapFactors, Page, PageDesign, drawings};
+use report::{Explorer, Fact, GapFactors, Page, PageDesign, SolvedTable, drawings};
 use results::columns::design_columns;
 use results::{bending_units, puncture_units};
 use run::{GapChange, MeasureChange, Patience, curved_body_warning, solved_row};
@@ -132,6 +132,8 @@ fn page(results: &FolderContents) -> anyhow::Result<Page> {
             // The page of a run provides the requirements.
             requirements: Vec::new(),
             notes: Vec::new(),
+            variables: Vec::new(),
+            solved: SolvedTable::default(),
             version: PROGRAM.version.to_owned(),
         }),
         name: results.title(),

@@ -2,6 +2,8 @@
 
 use std::process::Stdio;
 
+use serde_json::{Value, json};
+
 use crate::{FEW, Place};
 
 #[test]
@@ -38,6 +40,48 @@ fn calibrate_prints_the_couplings_of_a_layer() {
     insta::assert_snapshot!(text);
     let text = place.refused("calibrate --gap 0.1 --length 1 --tissue-thickness 0.1");
     assert!(text.contains("a quarter of the half-width"), "{text}");
+}
+
+/// Returns the data of an interactive page.
+fn page_data(page: &str) -> Value {
+    let (_, data) = page.split_once("id=\"live-data\">").expect("data");
+    let (data, _) = data.split_once("</script>").expect("an end");
+    serde_json::from_str(data).expect("JSON")
+}
+
+/// The pages of a goal and of its optimum have the ranges of its variables in mm.
+#[test]
+fn explore_keeps_the_ranges_of_a_goal_and_of_its_optimum() {
+    let place = Place::with(
+        "name = 'x'\nmeasures = ['coverage']\n[variables]\ngap_mm = { from = 0.2, to = 2 }\nlength_mm = { from = 1, to = 4 }\n\
+         [designs]\nslant_deg = 60\n[material]\nthickness_mm = 2\n[goal]\nmaximize = 'coverage'\nrequire = ['coverage <= 0.9']",
+    );
+    place.prints("optimise x.toml --out o");
+    for source in ["x.toml", "o", "o/optimum.toml"] {
+        place.prints(&format!("explore {source} --no-open"));
+        let data = page_data(&place.read("explore.html"));
+        let controls = data["controls"].as_array().expect("controls");
+        let gap = controls.iter().find(|one| one["key"] == "gap_mm").expect("a gap in mm");
+        assert_eq!(
+            (&gap["min"], &gap["max"], &gap["unit"]),
+            (&json!(0.2), &json!(2.0), &json!("mm"))
+        );
+        assert_eq!(data["requirements"][0], "coverage <= 0.9", "{source}");
+    }
+}
+
+/// Solved designs of a run are candidates for the requirements on the page.
+#[test]
+fn explore_of_a_run_carries_its_solved_designs() {
+    let place = Place::with(
+        "name = 'x'\nmeasures = ['coverage']\ndesigns.gap_over_t = [0.1, 0.2]\ndesigns.slant_deg = 30",
+    );
+    place.prints("run x.toml --out r");
+    place.prints("explore r --no-open");
+    let solved = page_data(&place.read("explore.html"))["solved"].clone();
+    let columns = json!(["length_over_t", "gap_over_t", "slant_deg", "coverage"]);
+    assert_eq!(solved["columns"], columns);
+    assert_eq!(solved["rows"][1][1], 0.2);
 }
 
 #[test]

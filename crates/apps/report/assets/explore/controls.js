@@ -10,11 +10,12 @@
     return element("div", { class: "control" }, element("label", { for: `live-set-${control.key}` }, control.label), chosen);
   };
 
+  /** Returns the number in a field, without its unit. */
+  const numberIn = (text) => Number(text.trim().replace(",", ".").replace("−", "-").replace(/\s*(mm|MPa|t|°)$/, ""));
   /** Parses a radius or "flat", and returns the curvature; null if it is invalid or out of range. */
   const typedRadius = (control, text) => {
-    const plain = text.trim().toLowerCase(), radius = Number(plain.replace(",", ".").replace("−", "-").replace(/\s*(mm|t)$/, "")) / live.shownAs(control)[0];
-    const curvature = plain === "flat" ? 0 : 1 / radius, slack = 1e-9 * (control.max - control.min);
-    return plain !== "" && curvature >= control.min - slack && curvature <= control.max + slack ? curvature : null;
+    const radius = numberIn(text) / live.shownAs(control)[0], curvature = 1 / radius, slack = 1e-9 * (control.max - control.min);
+    return text.trim() !== "" && curvature >= control.min - slack && curvature <= control.max + slack ? curvature : null;
   };
   /** Describes the accepted values of a control. */
   const accepted = (control) => {
@@ -24,12 +25,15 @@
   };
   /** Parses a number with a decimal point or comma; null if it is invalid or out of range. */
   const typed = (control, text) => {
+    if (control.zero && text.trim().toLowerCase() === control.zero) return 0;
     if (control.is_radius) return typedRadius(control, text);
-    const number = Number(text.trim().replace(",", ".").replace(/\s*(mm|MPa|t|°)$/, "")) / live.shownAs(control)[0];
+    const number = numberIn(text) / live.shownAs(control)[0];
     const slack = 1e-9 * (control.max - control.min);
     return text.trim() !== "" && number >= control.min - slack && number <= control.max + slack ? number : null;
   };
 
+  /** Returns true if a word replaces the value 0. */
+  const isZero = ({ zero, value }) => Boolean(zero) && value === 0;
   /** Returns the value of a slider; a nearly flat body becomes flat. */
   const snapped = ({ is_radius, step }, value) => (is_radius && Math.abs(value) < 0.99 * step ? 0 : value);
 
@@ -49,19 +53,20 @@
     control.show = () => {
       const [factor, name] = live.shownAs(control);
       // Any step, because a fixed one would round values that were typed or dragged.
-      Object.assign(range, { min: control.min, max: control.max, step: "any", value: control.value });
+      Object.assign(range, { min: control.min, max: control.max, step: "any", value: live.current(control) });
       range.setAttribute("aria-valuetext", live.text(control.key));
       if (document.activeElement !== field || field.getAttribute("aria-invalid") !== "true") {
-        field.value = control.is_radius ? (control.value === 0 ? "flat" : live.digits(factor / control.value)) : live.digits(control.value * factor);
+        const number = control.is_radius ? factor / control.value : live.current(control) * factor;
+        field.value = isZero(control) ? control.zero : live.digits(number);
         field.setAttribute("aria-invalid", "false");
       }
-      unit.textContent = control.is_radius && control.value === 0 ? "" : name;
+      unit.textContent = isZero(control) ? "" : name;
     };
     range.addEventListener("keydown", (event) => {
       const step = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: 10, PageDown: -10 }[event.key];
       if (!step) return;
       event.preventDefault();
-      live.set({ [control.key]: snapped(control, control.value + step * control.step) });
+      live.set({ [control.key]: snapped(control, live.current(control) + step * control.step) });
     });
     return element("div", { class: "control" }, element("label", { for: range.id }, control.label), range, field, unit, ...(control.arrow ? [control.arrow] : []));
   };
@@ -80,17 +85,24 @@
     control.arrow.setAttribute("aria-label", words);
   };
 
+  // Further controls appear on request.
+  const FIRST = 4;
   let listed = "";
   /** Updates the active controls, and rebuilds their list if it has changed. */
   const show = () => {
     const acting = live.controls(), keys = acting.map(({ key }) => key).join();
     if (keys !== listed) {
       listed = keys;
-      at("live-controls").replaceChildren(...acting.map((control) => (control.words ? choice : slider)(control)));
+      const rows = acting.map((control) => (control.words ? choice : slider)(control));
+      rows.slice(FIRST).forEach((row) => row.classList.add("extra"));
+      at("live-controls").replaceChildren(...rows);
       acting.forEach(showArrow);
     }
     acting.forEach((control) => control.show());
   };
   live.listen("moved", show);
-  live.listen("answered", () => live.controls().forEach(showArrow));
+  live.listen("answered", () => live.controls().forEach((control) => {
+    showArrow(control);
+    if (control.value === null) control.show?.();
+  }));
 })();

@@ -2,12 +2,19 @@
 
 (() => {
   const { svg, at, live } = squama;
-  const [WIDE, HIGH, LEFT, BOTTOM, TOP, RIGHT] = [400, 190, 70, 36, 14, 14];
+  const [WIDE, HIGH, LEFT, BOTTOM, TOP, RIGHT] = [400, 200, 58, 38, 14, 18];
 
   const LOADS = [
     { id: "force", path: "puncture", names: (units) => [units.length ? "depth (mm)" : "depth u/t", units.force ? "force (N)" : "force F*"], factors: (units) => [units.length ?? 1, units.force ?? 1] },
     { id: "moment", path: "flexure", names: (units) => [units.length ? "curvature (1/mm)" : "curvature κt", units.moment ? "moment (N mm)" : "moment M*"], factors: (units) => [1 / (units.length ?? 1), units.moment ?? 1] },
   ];
+
+  /** Lists about five round numbers from `low` to `high`. */
+  const ticks = (low, high) => {
+    const least = (high - low) / 5, size = 10 ** Math.floor(Math.log10(least));
+    const step = [1, 2, 2.5, 5, 10].find((own) => own * size >= least) * size, first = Math.ceil(low / step - 1e-9);
+    return Array.from({ length: Math.floor(high / step + 1e-9) - first + 1 }, (_, k) => Number(((first + k) * step).toPrecision(10)));
+  };
 
   const draw = ({ id, path, names, factors }, load) => {
     const slider = at(`live-${id}-share`);
@@ -24,9 +31,13 @@
     const ring = ([cx, cy], r, kind) => svg("circle", { cx, cy, r, class: kind });
     const words = names(units), [x, y] = factors(units);
     const word = (left, top, anchor, text) => svg("text", { x: left, y: top, "text-anchor": anchor }, text);
-    at(`live-${id}`).replaceChildren(svg("path", { d: `M${LEFT} ${TOP} V${HIGH - BOTTOM} H${WIDE - RIGHT}`, class: "axis" }),
-      word((WIDE + LEFT) / 2, HIGH - 8, "middle", words[0]), word(LEFT + 8, TOP + 6, "start", words[1]),
-      word(WIDE - RIGHT, HIGH - BOTTOM + 16, "end", live.digits(high[0] * x, 3)), word(LEFT - 5, TOP + 6, "end", live.digits(high[1] * y, 3)), word(LEFT - 5, HIGH - BOTTOM, "end", "0"),
+    const floor = HIGH - BOTTOM;
+    const across = ticks(low[0] * x, high[0] * x).map((own) => ({ own, left: spot([own / x, 0])[0] }));
+    const up = ticks(low[1] * y, high[1] * y).map((own) => ({ own, top: spot([0, own / y])[1] }));
+    const grid = [...across.map(({ left }) => `M${left} ${TOP} V${floor + 4}`), ...up.map(({ top }) => `M${LEFT - 4} ${top} H${WIDE - RIGHT}`)].join(" ");
+    at(`live-${id}`).replaceChildren(svg("path", { d: grid, class: "grid" }), svg("path", { d: `M${LEFT} ${TOP} V${floor} H${WIDE - RIGHT}`, class: "axis" }),
+      word((WIDE + LEFT) / 2, HIGH - 4, "middle", words[0]), word(LEFT + 8, TOP + 10, "start", words[1]),
+      ...across.map(({ own, left }) => word(left, floor + 16, "middle", live.digits(own))), ...up.map(({ own, top }) => word(LEFT - 7, top + 4, "end", live.digits(own))),
       line(lines[1], "curve pinned"), line(lines[0], "curve"), ...(own?.events ?? []).map(cross), ...(own?.fold ? [ring(spot(own.fold), 7, "fold")] : []),
       ...(own ? [ring(spot(own.at ?? [0, 0]), 9, "marker")] : []));
     at(`live-${id}`).onpointerdown = at(`live-${id}`).onpointermove = (event) => {

@@ -16,6 +16,11 @@
   copies("live-link", () => `${location.href.split("#")[0]}#${squama.written?.() ?? live.written()}`);
   copies("live-copy-command", command);
   copies("live-copy-toml", () => live.answer?.toml ?? "");
+  at("live-more").addEventListener("click", () => {
+    const open = at("live").classList.toggle("more");
+    at("live-more").setAttribute("aria-expanded", String(open));
+    at("live-more").textContent = open ? "Fewer sliders and measures" : "More sliders and measures";
+  });
   at("live-print").addEventListener("click", () => print());
   at("live-pin").addEventListener("click", live.pin);
   at("live-back").addEventListener("click", () => live.set(live.pinned.values));
@@ -55,6 +60,20 @@
     at("live").classList.toggle("waiting", live.solving() !== null);
   });
 
+  /** Follows the colours of the system; paper is white. */
+  const setTheme = () => {
+    const root = document.documentElement, dark = matchMedia("(prefers-color-scheme: dark)");
+    const show = () => { root.dataset.theme = dark.matches ? "dark" : "light"; };
+    // The page of a run sets its own.
+    if (!squama.state) {
+      dark.addEventListener("change", show);
+      show();
+    }
+    let before;
+    addEventListener("beforeprint", () => { before = root.dataset.theme; root.dataset.theme = "light"; });
+    addEventListener("afterprint", () => { root.dataset.theme = before; });
+  };
+
   /** On the page of a run: lists the best designs, and opens a selected design. */
   const joinPage = () => {
     squama.listen("design", chosen);
@@ -72,6 +91,7 @@
     live.read(location.hash.slice(1));
     live.set({});
   });
+  setTheme();
   const asked = location.hash.slice(1);
   if (squama.state) joinPage();
   if (squama.state && squama.state.design !== null) chosen();

@@ -23,7 +23,7 @@
   const card = (measure) => {
     const value = shown(live.answer, measure), pressed = live.chosen === measure.name;
     const mode = measure.mode ? named(live.answer, measure.mode)?.text : null, words = mode ? `first failure: ${mode}` : measure.words;
-    const choose = () => { live.chosen = measure.name; live.show(); at("live-cards").querySelector('[aria-pressed="true"]').focus(); };
+    const choose = () => { live.chosen = measure.name; live.show(); document.querySelector('#live .card[aria-pressed="true"]').focus(); };
     // Arrows cannot improve a measure without a goal, so its card is no button.
     const [tag, choice] = measure.has_goal ? ["button", { type: "button", "aria-pressed": String(pressed), onclick: choose }] : ["div", {}];
     return element(tag, { class: "card", "data-measure": measure.name, title: value?.meaning ?? measure.label, ...choice },
@@ -32,15 +32,17 @@
   };
 
   /** Formats a requirement such as `critical_force_N >= 2` in words. */
-  const inWords = (text) => text.replace(/(?:_(N|mm|deg))? (>=|<=|==|>|<) (\S+)$/, (_, unit, sign, limit) =>
+  live.inWords = (text) => text.replace(/(?:_(N|mm|deg))? (>=|<=|==|>|<) (\S+)$/, (_, unit, sign, limit) =>
     ` ${{ ">=": "≥", "<=": "≤", "==": "=" }[sign] ?? sign} ${limit}${unit ? ` ${unit}` : ""}`).replaceAll("_", " ");
 
   const requirement = ({ text, value, met, limits }) => element("li", { class: met ? "met" : "unmet" },
-    `${met ? "✓" : "✗"} ${inWords(text)}, here ${live.digits(value, 3)}${limits ? (met ? " (tightest requirement)" : " (the obstacle)") : ""}`);
+    `${met ? "✓" : "✗"} ${live.inWords(text)}, here ${live.digits(value, 3)}${limits ? (met ? " (tightest requirement)" : " (the obstacle)") : ""}`);
 
   live.listen("answered", () => {
     const { answer } = live;
-    at("live-cards").replaceChildren(...live.data.measures.map(card));
+    const cards = live.data.measures.map(card), first = live.data.first_measures;
+    at("live-cards").replaceChildren(...cards.slice(0, first));
+    at("live-other-cards").replaceChildren(...cards.slice(first));
     const said = [...(live.error ? [live.error] : []), ...(answer?.warnings ?? [])];
     at("live-warnings").replaceChildren(...said.map((text) => element("p", { class: "doubt" }, `⚠ ${text}`)));
     at("live-required").replaceChildren(...(answer?.requirements ?? []).map(requirement));

@@ -3,6 +3,8 @@
 squama.live = (() => {
   const data = JSON.parse(squama.at("live-data").textContent);
   const controls = new Map(data.controls.map((control) => [control.key, control]));
+  // Lengths in mm are also found by their key over the thickness.
+  const over = new Map(data.controls.map((control) => [control.over_t, control]));
   const listeners = { moved: [], answered: [] };
   const live = { data, answer: null, pinned: null, drawn: [1, 1], chosen: data.measures[1].name, said: "", times: [] };
 
@@ -17,9 +19,15 @@ squama.live = (() => {
   live.guided = () => controls.get("needle")?.value === "guided";
   /** Lists the active controls: some apply only to one kind of needle. */
   live.controls = () => [...controls.values()].filter(({ only }) => !only || live.guided() === (only === "guided"));
-  live.control = (key) => controls.get(key);
-  live.value = (key) => controls.get(key).value;
+  live.control = (key) => controls.get(key) ?? over.get(key);
   live.values = () => Object.fromEntries([...controls.values()].map(({ key, value }) => [key, value]));
+  /** Returns a value under its key in the definition, or a length over the thickness. */
+  live.value = (key, values = live.values()) => {
+    const control = live.control(key);
+    return values[control.key] / (key === control.key ? 1 : values.thickness_mm ?? data.thickness);
+  };
+  /** Returns the value of a control; a needle that was not moved is where the definition puts it. */
+  live.current = ({ value, max }) => value ?? live.answer?.puncture?.load_position ?? max;
 
   live.digits = (number, count = 4) => (number === null || number === undefined ? "–" : String(Number(number.toPrecision(count))));
   /** Returns the thickness in mm, the unit of lengths over t, if it is known. */
@@ -31,18 +39,22 @@ squama.live = (() => {
     return [1, { "-": "", deg: "°" }[unit] ?? unit];
   };
   live.text = (key) => {
-    const control = controls.get(key), [factor, unit] = live.shownAs(control);
+    const control = live.control(key), [factor, unit] = live.shownAs(control);
     if (control.words) return control.value;
-    if (control.is_radius) return control.value === 0 ? "flat" : `${control.value < 0 ? "concave" : "convex"}, ${live.digits(Math.abs(factor / control.value), 3)} ${unit}`;
-    return `${live.digits(control.value * factor, 3)}${unit === "°" ? "" : " "}${unit}`.trim();
+    if (control.zero && control.value === 0) return control.zero;
+    if (control.is_radius) return `${control.value < 0 ? "concave" : "convex"}, ${live.digits(Math.abs(factor / control.value), 3)} ${unit}`;
+    return `${live.digits(live.current(control) * factor, 3)}${unit === "°" ? "" : " "}${unit}`.trim();
   };
 
-  /** Returns the requirements: of the page of a run, otherwise of the definition. */
-  live.required = () => squama.required?.().filter(({ sign }) => sign !== "~").map(squama.ranking.written) ?? data.requirements;
+  // Requirements of the sentence, which replace those of the definition on the same columns.
+  live.wanted = [];
+  const columnOf = (requirement) => requirement.match(/^\w+/)[0];
+  const others = () => data.requirements.filter((own) => !live.wanted.some((wanted) => columnOf(wanted) === columnOf(own)));
+  /** Returns the requirements: of the page of a run, otherwise of the definition and the sentence. */
+  live.required = () => squama.required?.().filter(({ sign }) => sign !== "~").map(squama.ranking.written) ?? [...others(), ...live.wanted];
 
   // The control of a radius holds a curvature, because its range contains a flat body.
   const holdsCurvature = ({ is_radius, key }) => is_radius && key !== "curvature_times_t";
-  const isFlat = (control) => control.is_radius && control.value === 0;
   /** Returns the value of a parameter for the value that its control holds. */
   const outside = (control, value) => {
     if (!holdsCurvature(control)) return value;
@@ -60,15 +72,20 @@ squama.live = (() => {
     return values[key] * (unit === "mm" ? values.thickness_mm ?? data.thickness : 1);
   };
 
-  const request = () => ({
-    definition: data.definition, require: live.required(), drawn: live.drawn,
-    set: Object.fromEntries(live.controls().map((control) => (isFlat(control) ? ["curvature_times_t", 0] : [control.key, outside(control, control.value)]))),
-  });
-  live.solve = () => squama.solver.solve(request());
+  const setting = (control, value) => (control.is_radius && value === 0 ? ["curvature_times_t", 0] : [control.key, outside(control, value)]);
+  // An absent parameter is not set.
+  const isSet = (control, value) => value !== null && (control.is_radius || !control.zero || value !== 0);
+  /** Returns a request to solve the design with these values. */
+  live.request = (values = live.values()) => {
+    const set = live.controls().filter((control) => isSet(control, values[control.key])).map((control) => setting(control, values[control.key]));
+    return { definition: data.definition, require: live.required(), drawn: live.drawn, set: Object.fromEntries(set) };
+  };
+  live.solve = () => squama.solver.solve(live.request());
 
   // Rounded to six digits, as in the address.
   const clamped = (control, value) => {
     const { words, min, max } = control;
+    if (value === null) return null;
     if (words) return words.includes(value) ? value : words[0];
     if (control.is_radius) return inside(control, outside(control, Math.min(max, Math.max(min, value))));
     return Number(Math.min(max, Math.max(min, value)).toPrecision(6));
@@ -82,14 +99,21 @@ squama.live = (() => {
   live.set = (values, said = "", isStep = false) => {
     if (!isStep) cancelAnimationFrame(walking);
     for (const [key, value] of Object.entries(values)) {
-      const control = controls.get(key);
-      if (control && (control.words || Number.isFinite(value))) control.value = clamped(control, value);
+      const control = live.control(key);
+      if (!control || !(control.words || value === null || Number.isFinite(value))) continue;
+      control.value = clamped(control, key === control.key ? value : value * live.millimetres());
     }
     live.said = said;
     live.moved = true;
     tell("moved");
     live.solve();
     if (!isStep) live.remember();
+  };
+  /** Returns the settings of another thickness that leave the lengths of `values` unchanged in mm. */
+  live.withThickness = (thickness, values) => {
+    const ratio = values.thickness_mm / thickness, isScaled = ({ key, unit }) => unit === "t" && values[key] !== null;
+    const scaled = [...controls.values()].filter(isScaled).map(({ key, is_radius }) => [key, is_radius ? values[key] / ratio : values[key] * ratio]);
+    return { thickness_mm: thickness, ...Object.fromEntries(scaled) };
   };
   /** Draws puncture or bending at a fraction of its path. */
   live.draw = (load, share) => {
@@ -100,7 +124,7 @@ squama.live = (() => {
   /** Moves a parameter until the chosen measure stops improving or a limit is reached. */
   live.follow = (key, up) => {
     const { min, max } = controls.get(key);
-    squama.solver.follow(request(), { key, to: up ? max : min, measure: live.chosen });
+    squama.solver.follow(live.request(), { key, to: up ? max : min, measure: live.chosen });
   };
   live.pin = () => {
     live.pinned = live.pinned ? null : { answer: live.answer, values: live.values() };
@@ -109,7 +133,7 @@ squama.live = (() => {
   };
 
   const walk = ({ key, value, reason }) => {
-    const { label, value: from } = controls.get(key), begun = performance.now(), time = matchMedia("(prefers-reduced-motion: reduce)").matches ? 0 : WALK;
+    const { label } = controls.get(key), from = live.current(controls.get(key)), begun = performance.now(), time = matchMedia("(prefers-reduced-motion: reduce)").matches ? 0 : WALK;
     const step = (now) => {
       const share = time > 0 ? Math.min(1, Math.max(0, (now - begun) / time)) : 1, is = share < 1;
       live.set({ [key]: from + share * (value - from) }, is ? `${label}: moving` : `${label}: ${reason}`, is);
@@ -129,9 +153,15 @@ squama.live = (() => {
 
   const KEY = "live.";
   /** Formats the parameters for the address. */
-  live.written = () => (live.moved ? [...controls.values()].map((control) => `${KEY}${control.key}=${outside(control, control.value)}`).join("&") : "");
+  live.written = () => {
+    const moved = live.moved ? [...controls.values()].filter(({ value }) => value !== null) : [];
+    const parts = moved.map((control) => `${KEY}${control.key}=${outside(control, control.value)}`);
+    if (live.sentence) parts.push(`${KEY}sentence=${encodeURIComponent(live.sentence)}`);
+    return parts.join("&");
+  };
   live.read = (text) => {
     const parts = new URLSearchParams(text);
+    live.ask?.(parts.get(`${KEY}sentence`) ?? "");
     for (const control of controls.values()) {
       const value = parts.get(KEY + control.key);
       if (value === null || value === "") continue;

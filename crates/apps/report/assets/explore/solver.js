@@ -7,7 +7,7 @@ squama.solver = (() => {
   const GRACE = 60;
   // Time after which the page shows that it is solving, ms: layers may take seconds.
   const BUSY = 300;
-  let module, worker, listen, ready = false, asked = null, waiting = null, resting, giving = null, busy, id = 0;
+  let module, worker, listen, ready = false, asked = null, waiting = null, resting, giving = null, busy, measuring = null, id = 0;
 
   const showBusy = (is) => squama.at("live").classList.toggle("busy", is);
 
@@ -30,14 +30,20 @@ squama.solver = (() => {
     const question = asked;
     asked = null;
     if (answer.trapped) start();
+    if (question?.resolve) {
+      question.resolve(answer);
+      return next();
+    }
     // During input, outdated answers are shown too.
     if (!waiting || !question?.fine) listen(answer, question);
     next();
   };
 
   const next = () => {
-    if (!ready || asked || !waiting) return;
-    [asked, waiting] = [waiting, null];
+    if (!ready || asked || !(waiting || measuring)) return;
+    // Input comes before a search.
+    if (waiting) [asked, waiting] = [waiting, null];
+    else [asked, measuring] = [measuring, null];
     worker.postMessage(asked.request);
     // A complete answer after a fast one only adds details.
     if (!asked.request.fine) busy = setTimeout(showBusy, BUSY, true);
@@ -72,6 +78,13 @@ squama.solver = (() => {
       clearTimeout(resting);
       ask(request, { follow });
     },
+    /** Returns the measures of a design, for a search. */
+    measure: (request) => new Promise((resolve) => {
+      clearTimeout(resting);
+      id += 1;
+      measuring = { request: { ...request, bare: true, id }, resolve };
+      next();
+    }),
     idle: () => !asked && !waiting,
   };
 })();

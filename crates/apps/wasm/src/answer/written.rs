@@ -1,6 +1,8 @@
 //! Options and definitions for a design.
 
+use ranking::Requirement;
 use sweep::{Axis, Case, PARAMETERS, Parameter, Scalar, Setting, Sweep};
+use text::toml_source::quoted;
 
 use super::Closest;
 
@@ -35,6 +37,26 @@ pub(crate) fn alone(sweep: &Sweep, base: &Case, case: &Case) -> Result<Sweep, St
         return Ok(on_axes);
     }
     Sweep::parse(&on_axes.to_toml(), "definition", &settings).map_err(|error| error.to_string())
+}
+
+/// Returns the definition of a sweep of one design, with the requirements as options of `rank`.
+///
+/// Its name contains a hash of its content, so that its results have a folder of their own.
+pub(crate) fn definition(own: &Sweep, requirements: &[Requirement]) -> String {
+    let toml = own.to_toml();
+    // FNV-1a, folded to 16 bits.
+    let hash = toml
+        .bytes()
+        .fold(0x811c_9dc5_u32, |hash, byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193));
+    let name = format!("{}-{:04x}", own.name(), (hash >> 16) ^ (hash & 0xffff));
+    let (_, rest) = toml.split_once('\n').unwrap_or(("", &toml));
+    let mut text = String::new();
+    if !requirements.is_empty() {
+        text.push_str("# Requirements:\n");
+        text.extend(requirements.iter().map(|one| format!("#     --require '{one}'\n")));
+        text.push('\n');
+    }
+    text + &format!("name = {}\n{rest}", quoted(&name))
 }
 
 /// Returns the settings that differ from the definition, except axes.
