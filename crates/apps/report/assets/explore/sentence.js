@@ -51,7 +51,8 @@
   };
   const refused = ({ known, unknown }) => {
     if (unknown.length > 0 || known.length === 0) return `Not understood: ${unknown.join(", ") || "an empty sentence"}. An example: ${EXAMPLE}`;
-    if (!live.millimetres()) return "Millimetres need thickness_mm in the [material] of the definition.";
+    const isInMm = ({ pin, requirement }) => pin || /_(mm|N|kg)/.test(requirement);
+    if (known.some(isInMm) && !live.millimetres()) return "Millimetres need thickness_mm in the [material] of the definition.";
     if (known.some(({ requirement }) => requirement?.includes("_N ")) && !live.answer?.units.force) return "Newtons need substrate_modulus_MPa in the [material] of the definition.";
     if (known.some(({ pin }) => pin) && !live.control("needle_radius_over_t")) return "This page has no control for the radius of the needle.";
     return "";
