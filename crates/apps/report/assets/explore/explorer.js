@@ -64,14 +64,10 @@
   const setTheme = () => {
     const root = document.documentElement, dark = matchMedia("(prefers-color-scheme: dark)");
     const show = () => { root.dataset.theme = dark.matches ? "dark" : "light"; };
-    // The page of a run sets its own.
-    if (!squama.state) {
-      dark.addEventListener("change", show);
-      show();
-    }
-    let before;
-    addEventListener("beforeprint", () => { before = root.dataset.theme; root.dataset.theme = "light"; });
-    addEventListener("afterprint", () => { root.dataset.theme = before; });
+    dark.addEventListener("change", show);
+    show();
+    addEventListener("beforeprint", () => { root.dataset.theme = "light"; });
+    addEventListener("afterprint", show);
   };
 
   /** On the page of a run: lists the best designs, and opens a selected design. */
@@ -91,7 +87,8 @@
     live.read(location.hash.slice(1));
     live.set({});
   });
-  setTheme();
+  // The page of a run sets its own theme.
+  if (!squama.state) setTheme();
   const asked = location.hash.slice(1);
   if (squama.state) joinPage();
   if (squama.state && squama.state.design !== null) chosen();
