@@ -20,9 +20,10 @@ const RATIOS: [[&str; 3]; 5] = [
 impl Parameter {
     /// Returns true for a pair of a ratio and its numerator.
     pub(super) fn excludes(&self, other: &Self) -> bool {
-        RATIOS.iter().any(|[ratio, above, _]| {
-            [self.key, other.key] == [*ratio, *above] || [other.key, self.key] == [*ratio, *above]
-        })
+        let is_pair = |one: &Self, two: &Self| {
+            RATIOS.iter().any(|[ratio, above, _]| one.key == *ratio && two.key == *above)
+        };
+        is_pair(self, other) || is_pair(other, self)
     }
 
     /// Returns true for a ratio with its numerator given in `MPa` or N.
@@ -66,6 +67,10 @@ fn ratio(above: Option<f64>, below: Option<f64>) -> Option<f64> {
 pub(super) fn settle(case: &mut Case) {
     let material = case.material;
     let below = material.substrate_modulus_mpa;
+    // Every ratio has one of these denominators. Searches settle a case very often.
+    if below.is_none() && material.membrane_modulus_mpa.is_none() {
+        return;
+    }
     if let Some(ratio) = ratio(material.scale_modulus_mpa, below) {
         case.puncture.contact_modulus_over_substrate = ratio;
     }

@@ -62,7 +62,11 @@ impl Parameter {
             if says_length { key::LENGTH } else { parameter.origin() }
         };
         let is_needle = || self.origin() == key::CRITICAL_TILT && case.puncture.needle.is_guided();
-        let is_same = other.key != self.key && origin(other) == origin(self) && !is_needle();
+        // Alternatives are in one section. Comparing sections first saves most searches by key.
+        let is_same = other.section == self.section
+            && other.key != self.key
+            && origin(other) == origin(self)
+            && !is_needle();
         is_same || self.excludes(other)
     }
 
@@ -122,6 +126,8 @@ mod tests {
             let case = Case::default();
             let mut others = parameter.others_in(&case);
             assert!(others.all(|other| other.is_said_by(parameter, &case)), "{key}");
+            let origin = Parameter::named(parameter.origin()).expect("a parameter");
+            assert_eq!(origin.section, parameter.section, "{key}");
             if let Some(instead) = parameter.instead() {
                 let open = instead.default();
                 assert!(matches!(open, Scalar::Word(_)), "{key} is left to {open}");
