@@ -112,8 +112,8 @@ pub(crate) const PARTS: usize = 24;
 /// axes besides gap, aspect ratio and slant, each combination of their values has its own figures,
 /// for at most 24 combinations. Their names and titles include the values.
 ///
-/// The fronts and the best designs are those of the ranking, even if `designs` are fewer. On narrow
-/// paper figures have fewer panels.
+/// Fronts and best designs come from the whole ranking, even if only some `designs` are shown. On
+/// narrow paper figures have fewer panels.
 pub fn figures(
     name: &str,
     designs: &Designs,

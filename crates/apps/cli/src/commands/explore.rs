@@ -100,6 +100,7 @@ const REQUIRED: [&str; 7] = [
     "critical_displacement_mm",
     "areal_mass_kg_m2",
 ];
+
 /// Maximum number of solved designs on a page.
 const MOST_SOLVED: usize = 5000;
 

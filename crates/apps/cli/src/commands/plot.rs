@@ -45,7 +45,7 @@ pub struct Arguments {
     pub results: Option<PathBuf>,
 
     /// Show only designs with this value of a parameter (may be repeated, also for one parameter);
-    /// the fronts and the best designs stay those of all designs
+    /// fronts and best designs are computed from all designs
     #[arg(long, value_name = "COLUMN=VALUE")]
     pub at: Vec<String>,
 

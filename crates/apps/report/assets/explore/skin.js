@@ -46,7 +46,7 @@ squama.live = (() => {
     return `${live.digits(live.current(control) * factor, 3)}${unit === "°" ? "" : " "}${unit}`.trim();
   };
 
-  // Requirements of the sentence, which replace those of the definition on the same columns.
+  // A requirement of the sentence replaces the requirement of the definition on the same column.
   live.wanted = [];
   const columnOf = (requirement) => requirement.match(/^\w+/)[0];
   const others = () => data.requirements.filter((own) => !live.wanted.some((wanted) => columnOf(wanted) === columnOf(own)));

@@ -225,9 +225,7 @@ fn residuals_have_no_text_among_the_points() {
 #[test]
 fn measured_curves_are_thin_black_lines() {
     let case = super::case(&super::design(60.0), "", "");
-    let springs = substrate::calibrate(&case.footprint().expect("a footprint")).expect("springs");
-    let puncture = skin::puncture::solve(&case.design, &springs, &case.common, &case.punctured());
-    let puncture = puncture.expect("a design");
+    let puncture = super::solved_puncture(&case);
     let number = "a long label of a design among others, (0001)".to_owned();
     let of = DesignCurves {
         number,

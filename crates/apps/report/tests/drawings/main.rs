@@ -5,7 +5,7 @@ mod overlap;
 mod page;
 
 use report::{DesignCurves, drawings};
-use skin::puncture::{At, Needle, PunctureParameters, RowSnapshot, snapshots};
+use skin::puncture::{At, Needle, Puncture, PunctureParameters, RowSnapshot, snapshots};
 use skin::{Base, Common, Design};
 use substrate::Springs;
 use sweep::{Case, Sweep};
@@ -47,6 +47,13 @@ fn case(design: &Design, puncture: &str, material: &str) -> Case {
     Case { design: *design, ..sweep.grid().case(0) }
 }
 
+/// Solves the puncture of a case.
+fn solved_puncture(case: &Case) -> Puncture {
+    let springs = substrate::calibrate(&case.footprint().expect("a footprint")).expect("springs");
+    skin::puncture::solve(&case.design, &springs, &case.common, &case.punctured())
+        .expect("a design")
+}
+
 /// With a material, captions, axes and titles must be in mm and N, like the scale bar.
 #[test]
 fn with_a_material_everything_is_in_millimetres_and_newtons() {
@@ -62,9 +69,7 @@ fn with_a_material_everything_is_in_millimetres_and_newtons() {
     assert!(text.contains(&newtons), "{newtons} in {text}");
     assert!(text.contains("d = 0.2 mm, L = 2 mm, t = 2 mm, α = 60°"), "{text}");
 
-    let springs = substrate::calibrate(&case.footprint().expect("a footprint")).expect("springs");
-    let puncture = skin::puncture::solve(&design, &springs, &case.common, &case.punctured());
-    let puncture = puncture.expect("a design");
+    let puncture = solved_puncture(&case);
     let flexure = skin::flexure::solve(&design, &case.common, &case.flexure).expect("a design");
     let of = |case| DesignCurves {
         number: "1".to_owned(),
@@ -105,11 +110,7 @@ fn with_a_material_everything_is_in_millimetres_and_newtons() {
 fn a_needle_that_passes_is_marked_on_its_curve() {
     let marks = |needle: &str| {
         let case = case(&design(75.0), &format!("needle = '{needle}'"), "");
-        let springs =
-            substrate::calibrate(&case.footprint().expect("a footprint")).expect("springs");
-        let puncture =
-            skin::puncture::solve(&case.design, &springs, &case.common, &case.punctured());
-        let (number, puncture) = ("1".to_owned(), puncture.expect("a design"));
+        let (number, puncture) = ("1".to_owned(), solved_puncture(&case));
         let of = DesignCurves {
             number,
             case: &case,

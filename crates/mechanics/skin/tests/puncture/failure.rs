@@ -58,7 +58,7 @@ fn the_pressure_at_a_force_belongs_to_the_equilibrium_with_that_force() {
     let isolated = design(100.0, 0.5, 0.0, Base::L);
     let puncture = solved(&isolated, 0.01, RowLength::Scales(1));
     let tilts = puncture.path.windows(2).find(|pair| pair[1].force >= 0.01).expect("reached");
-    // `F` over `E_s t²` on a base of area 0.5; the tilt is between those of two points.
+    // `F` over `E_s t²` on a base of area 0.5; the tilt lies between the tilts of two points.
     let pressures = [tilts[0].tilt_deg, tilts[1].tilt_deg]
         .map(|tilt| 0.01 * 0.5 / 0.75 * tilt.to_radians().cos() / 0.5);
     let pressure = puncture.measures.tissue_pressure_at_force.expect("reached");
