@@ -74,7 +74,9 @@ impl Variant {
         }
         case.coupling = Coupling::Full;
         if let Self::Place(place) = self {
-            // `puncture.places` locates no failures, so each position is a design of its own.
+            // `puncture.places` locates no failures, so each position is a design of its own. The
+            // row across has no such positions: it is compared once, with the requested design.
+            (case.across, case.gap_across) = (false, None);
             case.load_inset = None;
             case.puncture.load_position = case.punctured().positions(PLACES, &case.design)[place];
         }

@@ -201,7 +201,7 @@ impl Case {
     ///
     /// It consists of upright blocks: the width of the scales is their base, the base of the scales
     /// their width. Needle, tissue and friction are the same, with the load at the same distance
-    /// from the edge. The slant, which shifts the tops along the row, has no effect, and the tilt
+    /// from the edge; a needle between two scales counts as one on the edge. The slant, which shifts the tops along the row, has no effect, and the tilt
     /// along the row is not coupled with the one across. The body counts as flat.
     pub fn across(&self) -> Option<Self> {
         if !self.across && self.gap_across.is_none() {
@@ -214,7 +214,9 @@ impl Case {
             base: Base::L,
             width: 2.0 * self.design.half_base(),
         };
-        Some(Self { design, ..self.for_critical_force(0.0) })
+        let from_corner = (1.0 - self.puncture.load_position).max(0.0) * design.width;
+        let load_inset = Some(self.load_inset.unwrap_or(from_corner));
+        Some(Self { design, load_inset, ..self.for_critical_force(0.0) })
     }
 
     /// Returns the factor from `F*` of the row across to `F*` of this row, which is over another

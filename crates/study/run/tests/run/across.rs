@@ -57,6 +57,25 @@ fn the_weaker_direction_is_the_smaller_force() {
     assert!((along / across - 1.0).abs() < 1e-9, "{along} {across}");
 }
 
+#[test]
+fn the_load_across_is_as_far_from_the_edge_as_along() {
+    let across = |load: &str| {
+        let text = format!(
+            "name = 'x'\nmeasures = 'puncture'\n[designs]\ngap_over_t = 0.5\nlength_over_t = 2\n\
+             slant_deg = 60\n[scale]\nwidth_over_t = 4\n[array]\nacross = true\n[puncture]\n\
+             needle = 'guided'\nneedle_friction = 0.3\nneedle_radius_over_t = 0.3\n{load}"
+        );
+        forces(&results(&text)[0]).1.expect("a force")
+    };
+    // The base is 2 t wide, like the paper's bases of length L.
+    let inset = across("load_inset_over_t = 0.4");
+    assert!((across("load_position = 0.8") / inset - 1.0).abs() < 1e-9);
+    // Between two scales the needle is beside both edges.
+    let edge = across("load_inset_over_t = 0");
+    assert!((across("load_position = 1.1") / edge - 1.0).abs() < 1e-9);
+    assert!(inset > 1.02 * edge, "{inset} {edge}");
+}
+
 const PAPER: &str = "name = 'x'\nmeasures = 'puncture'\n[designs]\n\
     gap_over_t = { from = 0.1, to = 1, step = 0.1 }\n\
     length_over_t = [0.025, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1]\n\
