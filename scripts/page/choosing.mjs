@@ -119,7 +119,7 @@ export default ({ page, text, texts, run, results, open }) => {
       assert.deepEqual(await designs(), best.slice(0, 15).map(([design]) => design));
       await page.locator('button[aria-label^="small sink: turn"]').click();
       assert.match(await command(), /max:sink/);
-      await page.locator("#paper-criteria").click();
+      await page.locator("#usual-criteria").click();
       assert.match(await command(), /results --weights 0\.25,0\.25,0\.25,0\.25$/);
     },
 

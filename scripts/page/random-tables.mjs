@@ -59,7 +59,7 @@ const command = (folder, { criteria, requirements, weights, scale }) => ["rank",
 
 /** Compares one table; returns whether it could be ranked. */
 const compare = ({ ranking, weightings }, squama, folder, rows, choice, what) => {
-  const own = asTable(rows), criteria = (choice.criteria ?? ranking.PAPER).map((text) => ranking.criterion(own, text));
+  const own = asTable(rows), criteria = (choice.criteria ?? ranking.USUAL).map((text) => ranking.criterion(own, text));
   const requirements = choice.requirements.map((text) => ranking.requirement(own, text));
   const meeting = ranking.meeting(own, requirements), contest = ranking.contest(own, meeting, criteria, choice.scale);
   let said = null;

@@ -12,6 +12,7 @@ mod simplified;
 
 use std::io::{self, Write};
 
+use ranking::Criterion;
 use serde::Serialize;
 use text::visible;
 
@@ -73,6 +74,8 @@ pub struct Page {
     pub folder: String,
     /// The designs of the table.
     pub designs: Designs,
+    /// The default criteria of a ranking.
+    pub criteria: Vec<Criterion>,
     /// The keys of the axes of the grid.
     pub axes: Vec<String>,
     /// The unit and the meaning of each column.

@@ -62,7 +62,7 @@ impl FolderContents {
 
     /// Returns a ranking for each group of comparable designs; empty if there is nothing to rank.
     pub fn rankings(&self) -> Result<Vec<Ranking<'_>>, InvalidRanking> {
-        let groups = match comparable_groups(&self.results, &Preferences::paper()) {
+        let groups = match comparable_groups(&self.results, &self.preferences()) {
             Err(InvalidResults::NoColumn { .. }) => return Ok(Vec::new()),
             groups => groups?,
         };
@@ -72,9 +72,7 @@ impl FolderContents {
 
     /// Returns the ranking if all designs are comparable; otherwise prints a note.
     pub fn comparable_ranking(&self) -> Result<Option<Ranking<'_>>, InvalidRanking> {
-        let paper = Preferences::paper();
-        let usual = Criterion::usual(Some(&self.sweep));
-        let preferences = Preferences::new(Vec::new(), usual, None, paper.scale).unwrap_or(paper);
+        let preferences = self.preferences();
         match check_comparable(&self.results, &preferences) {
             Err(InvalidRanking::Incomparable(why)) => {
                 note(&format!("the figure of the best designs is left out: {why}"));
@@ -83,6 +81,13 @@ impl FolderContents {
             // Missing columns are handled by the ranking.
             Ok(()) | Err(_) => self.ranking(preferences),
         }
+    }
+
+    /// Returns the default criteria of the sweep, with equal weights.
+    fn preferences(&self) -> Preferences {
+        let paper = Preferences::paper();
+        let usual = Criterion::usual(Some(&self.sweep));
+        Preferences::new(Vec::new(), usual, None, paper.scale).unwrap_or(paper)
     }
 
     fn ranking(&self, preferences: Preferences) -> Result<Option<Ranking<'_>>, InvalidRanking> {

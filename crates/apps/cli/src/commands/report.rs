@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use anyhow::ensure;
 use clap::Args;
 use optimisation::SearchStatus;
-use ranking::{CRITERIA, Preferences, Ranking, Weights};
+use ranking::{CRITERIA, Criterion, Preferences, Ranking, Weights};
 use rayon::prelude::*;
 use report::{Explorer, Fact, GapFactors, Page, PageDesign, SolvedTable, drawings};
 use results::columns::design_columns;
@@ -139,6 +139,7 @@ fn page(results: &FolderContents) -> anyhow::Result<Page> {
         name: results.title(),
         version: PROGRAM.version.to_owned(),
         folder: results.folder.display().to_string(),
+        criteria: Criterion::usual(Some(sweep)),
         axes: grid.axes().iter().map(|axis| axis.parameter().key.to_owned()).collect(),
         columns: results.designs.headers().iter().map(column).collect(),
         run: [results.run.clone(), judged_modes(sweep)].concat(),

@@ -1,5 +1,6 @@
 //! Pareto fronts of the four criteria in pairs.
 
+use ranking::Criterion;
 use results::Quantity;
 use results::columns::{Goal, name, physical_source, plain_goal};
 
@@ -28,8 +29,6 @@ const LEAST: f64 = 110.0;
 
 /// A criterion on an axis.
 pub(crate) struct CriterionAxis {
-    /// Column of the criterion of the paper.
-    papers: &'static str,
     /// Column shown.
     column: String,
     /// Label and short label, which fit along a panel on wide and narrow paper.
@@ -40,8 +39,17 @@ pub(crate) struct CriterionAxis {
     sign: f64,
 }
 
+impl CriterionAxis {
+    /// Returns the column shown, with the direction of better values.
+    pub(crate) fn criterion(&self) -> Criterion {
+        let is_better_large = (self.sign > 0.0) != self.is_inverse;
+        let goal = if is_better_large { Goal::Maximize } else { Goal::Minimize };
+        Criterion::new(&self.column, goal)
+    }
+}
+
 /// Returns the axes of the criteria of the paper, all to be maximised.
-pub(crate) fn papers_axes() -> [CriterionAxis; 4] {
+fn papers_axes() -> [CriterionAxis; 4] {
     let axes = [
         (name::COVERAGE, "coverage ", "$λ$"),
         (name::CRITICAL_FORCE, "critical force ", "$F_c^*$"),
@@ -49,7 +57,6 @@ pub(crate) fn papers_axes() -> [CriterionAxis; 4] {
         (name::COMPLIANCE, "compliance ", "$C_f^*$"),
     ];
     axes.map(|(papers, words, symbol)| CriterionAxis {
-        papers,
         column: papers.to_owned(),
         labels: [format!("{words}{symbol}, dimensionless"), symbol.to_owned()],
         is_inverse: papers == name::PENETRATION,
@@ -64,7 +71,7 @@ pub(crate) fn physical_axes(designs: &Designs) -> [CriterionAxis; 4] {
         let mut own = headers.filter_map(|header| {
             let (source, quantity) = physical_source(header)?;
             let is_shown = quantity != Quantity::ForcePerWidth;
-            (source == axis.papers && is_shown).then_some(header)
+            (source == axis.column && is_shown).then_some(header)
         });
         let Some((column, goal)) = own.find_map(|h| Some((h, plain_goal(h)?))) else {
             return axis;
@@ -74,7 +81,6 @@ pub(crate) fn physical_axes(designs: &Designs) -> [CriterionAxis; 4] {
             labels: [axis_label(column), in_words(column)],
             is_inverse: false,
             sign: if goal == Goal::Maximize { 1.0 } else { -1.0 },
-            ..axis
         }
     })
 }
@@ -128,7 +134,7 @@ pub(crate) fn figure(
             Some(Point { row, criteria: better, spot: panel.place(x, y)? })
         };
         let points: Vec<Point> = rows.iter().filter_map(point).collect();
-        let pair = [criteria[i].papers, criteria[j].papers].join(" ");
+        let pair = [criteria[i].column.as_str(), &criteria[j].column].join(" ");
         inside.push(front(&points, designs, &palette).with("data-criteria", pair));
     }
     let title = format!("{name}: non-dominated designs in two criteria{}", of_perfect(designs));

@@ -12,6 +12,8 @@ use text::visible;
 
 use super::{Page, PageDesign, PageFront};
 use crate::designs::Designs;
+use crate::figures::pareto::physical_axes;
+use crate::figures::physical;
 use crate::packed::write_packed;
 use crate::palette::SlantPalette;
 
@@ -58,15 +60,16 @@ pub(super) fn of(page: &Page, figures: &[Value]) -> Value {
             .collect()
     };
     let column = |(name, (unit, meaning)): (&String, &(String, String))| json!({"name": name, "unit": unit, "meaning": meaning, "goal": plain_goal(name).map(Goal::key), "measuredBy": measured_by(name)});
-    let criterion =
-        |of: &Criterion| json!({"column": of.column, "goal": of.goal.key(), "name": of.name});
     let last = [shown(Shown::Then), shown(Shown::Last)].concat();
     json!({
         "name": visible(&page.name),
         "folder": shell_word(&page.folder),
         "opening": page.opening,
         "axes": page.axes,
-        "paper": CRITERIA.each_ref().map(criterion),
+        "measures": CRITERIA.each_ref().map(|criterion| &criterion.column),
+        "inUnits": physical_columns(&page.designs),
+        "criteria": page.criteria.iter().map(named_criterion).collect::<Vec<_>>(),
+        "pareto": pareto_criteria(&page.designs),
         "fold": name::FOLD_FORCE,
         "tightest": name::GAP_STRETCH_MIN,
         "strain": name::MEMBRANE_STRAIN,
@@ -86,6 +89,25 @@ pub(super) fn of(page: &Page, figures: &[Value]) -> Value {
         "figures": figures,
         "found": page.front.as_ref().map(PageFront::to_json),
     })
+}
+
+/// Returns a criterion; only the criteria of the paper have a name of their own.
+fn named_criterion(criterion: &Criterion) -> Value {
+    let name = CRITERIA.contains(criterion).then_some(&criterion.name);
+    json!({"column": criterion.column, "goal": criterion.goal.key(), "name": name})
+}
+
+/// Returns the criteria on the axes of the Pareto fronts.
+fn pareto_criteria(designs: &Designs) -> Vec<Value> {
+    let criteria = physical_axes(designs).map(|axis| axis.criterion());
+    criteria.iter().map(named_criterion).collect()
+}
+
+/// Returns the columns in newtons or millimetres of the paper's measures and the failure force.
+fn physical_columns(designs: &Designs) -> BTreeMap<&str, String> {
+    let measures = CRITERIA.iter().map(|criterion| criterion.column.as_ref());
+    let columns = measures.chain([name::FAILURE_FORCE]);
+    columns.filter_map(|column| Some((column, physical(designs, column)?))).collect()
 }
 
 /// Returns the cells of a column, from the top.

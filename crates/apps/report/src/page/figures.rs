@@ -105,7 +105,7 @@ pub(super) fn write(out: &mut impl Write, page: &Page) -> io::Result<Vec<Value>>
     figures.only(
         "pareto",
         "",
-        pareto::figure("", designs, &rankable(designs), &pareto::papers_axes(), PAGE),
+        pareto::figure("", designs, &rankable(designs), &pareto::physical_axes(designs), PAGE),
     )?;
     figures.only("weights", "", Some(weights()))?;
     for (choice, is_log) in [("linear", false), ("log", true)] {

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::io::Read as _;
 
-use ranking::{Ranking, TetrahedralGrid};
+use ranking::{CRITERIA, Ranking, TetrahedralGrid};
 use report::{Designs, MapRequest, Page, PageDesign, Paper, figures, map, untitled};
 use results::Results;
 
@@ -43,6 +43,7 @@ fn designs() -> Designs {
 
 fn page(designs: Designs) -> Page {
     Page {
+        criteria: CRITERIA.to_vec(),
         name: "a </script> & more".to_owned(),
         version: "1".to_owned(),
         folder: "results/x".to_owned(),

@@ -4,7 +4,7 @@
   const LISTED = 15;
   const LETTERS = ["m", "n", "k", "l"];
   const { state, ranking } = squama;
-  const isPaper = () => state.criteria.map(({ goal, column }) => `${goal}:${column}`).join() === ranking.PAPER.join();
+  const isUsual = () => state.criteria.map(({ goal, column }) => `${goal}:${column}`).join() === ranking.USUAL.join();
 
   /** Sets one weight; the others keep their proportions and fill the remainder. */
   squama.setWeight = (which, value) => {
@@ -23,7 +23,7 @@
 
   /** Names a criterion; penetration resistance differs from penetration. */
   squama.criterionName = ({ column, goal }) => {
-    if (isPaper()) return squama.paper.find((one) => one.column === column)?.name ?? squama.label(column);
+    if (isUsual()) return squama.criteria.find((one) => one.column === column)?.name ?? squama.label(column);
     return `${goal === "max" ? "large " : "small "}${squama.label(column)}`;
   };
 
@@ -38,7 +38,7 @@
     const remove = () => setCriteria(state.criteria.filter((_, other) => other !== k));
     sliders.push({ input, output });
     return squama.element("div", { class: "weight" },
-      squama.element("label", { for: id }, ...(isPaper() ? [squama.element("i", {}, LETTERS[k]), " "] : []), squama.criterionName(criterion)), input, output,
+      squama.element("label", { for: id }, ...(isUsual() ? [squama.element("i", {}, LETTERS[k]), " "] : []), squama.criterionName(criterion)), input, output,
       squama.element("button", { type: "button", title: "Large or small values are good", "aria-label": `${squama.criterionName(criterion)}: turn round which values are good`, onclick: turn }, criterion.goal === "max" ? "↑" : "↓"),
       squama.element("button", { type: "button", "aria-label": `Leave out ${squama.criterionName(criterion)}`, onclick: remove, disabled: state.criteria.length === 1 }, "✕"));
   };
@@ -51,12 +51,12 @@
     adder.replaceChildren(squama.element("option", { value: "" }, "Add a criterion …"), ...others.map((name) => squama.element("option", { value: name }, squama.label(name))));
     adder.disabled = state.criteria.length >= ranking.MOST_CRITERIA;
     squama.at("scale").value = state.scale;
-    squama.at("paper-criteria").hidden = isPaper() && state.scale === "paper";
+    squama.at("usual-criteria").hidden = isUsual() && state.scale === "paper";
   };
   adder.addEventListener("change", () => {
     if (adder.value !== "") setCriteria([...state.criteria, { column: adder.value, goal: ranking.plainGoal(squama, adder.value) }]);
   });
-  squama.at("paper-criteria").addEventListener("click", () => {
+  squama.at("usual-criteria").addEventListener("click", () => {
     const { criteria, scale } = squama.initial();
     state.scale = scale;
     setCriteria(criteria);
@@ -79,7 +79,7 @@
     ...squama.comparable.now().map(({ parameter, value }) => `--require ${quoted(`${parameter} == ${value}`)}`),
     // The surface folds over if the gap between two bases closes.
     ...(state.sound ? [`--require ${quoted(`${squama.tightest} > 0`)}`] : []),
-    ...(isPaper() ? [] : [`--criteria ${state.criteria.map(({ goal, column }) => `${goal}:${column}`).join(",")}`]),
+    ...(isUsual() ? [] : [`--criteria ${state.criteria.map(({ goal, column }) => `${goal}:${column}`).join(",")}`]),
     `--weights ${squama.weights().join(",")}`,
     ...(state.scale === "paper" ? [] : [`--scale ${state.scale}`]),
   ].join(" ");

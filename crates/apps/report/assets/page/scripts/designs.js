@@ -1,7 +1,7 @@
 // The table of the sweep: columns, cells and their names.
 
-/** Columns of the criteria of the paper. */
-[squama.coverage, squama.criticalForce, squama.penetration, squama.compliance] = squama.paper.map(({ column }) => column);
+/** Columns of the measures of the paper. */
+[squama.coverage, squama.criticalForce, squama.penetration, squama.compliance] = squama.measures;
 
 /** All rows, from the top. */
 squama.rows = Array.from({ length: squama.count }, (_, row) => row);

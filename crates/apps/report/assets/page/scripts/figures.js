@@ -160,11 +160,11 @@ squama.charts = [];
     seen.observe(chart.area);
   };
 
-  const goalOf = (column) => squama.paper.find((one) => one.column === column);
+  const goalOf = (column) => squama.pareto.find((one) => one.column === column);
 
   /** Colours and connects the Pareto fronts of each comparable group of feasible designs. */
   const fronts = ({ svg }) => {
-    const { rows } = squama.ranking.contest(squama, squama.rows.filter((row) => squama.passes[row]), squama.paper, "paper");
+    const { rows } = squama.ranking.contest(squama, squama.rows.filter((row) => squama.passes[row]), squama.pareto, "paper");
     for (const panel of svg.querySelectorAll("[data-criteria]")) {
       const pair = panel.dataset.criteria.split(" ").map(goalOf);
       const best = squama.comparable.groups(rows, pair).map((group) => [...squama.ranking.front(squama.ranking.contest(squama, group, pair, "linear"))]);
@@ -187,7 +187,7 @@ squama.charts = [];
   add("compliance", "Flexural compliance", "Flexural compliance for each slant; open marks: no contact in bending. Without contact the slant does not matter, so that its marks coincide.", squama.compliance);
   add("coverage", "Coverage", "Coverage by gap, aspect ratio and slant, with contours; white: none.", squama.coverage);
   add("map", "Map: ", "Colours and contours; where contours are close, the column is sensitive to small changes. Struck through: the surface folds.");
-  squama.addChart({ id: "pareto", title: "Pareto fronts of two criteria", description: "In colour, on a line: non-dominated designs in both criteria, among those that meet the requirements.", columns: () => squama.paper.map(({ column }) => column), restyle: fronts });
+  squama.addChart({ id: "pareto", title: "Pareto fronts of two criteria", description: "In colour, on a line: non-dominated designs in both criteria, among those that meet the requirements.", columns: () => squama.pareto.map(({ column }) => column), restyle: fronts });
   add("measure", "Any column: ", "The column of your choice for each slant.");
   unpackNext();
 })();

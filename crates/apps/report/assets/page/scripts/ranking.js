@@ -5,8 +5,8 @@ squama.ranking = (() => {
   const ROUND_OFF = 1e-9;
   const SIGNS = [">=", "<=", "==", ">", "<"];
   const SCALES = ["paper", "linear", "log"];
-  const PAPER = squama.paper.map(({ column, goal }) => `${goal}:${column}`);
-  const [COVERAGE] = squama.paper.map(({ column }) => column);
+  const USUAL = squama.criteria.map(({ column, goal }) => `${goal}:${column}`);
+  const [COVERAGE] = squama.measures;
   const MOST_CRITERIA = 8;
 
   /** Returns true if two numbers are equal up to round-off. */
@@ -195,5 +195,5 @@ squama.ranking = (() => {
     return { nearest, binding };
   };
 
-  return { ROUND_OFF, SIGNS, SCALES, PAPER, MOST_CRITERIA, same, number, meets, requirement, written, criterion, plainGoal, meeting, contest, scores, order, front, unmet };
+  return { ROUND_OFF, SIGNS, SCALES, USUAL, MOST_CRITERIA, same, number, meets, requirement, written, criterion, plainGoal, meeting, contest, scores, order, front, unmet };
 })();

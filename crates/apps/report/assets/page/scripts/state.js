@@ -27,7 +27,7 @@ squama.hundredths = (weights, whole = 100) => {
 squama.equalWeights = (count) => squama.hundredths(Array(count).fill(1));
 
 squama.initial = () => {
-  const criteria = squama.ranking.PAPER.map((text) => squama.ranking.criterion(squama, text))
+  const criteria = squama.ranking.USUAL.map((text) => squama.ranking.criterion(squama, text))
     .filter((one) => one && squama.numeric.includes(one.column));
   return {
     requirements: [], criteria, weights: squama.equalWeights(criteria.length), scale: "paper", sound: false,

@@ -30,16 +30,21 @@
   };
 
   const folds = () => (squama.foldedRows.length > 0 ? [["valid critical force", `${squama.count - squama.foldedRows.length} designs; of ${squama.foldedRows.length}, marked ⚠, the surface folds before the critical tilt, so their critical force is not valid`]] : []);
-  const physical = () => [[`${squama.criticalForce}_N`, "largest critical force, N", "max"], [`${squama.failureForce}_N`, "largest failure force, N", "max"], ["bend_radius_mm", "smallest bend radius, mm", "min"], [squama.mass, "least areal mass, kg/m²", "min"]]
-    .filter(([column]) => squama.numeric.includes(column)).flatMap(([column, name, goal]) => best(name, column, goal));
+
+  /** Shows the best design by a measure, in newtons or millimetres if the table has such a column. */
+  const inUnits = (name, measure, goal) => {
+    const column = squama.inUnits[measure] ?? measure;
+    return best(column === measure ? name : `${name}, ${column.split("_").at(-1)}`, column, goal);
+  };
 
   facts("summary-list", [
     ...best("best coverage", squama.coverage, "max"),
-    ...best("largest critical force", squama.criticalForce, "max"),
-    ...best("largest failure force", squama.failureForce, "max"),
-    ...best("least penetration of the bases", squama.penetration, "min"),
+    ...inUnits("largest critical force", squama.criticalForce, "max"),
+    ...inUnits("largest failure force", squama.failureForce, "max"),
+    ...inUnits("least penetration of the bases", squama.penetration, "min"),
     ...best("largest compliance", squama.compliance, "max"),
-    ...physical(),
+    ...best("smallest bend radius, mm", "bend_radius_mm", "min"),
+    ...best("least areal mass, kg/m²", squama.mass, "min"),
     ["covered designs", String(squama.numbers(squama.coverage).filter((value) => value > 0).length)],
     ["on the Pareto front", squama.element("span", { id: "front-count" }, "…")],
     ...folds(),

@@ -36,12 +36,12 @@
   };
 
   const show = () => {
-    const isPaper = state.criteria.map(({ goal, column }) => `${goal}:${column}`).join() === ranking.PAPER.join();
-    const isDrawn = isPaper && squama.contest.rows.length > 0;
+    const isUsual = state.criteria.map(({ goal, column }) => `${goal}:${column}`).join() === ranking.USUAL.join();
+    const isDrawn = isUsual && squama.contest.rows.length > 0;
     drawing.hidden = !isDrawn;
     words.hidden = isDrawn;
     squama.at("tetrahedron-figure").classList.toggle("empty", !isDrawn);
-    words.textContent = squama.contest.rows.length === 0 ? "There is nothing to rank." : isPaper ? "" : "The figure shows four criteria: those of the paper.";
+    words.textContent = squama.contest.rows.length === 0 ? "There is nothing to rank." : isUsual ? "" : "The figure shows four criteria: the default ones.";
     legend.replaceChildren();
     if (!isDrawn) return;
     const { dots, regions } = squama.weightings.winners(squama.contest), colors = colored(regions);
