@@ -177,13 +177,14 @@ pub fn requirements(texts: &[String]) -> PyResult<Vec<Requirement>> {
 
 /// Searches for the best designs of a goal.
 ///
-/// Returns the folder and, for a single objective, the definition of the best design.
+/// Returns the folder and, for a single objective, the definition of the best design and the checks
+/// that it fails.
 #[pyfunction]
 pub fn optimise(
     py: Python<'_>,
     goal: PathBuf,
     keywords: Keywords<'_>,
-) -> PyResult<(PathBuf, Option<PathBuf>)> {
+) -> PyResult<(PathBuf, Option<PathBuf>, Vec<String>)> {
     let goal = DesignGoal::read(&goal, &keywords.settings()?).or_failed("optimise")?;
     let (folder, start) = (keywords.folder(goal.space.sweep()), keywords.start());
     let (place, threads) = (folder.clone(), threads_of(keywords.threads.as_ref())?);
@@ -193,11 +194,20 @@ pub fn optimise(
         let Some(found) = found.or_failed("optimise")? else { return Err(interrupted()) };
         let folder = ResultsFolder::new(&place);
         let written = write_found(&folder, &goal, &found, &[], folder.csv_format());
-        written.or_failed("optimise").map(|_| found.answer)
+        let failed_checks = match &found.answer {
+            Answer::Optimum(best) => best.contradictions(&goal),
+            Answer::Front(_) | Answer::Infeasible(_) => Vec::new(),
+        };
+        let failed_checks = failed_checks.iter().map(ToString::to_string).collect();
+        written.or_failed("optimise").map(|_| (found.answer, failed_checks))
     })?;
-    match searched? {
-        Answer::Optimum(_) => Ok((folder.clone(), Some(folder.join(OPTIMUM_DEFINITION)))),
-        Answer::Front(_) => Ok((folder, None)),
+    let (answer, failed_checks) = searched?;
+    match answer {
+        Answer::Optimum(_) => {
+            let best = folder.join(OPTIMUM_DEFINITION);
+            Ok((folder, Some(best), failed_checks))
+        }
+        Answer::Front(_) => Ok((folder, None, failed_checks)),
         Answer::Infeasible(_) => Err(error::failed("optimise", "no design meets the constraints")),
     }
 }

@@ -473,6 +473,19 @@ def test_searches_and_tolerances(tmp_path):
         squama.tolerance(skin)
 
 
+def test_a_search_warns_of_a_failed_check(tmp_path):
+    goal = tmp_path / "pinned.toml"
+    goal.write_text(
+        "name = 'pinned'\nmeasures = 'puncture'\nvariables.length_over_t = { from = 1, to = 2 }\n"
+        "designs = { gap_over_t = 0.6, slant_deg = 60 }\n[puncture]\nneedle = 'guided'\nneedle_friction = 0.3\n"
+        "load_inset_over_t = 0.4\nscale_strength_over_substrate = 30\n[goal]\nminimize = 'length_over_t'\n"
+        "require = 'failure_force >= 0.1'\nsamples = 2\n"
+    )
+    with pytest.warns(squama.CheckWarning, match="At the right corner of the scale") as caught:
+        found = squama.optimise(goal, tmp_path / "found")
+    assert found.failed_checks == [str(caught[0].message)]
+
+
 def test_unloading_paths_are_followed():
     skin = squama.Skin(gap_over_t=0.1, length_over_t=1, slant_deg=45, friction=0.2)
     assert skin.unload is False

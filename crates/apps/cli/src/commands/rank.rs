@@ -12,7 +12,6 @@ use ranking::{
     Criterion, Goal, InvalidRanking, Preferences, Ranking, Scale, TetrahedralGrid, Unmet, Weights,
     check_comparable,
 };
-use results::columns::name;
 use results::{Results, ResultsFolder};
 use serde_json::json;
 use sweep::Sweep;
@@ -86,12 +85,6 @@ pub struct Arguments {
     /// Scale of the criteria: paper, linear or log
     #[arg(long, value_name = "SCALE", default_value = "paper")]
     pub scale: String,
-
-    /// Rank by the largest force before the surface folds instead of the critical force
-    ///
-    /// Beyond a fold two bases cross each other, and the model is no longer valid.
-    #[arg(long)]
-    pub sound: bool,
 
     /// Number of designs to print
     #[arg(long, allow_hyphen_values = true, value_name = "N", default_value_t = 10, value_parser = whole::<1, { u64::MAX }>)]
@@ -196,34 +189,21 @@ fn preferences(arguments: &Arguments, sweep: Option<&Sweep>) -> anyhow::Result<P
     }
 }
 
-/// Criteria that `--sound` replaces.
-const FORCES: [&str; 2] = [name::CRITICAL_FORCE, "critical_force_N"];
-
 /// Returns the requested criteria, or the usual ones.
-///
-/// `--sound` replaces the critical force by the valid force.
 fn criteria(arguments: &Arguments, sweep: Option<&Sweep>) -> anyhow::Result<Vec<Criterion>> {
     let goals = [(Goal::Maximize, &arguments.maximize), (Goal::Minimize, &arguments.minimize)];
     let of = |(goal, columns): (Goal, &Vec<String>)| -> Vec<Criterion> {
         columns.iter().map(|column| Criterion::new(column.trim(), goal)).collect()
     };
     let own: Vec<_> = goals.into_iter().flat_map(of).collect();
-    let mut criteria = match &arguments.criteria {
+    match &arguments.criteria {
         Some(criteria) => {
             let read = |text: &str| option::<Criterion>("--criteria", text);
-            criteria.split(',').map(read).collect::<anyhow::Result<_>>()?
+            criteria.split(',').map(read).collect()
         }
-        None if own.is_empty() => Criterion::usual(sweep),
-        None => own,
-    };
-    if arguments.sound {
-        let mut criteria = criteria.iter_mut();
-        let force = criteria.find(|criterion| FORCES.contains(&&*criterion.column));
-        let force = force.context("--sound has no effect: critical_force is no criterion")?;
-        let sound = force.column.replace(name::CRITICAL_FORCE, name::SOUND_FORCE);
-        *force = Criterion::new(&sound, force.goal);
+        None if own.is_empty() => Ok(Criterion::usual(sweep)),
+        None => Ok(own),
     }
-    Ok(criteria)
 }
 
 /// Parses the value of an option.

@@ -12,7 +12,7 @@ are for optimisers. `run`, `read`, `optimise` and `tolerance` work on results fo
 """
 
 from . import _gradient, _manual, _skin
-from ._errors import Failed, FoldWarning, InvalidDefinition, InvalidParameter, KinkWarning
+from ._errors import CheckWarning, Failed, FoldWarning, InvalidDefinition, InvalidParameter, KinkWarning
 from ._gradient import function
 from ._result import Result
 from ._squama import Skin, __version__
@@ -20,7 +20,7 @@ from ._study import Run, optimise, read, run, solve_many, tolerance
 from ._table import Table
 
 __all__ = [
-    "Failed", "FoldWarning", "InvalidDefinition", "InvalidParameter", "KinkWarning", "Result", "Run", "Skin", "Table", "__version__",
+    "CheckWarning", "Failed", "FoldWarning", "InvalidDefinition", "InvalidParameter", "KinkWarning", "Result", "Run", "Skin", "Table", "__version__",
     "function", "optimise", "read", "run", "solve_many", "tolerance",
 ]  # fmt: skip
 

@@ -35,6 +35,8 @@ class KinkWarning(UserWarning):
     change: str
     def __init__(self, measure: str, key: str, left: float, right: float, change: str) -> None: ...
 
+class CheckWarning(UserWarning): ...
+
 class FoldWarning(UserWarning):
     fold_force: float
     def __init__(self, fold_force: float) -> None: ...
@@ -54,6 +56,7 @@ class Table(Mapping[str, NDArray[Any]]):
 class Run(Table):
     folder: str
     skin: Skin | None
+    failed_checks: list[str]
     def __init__(self, folder: Path) -> None: ...
     def rank(
         self,

@@ -67,6 +67,10 @@ class KinkWarning(UserWarning):
         )
 
 
+class CheckWarning(UserWarning):
+    """A finer model contradicts a requirement that the best design of a search meets."""
+
+
 class FoldWarning(UserWarning):
     """The surface of the substrate folds at ``fold_force``, before the path ends: beyond it the model does not hold.
 

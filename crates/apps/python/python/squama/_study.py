@@ -4,9 +4,10 @@ import os
 import shutil
 import subprocess
 import tempfile
+import warnings
 
 from . import _squama
-from ._errors import Failed
+from ._errors import CheckWarning, Failed
 from ._progress import Bar
 from ._table import Table
 
@@ -74,13 +75,17 @@ def optimise(goal, out=None, *, set=None, resume=False, fresh=False, threads=Non
     """Searches for the optimum of a goal, or its Pareto front, as ``squama optimise``.
 
     Returns a `Run` of the best designs; for a single objective, its ``skin`` is the best design. Raises `squama.Failed` if
-    no design meets the constraints.
+    no design meets the constraints. A requirement that full coupling, another load position or new samples contradict is a
+    `squama.CheckWarning`, and a sentence in ``failed_checks``.
     """
     with Bar(progress) as tell:
         keywords = dict(out=out, set=set, resume=resume, fresh=fresh, threads=threads, progress=tell)
-        folder, best = _squama.optimise(goal, keywords)
+        folder, best, failed_checks = _squama.optimise(goal, keywords)
     found = Run(folder)
     found.skin = best and _squama.Skin.from_toml(best)
+    found.failed_checks = failed_checks
+    for check in failed_checks:
+        warnings.warn(CheckWarning(check), stacklevel=2)
     return found
 
 
