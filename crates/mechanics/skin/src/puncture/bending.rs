@@ -100,6 +100,11 @@ impl BeamLoad {
         }
     }
 
+    /// Iterates over the unknowns on which the coordinate of the load depends, with derivatives.
+    fn varying(&self) -> impl Iterator<Item = (usize, f64)> {
+        self.at.into_iter().zip(self.slopes).filter(|(_, slope)| *slope != 0.0)
+    }
+
     /// Computes the derivative of the coordinate of the load along a direction of the unknowns.
     fn along(&self, direction: &[f64]) -> f64 {
         self.at.iter().zip(self.slopes).map(|(&at, slope)| slope * direction[at]).sum()
@@ -277,11 +282,42 @@ struct BentScale {
     loads: Vec<BeamLoad>,
 }
 
+/// Flexibilities of a load with itself and with the other loads of its scale.
+struct Coupling {
+    /// `C_kl`, with derivatives by the coordinate of the load `k` first.
+    own: Vec<Flexibility>,
+    /// The same with derivatives by the coordinate of the other load first.
+    others: Vec<Flexibility>,
+}
+
 impl BentScale {
+    fn coupling(&self, k: &BeamLoad) -> Coupling {
+        Coupling {
+            own: self.loads.iter().map(|l| self.section.flexibility(k, l)).collect(),
+            others: self.loads.iter().map(|l| self.section.flexibility(l, k)).collect(),
+        }
+    }
+
+    /// Computes the couplings between all loads.
+    fn couplings(&self) -> Vec<Coupling> {
+        let flexibilities: Vec<Vec<_>> = self
+            .loads
+            .iter()
+            .map(|k| self.loads.iter().map(|l| self.section.flexibility(k, l)).collect())
+            .collect();
+        let others = |at: usize| flexibilities.iter().map(|row| row[at]).collect();
+        let rows = flexibilities.iter().enumerate();
+        rows.map(|(at, row)| Coupling { own: row.clone(), others: others(at) }).collect()
+    }
+
     fn sums(&self, k: &BeamLoad) -> Sums {
+        let flexibilities = self.loads.iter().map(|l| self.section.flexibility(k, l));
+        self.summed(flexibilities)
+    }
+
+    fn summed(&self, flexibilities: impl Iterator<Item = Flexibility>) -> Sums {
         let mut sums = Sums::default();
-        for l in &self.loads {
-            let flexibility = self.section.flexibility(k, l);
+        for (l, flexibility) in self.loads.iter().zip(flexibilities) {
             sums.displacement += l.force * flexibility.value;
             sums.slope += l.force * flexibility.by_first;
             sums.curvature += l.force * flexibility.by_first_twice;
@@ -306,54 +342,57 @@ impl BentScale {
     fn add_displacement(
         &self,
         (row, sign): (usize, f64),
-        k: &BeamLoad,
+        (k, coupling): (&BeamLoad, &Coupling),
         residual: &mut Residual,
         matrix: &mut impl Tangent,
     ) {
-        let sums = self.sums(k);
+        let sums = self.summed(coupling.own.iter().copied());
         residual.add(row, sign * sums.displacement);
-        for (&column, slope) in k.at.iter().zip(k.slopes) {
+        for (column, slope) in k.varying() {
             matrix.add(row, column, sign * sums.slope * slope);
         }
-        for l in &self.loads {
-            let value = self.section.flexibility(k, l).value;
+        for (l, (own, other)) in self.loads.iter().zip(coupling.own.iter().zip(&coupling.others)) {
             if let Some(unknown) = l.unknown {
-                matrix.add(row, unknown, sign * value);
+                matrix.add(row, unknown, sign * own.value);
             }
-            let by_other = l.force * self.section.flexibility(l, k).by_first;
-            for (&column, slope) in l.at.iter().zip(l.slopes) {
+            let by_other = l.force * other.by_first;
+            for (column, slope) in l.varying() {
                 matrix.add(row, column, sign * by_other * slope);
             }
         }
     }
 
     /// Adds the forces `−∂U/∂u` to the balances.
-    fn add_balance(&self, residual: &mut Residual, matrix: &mut impl Tangent) {
-        for k in &self.loads {
-            let sums = self.sums(k);
-            for (i, &row) in k.at.iter().enumerate() {
-                residual.add(row, -k.force * sums.slope * k.slopes[i]);
+    fn add_balance(
+        &self,
+        couplings: &[Coupling],
+        residual: &mut Residual,
+        matrix: &mut impl Tangent,
+    ) {
+        for (k, coupling) in self.loads.iter().zip(couplings) {
+            let sums = self.summed(coupling.own.iter().copied());
+            for (row, slope) in k.varying() {
+                residual.add(row, -k.force * sums.slope * slope);
                 if let Some(unknown) = k.unknown {
-                    matrix.add(row, unknown, -sums.slope * k.slopes[i]);
+                    matrix.add(row, unknown, -sums.slope * slope);
                 }
+            }
+            for (i, &row) in k.at.iter().enumerate() {
                 for (j, &column) in k.at.iter().enumerate() {
                     let value =
                         sums.curvature * k.slopes[i] * k.slopes[j] + sums.slope * k.curvature[i][j];
-                    matrix.add(row, column, -k.force * value);
+                    if value != 0.0 {
+                        matrix.add(row, column, -k.force * value);
+                    }
                 }
             }
-            for l in &self.loads {
-                let flexibility = self.section.flexibility(k, l);
-                for (i, &row) in k.at.iter().enumerate() {
-                    if k.slopes[i] == 0.0 {
-                        continue;
-                    }
+            for (l, flexibility) in self.loads.iter().zip(&coupling.own) {
+                for (row, slope) in k.varying() {
                     if let Some(unknown) = l.unknown {
-                        let value = -k.force * flexibility.by_first * k.slopes[i];
-                        matrix.add(row, unknown, value);
+                        matrix.add(row, unknown, -k.force * flexibility.by_first * slope);
                     }
-                    for (&column, slope) in l.at.iter().zip(l.slopes) {
-                        let value = k.force * l.force * flexibility.by_both * k.slopes[i] * slope;
+                    for (column, other) in l.varying() {
+                        let value = k.force * l.force * flexibility.by_both * slope * other;
                         matrix.add(row, column, -value);
                     }
                 }
@@ -446,16 +485,20 @@ impl Chain {
         }
         let bent = self.bent_scales(state);
         let punctured = &bent[0];
-        let load = &punctured.loads[0];
-        punctured.add_displacement((depth, -1.0), load, residual, matrix);
-        let moment = BeamLoad::tip_moment(&punctured.beam, load.at);
-        punctured.add_displacement((tilt, -1.0), &moment, residual, matrix);
+        let moment = BeamLoad::tip_moment(&punctured.beam, punctured.loads[0].at);
+        let of_moment = punctured.coupling(&moment);
+        punctured.add_displacement((tilt, -1.0), (&moment, &of_moment), residual, matrix);
         for scale in &bent {
-            scale.add_balance(residual, matrix);
-            for k in &scale.loads {
-                if let Some(row) = k.unknown.filter(|&row| row != self.layout.load()) {
-                    scale.add_displacement((row, 1.0), k, residual, matrix);
-                }
+            let couplings = scale.couplings();
+            scale.add_balance(&couplings, residual, matrix);
+            for (k, coupling) in scale.loads.iter().zip(&couplings) {
+                // The condition of the load is the depth of its point.
+                let condition = match k.unknown {
+                    Some(row) if row == self.layout.load() => (depth, -1.0),
+                    Some(row) => (row, 1.0),
+                    None => continue,
+                };
+                scale.add_displacement(condition, (k, coupling), residual, matrix);
             }
         }
     }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use geometry::Vec2;
 use serde::{Deserialize, Serialize};
-use solver::{Continuation, Peak, Summit};
+use solver::{Bracket, Continuation, Peak, Summit};
 use substrate::SubstrateLaw;
 
 use super::PunctureParameters;
@@ -160,6 +160,9 @@ pub(super) const MAXIMA: [PathFunction<Chain>; 4] = [
 /// Position of the pressure on the tissue in [`MAXIMA`].
 pub(super) const TISSUE_PRESSURE: usize = 3;
 
+/// Fraction by which the end of linear bending may miss its limit, the accuracy of an equilibrium.
+const BEND_TOLERANCE: f64 = 1e-10;
+
 /// Step along the path direction, relative to its largest component, for the slope at its end.
 const STEP: f64 = 1e-6;
 
@@ -172,8 +175,21 @@ pub(super) fn bent_within(
     if !path.system().is_elastic || bend(path.system(), &to.state) < 1.0 {
         return None;
     }
-    let reached = PathLocation { quantity: bend, value: 1.0 };
-    let point = reached.between(path, from, to).unwrap_or_else(|| to.clone());
+    let start = bend(path.system(), &from.state) - 1.0;
+    let mut bracket = Bracket::new((0.0, start), (1.0, bend(path.system(), &to.state) - 1.0));
+    let mut point = if start < 0.0 { SkinPoint::clone(from) } else { SkinPoint::clone(to) };
+    let mut off = start;
+    // Elastic rows are expensive to solve, so each evaluation starts at the last one.
+    while off.abs() > BEND_TOLERANCE && start < 0.0 && bracket.width() > f64::EPSILON {
+        let fraction = bracket.secant();
+        let Some(solved) = path.between_from(from, to, fraction, &point) else {
+            point = SkinPoint::clone(to);
+            break;
+        };
+        point = solved;
+        off = bend(path.system(), &point.state) - 1.0;
+        bracket.narrow(fraction, off);
+    }
     // The point is no event, even if the segment ends at one.
     Some(SkinPoint { event: None, ..point })
 }
