@@ -12,7 +12,7 @@ const COLUMNS = ["coverage", "critical_force", "penetration", "compliance"];
 /** The scripts of the page that rank, without the page. */
 const scripts = () => {
   const source = ["ranking", "weightings"].map((name) => readFileSync(`crates/apps/report/assets/page/scripts/${name}.js`, "utf8"));
-  return vm.runInNewContext(`const squama = { paper: ${JSON.stringify(COLUMNS.map((column) => ({ column, goal: column === "penetration" ? "min" : "max" })))} }; ${source.join("\n")}; squama`);
+  return vm.runInNewContext(`const squama = { measures: ${JSON.stringify(COLUMNS)}, criteria: ${JSON.stringify(COLUMNS.map((column) => ({ column, goal: column === "penetration" ? "min" : "max" })))} }; ${source.join("\n")}; squama`);
 };
 
 /** A generator with a seed of its own, so that a failure comes again. */
