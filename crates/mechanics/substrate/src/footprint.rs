@@ -4,6 +4,8 @@ use std::hash::{Hash, Hasher};
 
 use geometry::OutOfRange;
 
+use crate::FootprintParameter;
+
 /// Bases of a row of scales as loaded areas of the substrate.
 ///
 /// They are rectangles `2a × b` at gaps `d`, with all lengths over the half-width `a`, on a
@@ -132,6 +134,14 @@ impl Footprint {
         numbers[number] += step;
         let [gap_over_a, width_over_a, poisson_ratio, thickness_over_a] = numbers;
         Self { gap_over_a, width_over_a, poisson_ratio, thickness_over_a }
+    }
+
+    /// Returns the step of a difference by a parameter: a fraction of a length, or of 1 for a ratio.
+    pub(crate) fn step(&self, parameter: FootprintParameter, fraction: f64) -> f64 {
+        match parameter {
+            FootprintParameter::PoissonRatio => fraction,
+            length => fraction * self.numbers()[length as usize],
+        }
     }
 
     pub(crate) fn numbers(&self) -> [f64; 4] {

@@ -13,7 +13,7 @@ use crate::layer::{Displacements, Layer};
 use crate::mesh::{GradedAxis, Mesh};
 use crate::row_stiffness::CAUTION;
 use crate::springs::extrapolation;
-use crate::{Coupling, Footprint, NEIGHBOURS, Neighbour, RowStiffness};
+use crate::{Coupling, Footprint, FootprintParameter, NEIGHBOURS, Neighbour, RowStiffness};
 
 use faer::linalg::solvers::Solve as _;
 use faer::{ColRef, Mat};
@@ -72,24 +72,17 @@ pub(crate) fn addition(
     })
 }
 
-/// Computes derivatives of [`addition`] by gap, width, Poisson's ratio, thickness.
-pub(crate) fn slopes(
+/// Computes the derivative of [`addition`] with respect to a parameter.
+///
+/// Second-order differences suffice: the contribution of a layer is smooth.
+pub(crate) fn slope(
     footprint: &Footprint,
     coupling: Coupling,
-) -> Result<[RowStiffness; 4], Unresolved> {
-    let [gap, width, _, thickness] = footprint.numbers();
-    let along = |number: usize, step: f64| {
-        let at = |step: f64| addition(&footprint.moved(number, step), footprint, coupling);
-        // Second-order differences, with two solutions per number: the contribution of a layer is
-        // smooth.
-        Ok(at(step)? * (0.5 / step) + at(-step)? * (-0.5 / step))
-    };
-    Ok([
-        along(0, STEP * gap)?,
-        along(1, STEP * width)?,
-        along(2, STEP)?,
-        along(3, STEP * thickness)?,
-    ])
+    parameter: FootprintParameter,
+) -> Result<RowStiffness, Unresolved> {
+    let step = footprint.step(parameter, STEP);
+    let at = |step: f64| addition(&footprint.moved(parameter as usize, step), footprint, coupling);
+    Ok(at(step)? * (0.5 / step) + at(-step)? * (-0.5 / step))
 }
 
 /// Reactions on one mesh, minus the half-space reactions.

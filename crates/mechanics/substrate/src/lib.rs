@@ -69,6 +69,6 @@ pub use far_field::{FarField, Relief};
 pub use footprint::{Bases, Footprint};
 pub use row_stiffness::{Coupling, NEIGHBOURS, Neighbour, RowStiffness};
 pub use springs::{Springs, calibrate, extrapolated};
-pub use stiffness_slopes::StiffnessSlopes;
+pub use stiffness_slopes::{FootprintParameter, StiffnessSlopes};
 
 pub use strip::{SubstrateLaw, SurfaceStrip, neo_hookean};

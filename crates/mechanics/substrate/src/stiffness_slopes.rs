@@ -1,73 +1,118 @@
 //! Derivatives of the stiffness of a row with respect to its footprint.
 
-use crate::{Bases, Coupling, Footprint, RowStiffness, Unresolved, layered, table};
+use std::sync::OnceLock;
+
+use crate::table::{self, Differentiated};
+use crate::{Bases, Coupling, Footprint, RowStiffness, Unresolved, layered};
+
+/// Parameters of a footprint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FootprintParameter {
+    /// `d/a`.
+    Gap,
+    /// `b/a`.
+    Width,
+    /// `ν`.
+    PoissonRatio,
+    /// `h/a`.
+    Thickness,
+    /// The logarithm of all lengths over `a`, as for shrinking bases.
+    Size,
+}
 
 /// Stiffness of a row with its derivatives by the parameters of the footprint.
-#[derive(Clone, Debug, PartialEq)]
+///
+/// A derivative is computed when it is first needed, because outside the table and on a layer it
+/// takes several boundary-element solutions.
+#[derive(Clone, Debug)]
 pub struct StiffnessSlopes {
     /// Stiffness itself, bit-identical to [`RowStiffness::compute`].
     pub stiffness: RowStiffness,
-    /// Derivative with respect to `d/a`.
-    pub by_gap: RowStiffness,
-    /// Derivative with respect to `b/a`.
-    pub by_width: RowStiffness,
-    /// Derivative by the logarithm of all lengths over `a`, as for shrinking bases.
-    pub by_size: RowStiffness,
-    /// Derivative with respect to `ν`.
-    pub by_poisson_ratio: RowStiffness,
-    /// Derivative by the thickness `h/a` of a layer; `None` for the half-space.
-    pub by_thickness: Option<RowStiffness>,
+    footprint: Footprint,
+    coupling: Coupling,
+    /// Polynomials of the half-space; `None` outside the table.
+    table: Option<Vec<Differentiated>>,
+    slopes: [OnceLock<Result<RowStiffness, Unresolved>>; 5],
 }
 
 impl StiffnessSlopes {
-    /// Returns the stiffness of a row with its derivatives.
-    ///
-    /// Within the range of the table these are derivatives of its polynomials, otherwise
-    /// differences of solutions. The contribution of a layer is always differentiated by
-    /// differences.
+    /// Computes the stiffness of a row, but no derivative yet.
     ///
     /// # Errors
     /// As [`RowStiffness::compute`].
     pub fn compute(footprint: &Footprint, coupling: Coupling) -> Result<Self, Unresolved> {
-        let stiffness = RowStiffness::compute(footprint, coupling)?;
-        // Differentiate polynomials exactly: differences would lose digits.
-        let [mut by_gap, mut by_width, mut by_poisson_ratio] = match table::row(footprint, coupling)
-        {
-            Some(row) => [1, 2, 3].map(|k| RowStiffness::from_table(&row, k)),
-            None => differences(footprint, coupling)?,
+        Ok(Self {
+            stiffness: RowStiffness::compute(footprint, coupling)?,
+            footprint: *footprint,
+            coupling,
+            table: table::row(footprint, coupling),
+            slopes: [const { OnceLock::new() }; 5],
+        })
+    }
+
+    /// Returns the derivative with respect to a parameter; 0 by the thickness of a half-space.
+    ///
+    /// Within the range of the table it is the derivative of the polynomials, otherwise a
+    /// difference of solutions. The contribution of a layer is always differentiated by
+    /// differences.
+    ///
+    /// # Errors
+    /// As [`RowStiffness::compute`].
+    pub fn by(&self, parameter: FootprintParameter) -> Result<&RowStiffness, Unresolved> {
+        let slope = &self.slopes[parameter as usize];
+        slope.get_or_init(|| self.differentiated(parameter)).as_ref().map_err(|error| *error)
+    }
+
+    fn differentiated(&self, parameter: FootprintParameter) -> Result<RowStiffness, Unresolved> {
+        let Self { footprint, coupling, .. } = self;
+        let on_half_space = match (&self.table, parameter) {
+            (_, FootprintParameter::Size) => return self.by_size(),
+            (_, FootprintParameter::Thickness) => None,
+            // Differentiate polynomials exactly: differences would lose digits.
+            (Some(row), _) => Some(RowStiffness::from_table(row, 1 + parameter as usize)),
+            (None, _) => Some(difference(footprint, *coupling, parameter)?),
         };
-        let mut by_thickness = None;
-        if footprint.is_on_layer() {
-            let [gap, width, ratio, thickness] = layered::slopes(footprint, coupling)?;
-            (by_gap, by_width) = (by_gap + gap, by_width + width);
-            by_poisson_ratio = by_poisson_ratio + ratio;
-            by_thickness = Some(thickness);
+        let of_layer = footprint
+            .is_on_layer()
+            .then(|| layered::slope(footprint, *coupling, parameter))
+            .transpose()?;
+        let sum = on_half_space.into_iter().chain(of_layer).reduce(|sum, more| sum + more);
+        Ok(sum.unwrap_or_else(|| self.stiffness.clone() * 0.0))
+    }
+
+    fn by_size(&self) -> Result<RowStiffness, Unresolved> {
+        use FootprintParameter::{Gap, Thickness, Width};
+        let Self { footprint, .. } = self;
+        let by_size = self.by(Gap)?.clone() * footprint.gap_over_a()
+            + self.by(Width)?.clone() * footprint.width_over_a();
+        if !footprint.is_on_layer() {
+            return Ok(by_size);
         }
-        // For a shrinking base, all other lengths grow in the same ratio.
-        let mut by_size =
-            by_gap.clone() * footprint.gap_over_a() + by_width.clone() * footprint.width_over_a();
-        if let Some(by_thickness) = &by_thickness {
-            by_size = by_size + by_thickness.clone() * footprint.thickness_over_a();
-        }
-        Ok(Self { stiffness, by_gap, by_width, by_size, by_poisson_ratio, by_thickness })
+        Ok(by_size + self.by(Thickness)?.clone() * footprint.thickness_over_a())
     }
 
     /// Extrapolates the stiffness linearly from bases `from` to nearby bases `to`.
-    pub fn moved(&self, from: &Bases, to: &Bases) -> RowStiffness {
+    ///
+    /// # Errors
+    /// As [`RowStiffness::compute`].
+    pub fn moved(&self, from: &Bases, to: &Bases) -> Result<RowStiffness, Unresolved> {
+        use FootprintParameter::{Gap, PoissonRatio, Size, Thickness, Width};
         let a = from.half_width;
         // Uses lengths instead of ratios: differences of ratios would lose digits for a small step.
-        let mut ways = vec![
-            (&self.by_gap, (to.gap - from.gap) / a),
-            (&self.by_width, (to.width - from.width) / a),
-            (&self.by_size, 1.0 - to.half_width / a),
-            (&self.by_poisson_ratio, to.poisson_ratio - from.poisson_ratio),
+        let ways = [
+            (Gap, (to.gap - from.gap) / a),
+            (Width, (to.width - from.width) / a),
+            (Size, 1.0 - to.half_width / a),
+            (PoissonRatio, to.poisson_ratio - from.poisson_ratio),
+            (Thickness, (to.thickness.unwrap_or(0.0) - from.thickness.unwrap_or(0.0)) / a),
         ];
-        if let (Some(by), Some(to), Some(from)) = (&self.by_thickness, to.thickness, from.thickness)
-        {
-            ways.push((by, (to - from) / a));
+        let mut sum = self.stiffness.clone();
+        for (parameter, by) in ways {
+            if by != 0.0 {
+                sum = sum + self.by(parameter)?.clone() * by;
+            }
         }
-        let ways = ways.into_iter().filter(|(_, by)| *by != 0.0);
-        ways.fold(self.stiffness.clone(), |sum, (slope, by)| sum + slope.clone() * by)
+        Ok(sum)
     }
 }
 
@@ -77,18 +122,20 @@ impl StiffnessSlopes {
 /// 1e-9 of the derivative.
 const STEP: f64 = 2e-3;
 
-/// Differentiates boundary-element solutions by gap, width and Poisson's ratio.
+/// Differentiates boundary-element solutions by gap, width or Poisson's ratio.
 ///
 /// Uses `(8 (f₁ − f₋₁) − (f₂ − f₋₂))/12 h`.
-fn differences(footprint: &Footprint, coupling: Coupling) -> Result<[RowStiffness; 3], Unresolved> {
-    let along = |number: usize, step: f64| {
-        // Solve points within the table too: mixing both would difference their errors.
-        let at =
-            |steps: f64| RowStiffness::solved(&footprint.moved(number, steps * step), coupling);
-        let [near, far] = [8.0 / (12.0 * step), -1.0 / (12.0 * step)];
-        let slope = at(1.0)? * near + at(-1.0)? * -near;
-        Ok(slope + at(2.0)? * far + at(-2.0)? * -far)
+fn difference(
+    footprint: &Footprint,
+    coupling: Coupling,
+    parameter: FootprintParameter,
+) -> Result<RowStiffness, Unresolved> {
+    let step = footprint.step(parameter, STEP);
+    // Solve points within the table too: mixing both would difference their errors.
+    let at = |steps: f64| {
+        RowStiffness::solved(&footprint.moved(parameter as usize, steps * step), coupling)
     };
-    let [gap, width] = [footprint.gap_over_a(), footprint.width_over_a()];
-    Ok([along(0, STEP * gap)?, along(1, STEP * width)?, along(2, STEP)?])
+    let [near, far] = [8.0 / (12.0 * step), -1.0 / (12.0 * step)];
+    let slope = at(1.0)? * near + at(-1.0)? * -near;
+    Ok(slope + at(2.0)? * far + at(-2.0)? * -far)
 }

@@ -2,6 +2,7 @@
 //!
 //! Differences apply in the table, known values outside.
 
+use substrate::FootprintParameter::{Gap, PoissonRatio, Size, Width};
 use substrate::{Coupling, Footprint, RowStiffness, StiffnessSlopes};
 
 fn numbers(stiffness: &RowStiffness) -> Vec<f64> {
@@ -44,13 +45,18 @@ fn derivatives_agree_with_differences_of_the_table() {
             let found = slopes(gap, width, ratio, coupling);
             let what = format!("{gap} {width} {ratio} {coupling:?}");
             let by_gap = slope(&|h| at(gap * (1.0 + h), width, ratio));
-            assert_close(&numbers(&(found.by_gap * gap)), &by_gap, 1e-6, &what);
+            assert_close(&numbers(&(found.by(Gap).unwrap().clone() * gap)), &by_gap, 1e-6, &what);
             let by_width = slope(&|h| at(gap, width * (1.0 + h), ratio));
-            assert_close(&numbers(&(found.by_width * width)), &by_width, 1e-6, &what);
+            assert_close(
+                &numbers(&(found.by(Width).unwrap().clone() * width)),
+                &by_width,
+                1e-6,
+                &what,
+            );
             let by_size = slope(&|h| at(gap * (1.0 + h), width * (1.0 + h), ratio));
-            assert_close(&numbers(&found.by_size), &by_size, 1e-6, &what);
+            assert_close(&numbers(found.by(Size).unwrap()), &by_size, 1e-6, &what);
             let by_ratio = slope(&|h| at(gap, width, ratio + h));
-            assert_close(&numbers(&found.by_poisson_ratio), &by_ratio, 1e-6, &what);
+            assert_close(&numbers(found.by(PoissonRatio).unwrap()), &by_ratio, 1e-6, &what);
         }
     }
 }
@@ -87,8 +93,8 @@ fn differences_outside_the_table_agree_with_exact_derivatives() {
     for (of_footprint, coupling) in rows.chunks(3).zip(couplings) {
         let [gap, width, ratio] = [0, 1, 2].map(|k| of_footprint[0][k]);
         let found = slopes(gap, width, ratio, coupling);
-        let found = [found.by_gap, found.by_width, found.by_poisson_ratio];
-        for (found, known) in found.iter().zip(of_footprint) {
+        let found = [Gap, Width, PoissonRatio].map(|parameter| found.by(parameter).unwrap());
+        for (found, known) in found.into_iter().zip(of_footprint) {
             assert_close(
                 &numbers(found)[..7],
                 &known[3..],

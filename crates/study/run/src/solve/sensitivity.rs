@@ -352,7 +352,8 @@ impl Varied<'_> {
     fn punctured_across(&self, by: f64) -> Option<PunctureInput> {
         let moved = self.parameter.moved(self.case, by)?.across()?;
         let here = self.case.across()?;
-        Some(punctured(&moved, self.slopes?.moved(&here.bases(), &moved.bases())))
+        let stiffness = self.slopes?.moved(&here.bases(), &moved.bases()).ok()?;
+        Some(punctured(&moved, stiffness))
     }
 
     /// Computes the derivative of the factor from the force across to the one along.
@@ -370,6 +371,6 @@ impl Varied<'_> {
     fn stiffness(&self, moved: &Case) -> Option<RowStiffness> {
         // Determined from the changed bases, because several parameters change them: lengths, also
         // in mm, and possibly a thickness in mm.
-        Some(self.slopes?.moved(&self.case.bases(), &moved.bases()))
+        self.slopes?.moved(&self.case.bases(), &moved.bases()).ok()
     }
 }
