@@ -11,6 +11,7 @@
 //! | `snapshots` | chosen points of the path, between recorded points and beyond its end |
 //! | `folds` | folding of the substrate surface |
 //! | `failure` | the first failure, and stresses of scales, bonds and tissue |
+//! | `elastic_scales` | scales that bend, against finite elements |
 //! | `neo_hookean` | a substrate with a surface that cannot fold over |
 //! | `layers` | tissue of finite thickness, against another program |
 //! | `outputs` | the meaning of measures, events and scales |
@@ -25,6 +26,7 @@
 //! | `widest` | random designs in the widest ranges of a definition |
 
 mod curved_body;
+mod elastic_scales;
 mod ends;
 mod enumerated;
 mod failure;

@@ -1,0 +1,44 @@
+//! Elastic scales against finite elements.
+//!
+//! `tests/reference/elastic-scales.csv` contains the values and describes their computation.
+
+use skin::puncture::{Bending, PunctureParameters, RowLength, Strengths, solve};
+use skin::{Base, Common, Design};
+use substrate::calibrate;
+
+use super::complete;
+
+/// Depth over length above which a scale is too stout for a beam.
+const STOUT: f64 = 1.0 / 3.0;
+
+fn assert_within(part: f64, ours: f64, reference: f64) {
+    assert!((ours / reference - 1.0).abs() <= part, "{ours} {reference}");
+}
+
+#[test]
+fn force_and_stress_agree_with_finite_elements() {
+    let table = include_str!("../reference/elastic-scales.csv");
+    let rows: Vec<_> = table.lines().filter(|line| !line.starts_with('#')).skip(1).collect();
+    assert_eq!(rows.len(), 5);
+    for row in rows {
+        let cells: Vec<Option<f64>> = row.split(',').map(|cell| cell.parse().ok()).collect();
+        let [gap, length, slant_deg, modulus] = [0, 1, 2, 3].map(|k| cells[k].unwrap());
+        let [force, stress] = [cells[7].unwrap(), cells[9].unwrap_or(f64::NAN)];
+        let design = Design { gap, length, slant_deg, base: Base::L, width: 1.0 };
+        let parameters = PunctureParameters {
+            scales: RowLength::Scales(3),
+            bending: Bending::Elastic,
+            contact_modulus_over_substrate: modulus,
+            failure: Some(Strengths::default()),
+            ..PunctureParameters::default()
+        };
+        let substrate = calibrate(&design.footprint(0.5).unwrap()).unwrap();
+        let solved = solve(&design, &substrate, &Common::default(), &parameters).unwrap();
+        let measures = complete(&solved);
+        let is_stout = length * slant_deg.to_radians().cos() > STOUT;
+        assert_within(if is_stout { 0.13 } else { 0.03 }, measures.critical_force.unwrap(), force);
+        if !stress.is_nan() {
+            assert_within(0.031, measures.failure.scale_stress.unwrap(), stress);
+        }
+    }
+}
