@@ -608,8 +608,8 @@ impl<'a> Problem<'a> {
         while let Some(mut segment) = growing.next()? {
             if let Some(bent) = failure::bent_within(&mut growing.path, &segment) {
                 let chain = growing.path.system().clone();
-                growing.path.continue_with(chain, bent.clone());
-                (segment.to, is_bent) = (bent, true);
+                growing.path.continue_with(chain, bent);
+                (segment.to, is_bent) = (growing.path.point().clone(), true);
             }
             watch.follow(&mut growing.path, &segment);
             if is_bent {

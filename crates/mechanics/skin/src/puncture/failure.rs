@@ -246,8 +246,14 @@ impl FailureObserver {
         let mut found: Vec<_> = fold.into_iter().collect();
         for &limit in &self.judged {
             if before[limit] < 1.0 && self.fractions[limit] >= 1.0 {
-                let reached = PathLocation { quantity: FRACTIONS[limit], value: 1.0 };
-                found.extend(reached.between(path, from, to).map(|point| (LIMITS[limit], point)));
+                // The end of linear bending has been located already.
+                let point = if self.fractions[limit] <= 1.0 + BEND_TOLERANCE {
+                    Some(SkinPoint::clone(to))
+                } else {
+                    let reached = PathLocation { quantity: FRACTIONS[limit], value: 1.0 };
+                    reached.between(path, from, to)
+                };
+                found.extend(point.map(|point| (LIMITS[limit], point)));
             }
         }
         // Of several failures within one segment the first one counts.
