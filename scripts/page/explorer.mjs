@@ -10,7 +10,7 @@ const STATES = 12;
 const PAGES = { 1400: "explore.html", 390: "finger.html" };
 
 /** Waits for a complete answer of the solver. */
-const settled = (page) => page.waitForFunction(() => squama.live.answer?.fine && squama.solver.idle(), null, { timeout: 60_000 });
+const settled = (page) => page.waitForFunction(() => squama.live.answer?.fine && squama.solver.idle(), null, { timeout: 180_000 });
 /** Does something, and waits for the answer to it. */
 const after = async (page, act) => {
   await page.evaluate(() => { squama.live.answer.fine = false; });
@@ -91,7 +91,7 @@ export default ({ openFile, open, place, results, run, problems }) => {
       const ask = async (sentence) => {
         await page.locator("#live-sentence").fill(sentence);
         await page.locator("#live-ask button").click();
-        await page.waitForFunction(() => !/^$|^Searching/.test(squama.at("live-found").textContent), null, { timeout: 60_000 });
+        await page.waitForFunction(() => !/^$|^Searching/.test(squama.at("live-found").textContent), null, { timeout: 180_000 });
         await settled(page);
         return found.textContent();
       };
