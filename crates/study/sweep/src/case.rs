@@ -201,8 +201,9 @@ impl Case {
     ///
     /// It consists of upright blocks: the width of the scales is their base, the base of the scales
     /// their width. Needle, tissue and friction are the same, with the load at the same distance
-    /// from the edge; a needle between two scales counts as one on the edge. The slant, which shifts the tops along the row, has no effect, and the tilt
-    /// along the row is not coupled with the one across. The body counts as flat.
+    /// from the edge; a needle between two scales counts as one on the edge. The slant, which shifts
+    /// the tops along the row, has no effect, and the tilt along the row is not coupled with the
+    /// one across. The body counts as flat.
     pub fn across(&self) -> Option<Self> {
         if !self.across && self.gap_across.is_none() {
             return None;
