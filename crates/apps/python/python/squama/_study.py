@@ -28,6 +28,8 @@ class Run(Table):
 
     def __init__(self, folder):
         self.folder = os.fspath(folder)
+        # Only a search has them.
+        self.skin, self.failed_checks = None, []
         known = {name: (unit, meaning) for name, unit, meaning in _squama.columns()}
         known.update({key: (unit, meaning) for key, _, unit, meaning, _, _ in _squama.parameters()})
         columns = ((name, *known.get(name, ("-", "")), cells) for name, cells in _squama.read(folder))
@@ -74,9 +76,10 @@ def run(definition, out=None, *, set=None, resume=False, fresh=False, threads=No
 def optimise(goal, out=None, *, set=None, resume=False, fresh=False, threads=None, progress=False):
     """Searches for the optimum of a goal, or its Pareto front, as ``squama optimise``.
 
-    Returns a `Run` of the best designs; for a single objective, its ``skin`` is the best design. Raises `squama.Failed` if
-    no design meets the constraints. A requirement that full coupling, another load position or new samples contradict is a
-    `squama.CheckWarning`, and a sentence in ``failed_checks``.
+    Returns a `Run` of the best designs; for a single objective, its ``skin`` is the best design. The
+    search warns of each requirement that full coupling, another load position or new samples
+    contradict (`squama.CheckWarning`), and lists these warnings in ``failed_checks``. Raises
+    `squama.Failed` if no design meets the constraints.
     """
     with Bar(progress) as tell:
         keywords = dict(out=out, set=set, resume=resume, fresh=fresh, threads=threads, progress=tell)

@@ -246,7 +246,7 @@ impl FailureObserver {
         let mut found: Vec<_> = fold.into_iter().collect();
         for &limit in &self.judged {
             if before[limit] < 1.0 && self.fractions[limit] >= 1.0 {
-                // The end of linear bending has been located already.
+                // Where linear bending ends, the path ends at the limit: there is nothing to search.
                 let point = if self.fractions[limit] <= 1.0 + BEND_TOLERANCE {
                     Some(SkinPoint::clone(to))
                 } else {

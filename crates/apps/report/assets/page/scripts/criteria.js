@@ -4,7 +4,7 @@
   const LISTED = 15;
   const LETTERS = ["m", "n", "k", "l"];
   const { state, ranking } = squama;
-  const isUsual = () => state.criteria.map(({ goal, column }) => `${goal}:${column}`).join() === ranking.USUAL.join();
+  const isUsual = () => ranking.areUsual(state.criteria);
 
   /** Sets one weight; the others keep their proportions and fill the remainder. */
   squama.setWeight = (which, value) => {

@@ -9,6 +9,9 @@ squama.ranking = (() => {
   const [COVERAGE] = squama.measures;
   const MOST_CRITERIA = 8;
 
+  /** Returns true if criteria are the default ones, in their order. */
+  const areUsual = (criteria) => criteria.map(({ goal, column }) => `${goal}:${column}`).join() === USUAL.join();
+
   /** Returns true if two numbers are equal up to round-off. */
   const same = (a, b) => Math.abs(a - b) <= ROUND_OFF * Math.max(Math.abs(a), Math.abs(b));
 
@@ -195,5 +198,5 @@ squama.ranking = (() => {
     return { nearest, binding };
   };
 
-  return { ROUND_OFF, SIGNS, SCALES, USUAL, MOST_CRITERIA, same, number, meets, requirement, written, criterion, plainGoal, meeting, contest, scores, order, front, unmet };
+  return { ROUND_OFF, SIGNS, SCALES, USUAL, areUsual, MOST_CRITERIA, same, number, meets, requirement, written, criterion, plainGoal, meeting, contest, scores, order, front, unmet };
 })();

@@ -36,7 +36,7 @@
   };
 
   const show = () => {
-    const isUsual = state.criteria.map(({ goal, column }) => `${goal}:${column}`).join() === ranking.USUAL.join();
+    const isUsual = ranking.areUsual(state.criteria);
     const isDrawn = isUsual && squama.contest.rows.length > 0;
     drawing.hidden = !isDrawn;
     words.hidden = isDrawn;
