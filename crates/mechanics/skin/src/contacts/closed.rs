@@ -53,37 +53,34 @@ impl Contacts {
         })
     }
 
-    /// Lists the contact forces on a scale of a row.
+    /// Lists the contact forces on the scales of a row, from the left.
     ///
-    /// Each entry holds the arm from the node, in the deformed state, and the force, both in the
-    /// tangent frame of the scale.
-    pub(crate) fn forces_on(&self, state: &SkinState, scale: usize) -> Vec<[Vec2; 2]> {
-        let frame = self.frame_at(scale);
-        let node = frame.origin + frame.outward(self.pose(&state.z, scale).displacement);
+    /// Each entry holds the scale, the arm from its node, in the deformed state, and the force, both
+    /// in the tangent frame of the scale.
+    pub(crate) fn forces_on_scales(&self, state: &SkinState) -> Vec<(usize, [Vec2; 2])> {
         let mut forces = Vec::new();
-        let first = scale.saturating_sub(self.reach);
-        for pair in self.reach * first..(self.reach * (scale + 1)).min(self.count_pairs()) {
-            let ends = self.ends(pair);
-            if !ends.contains(&scale) {
+        for (contact, mode) in state.mode.contacts.iter().enumerate() {
+            let carrying = mode.carrying();
+            if carrying == [None, None] {
                 continue;
             }
-            let sign = if ends[0] == scale { 1.0 } else { -1.0 };
-            for contact in Self::contacts_of(pair) {
-                let carrying = state.mode.contacts[contact].carrying();
-                if carrying == [None, None] {
-                    continue;
-                }
-                let on_left = self.forces_on_left(state, contact);
-                for (corner_edge, force) in carrying.into_iter().zip(on_left) {
-                    let Some(corner_edge) = corner_edge else { continue };
-                    let arm = self.corner(&state.z, contact, corner_edge) - node;
-                    // Contact forces are in the frame of the left scale of the pair.
-                    let force = if ends[1] == scale && !self.body.is_flat() {
-                        self.pair_and_frame(pair).1.inward(force)
-                    } else {
-                        force
-                    };
-                    forces.push([frame.inward(arm), sign * force]);
+            let pair = Self::pair_of(contact);
+            let [left, right] = self.ends(pair);
+            let on_left = self.forces_on_left(state, contact);
+            for (corner_edge, force) in carrying.into_iter().zip(on_left) {
+                let Some(corner_edge) = corner_edge else { continue };
+                let corner = self.corner(&state.z, contact, corner_edge);
+                // Contact forces are in the frame of the left scale of the pair.
+                let on_right = if self.body.is_flat() {
+                    force
+                } else {
+                    self.pair_and_frame(pair).1.inward(force)
+                };
+                for (scale, force) in [(left, force), (right, -1.0 * on_right)] {
+                    let frame = self.frame_at(scale);
+                    let node =
+                        frame.origin + frame.outward(self.pose(&state.z, scale).displacement);
+                    forces.push((scale, [frame.inward(corner - node), force]));
                 }
             }
         }

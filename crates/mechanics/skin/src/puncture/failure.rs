@@ -13,7 +13,6 @@ use super::beam::{BaseTractions, Beam, Load, TipMotion};
 use super::needle::CriticalEvent;
 use super::system::{Chain, FIRST_LIMIT_MARK};
 use crate::contacts::{SkinMode, SkinPoint, SkinState};
-use crate::path_location::PathLocation;
 use crate::record::PathFunction;
 
 /// Rotation of the tip of a scale relative to its base, by bending, above which the scale is not
@@ -141,14 +140,6 @@ const LIMITS: [FailureMode; 4] =
 const BEND: usize = 1;
 const _: () = assert!(matches!(LIMITS[BEND], FailureMode::Bend));
 
-/// The largest fraction of each limit that any scale has reached.
-const FRACTIONS: [fn(&Chain, &SkinState) -> f64; LIMITS.len()] = [
-    |chain, state| chain.row_values(state).fractions[0],
-    |chain, state| chain.row_values(state).fractions[1],
-    |chain, state| chain.row_values(state).fractions[2],
-    |chain, state| chain.row_values(state).fractions[3],
-];
-
 /// Quantities with a tracked maximum along the path.
 pub(super) const MAXIMA: [PathFunction<Chain>; 4] = [
     |chain, state, _| chain.row_values(state).tracked[0],
@@ -163,6 +154,12 @@ pub(super) const TISSUE_PRESSURE: usize = 3;
 /// Fraction by which the end of linear bending may miss its limit, the accuracy of an equilibrium.
 const BEND_TOLERANCE: f64 = 1e-10;
 
+/// Fraction by which the located point of a limit may miss it.
+const LIMIT_TOLERANCE: f64 = 2e-12;
+
+/// Evaluations after which a bracket is as narrow as an `f64` allows.
+const EVALUATIONS: usize = 100;
+
 /// Step along the path direction, relative to its largest component, for the slope at its end.
 const STEP: f64 = 1e-6;
 
@@ -171,27 +168,46 @@ pub(super) fn bent_within(
     path: &mut Continuation<Chain>,
     Segment { from, to, .. }: &Segment,
 ) -> Option<SkinPoint> {
-    let bend = FRACTIONS[BEND];
-    if !path.system().is_elastic || bend(path.system(), &to.state) < 1.0 {
+    if !path.system().is_elastic || excess(path, to, BEND) < 0.0 {
         return None;
     }
-    let start = bend(path.system(), &from.state) - 1.0;
-    let mut bracket = Bracket::new((0.0, start), (1.0, bend(path.system(), &to.state) - 1.0));
-    let mut point = if start < 0.0 { SkinPoint::clone(from) } else { SkinPoint::clone(to) };
-    let mut off = start;
-    // Elastic rows are expensive to solve, so each evaluation starts at the last one.
-    while off.abs() > BEND_TOLERANCE && start < 0.0 && bracket.width() > f64::EPSILON {
+    let point = limit_within(path, [from, to], BEND, BEND_TOLERANCE);
+    // The point is no event, even if the segment ends at one.
+    Some(SkinPoint { event: None, ..point.unwrap_or_else(|| SkinPoint::clone(to)) })
+}
+
+/// Computes the excess of the fraction of a limit over 1.
+fn excess(path: &Continuation<Chain>, point: &SkinPoint, limit: usize) -> f64 {
+    path.system().row_values(&point.state).fractions[limit] - 1.0
+}
+
+/// Solves for the equilibrium between two points at which a limit is reached.
+///
+/// `None` if the limit is exceeded at both points.
+fn limit_within(
+    path: &mut Continuation<Chain>,
+    [from, to]: [&SkinPoint; 2],
+    limit: usize,
+    tolerance: f64,
+) -> Option<SkinPoint> {
+    let [start, end] = [from, to].map(|point| excess(path, point, limit));
+    if start >= 0.0 {
+        return None;
+    }
+    let mut bracket = Bracket::patient((0.0, start), (1.0, end));
+    let mut point = from.clone();
+    for _ in 0..EVALUATIONS {
         let fraction = bracket.secant();
-        let Some(solved) = path.between_from(from, to, fraction, &point) else {
-            point = SkinPoint::clone(to);
-            break;
-        };
-        point = solved;
-        off = bend(path.system(), &point.state) - 1.0;
+        // The last point is nearer than the start, so that Newton's method needs fewer iterations.
+        point = path.between_from(from, to, fraction, &point)?;
+        let off = excess(path, &point, limit);
+        // A bracket that cannot shrink further locates the limit to within round-off.
+        if off.abs() <= tolerance || bracket.width() < f64::EPSILON {
+            return Some(point);
+        }
         bracket.narrow(fraction, off);
     }
-    // The point is no event, even if the segment ends at one.
-    Some(SkinPoint { event: None, ..point })
+    None
 }
 
 /// Values of a scale, or the largest of a row.
@@ -250,8 +266,7 @@ impl FailureObserver {
                 let point = if self.fractions[limit] <= 1.0 + BEND_TOLERANCE {
                     Some(SkinPoint::clone(to))
                 } else {
-                    let reached = PathLocation { quantity: FRACTIONS[limit], value: 1.0 };
-                    reached.between(path, from, to)
+                    limit_within(path, [from, to], limit, LIMIT_TOLERANCE)
                 };
                 found.extend(point.map(|point| (LIMITS[limit], point)));
             }
@@ -349,15 +364,30 @@ impl From<CriticalEvent> for FailureMode {
 impl Chain {
     /// Lists the forces of neighbours and needle on a scale, in its frame.
     pub(super) fn loads(&self, state: &SkinState, scale: usize) -> Vec<Load> {
-        let mut forces = self.contacts.forces_on(state, scale);
-        if self.needle.is_some() {
-            forces.extend(self.needle_forces_on(state, scale));
+        self.loads_among(&self.contacts.forces_on_scales(state), state, scale)
+    }
+
+    /// Lists the forces on a scale, given the contact forces on all scales.
+    fn loads_among(
+        &self,
+        on_scales: &[(usize, [Vec2; 2])],
+        state: &SkinState,
+        scale: usize,
+    ) -> Vec<Load> {
+        let of_contacts = on_scales.iter().filter(|(at, _)| *at == scale).map(|(_, force)| *force);
+        let of_needle = if self.needle.is_some() {
+            self.needle_forces_on(state, scale)
         } else if scale == self.layout.left {
             let load = Vec2::new(0.0, -state.z[self.layout.load()]);
-            forces.push([self.loaded_arm(&state.z), load]);
+            vec![[self.loaded_arm(&state.z), load]]
+        } else {
+            Vec::new()
+        };
+        let mut loads = of_contacts.chain(of_needle).peekable();
+        if loads.peek().is_none() {
+            return Vec::new();
         }
         let back = contact::Pose::new(0.0, 0.0, -self.displacement(&state.z, scale)[2]);
-        let loads = forces.into_iter();
         loads.map(|[arm, force]| Load { arm: back.turn(arm), force: back.turn(force) }).collect()
     }
 
@@ -399,8 +429,9 @@ impl Chain {
     /// Computes the largest values of any scale.
     fn row_values(&self, state: &SkinState) -> ScaleValues {
         let mut largest = ScaleValues::default();
+        let on_scales = self.contacts.forces_on_scales(state);
         for scale in 0..self.layout.scales() {
-            let loads = self.loads(state, scale);
+            let loads = self.loads_among(&on_scales, state, scale);
             // Most scales of a row touch nothing.
             if loads.is_empty() {
                 continue;
