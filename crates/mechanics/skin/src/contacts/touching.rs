@@ -47,6 +47,18 @@ impl Contacts {
             .collect()
     }
 
+    /// Iterates over the corners of a scale or on its edges that carry a force.
+    pub(crate) fn closed_edges_of(
+        &self,
+        state: &SkinState,
+        scale: usize,
+    ) -> impl Iterator<Item = TouchingEdge> {
+        let contacts = state.mode.contacts.iter().enumerate();
+        let own = contacts
+            .filter(move |(contact, _)| self.ends(Self::pair_of(*contact)).contains(&scale));
+        own.filter_map(|(contact, mode)| self.touching_edge(state, contact, mode.edge()?))
+    }
+
     /// Returns the corner that faces an edge at an open contact.
     pub(crate) fn facing_edge(&self, state: &SkinState, contact: usize) -> Option<TouchingEdge> {
         let is_open = state.mode.contacts[contact] == CornerContact::Open;

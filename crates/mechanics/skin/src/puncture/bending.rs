@@ -227,9 +227,10 @@ impl Section {
     /// The shear force of a load at `s` falls linearly from 1 at `s − w` to 0 at `s + w`.
     fn overlap(&self, s: f64, t: f64) -> Overlap {
         let (w, length) = (self.spread, self.length);
-        let mut breaks = [0.0, length, s - w, s + w, t - w, t + w].map(|x| x.clamp(0.0, length));
-        breaks.sort_unstable_by(f64::total_cmp);
-        let mut overlap = Overlap::default();
+        let [near, far] = [s.min(t), s.max(t)];
+        // Below these sections both shear forces are 1, above them one of them is 0.
+        let breaks = [near - w, (far - w).min(near + w), near + w].map(|x| x.clamp(0.0, length));
+        let mut overlap = Overlap { value: breaks[0], ..Overlap::default() };
         for pair in breaks.windows(2) {
             let [low, high] = [pair[0], pair[1]];
             if high <= low {
@@ -282,121 +283,159 @@ struct BentScale {
     loads: Vec<BeamLoad>,
 }
 
-/// Flexibilities of a load with itself and with the other loads of its scale.
-struct Coupling {
-    /// `C_kl`, with derivatives by the coordinate of the load `k` first.
-    own: Vec<Flexibility>,
-    /// The same with derivatives by the coordinate of the other load first.
-    others: Vec<Flexibility>,
+/// Loads of a scale with the flexibilities between them, for the tangent.
+///
+/// Many loads share their unknowns, so entries are added up before they enter the tangent.
+struct Coupling<'a> {
+    loads: &'a [BeamLoad],
+    /// `C_kl`, with derivatives by the coordinate of the load `k` first, row by row.
+    flexibilities: Vec<Flexibility>,
+    /// First of the three unknowns of each scale on which the loads depend.
+    nodes: Vec<usize>,
+    /// Places of these unknowns in a row of `3 nodes + loads` entries, for each load.
+    places: Vec<[usize; COORDINATES]>,
 }
 
 impl BentScale {
-    fn coupling(&self, k: &BeamLoad) -> Coupling {
-        Coupling {
-            own: self.loads.iter().map(|l| self.section.flexibility(k, l)).collect(),
-            others: self.loads.iter().map(|l| self.section.flexibility(l, k)).collect(),
+    fn coupling(&self) -> Coupling<'_> {
+        let loads = &self.loads[..];
+        let mut nodes = Vec::with_capacity(3);
+        for node in loads.iter().flat_map(|load| [load.at[0], load.at[3]]) {
+            if !nodes.contains(&node) {
+                nodes.push(node);
+            }
         }
-    }
-
-    /// Computes the couplings between all loads.
-    fn couplings(&self) -> Vec<Coupling> {
-        let flexibilities: Vec<Vec<_>> = self
-            .loads
-            .iter()
-            .map(|k| self.loads.iter().map(|l| self.section.flexibility(k, l)).collect())
-            .collect();
-        let others = |at: usize| flexibilities.iter().map(|row| row[at]).collect();
-        let rows = flexibilities.iter().enumerate();
-        rows.map(|(at, row)| Coupling { own: row.clone(), others: others(at) }).collect()
+        let places = loads.iter().map(|load| {
+            let [left, right] = [load.at[0], load.at[3]]
+                .map(|node| 3 * nodes.iter().position(|other| *other == node).unwrap_or_default());
+            [left, left + 1, left + 2, right, right + 1, right + 2]
+        });
+        let places = places.collect();
+        let pairs = loads.iter().flat_map(|k| loads.iter().map(move |l| (k, l)));
+        let flexibilities = pairs.map(|(k, l)| self.section.flexibility(k, l)).collect();
+        Coupling { loads, flexibilities, nodes, places }
     }
 
     fn sums(&self, k: &BeamLoad) -> Sums {
         let flexibilities = self.loads.iter().map(|l| self.section.flexibility(k, l));
-        self.summed(flexibilities)
+        summed(&self.loads, flexibilities)
     }
 
-    fn summed(&self, flexibilities: impl Iterator<Item = Flexibility>) -> Sums {
-        let mut sums = Sums::default();
-        for (l, flexibility) in self.loads.iter().zip(flexibilities) {
-            sums.displacement += l.force * flexibility.value;
-            sums.slope += l.force * flexibility.by_first;
-            sums.curvature += l.force * flexibility.by_first_twice;
-        }
-        sums
-    }
-
-    /// Computes the derivative of the displacement at `k` along a direction of the unknowns.
-    fn rate(&self, k: &BeamLoad, direction: &[f64]) -> f64 {
+    /// Computes the displacement at `k` and its derivative along a direction of the unknowns.
+    fn moving(&self, k: &BeamLoad, direction: &[f64]) -> [f64; 2] {
         let own = k.along(direction);
-        let mut rate = 0.0;
+        let [mut displacement, mut rate] = [0.0; 2];
         for l in &self.loads {
             let flexibility = self.section.flexibility(k, l);
             let by_other = self.section.flexibility(l, k).by_first;
+            displacement += l.force * flexibility.value;
             rate += l.force * (flexibility.by_first * own + by_other * l.along(direction));
             rate += flexibility.value * l.unknown.map_or(0.0, |unknown| direction[unknown]);
         }
-        rate
+        [displacement, rate]
+    }
+}
+
+fn summed(loads: &[BeamLoad], flexibilities: impl Iterator<Item = Flexibility>) -> Sums {
+    let mut sums = Sums::default();
+    for (l, flexibility) in loads.iter().zip(flexibilities) {
+        sums.displacement += l.force * flexibility.value;
+        sums.slope += l.force * flexibility.by_first;
+        sums.curvature += l.force * flexibility.by_first_twice;
+    }
+    sums
+}
+
+impl Coupling<'_> {
+    /// Counts the entries of a row: motions of scales, then forces of loads.
+    fn width(&self) -> usize {
+        3 * self.nodes.len() + self.loads.len()
     }
 
-    /// Adds `sign` times the displacement at `k` to the equation of `row`.
+    fn flexibility(&self, k: usize, l: usize) -> &Flexibility {
+        &self.flexibilities[k * self.loads.len() + l]
+    }
+
+    fn sums(&self, k: usize) -> Sums {
+        let flexibilities = self.flexibilities[k * self.loads.len()..].iter().copied();
+        summed(self.loads, flexibilities)
+    }
+
+    /// Adds `value` times the derivative of the coordinate of a load to a row.
+    fn add_slopes(&self, load: usize, value: f64, row: &mut [f64]) {
+        for (place, slope) in self.places[load].into_iter().zip(self.loads[load].slopes) {
+            row[place] += value * slope;
+        }
+    }
+
+    /// Adds a row to the tangent.
+    fn add_row(&self, row: usize, values: &[f64], matrix: &mut impl Tangent) {
+        let (motions, forces) = values.split_at(3 * self.nodes.len());
+        for (node, values) in self.nodes.iter().zip(motions.chunks_exact(3)) {
+            if *values != [0.0; 3] {
+                matrix.add_row(row, *node, values.iter().copied());
+            }
+        }
+        for (load, value) in self.loads.iter().zip(forces) {
+            if let Some(unknown) = load.unknown {
+                matrix.add(row, unknown, *value);
+            }
+        }
+    }
+
+    /// Adds `sign` times the displacement at the load `k` to the equation of `row`.
     fn add_displacement(
         &self,
         (row, sign): (usize, f64),
-        (k, coupling): (&BeamLoad, &Coupling),
+        k: usize,
         residual: &mut Residual,
         matrix: &mut impl Tangent,
     ) {
-        let sums = self.summed(coupling.own.iter().copied());
+        let sums = self.sums(k);
         residual.add(row, sign * sums.displacement);
-        for (column, slope) in k.varying() {
-            matrix.add(row, column, sign * sums.slope * slope);
+        let mut values = vec![0.0; self.width()];
+        self.add_slopes(k, sign * sums.slope, &mut values);
+        for (l, load) in self.loads.iter().enumerate() {
+            self.add_slopes(l, sign * load.force * self.flexibility(l, k).by_first, &mut values);
+            values[3 * self.nodes.len() + l] += sign * self.flexibility(k, l).value;
         }
-        for (l, (own, other)) in self.loads.iter().zip(coupling.own.iter().zip(&coupling.others)) {
-            if let Some(unknown) = l.unknown {
-                matrix.add(row, unknown, sign * own.value);
-            }
-            let by_other = l.force * other.by_first;
-            for (column, slope) in l.varying() {
-                matrix.add(row, column, sign * by_other * slope);
-            }
-        }
+        self.add_row(row, &values, matrix);
     }
 
     /// Adds the forces `−∂U/∂u` to the balances.
-    fn add_balance(
-        &self,
-        couplings: &[Coupling],
-        residual: &mut Residual,
-        matrix: &mut impl Tangent,
-    ) {
-        for (k, coupling) in self.loads.iter().zip(couplings) {
-            let sums = self.summed(coupling.own.iter().copied());
-            for (row, slope) in k.varying() {
-                residual.add(row, -k.force * sums.slope * slope);
-                if let Some(unknown) = k.unknown {
-                    matrix.add(row, unknown, -sums.slope * slope);
-                }
+    fn add_balance(&self, residual: &mut Residual, matrix: &mut impl Tangent) {
+        let (width, motions) = (self.width(), 3 * self.nodes.len());
+        let mut square = vec![0.0; motions * width];
+        let mut row = vec![0.0; width];
+        for (k, load) in self.loads.iter().enumerate() {
+            let sums = self.sums(k);
+            for (row, slope) in load.varying() {
+                residual.add(row, -load.force * sums.slope * slope);
             }
-            for (i, &row) in k.at.iter().enumerate() {
-                for (j, &column) in k.at.iter().enumerate() {
-                    let value =
-                        sums.curvature * k.slopes[i] * k.slopes[j] + sums.slope * k.curvature[i][j];
-                    if value != 0.0 {
-                        matrix.add(row, column, -k.force * value);
+            // The derivative of the force along the coordinate of the load.
+            row.fill(0.0);
+            self.add_slopes(k, -load.force * sums.curvature, &mut row);
+            row[motions + k] -= sums.slope;
+            for (l, other) in self.loads.iter().enumerate() {
+                let flexibility = self.flexibility(k, l);
+                row[motions + l] -= load.force * flexibility.by_first;
+                self.add_slopes(l, -load.force * other.force * flexibility.by_both, &mut row);
+            }
+            let places = &self.places[k];
+            for (i, &place) in places.iter().enumerate() {
+                let entries = &mut square[place * width..][..width];
+                if load.slopes[i] != 0.0 {
+                    for (entry, value) in entries.iter_mut().zip(&row) {
+                        *entry += load.slopes[i] * value;
                     }
                 }
-            }
-            for (l, flexibility) in self.loads.iter().zip(&coupling.own) {
-                for (row, slope) in k.varying() {
-                    if let Some(unknown) = l.unknown {
-                        matrix.add(row, unknown, -k.force * flexibility.by_first * slope);
-                    }
-                    for (column, other) in l.varying() {
-                        let value = k.force * l.force * flexibility.by_both * slope * other;
-                        matrix.add(row, column, -value);
-                    }
+                for (&column, curvature) in places.iter().zip(load.curvature[i]) {
+                    entries[column] -= load.force * sums.slope * curvature;
                 }
             }
+        }
+        for (k, values) in square.chunks_exact(width).enumerate() {
+            self.add_row(self.nodes[k / 3] + k % 3, values, matrix);
         }
     }
 }
@@ -407,7 +446,8 @@ impl Chain {
         self.is_elastic.then(|| [self.layout.load() + 1, self.layout.load() + 2])
     }
 
-    fn bent_scale(&self, scale: usize) -> BentScale {
+    /// Returns a scale without loads.
+    fn unloaded(&self, scale: usize) -> BentScale {
         let beam = Beam::new(&self.contacts.arrangement.scale(scale), self.width);
         let [bending, shear_stiffness] = beam.stiffness(self.scale_modulus / self.plane_modulus);
         let (length, spread) = (beam.length, SPREAD * beam.depth);
@@ -418,7 +458,7 @@ impl Chain {
     /// Lists the loaded scales, the punctured one first.
     fn bent_scales(&self, state: &SkinState) -> Vec<BentScale> {
         let punctured = self.layout.left;
-        let mut bent = vec![self.bent_scale(punctured)];
+        let mut bent = vec![self.unloaded(punctured)];
         let load = self.free_load(&bent[0].beam, state);
         bent[0].loads.push(load);
         let mut places = vec![None; self.layout.scales()];
@@ -426,13 +466,26 @@ impl Chain {
         for touching in self.contacts.closed_edges(state) {
             for scale in touching.ends {
                 let at = *places[scale].get_or_insert_with(|| {
-                    bent.push(self.bent_scale(scale));
+                    bent.push(self.unloaded(scale));
                     bent.len() - 1
                 });
                 let load = BeamLoad::of_contact(&bent[at].beam, &touching, scale);
                 bent[at].loads.extend(load);
             }
         }
+        bent
+    }
+
+    /// Returns a scale with its loads.
+    fn bent_scale(&self, state: &SkinState, scale: usize) -> BentScale {
+        let mut bent = self.unloaded(scale);
+        if scale == self.layout.left {
+            bent.loads.push(self.free_load(&bent.beam, state));
+        }
+        let touching = self.contacts.closed_edges_of(state, scale);
+        let loads =
+            touching.filter_map(|touching| BeamLoad::of_contact(&bent.beam, &touching, scale));
+        bent.loads.extend(loads);
         bent
     }
 
@@ -483,22 +536,20 @@ impl Chain {
         ] {
             matrix.add(row, column, value);
         }
-        let bent = self.bent_scales(state);
-        let punctured = &bent[0];
-        let moment = BeamLoad::tip_moment(&punctured.beam, punctured.loads[0].at);
-        let of_moment = punctured.coupling(&moment);
-        punctured.add_displacement((tilt, -1.0), (&moment, &of_moment), residual, matrix);
+        let mut bent = self.bent_scales(state);
+        let punctured = &mut bent[0];
+        punctured.loads.push(BeamLoad::tip_moment(&punctured.beam, punctured.loads[0].at));
         for scale in &bent {
-            let couplings = scale.couplings();
-            scale.add_balance(&couplings, residual, matrix);
-            for (k, coupling) in scale.loads.iter().zip(&couplings) {
-                // The condition of the load is the depth of its point.
-                let condition = match k.unknown {
+            let coupling = scale.coupling();
+            coupling.add_balance(residual, matrix);
+            for (k, load) in scale.loads.iter().enumerate() {
+                // The condition of the load is the depth of its point, and of the moment the tilt.
+                let condition = match load.unknown {
                     Some(row) if row == self.layout.load() => (depth, -1.0),
                     Some(row) => (row, 1.0),
-                    None => continue,
+                    None => (tilt, -1.0),
                 };
-                scale.add_displacement(condition, (k, coupling), residual, matrix);
+                coupling.add_displacement(condition, k, residual, matrix);
             }
         }
     }
@@ -550,20 +601,23 @@ impl Chain {
         });
     }
 
-    /// Adds the slopes of the openings by bending to the slopes of the open contacts.
+    /// Adds the bending of the scales to the gaps of open contacts, and to their slopes.
     pub(super) fn add_opening_slopes(
         &self,
         state: &SkinState,
         direction: &[f64],
-        slopes: &mut [f64],
+        [values, slopes]: [&mut [f64]; 2],
     ) {
         let bent = self.bent_scales(state);
         self.for_openings(state, &bent, |contact, scale, load| {
-            slopes[self.contacts.own_force(contact)] += scale.rate(load, direction);
+            let at = self.contacts.own_force(contact);
+            let [value, slope] = scale.moving(load, direction);
+            values[at] += value;
+            slopes[at] += slope;
         });
     }
 
-    /// Computes the opening of the contact of a constraint by bending, or its derivative along a
+    /// Computes the opening of the contact of a constraint by bending, and its derivative along a
     /// `direction`.
     ///
     /// 0 for constraints other than normal forces.
@@ -576,17 +630,15 @@ impl Chain {
         let own = self.contacts.contact_of_own_force(constraint).filter(|_| self.is_elastic);
         let touching = own.and_then(|contact| self.contacts.edge_at(state, contact));
         let Some(touching) = touching else { return 0.0 };
-        let bent = self.bent_scales(state);
-        let scales = bent.iter().filter(|bent| touching.ends.contains(&bent.scale));
-        scales
-            .filter_map(|scale| {
-                let load = BeamLoad::of_contact(&scale.beam, &touching, scale.scale)?;
-                Some(match direction {
-                    Some(direction) => scale.rate(&load, direction),
-                    None => scale.sums(&load).displacement,
-                })
+        let openings = touching.ends.into_iter().filter_map(|scale| {
+            let bent = self.bent_scale(state, scale);
+            let load = BeamLoad::of_contact(&bent.beam, &touching, scale)?;
+            Some(match direction {
+                Some(direction) => bent.moving(&load, direction)[1],
+                None => bent.sums(&load).displacement,
             })
-            .sum()
+        });
+        openings.sum()
     }
 
     /// Computes the strain energy of all scales, over `E* t³`.

@@ -572,8 +572,7 @@ impl System for Chain {
     ) {
         self.contacts.condition_slopes(state, direction, values, slopes);
         if self.is_elastic {
-            self.add_openings(state, values);
-            self.add_opening_slopes(state, direction, slopes);
+            self.add_opening_slopes(state, direction, [values, slopes]);
         }
         if let Some(needle) = &self.needle {
             self.needle_conditions(needle, state, values);

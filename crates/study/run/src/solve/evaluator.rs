@@ -1,7 +1,8 @@
 //! Solves one design.
 
+use std::collections::VecDeque;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use geometry::OutOfRange;
 use results::columns::is_along_path;
@@ -23,6 +24,12 @@ use super::{samples, scatter, sensitivity};
 /// Maximum number of gaps of a chain, because longer paths do not fit into memory.
 const LONGEST_CHAIN: usize = 100_000;
 
+/// Number of rows across that an evaluator remembers.
+///
+/// Designs of a sweep follow each other by slant, which a row across does not have. Several threads
+/// solve several groups of designs.
+const KNOWN_ACROSS: usize = 64;
+
 /// Solves designs on any number of threads.
 ///
 /// Designs with equal footprints share one calibration.
@@ -32,6 +39,27 @@ pub struct Evaluator {
     /// Extent of the record of the paths of rows of tables.
     detail: PathDetail,
     calibrations: Calibrations,
+    /// The last rows across that were solved.
+    across: Mutex<VecDeque<(Case, AcrossForces)>>,
+}
+
+/// Forces of a row across, over its own length.
+#[derive(Clone, Copy, Debug)]
+struct AcrossForces {
+    outcome: Outcome,
+    critical: Option<f64>,
+    /// Largest force on the path.
+    borne: Option<f64>,
+}
+
+impl AcrossForces {
+    fn new(across: &Result<Puncture, Outcome>) -> Self {
+        let punctured = across.as_ref().map(|puncture| PunctureResult::new(puncture, 0.0));
+        let outcome = punctured.as_ref().map_or_else(|outcome| **outcome, |p| p.outcome);
+        let critical = punctured.ok().and_then(|puncture| puncture.measures.critical_force);
+        let path = across.iter().flat_map(|puncture| &puncture.path);
+        Self { outcome, critical, borne: path.map(|point| point.force).reduce(f64::max) }
+    }
 }
 
 /// An evaluated measure: result and path, or the reason for the failure.
@@ -44,6 +72,7 @@ impl Evaluator {
             measures: measures.to_vec(),
             detail: PathDetail::Measures,
             calibrations: Calibrations::default(),
+            across: Mutex::default(),
         }
     }
 
@@ -227,7 +256,7 @@ impl Evaluator {
                     derivatives.extend(of_across);
                     Ok(puncture)
                 });
-                add_across(case, &mut result, &punctured);
+                add_across(case, &mut result, AcrossForces::new(&punctured));
                 sensitivity::choose_direction(&result.measures, &mut derivatives);
             }
             if let Some(worst) = self.puncture_between(case, &mut result) {
@@ -279,13 +308,35 @@ impl Evaluator {
 
     /// Punctures the row across, if requested, and adds its force to a result.
     fn puncture_across(&self, case: &Case, result: &mut PunctureResult) {
-        let Some(across) = case.across() else { return };
-        let Case { design, common, .. } = &recorded(&across, PathDetail::Critical);
+        if let Some(across) = case.across() {
+            let forces = self.across_forces(&recorded(&across, PathDetail::Critical));
+            add_across(case, result, forces);
+        }
+    }
+
+    /// Solves a row across, unless it is one of the last ones.
+    fn across_forces(&self, across: &Case) -> AcrossForces {
+        let known = self.known_across().iter().find(|(case, _)| case == across).copied();
+        if let Some((_, forces)) = known {
+            return forces;
+        }
+        let Case { design, common, .. } = across;
         let parameters = across.punctured();
-        let punctured = guarded(|| self.substrate(&across)).flatten().and_then(|substrate| {
+        let punctured = guarded(|| self.substrate(across)).flatten().and_then(|substrate| {
             solved(|| puncture::solve(design, &*substrate, common, &parameters))
         });
-        add_across(case, result, &punctured);
+        let forces = AcrossForces::new(&punctured);
+        // An interrupted path has no critical force and must not be used again.
+        if forces.critical.is_some() {
+            let mut known = self.known_across();
+            known.truncate(KNOWN_ACROSS - 1);
+            known.push_front((*across, forces));
+        }
+        forces
+    }
+
+    fn known_across(&self) -> MutexGuard<'_, VecDeque<(Case, AcrossForces)>> {
+        self.across.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Bends the design of `case`.
@@ -374,18 +425,15 @@ fn chain_fits(case: &Case) -> Result<(), Outcome> {
 }
 
 /// Adds the critical force of the row across to the result of the row along.
-fn add_across(case: &Case, result: &mut PunctureResult, across: &Result<Puncture, Outcome>) {
-    let punctured = across.as_ref().map(|puncture| PunctureResult::new(puncture, 0.0));
-    result.across = Some(punctured.as_ref().map_or_else(|outcome| **outcome, |p| p.outcome));
-    let force = punctured.ok().and_then(|puncture| puncture.measures.critical_force);
-    let path = across.iter().flat_map(|puncture| &puncture.path);
-    let borne = path.map(|point| point.force).reduce(f64::max);
+fn add_across(case: &Case, result: &mut PunctureResult, across: AcrossForces) {
+    result.across = Some(across.outcome);
     let measures = &mut result.measures;
     let along = match case.puncture.places {
         Some(_) => measures.weakest.force,
         None => measures.critical_force,
     };
-    let [force, borne] = [force, borne].map(|force| Some(force? * case.across_factor()));
+    let [force, borne] =
+        [across.critical, across.borne].map(|force| Some(force? * case.across_factor()));
     *measures = measures.with_across(force, borne, along);
 }
 
