@@ -36,6 +36,17 @@ impl Design {
         }
     }
 
+    /// Returns the design at a fraction of the way to another one with the same meaning of `L`.
+    pub(crate) fn towards(&self, to: &Self, fraction: f64) -> Self {
+        Self {
+            gap: self.gap + fraction * (to.gap - self.gap),
+            length: self.length + fraction * (to.length - self.length),
+            slant_deg: self.slant_deg + fraction * (to.slant_deg - self.slant_deg),
+            width: self.width + fraction * (to.width - self.width),
+            base: self.base,
+        }
+    }
+
     /// Returns the undeformed row.
     ///
     /// # Errors

@@ -23,6 +23,7 @@
 //! | [`puncture::LoadPosition`], [`puncture::Weakest`] | other load positions, and the weakest one |
 //! | [`puncture::Puncture`], [`puncture::PunctureMeasures`] | path, events, scales and measures |
 //! | [`puncture::Fold`], [`puncture::GapStretch`] | folds of the substrate surface; stretch of the gaps |
+//! | [`puncture::PunctureEnd`] | the end of a path, from which similar designs are solved |
 //! | [`puncture::snapshots`] | the row at chosen points of the path |
 //! | [`flexure::solve`] | a strip of membrane with scales in pure bending |
 //! | [`flexure::FlexureParameters`] | moduli, strip, resolution of the membrane, largest rotation |

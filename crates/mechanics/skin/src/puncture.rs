@@ -11,6 +11,7 @@ mod needle;
 mod neo_hookean;
 mod number_list;
 mod observers;
+mod path_end;
 mod point;
 mod row_exterior;
 mod sensitivity;
@@ -48,6 +49,7 @@ pub use measures::{AcrossMeasures, BetweenMeasures, PunctureMeasures};
 pub(crate) use needle::NeedleMode;
 pub use needle::{CriticalEvent, Needle, Passage, TipForces};
 pub use number_list::{MOST_NUMBERS, NumberList};
+pub use path_end::{PunctureEnd, differentiate_near, solve_near};
 pub use point::{PuncturePoint, ScaleState};
 pub use sensitivity::{PunctureInput, differentiate, force_curve, unloading_curve};
 pub use single_scale::PerturbedScale;
@@ -203,6 +205,8 @@ pub struct Puncture {
     pub unloading: Option<Unloading<PuncturePoint>>,
     /// The puncture at each of the [`PunctureParameters::places`] load positions.
     pub places: Vec<LoadPosition>,
+    /// The end of the path, if punctures of similar designs can start from it.
+    pub end: Option<PunctureEnd>,
 }
 
 impl Puncture {
@@ -426,6 +430,7 @@ impl Followed {
             history,
             unloading,
             places: Vec::new(),
+            end: None,
         }
     }
 }
@@ -498,8 +503,14 @@ impl<'a> Problem<'a> {
     }
 
     fn solve(&self) -> Result<Puncture, OutOfRange> {
-        let puncture = self.follow(&[], &[])?.puncture(self.parameters.unload);
-        Ok(puncture.with_places(self.load_positions()?))
+        self.result(self.follow(&[], &[])?)
+    }
+
+    /// Builds the result of a path that was followed from rest.
+    fn result(&self, followed: Followed) -> Result<Puncture, OutOfRange> {
+        let end = PunctureEnd::new(self, &followed);
+        let puncture = followed.puncture(self.parameters.unload);
+        Ok(Puncture { end, ..puncture }.with_places(self.load_positions()?))
     }
 
     /// Builds the initial system; returns it with the longest row it may grow to.

@@ -26,6 +26,7 @@
 //! | [`BandMatrix`], [`BandLu`] | linear solves if blocks are not available or not safe |
 //! | [`Linearisation`], [`AnchoredPoint`], [`PathAnchor`] | a measured point, differentiated by a parameter |
 //! | [`Neighbours`], [`MovedPoint`] | systems with a perturbed parameter, and their equilibria |
+//! | [`TargetPoint`] | end of a path, from which ends of neighbouring paths are found |
 //! | [`SkylineMatrix`] | symmetric matrices, and their number of negative eigenvalues |
 //! | [`Bracket`] | root finding by false position |
 //!
@@ -85,6 +86,7 @@ mod skyline;
 mod system;
 mod tangent;
 mod tangent_solver;
+mod target_point;
 mod termination;
 
 pub use block_elimination::{BlockElimination, LARGEST_BLOCK, UnsafeBlock};
@@ -103,4 +105,5 @@ pub use settings::Settings;
 pub use skyline::SkylineMatrix;
 pub use system::{Control, Residual, State, System};
 pub use tangent::Tangent;
+pub use target_point::TargetPoint;
 pub use termination::Termination;

@@ -8,6 +8,9 @@ use results::DesignResult;
 use crate::judgement::Judgement;
 use crate::space::SpacePoint;
 
+/// Relative difference of merits that come from two solutions of the same design.
+const SAME: f64 = 1e-6;
+
 /// Stage of a search in which a design was evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SearchStage {
@@ -82,6 +85,15 @@ impl Merit {
             // Reversed, because the smaller shortfall is better.
             (Self::Short(a), Self::Short(b)) => b.total_cmp(&a),
             (a, b) => a.class().cmp(&b.class()),
+        }
+    }
+
+    /// Returns true if two merits of the same design differ by the accuracy of its solution only.
+    pub fn agrees(self, other: Self) -> bool {
+        match (self, other) {
+            (Self::Met(a), Self::Met(b)) => (a - b).abs() <= SAME * a.abs(),
+            (Self::Short(a), Self::Short(b)) => (a - b).abs() <= SAME,
+            (a, b) => a == b,
         }
     }
 

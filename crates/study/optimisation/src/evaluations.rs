@@ -2,6 +2,7 @@
 
 mod evaluation_journal;
 
+use std::collections::HashMap;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -9,7 +10,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use journal::Journal;
 use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
 use results::{DesignResult, DesignRow, OutputError, changed_parameters, neighbours};
-use run::{Evaluator, Program, uninterrupted};
+use run::{Evaluator, Program, PunctureEnd, uninterrupted};
 use sweep::{Case, DesignNumber, Measure, Parameter};
 use uncertainty::Sampler;
 
@@ -20,7 +21,7 @@ use crate::sample::{SampleJudge, Samples};
 use crate::space::{DesignSpace, SpacePoint};
 pub(crate) use evaluation_journal::Known;
 pub(crate) use evaluation_journal::read_journal;
-use evaluation_journal::{EvaluationKey, JournalLine, PointKey, SamplesLine, SolvedLine};
+use evaluation_journal::{EvaluationKey, FarLine, JournalLine, PointKey, SamplesLine, SolvedLine};
 
 /// Offset of sample numbers in a search.
 ///
@@ -48,6 +49,8 @@ pub(crate) struct Evaluations<'a> {
     /// Solves reported designs with all measures.
     reporting: Evaluator,
     sampler: Sampler,
+    /// Ends of punctures followed from rest, for similar designs.
+    ends: Mutex<HashMap<PointKey, Option<PunctureEnd>>>,
     journal: Mutex<Journal<Known>>,
     stop: &'a AtomicBool,
     progress: &'a SearchProgress,
@@ -73,6 +76,7 @@ impl<'a> Evaluations<'a> {
             differentiating: Evaluator::for_columns(&all, goal.measured_columns()),
             reporting: Evaluator::new(&measures),
             sampler: Sampler::with(sampling, deviations),
+            ends: Mutex::default(),
             journal: Mutex::new(journal),
             stop,
             progress,
@@ -117,7 +121,7 @@ impl<'a> Evaluations<'a> {
         self.space.sweep().grid().number(index)
     }
 
-    /// Solves the design at `point`, or returns its known result.
+    /// Solves the design at `point` from rest, or returns its known result.
     ///
     /// # Errors
     ///
@@ -129,11 +133,83 @@ impl<'a> Evaluations<'a> {
     ) -> Result<Arc<DesignResult>, Halt> {
         let point = self.unscaled(point);
         let case = self.space.case(&point);
-        let mut changed = Vec::new();
-        for interval in self.space.intervals().iter().filter(|_| differentiated) {
-            changed.extend(DesignRow::changed_by(&case, interval.parameter));
+        let changed = differentiated.then(|| self.changed(&case));
+        self.known_or(&point, changed.as_deref(), None, &case)
+    }
+
+    /// Solves the design at `point` from the end of the puncture at the point `near`.
+    ///
+    /// `None` if its path has to be followed. See [`Self::solve`].
+    pub fn solve_near(
+        &self,
+        point: &SpacePoint,
+        differentiated: bool,
+        near: &SpacePoint,
+    ) -> Result<Option<Arc<DesignResult>>, Halt> {
+        let [point, near] = [point, near].map(|point| self.unscaled(point));
+        let key = EvaluationKey {
+            differentiated,
+            near: Some(PointKey::of(&near)),
+            sample: None,
+            point: PointKey::of(&point),
+        };
+        if let Some(known) = self.journal().records().solved.get(&key) {
+            return Ok(Some(Arc::clone(known)));
         }
-        self.known_or(&point, differentiated.then_some(&changed), None, &case)
+        if self.journal().records().is_far(&key) {
+            return Ok(None);
+        }
+        self.go_on()?;
+        let case = self.space.case(&point);
+        let evaluator = if differentiated { &self.differentiating } else { &self.plain };
+        let changed = if differentiated { self.changed(&case) } else { Vec::new() };
+        let row = uninterrupted(|| {
+            let end = self.end(&near)?;
+            evaluator.row_near(self.number(0), &case, &changed, &end)
+        });
+        let row = row.ok_or(Halt::Interrupted)?;
+        let SpacePoint { shares, chosen } = point;
+        let mut journal = self.journal();
+        let Some(row) = row else {
+            let line = FarLine { shares, near: near.shares, chosen };
+            journal.append(JournalLine::Far(line)).map_err(Halt::Output)?;
+            return Ok(None);
+        };
+        let (near, sample, result) = (Some(near.shares), None, row.result);
+        let line = SolvedLine { differentiated, near, sample, shares, chosen, result };
+        journal.append(JournalLine::Solved(Box::new(line))).map_err(Halt::Output)?;
+        Ok(Some(Arc::clone(&journal.records().solved[&key])))
+    }
+
+    /// Returns true if the design at `point` may be solved from the end of a similar one.
+    pub fn has_ends(&self, point: &SpacePoint) -> bool {
+        self.plain.has_ends(&self.space.case(point))
+    }
+
+    /// Returns the end of the puncture at `point`, which is followed if it is unknown.
+    fn end(&self, point: &SpacePoint) -> Option<PunctureEnd> {
+        let key = PointKey::of(point);
+        if let Some(known) = self.ends().get(&key) {
+            return known.clone();
+        }
+        // A resumed search knows the result, but not the end.
+        let end = self.plain.puncture_end(&self.space.case(point));
+        self.ends().insert(key, end.clone());
+        end
+    }
+
+    /// Locks the ends. A poisoned lock is safe, because no operation under it leaves partial state.
+    fn ends(&self) -> MutexGuard<'_, HashMap<PointKey, Option<PunctureEnd>>> {
+        self.ends.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Returns the parameters that the variables change.
+    fn changed(&self, case: &Case) -> Vec<&'static Parameter> {
+        let mut changed = Vec::new();
+        for interval in self.space.intervals() {
+            changed.extend(DesignRow::changed_by(case, interval.parameter));
+        }
+        changed
     }
 
     /// Solves a sample with derivatives, without scatter between scales.
@@ -162,32 +238,38 @@ impl<'a> Evaluations<'a> {
         self.sampler.even_case(nominal, BEFORE + sample)
     }
 
-    /// Returns the result of a case, and solves it if it is unknown.
+    /// Returns the result of a case, and solves it from rest if it is unknown.
     ///
     /// `changed` lists the parameters of the derivatives, if the result has any.
     fn known_or(
         &self,
         point: &SpacePoint,
-        changed: Option<&Vec<&'static Parameter>>,
+        changed: Option<&[&'static Parameter]>,
         sample: Option<u64>,
         case: &Case,
     ) -> Result<Arc<DesignResult>, Halt> {
         // Results with and without derivatives are separate, because derivatives cost more and are
         // often unnecessary.
         let differentiated = changed.is_some();
-        let key = EvaluationKey { differentiated, sample, point: PointKey::of(point) };
+        let key = EvaluationKey { differentiated, near: None, sample, point: PointKey::of(point) };
         if let Some(known) = self.journal().records().solved.get(&key) {
             return Ok(Arc::clone(known));
         }
         self.go_on()?;
         // Solved without the lock: two threads may solve the same point and append the same line.
-        let result = self.solved(|| match changed {
-            Some(of) => self.differentiating.row_with_derivatives(self.number(0), case, of),
-            None => self.plain.row(self.number(0), case),
+        let evaluator = if differentiated { &self.differentiating } else { &self.plain };
+        let mut end = None;
+        let result = self.solved(|| {
+            let (row, found) = evaluator.row_and_end(self.number(0), case, changed);
+            end = found;
+            row
         });
         let result = result?.result;
+        if sample.is_none() && differentiated {
+            self.ends().insert(PointKey::of(point), end);
+        }
         let SpacePoint { shares, chosen } = point.clone();
-        let line = SolvedLine { differentiated, sample, shares, chosen, result };
+        let line = SolvedLine { differentiated, near: None, sample, shares, chosen, result };
         let mut journal = self.journal();
         journal.append(JournalLine::Solved(Box::new(line))).map_err(Halt::Output)?;
         Ok(Arc::clone(&journal.records().solved[&key]))
@@ -219,9 +301,11 @@ impl<'a> Evaluations<'a> {
             return Ok(Arc::clone(known));
         }
         let (case, last) = (self.space.case(point), first + count as u64);
+        let end = self.sampler.puncture_end(&case);
         let values = (first..last).into_par_iter().map(|sample| {
             self.go_on()?;
-            let solve = || self.sampler.solve(self.number(0), &case, BEFORE + sample);
+            let (number, sample) = (self.number(0), BEFORE + sample);
+            let solve = || self.sampler.solve_near(number, &case, sample, end.as_ref());
             let sampled =
                 uninterrupted(|| self.progress.slow().track("a sample of the search", solve));
             let sampled = sampled.ok_or(Halt::Interrupted)?;

@@ -5,6 +5,7 @@
 
 mod bundle;
 mod certainty;
+mod followed_points;
 mod gradient_search;
 mod polish;
 mod problem;
@@ -12,6 +13,9 @@ mod ridge;
 mod samples;
 
 use std::cell::RefCell;
+use std::sync::Arc;
+
+use results::DesignResult;
 
 use crate::candidate::{Candidate, Merit, SearchStage, Target, best};
 use crate::evaluated_row::EvaluatedRow;
@@ -20,6 +24,7 @@ use crate::judge::Judge;
 use crate::judgement::Judgement;
 use crate::progress::{SearchProgress, SearchTask};
 use crate::space::{DesignSpace, SpacePoint};
+use followed_points::FollowedPoints;
 pub(crate) use problem::CLEAR;
 use samples::SampledPoint;
 
@@ -127,8 +132,19 @@ impl Search<'_> {
         point: &SpacePoint,
         differentiated: bool,
     ) -> Result<(Candidate, EvaluatedRow), Halt> {
+        let result = self.evaluations.solve(point, differentiated)?;
+        self.judged(stage, point, result, differentiated)
+    }
+
+    /// Judges the design at `point` by its result and its samples.
+    fn judged(
+        &self,
+        stage: SearchStage,
+        point: &SpacePoint,
+        result: Arc<DesignResult>,
+        differentiated: bool,
+    ) -> Result<(Candidate, EvaluatedRow), Halt> {
         let Self { space, evaluations, .. } = *self;
-        let result = evaluations.solve(point, differentiated)?;
         let nominal = evaluations.row(0, point, &result);
         let judge = self.judge.samples().filter(|judge| judge.admits(&nominal));
         let samples = judge.map(|judge| evaluations.samples(point, 1, judge.count, judge));
@@ -257,6 +273,7 @@ impl Search<'_> {
             target,
             best: RefCell::new(start.clone()),
             log: RefCell::default(),
+            ends: RefCell::default(),
             units,
             task: self.progress.task(effort.evaluations * units),
         };
@@ -282,6 +299,7 @@ impl Search<'_> {
             walk.climb(effort)?;
             reach *= 0.3;
         }
+        walk.follow_best()?;
         Ok(walk.log.take())
     }
 }
@@ -307,6 +325,7 @@ struct LocalSearch<'a> {
     target: &'a Target,
     best: RefCell<Candidate>,
     log: RefCell<Vec<Candidate>>,
+    ends: RefCell<FollowedPoints>,
     /// Units of work of an evaluation.
     units: u64,
     task: SearchTask<'a>,
@@ -328,10 +347,29 @@ impl LocalSearch<'_> {
             share => share,
         };
         let shares = shares.iter().map(ended).collect();
-        let evaluated =
-            self.search.evaluate(stage, &SpacePoint { shares, chosen }, differentiated)?;
+        let point = SpacePoint { shares, chosen };
+        let result = self.solved(&point, differentiated)?;
+        let evaluated = self.search.judged(stage, &point, result, differentiated)?;
         self.note(&evaluated.0);
         Ok(evaluated)
+    }
+
+    /// Solves a design from the end of the nearest design that this search has followed, or else
+    /// from rest.
+    ///
+    /// Other searches have no influence, so that results do not depend on the number of threads.
+    fn solved(&self, point: &SpacePoint, differentiated: bool) -> Result<Arc<DesignResult>, Halt> {
+        let evaluations = self.search.evaluations;
+        if !evaluations.has_ends(point) {
+            return evaluations.solve(point, differentiated);
+        }
+        if let Some(near) = self.ends.borrow().nearest(point)
+            && let Some(result) = evaluations.solve_near(point, differentiated, near)?
+        {
+            return Ok(result);
+        }
+        self.ends.borrow_mut().add(point);
+        evaluations.solve(point, differentiated)
     }
 
     fn note(&self, candidate: &Candidate) {
@@ -346,6 +384,33 @@ impl LocalSearch<'_> {
         let merit = self.search.merit(candidate, self.target);
         if merit.compare(self.best_merit()).is_gt() {
             *self.best.borrow_mut() = candidate.clone();
+        }
+    }
+
+    /// Follows the path of the best design from rest.
+    ///
+    /// If its end is not the one that was found from a similar design, the next best design takes
+    /// its place.
+    fn follow_best(&self) -> Result<(), Halt> {
+        loop {
+            let best = self.best.borrow().clone();
+            if !self.search.evaluations.has_ends(&best.point) {
+                return Ok(());
+            }
+            let result = self.search.evaluations.solve(&best.point, true)?;
+            let followed = self.search.judged(best.stage, &best.point, result, true)?.0;
+            let merits = [&best, &followed].map(|of| self.search.merit(of, self.target));
+            let mut log = self.log.borrow_mut();
+            for known in log.iter_mut().filter(|known| known.point == best.point) {
+                *known = Candidate { stage: known.stage, ..followed.clone() };
+            }
+            *self.best.borrow_mut() = followed;
+            if merits[0].agrees(merits[1]) {
+                return Ok(());
+            }
+            let next = self.search.best(log.iter(), self.target);
+            let Some(next) = next.filter(|next| next.point != best.point) else { return Ok(()) };
+            *self.best.borrow_mut() = next.clone();
         }
     }
 

@@ -89,6 +89,7 @@ pub use progress::{Finished, Progress, RunError};
 pub use rerun::{InvalidRerun, Rerun};
 pub use run::run;
 pub use run_journal::{Archive, JournalEntry, JournalHeader, LatestSession, Line, SessionStart};
+pub use skin::puncture::PunctureEnd;
 pub use solve::curve::CurvePoints;
 pub use solve::evaluator::Evaluator;
 pub use solve::work::{WorkMeter, WorkPiece, report_slow};

@@ -1,7 +1,7 @@
 //! Draws and solves samples of designs.
 
 use results::DesignRow;
-use run::Evaluator;
+use run::{Evaluator, PunctureEnd};
 use sweep::{Case, DesignNumber, Deviation, Measure};
 
 use crate::draw;
@@ -39,8 +39,30 @@ impl Sampler {
     ///
     /// `None` if no deviations within the bounds of the parameters are found.
     pub fn solve(&self, number: DesignNumber, case: &Case, sample: u64) -> Option<Sample> {
+        self.solve_near(number, case, sample, None)
+    }
+
+    /// Solves a sample like [`Self::solve`], from the `end` of the puncture of the design if
+    /// possible.
+    pub fn solve_near(
+        &self,
+        number: DesignNumber,
+        case: &Case,
+        sample: u64,
+        end: Option<&PunctureEnd>,
+    ) -> Option<Sample> {
         let (made, deviations) = draw::sample(case, &self.deviations, sample)?;
-        Some(Sample { row: self.evaluator.solve_sample(number, &made, sample), deviations })
+        let end = end.filter(|_| self.evaluator.has_ends(&made));
+        let near = end.and_then(|end| self.evaluator.row_near(number, &made, &[], end));
+        let row = near.unwrap_or_else(|| self.evaluator.solve_sample(number, &made, sample));
+        Some(Sample { row, deviations })
+    }
+
+    /// Returns the end of the puncture of a design, a start for its samples.
+    ///
+    /// `None` if they have to be solved from rest.
+    pub fn puncture_end(&self, case: &Case) -> Option<PunctureEnd> {
+        self.evaluator.has_ends(case).then(|| self.evaluator.puncture_end(case)).flatten()
     }
 
     /// Returns the case of a sample without scatter from scale to scale.

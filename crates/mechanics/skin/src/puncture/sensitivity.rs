@@ -60,7 +60,7 @@ pub fn differentiate(
     let rows = Rows::Even(design.row()?);
     let problem = Problem::new(rows, design, stiffness.clone(), common, parameters)?;
     let (followed, mut derivatives) = problem.differentiated(variations)?;
-    let puncture = followed.puncture(parameters.unload).with_places(problem.load_positions()?);
+    let puncture = problem.result(followed)?;
     derivatives.extend(problem.at_weakest(&puncture.places, variations)?);
     Ok((puncture, derivatives))
 }
@@ -180,7 +180,8 @@ impl Problem<'_> {
             .collect())
     }
 
-    fn derivatives(
+    /// Differentiates the measures of a completed path.
+    pub(super) fn derivatives(
         &self,
         followed: &mut Followed,
         variations: &[Neighbours<PunctureInput>],
@@ -215,7 +216,7 @@ impl Problem<'_> {
         let PathObservers {
             record, needle, passage, failure, depth: marked, force: loaded, ..
         } = watch;
-        let FoldObserver { folds, first } = &watch.folds;
+        let FoldObserver { folds, first, .. } = &watch.folds;
         let settings = &self.settings;
         let along_path = !path.system().is_critical_only();
         let stiffest = if along_path { record.stiffness_summit(path) } else { None };

@@ -52,10 +52,19 @@ struct FoldCrossing {
 }
 
 /// Folds along a path, and the equilibrium at the first one.
-#[derive(Default)]
 pub(super) struct FoldObserver {
     pub(super) folds: Vec<Fold>,
     pub(super) first: Option<SkinPoint>,
+    /// Least stretch of a gap that closed and then opened again, with or without folding.
+    ///
+    /// Infinite if there is none.
+    pub(super) least_dip: f64,
+}
+
+impl Default for FoldObserver {
+    fn default() -> Self {
+        Self { folds: Vec::new(), first: None, least_dip: f64::INFINITY }
+    }
 }
 
 impl FoldObserver {
@@ -67,10 +76,14 @@ impl FoldObserver {
         events_before: usize,
     ) {
         // Measures need only the first fold, so a sweep does not solve for the others.
-        if self.first.is_some() && !path.system().is_recorded_whole() {
+        let is_known = self.first.is_some() && !path.system().is_recorded_whole();
+        if is_known && !path.system().is_critical_only() {
             return;
         }
-        let crossings = crossings(path, from, to);
+        let crossings = self.crossings(path, from, to);
+        if is_known {
+            return;
+        }
         let mut places: Vec<_> = crossings
             .into_iter()
             .map(|crossing| (crossing.locate(path, from, to), crossing))
@@ -84,51 +97,76 @@ impl FoldObserver {
             self.first.get_or_insert(point);
         }
     }
-}
 
-/// Finds the sign changes of all gap stretches between two neighbouring points.
-///
-/// If both ends have the same sign, the slopes indicate whether the stretch dips through zero in
-/// between.
-fn crossings(
-    path: &mut Continuation<Chain>,
-    from: &SkinPoint,
-    to: &SkinPoint,
-) -> Vec<FoldCrossing> {
-    let spans = path.spans(from, to);
-    let mut crossings = Vec::new();
-    for pair in 0..path.system().layout.scales() - 1 {
-        let chain = path.system();
-        let [start, end] = [&from.state, &to.state].map(|state| chain.gap_stretch(state, pair));
-        if is_folded(start) != is_folded(end) {
-            let bracket = Bracket::new((0.0, start), (1.0, end));
-            crossings.push(FoldCrossing { pair, folds: is_folded(end), bracket });
-            continue;
+    /// Starts with a known first fold, of the gap to the right of scale `pair`.
+    pub(super) fn after(chain: &Chain, pair: usize, first: SkinPoint) -> Self {
+        let (left_scale, point) = (chain.layout.number(pair), chain.path_point(&first));
+        let fold = Fold { point, left_scale, folds: true, events_before: 0 };
+        Self { folds: vec![fold], first: Some(first), ..Self::default() }
+    }
+
+    /// Finds the sign changes of all gap stretches between two neighbouring points.
+    ///
+    /// If both ends have the same sign, the slopes indicate whether the stretch dips through zero in
+    /// between.
+    fn crossings(
+        &mut self,
+        path: &mut Continuation<Chain>,
+        from: &SkinPoint,
+        to: &SkinPoint,
+    ) -> Vec<FoldCrossing> {
+        let spans = path.spans(from, to);
+        let mut crossings = Vec::new();
+        for pair in 0..path.system().layout.scales() - 1 {
+            let chain = path.system();
+            let [start, end] = [&from.state, &to.state].map(|state| chain.gap_stretch(state, pair));
+            let slopes = [
+                spans[0] * chain.gap_stretch_rate(&from.state, &from.leaving, pair),
+                spans[1] * chain.gap_stretch_rate(&to.state, &to.arriving, pair),
+            ];
+            self.note_dip(chain, to, pair, [start, end], slopes);
+            if is_folded(start) != is_folded(end) {
+                let bracket = Bracket::new((0.0, start), (1.0, end));
+                crossings.push(FoldCrossing { pair, folds: is_folded(end), bracket });
+                continue;
+            }
+            // `dip` detects minima towards zero from above, so invert the sign for a folded gap.
+            let sign = if is_folded(start) { -1.0 } else { 1.0 };
+            let Some(place) = dip([start, end].map(|g| sign * g), slopes.map(|g| sign * g)) else {
+                continue;
+            };
+            let Some(inside) = path.between(from, to, place) else { continue };
+            let stretch = path.system().gap_stretch(&inside.state, pair);
+            // The slopes only suggest a dip; the equilibrium there decides.
+            if is_folded(stretch) != is_folded(start) {
+                let inside = (place, stretch);
+                let [before, after] =
+                    [Bracket::new((0.0, start), inside), Bracket::new(inside, (1.0, end))];
+                crossings.push(FoldCrossing { pair, folds: is_folded(stretch), bracket: before });
+                crossings.push(FoldCrossing { pair, folds: is_folded(end), bracket: after });
+            }
         }
-        // `dip` detects minima towards zero from above, so invert the sign for a folded gap.
-        let sign = if is_folded(start) { -1.0 } else { 1.0 };
-        let slopes = [
-            spans[0] * chain.gap_stretch_rate(&from.state, &from.leaving, pair),
-            spans[1] * chain.gap_stretch_rate(&to.state, &to.arriving, pair),
-        ];
-        let Some(place) = dip([start, end].map(|g| sign * g), slopes.map(|g| sign * g)) else {
-            continue;
-        };
-        let Some(inside) = path.between(from, to, place) else { continue };
-        let stretch = path.system().gap_stretch(&inside.state, pair);
-        // The slopes only suggest a dip; the equilibrium there decides.
-        if is_folded(stretch) != is_folded(start) {
-            let inside = (place, stretch);
-            let [before, after] =
-                [Bracket::new((0.0, start), inside), Bracket::new(inside, (1.0, end))];
-            crossings.push(FoldCrossing { pair, folds: is_folded(stretch), bracket: before });
-            crossings.push(FoldCrossing { pair, folds: is_folded(end), bracket: after });
+        crossings
+    }
+
+    /// Notes the stretch of a gap that closes and opens again within or behind a segment.
+    fn note_dip(
+        &mut self,
+        chain: &Chain,
+        to: &SkinPoint,
+        pair: usize,
+        stretch: [f64; 2],
+        slopes: [f64; 2],
+    ) {
+        let opens_again = slopes[1] > 0.0
+            || (to.event.is_some() && chain.gap_stretch_rate(&to.state, &to.leaving, pair) > 0.0);
+        if (slopes[0] < 0.0 || slopes[1] < 0.0) && opens_again {
+            self.least_dip = stretch.into_iter().fold(self.least_dip, f64::min);
         }
     }
-    crossings
 }
 
-fn is_folded(stretch: f64) -> bool {
+pub(super) fn is_folded(stretch: f64) -> bool {
     stretch <= 0.0
 }
 
@@ -166,8 +204,18 @@ impl Chain {
         self.strip(scale).stretch(left, right)
     }
 
+    /// Returns the first gap with a stretch of at most `limit`, by its left scale.
+    pub(super) fn gap_below(&self, state: &SkinState, limit: f64) -> Option<usize> {
+        (0..self.layout.scales() - 1).find(|&pair| self.gap_stretch(state, pair) <= limit)
+    }
+
     /// Computes the derivative of [`Chain::gap_stretch`] along a direction.
-    fn gap_stretch_rate(&self, state: &SkinState, direction: &[f64], scale: usize) -> f64 {
+    pub(super) fn gap_stretch_rate(
+        &self,
+        state: &SkinState,
+        direction: &[f64],
+        scale: usize,
+    ) -> f64 {
         let of = |z: &[f64]| [scale, scale + 1].map(|i| self.displacement(z, i));
         self.strip(scale).stretch_rate(of(&state.z), of(direction))
     }

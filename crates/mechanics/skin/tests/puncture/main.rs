@@ -16,6 +16,7 @@
 //! | `layers` | tissue of finite thickness, against another program |
 //! | `outputs` | the meaning of measures, events and scales |
 //! | `curved_body` | rows on convex and concave bodies, against independent programs |
+//! | `path_ends` | ends found from similar designs, against paths from rest |
 //! | `ends` | paths beyond the largest force: unloading to zero, and snap-through |
 //! | `tilts` | measures at several critical tilts, against paths that end there |
 //! | `load_positions` | the weakest of several load positions, against single punctures |
@@ -38,6 +39,7 @@ mod layers;
 mod load_positions;
 mod neo_hookean;
 mod outputs;
+mod path_ends;
 mod robustness;
 mod round_tip;
 mod rows;

@@ -3,7 +3,7 @@
 //! The state of the search is not stored. A resumed search repeats its decisions, and reads results
 //! from the journal until it reaches points that have not been solved.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
@@ -24,6 +24,7 @@ use crate::space::SpacePoint;
 pub(crate) enum JournalLine {
     Solved(Box<SolvedLine>),
     Samples(SamplesLine),
+    Far(FarLine),
 }
 
 /// A solved point.
@@ -32,6 +33,9 @@ pub(crate) enum JournalLine {
 pub(crate) struct SolvedLine {
     /// True if the result includes derivatives.
     pub differentiated: bool,
+    /// Fractions of the intervals of the design at the end of which the puncture starts, if any.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub near: Option<Vec<f64>>,
     /// Number of the sample; `None` for the nominal design.
     ///
     /// The sample has the batch deviations only, without scatter between scales.
@@ -43,6 +47,18 @@ pub(crate) struct SolvedLine {
     pub chosen: Vec<usize>,
     /// Result of the design.
     pub result: DesignResult,
+}
+
+/// A point that cannot be solved from the end at another one.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct FarLine {
+    /// Fractions of the intervals.
+    pub shares: Vec<f64>,
+    /// Fractions of the intervals of the other point.
+    pub near: Vec<f64>,
+    /// Indices of the choices of both.
+    pub chosen: Vec<usize>,
 }
 
 /// Samples of the design at a point.
@@ -63,6 +79,8 @@ pub(crate) struct SamplesLine {
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct EvaluationKey {
     pub differentiated: bool,
+    /// Point from the end of which the puncture starts, if any.
+    pub near: Option<PointKey>,
     /// Number of the sample; `None` for the nominal design.
     pub sample: Option<u64>,
     pub point: PointKey,
@@ -80,9 +98,13 @@ type SamplesKey = (PointKey, u64, usize);
 
 impl PointKey {
     pub fn of(point: &SpacePoint) -> Self {
+        Self::new(&point.shares, &point.chosen)
+    }
+
+    fn new(shares: &[f64], chosen: &[usize]) -> Self {
         // Exact, because a repeated search requests exactly the same points.
-        let shares = point.shares.iter().map(|share| share.to_bits()).collect();
-        Self { shares, chosen: point.chosen.clone() }
+        let shares = shares.iter().map(|share| share.to_bits()).collect();
+        Self { shares, chosen: chosen.to_vec() }
     }
 }
 
@@ -92,7 +114,18 @@ pub(crate) struct Known {
     pub solved: HashMap<EvaluationKey, Arc<DesignResult>>,
     /// Points of nominal designs in the order in which they were solved, each once.
     pub order: Vec<(SpacePoint, Arc<DesignResult>)>,
+    points: HashSet<PointKey>,
+    /// Points that cannot be solved from the end at another one, with that one.
+    far: HashSet<[PointKey; 2]>,
     pub sampled: HashMap<SamplesKey, Arc<Samples>>,
+}
+
+impl Known {
+    /// Returns true if a point is known to be too far from the end at another one.
+    pub fn is_far(&self, key: &EvaluationKey) -> bool {
+        let near = key.near.as_ref();
+        near.is_some_and(|near| self.far.contains(&[key.point.clone(), near.clone()]))
+    }
 }
 
 impl Records for Known {
@@ -104,25 +137,27 @@ impl Records for Known {
 
     fn begin(header: JournalHeader, _length: u64, _path: &Path) -> Result<Self, String> {
         let (solved, sampled) = (HashMap::new(), HashMap::new());
-        Ok(Self { header, solved, order: Vec::new(), sampled })
+        let (points, far) = (HashSet::new(), HashSet::new());
+        Ok(Self { header, solved, order: Vec::new(), points, far, sampled })
     }
 
     fn take(&mut self, line: JournalLine, _bytes: Range<u64>) -> Result<(), String> {
         match line {
             JournalLine::Solved(line) => {
-                let SolvedLine { differentiated, sample, shares, chosen, result } = *line;
+                let SolvedLine { differentiated, near, sample, shares, chosen, result } = *line;
                 let point = SpacePoint { shares, chosen };
-                let key = PointKey::of(&point);
+                let of_point = PointKey::of(&point);
+                let near = near.map(|shares| PointKey::new(&shares, &point.chosen));
                 let result = Arc::new(result);
-                // A point may be solved with and without derivatives.
-                let other =
-                    EvaluationKey { differentiated: !differentiated, sample, point: key.clone() };
-                let is_new = sample.is_none() && !self.solved.contains_key(&other);
-                let key = EvaluationKey { differentiated, sample, point: key };
-                let before = self.solved.insert(key, Arc::clone(&result));
-                if is_new && before.is_none() {
+                let key = EvaluationKey { differentiated, near, sample, point: of_point.clone() };
+                self.solved.insert(key, Arc::clone(&result));
+                // A point may be solved with and without derivatives, from rest and from an end.
+                if sample.is_none() && self.points.insert(of_point) {
                     self.order.push((point, result));
                 }
+            }
+            JournalLine::Far(FarLine { shares, near, chosen }) => {
+                self.far.insert([shares, near].map(|shares| PointKey::new(&shares, &chosen)));
             }
             JournalLine::Samples(SamplesLine { first, shares, chosen, values }) => {
                 let point = PointKey::of(&SpacePoint { shares, chosen });

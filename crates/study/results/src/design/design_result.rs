@@ -237,6 +237,7 @@ mod tests {
             unloading: None,
             places: vec![],
             tip_forces: vec![],
+            end: None,
         }
     }
 

@@ -11,7 +11,7 @@ use results::{
     PunctureResult, SampleStatistics, SolvedDesign, finite,
 };
 use skin::flexure::{self, Flexure, Method};
-use skin::puncture::{self, Puncture};
+use skin::puncture::{self, Puncture, PunctureEnd};
 use skin::{Common, PathDetail};
 use substrate::{Calibrations, RowStiffness, StiffnessSlopes};
 use sweep::{Case, DesignNumber, Measure, Parameter};
@@ -114,6 +114,61 @@ impl Evaluator {
         self.row_of(number, case, Wanted::Only(parameters), &WorkMeter::default())
     }
 
+    /// Returns true if punctures of designs like `case` may start from the end of another one.
+    pub fn has_ends(&self, case: &Case) -> bool {
+        self.measures(Measure::Puncture)
+            && self.detail == PathDetail::Critical
+            && case.common.friction == 0.0
+            && case.body_radius_to.is_none()
+            && case.imperfection.is_none()
+            && case.punctured().depend_on_end_only()
+    }
+
+    /// Follows the path of a puncture to its end, a start for similar designs.
+    ///
+    /// `None` if no other design can start from it ([`PunctureEnd`]).
+    pub fn puncture_end(&self, case: &Case) -> Option<PunctureEnd> {
+        let Case { design, common, .. } = &recorded(case, PathDetail::Critical);
+        let substrate = guarded(|| self.substrate(case)).flatten().ok()?;
+        let parameters = case.punctured();
+        solved(|| puncture::solve(design, &*substrate, common, &parameters)).ok()?.end
+    }
+
+    /// Solves a design like [`Self::row`], or with derivatives by these `parameters` if given.
+    ///
+    /// Also returns the end of its puncture, a start for similar designs.
+    pub fn row_and_end(
+        &self,
+        number: DesignNumber,
+        case: &Case,
+        parameters: Option<&[&'static Parameter]>,
+    ) -> (DesignRow, Option<PunctureEnd>) {
+        let wanted = parameters.map_or(Wanted::All, Wanted::Only);
+        let solved =
+            self.solved(number, &recorded(case, self.detail), wanted, &WorkMeter::default());
+        let end = solved.puncture.and_then(|puncture| puncture.end);
+        (DesignRow { case: *case, ..solved.row }, end)
+    }
+
+    /// Solves a design like [`Self::row_with_derivatives`], with the puncture from the `end` of a
+    /// similar design.
+    ///
+    /// `None` if the path has to be followed.
+    pub fn row_near(
+        &self,
+        number: DesignNumber,
+        case: &Case,
+        parameters: &[&'static Parameter],
+        end: &PunctureEnd,
+    ) -> Option<DesignRow> {
+        let (wanted, mut derivatives) = (Wanted::Only(parameters), Vec::new());
+        let solved = recorded(case, self.detail);
+        let punctured = self.puncture_near(&solved, wanted, end, &mut derivatives)?;
+        let (meter, punctured) = (WorkMeter::default(), (Some(Ok(punctured)), derivatives));
+        let row = self.with_puncture(number, &solved, wanted, &meter, punctured).row;
+        Some(DesignRow { case: *case, ..row })
+    }
+
     /// Solves a design like [`Self::row`], and reports its work to `meter`.
     pub(crate) fn row_metered(
         &self,
@@ -142,14 +197,28 @@ impl Evaluator {
         wanted: Wanted<'_>,
         meter: &WorkMeter,
     ) -> SolvedDesign {
+        let mut derivatives = Vec::new();
+        let punctured =
+            self.measures(Measure::Puncture).then(|| self.puncture(case, wanted, &mut derivatives));
+        self.with_puncture(number, case, wanted, meter, (punctured, derivatives))
+    }
+
+    /// Solves the other measures of a design with this puncture and its derivatives.
+    fn with_puncture(
+        &self,
+        number: DesignNumber,
+        case: &Case,
+        wanted: Wanted<'_>,
+        meter: &WorkMeter,
+        (punctured, derivatives): (Evaluated<PunctureResult, Puncture>, Vec<ParameterDerivative>),
+    ) -> SolvedDesign {
         let work = DesignWork::new(meter, case, &self.measures);
         let coverage = self.measures(Measure::Coverage).then(|| coverage(case)).flatten();
         let mut sensitivity = Vec::new();
         if self.differentiates() && self.measures(Measure::Coverage) {
             sensitivity.extend(guarded(|| sensitivity::coverage(case, wanted)).unwrap_or_default());
         }
-        let punctured =
-            self.measures(Measure::Puncture).then(|| self.puncture(case, wanted, &mut sensitivity));
+        sensitivity.extend(derivatives);
         let (puncture, puncture_path) = taken_apart(punctured, PunctureResult::without_path);
         let bent =
             self.measures(Measure::Flexure).then(|| self.flexure(case, wanted, &mut sensitivity));
@@ -249,16 +318,7 @@ impl Evaluator {
             let (puncture, mut derivatives) =
                 solved(|| sensitivity::puncture(case, wanted, &slopes))?;
             let mut result = PunctureResult::new(&puncture, error);
-            if let Some(across) = case.across() {
-                let punctured = guarded(|| self.slopes(&across)).flatten().and_then(|slopes| {
-                    let (puncture, of_across) =
-                        solved(|| sensitivity::across(case, wanted, &slopes))?;
-                    derivatives.extend(of_across);
-                    Ok(puncture)
-                });
-                add_across(case, &mut result, AcrossForces::new(&punctured));
-                sensitivity::choose_direction(&result.measures, &mut derivatives);
-            }
+            self.differentiate_across(case, wanted, &mut result, &mut derivatives);
             if let Some(worst) = self.puncture_between(case, &mut result) {
                 let fraction = worst.fraction;
                 derivatives
@@ -275,6 +335,51 @@ impl Evaluator {
         self.puncture_across(case, &mut result);
         self.puncture_between(case, &mut result);
         Ok((result, puncture))
+    }
+
+    /// Punctures the design of `case` from the `end` of a similar design.
+    ///
+    /// `None` if the path has to be followed.
+    fn puncture_near(
+        &self,
+        case: &Case,
+        wanted: Wanted<'_>,
+        end: &PunctureEnd,
+        derivatives: &mut Vec<ParameterDerivative>,
+    ) -> Option<(PunctureResult, Puncture)> {
+        if !self.differentiates() {
+            let substrate = guarded(|| self.substrate(case)).flatten().ok()?;
+            let input = sensitivity::punctured(case, substrate.as_ref().clone());
+            let puncture = solved(|| puncture::solve_near(&input, end)).ok()??;
+            let mut result = PunctureResult::new(&puncture, substrate.estimated_error());
+            self.puncture_across(case, &mut result);
+            return Some((result, puncture));
+        }
+        let slopes = guarded(|| self.slopes(case)).flatten().ok()?;
+        let (puncture, of_end) =
+            solved(|| sensitivity::puncture_near(case, wanted, &slopes, end)).ok()??;
+        derivatives.extend(of_end);
+        let mut result = PunctureResult::new(&puncture, slopes.stiffness.estimated_error());
+        self.differentiate_across(case, wanted, &mut result, derivatives);
+        Some((result, puncture))
+    }
+
+    /// Punctures the row across, if requested, and adds its force and derivatives.
+    fn differentiate_across(
+        &self,
+        case: &Case,
+        wanted: Wanted<'_>,
+        result: &mut PunctureResult,
+        derivatives: &mut Vec<ParameterDerivative>,
+    ) {
+        let Some(across) = case.across() else { return };
+        let punctured = guarded(|| self.slopes(&across)).flatten().and_then(|slopes| {
+            let (puncture, of_across) = solved(|| sensitivity::across(case, wanted, &slopes))?;
+            derivatives.extend(of_across);
+            Ok(puncture)
+        });
+        add_across(case, result, AcrossForces::new(&punctured));
+        sensitivity::choose_direction(&result.measures, derivatives);
     }
 
     /// Punctures the row on bodies between two radii, if requested.

@@ -4,7 +4,7 @@ use geometry::{OutOfRange, RowChange};
 use results::ParameterDerivative;
 use results::columns::name;
 use skin::flexure::{self, Flexure, FlexureInput};
-use skin::puncture::{self, FailureMode, Puncture, PunctureInput, PunctureMeasures};
+use skin::puncture::{self, FailureMode, Puncture, PunctureEnd, PunctureInput, PunctureMeasures};
 use skin::{Derivative, Neighbours, PathDetail};
 use substrate::{RowStiffness, StiffnessSlopes};
 use sweep::{Case, Measure, PARAMETERS, Parameter, Role};
@@ -92,12 +92,36 @@ pub(super) fn puncture(
     wanted: Wanted<'_>,
     slopes: &StiffnessSlopes,
 ) -> Result<(Puncture, Vec<ParameterDerivative>), OutOfRange> {
-    let varied = |parameter| Varied { case, parameter, slopes: Some(slopes) };
-    let (parameters, variations) =
-        variations(case, wanted, Measure::Puncture, |p| varied(p).variation(Varied::punctured));
+    let (parameters, variations) = punctured_variations(case, wanted, slopes);
     let input = punctured(case, slopes.stiffness.clone());
     let (puncture, derivatives) = puncture::differentiate(&input, &variations)?;
     Ok((puncture, with_prefactor(case, &named(case, &parameters, derivatives))))
+}
+
+/// Punctures the design of `case` from the `end` of a similar design; see [`puncture()`].
+pub(super) fn puncture_near(
+    case: &Case,
+    wanted: Wanted<'_>,
+    slopes: &StiffnessSlopes,
+    end: &PunctureEnd,
+) -> Result<Option<(Puncture, Vec<ParameterDerivative>)>, OutOfRange> {
+    let (parameters, variations) = punctured_variations(case, wanted, slopes);
+    let input = punctured(case, slopes.stiffness.clone());
+    let near = puncture::differentiate_near(&input, &variations, end)?;
+    Ok(near.map(|(puncture, derivatives)| {
+        (puncture, with_prefactor(case, &named(case, &parameters, derivatives)))
+    }))
+}
+
+/// Returns the wanted parameters of a puncture, each with its variation.
+fn punctured_variations(
+    case: &Case,
+    wanted: Wanted<'_>,
+    slopes: &StiffnessSlopes,
+) -> (Vec<&'static Parameter>, Vec<Neighbours<PunctureInput>>) {
+    variations(case, wanted, Measure::Puncture, |parameter| {
+        Varied { case, parameter, slopes: Some(slopes) }.variation(Varied::punctured)
+    })
 }
 
 /// Punctures the row across the one of `case`, and differentiates its force.
