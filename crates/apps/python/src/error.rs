@@ -6,6 +6,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use sweep::{InvalidDefinition, Problem, WrongValue};
 
+use crate::names::NAMES;
+
 /// Creates the exception `name` with the given arguments.
 fn exception<'py>(
     py: Python<'py>,
@@ -71,7 +73,10 @@ pub fn invalid_definition(
         }
         InvalidDefinition::Refused { key, problem, .. } => {
             // Python keywords have no sections.
-            let key = key.rsplit('.').next().unwrap_or(key);
+            let of_name =
+                NAMES.iter().find(|name| *key == format!("{}.{}", name.section, name.key));
+            let last = key.rsplit('.').next().unwrap_or(key);
+            let key = of_name.filter(|_| given.is_some()).map_or(last, |name| name.keyword);
             let value = given.and_then(|given| given.get_item(key).ok().flatten());
             let (found, expected) = explained(problem);
             let found = || found.map(|found| pyo3::types::PyString::new(py, &found).into_any());

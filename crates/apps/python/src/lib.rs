@@ -6,6 +6,7 @@
 //! | `solved` | results, column by column |
 //! | `gradient` | values with their derivatives |
 //! | `many` | many skins on all cores |
+//! | `names` | keywords that name a material or body |
 //! | `study` | runs, rankings, searches and tolerances in folders |
 //! | `work` | interruptible work with progress |
 //! | `value`, `error` | values and errors between the two languages |
@@ -15,6 +16,7 @@
 mod error;
 mod gradient;
 mod many;
+mod names;
 mod skin;
 mod solved;
 mod study;
@@ -22,6 +24,7 @@ mod value;
 mod work;
 
 use error::OrFailed as _;
+use names::NAMES;
 use pyo3::prelude::*;
 use results::columns::{design_columns, name};
 use sweep::{PARAMETERS, Parameter, Role, Sweep};
@@ -40,6 +43,20 @@ fn parameters() -> Vec<Explained> {
         (p.key, p.section, p.unit, p.meaning, p.expected(), default)
     };
     PARAMETERS.iter().map(explained).collect()
+}
+
+/// Returns the keywords that name materials or a body.
+///
+/// Each comes with its section, its names, and the parameters that they supply.
+#[pyfunction]
+fn named() -> Vec<(&'static str, &'static str, Vec<&'static str>, Vec<&'static str>)> {
+    let named = NAMES.iter().map(|name| {
+        let mut keys: Vec<_> = name.known.iter().flat_map(|of| of.values).map(|of| of.0).collect();
+        keys.sort_unstable();
+        keys.dedup();
+        (name.keyword, name.section, name.known.iter().map(|of| of.name).collect(), keys)
+    });
+    named.collect()
 }
 
 /// The keys of `[material]`, in the order of messages.
@@ -86,7 +103,7 @@ mod _squama {
         columns,
         gradient::gradients,
         many::solve_many,
-        needs, parameters,
+        named, needs, parameters,
         skin::Skin,
         solved::Solved,
         study::{optimise, rank, read, run, tolerance},

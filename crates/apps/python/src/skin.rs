@@ -22,6 +22,7 @@ use text::nearest;
 use text::toml_source::{KeyValue, Value};
 
 use crate::error::{self, OrFailed as _};
+use crate::names::NAMES;
 use crate::solved::Solved;
 use crate::value::{place, text, value};
 use crate::work::watched;
@@ -40,7 +41,8 @@ pub struct Skin {
 
 /// Creates the exception for an unknown key.
 pub fn unknown(py: Python<'_>, key: &str) -> PyErr {
-    let known: Vec<_> = PARAMETERS.iter().map(|parameter| parameter.key).collect();
+    let known = PARAMETERS.iter().map(|parameter| parameter.key);
+    let known: Vec<_> = known.chain(NAMES.iter().map(|name| name.keyword)).collect();
     let near = nearest(key, &known).map(|near| format!("did you mean {near}?"));
     let near = near.unwrap_or_else(|| "help(squama.Skin) lists them".to_owned());
     let name = PyString::new(py, key).into_any();
@@ -55,14 +57,20 @@ fn sweep_of(given: &Bound<'_, PyDict>) -> PyResult<Sweep> {
     let mut keys = Vec::new();
     for (name, of) in given.iter().filter(|(_, of)| !of.is_none()) {
         let name = text(&name)?;
-        let parameter = Parameter::named(&name).ok_or_else(|| unknown(py, &name))?;
-        // A pitch determines the gap or the length, whichever is not given.
-        keys.extend([parameter.key, parameter.over_t().map_or("", |of| of.key)]);
-        let of = entry(parameter.key, value(&of)?);
+        let named = NAMES.iter().find(|key| key.keyword == name);
+        let [in_section, key] = if let Some(of) = named {
+            [of.section, of.key]
+        } else {
+            let parameter = Parameter::named(&name).ok_or_else(|| unknown(py, &name))?;
+            // A pitch determines the gap or the length, whichever is not given.
+            keys.extend([parameter.key, parameter.over_t().map_or("", |of| of.key)]);
+            [parameter.section, parameter.key]
+        };
+        let of = entry(key, value(&of)?);
         // Geometry parameters are axes of a definition, each with one value.
-        match sections.iter_mut().find(|section| section.key == parameter.section) {
+        match sections.iter_mut().find(|section| section.key == in_section) {
             Some(KeyValue { value: Value::Table(entries), .. }) => entries.push(of),
-            _ => sections.push(entry(parameter.section, Value::Table(vec![of]))),
+            _ => sections.push(entry(in_section, Value::Table(vec![of]))),
         }
     }
     // Both gap and pitch are given, so the pitch determines the length.

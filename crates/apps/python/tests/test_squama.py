@@ -486,6 +486,25 @@ def test_a_search_warns_of_a_failed_check(tmp_path):
     assert found.failed_checks == [str(caught[0].message)]
 
 
+def test_materials_and_bodies_may_be_named():
+    shape = dict(gap_over_t=0.1, length_over_t=0.3, slant_deg=60, thickness_mm=2, membrane_modulus_MPa=1)
+    skin = squama.Skin(**shape, scale="PLA", tissue="silicone", body="finger")
+    assert (skin.scale_modulus_MPa, skin.scale_strength_MPa, skin.bond_strength_MPa) == (3000, 50, 0.1)
+    definition = """name = "named"
+designs = { gap_over_t = 0.1, length_over_t = 0.3, slant_deg = 60 }
+material = { thickness_mm = 2, membrane_modulus_MPa = 1, scale = "PLA", tissue = "silicone" }
+body = "finger"
+"""
+    assert skin == squama.Skin.from_toml(definition) == pickle.loads(pickle.dumps(skin))
+    # Explicit values take precedence, and another name replaces the values of the first.
+    assert squama.Skin(**shape, scale="pla", tissue="silicone", scale_strength_MPa=40).scale_strength_MPa == 40
+    assert skin.replace(scale="PETG").scale_modulus_MPa == 2000
+    for keyword in ("scale", "tissue", "body"):
+        with pytest.raises(squama.InvalidParameter, match="PLA|silicone|finger") as refused:
+            squama.Skin(**shape, **{keyword: "unobtainium"})
+        assert (refused.value.key, refused.value.value) == (keyword, "unobtainium")
+
+
 def test_unloading_paths_are_followed():
     skin = squama.Skin(gap_over_t=0.1, length_over_t=1, slant_deg=45, friction=0.2)
     assert skin.unload is False

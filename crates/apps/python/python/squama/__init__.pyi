@@ -227,6 +227,9 @@ class Skin:
         scale_strength_MPa: float | None = None,
         bond_strength_MPa: float | None = None,
         scale_density_kg_m3: float | None = None,
+        scale: str | None = None,
+        tissue: str | None = None,
+        body: str | None = None,
     ) -> None: ...
     @property
     def gap_over_t(self) -> float: ...

@@ -2,7 +2,7 @@
 
 import inspect
 
-from ._squama import columns, parameters
+from ._squama import columns, named, parameters
 
 
 def _type(expected):
@@ -18,7 +18,8 @@ def signature():
     keyword, one = inspect.Parameter.KEYWORD_ONLY, inspect.Parameter
     of = [one(key, keyword, default=one.empty if default is None and section == "designs" else _value(default))
           for key, section, *_, default in parameters()]
-    return inspect.Signature(of)
+    names = [one(key, keyword, default=None) for key, *_ in named()]
+    return inspect.Signature(of + names)
 
 
 def _value(default):
@@ -45,6 +46,9 @@ def skin():
         has_default = section != "designs" or key.endswith(("_over_t", "_mm"))
         default = f"default {default}" if default else "not given" if has_default else "required"
         lines += [f"{key}{unit}", f"    {meaning}: {expected}; {default}"]
+    lines += ["", "Names, which supply the parameters that are not given (docs/materials.md, docs/bodies.md):", ""]
+    for key, _, names, keys in named():
+        lines += [key, f"    {', '.join(keys)}: {' or '.join(names)}"]
     lines += ["", "Measures of a solved skin, with their units:", ""]
     lines += [f"{name} ({unit}): {meaning}" for name, unit, meaning in columns()]
     return "\n".join(lines)
@@ -84,6 +88,7 @@ def stub(text):
     # Optional, because the same length may be given in mm.
     required = {key for key in geometry if not key.endswith(("_over_t", "_mm"))}
     given = [f"        {key}: {of}{'' if key in required else ' | None = None'}," for key, of, _ in all_of]
+    given += [f"        {key}: str | None = None," for key, *_ in named()]
     # A parameter without a default is an attribute that may be None.
     attributes = [f"    @property\n    def {key}(self) -> {of}{'' if default or key in geometry and not key.endswith('_mm') else ' | None'}: ..."
                   for key, of, default in all_of]
