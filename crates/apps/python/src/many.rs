@@ -10,7 +10,7 @@ use results::{Cell, Column, DesignRow};
 use run::Evaluator;
 use sweep::{PARAMETERS, Parameter, Role, Scalar, key};
 
-use crate::skin::{Skin, evaluator, measures as measures_of};
+use crate::skin::{Skin, asked, evaluator};
 use crate::value::{NamedCells, table};
 use crate::work::{Watch, interrupted, pool, watched};
 
@@ -27,7 +27,7 @@ pub fn solve_many(
     threads: Option<Bound<'_, PyAny>>,
     progress: Option<Bound<'_, PyAny>>,
 ) -> PyResult<Vec<NamedCells>> {
-    let (evaluator, pool) = (evaluator(&measures_of(measures)?), pool(threads.as_ref())?);
+    let (evaluator, pool) = (evaluator(asked(measures)?), pool(threads.as_ref())?);
     let solved = watched(py, progress, move |watch| {
         watch.all.store(skins.len(), Ordering::Relaxed);
         columns(&skins, |first, skins| pool.install(|| solve(skins, first, &evaluator, watch)))

@@ -105,9 +105,19 @@ fn python(py: Python<'_>, scalar: Scalar) -> PyResult<Bound<'_, PyAny>> {
     })
 }
 
+/// The measures that a call asks for, and the columns if it names nothing but columns.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Asked {
+    pub measures: Vec<Measure>,
+    pub columns: Vec<String>,
+}
+
 /// Parses measures: a name, a column, a list, or "all" (all without derivatives).
-pub fn measures(of: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<Measure>> {
-    let Some(of) = of.filter(|of| !of.is_none()) else { return Ok(Measure::USUAL.to_vec()) };
+pub fn asked(of: Option<&Bound<'_, PyAny>>) -> PyResult<Asked> {
+    let whole = |measures: Vec<Measure>| Asked { measures, columns: Vec::new() };
+    let Some(of) = of.filter(|of| !of.is_none()) else {
+        return Ok(whole(Measure::USUAL.to_vec()));
+    };
     let names = of.extract().map(|name: String| vec![name]).or_else(|_| of.extract())?;
     let known = |name: &String| match Measure::named(name).or_else(|| measure_of(name)) {
         Some(measure) => Ok(vec![measure]),
@@ -122,15 +132,24 @@ pub fn measures(of: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<Measure>> {
     // Sorted and without duplicates, because evaluators are cached by this list.
     measures.sort();
     measures.dedup();
-    Ok(measures)
+    let is_column = |name: &String| Measure::named(name).is_none() && measure_of(name).is_some();
+    let columns = if names.iter().all(is_column) { names } else { Vec::new() };
+    Ok(Asked { columns, ..whole(measures) })
 }
 
 /// Returns the cached evaluator for these measures, which keeps its springs.
-pub fn evaluator(measures: &[Measure]) -> Arc<Evaluator> {
-    static KNOWN: Mutex<BTreeMap<Vec<Measure>, Arc<Evaluator>>> = Mutex::new(BTreeMap::new());
+pub fn evaluator(asked: Asked) -> Arc<Evaluator> {
+    static KNOWN: Mutex<BTreeMap<Asked, Arc<Evaluator>>> = Mutex::new(BTreeMap::new());
     let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
-    let new = || Arc::new(Evaluator::new(measures));
-    Arc::clone(known.entry(measures.to_vec()).or_insert_with(new))
+    let new = |Asked { measures, columns }: &Asked| {
+        let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
+        Arc::new(if columns.is_empty() {
+            Evaluator::new(measures)
+        } else {
+            Evaluator::only_columns(measures, &columns)
+        })
+    };
+    Arc::clone(known.entry(asked).or_insert_with_key(new))
 }
 
 impl Skin {
@@ -266,7 +285,7 @@ impl Skin {
     ) -> PyResult<Bound<'py, PyAny>> {
         static RESULT: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
         let (py, skin) = (slf.py(), slf.get());
-        let evaluator = evaluator(&self::measures(measures)?);
+        let evaluator = evaluator(asked(measures)?);
         let (number, case) = (skin.sweep.grid().number(0), skin.case());
         let solved = if skin.is_quick() {
             py.detach(|| evaluator.solve(number, &case))

@@ -88,6 +88,13 @@ pub fn is_along_path(name: &str) -> bool {
     about(name).is_some_and(|(value, _)| value.is_along_path())
 }
 
+/// Returns true if the parameter `key` is among those of which a column needs one.
+///
+/// The name may also be a derived one, such as a quantile.
+pub fn needs_parameter(name: &str, key: &str) -> bool {
+    about(name).is_some_and(|(value, _)| value.needs.contains(&key))
+}
+
 /// Returns the column that names the failure mode of a force, if the force is a failure force.
 ///
 /// Every answer shows the two together, also for quantiles and in physical units.

@@ -5,7 +5,7 @@ use serde::Serialize;
 use substrate::Coupling;
 use sweep::{Case, Sweep};
 
-use crate::gap_change::{Patience, again};
+use crate::gap_change::{Patience, again, evaluator_of};
 
 /// Measures of a design with nearest-neighbour and with full coupling.
 ///
@@ -45,7 +45,8 @@ impl CouplingChange {
     ) -> Option<Self> {
         let couplings = [Coupling::Nearest, Coupling::Full];
         let change = |case: &mut Case, own| case.coupling = own;
-        let (case, solved) = again(sweep, number, patience, couplings, change)?;
+        let evaluator = evaluator_of(sweep, &[columns, &[name::FOLD_FORCE]].concat());
+        let (case, solved) = again(sweep, number, patience, &evaluator, couplings, change)?;
         (case.coupling == Coupling::Nearest).then_some(())?;
         let known = design_columns(sweep);
         let values = |wanted: &str| {

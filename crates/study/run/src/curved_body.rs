@@ -5,7 +5,7 @@ use results::columns::{design_columns, name};
 use sweep::{BODIES, Case, Measure, Sweep, key};
 use text::number::rounded;
 
-use crate::gap_change::is_quick;
+use crate::gap_change::{Patience, is_quick, solved_row};
 use crate::solve::evaluator::Evaluator;
 
 /// A force on a curved body below this fraction of the force on a flat one is reported.
@@ -17,9 +17,7 @@ const LOWER: f64 = 0.9;
 /// thickness in mm, or if the design is slow to solve.
 pub fn curved_body_warning(sweep: &Sweep, row: &DesignRow) -> Option<String> {
     let case = &row.case;
-    let thickness_mm = case.material.thickness_mm?;
-    let is_flat = case.body().curvature == 0.0 && case.body_radius_to.is_none();
-    (is_flat && is_quick(sweep, case)).then_some(())?;
+    let thickness_mm = thickness_of_flat(sweep, case)?;
     let in_newtons = [name::FAILURE_FORCE, name::CRITICAL_FORCE].map(|force| format!("{force}_N"));
     let columns = design_columns(sweep);
     let force = in_newtons.iter().find_map(|name| columns.iter().find(|c| c.name == *name))?;
@@ -44,4 +42,19 @@ pub fn curved_body_warning(sweep: &Sweep, row: &DesignRow) -> Option<String> {
             lower.join(", ")
         )
     })
+}
+
+/// Describes how much less design `number` of `sweep` bears on curved bodies; see
+/// [`curved_body_warning`].
+pub fn flat_design_warning(sweep: &Sweep, number: &str) -> Option<String> {
+    let grid = sweep.grid();
+    // A design without a warning is not solved.
+    thickness_of_flat(sweep, &grid.case(grid.parse_number(number).ok()?))?;
+    curved_body_warning(sweep, &solved_row(sweep, number, Patience::Milliseconds)?)
+}
+
+/// Returns the thickness in mm of a flat design that is quick to solve; `None` for any other.
+fn thickness_of_flat(sweep: &Sweep, case: &Case) -> Option<f64> {
+    let is_flat = case.body().curvature == 0.0 && case.body_radius_to.is_none();
+    case.material.thickness_mm.filter(|_| is_flat && is_quick(sweep, case))
 }

@@ -1,6 +1,6 @@
 //! Solves a design again with smaller and larger gaps.
 
-use results::columns::design_columns;
+use results::columns::{design_columns, measure_of};
 use results::{Column, DesignRow};
 use serde::{Serialize, Serializer};
 use skin::Imperfection;
@@ -85,14 +85,44 @@ impl GapChange {
         patience: Patience,
     ) -> Option<Self> {
         let gaps = [1.0, PARTS[0], PARTS[1]];
-        let change = |case: &mut Case, part| case.design.gap *= part;
-        let (case, solved) = again(sweep, number, patience, gaps, change)?;
-        let meant = case.design.gap;
+        let evaluator = evaluator_of(sweep, columns);
+        let (case, solved) = again(sweep, number, patience, &evaluator, gaps, change)?;
         let known = design_columns(sweep);
-        let column = |name: &&str| known.iter().find(|column| column.name == **name);
-        let measures = columns.iter().filter_map(column).filter_map(|one| measure(one, &solved));
-        Some(Self { design: number.to_owned(), gap: meant, measures: measures.collect() })
+        let measures = columns.iter().filter_map(|name| measure(named(&known, name)?, &solved));
+        let (design, gap) = (number.to_owned(), case.design.gap);
+        Some(Self { design, gap, measures: measures.collect() })
     }
+
+    /// Solves design `number` of `sweep` with the changed gaps only.
+    ///
+    /// `measured` holds the columns and values of the design itself, as tables hold them; see
+    /// [`Self::solve`].
+    pub fn beside(
+        sweep: &Sweep,
+        number: &str,
+        measured: &[(&str, f64)],
+        patience: Patience,
+    ) -> Option<Self> {
+        let columns: Vec<&str> = measured.iter().map(|(column, _)| *column).collect();
+        let evaluator = evaluator_of(sweep, &columns);
+        let (case, solved) = again(sweep, number, patience, &evaluator, PARTS, change)?;
+        let known = design_columns(sweep);
+        let measures = measured.iter().filter_map(|&(name, value)| {
+            let column = named(&known, name)?;
+            let changed = solved.each_ref().map(|row| column.cell(row).number());
+            Some(MeasureChange { column: name.to_owned(), value, changed })
+        });
+        let (design, gap) = (number.to_owned(), case.design.gap);
+        Some(Self { design, gap, measures: measures.collect() })
+    }
+}
+
+fn change(case: &mut Case, part: f64) {
+    case.design.gap *= part;
+}
+
+fn named<'a>(known: &'a [Column<DesignRow>], name: &str) -> Option<&'a Column<DesignRow>> {
+    known.iter().find(|column| column.name == name)
 }
 
 fn measure(column: &Column<DesignRow>, solved: &[DesignRow; 3]) -> Option<MeasureChange> {
@@ -104,11 +134,22 @@ fn measure(column: &Column<DesignRow>, solved: &[DesignRow; 3]) -> Option<Measur
     })
 }
 
+/// Returns an evaluator of the measures of `sweep` that `columns` need.
+pub(crate) fn evaluator_of(sweep: &Sweep, columns: &[&str]) -> Evaluator {
+    let mut measures = sweep.plain_measures();
+    // The names of some columns, as of those at further tilts, tell no measure.
+    measures.retain(|measure| {
+        columns.iter().any(|column| measure_of(column).is_none_or(|own| own == *measure))
+    });
+    Evaluator::only_columns(&measures, columns)
+}
+
 /// Solves design `number` of `sweep`, without imperfect samples.
 ///
 /// Returns `None` if the design does not exist or takes longer than `patience`.
 pub fn solved_row(sweep: &Sweep, number: &str, patience: Patience) -> Option<DesignRow> {
-    let (_, [row]) = again(sweep, number, patience, [()], |_, ()| ())?;
+    let evaluator = Evaluator::new(&sweep.plain_measures());
+    let (_, [row]) = again(sweep, number, patience, &evaluator, [()], |_, ()| ())?;
     Some(row)
 }
 
@@ -120,6 +161,7 @@ pub(crate) fn again<T: Copy, const N: usize>(
     sweep: &Sweep,
     number: &str,
     patience: Patience,
+    evaluator: &Evaluator,
     changes: [T; N],
     change: impl Fn(&mut Case, T),
 ) -> Option<(Case, [DesignRow; N])> {
@@ -129,7 +171,6 @@ pub(crate) fn again<T: Copy, const N: usize>(
     // Random samples take hundreds of paths, and hide cliffs of the nominal design.
     case.imperfection = Imperfection::default();
     (patience == Patience::Unlimited || is_quick(sweep, &case)).then_some(())?;
-    let evaluator = Evaluator::new(&sweep.plain_measures());
     let solved = changes.map(|own| {
         let mut case = case;
         change(&mut case, own);

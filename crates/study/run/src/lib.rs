@@ -78,7 +78,7 @@ mod weakest_place;
 pub use audit::{Audit, LargestDifference, SecondWay};
 pub use bare_needle::{BareNeedle, bare_needle};
 pub use coupling_change::{CoupledMeasure, CouplingChange};
-pub use curved_body::curved_body_warning;
+pub use curved_body::{curved_body_warning, flat_design_warning};
 pub use estimate::Estimate;
 pub use filter::{ColumnFilter, Filter, InvalidColumnFilter, InvalidFilter};
 pub use gap_change::{GapChange, MeasureChange, Patience, solved_row};

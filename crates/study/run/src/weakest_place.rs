@@ -8,6 +8,7 @@ use substrate::Coupling;
 use sweep::{Case, Sweep};
 
 use crate::gap_change::{Patience, again};
+use crate::solve::evaluator::Evaluator;
 
 /// Number of load positions on the top of a scale.
 pub const PLACES: usize = 11;
@@ -42,7 +43,8 @@ impl WeakestPlace {
             return Vec::new();
         }
         let change = |case: &mut Case, variant: Variant| variant.apply(case);
-        let solved = again(sweep, number, Patience::Unlimited, variants(), change);
+        let evaluator = Evaluator::new(&sweep.plain_measures());
+        let solved = again(sweep, number, Patience::Unlimited, &evaluator, variants(), change);
         let Some((_, [requested, coupled @ ..])) = solved else { return Vec::new() };
         let known = design_columns(sweep);
         columns.iter().filter_map(|column| weakest(column, &requested, &coupled, &known)).collect()

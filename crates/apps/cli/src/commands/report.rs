@@ -13,8 +13,8 @@ use rayon::prelude::*;
 use report::{Explorer, Fact, GapFactors, Page, PageDesign, SolvedTable, drawings};
 use results::columns::design_columns;
 use results::{bending_units, puncture_units};
-use run::{GapChange, MeasureChange, Patience, curved_body_warning, solved_row};
-use skin::{flexure, puncture};
+use run::{GapChange, MeasureChange, Patience, flat_design_warning};
+use skin::{PathDetail, flexure, puncture};
 use sweep::{Case, Sweep};
 use text::shell_word;
 
@@ -66,7 +66,7 @@ const SOLVED: usize = 120;
 // Five, to keep the page of the paper below 2 MB, including the solver.
 const DRAWN: usize = 5;
 /// Largest step along the curves of a drawn design, as a fraction of the whole path.
-const CURVE_STEP: f64 = 0.01;
+const CURVE_STEP: f64 = 0.02;
 /// Maximum size of all drawings, bytes.
 const DRAWING_BYTES: usize = 1_500_000;
 
@@ -175,8 +175,7 @@ fn flat_body(sweep: &Sweep, rankings: &[Ranking<'_>]) -> Option<String> {
         named.map(|weights| ranking.winner(weights).design())
     });
     best.take(DRAWN).find_map(|design| {
-        let warning =
-            curved_body_warning(sweep, &solved_row(sweep, design, Patience::Milliseconds)?)?;
+        let warning = flat_design_warning(sweep, design)?;
         Some(format!("The skin was solved flat. Design {design}: {warning}"))
     })
 }
@@ -254,6 +253,8 @@ fn solve(results: &FolderContents, row: usize, is_drawn: bool) -> Option<PageDes
     let mut case = grid.case(grid.parse_number(number).ok()?);
     // Smaller steps of the definition are kept.
     case.common.solver.max_step = case.common.solver.max_step.min(CURVE_STEP);
+    // Curves and drawings need no measures; those of the table were solved by the run.
+    case.common.detail = PathDetail::Critical;
     let substrate = substrate(&case).ok()?;
     let solved =
         puncture::snapshots(&case.design, &substrate, &case.common, &case.punctured(), &[]).ok()?;
@@ -270,7 +271,7 @@ fn solve(results: &FolderContents, row: usize, is_drawn: bool) -> Option<PageDes
             .into_iter()
             .map(|point| scaled(point, bending_units(&case)))
             .collect(),
-        gap_factors: gap_factors(results, number),
+        gap_factors: gap_factors(results, row),
     })
 }
 
@@ -279,9 +280,12 @@ fn scaled([x, y]: [f64; 2], units: Option<[f64; 3]>) -> [f64; 2] {
 }
 
 /// Computes the change of the criteria with the gap.
-fn gap_factors(results: &FolderContents, number: &str) -> Vec<GapFactors> {
-    let columns: Vec<&str> = CRITERIA.iter().map(|criterion| criterion.column.as_ref()).collect();
-    let change = GapChange::solve(&results.sweep, number, &columns, Patience::Milliseconds);
+fn gap_factors(results: &FolderContents, row: usize) -> Vec<GapFactors> {
+    let FolderContents { sweep, designs, .. } = results;
+    let columns = CRITERIA.iter().map(|criterion| criterion.column.as_ref());
+    let measured: Vec<(&str, f64)> =
+        columns.filter_map(|column| Some((column, designs.number(column, row)?))).collect();
+    let change = GapChange::beside(sweep, designs.design(row), &measured, Patience::Milliseconds);
     let measures = change.map_or_else(Vec::new, |change| change.measures);
     let factors = |MeasureChange { column, value, changed }| {
         // A measure of zero has no factor.

@@ -5,7 +5,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use geometry::OutOfRange;
-use results::columns::is_along_path;
+use results::columns::{is_along_path, needs_parameter};
 use results::{
     DesignResult, DesignRow, Failure, FlexureResult, Outcome, ParameterDerivative, PathEnd,
     PunctureResult, SampleStatistics, SolvedDesign, finite,
@@ -14,7 +14,7 @@ use skin::flexure::{self, Flexure, Method};
 use skin::puncture::{self, Puncture, PunctureEnd};
 use skin::{Common, PathDetail};
 use substrate::{Calibrations, RowStiffness, StiffnessSlopes};
-use sweep::{Case, DesignNumber, Measure, Parameter};
+use sweep::{Case, DesignNumber, Measure, Parameter, key};
 
 use super::between::{self, WorstBody};
 use super::sensitivity::Wanted;
@@ -38,6 +38,8 @@ pub struct Evaluator {
     measures: Vec<Measure>,
     /// Extent of the record of the paths of rows of tables.
     detail: PathDetail,
+    /// Parts of the designs to solve; `None`: every part with its whole record.
+    parts: Option<Parts>,
     calibrations: Calibrations,
     /// The last rows across that were solved.
     across: Mutex<VecDeque<(Case, AcrossForces)>>,
@@ -71,6 +73,7 @@ impl Evaluator {
         Self {
             measures: measures.to_vec(),
             detail: PathDetail::Measures,
+            parts: None,
             calibrations: Calibrations::default(),
             across: Mutex::default(),
         }
@@ -88,13 +91,27 @@ impl Evaluator {
         Self { detail, ..Self::new(measures) }
     }
 
+    /// Creates an evaluator that solves only the parts of a design that these `columns` need.
+    ///
+    /// All other columns may lack a value. Load positions, the row across, other bodies and
+    /// unloading are left out if no column is about them.
+    pub fn only_columns(measures: &[Measure], columns: &[&str]) -> Self {
+        let parts = Some(Parts::of(columns));
+        Self { parts, ..Self::for_columns(measures, columns.iter().copied()) }
+    }
+
     fn measures(&self, measure: Measure) -> bool {
         self.measures.contains(&measure)
     }
 
     /// Solves `case`. A failure or panic affects this design only.
     pub fn solve(&self, number: DesignNumber, case: &Case) -> SolvedDesign {
-        self.solved(number, case, Wanted::All, &WorkMeter::default())
+        let Some(parts) = self.parts else {
+            return self.solved(number, case, Wanted::All, &WorkMeter::default());
+        };
+        let needed = recorded(&parts.of_case(case), self.detail);
+        let solved = self.solved(number, &needed, Wanted::All, &WorkMeter::default());
+        SolvedDesign { row: DesignRow { case: *case, ..solved.row }, ..solved }
     }
 
     /// Solves a design faster than [`Self::solve`], for one row of the tables.
@@ -186,7 +203,8 @@ impl Evaluator {
         wanted: Wanted<'_>,
         meter: &WorkMeter,
     ) -> DesignRow {
-        let row = self.solved(number, &recorded(case, self.detail), wanted, meter).row;
+        let needed = self.parts.map_or(*case, |parts| parts.of_case(case));
+        let row = self.solved(number, &recorded(&needed, self.detail), wanted, meter).row;
         DesignRow { case: *case, ..row }
     }
 
@@ -509,6 +527,45 @@ impl Evaluator {
     pub fn substrate(&self, case: &Case) -> Result<Arc<RowStiffness>, Outcome> {
         let footprint = case.footprint().map_err(|_| Outcome::Calibration)?;
         self.calibrations.row(&footprint, case.coupling).map_err(|_| Outcome::Calibration)
+    }
+}
+
+/// Parts of a design besides its first puncture and its bending.
+#[derive(Clone, Copy, Debug)]
+struct Parts {
+    /// The load positions.
+    places: bool,
+    /// The row across.
+    across: bool,
+    /// The bodies between two radii.
+    between: bool,
+    /// Unloading, of puncture and bending.
+    unloading: [bool; 2],
+}
+
+impl Parts {
+    /// Returns the parts that `columns` need.
+    fn of(columns: &[&str]) -> Self {
+        let [places, across, failure, between, unload, unbend] =
+            [key::PLACES, key::ACROSS, key::FAILURE, key::RADIUS_TO, key::UNLOAD, key::UNBEND]
+                .map(|key| columns.iter().any(|column| needs_parameter(column, key)));
+        // The first failure may be across the row, and both directions are compared at the weakest
+        // position.
+        let across = across || failure;
+        Self { places: places || across, across, between, unloading: [unload, unbend] }
+    }
+
+    /// Returns `case` without the other parts.
+    fn of_case(self, case: &Case) -> Case {
+        let mut case = *case;
+        let [unload, unbend] = self.unloading;
+        case.puncture.places = case.puncture.places.filter(|_| self.places);
+        case.across &= self.across;
+        case.gap_across = case.gap_across.filter(|_| self.across);
+        case.body_radius_to = case.body_radius_to.filter(|_| self.between);
+        case.puncture.unload &= unload;
+        case.flexure.unload &= unbend;
+        case
     }
 }
 

@@ -5,7 +5,8 @@ use std::iter;
 use std::sync::LazyLock;
 
 use proptest::prelude::*;
-use results::columns::{Cell, design_columns, is_along_path};
+use results::columns::{Cell, design_columns, is_along_path, measure_of};
+use results::{Column, DesignRow};
 use run::{Evaluator, GapChange, Patience};
 use skin::Design;
 use sweep::{Case, Measure, Parameter, Sweep};
@@ -116,6 +117,63 @@ fn rows_for_the_critical_state_have_all_values_but_those_along_the_path() {
         assert_eq!(critical.result.sensitivity, derivatives, "{index}");
     });
     assert!(compared > 500 && omitted.len() > 12, "{compared} {omitted:?}");
+}
+
+/// A column solved alone has the value and the derivatives that it has among all others.
+#[test]
+fn a_column_alone_has_the_value_that_it_has_among_all() {
+    let unloaded = "[designs]\ngap_over_t = 0.2\nlength_over_t = 0.4\nslant_deg = 60\n\
+                    [contact]\nfriction = 0.2\n[flexure]\nunbend = true\n\
+                    [puncture]\nplaces = 3\nunload = true\n[array]\nacross = true";
+    let bodies = "[designs]\ngap_over_t = 0.2\nlength_over_t = 0.4\nslant_deg = 60\n\
+                  [body]\nradius_over_t = 20\nradius_to_over_t = 10";
+    let (mut compared, mut left_out) = (0, 0);
+    for skin in SKINS.iter().chain(&[unloaded, bodies]) {
+        let text = format!("name = 'x'\nmeasures = ['coverage', 'puncture', 'flexure']\n{skin}");
+        let sweep = Sweep::parse(&text, "x.toml", &[]).expect("a valid sweep");
+        let (number, case) = (sweep.grid().number(0), sweep.grid().case(0));
+        let whole = Evaluator::new(&[sweep.measures(), &[Measure::Sensitivity]].concat())
+            .row(number, &case);
+        let columns = design_columns(&sweep);
+        for column in &columns {
+            let Some(measure) = measure_of(&column.name) else { continue };
+            let measures = [measure, Measure::Sensitivity];
+            let alone = Evaluator::only_columns(&measures, &[&column.name]);
+            let alone = alone.row(number, &case);
+            let [expected, found] = [&whole, &alone].map(|row| column.cell(row).to_string());
+            assert_eq!(found, expected, "{} of {skin}", column.name);
+            let of_column = |row: &DesignRow| {
+                let mut derivatives = row.result.sensitivity.clone();
+                // Parameters of a part that is left out have no derivative instead of one of 0.
+                derivatives.retain(|d| d.measure == column.name && d.left != Some(0.0));
+                derivatives
+            };
+            assert_eq!(of_column(&alone), of_column(&whole), "{} of {skin}", column.name);
+            compared += usize::from(!expected.is_empty());
+            let is_missing = |other: &&Column<DesignRow>| {
+                other.cell(&alone).number() != other.cell(&whole).number()
+            };
+            left_out += columns.iter().filter(is_missing).count();
+        }
+    }
+    assert!(compared > 100 && left_out > 500, "{compared} {left_out}");
+}
+
+/// The change with the gap of a known value is the one of a value that is solved.
+#[test]
+fn gap_changes_beside_a_known_design_are_those_of_a_solved_one() {
+    for_each_skin(|sweep, index| {
+        let number = sweep.grid().number(index).to_string();
+        let columns =
+            ["coverage", "critical_force", "weakest_force", "failure_force", "compliance"];
+        let solved = GapChange::solve(sweep, &number, &columns, Patience::Unlimited);
+        let solved = solved.expect("a design");
+        let measured: Vec<(&str, f64)> =
+            solved.measures.iter().map(|change| (change.column.as_str(), change.value)).collect();
+        assert!(measured.len() > 2, "{solved:?}");
+        let beside = GapChange::beside(sweep, &number, &measured, Patience::Unlimited);
+        assert_eq!(beside.as_ref(), Some(&solved));
+    });
 }
 
 /// Derivatives by some parameters are the same as among all.
