@@ -6,12 +6,13 @@ use ranking::dominates;
 use rayon::iter::{IntoParallelRefIterator as _, ParallelIterator as _};
 
 use crate::best::{BestDesign, best_design};
-use crate::candidate::{Candidate, Merit, Target};
+use crate::candidate::{Candidate, Merit, SearchStage, Target};
 use crate::evaluations::Halt;
-use crate::improvement::{Plan, improved};
+use crate::improvement::{Plan, improved_from};
 use crate::judgement::Judgement;
 use crate::local::Search;
 use crate::progress::SearchPart;
+use crate::space::SpacePoint;
 
 /// Maximum rounds that add points in the widest gaps.
 const REFILLS: usize = 3;
@@ -33,6 +34,9 @@ const BESIDE: f64 = 1e-6;
 
 /// Fraction of the front below which a gap needs no further point.
 const NARROW: f64 = 1e-3;
+
+/// Number of parts between the first points of a front.
+const QUARTERS: usize = 4;
 
 /// Ratio of the ends of a front from which points are spaced by equal ratios.
 const DECADE: f64 = 10.0;
@@ -68,10 +72,14 @@ pub(crate) fn search(
 ) -> Result<Front, Halt> {
     // Half of the points show where the front changes.
     let mut targets = first_targets(search, history, points.div_ceil(2).max(2).min(points));
-    improve(search, history, &targets, plan.of_a_point())?;
+    if search.judge.objectives() == 2 {
+        improve_by_halves(search, history, &targets, plan)?;
+    } else {
+        improve(search, history, &targets, plan.of_a_point(), &[])?;
+    }
     let mut front = rescaled_front(search, history, &targets)?;
     if let Some(ends) = ends(search, &front.designs) {
-        improve(search, history, &ends, plan.between_points())?;
+        improve(search, history, &ends, plan.between_points(), &[])?;
         let last = targets.len() - 1;
         let [first_end, last_end] = ends;
         (targets[0], targets[last]) = (first_end, last_end);
@@ -82,7 +90,8 @@ pub(crate) fn search(
         if more.is_empty() {
             break;
         }
-        improve(search, history, &more, plan.between_points())?;
+        let known = front.designs.iter().map(|design| design.candidate.clone()).collect::<Vec<_>>();
+        improve(search, history, &more, plan.between_points(), &known)?;
         targets.extend(more);
         front = rescaled_front(search, history, &targets)?;
     }
@@ -180,22 +189,88 @@ impl Spacing {
     }
 }
 
-/// Runs a search for each target, from the known designs.
-fn improve(
+/// Searches the points of a curve: its ends and the quarters between, then ever finer halves.
+///
+/// The first points search every region of the space. The others continue from the points on both
+/// sides, because the designs of a front change gradually along most of it.
+fn improve_by_halves(
     search: &Search<'_>,
     history: &mut Vec<Candidate>,
     targets: &[Target],
     plan: Plan,
 ) -> Result<(), Halt> {
+    let Some(last) = targets.len().checked_sub(1) else { return Ok(()) };
+    let mut solved: Vec<usize> = (0..=QUARTERS).map(|k| k * last / QUARTERS).collect();
+    solved.dedup();
+    improve(search, history, &chosen(targets, &solved), plan.of_a_point(), &[])?;
+    loop {
+        let middles = solved.windows(2).map(|pair| usize::midpoint(pair[0], pair[1]));
+        let next: Vec<usize> = middles.filter(|k| !solved.contains(k)).collect();
+        if next.is_empty() {
+            return Ok(());
+        }
+        let known: Vec<Candidate> = chosen(targets, &solved)
+            .iter()
+            .filter_map(|target| search.best(history.iter(), target).cloned())
+            .collect();
+        improve(search, history, &chosen(targets, &next), plan.between_points(), &known)?;
+        solved.extend(next);
+        solved.sort_unstable();
+    }
+}
+
+fn chosen(targets: &[Target], places: &[usize]) -> Vec<Target> {
+    places.iter().map(|&k| targets[k].clone()).collect()
+}
+
+/// Runs a search for each target, from the known designs.
+///
+/// `front` are the best designs of other targets; searches start between them, too.
+fn improve(
+    search: &Search<'_>,
+    history: &mut Vec<Candidate>,
+    targets: &[Target],
+    plan: Plan,
+    front: &[Candidate],
+) -> Result<(), Halt> {
     let each = |target| plan.evaluations() * search.evaluation_units(target);
     let units = targets.iter().map(each).sum();
     search.progress.begin(SearchPart::Front, targets.len() * plan.tasks(), units);
     // Appended in the order of the targets, so that the history is the same on every machine.
-    let walks = targets.par_iter();
-    let walks = walks.map(|target| Ok(improved(search, history, target, plan)?.evaluated));
+    let walks = targets.par_iter().map(|target| {
+        let point = between_neighbours(search, front, target);
+        let start = point.map(|point| search.evaluate(SearchStage::Gradient, &point, true));
+        let start = start.transpose()?.map(|(start, _)| start);
+        let start = start.filter(|start| search.merit(start, target) != Merit::None);
+        let walk = improved_from(search, history, target, plan, start.as_ref())?.evaluated;
+        Ok(start.into_iter().chain(walk).collect())
+    });
     let walks: Vec<Vec<Candidate>> = walks.collect::<Result<_, Halt>>()?;
     history.extend(walks.into_iter().flatten());
     Ok(())
+}
+
+/// Returns the point between the designs of `front` on both sides of a lower bound.
+///
+/// It divides their distance like the bound divides the difference of their objectives. `None` if
+/// the bound is not between two designs with the same choices.
+fn between_neighbours(
+    search: &Search<'_>,
+    front: &[Candidate],
+    target: &Target,
+) -> Option<SpacePoint> {
+    let [(objective, floor)] = target.floors[..] else { return None };
+    let value = |candidate: &Candidate| Some(turned(search, candidate)?[objective] - floor);
+    let beyond = front.iter().filter_map(|candidate| Some((value(candidate)?, candidate)));
+    let above = beyond.clone().filter(|(value, _)| *value >= 0.0);
+    let above = above.min_by(|(a, _), (b, _)| a.total_cmp(b))?;
+    let below = beyond.filter(|(value, _)| *value < 0.0);
+    let below = below.max_by(|(a, _), (b, _)| a.total_cmp(b))?;
+    let [from, to] = [below, above].map(|(_, candidate)| &candidate.point);
+    let share = below.0 / (below.0 - above.0);
+    let shares = from.shares.iter().zip(&to.shares).map(|(a, b)| a + share * (b - a));
+    (from.chosen == to.chosen)
+        .then(|| SpacePoint { shares: shares.collect(), chosen: from.chosen.clone() })
 }
 
 /// Returns the front after scaling each design for each target.

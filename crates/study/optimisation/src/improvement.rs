@@ -13,6 +13,9 @@ use crate::restarts::met;
 /// Minimum distance of two distinct starts, as a fraction of the intervals.
 const DISTINCT: f64 = 1e-3;
 
+/// Number of gradient searches besides the one from a design that is probably near the best.
+const ELSEWHERE: usize = 2;
+
 /// Numbers of local searches for a target.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Plan {
@@ -44,7 +47,7 @@ impl Plan {
     ///
     /// The ends of the front are known, so few regions are near the best.
     pub fn of_a_point(self) -> Self {
-        Self { finalists: 2, ..self }
+        Self { regions: self.regions.min(8), finalists: 2, ..self }
     }
 
     /// Returns the plan for an intermediate point of a front.
@@ -85,13 +88,24 @@ pub(crate) fn improved(
     target: &Target,
     plan: Plan,
 ) -> Result<Improved, Halt> {
+    improved_from(search, history, target, plan, None)
+}
+
+/// Improves the best designs in `history`, and a design that is probably near the best.
+///
+/// With such a design fewer gradient searches start elsewhere.
+pub(crate) fn improved_from(
+    search: &Search<'_>,
+    history: &[Candidate],
+    target: &Target,
+    plan: Plan,
+    near: Option<&Candidate>,
+) -> Result<Improved, Halt> {
     let (mut evaluated, mut ends): (Vec<Candidate>, Vec<f64>) = (Vec::new(), Vec::new());
     // Successive halving: a few steps show which regions are worth a longer search.
-    let stages = [
-        (plan.regions, Effort::PROBE),
-        (plan.starts, Effort::CLIMB),
-        (plan.finalists, Effort::WHOLE),
-    ];
+    let full = if near.is_some() { Effort::NEAR } else { Effort::WHOLE };
+    let stages =
+        [(plan.regions, Effort::PROBE), (plan.starts, Effort::CLIMB), (plan.finalists, full)];
     for (count, effort) in stages {
         // Each search depends on its start only, so results are independent of the order of
         // completion.
@@ -101,7 +115,10 @@ pub(crate) fn improved(
         let is_feasible = |candidate: &Candidate| met(search, candidate, target).is_some();
         let is_full = effort.rounds > 0 && known.clone().any(is_feasible);
         let known = known.filter(|candidate| !is_full || is_feasible(candidate));
-        let starts = distinct(starts(search, known, target, count));
+        let near = near.filter(|_| effort.rounds == 0 && count > 0);
+        let count = if near.is_some() { count.min(ELSEWHERE) } else { count };
+        let starts = starts(search, known, target, count);
+        let starts = distinct(near.cloned().into_iter().chain(starts).collect());
         let walks = starts.par_iter().map(|start| {
             let walk = search.improve(target, start, effort)?;
             let best = search.best(walk.iter().chain([start]), target);

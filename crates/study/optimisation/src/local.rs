@@ -110,6 +110,12 @@ impl Effort {
     pub const WHOLE: Self =
         Self { rounds: ROUNDS, reach: 0.06, ridge: 20, polish: 8, evaluations: 70, ..Self::CLIMB };
 
+    /// Local search from a design that is probably near the best.
+    ///
+    /// Jumps are left to the searches for the designs on both sides.
+    pub const NEAR: Self =
+        Self { rounds: 2, reach: 0.01, polish: 0, evaluations: 40, ..Self::WHOLE };
+
     /// Returns a smaller budget for sampled designs.
     ///
     /// Each evaluation costs as many solutions as there are samples.
@@ -283,6 +289,10 @@ impl Search<'_> {
         }
         let effort = if self.judge.samples().is_some() { effort.on_samples() } else { effort };
         let (mut reach, variables) = (effort.reach, start.point.shares.len());
+        // Full searches start where gradient searches ended, and nothing may be left to gain there.
+        if effort.rounds > 0 && walk.is_certain()? {
+            return Ok(walk.log.take());
+        }
         walk.climb(effort)?;
         for _ in 0..effort.rounds {
             if walk.is_certain()? {
@@ -292,7 +302,9 @@ impl Search<'_> {
             // The ridge search goes first: tangents give a direction along the ridge, which the
             // polls of a direct search rarely hit.
             walk.follow(reach, effort.ridge * variables)?;
-            walk.polish(reach, effort.polish * variables)?;
+            if effort.polish > 0 {
+                walk.polish(reach, effort.polish * variables)?;
+            }
             if !gained(before, walk.best_merit(), self.fineness().gain) {
                 break;
             }
