@@ -47,7 +47,7 @@ impl Plan {
     ///
     /// The ends of the front are known, so few regions are near the best.
     pub fn of_a_point(self) -> Self {
-        Self { regions: self.regions.min(8), finalists: 2, ..self }
+        Self { finalists: 2, ..self }
     }
 
     /// Returns the plan for an intermediate point of a front.
