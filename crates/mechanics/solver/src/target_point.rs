@@ -27,13 +27,17 @@ pub struct TargetPoint<M> {
 }
 
 impl<M: Clone> TargetPoint<M> {
-    /// Returns the end of a path that reached its target; `None` for other paths.
+    /// Returns the end of a path that reached its target.
+    ///
+    /// `None` for other paths, and if the tangent at the end is singular.
     pub fn of_path<S: System<Mode = M>>(path: &Continuation<S>) -> Option<Self> {
         if path.termination() != Some(Termination::Reached) {
             return None;
         }
         let (system, state) = (path.system(), &path.point().state);
-        let is_positive = is_positive(system, state)?;
+        let (mut newton, condition) = (Newton::new(system), at_fraction(system, state, 1.0));
+        let direction = newton.tangent(system, state, &condition).ok()?;
+        let is_positive = newton.is_positive(&condition, &direction);
         Some(Self { state: state.clone(), is_positive })
     }
 
@@ -75,7 +79,7 @@ impl<M: Clone> TargetPoint<M> {
             let direction = newton.solve(system, &mut state, &condition, &settings).ok()?;
             let violated = violated(&Newton::guards(system, &state));
             let Some(&(constraint, _)) = violated.first() else {
-                let is_same_branch = is_positive(system, &state)? == self.is_positive;
+                let is_same_branch = newton.is_positive(&condition, &direction) == self.is_positive;
                 let (arriving, leaving) = (direction.clone(), direction);
                 let point = Equilibrium { state, arriving, leaving, event: None };
                 return is_same_branch.then_some(point);
@@ -99,14 +103,6 @@ fn at_fraction<S: System>(system: &S, state: &State<S::Mode>, fraction: f64) -> 
     let control = system.controls()[0];
     let side = (state.z[control.index] / control.scale).signum();
     Condition::new(vec![(control.index, side / control.scale)], fraction * system.target())
-}
-
-/// Returns the orientation of the path at an equilibrium; `None` if the tangent is singular.
-fn is_positive<S: System>(system: &S, state: &State<S::Mode>) -> Option<bool> {
-    let mut newton = Newton::new(system);
-    let condition = at_fraction(system, state, 1.0);
-    let direction = newton.tangent(system, state, &condition).ok()?;
-    Some(newton.is_positive(&condition, &direction))
 }
 
 /// Returns the violated constraints with their guards, the most negative one first.

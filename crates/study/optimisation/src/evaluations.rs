@@ -301,7 +301,7 @@ impl<'a> Evaluations<'a> {
             return Ok(Arc::clone(known));
         }
         let (case, last) = (self.space.case(point), first + count as u64);
-        let end = self.sampler.puncture_end(&case);
+        let end = self.has_ends(point).then(|| self.end(&self.unscaled(point))).flatten();
         let values = (first..last).into_par_iter().map(|sample| {
             self.go_on()?;
             let (number, sample) = (self.number(0), BEFORE + sample);

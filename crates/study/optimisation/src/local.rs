@@ -401,8 +401,7 @@ impl LocalSearch<'_> {
 
     /// Follows the path of the best design from rest.
     ///
-    /// If its end is not the one that was found from a similar design, the next best design takes
-    /// its place.
+    /// If the path ends in another state than the search found, the next best design replaces it.
     fn follow_best(&self) -> Result<(), Halt> {
         loop {
             let best = self.best.borrow().clone();

@@ -5,6 +5,7 @@ pub mod curve;
 pub mod evaluator;
 pub mod groups;
 pub mod interleaved;
+mod parts;
 mod samples;
 mod scatter;
 mod sensitivity;

@@ -58,13 +58,6 @@ impl Sampler {
         Some(Sample { row, deviations })
     }
 
-    /// Returns the end of the puncture of a design, a start for its samples.
-    ///
-    /// `None` if they have to be solved from rest.
-    pub fn puncture_end(&self, case: &Case) -> Option<PunctureEnd> {
-        self.evaluator.has_ends(case).then(|| self.evaluator.puncture_end(case)).flatten()
-    }
-
     /// Returns the case of a sample without scatter from scale to scale.
     ///
     /// `None` if no deviations within the bounds of the parameters are found.

@@ -253,7 +253,7 @@ fn solve(results: &FolderContents, row: usize, is_drawn: bool) -> Option<PageDes
     let mut case = grid.case(grid.parse_number(number).ok()?);
     // Smaller steps of the definition are kept.
     case.common.solver.max_step = case.common.solver.max_step.min(CURVE_STEP);
-    // Curves and drawings need no measures; those of the table were solved by the run.
+    // Curves and drawings need no measures. The run has solved the measures in the table.
     case.common.detail = PathDetail::Critical;
     let substrate = substrate(&case).ok()?;
     let solved =

@@ -80,6 +80,8 @@ impl FoldObserver {
         if is_known && !path.system().is_critical_only() {
             return;
         }
+        // The end of the path may start similar designs unless a gap opens again later, so critical
+        // measures watch all gaps to the end.
         let crossings = self.crossings(path, from, to);
         if is_known {
             return;

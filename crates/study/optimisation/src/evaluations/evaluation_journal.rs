@@ -33,7 +33,7 @@ pub(crate) enum JournalLine {
 pub(crate) struct SolvedLine {
     /// True if the result includes derivatives.
     pub differentiated: bool,
-    /// Fractions of the intervals of the design at the end of which the puncture starts, if any.
+    /// Fractions of the intervals of a similar design, if the puncture starts from its end.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub near: Option<Vec<f64>>,
     /// Number of the sample; `None` for the nominal design.
@@ -79,7 +79,7 @@ pub(crate) struct SamplesLine {
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct EvaluationKey {
     pub differentiated: bool,
-    /// Point from the end of which the puncture starts, if any.
+    /// Point of a similar design, if the puncture starts from its end.
     pub near: Option<PointKey>,
     /// Number of the sample; `None` for the nominal design.
     pub sample: Option<u64>,

@@ -5,7 +5,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use geometry::OutOfRange;
-use results::columns::{is_along_path, needs_parameter};
+use results::columns::is_along_path;
 use results::{
     DesignResult, DesignRow, Failure, FlexureResult, Outcome, ParameterDerivative, PathEnd,
     PunctureResult, SampleStatistics, SolvedDesign, finite,
@@ -14,9 +14,10 @@ use skin::flexure::{self, Flexure, Method};
 use skin::puncture::{self, Puncture, PunctureEnd};
 use skin::{Common, PathDetail};
 use substrate::{Calibrations, RowStiffness, StiffnessSlopes};
-use sweep::{Case, DesignNumber, Measure, Parameter, key};
+use sweep::{Case, DesignNumber, Measure, Parameter};
 
 use super::between::{self, WorstBody};
+use super::parts::Parts;
 use super::sensitivity::Wanted;
 use super::work::{DesignWork, WorkMeter};
 use super::{samples, scatter, sensitivity};
@@ -121,16 +122,6 @@ impl Evaluator {
         self.row_metered(number, case, &WorkMeter::default())
     }
 
-    /// Solves a design like [`Self::row`], with derivatives by these `parameters` alone.
-    pub fn row_with_derivatives(
-        &self,
-        number: DesignNumber,
-        case: &Case,
-        parameters: &[&'static Parameter],
-    ) -> DesignRow {
-        self.row_of(number, case, Wanted::Only(parameters), &WorkMeter::default())
-    }
-
     /// Returns true if punctures of designs like `case` may start from the end of another one.
     pub fn has_ends(&self, case: &Case) -> bool {
         self.measures(Measure::Puncture)
@@ -161,14 +152,11 @@ impl Evaluator {
         parameters: Option<&[&'static Parameter]>,
     ) -> (DesignRow, Option<PunctureEnd>) {
         let wanted = parameters.map_or(Wanted::All, Wanted::Only);
-        let solved =
-            self.solved(number, &recorded(case, self.detail), wanted, &WorkMeter::default());
-        let end = solved.puncture.and_then(|puncture| puncture.end);
-        (DesignRow { case: *case, ..solved.row }, end)
+        self.row_of(number, case, wanted, &WorkMeter::default())
     }
 
-    /// Solves a design like [`Self::row_with_derivatives`], with the puncture from the `end` of a
-    /// similar design.
+    /// Solves a design like [`Self::row_and_end`], with the puncture from the `end` of a similar
+    /// design.
     ///
     /// `None` if the path has to be followed.
     pub fn row_near(
@@ -193,7 +181,7 @@ impl Evaluator {
         case: &Case,
         meter: &WorkMeter,
     ) -> DesignRow {
-        self.row_of(number, case, Wanted::All, meter)
+        self.row_of(number, case, Wanted::All, meter).0
     }
 
     fn row_of(
@@ -202,10 +190,11 @@ impl Evaluator {
         case: &Case,
         wanted: Wanted<'_>,
         meter: &WorkMeter,
-    ) -> DesignRow {
+    ) -> (DesignRow, Option<PunctureEnd>) {
         let needed = self.parts.map_or(*case, |parts| parts.of_case(case));
-        let row = self.solved(number, &recorded(&needed, self.detail), wanted, meter).row;
-        DesignRow { case: *case, ..row }
+        let solved = self.solved(number, &recorded(&needed, self.detail), wanted, meter);
+        let end = solved.puncture.and_then(|puncture| puncture.end);
+        (DesignRow { case: *case, ..solved.row }, end)
     }
 
     fn solved(
@@ -527,45 +516,6 @@ impl Evaluator {
     pub fn substrate(&self, case: &Case) -> Result<Arc<RowStiffness>, Outcome> {
         let footprint = case.footprint().map_err(|_| Outcome::Calibration)?;
         self.calibrations.row(&footprint, case.coupling).map_err(|_| Outcome::Calibration)
-    }
-}
-
-/// Parts of a design besides its first puncture and its bending.
-#[derive(Clone, Copy, Debug)]
-struct Parts {
-    /// The load positions.
-    places: bool,
-    /// The row across.
-    across: bool,
-    /// The bodies between two radii.
-    between: bool,
-    /// Unloading, of puncture and bending.
-    unloading: [bool; 2],
-}
-
-impl Parts {
-    /// Returns the parts that `columns` need.
-    fn of(columns: &[&str]) -> Self {
-        let [places, across, failure, between, unload, unbend] =
-            [key::PLACES, key::ACROSS, key::FAILURE, key::RADIUS_TO, key::UNLOAD, key::UNBEND]
-                .map(|key| columns.iter().any(|column| needs_parameter(column, key)));
-        // The first failure may be across the row, and both directions are compared at the weakest
-        // position.
-        let across = across || failure;
-        Self { places: places || across, across, between, unloading: [unload, unbend] }
-    }
-
-    /// Returns `case` without the other parts.
-    fn of_case(self, case: &Case) -> Case {
-        let mut case = *case;
-        let [unload, unbend] = self.unloading;
-        case.puncture.places = case.puncture.places.filter(|_| self.places);
-        case.across &= self.across;
-        case.gap_across = case.gap_across.filter(|_| self.across);
-        case.body_radius_to = case.body_radius_to.filter(|_| self.between);
-        case.puncture.unload &= unload;
-        case.flexure.unload &= unbend;
-        case
     }
 }
 
