@@ -5,7 +5,7 @@ use serde::Serialize;
 use substrate::Coupling;
 use sweep::{Case, Sweep};
 
-use crate::gap_change::{Patience, again, evaluator_of};
+use crate::gap_change::{Patience, case_to_solve, evaluator_of, value};
 
 /// Measures of a design with nearest-neighbour and with full coupling.
 ///
@@ -43,21 +43,18 @@ impl CouplingChange {
         columns: &[&str],
         patience: Patience,
     ) -> Option<Self> {
-        let couplings = [Coupling::Nearest, Coupling::Full];
-        let change = |case: &mut Case, own| case.coupling = own;
-        let evaluator = evaluator_of(sweep, &[columns, &[name::FOLD_FORCE]].concat());
-        let (case, solved) = again(sweep, number, patience, &evaluator, couplings, change)?;
+        let (own, case) = case_to_solve(sweep, number, patience)?;
         (case.coupling == Coupling::Nearest).then_some(())?;
+        let evaluator = evaluator_of(sweep, &[columns, &[name::FOLD_FORCE]].concat());
+        let coupled = Case { coupling: Coupling::Full, ..case };
+        let rows = [case, coupled].map(|case| evaluator.row(own, &case));
         let known = design_columns(sweep);
-        let values = |wanted: &str| {
-            let column = known.iter().find(|column| column.name == wanted)?;
-            Some(solved.each_ref().map(|row| column.cell(row).number()))
-        };
+        let values = |name: &str| rows.each_ref().map(|row| value(&known, name, row));
         let measure = |column: &&str| {
-            let [nearest, full] = values(column)?;
+            let [nearest, full] = values(column);
             Some(CoupledMeasure { column: (*column).to_owned(), nearest: nearest?, full })
         };
-        let folds = matches!(values(name::FOLD_FORCE), Some([None, Some(_)]));
+        let folds = matches!(values(name::FOLD_FORCE), [None, Some(_)]);
         let measures: Vec<_> = columns.iter().filter_map(measure).collect();
         // Coverage, and bending without contact, do not depend on the substrate.
         let moves = folds || measures.iter().any(|measure| measure.full != Some(measure.nearest));

@@ -4,7 +4,7 @@ use results::columns::{design_columns, measure_of};
 use results::{Column, DesignRow};
 use serde::{Serialize, Serializer};
 use skin::Imperfection;
-use sweep::{Case, Sweep};
+use sweep::{Case, DesignNumber, Sweep};
 
 use crate::solve::evaluator::Evaluator;
 use crate::solve::work::work_of;
@@ -84,13 +84,11 @@ impl GapChange {
         columns: &[&str],
         patience: Patience,
     ) -> Option<Self> {
-        let gaps = [1.0, PARTS[0], PARTS[1]];
-        let evaluator = evaluator_of(sweep, columns);
-        let (case, solved) = again(sweep, number, patience, &evaluator, gaps, change)?;
+        let (own, case) = case_to_solve(sweep, number, patience)?;
+        let row = evaluator_of(sweep, columns).row(own, &case);
         let known = design_columns(sweep);
-        let measures = columns.iter().filter_map(|name| measure(named(&known, name)?, &solved));
-        let (design, gap) = (number.to_owned(), case.design.gap);
-        Some(Self { design, gap, measures: measures.collect() })
+        let values = columns.iter().filter_map(|&name| Some((name, value(&known, name, &row)?)));
+        Self::beside(sweep, number, &values.collect::<Vec<_>>(), patience)
     }
 
     /// Solves design `number` of `sweep` with the changed gaps only.
@@ -103,35 +101,28 @@ impl GapChange {
         measured: &[(&str, f64)],
         patience: Patience,
     ) -> Option<Self> {
+        let (own, case) = case_to_solve(sweep, number, patience)?;
         let columns: Vec<&str> = measured.iter().map(|(column, _)| *column).collect();
         let evaluator = evaluator_of(sweep, &columns);
-        let (case, solved) = again(sweep, number, patience, &evaluator, PARTS, change)?;
+        let rows = PARTS.map(|part| {
+            let mut case = case;
+            case.design.gap *= part;
+            evaluator.row(own, &case)
+        });
         let known = design_columns(sweep);
-        let measures = measured.iter().filter_map(|&(name, value)| {
-            let column = named(&known, name)?;
-            let changed = solved.each_ref().map(|row| column.cell(row).number());
-            Some(MeasureChange { column: name.to_owned(), value, changed })
+        let measures = measured.iter().map(|&(name, nominal)| MeasureChange {
+            column: name.to_owned(),
+            value: nominal,
+            changed: rows.each_ref().map(|row| value(&known, name, row)),
         });
         let (design, gap) = (number.to_owned(), case.design.gap);
         Some(Self { design, gap, measures: measures.collect() })
     }
 }
 
-fn change(case: &mut Case, part: f64) {
-    case.design.gap *= part;
-}
-
-fn named<'a>(known: &'a [Column<DesignRow>], name: &str) -> Option<&'a Column<DesignRow>> {
-    known.iter().find(|column| column.name == name)
-}
-
-fn measure(column: &Column<DesignRow>, solved: &[DesignRow; 3]) -> Option<MeasureChange> {
-    let [value, smaller, larger] = solved.each_ref().map(|row| column.cell(row).number());
-    Some(MeasureChange {
-        column: column.name.to_string(),
-        value: value?,
-        changed: [smaller, larger],
-    })
+/// Returns the number in a column of a design; `None` without such a column or number.
+pub(crate) fn value(known: &[Column<DesignRow>], name: &str, row: &DesignRow) -> Option<f64> {
+    known.iter().find(|column| column.name == name)?.cell(row).number()
 }
 
 /// Returns an evaluator of the measures of `sweep` that `columns` need.
@@ -148,35 +139,24 @@ pub(crate) fn evaluator_of(sweep: &Sweep, columns: &[&str]) -> Evaluator {
 ///
 /// Returns `None` if the design does not exist or takes longer than `patience`.
 pub fn solved_row(sweep: &Sweep, number: &str, patience: Patience) -> Option<DesignRow> {
-    let evaluator = Evaluator::new(&sweep.plain_measures());
-    let (_, [row]) = again(sweep, number, patience, &evaluator, [()], |_, ()| ())?;
-    Some(row)
+    let (own, case) = case_to_solve(sweep, number, patience)?;
+    Some(Evaluator::new(&sweep.plain_measures()).row(own, &case))
 }
 
-/// Returns design `number` of `sweep` and its variants with each of the `changes`.
+/// Returns design `number` of `sweep` without scatter, to be solved again with changes.
 ///
-/// Returns `None` if the design does not exist or takes longer than `patience`. Samples of
-/// imperfect rows are not solved.
-pub(crate) fn again<T: Copy, const N: usize>(
+/// Random samples would take hundreds of paths, and hide cliffs of the nominal design. Returns
+/// `None` if the design does not exist or takes longer than `patience`.
+pub(crate) fn case_to_solve(
     sweep: &Sweep,
     number: &str,
     patience: Patience,
-    evaluator: &Evaluator,
-    changes: [T; N],
-    change: impl Fn(&mut Case, T),
-) -> Option<(Case, [DesignRow; N])> {
+) -> Option<(DesignNumber, Case)> {
     let grid = sweep.grid();
     let index = grid.parse_number(number).ok()?;
-    let mut case = grid.case(index);
-    // Random samples take hundreds of paths, and hide cliffs of the nominal design.
-    case.imperfection = Imperfection::default();
-    (patience == Patience::Unlimited || is_quick(sweep, &case)).then_some(())?;
-    let solved = changes.map(|own| {
-        let mut case = case;
-        change(&mut case, own);
-        evaluator.row(grid.number(index), &case)
-    });
-    Some((case, solved))
+    let case = Case { imperfection: Imperfection::default(), ..grid.case(index) };
+    let accepted = patience == Patience::Unlimited || is_quick(sweep, &case);
+    accepted.then(|| (grid.number(index), case))
 }
 
 /// Returns true if a design takes milliseconds.

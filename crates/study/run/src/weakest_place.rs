@@ -7,7 +7,7 @@ use skin::Status;
 use substrate::Coupling;
 use sweep::{Case, Sweep};
 
-use crate::gap_change::{Patience, again};
+use crate::gap_change::{Patience, case_to_solve, value};
 use crate::solve::evaluator::Evaluator;
 
 /// Number of load positions on the top of a scale.
@@ -38,52 +38,34 @@ impl WeakestPlace {
     /// force, or compare as many positions already. Returns an empty list if there is no such
     /// design, or if its needle is not guided: a dead load is attached to its corner.
     pub fn solve(sweep: &Sweep, number: &str, columns: &[&str]) -> Vec<Self> {
-        let Ok(index) = sweep.grid().parse_number(number) else { return Vec::new() };
-        if !sweep.grid().case(index).punctured().needle.is_guided() {
+        let Some((own, case)) = case_to_solve(sweep, number, Patience::Unlimited) else {
+            return Vec::new();
+        };
+        if !case.punctured().needle.is_guided() {
             return Vec::new();
         }
-        let change = |case: &mut Case, variant: Variant| variant.apply(case);
         let evaluator = Evaluator::new(&sweep.plain_measures());
-        let solved = again(sweep, number, Patience::Unlimited, &evaluator, variants(), change);
-        let Some((_, [requested, coupled @ ..])) = solved else { return Vec::new() };
+        let requested = evaluator.row(own, &case);
+        let coupled: Vec<_> =
+            coupled_cases(&case).iter().map(|case| evaluator.row(own, case)).collect();
         let known = design_columns(sweep);
         columns.iter().filter_map(|column| weakest(column, &requested, &coupled, &known)).collect()
     }
 }
 
-/// A change of a design.
-#[derive(Clone, Copy)]
-enum Variant {
-    Unchanged,
-    FullCoupling,
-    /// Full coupling, at one of [`PLACES`] load positions.
-    Place(usize),
-}
-
-/// Returns the unchanged design, then those with full coupling.
-fn variants() -> [Variant; PLACES + 2] {
-    std::array::from_fn(|k| match k {
-        0 => Variant::Unchanged,
-        1 => Variant::FullCoupling,
-        _ => Variant::Place(k - 2),
-    })
-}
-
-impl Variant {
-    fn apply(self, case: &mut Case) {
-        if let Self::Unchanged = self {
-            return;
-        }
-        case.coupling = Coupling::Full;
-        if let Self::Place(place) = self {
-            // `puncture.places` locates no failures, so each position is a design of its own. The
-            // row across has no such positions: it is compared once, with the requested design.
-            (case.across, case.gap_across) = (false, None);
-            case.load_inset = None;
-            case.puncture.load_position = case.punctured().positions(PLACES, &case.design)[place];
-        }
-        case.puncture.places = None;
-    }
+/// Returns a design with full coupling at the requested load position, then at [`PLACES`] positions.
+fn coupled_cases(case: &Case) -> Vec<Case> {
+    let mut coupled = Case { coupling: Coupling::Full, ..*case };
+    coupled.puncture.places = None;
+    // `puncture.places` locates no failures, so each position is a design of its own. The row across
+    // has no such positions: it is compared once, with the requested design.
+    let mut placed = Case { across: false, gap_across: None, load_inset: None, ..coupled };
+    let positions = case.punctured().positions(PLACES, &case.design);
+    let placed = positions.into_iter().map(|position| {
+        placed.puncture.load_position = position;
+        placed
+    });
+    std::iter::once(coupled).chain(placed).collect()
 }
 
 /// Returns the column of a single load position; the minimum over the positions is compared.
@@ -104,7 +86,7 @@ fn weakest(
     positions: &[DesignRow],
     known: &[Column<DesignRow>],
 ) -> Option<WeakestPlace> {
-    let asked = named(known, column)?.cell(requested).number()?;
+    let asked = value(known, column, requested)?;
     let single = position_column(column)?;
     let has_all = requested.case.puncture.places.is_some_and(|places| places >= PLACES);
     if single != column && has_all {
