@@ -7,8 +7,13 @@ use super::system::Chain;
 use crate::contacts::{SkinPoint, SkinState};
 use crate::record::Skin;
 
-/// A gap counts as closed if its stretch is below this.
+/// A gap counts as closed if its stretch is at most this.
+///
+/// While the corners of two bases touch, the stretch is zero up to round-off.
 const CLOSE: f64 = 1e-12;
+
+/// A gap closes if its stretch falls faster than this along the path.
+const NO_RATE: f64 = 1e-9;
 
 /// Evaluations after which a bracket is as narrow as an `f64` allows.
 const EVALUATIONS: usize = 100;
@@ -55,7 +60,7 @@ struct FoldCrossing {
 pub(super) struct FoldObserver {
     pub(super) folds: Vec<Fold>,
     pub(super) first: Option<SkinPoint>,
-    /// Least stretch of a gap that closed and then opened again, with or without folding.
+    /// Least stretch of a gap that closed and then opened again or stayed, with or without folding.
     ///
     /// Infinite if there is none.
     pub(super) least_dip: f64,
@@ -128,7 +133,7 @@ impl FoldObserver {
             ];
             self.note_dip(chain, to, pair, [start, end], slopes);
             if is_folded(start) != is_folded(end) {
-                let bracket = Bracket::new((0.0, start), (1.0, end));
+                let bracket = bracket((0.0, start), (1.0, end));
                 crossings.push(FoldCrossing { pair, folds: is_folded(end), bracket });
                 continue;
             }
@@ -142,8 +147,7 @@ impl FoldObserver {
             // The slopes only suggest a dip; the equilibrium there decides.
             if is_folded(stretch) != is_folded(start) {
                 let inside = (place, stretch);
-                let [before, after] =
-                    [Bracket::new((0.0, start), inside), Bracket::new(inside, (1.0, end))];
+                let [before, after] = [bracket((0.0, start), inside), bracket(inside, (1.0, end))];
                 crossings.push(FoldCrossing { pair, folds: is_folded(stretch), bracket: before });
                 crossings.push(FoldCrossing { pair, folds: is_folded(end), bracket: after });
             }
@@ -151,7 +155,8 @@ impl FoldObserver {
         crossings
     }
 
-    /// Notes the stretch of a gap that closes and opens again within or behind a segment.
+    /// Notes the stretch of a gap that closes and then opens again or stays, within or behind a
+    /// segment.
     fn note_dip(
         &mut self,
         chain: &Chain,
@@ -160,16 +165,24 @@ impl FoldObserver {
         stretch: [f64; 2],
         slopes: [f64; 2],
     ) {
-        let opens_again = slopes[1] > 0.0
-            || (to.event.is_some() && chain.gap_stretch_rate(&to.state, &to.leaving, pair) > 0.0);
-        if (slopes[0] < 0.0 || slopes[1] < 0.0) && opens_again {
+        let stops = slopes[1] > 0.0
+            || (to.event.is_some()
+                && chain.gap_stretch_rate(&to.state, &to.leaving, pair) > -NO_RATE);
+        if (slopes[0] < 0.0 || slopes[1] < 0.0) && stops {
             self.least_dip = stretch.into_iter().fold(self.least_dip, f64::min);
         }
     }
 }
 
 pub(super) fn is_folded(stretch: f64) -> bool {
-    stretch <= 0.0
+    stretch <= CLOSE
+}
+
+/// Brackets the closing or opening of a gap by two places with their stretches.
+fn bracket(low: (f64, f64), high: (f64, f64)) -> Bracket {
+    // A closed gap may be open by round-off; false position needs opposite signs, or a zero.
+    let [low, high] = [low, high].map(|(place, g)| (place, if g.abs() <= CLOSE { 0.0 } else { g }));
+    Bracket::new(low, high)
 }
 
 impl FoldCrossing {

@@ -160,3 +160,25 @@ fn folds_count_the_contact_events_before_them() {
     }
     assert!(monotone > 1, "{monotone}");
 }
+
+/// While two bases touch, the stretch of their gap is zero up to round-off; the fold is where they
+/// first touch.
+#[test]
+fn a_fold_by_touching_bases_does_not_depend_on_the_step() {
+    let parameters = automatic();
+    for (length, friction) in [(4.855, 0.44), (4.5, 0.4)] {
+        let (design, known) = (design(0.055, length, 49.7, Base::L), Calibrations::default());
+        let forces = [0.2, 0.05, 0.01].map(|max_step| {
+            let solver = Settings { max_step, ..Settings::default() };
+            let common = Common { friction, solver, ..Common::default() };
+            let puncture = solve_as(&known, &design, &common, &parameters);
+            let touching = puncture.path.iter().map(|point| point.gap_stretch.unwrap().min);
+            let touching = touching.filter(|least| least.abs() < 1e-12).count();
+            assert!(touching > 1, "{touching} {design:?}");
+            complete(&puncture).fold_force.unwrap()
+        });
+        for force in forces {
+            assert_relative_eq!(force, forces[0], max_relative = 1e-10);
+        }
+    }
+}
