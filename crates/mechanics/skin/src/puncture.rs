@@ -603,6 +603,16 @@ impl<'a> Problem<'a> {
         }
     }
 
+    /// Returns true if the load is in the middle of a scale of an even, upright row.
+    ///
+    /// It pushes the scale straight down. Beyond a bifurcation the path may leave the symmetric
+    /// branch, but only by round-off.
+    fn is_balanced(&self) -> bool {
+        matches!(self.rows, Rows::Even(_))
+            && self.design.slant_deg == 0.0
+            && self.parameters.load_position == 0.5
+    }
+
     /// Follows the path of a row until it ends.
     ///
     /// The solved part may grow up to `longest`.
@@ -632,7 +642,8 @@ impl<'a> Problem<'a> {
         watch.lengthen(&growing);
         let path = growing.path;
         let mut passage = watch.passage.finish(path.system(), &path.point().state);
-        let is_untilted = self.parameters.needle.is_guided() && passage.critical_event.is_none();
+        let is_untilted = self.is_balanced()
+            || (self.parameters.needle.is_guided() && passage.critical_event.is_none());
         // At some load the path of a scale pushed in its middle bifurcates.
         let points = &watch.record.path;
         let is_straight =

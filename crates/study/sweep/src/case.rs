@@ -104,6 +104,9 @@ pub struct Samples {
     pub seed: usize,
 }
 
+/// Largest distance of the load across from its edge, over the length of the top.
+const OFF_CENTRE: f64 = 0.5 - 1e-8;
+
 impl Case {
     /// Returns the parameters of the puncture as it is solved.
     ///
@@ -215,8 +218,11 @@ impl Case {
             base: Base::L,
             width: 2.0 * self.design.half_base(),
         };
-        let from_corner = (1.0 - self.puncture.load_position).max(0.0) * design.width;
-        let load_inset = Some(self.load_inset.unwrap_or(from_corner));
+        let position = self.puncture.load_position;
+        let from_corner = position.min(1.0 - position).max(0.0) * design.width;
+        let inset = self.load_inset.unwrap_or(from_corner);
+        // A load in the very middle is balanced, but only until the needle is off by a hair.
+        let load_inset = Some(inset.min(OFF_CENTRE * design.length));
         Some(Self { design, load_inset, ..self.for_critical_force(0.0) })
     }
 

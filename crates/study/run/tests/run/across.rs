@@ -70,10 +70,29 @@ fn the_load_across_is_as_far_from_the_edge_as_along() {
     // The base is 2 t wide, like the paper's bases of length L.
     let inset = across("load_inset_over_t = 0.4");
     assert!((across("load_position = 0.8") / inset - 1.0).abs() < 1e-9);
+    assert!((across("load_position = 0.2") / inset - 1.0).abs() < 1e-9);
     // Between two scales the needle is beside both edges.
     let edge = across("load_inset_over_t = 0");
     assert!((across("load_position = 1.1") / edge - 1.0).abs() < 1e-9);
     assert!(inset > 1.02 * edge, "{inset} {edge}");
+}
+
+/// Beyond its bifurcation, round-off would decide in which direction a balanced block tilts, or
+/// whether it does.
+#[test]
+fn a_load_in_the_middle_tilts_blocks_across_but_not_along() {
+    let text = "name = 'x'\nmeasures = 'puncture'\nsubstrate.coupling = 'full'\n[designs]\n\
+                gap_over_t = { from = 0.23, to = 0.24, step = 0.001 }\nlength_over_t = 1.97\n\
+                slant_deg = 0\n[scale]\nwidth_over_t = 1.97\n[array]\nacross = true\n\
+                [puncture]\nneedle = 'guided'\nload_position = 0.5";
+    let all: Vec<_> = results(text).iter().map(forces).collect();
+    assert_eq!(all.len(), 11);
+    for pair in all.windows(2) {
+        let [(along, narrow), (_, wide)] = [pair[0], pair[1]];
+        assert_eq!(along, None);
+        let ratio = narrow.expect("a force across") / wide.expect("a force across");
+        assert!((ratio - 1.0).abs() < 1e-2, "{ratio}");
+    }
 }
 
 const PAPER: &str = "name = 'x'\nmeasures = 'puncture'\n[designs]\n\
