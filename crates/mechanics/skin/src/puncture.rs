@@ -64,6 +64,12 @@ pub use tilts::TiltMeasures;
 /// It covers the round-off of a symmetric row.
 const STRAIGHT_DEG: f64 = 1e-6;
 
+/// Factors on the largest step with which a path is followed again, in turn.
+const FINER_STEPS: [f64; 2] = [0.25, 0.05];
+
+/// Depth, relative to the largest one, below which a path is back at rest.
+const NEAR_REST: f64 = 0.01;
+
 /// Quantity of the error for a round tip that reaches over too many scales.
 pub const TIP_REACH: &str = "radius of the needle over the pitch of the row";
 
@@ -360,6 +366,15 @@ struct Followed {
 }
 
 impl Followed {
+    /// Returns true if the path ended where it began.
+    fn is_back_at_rest(&self) -> bool {
+        let ends =
+            matches!(self.status, Status::Stopped(Termination::Unloaded | Termination::Jumps));
+        let depths = || self.watch.record.path.iter().map(|point| point.displacement.abs());
+        let farthest = depths().fold(0.0, f64::max);
+        ends && depths().last().is_some_and(|last| last <= NEAR_REST * farthest)
+    }
+
     /// Builds the result of the puncture.
     ///
     /// With `unload` also follows the unloading path.
@@ -577,13 +592,36 @@ impl<'a> Problem<'a> {
         sides.map(|[left, right]| RowLayout { left, right, needle, contacts })
     }
 
+    /// Follows the path of the puncture, with smaller steps if it turns around.
+    ///
+    /// Only one branch leaves the state at rest, so a path that returns there has turned around at an
+    /// event: round-off decided on its direction.
+    fn follow(
+        &self,
+        functions: &[PathFunction<Chain>],
+        places: &[At],
+    ) -> Result<Followed, OutOfRange> {
+        let mut followed = self.follow_once(functions, places)?;
+        for factor in FINER_STEPS {
+            if !followed.is_back_at_rest() {
+                break;
+            }
+            let max_step = factor * self.settings.max_step;
+            let settings = Settings { max_step, ..self.settings };
+            let (stiffness, endless) = (self.stiffness.clone(), self.endless.clone());
+            let finer = Problem { settings, stiffness, endless, ..*self };
+            followed = finer.follow_once(functions, places)?;
+        }
+        Ok(followed)
+    }
+
     /// Follows the path until it ends, and locates the points requested in `places`.
     ///
     /// Initially each scale may touch its direct neighbours. If the audit finds overlap with a more
     /// distant scale, which happens in at most one row in a hundred, the path is followed again
     /// with a larger contact reach. Using the larger reach from the start would multiply the run
     /// time of every path.
-    fn follow(
+    fn follow_once(
         &self,
         functions: &[PathFunction<Chain>],
         places: &[At],

@@ -13,6 +13,11 @@ const POISSON_RATIO: f64 = 0.35;
 /// Shear coefficient of a rectangular section.
 const SHEAR_COEFFICIENT: f64 = 5.0 / 6.0;
 
+/// Distance within which loads act on the same section, over `t`.
+///
+/// Both top corners of an upright scale are at the same height up to round-off.
+const SAME_SECTION: f64 = 1e-9;
+
 /// Force of a contact or of the needle on a scale, in the frame of the scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Load {
@@ -80,7 +85,7 @@ impl Beam {
         // Loads at the base do not act on the section there.
         let beyond = loads.iter().filter(|load| {
             let at = load.arm.dot(&self.along);
-            at >= s && at > 0.0
+            at >= s - SAME_SECTION && at > SAME_SECTION
         });
         let (mut moment, mut normal) = (0.0, 0.0);
         for Load { arm, force } in beyond {
@@ -183,6 +188,17 @@ mod tests {
             assert_relative_eq!(motion.rotation, rotation, max_relative = 1e-13);
             let deflection = at_load + rotation * half;
             assert_relative_eq!(motion.deflection, deflection, max_relative = 1e-13);
+        }
+    }
+
+    /// Round-off must not decide which of two loads at one height is the upper one.
+    #[test]
+    fn loads_at_the_same_height_act_on_the_same_section() {
+        let beam = beam(0.2, 0.0, 1.0);
+        for off in [0.0, 1e-15, -1e-15] {
+            let pair = [[0.8 + off, 0.1], [0.8, -0.1]];
+            let stress = beam.stress(&pair.map(|place| load(&beam, place, [-1.0, 0.0])));
+            assert_relative_eq!(stress, 2.0 / beam.depth, max_relative = 1e-12);
         }
     }
 

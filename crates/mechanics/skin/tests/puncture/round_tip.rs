@@ -5,7 +5,7 @@ use skin::puncture::{
     self, CriticalEvent, Needle, Puncture, PunctureParameters, PuncturePoint, RowLength,
 };
 use skin::{Base, Common, Design, Status};
-use solver::Termination;
+use solver::{Settings, Termination};
 use substrate::{Calibrations, Coupling, RowStiffness};
 
 use crate::samples::{design, in_small_steps, solve_as, springs};
@@ -229,6 +229,21 @@ fn touching_a_tilted_scale_ends_the_path() {
     };
     assert!(touched.clone().all(|scale| tilt(scale) < 10.0));
     assert!(tilt(touched.next_back().unwrap() + 1) > 14.0);
+}
+
+/// Where a contact closes while another is about to open, round-off may turn the path back to rest.
+#[test]
+fn a_path_that_returns_to_rest_is_followed_with_smaller_steps() {
+    let steep = design(0.0258, 0.248, 57.8, Base::L);
+    let stiffness = RowStiffness::compute(&steep.footprint(0.5).unwrap(), Coupling::Full).unwrap();
+    let parameters = PunctureParameters { scales: RowLength::Auto, ..parameters(Some(0.221)) };
+    for max_step in [0.2, 0.1, 0.02] {
+        let solver = Settings { max_step, ..Settings::default() };
+        let common = Common { solver, ..Common::default() };
+        let puncture = puncture::solve(&steep, stiffness.clone(), &common, &parameters).unwrap();
+        let force = puncture.measures.critical_force.expect("a critical tilt");
+        assert_relative_eq!(force, 4.351_706_525_75, max_relative = 1e-10);
+    }
 }
 
 /// In a notch a tip with friction may jump.
