@@ -372,7 +372,7 @@ impl Followed {
             matches!(self.status, Status::Stopped(Termination::Unloaded | Termination::Jumps));
         let depths = || self.watch.record.path.iter().map(|point| point.displacement.abs());
         let farthest = depths().fold(0.0, f64::max);
-        ends && depths().last().is_some_and(|last| last <= NEAR_REST * farthest)
+        ends && depths().next_back().is_some_and(|last| last <= NEAR_REST * farthest)
     }
 
     /// Builds the result of the puncture.
@@ -609,7 +609,7 @@ impl<'a> Problem<'a> {
             let max_step = factor * self.settings.max_step;
             let settings = Settings { max_step, ..self.settings };
             let (stiffness, endless) = (self.stiffness.clone(), self.endless.clone());
-            let finer = Problem { settings, stiffness, endless, ..*self };
+            let finer = Problem { stiffness, endless, settings, ..*self };
             followed = finer.follow_once(functions, places)?;
         }
         Ok(followed)

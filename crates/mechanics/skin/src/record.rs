@@ -185,6 +185,8 @@ pub(crate) struct Record<S: Skin> {
     followed: Vec<(PathFunction<S>, Peak<SkinMode>)>,
     /// Equilibrium at which the first contact closes.
     pub(crate) touching: Option<SkinPoint>,
+    /// The same point as recorded.
+    first_contact: Option<S::PathPoint>,
 }
 
 impl<S: Skin> Record<S> {
@@ -202,6 +204,7 @@ impl<S: Skin> Record<S> {
             stiffness_summit: OnceCell::new(),
             followed: functions.iter().map(|&f| (f, Peak::default())).collect(),
             touching: None,
+            first_contact: None,
         };
         record.visit_peaks(path, None);
         record
@@ -233,11 +236,11 @@ impl<S: Skin> Record<S> {
             let event =
                 |&change: &Change| Self::event(skin, [&from.state, &point.state], here, change);
             let events: Vec<_> = changes.iter().filter_map(event).collect();
-            if self.touching.is_none()
-                && events.iter().any(|event| event.change == ContactChange::Closed)
-            {
+            // With friction, corners that meet may stick or be handed over without a closing event.
+            if self.touching.is_none() && Contacts::closed(&point.state) > 0 {
                 // Keep the whole equilibrium, because derivatives are taken at it.
                 self.touching = Some(point.clone());
+                self.first_contact = Some(here);
             }
             self.events.extend(events);
         }
@@ -290,10 +293,7 @@ impl<S: Skin> Record<S> {
 
     /// Returns the point of first contact.
     pub(crate) fn first_contact(&self) -> Option<&S::PathPoint> {
-        self.events
-            .iter()
-            .find(|event| event.change == ContactChange::Closed)
-            .map(|event| &event.point)
+        self.first_contact.as_ref()
     }
 
     /// Returns the largest stiffness and its location.

@@ -3,9 +3,8 @@
 use solver::{Continuation, Event, Newton, Settings};
 
 use super::strip::Strip;
-use crate::ContactChange;
-use crate::contacts::{SkinPoint, SkinState};
-use crate::record::{Skin, Work};
+use crate::contacts::{Contacts, SkinPoint, SkinState};
+use crate::record::Work;
 
 /// Relative moment decrease between equilibria that still counts as round-off.
 const ROUND_OFF: f64 = 1e-12;
@@ -147,17 +146,8 @@ impl GapCurve {
 
     /// Returns the moment at which the gap first closes.
     pub(super) fn first_closing(&self) -> Option<f64> {
-        let contacts = self.strip().contacts();
-        self.knots
-            .iter()
-            .find(|knot| match &knot.point.event {
-                Some(Event::Changed(changes)) => changes.iter().any(|&change| {
-                    ContactChange::classify(contacts, &knot.point.state, change)
-                        == ContactChange::Closed
-                }),
-                _ => false,
-            })
-            .map(|knot| knot.moment)
+        let mut touching = self.knots.iter().filter(|knot| Contacts::closed(&knot.point.state) > 0);
+        touching.next().map(|knot| knot.moment)
     }
 
     /// Returns the rotation under a moment, as solved or interpolated by (F8).

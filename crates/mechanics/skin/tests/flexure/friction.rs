@@ -3,6 +3,7 @@
 use approx::assert_relative_eq;
 use skin::flexure::{FlexureInput, FlexureParameters, MembraneMesh, solve, unloading_curve};
 use skin::{Base, Common};
+use solver::Settings;
 
 use crate::samples::design;
 
@@ -46,5 +47,20 @@ fn unloading_curves_lie_on_the_unloading_path() {
     for (point, found) in points.iter().zip(&found) {
         let value = found.as_ref().expect("a point").value;
         assert_relative_eq!(value, point.moment, max_relative = 1e-6, epsilon = 1e-9);
+    }
+}
+
+/// Corners of upright scales that meet with friction may stick without a closing event.
+#[test]
+fn meeting_corners_with_friction_are_a_contact() {
+    for (gap, length, friction) in [(0.0208, 0.165, 0.24), (0.2533, 3.391, 0.17)] {
+        for max_step in [0.2, 0.1, 0.05, 0.04, 0.02] {
+            let solver = Settings { max_step, ..Settings::default() };
+            let common = Common { friction, solver, ..Common::default() };
+            let upright = design(gap, length, 0.0, Base::TwoL);
+            let strip = solve(&upright, &common, &FlexureParameters::default()).expect("a strip");
+            assert_eq!(strip.measures.contact, Some(true), "{upright:?} {max_step}");
+            assert!(strip.measures.compliance.expect("a compliance") < 1e-3);
+        }
     }
 }
