@@ -10,7 +10,9 @@ use super::observers::PathObservers;
 use super::snapshot::farther;
 use super::surface_fold::{Fold, FoldObserver};
 use super::system::{Chain, DEPTH_MARK, DEPTH_RATE, FORCE_MARK, LOAD_RATE, RowLayout};
-use super::{At, Followed, PerturbedScale, Problem, Puncture, PunctureParameters, Rows};
+use super::{
+    At, FailureMode, Followed, PerturbedScale, Problem, Puncture, PunctureParameters, Rows,
+};
 use crate::contacts::{SkinMode, SkinPoint, SkinState};
 use crate::record::{PathFunction, Skin};
 use crate::sensitivity::{
@@ -47,8 +49,8 @@ const FAILURE_FORCE: &str = "failure_force";
 
 /// Solves a puncture like [`solve`](super::solve), and differentiates its measures.
 ///
-/// Returns the derivatives with respect to the parameter of each variation; none if the path was
-/// not completed.
+/// Returns the derivatives with respect to the parameter of each variation; none if the path ended
+/// neither at its target nor at the end of linear bending.
 ///
 /// # Errors
 /// As [`solve`](super::solve).
@@ -135,7 +137,7 @@ fn with_path<T>(
 }
 
 impl Problem<'_> {
-    /// Follows the path and, if it is completed, differentiates its measures.
+    /// Follows the path and differentiates the measures that it has, if its end is a known event.
     pub(super) fn differentiated(
         &self,
         variations: &[Neighbours<PunctureInput>],
@@ -143,7 +145,7 @@ impl Problem<'_> {
         let functions: &[_] = if self.detail == PathDetail::Critical { &[] } else { &FOLLOWED };
         let mut followed = self.follow(functions, &[])?;
         let derivatives = match followed.status {
-            Status::Complete => self.derivatives(&mut followed, variations)?,
+            Status::Complete | Status::Bent => self.derivatives(&mut followed, variations)?,
             _ => Vec::new(),
         };
         Ok((followed, derivatives))
@@ -180,20 +182,21 @@ impl Problem<'_> {
             .collect())
     }
 
-    /// Differentiates the measures of a completed path.
+    /// Differentiates the measures of a path that ended at its target or where linear bending ends.
     pub(super) fn derivatives(
         &self,
         followed: &mut Followed,
         variations: &[Neighbours<PunctureInput>],
     ) -> Result<Vec<Derivative>, OutOfRange> {
-        let Followed { watch, path, .. } = followed;
+        let Followed { watch, path, status, .. } = followed;
+        let is_bent = *status == Status::Bent;
         let layout = path.system().layout;
         let chain = |input: &PunctureInput| input.chain(layout);
         let variations = Neighbours::map_all(variations, chain)?;
         let anchors = anchors(path, &watch.history.segments, &variations);
         let mut found = Vec::new();
         // Build the perturbed rows once for all points with the same history variables.
-        for spots in group_by_history(self.measured_points(watch, path)) {
+        for spots in group_by_history(self.measured_points(watch, path, is_bent)) {
             let state = spots.iter().find_map(|spot| Some(&spot.place.as_ref()?.state));
             // Without a known point there is no derivative.
             let Some(state) = state else { continue };
@@ -208,10 +211,13 @@ impl Problem<'_> {
     }
 
     /// Lists the points of the path at which measures are taken.
+    ///
+    /// A path that `is_bent` has no measures of its end besides the failure force.
     fn measured_points(
         &self,
         watch: &PathObservers,
         path: &mut Continuation<Chain>,
+        is_bent: bool,
     ) -> Vec<MeasuredPoint<Chain>> {
         let PathObservers {
             record, needle, passage, failure, depth: marked, force: loaded, ..
@@ -219,13 +225,21 @@ impl Problem<'_> {
         let FoldObserver { folds, first, .. } = &watch.folds;
         let settings = &self.settings;
         let along_path = !path.system().is_critical_only();
-        let stiffest = if along_path { record.stiffness_summit(path) } else { None };
+        let bent = if is_bent { path.system().bent_at(path.point()) } else { None };
+        let has_end = along_path && !is_bent;
+        let stiffest = if has_end { record.stiffness_summit(path) } else { None };
         let stiffest = sensitivity::summit(stiffest, path, Chain::stiffness, settings);
         let highest = record.highest_point(LOAD);
-        let highest = sensitivity::summit(highest.as_ref(), path, FOLLOWED[LOAD], settings);
+        let highest = match (highest, &bent) {
+            // The limit of bending anchors the end of the path.
+            (Some(highest), Some(bent)) if highest.point.state.z == bent.state.z => {
+                Some(bent.clone())
+            }
+            (highest, _) => sensitivity::summit(highest.as_ref(), path, FOLLOWED[LOAD], settings),
+        };
         let passed = passage.passed.as_ref();
         let passed = passed.and_then(|[from, to]| event_before(path, [from, to]));
-        let maxima = failure.as_ref().map(|failure| failure.summits(path));
+        let maxima = failure.as_ref().filter(|_| !is_bent).map(|failure| failure.summits(path));
         let maxima = maxima.into_iter().flatten().zip(MAXIMA);
         let maxima: Vec<_> = maxima
             .map(|(place, f)| sensitivity::summit(place.as_ref(), path, f, settings))
@@ -248,9 +262,9 @@ impl Problem<'_> {
         let deep = deep.map(|p| AnchoredPoint::arriving(p, PathAnchor::Marker(DEPTH_MARK)));
         let loaded = loaded.points.iter().flatten().next();
         let loaded = loaded.map(|p| AnchoredPoint::arriving(p, PathAnchor::Marker(FORCE_MARK)));
-        let (mut end_quantities, fold_quantities) = at_end_and_fold(folded.is_some());
+        let (mut end_quantities, fold_quantities) = at_end_and_fold(folded.is_some(), is_bent);
         // A path that ends before this depth reports its final force instead.
-        if !marked.points.is_empty() && deep.is_none() {
+        if !is_bent && !marked.points.is_empty() && deep.is_none() {
             end_quantities.push(force("force_at_depth"));
         }
         let failed = failure.as_ref().and_then(|failure| failure.first.as_ref());
@@ -288,7 +302,7 @@ impl Problem<'_> {
             }));
         }
         let mut points = vec![
-            spot(Some(chain.end_of(end(path))), end_quantities),
+            spot(bent.or_else(|| Some(chain.end_of(end(path)))), end_quantities),
             spot(folded, fold_quantities),
             spot(passed, passing),
             spot(deep, vec![force("force_at_depth")]),
@@ -342,6 +356,12 @@ impl Chain {
         AnchoredPoint { anchor: ended.map_or(place.anchor, PathAnchor::Guard), ..place }
     }
 
+    /// Anchors the end of a path to the limit of bending.
+    fn bent_at(&self, point: &SkinPoint) -> Option<AnchoredPoint<SkinMode>> {
+        let mark = self.limit_mark(&point.state, FailureMode::Bend)?;
+        Some(AnchoredPoint::arriving(point, PathAnchor::Marker(mark)))
+    }
+
     /// Anchors a point like the end of the path if it is there.
     fn end_of_target(&self, place: AnchoredPoint<SkinMode>) -> AnchoredPoint<SkinMode> {
         if place.anchor == PathAnchor::Target { self.end_of(place) } else { place }
@@ -376,10 +396,17 @@ fn at_turn<const N: usize>(
 
 /// Lists the quantities at the critical tilt and at the first fold.
 ///
-/// The largest valid force belongs to whichever comes first.
-fn at_end_and_fold(folds: bool) -> (Vec<MeasuredQuantity<Chain>>, Vec<MeasuredQuantity<Chain>>) {
-    let mut end = critical();
+/// The largest valid force belongs to whichever comes first. Both are missing if a scale `is_bent`
+/// before.
+fn at_end_and_fold(
+    folds: bool,
+    is_bent: bool,
+) -> (Vec<MeasuredQuantity<Chain>>, Vec<MeasuredQuantity<Chain>>) {
     let mut fold = vec![force("fold_force"), depth("fold_displacement"), tilt("fold_tilt_deg")];
+    if is_bent {
+        return (Vec::new(), fold);
+    }
+    let mut end = critical();
     (if folds { &mut fold } else { &mut end }).push(force("sound_force"));
     (end, fold)
 }

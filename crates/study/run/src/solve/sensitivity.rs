@@ -204,34 +204,37 @@ pub(super) fn choose_direction(
     measures: &PunctureMeasures,
     derivatives: &mut Vec<ParameterDerivative>,
 ) {
+    let across: Vec<_> = of_measure(name::FORCE_ACROSS, derivatives);
+    if measures.failure.mode == Some(FailureMode::Across) {
+        derivatives.retain(|derivative| derivative.measure != name::FAILURE_FORCE);
+        let failing = across.iter().cloned();
+        derivatives
+            .extend(failing.map(|of| ParameterDerivative { measure: name::FAILURE_FORCE, ..of }));
+    }
     let Some(least) = measures.across.any_direction else { return };
     // Without a critical tilt across, the row along is the weaker one.
-    let across = measures.across.force.unwrap_or(f64::INFINITY);
+    let force_across = measures.across.force.unwrap_or(f64::INFINITY);
     let along = match measures.weakest.force {
         Some(_) => name::WEAKEST_FORCE,
         None => name::CRITICAL_FORCE,
     };
-    let both = [along, name::FORCE_ACROSS].map(|measure| -> Vec<ParameterDerivative> {
-        derivatives.iter().filter(|d| d.measure == measure).cloned().collect()
-    });
-    let along = both[0].first().map_or(f64::INFINITY, |derivative| derivative.value);
-    let is_tie = (along - across).abs() <= TIE * least.abs();
-    let weaker = both[usize::from(across < along)].iter().map(|derivative| ParameterDerivative {
+    let along = of_measure(along, derivatives);
+    let force_along = along.first().map_or(f64::INFINITY, |derivative| derivative.value);
+    let is_tie = (force_along - force_across).abs() <= TIE * least.abs();
+    let weaker = if force_across < force_along { across } else { along };
+    derivatives.extend(weaker.into_iter().map(|derivative| ParameterDerivative {
         measure: name::FORCE_ANY_DIRECTION,
         // The slopes of the other direction differ.
         kink: derivative.kink.clone().or(is_tie.then(|| "the other direction is as weak".into())),
         left: derivative.left.filter(|_| !is_tie),
         right: derivative.right.filter(|_| !is_tie),
-        ..derivative.clone()
-    });
-    let weaker: Vec<_> = weaker.collect();
-    if measures.failure.mode == Some(FailureMode::Across) {
-        derivatives.retain(|derivative| derivative.measure != name::FAILURE_FORCE);
-        let failing = both[1].iter().cloned();
-        derivatives
-            .extend(failing.map(|of| ParameterDerivative { measure: name::FAILURE_FORCE, ..of }));
-    }
-    derivatives.extend(weaker);
+        ..derivative
+    }));
+}
+
+/// Returns the derivatives of a measure.
+fn of_measure(measure: &str, derivatives: &[ParameterDerivative]) -> Vec<ParameterDerivative> {
+    derivatives.iter().filter(|derivative| derivative.measure == measure).cloned().collect()
 }
 
 /// Bends the design of `case`, and differentiates its measures.

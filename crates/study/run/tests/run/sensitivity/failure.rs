@@ -2,12 +2,14 @@
 
 use results::ParameterDerivative;
 use run::Evaluator;
-use skin::puncture::{FailureMeasures, FailureMode, Strengths};
+use skin::Base;
+use skin::puncture::{Bending, FailureMeasures, FailureMode, Strengths};
+use substrate::SubstrateLaw;
 use sweep::{Case, Measure};
 
 use super::designs::{number, random_case};
 use super::differences::Differences;
-use super::{compare_components, derivatives};
+use super::{compare, compare_components, derivatives};
 
 const MEASURES: [&str; 7] = [
     "failure_force",
@@ -59,6 +61,36 @@ fn derivatives_of_the_first_failure_are_those_of_whole_solutions() {
         modes.contains(&FailureMode::Break) && modes.contains(&FailureMode::Debond),
         "{modes:?}"
     );
+}
+
+/// Slender elastic scales bend before they tilt.
+#[test]
+fn derivatives_at_the_end_of_linear_bending_are_those_of_whole_solutions() {
+    for number in [0, 1] {
+        let mut case = random_case(number);
+        (case.design.gap, case.design.length) = (0.1 + 0.02 * number as f64, 0.12);
+        (case.design.slant_deg, case.design.base) = (74.0, Base::L);
+        (case.puncture.substrate_law, case.puncture.critical_tilt_deg) =
+            (SubstrateLaw::Linear, 9.0);
+        case.puncture.contact_modulus_over_substrate = 3000.0;
+        case.puncture.bending = Bending::Elastic;
+        case.judge_failure = true;
+        let bent = failure(&case);
+        assert_eq!(bent.mode, Some(FailureMode::Bend), "{case:?}");
+        let at_end = ["failure_force", "peak_force", "peak_displacement", "peak_tilt_deg"];
+        let derivatives = derivatives(&case);
+        for measure in at_end {
+            let by_gap =
+                derivatives.iter().find(|d| d.measure == measure && d.parameter == "gap_over_t");
+            let slope = by_gap.and_then(ParameterDerivative::derivative);
+            assert!(slope.is_some_and(|slope| slope != 0.0), "{measure}: {by_gap:?}");
+        }
+        // Measures without a value have no derivatives.
+        assert!(derivatives.iter().all(|d| d.measure != "critical_force"), "{case:?}");
+        assert!(compare(&case) >= 60, "{case:?}");
+        case.across = true;
+        assert!(compare(&case) >= 60, "{case:?}");
+    }
 }
 
 /// With the gap across given, and with the gap along in both directions.
