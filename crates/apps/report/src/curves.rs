@@ -1,6 +1,9 @@
 //! Curves of designs: force–displacement, moment–curvature and energies.
 //!
-//! Marks: × contact event, ring first fold of the surface, triangle passage of a guided needle.
+//! Marks: × contact event, ring first fold of the surface, triangle passage of a guided needle, dot
+//! limit of failure with its name.
+
+mod limits;
 
 use results::{bending_units, puncture_units};
 use skin::flexure::{Flexure, FlexurePoint};
@@ -16,6 +19,9 @@ use crate::label::{Anchor, fitting, label, width, wrapped};
 use crate::palette::SlantPalette;
 use crate::paper::Paper;
 use crate::svg::{Element, Spot, circle, line, polygon, polyline};
+use limits::limits;
+
+pub use limits::FailureLimit;
 
 const WIDTH: f64 = 760.0;
 /// Margins for the axes, px: left, right, below.
@@ -39,6 +45,8 @@ const UNSTABLE: &str = "1 2.5";
 /// Dashes of an unloading path.
 const BACK: &str = "5 3";
 const SHADES: [f64; 4] = [0.0, -0.35, -0.6, 0.3];
+/// Largest level of a limit that is shown, over the largest force of the path.
+const HIGHEST_LEVEL: f64 = 1.5;
 
 /// A solved design.
 #[derive(Clone, Debug)]
@@ -54,6 +62,8 @@ pub struct DesignCurves<'a> {
     /// Curvature `t/R` of several bodies and the critical force on each; `None` without a critical
     /// tilt.
     pub on_bodies: &'a [(f64, Option<f64>)],
+    /// The limits of failure that are marked on the curve of the puncture.
+    pub limits: &'a [FailureLimit],
 }
 
 /// Measured curves, overlaid on the curves of designs.
@@ -201,7 +211,18 @@ fn puncture(solved: &DesignCurves) -> Option<CurveValues> {
         rings: fold.into_iter().collect(),
         passing: passing.map(<[f64; 2]>::from).filter(is_shown).into_iter().collect(),
         unstable: unstable.collect(),
+        limits: shown_limits(solved, puncture),
     })
+}
+
+/// Lists the limits on a path; a level far above it is not shown.
+fn shown_limits(solved: &DesignCurves, puncture: &Puncture) -> Vec<(FailureLimit, [f64; 2])> {
+    let highest = puncture.path.iter().map(|point| point.force).fold(0.0, f64::max);
+    let limits = solved
+        .limits
+        .iter()
+        .filter(|limit| limit.displacement.is_some() || limit.force <= HIGHEST_LEVEL * highest);
+    limits.map(|limit| (*limit, [limit.displacement.unwrap_or_default(), limit.force])).collect()
 }
 
 fn places(solved: &DesignCurves) -> Option<CurveValues> {
@@ -275,17 +296,19 @@ struct CurveValues {
     passing: Vec<[f64; 2]>,
     /// True if the segment after each point is unstable under a held depth.
     unstable: Vec<bool>,
+    /// The limits of failure, each with its point.
+    limits: Vec<(FailureLimit, [f64; 2])>,
 }
 
 impl CurveValues {
     fn all(&self) -> impl Iterator<Item = &[f64; 2]> {
-        self.points.iter().chain(&self.back)
+        self.points.iter().chain(&self.back).chain(self.limits.iter().map(|(_, at)| at))
     }
 
     fn in_units(&mut self, [x, y]: [f64; 2]) {
-        let Self { points, back, crosses, rings, passing, .. } = self;
-        let all = [points, back, crosses, rings, passing];
-        for point in all.into_iter().flatten() {
+        let Self { points, back, crosses, rings, passing, limits, .. } = self;
+        let all = [points, back, crosses, rings, passing].into_iter().flatten();
+        for point in all.chain(limits.iter_mut().map(|(_, at)| at)) {
             *point = [point[0] * x, point[1] * y];
         }
     }
@@ -329,6 +352,7 @@ fn one_panel(
         (dotted, any(|values| values.unstable.contains(&true))),
         ("▼ passing", any(|values| !values.passing.is_empty())),
         ("thin dashes: the way back", any(|values| !values.back.is_empty())),
+        ("dots: limits of failure, the first one bold", any(|values| !values.limits.is_empty())),
     ];
     // Show only the notes that apply: all of them are wider than the figure.
     let told = notes.into_iter().filter(|(words, occurs)| *occurs && !words.is_empty());
@@ -356,6 +380,7 @@ fn one_panel(
         let room = full - left - 60.0;
         inside.extend([drawn(&panel, curve), legend(curve, entry(entries, k), room)]);
     }
+    inside.extend(limits(&panel, &curves));
     for (k, (name, points)) in measured.iter().enumerate() {
         let [x, y] = entry(entries, curves.len() + k);
         let dashes = DASHES[k % DASHES.len()];

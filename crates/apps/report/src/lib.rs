@@ -62,7 +62,7 @@ mod search_page;
 mod spreads;
 mod svg;
 
-pub use curves::{DesignCurves, MeasuredCurves, curves};
+pub use curves::{DesignCurves, FailureLimit, MeasuredCurves, curves};
 pub use designs::Designs;
 pub use explore::{Explorer, SolvedTable};
 #[cfg(feature = "xlsx")]

@@ -248,5 +248,6 @@ fn place(at: puncture::At) -> String {
         puncture::At::Displacement(u) => format!("u/t = {u}"),
         puncture::At::Force(force) => format!("F* = {force}"),
         puncture::At::Tilt(tilt) => format!("a tilt of {tilt}°"),
+        puncture::At::Limit(mode) => format!("the limit of {}", mode.name()),
     }
 }

@@ -5,11 +5,13 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, bail};
 use clap::{Args, Subcommand};
 use fit::{MeanCurve, MeasuredCurve, Test};
-use report::{DesignCurves, MapRequest, MeasuredCurves, curves, figures, map};
+use report::{DesignCurves, FailureLimit, MapRequest, MeasuredCurves, curves, figures, map};
 use run::Evaluator;
 use skin::Status;
 use skin::flexure::{self, Flexure};
-use skin::puncture::{self, Puncture, PunctureParameters};
+use skin::puncture::{
+    self, CriticalEvent, FailureMode, Puncture, PunctureMeasures, PunctureParameters, Snapshots,
+};
 use sweep::{Case, PARAMETERS, Parameter, Scalar, key};
 
 use super::draw::{check_place, substrate};
@@ -227,12 +229,13 @@ fn plot_curves(arguments: &CurvesArguments) -> anyhow::Result<u8> {
     let bodies: Vec<_> = cases.iter().map(|case| on_bodies(case, &evaluator)).collect();
     let shown: Vec<_> = shown
         .zip(&bodies)
-        .map(|((((puncture, flexure), design), case), on_bodies)| DesignCurves {
+        .map(|((((puncture, flexure, limits), design), case), on_bodies)| DesignCurves {
             number: number(design, &cases),
             case,
             puncture: Some(puncture),
             flexure: Some(flexure),
             on_bodies,
+            limits,
         })
         .collect();
     // `select` refuses to select none.
@@ -251,7 +254,7 @@ fn plot_curves(arguments: &CurvesArguments) -> anyhow::Result<u8> {
     files.print()?;
     let failed = solved
         .iter()
-        .any(|(puncture, flexure)| [puncture.status, flexure.status] != [Status::Complete; 2]);
+        .any(|(puncture, flexure, _)| [puncture.status, flexure.status] != [Status::Complete; 2]);
     Ok(if failed { INCOMPLETE } else { DONE })
 }
 
@@ -304,18 +307,42 @@ fn measured(arguments: &CurvesArguments, cases: &[Case]) -> anyhow::Result<Optio
     Ok(Some(MeasuredCurves { bending, is_physical, curves, band }))
 }
 
+/// Limits of a scale that are located on a path.
+const OF_SCALES: [FailureMode; 4] =
+    [FailureMode::Break, FailureMode::Bend, FailureMode::Debond, FailureMode::Perforate];
+
+/// Fraction of the critical tilt that counts as its limit on a path beyond it.
+const AT_THE_TILT: f64 = 1.0 - 1e-9;
+
 /// Solves the puncture of a design, to the critical tilt or to a displacement, and its bending.
-fn solve(case: &Case, to: Option<f64>) -> anyhow::Result<(Puncture, Flexure)> {
+///
+/// Also returns the limits of failure, if they are judged.
+fn solve(case: &Case, to: Option<f64>) -> anyhow::Result<(Puncture, Flexure, Vec<FailureLimit>)> {
     let substrate = substrate(case)?;
     let mut common = case.common;
     // Steps that are short enough for a smooth line.
     common.solver.max_step = common.solver.max_step.min(CURVE_STEP);
     let parameters = case.punctured();
     let alone = PunctureParameters { places: None, ..parameters };
-    let mut puncture = match to.map(puncture::At::Displacement) {
-        None => puncture::solve(&case.design, &substrate, &common, &alone)?,
-        Some(to) => puncture::snapshots(&case.design, &substrate, &common, &alone, &[to])?.puncture,
+    let judged = OF_SCALES.into_iter().filter(|mode| {
+        parameters.failure.is_some() && mode.not_judged(&parameters, false).is_none()
+    });
+    let judged: Vec<_> = judged.collect();
+    let mut at: Vec<_> = judged.iter().copied().map(puncture::At::Limit).collect();
+    let Snapshots { mut puncture, at: found, .. } = match to {
+        None => puncture::snapshots_to_end(&case.design, &substrate, &common, &alone, &at)?,
+        Some(to) => {
+            at.extend([
+                puncture::At::Tilt(AT_THE_TILT * parameters.critical_tilt_deg),
+                puncture::At::Displacement(to),
+            ]);
+            puncture::snapshots(&case.design, &substrate, &common, &alone, &at)?
+        }
     };
+    let reached = judged.into_iter().chain([FailureMode::Tilt]).zip(&found);
+    let reached = reached.filter_map(|(mode, row)| Some((mode, row.as_ref()?)));
+    let reached: Vec<_> =
+        reached.map(|(mode, row)| (mode, [row.displacement, row.force])).collect();
     // Without smaller steps, because only the critical force at each position is shown.
     puncture.places =
         puncture::load_positions(&case.design, &substrate, &case.common, &parameters)?;
@@ -328,7 +355,61 @@ fn solve(case: &Case, to: Option<f64>) -> anyhow::Result<(Puncture, Flexure)> {
         puncture.events.retain(|event| path.contains(&event.point));
         puncture.folds.retain(|fold| fold.point.displacement <= to);
     }
-    Ok((puncture, flexure::solve(&case.design, &common, &case.flexure)?))
+    let limits = if parameters.failure.is_some() {
+        limits(case, &puncture, reached, to)
+    } else {
+        Vec::new()
+    };
+    Ok((puncture, flexure::solve(&case.design, &common, &case.flexure)?, limits))
+}
+
+/// Lists the limits of failure on a path up to a displacement, and the level of the row across.
+fn limits(
+    case: &Case,
+    puncture: &Puncture,
+    mut reached: Vec<(FailureMode, [f64; 2])>,
+    to: Option<f64>,
+) -> Vec<FailureLimit> {
+    let PunctureMeasures { critical_force, critical_displacement, passage, failure, .. } =
+        &puncture.measures;
+    if to.is_none()
+        && let Some(end) = critical_displacement.zip(*critical_force)
+    {
+        let through = passage.critical_event == Some(CriticalEvent::Through);
+        let mode = if through { FailureMode::Through } else { FailureMode::Tilt };
+        reached.push((mode, end.into()));
+    }
+    let fold = puncture.folds.first().map(|fold| fold.point);
+    let fold = fold.map(|point| (FailureMode::Fold, [point.displacement, point.force]));
+    reached.extend(fold);
+    reached.retain(|(_, [displacement, _])| to.is_none_or(|to| *displacement <= to));
+    let across = case.across().and_then(|across| {
+        Some(Evaluator::new(&[]).critical_force(&across).ok()? * case.across_factor())
+    });
+    let along = match to {
+        None => failure.mode.zip(failure.force),
+        // The path continues beyond the critical tilt.
+        Some(_) => {
+            let first = reached.iter().min_by(|(_, a), (_, b)| a[0].total_cmp(&b[0]));
+            first.map(|(mode, [_, force])| (*mode, *force))
+        }
+    };
+    let is_across_first =
+        across.is_some_and(|across| along.is_none_or(|(_, along)| across < along));
+    let first =
+        if is_across_first { Some(FailureMode::Across) } else { along.map(|(mode, _)| mode) };
+    let reached =
+        reached.into_iter().map(|(mode, [displacement, force])| (mode, Some(displacement), force));
+    let across = across.map(|force| (FailureMode::Across, None, force));
+    reached
+        .chain(across)
+        .map(|(mode, displacement, force)| FailureLimit {
+            mode,
+            displacement,
+            force,
+            is_first: first == Some(mode),
+        })
+        .collect()
 }
 
 /// Number of bodies between the two radii for which a force is shown.

@@ -73,6 +73,43 @@ fn answers_name_the_mode_beside_a_failure_force() {
     assert!(page.contains("not judged: the needle is not guided"));
 }
 
+/// A curve has the name and force of the first failure, as the table, and of later limits.
+#[test]
+fn curves_mark_the_limits_of_a_design() {
+    let weak = "scale_modulus_MPa = 3000\nscale_strength_MPa = 0.15";
+    let judged = JUDGED.replace("scale = 'PLA'", weak);
+    let place = Place::with(&format!("{FEW}{judged}"));
+    place.squama("run x.toml -q --out r").assert().code(0);
+    let table = place.read("r/designs.csv");
+    let (modes, forces) = (cells(&table, "first_failure"), cells(&table, "failure_force_N"));
+    let mut seen = Vec::new();
+    for (row, (mode, force)) in modes.iter().zip(&forces).enumerate() {
+        place.squama(&format!("plot curves x.toml --design {} --out c", row + 1)).assert().code(0);
+        let figure = format!("c/force-displacement-curves-of-{:04}.svg", row + 1);
+        let figure = place.read(&figure);
+        let Ok(force) = force.parse::<f64>() else {
+            assert!(!figure.contains("font-weight=\"bold\"><tspan"), "{figure}");
+            continue;
+        };
+        // Three significant digits.
+        let force = format!("{force:.*}", (2.0 - force.log10().floor()).max(0.0) as usize);
+        assert!(figure.contains(&format!(">{mode} {force}<")), "{mode} {force} {figure}");
+        seen.push((*mode).to_owned());
+        let limits = figure.matches("class=\"limit\"").count();
+        assert!(limits + figure.matches("class=\"level\"").count() > 0, "{figure}");
+    }
+    assert!(["break", "tilt"].iter().all(|mode| seen.iter().any(|s| s == mode)), "{seen:?}");
+    // Beyond the critical tilt the path continues, and the limits stay the same.
+    place.squama("plot curves x.toml --design 4 --to 0.3 --out c").assert().code(0);
+    let figure = place.read("c/force-displacement-curves-to-u-0.3-of-0004.svg");
+    assert!(figure.contains("dots: limits of failure, the first one bold"), "{figure}");
+    // Without strengths there are no limits to mark.
+    let place = Place::with(FEW);
+    place.squama("plot curves x.toml --design 4 --out c").assert().code(0);
+    let figure = place.read("c/force-displacement-curves-of-0004.svg");
+    assert!(!figure.contains("class=\"limits\""), "{figure}");
+}
+
 /// Searches like the goal for a strong skin, and checks every mode in a run of its own.
 #[test]
 fn the_advised_skin_fails_in_no_mode_below_its_failure_force() {

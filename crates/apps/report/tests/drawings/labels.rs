@@ -4,9 +4,11 @@ use std::fmt::Write as _;
 
 use ranking::{Ranking, TetrahedralGrid};
 use report::{
-    DesignCurves, Designs, FitPanel, Histogram, MapRequest, MeasuredCurves, Paper, figures, map,
+    DesignCurves, Designs, FailureLimit, FitPanel, Histogram, MapRequest, MeasuredCurves, Paper,
+    figures, map,
 };
 use results::Results;
+use skin::puncture::FailureMode;
 
 /// The box of a text: left, top, right, bottom.
 type TextBox = (String, [f64; 4]);
@@ -233,6 +235,7 @@ fn measured_curves_are_thin_black_lines() {
         puncture: Some(&puncture),
         flexure: None,
         on_bodies: &[],
+        limits: &[],
     };
     let curves = vec![("measured.csv".to_owned(), vec![[0.0, 0.0], [0.1, 0.2], [0.2, 0.5]])];
     let measured =
@@ -247,5 +250,43 @@ fn measured_curves_are_thin_black_lines() {
         let curve = curve.split("</g>").next().expect("a group");
         assert!(curve.contains("stroke=\"#000\" stroke-width=\"0.9\""), "{curve}");
         assert!(!curve.contains("<circle"));
+    }
+}
+
+/// All modes on one point of the path, and spread over it: at its start, at its end, everywhere.
+#[test]
+fn names_of_limits_are_apart() {
+    let case = super::case(&super::design(60.0), "", "");
+    let puncture = super::solved_puncture(&case);
+    let last = puncture.path.len() - 1;
+    for (from, step) in [(last, 0), (1, 1), (last - 7, 1), (2, last / 9)] {
+        let limits: Vec<_> = FailureMode::ALL
+            .into_iter()
+            .enumerate()
+            .map(|(k, mode)| {
+                let point = &puncture.path[from + k * step];
+                let displacement = (mode != FailureMode::Across).then_some(point.displacement);
+                FailureLimit { mode, displacement, force: point.force, is_first: k == 2 }
+            })
+            .collect();
+        let of = DesignCurves {
+            number: "1".to_owned(),
+            case: &case,
+            puncture: Some(&puncture),
+            flexure: None,
+            on_bodies: &[],
+            limits: &limits,
+        };
+        for paper in [Paper::WIDE, Paper::of_width(85.0)] {
+            let svg = report::curves("x", &[of.clone(), of.clone()], None, paper).remove(0).svg;
+            assert_clear("limits", &svg);
+            let texts = texts(&svg);
+            for mode in FailureMode::ALL.map(FailureMode::name) {
+                let named = texts.iter().filter(|(words, _)| words.starts_with(mode)).count();
+                assert_eq!(named, 2, "{mode} {from} {step}");
+            }
+            assert_eq!(svg.matches("class=\"limit\"").count(), 14);
+            assert_eq!(svg.matches("class=\"level\"").count(), 2);
+        }
     }
 }

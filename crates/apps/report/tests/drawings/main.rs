@@ -77,6 +77,7 @@ fn with_a_material_everything_is_in_millimetres_and_newtons() {
         puncture: Some(&puncture),
         flexure: Some(&flexure),
         on_bodies: &[],
+        limits: &[],
     };
     let figures = report::curves("x", &[of(&case)], None, report::Paper::WIDE);
     assert_eq!(figures.len(), 4);
@@ -117,6 +118,7 @@ fn a_needle_that_passes_is_marked_on_its_curve() {
             puncture: Some(&puncture),
             flexure: None,
             on_bodies: &[],
+            limits: &[],
         };
         let svg = report::curves("x", &[of], None, report::Paper::WIDE).remove(0).svg;
         [svg.matches("class=\"passing\"").count(), svg.matches("▼ passing").count()]

@@ -178,7 +178,7 @@ pub(super) fn bent_within(
 
 /// Computes the excess of the fraction of a limit over 1.
 fn excess(path: &Continuation<Chain>, point: &SkinPoint, limit: usize) -> f64 {
-    path.system().row_values(&point.state).fractions[limit] - 1.0
+    path.system().fractions(&point.state)[limit] - 1.0
 }
 
 /// Solves for the equilibrium between two points at which a limit is reached.
@@ -424,6 +424,11 @@ impl Chain {
     /// Computes the largest mean pressure of any base on the substrate, over `E_s`.
     pub(super) fn tissue_pressure(&self, state: &SkinState) -> f64 {
         self.row_values(state).tracked[TISSUE_PRESSURE]
+    }
+
+    /// Computes the largest fraction of each limit, in the order of [`LIMITS`].
+    pub(super) fn fractions(&self, state: &SkinState) -> [f64; LIMITS.len()] {
+        self.row_values(state).fractions
     }
 
     /// Computes the largest values of any scale.

@@ -5,7 +5,8 @@ use solver::Termination;
 
 use super::system::Chain;
 use super::{
-    Problem, Puncture, PunctureParameters, RowStiffness, Rows, ScaleState, Status, scales,
+    FailureMode, Problem, Puncture, PunctureParameters, RowStiffness, Rows, ScaleState, Status,
+    scales,
 };
 use crate::contacts::{Contact, SkinState};
 use crate::path_location::PathLocation;
@@ -36,6 +37,10 @@ pub enum At {
     Force(f64),
     /// Where the punctured scale has first tilted by this angle in either direction, degrees.
     Tilt(f64),
+    /// Where a limit of a scale is first reached: breaking, bending, debonding or perforation.
+    ///
+    /// The path is not extended for it. Other modes of failure are no limits of a scale.
+    Limit(FailureMode),
 }
 
 impl At {
@@ -45,10 +50,16 @@ impl At {
             Self::Displacement(_) => |chain, state| chain.depth(&state.z),
             Self::Force(_) => |chain, state| chain.force(state),
             Self::Tilt(_) => |chain, state| chain.angle_deg(state).abs(),
+            Self::Limit(FailureMode::Break) => |chain, state| chain.fractions(state)[0],
+            Self::Limit(FailureMode::Bend) => |chain, state| chain.fractions(state)[1],
+            Self::Limit(FailureMode::Debond) => |chain, state| chain.fractions(state)[2],
+            Self::Limit(FailureMode::Perforate) => |chain, state| chain.fractions(state)[3],
+            Self::Limit(_) => |_, _| 0.0,
         };
         let value = match self {
             Self::Displacement(value) | Self::Force(value) => value,
             Self::Tilt(tilt) => tilt.abs(),
+            Self::Limit(_) => 1.0,
         };
         PathLocation { quantity, value }
     }
@@ -104,7 +115,8 @@ pub fn snapshots(
     let mut parameters = *parameters;
     loop {
         let solved = snapshots_to_end(design, stiffness.clone(), common, &parameters, at)?;
-        let is_short = solved.at.iter().any(Option::is_none);
+        let mut found = at.iter().zip(&solved.at);
+        let is_short = found.any(|(at, found)| found.is_none() && !matches!(at, At::Limit(_)));
         if !farther(&mut parameters.critical_tilt_deg, solved.puncture.status, is_short) {
             return Ok(solved);
         }
