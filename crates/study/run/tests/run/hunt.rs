@@ -10,7 +10,7 @@ use results::Outcome;
 use run::Evaluator;
 use skin::Base;
 use skin::flexure::Method;
-use skin::puncture::{Needle, RowLength};
+use skin::puncture::{Needle, RowLength, Strengths};
 use substrate::{Coupling, SubstrateLaw};
 use sweep::{Case, Measure};
 
@@ -153,6 +153,52 @@ fn paths_pass_rare_events() {
         let outcomes = outcomes(&mixed_case(seed));
         assert!(outcomes.contains(&(path, outcome)), "{seed}: {outcomes:?}");
     }
+}
+
+/// Returns the outcome of the puncture, and forces of one with this largest step.
+fn forces(case: &Case, max_step: f64) -> (Outcome, [Option<f64>; 3]) {
+    let mut case = *case;
+    case.common.solver.max_step = max_step;
+    let result = Evaluator::new(&[Measure::Puncture]).row(number(), &case).result;
+    let punctured = result.puncture.expect("a puncture");
+    let measures = punctured.measures;
+    (punctured.outcome, [measures.critical_force, measures.fold_force, measures.failure.force])
+}
+
+/// Compares the forces of a design with those of small steps.
+///
+/// Returns false if a path ended for a numeric reason.
+fn compare_with_small_steps(seed: u64) -> bool {
+    let mut case = mixed_case(seed);
+    // Friction has a history, which depends slightly on the step.
+    case.common.friction = 0.0;
+    if let Needle::Guided { friction } = &mut case.puncture.needle {
+        *friction = 0.0;
+    }
+    case.tissue_thickness = None;
+    case.puncture.critical_tilt_deg = 10.0;
+    (case.puncture.unload, case.puncture.places) = (false, None);
+    case.strengths = Strengths { scale: Some(100.0), bond: Some(1.0) };
+    let [(outcome, large), (finely, small)] = [0.2, 0.05].map(|step| forces(&case, step));
+    if is_numeric(outcome) || is_numeric(finely) {
+        return false;
+    }
+    assert_eq!(outcome, finely, "{seed}");
+    for (large, small) in large.into_iter().zip(small) {
+        assert_eq!(large.is_some(), small.is_some(), "{seed}");
+        let (large, small) = (large.unwrap_or_default(), small.unwrap_or_default());
+        assert!((large - small).abs() <= 1e-6 * small.abs().max(1e-9), "{seed}: {large} {small}");
+    }
+    true
+}
+
+/// Every event on a path is located, so smaller steps find the same forces.
+#[test]
+fn forces_do_not_depend_on_the_step() {
+    let compared =
+        seeds().into_par_iter().filter(|&seed| compare_with_small_steps(seed)).count() as u64;
+    let seeds = seeds();
+    assert!(100 * compared > 95 * (seeds.end - seeds.start), "{compared} of {seeds:?}");
 }
 
 /// At most one path in a hundred ends for a numeric reason, and no design takes more than 10 s.
