@@ -386,13 +386,12 @@ fn limits(
     let across = case.across().and_then(|across| {
         Some(Evaluator::new(&[]).critical_force(&across).ok()? * case.across_factor())
     });
-    let along = match to {
-        None => failure.mode.zip(failure.force),
+    let along = if to.is_none() {
+        failure.mode.zip(failure.force)
+    } else {
         // The path continues beyond the critical tilt.
-        Some(_) => {
-            let first = reached.iter().min_by(|(_, a), (_, b)| a[0].total_cmp(&b[0]));
-            first.map(|(mode, [_, force])| (*mode, *force))
-        }
+        let first = reached.iter().min_by(|(_, a), (_, b)| a[0].total_cmp(&b[0]));
+        first.map(|(mode, [_, force])| (*mode, *force))
     };
     let is_across_first =
         across.is_some_and(|across| along.is_none_or(|(_, along)| across < along));
