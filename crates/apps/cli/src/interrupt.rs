@@ -72,33 +72,35 @@ mod system {
         // Ignored signals stay ignored, or `nohup` would have no effect.
         let asking = [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| !is_ignored(*signal));
         let mut signals = Signals::new(asking)?;
-        let attend = move || {
-            let mut asked: Option<Instant> = None;
-            for signal in signals.forever() {
-                // Files are removed by a thread, because a signal handler must not do so.
-                let is_request = interrupt.asks_first.load(Ordering::Relaxed)
-                    && asked.is_none_or(|asked| asked.elapsed() < ONE_REQUEST);
-                if !is_request {
-                    exit_without_partial_files(signal + i32::from(BASE));
+        thread::Builder::new()
+            .name("signals".to_owned())
+            .spawn(move || {
+                let mut asked: Option<Instant> = None;
+                for signal in signals.forever() {
+                    // Files are removed by a thread, because a signal handler must not do so.
+                    let is_request = interrupt.asks_first.load(Ordering::Relaxed)
+                        && asked.is_none_or(|asked| asked.elapsed() < ONE_REQUEST);
+                    if !is_request {
+                        exit_without_partial_files(signal + i32::from(BASE));
+                    }
+                    asked.get_or_insert_with(Instant::now);
+                    let number = usize::try_from(signal).unwrap_or_default();
+                    // The first signal determines the exit code.
+                    let first = interrupt.signal.compare_exchange(
+                        0,
+                        number,
+                        Ordering::Relaxed,
+                        Ordering::Relaxed,
+                    );
+                    if first.is_ok() {
+                        // Request the end first, so that a worker takes no further design after an
+                        // interrupted one.
+                        interrupt.stop.store(true, Ordering::SeqCst);
+                        interrupt_paths();
+                    }
                 }
-                asked.get_or_insert_with(Instant::now);
-                let number = usize::try_from(signal).unwrap_or_default();
-                // The first signal determines the exit code.
-                let first = interrupt.signal.compare_exchange(
-                    0,
-                    number,
-                    Ordering::Relaxed,
-                    Ordering::Relaxed,
-                );
-                if first.is_ok() {
-                    // Request the end first, so that a worker takes no further design after an
-                    // interrupted one.
-                    interrupt.stop.store(true, Ordering::SeqCst);
-                    interrupt_paths();
-                }
-            }
-        };
-        thread::Builder::new().name("signals".to_owned()).spawn(attend).map(|_| ())
+            })
+            .map(|_| ())
     }
 
     /// Returns true if a signal was ignored at the start, as under `nohup`.

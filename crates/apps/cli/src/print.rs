@@ -1,5 +1,6 @@
 //! Text output.
 
+use std::fmt::Write as _;
 use std::io::{self, ErrorKind, Write as _};
 use std::time::Duration;
 
@@ -24,8 +25,9 @@ pub fn print_raw(text: &str) -> io::Result<()> {
 
 /// Returns a line that states the number of designs of an incomplete run; empty if it is complete.
 pub fn shortfall(results: &VerifiedFolder) -> String {
-    let line = |held| format!("  made from {held}, {}\n", results.path().display());
-    results.shortfall().map_or_else(String::new, line)
+    results.shortfall().map_or_else(String::new, |held| {
+        format!("  made from {held}, {}\n", results.path().display())
+    })
 }
 
 /// Prints a note to stderr.
@@ -65,12 +67,12 @@ pub fn aligned<R: AsRef<[String]>>(rows: &[R]) -> String {
             *width = cell.chars().count().max(*width);
         }
     }
-    let line = |row: &R| {
-        let cells = row.as_ref().iter().zip(&widths).map(|(cell, width)| format!("{cell:width$}"));
-        let cells: Vec<_> = cells.collect();
-        format!("  {}\n", cells.join("  ").trim_end())
-    };
-    rows.iter().map(line).collect()
+    let mut text = String::new();
+    for row in rows.iter().map(AsRef::as_ref) {
+        let cells = row.iter().zip(&widths).map(|(cell, width)| format!("{cell:width$}"));
+        let _ = writeln!(text, "  {}", cells.collect::<Vec<_>>().join("  ").trim_end());
+    }
+    text
 }
 
 /// Formats `value` with five digits.

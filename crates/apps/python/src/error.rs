@@ -79,8 +79,8 @@ pub fn invalid_definition(
             let key = of_name.filter(|_| given.is_some()).map_or(last, |name| name.keyword);
             let value = given.and_then(|given| given.get_item(key).ok().flatten());
             let (found, expected) = explained(problem);
-            let found = || found.map(|found| pyo3::types::PyString::new(py, &found).into_any());
-            let value = value.or_else(found);
+            let value = value
+                .or_else(|| found.map(|found| pyo3::types::PyString::new(py, &found).into_any()));
             // Without a value the key is missing, or the problem is not a value.
             if value.is_none() && !matches!(**problem, Problem::Missing(_)) {
                 return exception(py, "InvalidDefinition", (error.to_string(),));

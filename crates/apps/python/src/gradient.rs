@@ -44,12 +44,14 @@ pub fn gradients(
     let needed = Asked { measures: Vec::from_iter(needed), columns: measures };
     let (evaluator, number) = (evaluator(needed), of.sweep.grid().number(0));
     let row = py.detach(|| evaluator.row(number, &of.case()));
-    let beyond_fold = |column: &&Column<DesignRow>| {
-        let source = measure_name(&column.name);
-        measure_of(source) == Some(Measure::Puncture)
-            && ![name::FOLD_FORCE, name::SOUND_FORCE].contains(&source)
-    };
-    let fold = columns.iter().find(|c| c.name == name::FOLD_FORCE && asked.iter().any(beyond_fold));
+    let fold = columns.iter().find(|c| {
+        c.name == name::FOLD_FORCE
+            && asked.iter().any(|column| {
+                let source = measure_name(&column.name);
+                measure_of(source) == Some(Measure::Puncture)
+                    && ![name::FOLD_FORCE, name::SOUND_FORCE].contains(&source)
+            })
+    });
     let fold = fold.and_then(|column| column.cell(&row).number());
     let gradients = asked.into_iter().map(|column| gradient(py, column, &row, &by));
     Ok((gradients.collect::<PyResult<_>>()?, fold))

@@ -27,7 +27,7 @@ use error::OrFailed as _;
 use names::NAMES;
 use pyo3::prelude::*;
 use results::columns::{design_columns, name};
-use sweep::{PARAMETERS, Parameter, Role, Sweep};
+use sweep::{PARAMETERS, Role, Sweep};
 
 /// Documentation of a parameter.
 ///
@@ -37,12 +37,14 @@ type Explained = (&'static str, &'static str, &'static str, &'static str, String
 /// Returns the documentation of all parameters.
 #[pyfunction]
 fn parameters() -> Vec<Explained> {
-    let explained = |p: &'static Parameter| {
-        let is_given = !p.has(Role::Geometry) && p.is_given(&sweep::Case::default());
-        let default = is_given.then(|| p.default().to_toml());
-        (p.key, p.section, p.unit, p.meaning, p.expected(), default)
-    };
-    PARAMETERS.iter().map(explained).collect()
+    PARAMETERS
+        .iter()
+        .map(|p| {
+            let is_given = !p.has(Role::Geometry) && p.is_given(&sweep::Case::default());
+            let default = is_given.then(|| p.default().to_toml());
+            (p.key, p.section, p.unit, p.meaning, p.expected(), default)
+        })
+        .collect()
 }
 
 /// Returns the keywords that name materials or a body.

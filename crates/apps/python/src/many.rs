@@ -79,10 +79,10 @@ fn columns(
     for (batch, skins) in skins.chunks(BATCH).enumerate() {
         let rows = solve(batch * BATCH, skins)?;
         for (name, .., cells) in &mut all {
-            let named = |(_, columns): &'_ (_, Vec<Column<DesignRow>>)| {
-                columns.iter().position(|c| c.name == *name)
-            };
-            let place: Vec<_> = kinds.iter().map(named).collect();
+            let place: Vec<_> = kinds
+                .iter()
+                .map(|(_, columns)| columns.iter().position(|c| c.name == *name))
+                .collect();
             let rows = rows.iter().zip(&kind_of[batch * BATCH..]);
             cells.extend(rows.map(|(row, &kind)| {
                 place[kind].map_or(Cell::Empty, |k| kinds[kind].1[k].cell(row))
@@ -90,8 +90,9 @@ fn columns(
         }
     }
     for parameter in differing(skins) {
-        let value = |skin: &&Py<Skin>| parameter.get(&skin.get().case()).into();
-        let column = Column::parameter(parameter, value);
+        let column = Column::parameter(parameter, |skin: &&Py<Skin>| {
+            parameter.get(&skin.get().case()).into()
+        });
         if !all.iter().any(|(name, ..)| *name == column.name) {
             all.extend(table(&[column], skins));
         }

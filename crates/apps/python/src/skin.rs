@@ -75,11 +75,10 @@ fn sweep_of(given: &Bound<'_, PyDict>) -> PyResult<Sweep> {
     }
     // Both gap and pitch are given, so the pitch determines the length.
     let says_length = keys.iter().filter(|key| **key == key::GAP).count() > 1;
-    let is_missing = |p: &&Parameter| {
+    if let Some(missing) = Parameter::with(Role::Geometry).find(|p| {
         let follows = p.key == key::LENGTH && says_length && keys.contains(&key::PITCH);
         !(keys.contains(&p.key) || follows)
-    };
-    if let Some(missing) = Parameter::with(Role::Geometry).find(is_missing) {
+    }) {
         return Err(error::invalid_parameter(py, missing.key, None, &missing.expected()));
     }
     let sweep = Sweep::of_entries(&sections, "squama.Skin");
@@ -141,15 +140,14 @@ pub fn asked(of: Option<&Bound<'_, PyAny>>) -> PyResult<Asked> {
 pub fn evaluator(asked: Asked) -> Arc<Evaluator> {
     static KNOWN: Mutex<BTreeMap<Asked, Arc<Evaluator>>> = Mutex::new(BTreeMap::new());
     let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
-    let new = |Asked { measures, columns }: &Asked| {
+    Arc::clone(known.entry(asked).or_insert_with_key(|Asked { measures, columns }| {
         let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
         Arc::new(if columns.is_empty() {
             Evaluator::new(measures)
         } else {
             Evaluator::only_columns(measures, &columns)
         })
-    };
-    Arc::clone(known.entry(asked).or_insert_with_key(new))
+    }))
 }
 
 impl Skin {
@@ -180,10 +178,11 @@ impl Skin {
     /// Returns the geometry and the parameters that are not at their defaults.
     fn given(&self) -> impl Iterator<Item = (&'static Parameter, Scalar)> {
         let case = self.case();
-        let is_given = move |p: &Parameter| p.has(Role::Geometry) || p.get(&case) != p.default();
         let axes = self.sweep.grid().axes().iter();
         let axes = axes.map(|axis| (axis.parameter(), axis.value(0)));
-        axes.chain(self.sweep.shared()).filter(move |(parameter, _)| is_given(parameter))
+        axes.chain(self.sweep.shared()).filter(move |(parameter, _)| {
+            parameter.has(Role::Geometry) || parameter.get(&case) != parameter.default()
+        })
     }
 
     /// Returns the sweep of a definition, given as TOML text or as a file name.
@@ -237,8 +236,10 @@ impl Skin {
             return Err(error::refused_definition(py, &message));
         }
         let skins: Vec<Self> = watched(py, None, move |watch| {
-            let goes_on = |_: &u64| !watch.stop.load(Ordering::Relaxed);
-            (0..count).take_while(goes_on).map(|index| Self::new(&sweep, index)).collect()
+            (0..count)
+                .take_while(|_| !watch.stop.load(Ordering::Relaxed))
+                .map(|index| Self::new(&sweep, index))
+                .collect()
         })?;
         Ok((count, list(py, skins)?))
     }
@@ -264,8 +265,8 @@ impl Skin {
     }
 
     fn __getattr__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
-        let no_such = || PyAttributeError::new_err(format!("a Skin has no {name}"));
-        let parameter = Parameter::named(name).ok_or_else(no_such)?;
+        let parameter = Parameter::named(name)
+            .ok_or_else(|| PyAttributeError::new_err(format!("a Skin has no {name}")))?;
         let case = self.case();
         // A length has a value in millimetres, whichever unit was given.
         if parameter.is_in_mm() {

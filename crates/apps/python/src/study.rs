@@ -58,8 +58,8 @@ impl Keywords<'_> {
             let key = text(&key)?;
             let text = format!("{key}={}", value(&of)?);
             let expected = "a dotted key with a value, such as {\"puncture.scales\": 41}";
-            let wrong = |_| error::invalid_parameter(of.py(), &key, Some(of.clone()), expected);
-            Setting::parse(&text).map_err(wrong)
+            Setting::parse(&text)
+                .map_err(|_| error::invalid_parameter(of.py(), &key, Some(of.clone()), expected))
         };
         self.set.iter().flatten().map(setting).collect()
     }
@@ -98,8 +98,9 @@ pub fn run(
             stop: &watch.stop,
             work: &watch.run,
         };
-        let told = |progress| watch.tell(progress);
-        ::run::run(&sweep, Subset::default(), &place, start, &options, &PROGRAM, told)
+        ::run::run(&sweep, Subset::default(), &place, start, &options, &PROGRAM, |progress| {
+            watch.tell(progress);
+        })
     })?;
     // Failed designs are results; only an interrupt leaves designs missing.
     if finished.or_failed("run")?.missing > 0 { Err(interrupted()) } else { Ok(folder) }
@@ -235,11 +236,12 @@ pub fn tolerance(
     let pool = pool(keywords.threads.as_ref())?;
     let analysed = watched(py, keywords.progress, move |watch| {
         let analysis = Analysis::new(&sweep, &requirements, samples, PROGRAM, &watch.stop);
-        let analyse = |index| analysis.design(index, &store);
-        let all = || -> Result<Vec<DesignTolerance>, AnalysisError> {
-            (0..sweep.grid().len()).into_par_iter().map(analyse).collect()
-        };
-        pool.install(all)
+        pool.install(|| -> Result<Vec<DesignTolerance>, AnalysisError> {
+            (0..sweep.grid().len())
+                .into_par_iter()
+                .map(|index| analysis.design(index, &store))
+                .collect()
+        })
     })?;
     let all = analysed.map_err(|error| match error {
         AnalysisError::Stopped { .. } => interrupted(),

@@ -112,9 +112,8 @@ impl Extend<Cell> for Cells {
     /// Appends cells; the first text converts the whole column to text.
     fn extend<T: IntoIterator<Item = Cell>>(&mut self, cells: T) {
         let cells: Vec<Cell> = cells.into_iter().collect();
-        let is_text = |cell: &Cell| matches!(cell, Cell::Text(text) if !text.is_empty());
         if let Self::Numbers(known) = self
-            && cells.iter().any(is_text)
+            && cells.iter().any(|cell| matches!(cell, Cell::Text(text) if !text.is_empty()))
         {
             let (known, _) = known.as_chunks();
             // NaN stands for a missing cell.
@@ -124,8 +123,9 @@ impl Extend<Cell> for Cells {
         match self {
             Self::Texts(texts) => texts.extend(cells.into_iter().map(PythonCell::from)),
             Self::Numbers(bytes) => {
-                let number = |cell: &Cell| cell.number().unwrap_or(f64::NAN).to_ne_bytes();
-                bytes.extend(cells.iter().flat_map(number));
+                bytes.extend(
+                    cells.iter().flat_map(|cell| cell.number().unwrap_or(f64::NAN).to_ne_bytes()),
+                );
             }
         }
     }
@@ -146,20 +146,23 @@ impl Cells {
 
     /// Creates the cells of a text column, such as design numbers with leading zeros.
     pub fn words(cells: Vec<String>) -> Self {
-        let cell = |text: String| PythonCell::from(Cell::Text(text.into()));
-        Self::Texts(cells.into_iter().map(cell).collect())
+        Self::Texts(
+            cells.into_iter().map(|text| PythonCell::from(Cell::Text(text.into()))).collect(),
+        )
     }
 }
 
 /// Returns the cells of every column for some rows.
 pub fn table<R>(columns: &[Column<R>], rows: impl IntoIterator<Item = R>) -> Vec<NamedCells> {
     let rows: Vec<R> = rows.into_iter().collect();
-    let named = |column: &Column<R>| {
-        let mut cells = Cells::Numbers(Vec::new());
-        cells.extend(rows.iter().map(|row| column.cell(row)));
-        (column.name.to_string(), column.unit, column.meaning, cells)
-    };
-    columns.iter().map(named).collect()
+    columns
+        .iter()
+        .map(|column| {
+            let mut cells = Cells::Numbers(Vec::new());
+            cells.extend(rows.iter().map(|row| column.cell(row)));
+            (column.name.to_string(), column.unit, column.meaning, cells)
+        })
+        .collect()
 }
 
 /// Returns a table as an Arrow stream of one batch, in a `PyCapsule`.

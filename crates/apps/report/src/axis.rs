@@ -104,11 +104,12 @@ impl ChartAxis {
         let first = (self.low / step - 1e-9).ceil() as i64;
         let last = (self.high / step + 1e-9).floor() as i64;
         let ends = self.low.abs().max(self.high.abs());
-        let tick = |k: i64| {
-            let value = k as f64 * step;
-            Tick { value, label: Some(linear_label(value, step, ends)) }
-        };
-        (first..=last).map(tick).collect()
+        (first..=last)
+            .map(|k| {
+                let value = k as f64 * step;
+                Tick { value, label: Some(linear_label(value, step, ends)) }
+            })
+            .collect()
     }
 
     fn log_ticks(&self, wanted: usize) -> Vec<Tick> {

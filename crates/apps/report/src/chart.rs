@@ -227,11 +227,12 @@ impl MarkLook {
 ///
 /// Marks refer to them with `use`, because a page may hold 100 000 marks.
 pub(crate) fn shapes(palette: &SlantPalette) -> Element {
-    let is_used = |mark: &Mark| palette.slants().iter().any(|&of| palette.mark(of) == *mark);
-    let marks = Mark::ALL.into_iter().filter(is_used);
+    let marks = Mark::ALL
+        .into_iter()
+        .filter(|mark| palette.slants().iter().any(|&of| palette.mark(of) == *mark));
     let looks = marks.flat_map(|mark| MarkLook::ALL.map(|look| (look, mark)));
-    let shape = |(look, mark): (MarkLook, Mark)| look.draw(mark).with("id", look.shape(mark));
-    Element::new("defs").containing(looks.map(shape))
+    Element::new("defs")
+        .containing(looks.map(|(look, mark)| look.draw(mark).with("id", look.shape(mark))))
 }
 
 /// Returns the mark of a slant.

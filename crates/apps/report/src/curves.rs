@@ -516,11 +516,10 @@ fn drawn(panel: &ChartPanel, curve: &Curve) -> Element {
         |at: Spot| circle(at, 6.5).with("fill", "none").with("stroke", RED).at("stroke-width", 2.2);
     let rings = spots(&curve.values.rings).into_iter().map(ring);
     // The tip of the triangle touches the curve.
-    let triangle = |[x, y]: Spot| {
+    let passing = spots(&curve.values.passing).into_iter().map(|[x, y]| {
         let mark = polygon(&[[x, y], [x - 5.0, y - 9.0], [x + 5.0, y - 9.0]]);
         mark.with("fill", curve.color.as_str()).with("stroke", INK).with("class", "passing")
-    };
-    let passing = spots(&curve.values.passing).into_iter().map(triangle);
+    });
     Element::group("curve")
         .containing(paths)
         .containing(crosses)

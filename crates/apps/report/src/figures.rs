@@ -94,13 +94,13 @@ pub(crate) fn physical_of<'h>(
     headers: impl IntoIterator<Item = &'h str>,
     measure: &str,
 ) -> Option<&'h str> {
-    let is_same = |name: &&str| {
+    headers.into_iter().find(|name| {
         let source = physical_source(name);
         // Columns per width and inverted columns are different quantities.
-        let plain = |quantity| matches!(quantity, Force | Length | Stiffness | Moment);
-        source.is_some_and(|(of, quantity)| of == measure && plain(quantity))
-    };
-    headers.into_iter().find(is_same)
+        source.is_some_and(|(of, quantity)| {
+            of == measure && matches!(quantity, Force | Length | Stiffness | Moment)
+        })
+    })
 }
 
 /// Maximum number of parts of a figure.

@@ -68,11 +68,10 @@ impl FitPanel<'_> {
         let y = ChartAxis::spanning(&name, left.iter().map(|p| p[1]).chain(bounds));
         let x = self.places();
         let panel = ChartPanel::new(area, &x, &y);
-        let across = |value: f64| {
+        let bounds = bounds.into_iter().filter_map(|value| {
             let [_, y] = panel.place(self.points[0][0], value)?;
             Some(line([area.left, y], [area.right(), y], FAINT, 1.0))
-        };
-        let bounds = bounds.into_iter().filter_map(across);
+        });
         panel.axes(58.0).into_iter().chain(bounds).chain(dots(panel.spots(left))).collect()
     }
 

@@ -122,12 +122,14 @@ impl Mark {
 ///
 /// If `inner` is below 1, it is a star with this ratio of inner to outer radius.
 fn regular([x, y]: Spot, radius: f64, corners: usize, start: f64, inner: f64) -> Vec<Spot> {
-    let corner = |k: usize| {
-        let angle = start + k as f64 * PI / corners as f64;
-        let r = if k.is_multiple_of(2) { radius } else { inner * radius };
-        [x + r * angle.cos(), y - r * angle.sin()]
-    };
-    (0..2 * corners).filter(|k| inner < 1.0 || k.is_multiple_of(2)).map(corner).collect()
+    (0..2 * corners)
+        .filter(|k| inner < 1.0 || k.is_multiple_of(2))
+        .map(|k| {
+            let angle = start + k as f64 * PI / corners as f64;
+            let r = if k.is_multiple_of(2) { radius } else { inner * radius };
+            [x + r * angle.cos(), y - r * angle.sin()]
+        })
+        .collect()
 }
 
 #[cfg(test)]

@@ -81,12 +81,13 @@ fn statements() -> anyhow::Result<Vec<(Claim, Vec<Statement>)>> {
     let mut table = csv::Reader::from_reader(STATEMENTS.as_bytes());
     let all: Vec<Statement> = table.deserialize().collect::<Result<_, _>>()?;
     // C18a and C18b belong to C18: numbers have two digits, so no number is the prefix of another.
-    let of = |claim: &Claim| all.iter().filter(|s| s.id.starts_with(&claim.id)).cloned().collect();
-    let with = |claim: Claim| {
-        let statements = of(&claim);
-        (claim, statements)
-    };
-    Ok(claims()?.into_iter().map(with).collect())
+    Ok(claims()?
+        .into_iter()
+        .map(|claim| {
+            let statements = all.iter().filter(|s| s.id.starts_with(&claim.id)).cloned().collect();
+            (claim, statements)
+        })
+        .collect())
 }
 
 /// Returns the numbers of all claims with their verdicts in a study.
@@ -121,12 +122,14 @@ fn judge_claim(
     statements: Vec<Statement>,
     [paper, as_written]: &[Evidence; 2],
 ) -> anyhow::Result<CheckedClaim> {
-    let checked = |statement: Statement| {
-        let found = [statement.find(paper)?, statement.find(as_written)?];
-        let Statement { says, measured, limits, .. } = statement;
-        Ok(CheckedStatement { says, measured, limits, found })
-    };
-    let statements = statements.into_iter().map(checked).collect::<anyhow::Result<Vec<_>>>()?;
+    let statements = statements
+        .into_iter()
+        .map(|statement| {
+            let found = [statement.find(paper)?, statement.find(as_written)?];
+            let Statement { says, measured, limits, .. } = statement;
+            Ok(CheckedStatement { says, measured, limits, found })
+        })
+        .collect::<anyhow::Result<Vec<_>>>()?;
     let verdicts = [0, 1].map(|base| {
         let found = statements.iter().map(|of: &CheckedStatement| of.found[base].verdict);
         Verdict::of_all(&found.collect::<Vec<_>>())

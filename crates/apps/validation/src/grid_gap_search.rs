@@ -125,17 +125,17 @@ impl FrontOverGrid {
         let found = search(&format!("{BOX}{FRONT}"))?;
         let Answer::Front(front) = &found.answer else { bail!(NO_OPTIMUM) };
         let front: Vec<&[f64]> = front.designs.iter().filter_map(objectives).collect();
-        let counts = |d: &&MeasuredDesign| d.compliance.is_some_and(|c| c >= LEAST_COMPLIANCE);
-        let pair = |d: &MeasuredDesign| Some([d.critical_force?, d.coverage?]);
         let sound = study.designs.iter().filter(|design| is_sound(design));
-        let grid: Vec<[f64; 2]> = sound.filter(counts).filter_map(pair).collect();
+        let grid: Vec<[f64; 2]> = sound
+            .filter(|d| d.compliance.is_some_and(|c| c >= LEAST_COMPLIANCE))
+            .filter_map(|d| Some([d.critical_force?, d.coverage?]))
+            .collect();
         let beaten = |a: &&[f64; 2]| grid.iter().any(|b| b != *a && at_least(b, *a));
-        let reached = |a: &&[f64; 2]| front.iter().any(|b| at_least(b, *a));
         Ok(Self {
             designs: front.len(),
             grid: grid.len(),
             grid_front: grid.iter().filter(|a| !beaten(a)).count(),
-            undominated: grid.iter().filter(|a| !reached(a)).count(),
+            undominated: grid.iter().filter(|a| !front.iter().any(|b| at_least(b, *a))).count(),
         })
     }
 }

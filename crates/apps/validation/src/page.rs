@@ -45,9 +45,8 @@ impl Validation {
 
     /// Counts the claims by verdict for one of the two bases.
     fn counts(&self, base: usize) -> String {
-        let count = |verdict| self.claims.iter().filter(|c| c.verdicts[base] == verdict).count();
-        let [yes, part, no] =
-            [Verdict::Reproduced, Verdict::InPart, Verdict::NotReproduced].map(count);
+        let [yes, part, no] = [Verdict::Reproduced, Verdict::InPart, Verdict::NotReproduced]
+            .map(|verdict| self.claims.iter().filter(|c| c.verdicts[base] == verdict).count());
         format!("{yes} reproduced, {part} in part, {no} not")
     }
 }

@@ -44,15 +44,14 @@ impl SettingSearch {
         sweeps: &[Sweep],
         mut progress: impl FnMut(PartProgress<'_>),
     ) -> anyhow::Result<Self> {
-        let score = |(setting, study): (String, Study)| {
-            let verdicts = claims::score(&study)?;
-            Ok(ScoredSetting { setting, verdicts, headlines: Headlines::of(&study) })
-        };
         let mut settings = Vec::new();
         for (done, sweep) in sweeps.iter().enumerate() {
             progress(PartProgress { done, parts: sweeps.len(), part: sweep.name() });
             let study = Study::run(sweep.clone())?;
-            let scored = study.settings().into_par_iter().map(score);
+            let scored = study.settings().into_par_iter().map(|(setting, study)| {
+                let verdicts = claims::score(&study)?;
+                Ok(ScoredSetting { setting, verdicts, headlines: Headlines::of(&study) })
+            });
             settings.extend(scored.collect::<anyhow::Result<Vec<_>>>()?);
         }
         // A stable sort keeps equal settings in the order of the sweep.

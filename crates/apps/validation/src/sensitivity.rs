@@ -177,8 +177,8 @@ impl ChoiceEffect {
             // All settings of a sweep have the same designs in the same order.
             let pairs = first.designs.iter().zip(&other.designs);
             let pairs: Vec<_> = pairs.map(|(a, b)| (value(a), value(b))).collect();
-            let change = |pair: &(Option<f64>, Option<f64>)| Some(pair.1? / pair.0? - 1.0);
-            let mut changes: Vec<f64> = pairs.iter().filter_map(change).collect();
+            let mut changes: Vec<f64> =
+                pairs.iter().filter_map(|pair| Some(pair.1? / pair.0? - 1.0)).collect();
             changes.sort_by(f64::total_cmp);
             // Count only the losses, because the page reports failures caused by a choice.
             let lost = pairs.iter().filter(|(a, b)| a.is_some() && b.is_none()).count();

@@ -102,10 +102,11 @@ impl Study {
     fn setting(&self, row: usize) -> String {
         let open = |parameter: &&Parameter| !is_geometry(parameter);
         let axes = self.sweep.grid().axes().iter().map(Axis::parameter).filter(open);
-        let value = |parameter: &'static Parameter| {
+        axes.map(|parameter| {
             format!("{} = {}", parameter.key, self.results.parameter(row, parameter))
-        };
-        axes.map(value).collect::<Vec<_>>().join(", ")
+        })
+        .collect::<Vec<_>>()
+        .join(", ")
     }
 
     fn only(&self, rows: &[usize]) -> Self {
@@ -123,12 +124,13 @@ impl Study {
     pub(crate) fn part(&self, sweep: &Sweep) -> Option<Self> {
         let (ours, wanted) = (self.sweep.grid(), sweep.grid());
         // The row equals the index in the grid, because a study solves all designs.
-        let row = |index| {
-            let case = wanted.case(index);
-            let row = ours.find(&case)?;
-            (ours.case(row) == case).then_some(row as usize)
-        };
-        let rows: Vec<usize> = (0..wanted.len()).map(row).collect::<Option<_>>()?;
+        let rows: Vec<usize> = (0..wanted.len())
+            .map(|index| {
+                let case = wanted.case(index);
+                let row = ours.find(&case)?;
+                (ours.case(row) == case).then_some(row as usize)
+            })
+            .collect::<Option<_>>()?;
         (sweep.measures() == self.sweep.measures()).then(|| self.only(&rows))
     }
 
@@ -140,26 +142,28 @@ impl Study {
 
 fn designs(results: &Results) -> Result<Vec<MeasuredDesign>, InvalidResults> {
     let number = |row, column| results.number(row, results.column(column)?);
-    let design = |row| {
-        let parameter = |column| Ok(number(row, column)?.unwrap_or(f64::NAN));
-        Ok(MeasuredDesign {
-            gap: parameter("gap_over_t")?,
-            length: parameter("length_over_t")?,
-            slant: parameter("slant_deg")?,
-            coverage: number(row, name::COVERAGE)?,
-            critical_force: number(row, name::CRITICAL_FORCE)?,
-            penetration: number(row, name::PENETRATION)?,
-            compliance: number(row, name::COMPLIANCE)?,
-            initial_compliance: number(row, name::INITIAL_COMPLIANCE)?,
-            bends_to_contact: results.text(row, results.column(name::FLEXURE_CONTACT)?) == "yes",
-            first_contact: number(row, name::FIRST_CONTACT)?,
-            initial_stiffness: number(row, name::INITIAL_STIFFNESS)?,
-            max_stiffness: number(row, name::MAX_STIFFNESS)?,
-            gap_stretch_min: number(row, name::GAP_STRETCH_MIN)?,
-            gap_stretch_max: number(row, name::GAP_STRETCH_MAX)?,
-            fold_force: number(row, name::FOLD_FORCE)?,
-            sound_force: number(row, name::SOUND_FORCE)?,
+    (0..results.len())
+        .map(|row| {
+            let parameter = |column| Ok(number(row, column)?.unwrap_or(f64::NAN));
+            Ok(MeasuredDesign {
+                gap: parameter("gap_over_t")?,
+                length: parameter("length_over_t")?,
+                slant: parameter("slant_deg")?,
+                coverage: number(row, name::COVERAGE)?,
+                critical_force: number(row, name::CRITICAL_FORCE)?,
+                penetration: number(row, name::PENETRATION)?,
+                compliance: number(row, name::COMPLIANCE)?,
+                initial_compliance: number(row, name::INITIAL_COMPLIANCE)?,
+                bends_to_contact: results.text(row, results.column(name::FLEXURE_CONTACT)?)
+                    == "yes",
+                first_contact: number(row, name::FIRST_CONTACT)?,
+                initial_stiffness: number(row, name::INITIAL_STIFFNESS)?,
+                max_stiffness: number(row, name::MAX_STIFFNESS)?,
+                gap_stretch_min: number(row, name::GAP_STRETCH_MIN)?,
+                gap_stretch_max: number(row, name::GAP_STRETCH_MAX)?,
+                fold_force: number(row, name::FOLD_FORCE)?,
+                sound_force: number(row, name::SOUND_FORCE)?,
+            })
         })
-    };
-    (0..results.len()).map(design).collect()
+        .collect()
 }

@@ -47,13 +47,12 @@ impl SurfaceFolds {
 
     /// Returns the parts of the page in Markdown, by their names.
     pub(crate) fn parts(&self) -> [(&'static str, String); 3] {
-        let row = |row: &[String; 5]| format!("| {} |", row.join(" | "));
         let turned = match self.turned.as_slice() {
             [] => "No other claim has another verdict.".to_owned(),
             turned => format!("Other claims with another verdict: {}.", turned.join(", ")),
         };
         [
-            ("folds", lines(&self.rows, row)),
+            ("folds", lines(&self.rows, |row| format!("| {} |", row.join(" | ")))),
             ("claims on folds", lines(&self.claims, String::clone)),
             ("other claims", turned),
         ]
@@ -75,8 +74,10 @@ fn rows(linear: &[Study; 2], neo_hookean: &[Study; 2]) -> Vec<[String; 5]> {
             strongest(study).into_iter().filter(|design| folds(design)).count().to_string()
         }),
         of_each("force at the fold over `F_c*`: smallest, median, largest", |study| {
-            let part = |d: &MeasuredDesign| Some(d.fold_force? / d.critical_force?);
-            spread(study.designs.iter().filter_map(part), digits)
+            spread(
+                study.designs.iter().filter_map(|d| Some(d.fold_force? / d.critical_force?)),
+                digits,
+            )
         }),
         of_each("width of the tightest gap at 10°, over that at rest", |study| {
             spread(study.designs.iter().filter_map(|d| d.gap_stretch_min).reduce(f64::min), digits)
@@ -124,11 +125,11 @@ fn largest(study: &Study, value: DesignValue) -> String {
 fn changes(from: &Study, to: &Study, folded: bool) -> String {
     // Both studies have the same designs in the same order.
     let pairs = from.designs.iter().zip(&to.designs).filter(|(a, _)| folds(a) == folded);
-    let change = |(a, b): (&MeasuredDesign, &MeasuredDesign)| {
-        Some(100.0 * (b.critical_force? / a.critical_force? - 1.0))
-    };
     // Adding 0 replaces −0 by 0, which would be printed as -0.0 %.
-    spread(pairs.filter_map(change), |percent| format!("{:+.1} %", percent + 0.0))
+    spread(
+        pairs.filter_map(|(a, b)| Some(100.0 * (b.critical_force? / a.critical_force? - 1.0))),
+        |percent| format!("{:+.1} %", percent + 0.0),
+    )
 }
 
 /// Formats smallest, median and largest value; a single value alone; nothing if empty.

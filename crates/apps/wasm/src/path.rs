@@ -166,20 +166,20 @@ impl BentStrip {
             let (dx, dy) = (px - x, py - y);
             [turn.cos() * dx + turn.sin() * dy, turn.cos() * dy - turn.sin() * dx].map(rounded)
         };
-        let pose = |k: usize| {
-            let [x, y] = seen(node(k));
-            [x, y, rounded((scales[k][2] - turn).to_degrees())]
-        };
         let gaps = shown.start..shown.end.saturating_sub(1).min(state.membrane.len());
-        let of_shown = |contact: &&Contact| gaps.contains(&contact.left);
         let membrane = state.membrane[gaps.clone()].iter();
         Self {
-            scales: shown.map(pose).collect(),
+            scales: shown
+                .map(|k| {
+                    let [x, y] = seen(node(k));
+                    [x, y, rounded((scales[k][2] - turn).to_degrees())]
+                })
+                .collect(),
             membrane: membrane.map(|axis| axis.iter().copied().map(seen).collect()).collect(),
             contacts: state
                 .contacts
                 .iter()
-                .filter(of_shown)
+                .filter(|contact| gaps.contains(&contact.left))
                 .map(|contact| {
                     let [x, y] = seen(contact.point);
                     (x, y, contact.slips)

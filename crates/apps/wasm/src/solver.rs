@@ -6,7 +6,7 @@ use results::{DesignRow, SolvedDesign};
 use run::{Evaluator, GapChange, Patience, validity_warnings};
 use skin::Imperfection;
 use skin::flexure::{self, Flexure};
-use skin::puncture::{self, At};
+use skin::puncture::{self};
 use sweep::{Case, Measure, Sweep};
 
 use crate::answer::{Answer, Required, Slope, Units, Value, written};
@@ -36,8 +36,10 @@ impl Solver {
             }
         };
         let answer = self.solve(&request);
-        let refused = |error| serde_json::json!({ "id": request.id, "error": error }).to_string();
-        answer.map_or_else(refused, |answer| serde_json::to_string(&answer).unwrap_or_default())
+        answer.map_or_else(
+            |error| serde_json::json!({ "id": request.id, "error": error }).to_string(),
+            |answer| serde_json::to_string(&answer).unwrap_or_default(),
+        )
     }
 
     /// Solves the design of a request.
@@ -71,7 +73,7 @@ impl Solver {
         }
         let puncture = solved.puncture.as_ref().and_then(|path| {
             let substrate = evaluator.substrate(&case).ok()?;
-            let solve = |at: &[At]| {
+            PuncturedRow::new(&case, path, drawn[0], |at| {
                 puncture::snapshots_to_end(
                     &smooth.design,
                     &*substrate,
@@ -79,8 +81,7 @@ impl Solver {
                     &smooth.punctured(),
                     at,
                 )
-            };
-            PuncturedRow::new(&case, path, drawn[0], solve)
+            })
         });
         let flexure =
             solved.flexure.as_ref().map(|path| bent(&smooth, request.fine, path, drawn[1]));

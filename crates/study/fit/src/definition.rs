@@ -362,16 +362,19 @@ impl CurveTable<'_> {
 
     /// Returns the texts of an optional key.
     fn texts(&self, key: &str) -> Result<Option<Vec<String>>, InvalidFit> {
-        let text = |item: &Value| match item {
-            Value::Text(text) => Some(text.clone()),
-            _ => None,
-        };
         let read = |entry: &KeyValue| match &entry.value {
-            Value::List(items) => items.iter().map(text).collect::<Option<_>>(),
+            Value::List(items) => items
+                .iter()
+                .map(|item| match item {
+                    Value::Text(text) => Some(text.clone()),
+                    _ => None,
+                })
+                .collect::<Option<_>>(),
             _ => None,
         };
-        let wrong = || self.wrong(key, "a list of names in quotes");
-        self.entry(key).map(|entry| read(entry).ok_or_else(wrong)).transpose()
+        self.entry(key)
+            .map(|entry| read(entry).ok_or_else(|| self.wrong(key, "a list of names in quotes")))
+            .transpose()
     }
 
     /// Returns the error for a key of this table with a value that is not accepted.

@@ -487,12 +487,13 @@ fn means(curves: &[TestCurve]) -> Vec<MeanCurve> {
 fn undetermined(estimates: &[Estimate], correlations: &[Vec<f64>]) -> Vec<Vec<usize>> {
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for j in (0..estimates.len()).filter(|j| estimates[*j].is_undetermined()) {
-        let is_with = |i: &usize| {
-            let other = &estimates[*i];
-            let is_open = other.is_undetermined() || other.rests_on.contains(&j);
-            *i == j || (is_open && correlations[*i][j].abs() > TOGETHER)
-        };
-        let group: Vec<_> = (0..estimates.len()).filter(is_with).collect();
+        let group: Vec<_> = (0..estimates.len())
+            .filter(|i| {
+                let other = &estimates[*i];
+                let is_open = other.is_undetermined() || other.rests_on.contains(&j);
+                *i == j || (is_open && correlations[*i][j].abs() > TOGETHER)
+            })
+            .collect();
         if !groups.contains(&group) {
             groups.push(group);
         }

@@ -304,8 +304,7 @@ impl Slice<'_, '_> {
 /// Point 0 is the centre.
 fn filling(k: usize, count: usize) -> Vec<f64> {
     let root = (0..40).fold(1.5_f64, |x, _| (1.0 + x).powf(1.0 / (count as f64 + 1.0)));
-    let share = |j: usize| (0.5 + k as f64 * root.powi(-(j as i32 + 1))).fract();
-    (0..count).map(share).collect()
+    (0..count).map(|j| (0.5 + k as f64 * root.powi(-(j as i32 + 1))).fract()).collect()
 }
 
 impl Residual for &Slice<'_, '_> {
@@ -324,10 +323,9 @@ impl Jacobian for &Slice<'_, '_> {
     fn jacobian(&self, free: &Vec<f64>) -> Result<DenseMatrix, FitError> {
         let Residuals { definition, .. } = self.residuals;
         let points = definition.curves.iter().map(|curve| curve.measured.points.len()).sum();
-        let is_free = |j: &usize| self.fixed.is_none_or(|(fixed, _)| *j != fixed);
         let columns: Vec<_> = match self.residuals.solved(&self.all(free))? {
             Some(model) => (0..definition.unknowns.len())
-                .filter(is_free)
+                .filter(|j| self.fixed.is_none_or(|(fixed, _)| *j != fixed))
                 .map(|j| self.residuals.column(&model, j))
                 .collect(),
             // A zero gradient ends the search. Only starts can be unsolvable: the solver takes no

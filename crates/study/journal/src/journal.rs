@@ -126,9 +126,9 @@ impl<R: Records> Journal<R> {
             return Err(OutputError::journal(path, &error).into());
         }
         sync_folder(path.parent().unwrap_or(path));
-        let refuse = |problem| JournalError::NoHeader { path: path.to_owned(), problem };
         let length = bytes.len() as u64;
-        let records = R::begin(header, length, path).map_err(refuse)?;
+        let records = R::begin(header, length, path)
+            .map_err(|problem| JournalError::NoHeader { path: path.to_owned(), problem })?;
         Self::at_end(records, length, path, file)
     }
 

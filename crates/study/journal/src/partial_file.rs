@@ -124,8 +124,8 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let names = || {
             let entries = fs::read_dir(folder.path()).expect("a folder");
-            let name = |entry: io::Result<fs::DirEntry>| entry.expect("an entry").file_name();
-            let mut names: Vec<_> = entries.map(name).collect();
+            let mut names: Vec<_> =
+                entries.map(|entry| entry.expect("an entry").file_name()).collect();
             names.sort();
             names
         };

@@ -99,8 +99,8 @@ fn intact_from<R: Records>(
     let mut length = first.len() as u64;
     let header = JournalHeader::read::<R>(first, path)?;
     let seal = header.seal();
-    let refuse = |problem| JournalError::NoHeader { path: path.to_owned(), problem };
-    let mut records = R::begin(header, length, path).map_err(refuse)?;
+    let mut records = R::begin(header, length, path)
+        .map_err(|problem| JournalError::NoHeader { path: path.to_owned(), problem })?;
     let mut damage: Option<JournalError> = None;
     while let Some(bytes) = lines.next().map_err(io)? {
         let end = length + bytes.len() as u64;

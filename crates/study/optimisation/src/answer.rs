@@ -54,8 +54,7 @@ pub(crate) fn answer(
         history.extend(restarted(search, history, target, &mut ends, plan.restarts)?);
         agreement = Agreement::of(&ends);
         // Without lower bounds all targets have the same feasible set, so one search decides.
-        let is_feasible = |c: &Candidate| matches!(search.merit(c, target), Merit::Met(_));
-        if !history.iter().any(is_feasible) {
+        if !history.iter().any(|c| matches!(search.merit(c, target), Merit::Met(_))) {
             let merits = history.iter().map(|candidate| search.merit(candidate, target));
             return Ok(Answer::Infeasible(best(merits)));
         }

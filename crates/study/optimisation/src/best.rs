@@ -93,21 +93,21 @@ pub(crate) fn starts<'c>(
         judged.filter(|(merit, _)| *merit != Merit::None).collect();
     order.sort_by(|(a, _), (b, _)| b.compare(*a));
     let mut regions: Vec<Region> = Vec::new();
-    let is_first = |(_, candidate): &(Merit, &Candidate)| {
+    // Both parts stay sorted by merit, so the first design of a region is its best.
+    let (firsts, others): (Vec<_>, Vec<_>) = order.into_iter().partition(|(_, candidate)| {
         let region = region(search, candidate);
         let is_new = !regions.contains(&region);
         if is_new {
             regions.push(region);
         }
         is_new
-    };
-    // Both parts stay sorted by merit, so the first design of a region is its best.
-    let (firsts, others): (Vec<_>, Vec<_>) = order.into_iter().partition(is_first);
+    });
     let mut starts: Vec<Candidate> =
         firsts.into_iter().take(count).map(|(_, candidate)| candidate.clone()).collect();
     for (_, candidate) in others {
-        let is_apart = |start: &Candidate| start.point.distance(&candidate.point) >= APART;
-        if starts.len() < count && starts.iter().all(is_apart) {
+        if starts.len() < count
+            && starts.iter().all(|start| start.point.distance(&candidate.point) >= APART)
+        {
             starts.push(candidate.clone());
         }
     }

@@ -108,11 +108,12 @@ impl Merit {
 
 /// Returns the index of the best merit; the first of equal ones.
 pub(crate) fn best(merits: impl Iterator<Item = Merit>) -> Option<usize> {
-    let better = |(best, merit): (usize, Merit), (index, other): (usize, Merit)| {
-        if other.compare(merit) == Ordering::Greater { (index, other) } else { (best, merit) }
-    };
     let judged = merits.enumerate().filter(|(_, merit)| *merit != Merit::None);
-    judged.reduce(better).map(|(index, _)| index)
+    judged
+        .reduce(|(best, merit), (index, other)| {
+            if other.compare(merit) == Ordering::Greater { (index, other) } else { (best, merit) }
+        })
+        .map(|(index, _)| index)
 }
 
 #[cfg(test)]

@@ -59,12 +59,15 @@ impl NumberColumn {
                 // At or beyond the worst end of a criterion the fitness is locally 0.
                 Some(fitness) if fitness <= 0.0 => Slopes::FLAT,
                 Some(fitness) => {
-                    let part = |(column, of): &(Column<DesignRow>, RescaledCriterion)| {
-                        let rate = column.cell(row).number().and_then(|value| of.rate(value));
-                        let part = |rate| slopes(column, row, parameter).scaled(rate);
-                        rate.map_or(Slopes::UNKNOWN, part)
-                    };
-                    let sum = parts.iter().map(part).reduce(Slopes::plus);
+                    let sum = parts
+                        .iter()
+                        .map(|(column, of)| {
+                            let rate = column.cell(row).number().and_then(|value| of.rate(value));
+                            rate.map_or(Slopes::UNKNOWN, |rate| {
+                                slopes(column, row, parameter).scaled(rate)
+                            })
+                        })
+                        .reduce(Slopes::plus);
                     sum.unwrap_or(Slopes::UNKNOWN).scaled(fitness)
                 }
             },
@@ -94,15 +97,16 @@ pub(crate) fn ends_over(
     rows: &[DesignRow],
 ) -> Vec<CriterionEnds> {
     // As in a ranking, which rescales over designs with coverage.
-    let covers = |row: &&DesignRow| row.result.coverage.is_none_or(|coverage| coverage > 0.0);
     let ends = goal.criteria.iter().filter_map(|criterion| {
         let given = goal.ends.iter().find(|ends| ends.column == criterion.column);
-        let found = || {
+        given.cloned().or_else(|| {
             let column = known(sweep, &criterion.column)?;
-            let values = rows.iter().filter(covers).filter_map(|row| column.cell(row).number());
+            let values = rows
+                .iter()
+                .filter(|row| row.result.coverage.is_none_or(|coverage| coverage > 0.0))
+                .filter_map(|row| column.cell(row).number());
             CriterionEnds::of(criterion, values)
-        };
-        given.cloned().or_else(found)
+        })
     });
     ends.collect()
 }

@@ -58,17 +58,18 @@ fn peaks_along(space: &DesignSpace, point: &SpacePoint, interval: usize) -> Vec<
     let Some((first, last)) = place(0.0).zip(place(1.0)) else { return Vec::new() };
     let (low, high) = (first.min(last), first.max(last));
     // `S/p` is monotonic along an interval of any length parameter.
-    let on_peak = |peak: u32| {
-        let (mut below, mut above) = if first < last { (0.0, 1.0) } else { (1.0, 0.0) };
-        for _ in 0..BISECTIONS {
-            let middle = f64::midpoint(below, above);
-            let is_below = place(middle)? < f64::from(peak);
-            *(if is_below { &mut below } else { &mut above }) = middle;
-        }
-        Some((peak, at(above)))
-    };
     // Empty if the interval does not change `S/p`, for example a modulus.
-    (low.floor() as u32 + 1..=high.floor() as u32).filter_map(on_peak).collect()
+    (low.floor() as u32 + 1..=high.floor() as u32)
+        .filter_map(|peak| {
+            let (mut below, mut above) = if first < last { (0.0, 1.0) } else { (1.0, 0.0) };
+            for _ in 0..BISECTIONS {
+                let middle = f64::midpoint(below, above);
+                let is_below = place(middle)? < f64::from(peak);
+                *(if is_below { &mut below } else { &mut above }) = middle;
+            }
+            Some((peak, at(above)))
+        })
+        .collect()
 }
 
 /// Returns the shortfall of a design on a peak that is known without solving it.
@@ -80,12 +81,15 @@ fn known_shortfall(judge: &Judge, case: &Case, number: DesignNumber) -> f64 {
     let result = DesignResult { coverage: Some(1.0 - open), ..DesignResult::default() };
     let margin = |(requirement, value): (&Requirement, Option<f64>)| {
         let is_compliance = COMPLIANCES.contains(&requirement.column.as_str());
-        let bound = || (is_compliance && requirement.direction() > 0.0).then_some(open);
-        value.or_else(bound).map_or(0.0, |value| requirement.margin(value).min(0.0))
+        value
+            .or_else(|| (is_compliance && requirement.direction() > 0.0).then_some(open))
+            .map_or(0.0, |value| requirement.margin(value).min(0.0))
     };
     // Contact in bending leaves no compliance.
-    let bends = |r: &&Requirement| r.column == COMPLIANCES[0] && r.direction() > 0.0;
-    let touching = judge.requirements().find(bends).map_or(0.0, |_| contact_margin(case).min(0.0));
+    let touching = judge
+        .requirements()
+        .find(|r| r.column == COMPLIANCES[0] && r.direction() > 0.0)
+        .map_or(0.0, |_| contact_margin(case).min(0.0));
     -judge.known(case, number, result).into_iter().map(margin).sum::<f64>() - touching
 }
 

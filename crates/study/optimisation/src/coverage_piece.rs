@@ -62,11 +62,11 @@ impl CoveragePiece {
     pub fn beside(case: &Case) -> Vec<Self> {
         let Some(lengths) = Lengths::of(case) else { return Vec::new() };
         let whole = lengths.place().floor() as u32;
-        let sides = |peak| [true, false].map(|rising| Self { peak, rising });
         // Each point lies between two peaks; near a border both branches qualify.
-        let near = [whole, whole + 1].into_iter().flat_map(sides);
-        let holds = |piece: &Self| piece.borders(lengths).iter().all(|beyond| *beyond <= BORDER);
-        near.filter(holds).collect()
+        let near = [whole, whole + 1]
+            .into_iter()
+            .flat_map(|peak| [true, false].map(|rising| Self { peak, rising }));
+        near.filter(|piece| piece.borders(lengths).iter().all(|beyond| *beyond <= BORDER)).collect()
     }
 
     /// Returns the excess over the two borders; at most 0 inside.

@@ -305,9 +305,11 @@ impl<'a> Evaluations<'a> {
         let values = (first..last).into_par_iter().map(|sample| {
             self.go_on()?;
             let (number, sample) = (self.number(0), BEFORE + sample);
-            let solve = || self.sampler.solve_near(number, &case, sample, end.as_ref());
-            let sampled =
-                uninterrupted(|| self.progress.slow().track("a sample of the search", solve));
+            let sampled = uninterrupted(|| {
+                self.progress.slow().track("a sample of the search", || {
+                    self.sampler.solve_near(number, &case, sample, end.as_ref())
+                })
+            });
             let sampled = sampled.ok_or(Halt::Interrupted)?;
             Ok(sampled.map_or_else(|| judge.no_values(), |sampled| judge.values(&sampled.row)))
         });

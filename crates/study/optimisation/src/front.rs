@@ -141,15 +141,17 @@ fn more_targets(
 fn between(front: &[Vec<f64>], targets: &[Target], count: usize) -> Vec<Target> {
     let (Some(first), Some(last)) = (front.first(), front.last()) else { return Vec::new() };
     let scales = [0, 1].map(|k| Spacing::between(first[k], last[k]));
-    let gap = |pair: &[Vec<f64>]| {
-        let parts = [0, 1].map(|k| scales[k].share(pair[0][k]) - scales[k].share(pair[1][k]));
-        let spacing = Spacing::between(pair[0][1], pair[1][1]);
-        let floors = targets.iter().flat_map(|target| &target.floors).filter(|(k, _)| *k == 1);
-        let places = floors.map(|(_, floor)| spacing.share(*floor));
-        let untried = places.filter(|place| *place > INSIDE).fold(1.0, f64::min);
-        (untried * parts[0].hypot(parts[1]), spacing.at(0.5 * untried))
-    };
-    let mut gaps: Vec<(f64, f64)> = front.windows(2).map(gap).collect();
+    let mut gaps: Vec<(f64, f64)> = front
+        .windows(2)
+        .map(|pair| {
+            let parts = [0, 1].map(|k| scales[k].share(pair[0][k]) - scales[k].share(pair[1][k]));
+            let spacing = Spacing::between(pair[0][1], pair[1][1]);
+            let floors = targets.iter().flat_map(|target| &target.floors).filter(|(k, _)| *k == 1);
+            let places = floors.map(|(_, floor)| spacing.share(*floor));
+            let untried = places.filter(|place| *place > INSIDE).fold(1.0, f64::min);
+            (untried * parts[0].hypot(parts[1]), spacing.at(0.5 * untried))
+        })
+        .collect();
     gaps.retain(|(width, _)| *width > NARROW);
     gaps.sort_by(|(a, _), (b, _)| b.total_cmp(a));
     gaps.truncate(count);
@@ -233,8 +235,8 @@ fn improve(
     plan: Plan,
     front: &[Candidate],
 ) -> Result<(), Halt> {
-    let each = |target| plan.evaluations() * search.evaluation_units(target);
-    let units = targets.iter().map(each).sum();
+    let units =
+        targets.iter().map(|target| plan.evaluations() * search.evaluation_units(target)).sum();
     search.progress.begin(SearchPart::Front, targets.len() * plan.tasks(), units);
     // Appended in the order of the targets, so that the history is the same on every machine.
     let walks = targets.par_iter().map(|target| {
@@ -299,8 +301,9 @@ fn rescaled_front(
 /// Returns the non-dominated best designs of the targets, and counts the others.
 fn designs(search: &Search<'_>, history: &[Candidate], targets: &[Target]) -> Result<Front, Halt> {
     let found = targets.par_iter().map(|target| {
-        let is_met = |c: &&Candidate| matches!(search.merit(c, target), Merit::Met(_));
-        let any = history.iter().any(|candidate| is_met(&candidate));
+        let any = history
+            .iter()
+            .any(|candidate| matches!(search.merit(candidate, target), Merit::Met(_)));
         any.then(|| best_design(search, history, target.clone())).transpose()
     });
     let found: Vec<Option<BestDesign>> = found.collect::<Result<_, _>>()?;
@@ -367,8 +370,8 @@ fn curve(values: &[Vec<f64>], points: usize) -> Vec<Target> {
     // At an end the other objective decides, because many designs may share the optimum of one.
     let first_end = Target { objective: 1, floors: vec![(0, between(0).at(BESIDE))] };
     let last_end = target(vec![between(1).at(1.0 - BESIDE)]);
-    let share = |k: usize| k as f64 / (points - 1) as f64;
-    let inner = (1..points - 1).map(|k| target(vec![between(1).at(share(k))]));
+    let inner =
+        (1..points - 1).map(|k| target(vec![between(1).at(k as f64 / (points - 1) as f64)]));
     [first_end].into_iter().chain(inner).chain([last_end]).collect()
 }
 
@@ -376,8 +379,8 @@ fn curve(values: &[Vec<f64>], points: usize) -> Vec<Target> {
 ///
 /// Distances are measured to each other and to `taken`.
 fn spread(values: &[Vec<f64>], taken: &[Vec<f64>], count: usize) -> Vec<Vec<f64>> {
-    let is_beaten = |value: &Vec<f64>| values.iter().any(|other| dominates(other, value));
-    let front: Vec<&Vec<f64>> = values.iter().filter(|value| !is_beaten(value)).collect();
+    let front: Vec<&Vec<f64>> =
+        values.iter().filter(|value| !values.iter().any(|other| dominates(other, value))).collect();
     let span = |k: usize| {
         let all = front.iter().map(|value| value[k]);
         let (low, high) = all
@@ -389,15 +392,16 @@ fn spread(values: &[Vec<f64>], taken: &[Vec<f64>], count: usize) -> Vec<Vec<f64>
         let pairs = a.iter().zip(b).zip(&spans);
         pairs.map(|((a, b), span)| ((a - b) / span).powi(2)).sum::<f64>().sqrt()
     };
-    let from_taken = |value: &&Vec<f64>| {
-        taken.iter().map(|other| apart(value, other)).fold(f64::INFINITY, f64::min)
-    };
-    let mut nearest: Vec<f64> = front.iter().map(from_taken).collect();
+    let mut nearest: Vec<f64> = front
+        .iter()
+        .map(|value| taken.iter().map(|other| apart(value, other)).fold(f64::INFINITY, f64::min))
+        .collect();
     let mut chosen: Vec<usize> = Vec::new();
     while chosen.len() < count {
         // The first of equal distances; without `taken` all distances are infinite.
-        let farther = |a: usize, b: usize| if nearest[b] > nearest[a] { b } else { a };
-        let farthest = (0..front.len()).reduce(farther).filter(|&k| nearest[k] > NARROW);
+        let farthest = (0..front.len())
+            .reduce(|a, b| if nearest[b] > nearest[a] { b } else { a })
+            .filter(|&k| nearest[k] > NARROW);
         let Some(farthest) = farthest else { break };
         chosen.push(farthest);
         for (distance, value) in nearest.iter_mut().zip(&front) {

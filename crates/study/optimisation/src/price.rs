@@ -84,11 +84,9 @@ pub(crate) fn bindings(
     // A yield is a step function, so its multiplier is undefined.
     let is_yield = |limit: &Limit| matches!(*limit, Limit::Requirement(k) if search.judge.is_yield(StatisticUse::Requirement(k)));
     let bindings = limits.into_iter().zip(prices);
-    let binding = |(limit, price): (Limit, Option<f64>)| Binding {
-        price: price.filter(|_| !is_yield(&limit)),
-        limit,
-    };
-    Ok(bindings.map(binding).collect())
+    Ok(bindings
+        .map(|(limit, price)| Binding { price: price.filter(|_| !is_yield(&limit)), limit })
+        .collect())
 }
 
 /// Returns the limits of the nominal design behind a sampled optimum, with rough multipliers.

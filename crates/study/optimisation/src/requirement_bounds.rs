@@ -63,11 +63,10 @@ impl Bounds {
     /// False if folds are allowed. If the surface is folded at the end, the margin of the bound
     /// measures it.
     pub fn has_reopened(&self, row: &DesignRow) -> bool {
-        let is_open = |k: usize| {
+        self.soundness.is_some_and(|k| {
             let Bound { requirement, column } = &self.all[k];
             column.value(row).is_some_and(|value| requirement.is_met(value))
-        };
-        self.soundness.is_some_and(is_open) && has_folded(row)
+        }) && has_folded(row)
     }
 
     /// Returns the derivatives of the least margin, from the tightest bound.

@@ -150,12 +150,14 @@ fn find(
     let known = points.len();
     let points = [points, on_peaks].concat();
     // The journal holds the space-filling points already: only points on peaks are solved here.
-    let evaluate = |(k, point)| {
-        let _task = (k >= known).then(|| progress.task(1));
-        Ok(nominal.evaluate(SearchStage::Sample, &point, false)?.0)
-    };
-    let mut history: Vec<Candidate> =
-        points.into_par_iter().enumerate().map(evaluate).collect::<Result<_, _>>()?;
+    let mut history: Vec<Candidate> = points
+        .into_par_iter()
+        .enumerate()
+        .map(|(k, point)| {
+            let _task = (k >= known).then(|| progress.task(1));
+            Ok(nominal.evaluate(SearchStage::Sample, &point, false)?.0)
+        })
+        .collect::<Result<_, _>>()?;
     let mut limits = Limits { goal, tightened: goal.clone(), rescaled: &rescaled };
     let mut answer = limits.nominal_answer(&nominal, &mut history)?;
     if goal.is_about_samples() {
@@ -396,8 +398,9 @@ fn expected(goal: &DesignGoal) -> Vec<(SearchPart, u64)> {
             // Half of the points, then the points between them.
             let half = points.div_ceil(2) as u64;
             let plans = [plan.of_a_point(), plan.between_points()];
-            let front = |plan: Plan| (SearchPart::Front, half * plan.evaluations() * each / 2);
-            parts.extend(plans.map(front));
+            parts.extend(
+                plans.map(|plan| (SearchPart::Front, half * plan.evaluations() * each / 2)),
+            );
         }
         parts
     };
@@ -426,12 +429,14 @@ fn sample_rows(
     progress: &SearchProgress,
 ) -> Result<Vec<DesignRow>, Halt> {
     progress.begin(SearchPart::Sample, points.len(), points.len() as u64);
-    let row = |point: &SpacePoint| {
-        let _task = progress.task(1);
-        let result = evaluations.solve(point, false)?;
-        Ok(evaluations.row(0, point, &result))
-    };
-    points.par_iter().map(row).collect()
+    points
+        .par_iter()
+        .map(|point| {
+            let _task = progress.task(1);
+            let result = evaluations.solve(point, false)?;
+            Ok(evaluations.row(0, point, &result))
+        })
+        .collect()
 }
 
 /// Determines the ends used to rescale the criteria, which define the fitness.

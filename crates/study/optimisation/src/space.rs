@@ -131,12 +131,12 @@ impl DesignSpace {
     /// Returns the intervals that only scale columns in physical units, not measures.
     pub(crate) fn scaling_intervals(&self) -> Vec<usize> {
         let measures = self.sweep().measures();
-        let is_measured = |section: &str| measures.iter().any(|m| m.sections().contains(&section));
         let intervals = self.intervals().iter().enumerate();
         // A thickness also matters if lengths are in mm, and a modulus beside the modulus of the
         // scales.
         let scaling = intervals.filter(|(_, Interval { parameter, .. })| {
-            !(is_measured(parameter.section) || self.sweep().has_followers(parameter))
+            !(measures.iter().any(|m| m.sections().contains(&parameter.section))
+                || self.sweep().has_followers(parameter))
         });
         scaling.map(|(j, _)| j).collect()
     }
@@ -190,12 +190,14 @@ impl DesignSpace {
 
     /// Returns the choices of the combination `index`.
     pub(crate) fn combination(&self, mut index: usize) -> Vec<usize> {
-        let digit = |choice: &Choice| {
-            let digit = index % choice.values.len();
-            index /= choice.values.len();
-            digit
-        };
-        self.choices.iter().map(digit).collect()
+        self.choices
+            .iter()
+            .map(|choice| {
+                let digit = index % choice.values.len();
+                index /= choice.values.len();
+                digit
+            })
+            .collect()
     }
 
     /// Returns the case of a point.

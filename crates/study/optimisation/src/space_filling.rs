@@ -16,8 +16,9 @@ const CORNERED: usize = 6;
 pub(crate) fn points(space: &DesignSpace, count: usize, seed: u64) -> Vec<SpacePoint> {
     let combinations = space.combinations();
     if space.intervals().is_empty() && combinations <= count {
-        let point = |index| SpacePoint { shares: Vec::new(), chosen: space.combination(index) };
-        return (0..combinations).map(point).collect();
+        return (0..combinations)
+            .map(|index| SpacePoint { shares: Vec::new(), chosen: space.combination(index) })
+            .collect();
     }
     let mut points = corners(space, count / 2);
     // Choices are coordinates too; otherwise some of their values would get hardly any points.
@@ -35,15 +36,14 @@ fn corners(space: &DesignSpace, most: usize) -> Vec<SpacePoint> {
     if intervals > CORNERED || combinations.saturating_mul(1 << intervals) > most {
         return Vec::new();
     }
-    let share = |corner: usize, j: usize| f64::from(u8::from(corner >> j & 1 == 1));
-    let of = |combination| {
-        let corner = move |corner| SpacePoint {
-            shares: (0..intervals).map(|j| share(corner, j)).collect(),
-            chosen: space.combination(combination),
-        };
-        (0..1 << intervals).map(corner)
-    };
-    (0..combinations).flat_map(of).collect()
+    (0..combinations)
+        .flat_map(|combination| {
+            (0..1 << intervals).map(move |corner| SpacePoint {
+                shares: (0..intervals).map(|j| f64::from(u8::from(corner >> j & 1 == 1))).collect(),
+                chosen: space.combination(combination),
+            })
+        })
+        .collect()
 }
 
 /// Maps coordinates from 0 to 1 to a point of the space.

@@ -50,8 +50,9 @@ impl Statistic {
 
 /// Splits the name of a quantile into column and fraction.
 fn split(name: &str) -> Option<(&str, f64)> {
-    let cut = |(ending, share)| Some((name.strip_suffix(ending)?.strip_suffix('_')?, share));
-    QUANTILES.into_iter().find_map(cut)
+    QUANTILES
+        .into_iter()
+        .find_map(|(ending, share)| Some((name.strip_suffix(ending)?.strip_suffix('_')?, share)))
 }
 
 #[cfg(test)]

@@ -131,11 +131,12 @@ pub fn history_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
     let explained = |name: &str| {
         let column = known.iter().find(|column| column.name == name);
         let column = column.map(|column| (column.name.to_string(), column.unit, column.meaning));
-        let statistic = || {
-            let statistic = goal.statistic(name)?;
-            Some((name.to_owned(), unit_of(&known, name), statistic.meaning()))
-        };
-        column.or_else(statistic).or_else(|| fitness_column(goal))
+        column
+            .or_else(|| {
+                let statistic = goal.statistic(name)?;
+                Some((name.to_owned(), unit_of(&known, name), statistic.meaning()))
+            })
+            .or_else(|| fitness_column(goal))
     };
     let objectives = goal.objectives.iter().filter_map(|o| explained(&o.column));
     let last = [
@@ -158,10 +159,12 @@ pub fn history_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
 fn cells(
     columns: impl Iterator<Item = (String, &'static str, &'static str)>,
 ) -> Vec<Column<Cells>> {
-    let column = |(index, (name, unit, meaning)): (usize, (String, _, _))| {
-        Column::computed(name.into(), unit, meaning, move |row: &Cells| row[index].clone())
-    };
-    columns.enumerate().map(column).collect()
+    columns
+        .enumerate()
+        .map(|(index, (name, unit, meaning))| {
+            Column::computed(name.into(), unit, meaning, move |row: &Cells| row[index].clone())
+        })
+        .collect()
 }
 
 /// Writes the results into `folder`.

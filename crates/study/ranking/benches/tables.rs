@@ -48,11 +48,13 @@ fn pareto(c: &mut Criterion) {
     for criteria in [Criteria::Independent, Criteria::Conflicting] {
         write_results(folder.path(), SLANTS, criteria, 0);
         let results = Results::read(folder.path()).expect("results");
-        let values = |row| {
-            let number = |column| results.number(row, column).expect("a number").expect("a value");
-            [number(4), number(5), 1.0 / number(6), number(7)]
-        };
-        let points: Vec<_> = (0..results.len()).map(values).collect();
+        let points: Vec<_> = (0..results.len())
+            .map(|row| {
+                let number =
+                    |column| results.number(row, column).expect("a number").expect("a value");
+                [number(4), number(5), 1.0 / number(6), number(7)]
+            })
+            .collect();
         group.bench_function(format!("{criteria:?}"), |b| {
             b.iter(|| ranking::pareto_front(black_box(&points)));
         });

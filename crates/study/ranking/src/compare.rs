@@ -152,12 +152,12 @@ impl<'a> Difference<'a> {
     }
 
     fn is_within(&self, tolerance: f64, noise: f64) -> bool {
-        let is_small = |pair| relative(pair) <= tolerance || absolute(pair) <= noise;
         // Cells that are not numbers are compared as text.
-        self.numbers().is_some_and(is_small) || {
-            let [first, second] = self.texts();
-            first == second
-        }
+        self.numbers().is_some_and(|pair| relative(pair) <= tolerance || absolute(pair) <= noise)
+            || {
+                let [first, second] = self.texts();
+                first == second
+            }
     }
 }
 
@@ -278,11 +278,10 @@ impl Comparison<'_> {
     fn differences(&self) -> impl Iterator<Item = Difference<'_>> {
         // Lazy, because two long runs may differ in every cell.
         let cells = move |rows: [usize; 2]| {
-            let cell = move |column: &ComparedColumn| {
+            self.places.iter().filter_map(move |column| {
                 let cell = self.cell(rows, column.places);
                 (!cell.is_within(self.tolerance, column.noise)).then_some(cell)
-            };
-            self.places.iter().filter_map(cell)
+            })
         };
         self.matching.pairs.iter().flat_map(move |&rows| cells(rows))
     }

@@ -83,13 +83,12 @@ impl Criterion {
     pub fn new(column: &str, goal: Goal) -> Self {
         // Criteria of the paper keep their names, because `are_the_papers` compares whole criteria.
         let known = CRITERIA.iter().find(|known| known.column == column && known.goal == goal);
-        let own = || Self {
+        known.cloned().unwrap_or_else(|| Self {
             name: format!("{} {column}", ["largest", "least"][usize::from(goal == Goal::Minimize)])
                 .into(),
             column: column.to_owned().into(),
             goal,
-        };
-        known.cloned().unwrap_or_else(own)
+        })
     }
 
     /// Returns the name of the criterion in headers of tables.
@@ -106,9 +105,10 @@ impl FromStr for Criterion {
 
     fn from_str(text: &str) -> Result<Self, InvalidCriterion> {
         let text = text.trim();
-        let plain = || Some((text, plain_goal(text)?));
         let read = |goal: Goal| Some((text.strip_prefix(goal.key())?.strip_prefix(':')?, goal));
-        let found = read(Goal::Maximize).or_else(|| read(Goal::Minimize)).or_else(plain);
+        let found = read(Goal::Maximize)
+            .or_else(|| read(Goal::Minimize))
+            .or_else(|| Some((text, plain_goal(text)?)));
         let found = found.map(|(column, goal)| (column.trim(), goal));
         match found {
             Some((column, goal)) if !column.is_empty() && !column.contains(':') => {

@@ -46,10 +46,9 @@ pub struct RescaledCriterion {
 impl CriterionEnds {
     /// Returns the worst and the best of the values that have a criterion.
     pub fn of(criterion: &Criterion, values: impl Iterator<Item = f64>) -> Option<Self> {
-        let exists = |value: &f64| Scale::Paper.criterion(criterion.goal, *value).is_some();
         // A value without a criterion, such as a penetration of 0, cannot be an end.
         let (low, high) = values
-            .filter(exists)
+            .filter(|value| Scale::Paper.criterion(criterion.goal, *value).is_some())
             .map(|value| (value, value))
             .reduce(|(low, high), (value, _)| (low.min(value), high.max(value)))?;
         let (worst, best) =

@@ -205,8 +205,7 @@ mod tests {
             points in prop::collection::vec(prop::array::uniform8(-1_i32..3), 0..60),
             count in 5_usize..9,
         ) {
-            let cut = |p: &[i32; 8]| p.map(f64::from)[..count].to_vec();
-            let points: Vec<f64> = points.iter().flat_map(cut).collect();
+            let points: Vec<f64> = points.iter().flat_map(|p| p.map(f64::from)[..count].to_vec()).collect();
             let points = || points.chunks_exact(count);
             let expected: Vec<bool> = points().map(|q| !points().any(|p| dominates(p, q))).collect();
             prop_assert_eq!(front_of(&points().collect::<Vec<_>>().concat(), count), expected);

@@ -89,11 +89,13 @@ pub fn comparable_groups(
             group.requirements.push(Requirement { column, relation: Relation::Equal, limit });
             group
         };
-        let apart = |group: &Preferences| -> Vec<Preferences> {
-            values.iter().map(|value| at(group, *value)).collect()
-        };
         // Includes combinations without designs; their rankings are empty.
-        groups = groups.iter().flat_map(apart).collect();
+        groups = groups
+            .iter()
+            .flat_map(|group| -> Vec<Preferences> {
+                values.iter().map(|value| at(group, *value)).collect()
+            })
+            .collect();
     }
     Ok(groups)
 }

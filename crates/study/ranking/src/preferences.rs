@@ -91,11 +91,10 @@ impl Preferences {
         if !(1..=MOST_CRITERIA).contains(&found) {
             return Err(InvalidPreferences::Count(found));
         }
-        let is_twice = |(c, criterion): &(usize, &Criterion)| {
+        if let Some((_, twice)) = criteria.iter().enumerate().find(|(c, criterion)| {
             // Compare columns only: maximising and minimising the same column is contradictory.
             criteria[..*c].iter().any(|other| other.column == criterion.column)
-        };
-        if let Some((_, twice)) = criteria.iter().enumerate().find(is_twice) {
+        }) {
             return Err(InvalidPreferences::Twice(twice.column.clone().into_owned()));
         }
         let weights = weights.unwrap_or(Weights::equal(found));

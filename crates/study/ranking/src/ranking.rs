@@ -20,7 +20,7 @@ use crate::tetrahedral_grid::{Steps, TetrahedralGrid};
 use crate::unmet::Unmet;
 use crate::weights::Weights;
 pub use columns::{pareto_columns, quaternary_columns, ranking_columns, winner_columns};
-use contenders::{Contenders, LeftOut};
+use contenders::Contenders;
 
 /// Number of criteria with a tetrahedron of weights.
 const FOUR: usize = 4;
@@ -160,8 +160,8 @@ impl<'r> Ranking<'r> {
         if unmet > 0 && unmet == results.len() {
             return Err(InvalidRanking::Unmet(Unmet::of(results, &preferences.requirements)?));
         }
-        let words = |(why, count): (LeftOut, usize)| (why.in_words(&preferences), count);
-        let left_out: Vec<_> = reasons.into_iter().map(words).collect();
+        let left_out: Vec<_> =
+            reasons.into_iter().map(|(why, count)| (why.in_words(&preferences), count)).collect();
         if contenders.rows.is_empty() {
             return Err(nothing(results, &preferences, &left_out));
         }
@@ -184,14 +184,13 @@ impl<'r> Ranking<'r> {
         folder: &VerifiedFolder,
         preferences: &Preferences,
     ) -> Result<Results, InvalidResults> {
-        let is_criterion = |column: &str| preferences.criteria.iter().any(|c| c.column == column);
         let is_required = |own: &str| preferences.requirements.iter().any(|r| r.column == own);
         Results::with_columns(folder, |column| {
             // Parameters are printed, and are the conditions that decide on comparability.
             let is_always = column == name::FOLD_FORCE || parameter_of(column).is_some();
             // A failure mode is printed beside its force.
             is_always
-                || is_criterion(column)
+                || preferences.criteria.iter().any(|c| c.column == column)
                 || is_required(column)
                 || column == name::FIRST_FAILURE
         })
@@ -266,8 +265,7 @@ impl<'r> Ranking<'r> {
         // The cell of the fold force is empty if the surface does not fold.
         let is_open = |design: &RankedDesign<'_>| self.results.table().is_empty(design.row(), fold);
         let best = self.winner(self.preferences.weights);
-        let others = || self.by_fitness(self.preferences.weights).find(is_open);
-        if is_open(&best) { None } else { others() }
+        if is_open(&best) { None } else { self.by_fitness(self.preferences.weights).find(is_open) }
     }
 
     /// Counts the other designs with the best fitness for `weights`, up to round-off.
@@ -315,10 +313,11 @@ impl<'r> Ranking<'r> {
     ///
     /// Empty unless there are four criteria.
     pub fn quaternary(&self) -> Vec<RankedDesign<'_>> {
-        let at = |(steps, &winner): (Steps, &usize)| {
-            self.ranked(winner, Weights::at(self.grid, steps), 1)
-        };
-        self.grid.nodes().zip(&self.winners).map(at).collect()
+        self.grid
+            .nodes()
+            .zip(&self.winners)
+            .map(|(steps, &winner)| self.ranked(winner, Weights::at(self.grid, steps), 1))
+            .collect()
     }
 
     fn ranked(&self, contender: usize, weights: Weights, rank: usize) -> RankedDesign<'_> {
@@ -348,9 +347,8 @@ fn winners(contenders: &Contenders, grid: TetrahedralGrid) -> Vec<usize> {
         return Vec::new();
     }
     let nodes: Vec<Steps> = grid.nodes().collect();
-    let contest = |&steps: &Steps| best(contenders, Weights::at(grid, steps));
     // `collect` keeps the order of the nodes, which `quaternary` relies on.
-    nodes.par_iter().map(contest).collect()
+    nodes.par_iter().map(|&steps| best(contenders, Weights::at(grid, steps))).collect()
 }
 
 /// Round-off of a score, a sum of logarithms or of fractions.

@@ -150,19 +150,21 @@ impl FromStr for Requirement {
     type Err = InvalidRequirement;
 
     fn from_str(text: &str) -> Result<Self, InvalidRequirement> {
-        let read = || {
-            let cut = |relation: Relation| Some((text.split_once(relation.sign())?, relation));
-            let ((column, limit), relation) = Relation::ALL.into_iter().find_map(cut)?;
-            // Every value or no value would meet a bound of `inf` or `nan`.
-            let limit = limit.trim().parse().ok().filter(|limit: &f64| limit.is_finite())?;
-            let column = column.trim().to_owned();
-            // In `coverage => 0.6` the sign `>` leaves a `=` in the name.
-            let is_name = !column.is_empty() && !column.contains(['<', '>', '=']);
-            is_name.then_some(Self { column, relation, limit })
-        };
         let level = Standard::requirement(text).map(|(_, requirement)| requirement);
         let level = level.or_else(|| Some(PainLimit::requirement(text)?.1));
-        level.or_else(read).ok_or_else(|| InvalidRequirement { found: text.trim().to_owned() })
+        level
+            .or_else(|| {
+                let ((column, limit), relation) = Relation::ALL
+                    .into_iter()
+                    .find_map(|relation| Some((text.split_once(relation.sign())?, relation)))?;
+                // Every value or no value would meet a bound of `inf` or `nan`.
+                let limit = limit.trim().parse().ok().filter(|limit: &f64| limit.is_finite())?;
+                let column = column.trim().to_owned();
+                // In `coverage => 0.6` the sign `>` leaves a `=` in the name.
+                let is_name = !column.is_empty() && !column.contains(['<', '>', '=']);
+                is_name.then_some(Self { column, relation, limit })
+            })
+            .ok_or_else(|| InvalidRequirement { found: text.trim().to_owned() })
     }
 }
 

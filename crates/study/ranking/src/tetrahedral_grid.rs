@@ -38,8 +38,9 @@ impl std::str::FromStr for TetrahedralGrid {
 
     fn from_str(text: &str) -> Result<Self, InvalidResolution> {
         let resolution = text.parse().ok().filter(|steps| (1..=Self::FINEST).contains(steps));
-        let error = || InvalidResolution { found: text.to_owned() };
-        resolution.map(|resolution| Self { resolution }).ok_or_else(error)
+        resolution
+            .map(|resolution| Self { resolution })
+            .ok_or_else(|| InvalidResolution { found: text.to_owned() })
     }
 }
 

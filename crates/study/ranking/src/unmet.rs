@@ -72,14 +72,16 @@ impl Unmet {
         sizes: &[f64],
         nearest: impl Fn(&[Vec<f64>]) -> Option<usize>,
     ) -> Self {
-        let shortfalls = |row: &Vec<Option<f64>>| -> Vec<f64> {
-            let one = |(k, value): (usize, &Option<f64>)| {
-                // A design without a required value is never the nearest.
-                value.map_or(f64::INFINITY, |value| requirements[k].shortfall(value, sizes[k]))
-            };
-            row.iter().enumerate().map(one).collect()
-        };
-        let all: Vec<_> = values.iter().map(shortfalls).collect();
+        let all: Vec<_> = values
+            .iter()
+            .map(|row| -> Vec<f64> {
+                let one = |(k, value): (usize, &Option<f64>)| {
+                    // A design without a required value is never the nearest.
+                    value.map_or(f64::INFINITY, |value| requirements[k].shortfall(value, sizes[k]))
+                };
+                row.iter().enumerate().map(one).collect()
+            })
+            .collect();
         let nearest = nearest(&all);
         let report = |(k, requirement): (usize, &Requirement)| UnmetRequirement {
             requirement: requirement.clone(),

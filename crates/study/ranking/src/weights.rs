@@ -79,8 +79,8 @@ impl Weights {
     ///
     /// If one is negative, all are 0, or there are more than [`MOST_CRITERIA`].
     pub fn new(weights: &[f64]) -> Result<Self, InvalidWeights> {
-        let is_right = |weight: &f64| weight.is_finite() && *weight >= 0.0;
-        if let Some(&found) = weights.iter().find(|weight| !is_right(weight)) {
+        if let Some(&found) = weights.iter().find(|weight| !(0.0..f64::INFINITY).contains(*weight))
+        {
             return Err(InvalidWeights::OutOfRange(found));
         }
         let count = weights.len();
@@ -134,11 +134,14 @@ impl FromStr for Weights {
     type Err = InvalidWeights;
 
     fn from_str(text: &str) -> Result<Self, InvalidWeights> {
-        let read = |part: &str| {
-            let error = || InvalidWeights::NotANumber(part.trim().to_owned());
-            part.trim().parse::<f64>().map_err(|_| error())
-        };
-        let weights: Vec<f64> = text.split(',').map(read).collect::<Result<_, _>>()?;
+        let weights: Vec<f64> = text
+            .split(',')
+            .map(|part| {
+                part.trim()
+                    .parse::<f64>()
+                    .map_err(|_| InvalidWeights::NotANumber(part.trim().to_owned()))
+            })
+            .collect::<Result<_, _>>()?;
         Self::new(&weights)
     }
 }

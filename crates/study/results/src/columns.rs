@@ -112,8 +112,8 @@ pub(crate) fn about(name: &str) -> Option<(&'static MeasuredValue, Option<Quanti
             .is_some_and(|rest| rest.is_empty() || rest.starts_with('_'))
     };
     // Take the longest stem: `critical_force_per_width` also begins with `critical_force`.
-    let nearest = || COLUMNS.iter().filter(is_made_from).max_by_key(|column| column.stem().len());
-    let column = ValueColumn::named(name).or_else(nearest)?;
+    let column = ValueColumn::named(name)
+        .or_else(|| COLUMNS.iter().filter(is_made_from).max_by_key(|column| column.stem().len()))?;
     Some((column.value, column.quantity))
 }
 
@@ -171,13 +171,12 @@ pub fn design_columns(sweep: &Sweep) -> Vec<Column<DesignRow>> {
 /// several tilts, values in physical units. In a sweep with a thickness, lengths in mm come before
 /// the geometry, and values in physical units before the dimensionless values that they replace.
 fn columns(sweep: &Sweep, table: Option<&str>) -> Vec<Column<DesignRow>> {
-    let leads = |column: &ValueColumn| match table {
-        Some(table) => column.name == table,
-        None => column.leads(),
-    };
     let standing = COLUMNS.iter().filter(|column| column.stands(sweep, table));
     let (physical, values): (Vec<_>, Vec<_>) = standing.partition(|column| column.is_physical());
-    let (leading, others): (Vec<_>, Vec<_>) = values.into_iter().partition(|column| leads(column));
+    let (leading, others): (Vec<_>, Vec<_>) = values.into_iter().partition(|column| match table {
+        Some(table) => column.name == table,
+        None => column.leads(),
+    });
     let made = |columns: Vec<&'static ValueColumn>| columns.into_iter().map(ValueColumn::column);
     let mut columns = vec![number_column()];
     if sweep.gives(key::THICKNESS) {
@@ -239,8 +238,7 @@ fn axis_columns<R: Borrow<DesignRow>>(sweep: &Sweep) -> impl Iterator<Item = Col
 fn columns_in_mm(sweep: &Sweep) -> impl Iterator<Item = Column<DesignRow>> {
     let lengths = LENGTHS_IN_MM.into_iter().filter_map(Parameter::named);
     lengths.filter(|parameter| sweep.grid().axis(parameter.key).is_none()).map(|parameter| {
-        let length = |row: &DesignRow| parameter.millimetres(&row.case).into();
-        Column::parameter(parameter, length)
+        Column::parameter(parameter, |row: &DesignRow| parameter.millimetres(&row.case).into())
     })
 }
 

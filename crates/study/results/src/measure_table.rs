@@ -38,18 +38,17 @@ pub fn write_measures(
     columns: &[Column<DesignRow>],
     row: &DesignRow,
 ) -> Result<&'static str, OutputError> {
-    let measure = |column: &Column<DesignRow>| DesignMeasure {
-        name: column.name.clone(),
-        value: column.cell(row),
-        unit: column.unit,
-        meaning: column.meaning,
-    };
     write_rows(
         folder,
         ResultsFolder::MEASURES,
         folder.csv_format(),
         MEASURE_COLUMNS,
-        columns.iter().map(measure),
+        columns.iter().map(|column| DesignMeasure {
+            name: column.name.clone(),
+            value: column.cell(row),
+            unit: column.unit,
+            meaning: column.meaning,
+        }),
     )?;
     Ok(ResultsFolder::MEASURES)
 }

@@ -29,8 +29,12 @@ impl PathTable {
         // for files and for Python.
         let filled = |column: &Column<R>| {
             let cells: Vec<Cell> = rows.iter().map(|row| column.cell(row)).collect();
-            let cell = move |&row: &usize| cells[row].clone();
-            Column::computed(column.name.clone(), column.unit, column.meaning, cell)
+            Column::computed(
+                column.name.clone(),
+                column.unit,
+                column.meaning,
+                move |&row: &usize| cells[row].clone(),
+            )
         };
         Self { file, columns: columns.iter().map(filled).collect(), rows: rows.len() }
     }
@@ -65,10 +69,12 @@ pub fn write_path_tables(
     solved: &SolvedDesign,
 ) -> Result<Vec<&'static str>, OutputError> {
     let format = folder.csv_format();
-    let write = |PathTable { file, columns, rows }: PathTable| {
-        write_rows(folder, file, format, &columns, 0..rows).map(|_| file)
-    };
-    path_tables(solved).into_iter().map(write).collect()
+    path_tables(solved)
+        .into_iter()
+        .map(|PathTable { file, columns, rows }| {
+            write_rows(folder, file, format, &columns, 0..rows).map(|_| file)
+        })
+        .collect()
 }
 
 fn of_puncture(puncture: &Puncture) -> Vec<PathTable> {

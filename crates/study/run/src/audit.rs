@@ -13,7 +13,7 @@ use sweep::{Case, DesignNumber, Measure, Sweep};
 
 use crate::options::Options;
 use crate::progress::RunError;
-use crate::run_journal::{Archive, JournalEntry};
+use crate::run_journal::Archive;
 use crate::solve::evaluator::Evaluator;
 use crate::solve::groups::Groups;
 use crate::solve::workers;
@@ -102,8 +102,7 @@ impl Audit {
             let position = archive.designs().position(audited.index);
             let entry = position.map(|position| entries.last(position)).transpose()?.flatten();
             // A design that was solved again with other settings differs from the sweep.
-            let is_own = |entry: &JournalEntry| entry.result.settings.is_empty();
-            if let Some(entry) = entry.filter(is_own) {
+            if let Some(entry) = entry.filter(|entry| entry.result.settings.is_empty()) {
                 audit.compare(
                     &columns,
                     [&archive.row(entry), &audited.finer],
@@ -144,8 +143,8 @@ impl Audit {
     /// Stores a difference if it is the largest of its column and method.
     fn note(&mut self, new: LargestDifference) {
         // With some twenty columns and two methods, a list is faster than a map.
-        let same = |old: &&mut LargestDifference| old.column == new.column && old.way == new.way;
-        match self.differences.iter_mut().find(same) {
+        match self.differences.iter_mut().find(|old| old.column == new.column && old.way == new.way)
+        {
             Some(old) if new.relative > old.relative => *old = new,
             Some(_) => {}
             None => self.differences.push(new),
@@ -205,8 +204,10 @@ fn whole(mut case: Case) -> Option<[Case; 2]> {
 ///
 /// The multiples of the golden ratio modulo one have this property.
 fn every(share: f64, designs: impl Iterator<Item = u64>) -> impl Iterator<Item = u64> {
-    let chosen = move |(place, _): &(usize, u64)| (*place as f64 * GOLDEN).fract() < share;
-    designs.enumerate().filter(chosen).map(|(_, design)| design)
+    designs
+        .enumerate()
+        .filter(move |(place, _)| (*place as f64 * GOLDEN).fract() < share)
+        .map(|(_, design)| design)
 }
 
 /// Returns true if a column does not depend on the solution method.

@@ -124,19 +124,23 @@ impl Filter {
 /// Returns the entries of designs by number, sorted and without duplicates.
 fn numbered(archive: &Archive, numbers: &[String]) -> Result<Vec<JournalEntry>, InvalidFilter> {
     let grid = archive.sweep().grid();
-    let range = |text: &String| grid.parse_numbers(text.trim()).map_err(InvalidFilter::Number);
-    let ranges = numbers.iter().map(range).collect::<Result<Vec<_>, _>>()?;
+    let ranges = numbers
+        .iter()
+        .map(|text| grid.parse_numbers(text.trim()).map_err(InvalidFilter::Number))
+        .collect::<Result<Vec<_>, _>>()?;
     let mut indices: Vec<_> = ranges.into_iter().flatten().collect();
     // Reruns report designs in order, regardless of their order on the command line.
     indices.sort_unstable();
     indices.dedup();
     let mut entries = archive.entries()?;
-    let mut entry = |index: u64| {
-        let position = archive.designs().position(index);
-        let entry = position.map(|position| entries.last(position)).transpose()?.flatten();
-        entry.ok_or_else(|| InvalidFilter::NotDone(grid.number(index).to_string()))
-    };
-    indices.into_iter().map(&mut entry).collect()
+    indices
+        .into_iter()
+        .map(&mut |index| {
+            let position = archive.designs().position(index);
+            let entry = position.map(|position| entries.last(position)).transpose()?.flatten();
+            entry.ok_or_else(|| InvalidFilter::NotDone(grid.number(index).to_string()))
+        })
+        .collect()
 }
 
 #[cfg(test)]

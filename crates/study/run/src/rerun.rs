@@ -132,12 +132,11 @@ fn require_program(
 fn changed(sweep: &Sweep, settings: &[Setting]) -> Result<(Sweep, String), InvalidRerun> {
     let changed = Sweep::parse(&sweep.to_toml(), "definition", settings)?;
     for setting in settings {
-        let is_shared = |parameter: &sweep::Parameter| {
+        if !setting.parameter().is_some_and(|parameter| {
             // A changed axis would change the position of every design in the grid.
             sweep.grid().axis(parameter.key).is_none()
                 && changed.grid().axis(parameter.key).is_none()
-        };
-        if !setting.parameter().is_some_and(is_shared) {
+        }) {
             return Err(InvalidRerun::Axis(setting.place().to_string()));
         }
     }
@@ -151,7 +150,7 @@ fn changed(sweep: &Sweep, settings: &[Setting]) -> Result<(Sweep, String), Inval
     // A setting equal to the value of the sweep is not recorded.
     let different = PARAMETERS.iter().filter(|p| p.get(old) != p.get(new));
     // Spaces separate settings, so lists are written without spaces.
-    let text = |p: &sweep::Parameter| format!("{}={}", p.path(), p.get(new)).replace(SEPARATOR, "");
-    let texts: Vec<_> = different.map(text).collect();
+    let texts: Vec<_> =
+        different.map(|p| format!("{}={}", p.path(), p.get(new)).replace(SEPARATOR, "")).collect();
     Ok((changed, texts.join(&SEPARATOR.to_string())))
 }

@@ -118,9 +118,8 @@ impl Case {
     pub fn punctured(&self) -> puncture::PunctureParameters {
         // Limit the position here, not in the case: it changes along axes of gap and length.
         let top = 2.0 * self.design.half_base();
-        let inside = |inset: f64| (1.0 - inset / top).max(0.5);
         let position = self.puncture.load_position.min(1.0 + self.design.gap / top);
-        let load_position = self.load_inset.map_or(position, inside);
+        let load_position = self.load_inset.map_or(position, |inset| (1.0 - inset / top).max(0.5));
         let seeks_failure = self.judge_failure
             || self.needle_force.is_some()
             || self.strengths != Strengths::default();

@@ -17,7 +17,7 @@ use std::path::Path;
 
 use crate::case::Case;
 use crate::deviation::Deviation;
-use crate::grid::{Axis, Grid};
+use crate::grid::Grid;
 use crate::input::read_input;
 use crate::parameter::Scalar;
 use crate::parameter::{PARAMETERS, Parameter, key};
@@ -132,30 +132,30 @@ impl Sweep {
     /// Returns true if any design is also solved with imperfections.
     pub fn is_imperfect(&self) -> bool {
         let largest = |key: &str| {
-            let base = || Parameter::named(key).and_then(|p| p.get(self.grid.base()).number());
             // The table has the columns if at least one design scatters.
             let axis = self.grid.axis(key).map(|axis| axis.span().1);
-            axis.or_else(base).unwrap_or(0.0)
+            axis.or_else(|| Parameter::named(key).and_then(|p| p.get(self.grid.base()).number()))
+                .unwrap_or(0.0)
         };
         largest("gap_cv") > 0.0 || largest("slant_sd_deg") > 0.0
     }
 
     /// Returns true if the needle of any design is guided.
     pub fn is_guided(&self) -> bool {
-        let base = || self.grid.base().puncture.needle.is_guided();
-        let any = |axis: &Axis| (0..axis.len()).any(|k| axis.value(k) == Scalar::Word("guided"));
-        self.grid.axis(key::NEEDLE).map_or_else(base, any)
+        self.grid.axis(key::NEEDLE).map_or_else(
+            || self.grid.base().puncture.needle.is_guided(),
+            |axis| (0..axis.len()).any(|k| axis.value(k) == Scalar::Word("guided")),
+        )
     }
 
     /// Returns true if the designs have a value for the parameter `key`, also in mm.
     pub fn gives(&self, key: &str) -> bool {
-        let is_given = |parameter: &Parameter| {
+        Parameter::named(key).is_some_and(|parameter| {
             let is_said = |key| self.grid.axis(key).is_some();
             let in_mm =
                 || parameter.in_mm().any(|p| is_said(p.key) || p.is_given(self.grid.base()));
             is_said(parameter.key) || parameter.is_given(self.grid.base()) || in_mm()
-        };
-        Parameter::named(key).is_some_and(is_given)
+        })
     }
 
     /// Returns true if lengths are given in mm, so that they depend on the thickness.
@@ -231,8 +231,9 @@ impl Sweep {
 
     /// Returns true if the parameter `key` is an axis or differs from its default.
     pub fn sets(&self, key: &str) -> bool {
-        let is_set = |parameter: &Parameter| parameter.get(self.grid.base()) != parameter.default();
-        self.grid.axis(key).is_some() || Parameter::named(key).is_some_and(is_set)
+        self.grid.axis(key).is_some()
+            || Parameter::named(key)
+                .is_some_and(|parameter| parameter.get(self.grid.base()) != parameter.default())
     }
 
     /// Returns the parameters shared by all designs, with their values.
@@ -242,13 +243,15 @@ impl Sweep {
     pub fn shared(&self) -> impl Iterator<Item = (&'static Parameter, Scalar)> {
         // Computed once, because comparing all pairs of parameters was slow.
         let alone: Vec<_> = PARAMETERS.iter().filter(|other| self.gives_alone(other)).collect();
-        let shared = move |parameter: &&Parameter| {
-            self.grid.axis(parameter.key).is_none()
-                && parameter.is_given(self.grid.base())
-                && !parameter.follows(self.grid.base())
-                && !alone.iter().any(|other| parameter.is_said_by(other, self.grid.base()))
-        };
-        PARAMETERS.iter().filter(shared).map(|p| (p, p.get(self.grid.base())))
+        PARAMETERS
+            .iter()
+            .filter(move |parameter| {
+                self.grid.axis(parameter.key).is_none()
+                    && parameter.is_given(self.grid.base())
+                    && !parameter.follows(self.grid.base())
+                    && !alone.iter().any(|other| parameter.is_said_by(other, self.grid.base()))
+            })
+            .map(|p| (p, p.get(self.grid.base())))
     }
 }
 

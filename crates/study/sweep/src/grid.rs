@@ -55,11 +55,10 @@ impl Axis {
 
     /// Returns the values as written in a definition.
     pub fn to_toml(&self) -> String {
-        let list = || {
+        self.range.clone().unwrap_or_else(|| {
             let values: Vec<_> = self.values.iter().map(|value| value.to_toml()).collect();
             format!("[{}]", values.join(", "))
-        };
-        self.range.clone().unwrap_or_else(list)
+        })
     }
 }
 
@@ -94,8 +93,10 @@ impl Grid {
     ///
     /// If a `u64` cannot number the designs.
     pub fn new(axes: Vec<Axis>, base: Case) -> Result<Self, TooManyDesigns> {
-        let product = |count: u64, axis: &Axis| count.checked_mul(axis.len());
-        let count = axes.iter().try_fold(1, product).ok_or(TooManyDesigns)?;
+        let count = axes
+            .iter()
+            .try_fold(1, |count: u64, axis| count.checked_mul(axis.len()))
+            .ok_or(TooManyDesigns)?;
         Ok(Self { axes, base, count })
     }
 
@@ -165,8 +166,9 @@ impl Grid {
     /// If it is not a number of the grid.
     pub fn parse_number(&self, text: &str) -> Result<u64, NoSuchDesign> {
         let number = text.parse::<u64>().ok().filter(|number| (1..=self.count).contains(number));
-        let error = || NoSuchDesign { found: text.to_owned(), count: self.count };
-        number.map(|number| number - 1).ok_or_else(error)
+        number
+            .map(|number| number - 1)
+            .ok_or_else(|| NoSuchDesign { found: text.to_owned(), count: self.count })
     }
 
     /// Parses one design number, such as `7`, or a range, such as `1-12`.

@@ -329,8 +329,8 @@ impl Parameter {
         let found = written.to_string();
         let expected = self.expected();
         // `nan` is not out of range, so report it as not accepted.
-        let is_finite = |text: &String| text.parse::<f64>().is_ok_and(f64::is_finite);
-        let is_number = matches!(written, Value::Number(text) if is_finite(text));
+        let is_number =
+            matches!(written, Value::Number(text) if text.parse::<f64>().is_ok_and(f64::is_finite));
         if is_number && self.takes_numbers() {
             WrongValue::OutOfRange { found, expected }
         } else {
@@ -404,11 +404,13 @@ pub(crate) fn any_of(words: &[&str]) -> String {
 ///
 /// `None` if one is not a number, or they are too many or not ascending.
 fn list(items: &[Value]) -> Option<NumberList> {
-    let number = |item: &Value| match item {
-        Value::Number(text) => text.parse().ok(),
-        _ => None,
-    };
-    let numbers: Vec<f64> = items.iter().map(number).collect::<Option<_>>()?;
+    let numbers: Vec<f64> = items
+        .iter()
+        .map(|item| match item {
+            Value::Number(text) => text.parse().ok(),
+            _ => None,
+        })
+        .collect::<Option<_>>()?;
     // An empty list is the internal form of a single tilt, so refuse it here.
     NumberList::new(&numbers).filter(|list| !list.is_empty())
 }

@@ -138,11 +138,13 @@ impl SubsetDesigns {
     /// Returns the grid index of the design at `position`. It is below [`Self::len`].
     pub fn design(&self, position: u64) -> u64 {
         let position = self.first + position * self.step;
-        let sampled = |sample: &Vec<u64>| {
-            usize::try_from(position).ok().and_then(|position| sample.get(position)).copied()
-        };
         // No grid has this design, so an invalid position cannot return another design.
-        self.sample.as_ref().map_or(Some(position), sampled).unwrap_or(u64::MAX)
+        self.sample
+            .as_ref()
+            .map_or(Some(position), |sample| {
+                usize::try_from(position).ok().and_then(|position| sample.get(position)).copied()
+            })
+            .unwrap_or(u64::MAX)
     }
 
     /// Returns the position of the design with grid index `index`, if it is included.

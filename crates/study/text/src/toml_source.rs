@@ -76,8 +76,8 @@ impl fmt::Display for Value {
             }
             Self::Table(entries) if entries.is_empty() => f.write_str("{}"),
             Self::Table(entries) => {
-                let entry = |e: &KeyValue| format!("{} = {}", e.key, e.value);
-                let entries: Vec<_> = entries.iter().map(entry).collect();
+                let entries: Vec<_> =
+                    entries.iter().map(|e| format!("{} = {}", e.key, e.value)).collect();
                 write!(f, "{{ {} }}", entries.join(", "))
             }
         }
@@ -164,21 +164,22 @@ impl<'a> Document<'a> {
     }
 
     fn table(&self, table: &DeTable<'_>) -> KeyValues {
-        let place = |offset| self.place(Some(offset));
-        entries(table, &place)
+        entries(table, &|offset| self.place(Some(offset)))
     }
 }
 
 fn entries(table: &DeTable<'_>, place: &dyn Fn(usize) -> Place) -> KeyValues {
-    let entry = |(key, value): (&toml::Spanned<_>, &toml::Spanned<DeValue<'_>>)| {
-        let key: &toml::Spanned<toml::de::DeString<'_>> = key;
-        KeyValue {
-            key: key.get_ref().to_string(),
-            value: value_of(value.get_ref(), place),
-            place: place(key.span().start),
-        }
-    };
-    table.iter().map(entry).collect()
+    table
+        .iter()
+        .map(|(key, value)| {
+            let key: &toml::Spanned<toml::de::DeString<'_>> = key;
+            KeyValue {
+                key: key.get_ref().to_string(),
+                value: value_of(value.get_ref(), place),
+                place: place(key.span().start),
+            }
+        })
+        .collect()
 }
 
 fn value_of(value: &DeValue<'_>, place: &dyn Fn(usize) -> Place) -> Value {

@@ -159,15 +159,16 @@ impl<'a> Analysis<'a> {
         store: &SampleStore,
     ) -> Result<Vec<SolvedSample>, AnalysisError> {
         let (design, case) = (nominal.row.number, &nominal.case);
-        let solve = |sample: u64| match self.sampler.solve(design, case, sample) {
-            Some(skin) => [skin.deviations, nominal.measured.values(&skin.row)].concat(),
-            // A sample without valid deviations is a failed sample, without values.
-            None => vec![None; columns.len()],
-        };
         let number = nominal.row.number.to_string();
         // The header contains this design only, so other designs of the sweep may change.
         let header = header(self.program, &self.sweep.only(nominal.index));
-        store.samples((&number, header), columns, self.samples, self.stop, solve)
+        store.samples((&number, header), columns, self.samples, self.stop, |sample| {
+            match self.sampler.solve(design, case, sample) {
+                Some(skin) => [skin.deviations, nominal.measured.values(&skin.row)].concat(),
+                // A sample without valid deviations is a failed sample, without values.
+                None => vec![None; columns.len()],
+            }
+        })
     }
 
     /// Returns the error of an analysis that is interrupted outside its samples.

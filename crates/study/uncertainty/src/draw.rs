@@ -29,12 +29,11 @@ pub(crate) fn sample(
         };
         let mut random = random(case, number, deviation.parameter().key);
         // Drawing again at a bound truncates the distribution there.
-        let possible = |_| {
+        // Apply to the case so far: whether a load position is valid depends on earlier deviations.
+        let (moved, by) = (0..DRAWS).find_map(|_| {
             let by = draw(batch, &mut random);
             Some((deviation.applied(&made, by)?, by))
-        };
-        // Apply to the case so far: whether a load position is valid depends on earlier deviations.
-        let (moved, by) = (0..DRAWS).find_map(possible)?;
+        })?;
         made = moved;
         drawn.push(Some(by));
     }
@@ -113,13 +112,13 @@ mod tests {
 
     #[test]
     fn deviations_have_their_moments_and_stay_within_bounds() {
-        let normal = |n| drawn("length_over_t = { batch_sd = 0.1 }", n)[0].expect("a deviation");
         let uniform = |n| drawn("length_over_t = { batch_within = 0.1 }", n)[0].expect("one");
         let moments = |of: &dyn Fn(u64) -> f64| {
             let mean = (1..=4000).map(of).sum::<f64>() / 4000.0;
             (mean, ((1..=4000).map(|n| of(n).powi(2)).sum::<f64>() / 4000.0).sqrt())
         };
-        let (mean, sd) = moments(&normal);
+        let (mean, sd) =
+            moments(&|n| drawn("length_over_t = { batch_sd = 0.1 }", n)[0].expect("a deviation"));
         assert!(mean.abs() < 0.005 && (sd - 0.1).abs() < 0.004, "{mean} {sd}");
         let (mean, sd) = moments(&uniform);
         assert!(mean.abs() < 0.003 && (sd - 0.1 / 3.0_f64.sqrt()).abs() < 0.002, "{mean} {sd}");

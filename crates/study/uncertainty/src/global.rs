@@ -77,17 +77,18 @@ impl GlobalAnalysis<'_> {
             .iter()
             .flat_map(|p| names.iter().map(move |name| format!("{name} {p}")))
             .collect();
-        let solve = |sample: u64| {
-            let point = |point: &String| {
-                let row = evaluator.row(number, &self.case(&case, sample, point));
-                measured.values(&row)
-            };
-            points.iter().flat_map(point).collect()
-        };
         let label = (LABEL, header(self.program, self.sweep));
-        let samples = store.samples(label, &columns, self.samples, self.stop, solve)?;
-        let is_measure = |(_, name): &(usize, String)| parameter_of(name).is_none();
-        let measures = names.iter().cloned().enumerate().filter(is_measure);
+        let samples = store.samples(label, &columns, self.samples, self.stop, |sample| {
+            points
+                .iter()
+                .flat_map(|point| {
+                    let row = evaluator.row(number, &self.case(&case, sample, point));
+                    measured.values(&row)
+                })
+                .collect()
+        })?;
+        let measures =
+            names.iter().cloned().enumerate().filter(|(_, name)| parameter_of(name).is_none());
         let (mut varied, mut constant) = (Vec::new(), Vec::new());
         for (k, name) in measures {
             if is_constant(k, names.len(), &samples) {

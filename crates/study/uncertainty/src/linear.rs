@@ -94,8 +94,10 @@ impl Gradients<'_> {
         let (imperfection, gap) = (self.design.case.imperfection, self.design.case.design.gap);
         let all =
             [("gap_over_t", imperfection.gap_cv * gap), ("slant_deg", imperfection.slant_sd_deg)];
-        let named = |(key, sd)| Some((Parameter::named(key)?, sd));
-        all.into_iter().filter_map(named).filter(|(_, sd)| *sd > 0.0).collect()
+        all.into_iter()
+            .filter_map(|(key, sd)| Some((Parameter::named(key)?, sd)))
+            .filter(|(_, sd)| *sd > 0.0)
+            .collect()
     }
 
     /// Returns the variance of a column if all gaps, or slants, deviate independently.
@@ -110,11 +112,12 @@ impl Gradients<'_> {
         let factor = (at(known.value + step)? - at(known.value)?) / step;
         let single = self.single.iter();
         let of_measure = single.filter(|d| d.measure == measure && d.parameter == key);
-        let variance = |derivative: &ParameterDerivative| {
-            let slopes = [factor * derivative.left?, factor * derivative.right?];
-            Some(moments::variance(slopes, BatchDeviation::Normal(sd)))
-        };
-        of_measure.map(variance).sum()
+        of_measure
+            .map(|derivative| {
+                let slopes = [factor * derivative.left?, factor * derivative.right?];
+                Some(moments::variance(slopes, BatchDeviation::Normal(sd)))
+            })
+            .sum()
     }
 
     /// Returns the key of the deviation of a parameter, which may be in mm.
@@ -128,11 +131,13 @@ impl LinearSpread {
     fn of(sources: Vec<(String, DeviationLevel, f64, f64)>) -> Self {
         let sum: f64 = sources.iter().map(|(.., variance)| variance).sum();
         let share = |variance: f64| if sum > 0.0 { variance / sum } else { 0.0 };
-        let source = |(source, level, deviation, variance): (String, DeviationLevel, f64, f64)| {
-            let (spread, share) = (variance.sqrt(), share(variance));
-            SourceShare { source, level, deviation, spread, share }
-        };
-        let mut sources: Vec<_> = sources.into_iter().map(source).collect();
+        let mut sources: Vec<_> = sources
+            .into_iter()
+            .map(|(source, level, deviation, variance)| {
+                let (spread, share) = (variance.sqrt(), share(variance));
+                SourceShare { source, level, deviation, spread, share }
+            })
+            .collect();
         // Stable sort, so that equal sources keep the order of the definition.
         sources.sort_by(|one, other| other.share.total_cmp(&one.share));
         Self { spread: sum.sqrt(), sources }
@@ -142,11 +147,13 @@ impl LinearSpread {
     pub fn in_words(&self) -> String {
         // Smaller fractions would appear as 0 %.
         let matters = self.sources.iter().filter(|source| source.share >= 0.005);
-        let text = |source: &SourceShare| {
-            let level =
-                if source.level == DeviationLevel::Scale { " from scale to scale" } else { "" };
-            format!("{}{level} {:.0} %", source.source, 100.0 * source.share)
-        };
-        matters.map(text).collect::<Vec<_>>().join(", ")
+        matters
+            .map(|source| {
+                let level =
+                    if source.level == DeviationLevel::Scale { " from scale to scale" } else { "" };
+                format!("{}{level} {:.0} %", source.source, 100.0 * source.share)
+            })
+            .collect::<Vec<_>>()
+            .join(", ")
     }
 }

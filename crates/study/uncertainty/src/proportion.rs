@@ -57,12 +57,14 @@ mod tests {
         for samples in [10, 100, 1000] {
             for probability in [0.01, 0.3, 0.5, 0.83, 0.97, 0.999] {
                 let counts = Binomial::new(probability, samples).expect("a probability");
-                let covers = |met: &u64| {
-                    let [low, high] =
-                        Proportion { met: *met as usize, of: samples as usize }.interval();
-                    (low..=high).contains(&probability)
-                };
-                let covered: f64 = (0..=samples).filter(covers).map(|met| counts.pmf(met)).sum();
+                let covered: f64 = (0..=samples)
+                    .filter(|met| {
+                        let [low, high] =
+                            Proportion { met: *met as usize, of: samples as usize }.interval();
+                        (low..=high).contains(&probability)
+                    })
+                    .map(|met| counts.pmf(met))
+                    .sum();
                 assert!(covered >= 0.95, "{samples} {probability}: {covered}");
             }
         }

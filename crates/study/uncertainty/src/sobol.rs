@@ -123,15 +123,16 @@ mod tests {
         let evaluations: Vec<_> = (0..samples)
             .map(|_| {
                 let (a, b) = (point(), point());
-                let mixed = |i: usize| {
-                    let mut mixed = a;
-                    mixed[i] = b[i];
-                    ishigami(mixed)
-                };
                 Evaluation {
                     first: ishigami(a),
                     second: ishigami(b),
-                    mixed: (0..3).map(mixed).collect(),
+                    mixed: (0..3)
+                        .map(|i| {
+                            let mut mixed = a;
+                            mixed[i] = b[i];
+                            ishigami(mixed)
+                        })
+                        .collect(),
                 }
             })
             .collect();

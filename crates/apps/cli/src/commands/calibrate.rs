@@ -66,12 +66,14 @@ fn footprint_of(arguments: &Arguments) -> anyhow::Result<Footprint> {
     ];
     let tissue = arguments.tissue_thickness.iter();
     let tissue = tissue.map(|h| ("--tissue-thickness", "substrate.tissue_thickness_over_t", h));
-    let setting = |(option, key, value): (&str, &str, &String)| {
-        Setting::from_option(&format!("{option} {value}"), &format!("{key}={value}"))
-    };
     // A sweep of one design, because its keys check their bounds and report errors.
-    let settings: Vec<_> =
-        options.into_iter().chain(tissue).map(setting).collect::<Result<_, _>>()?;
+    let settings: Vec<_> = options
+        .into_iter()
+        .chain(tissue)
+        .map(|(option, key, value)| {
+            Setting::from_option(&format!("{option} {value}"), &format!("{key}={value}"))
+        })
+        .collect::<Result<_, _>>()?;
     // A sweep needs a slant; the springs do not depend on it.
     let sweep =
         Sweep::parse("name = \"calibrate\"\ndesigns.slant_deg = 0", "calibrate", &settings)?;

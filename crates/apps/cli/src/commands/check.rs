@@ -9,7 +9,7 @@ use fit::FitDefinition;
 use optimisation::DesignGoal;
 use run::Estimate;
 use serde_json::{Map, Value, json};
-use sweep::{Axis, Measure, Parameter, Role, Setting, Sweep, Variable, key, read_entries};
+use sweep::{Axis, Measure, Parameter, Role, Setting, Sweep, key, read_entries};
 
 use super::DONE;
 use super::source::{Defined, Definition, defined, folder_of, print_notes, settings};
@@ -118,9 +118,8 @@ fn goal_report(goal: &DesignGoal, path: &Path) -> String {
     let mut rows = vec![row("name", goal.name()), row("aim", &aims.collect::<Vec<_>>().join(", "))];
     rows.extend(goal.requirements.iter().map(|required| row("require", &required.to_string())));
     rows.push(row("output", &folder_of(sweep, None).display().to_string()));
-    let ends = |of: &Variable| [of.at(0.0), of.at(1.0)].map(|end| end.to_string());
     let variables = sweep.variables().iter().map(|of| {
-        let [from, to] = ends(of);
+        let [from, to] = [of.at(0.0), of.at(1.0)].map(|end| end.to_string());
         [of.parameter().path(), format!("{from} to {to}"), of.parameter().unit.to_owned()]
     });
     format!(

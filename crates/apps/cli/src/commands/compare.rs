@@ -166,8 +166,7 @@ fn row(column: &ColumnDifference) -> [String; 9] {
 }
 
 fn changes(column: &ColumnDifference) -> impl Iterator<Item = [String; 3]> {
-    let change = |((from, to), count): (&(String, String), &usize)| {
+    column.changes.iter().map(|((from, to), count)| {
         [column.name.clone(), counted(*count as u64, "design"), format!("{from} → {to}")]
-    };
-    column.changes.iter().map(change)
+    })
 }

@@ -120,9 +120,11 @@ impl SolvedChoice {
     fn new(design: SelectedDesign, requirements: Vec<Requirement>) -> Self {
         let evaluator = Evaluator::new(design.sweep.measures());
         let number = design.number.unwrap_or(design.sweep.grid().number(0));
-        let tell = |text| eprintln!("{text}");
-        let solve = || evaluator.solve(number, &design.case());
-        let solved = run::report_slow(&format!("design {number}"), tell, solve);
+        let solved = run::report_slow(
+            &format!("design {number}"),
+            |text| eprintln!("{text}"),
+            || evaluator.solve(number, &design.case()),
+        );
         let columns = design_columns(&design.sweep);
         Self { design, solved, columns, requirements }
     }
@@ -185,10 +187,9 @@ impl SolvedChoice {
         let Some((force, place)) = known.min_by(|one, other| one.0.total_cmp(&other.0)) else {
             return String::new();
         };
-        let is_weaker = |borne: f64| borne < force;
         let open = puncture.places.iter();
         // A position that carried more before its path ended is not the weakest.
-        let open = open.filter(|p| p.force.is_none() && p.borne.is_some_and(is_weaker));
+        let open = open.filter(|p| p.force.is_none() && p.borne.is_some_and(|borne| borne < force));
         let open: Vec<_> = open.map(|place| rounded(place.position)).collect();
         format!(
             "\nThe weakest load position is unknown: the path ends early ({}) at {}. The weakest of the other positions is {}, with a critical force of {}\n",
@@ -227,10 +228,12 @@ impl SolvedChoice {
         };
         let case = self.design.case();
         let changed = PARAMETERS.iter().filter(|p| p.get(&case) != p.get(&original));
-        let line = |p: &sweep::Parameter| {
-            format!("  with {} = {} instead of {}\n", p.path(), p.get(&case), p.get(&original))
-        };
-        changed.map(line).collect()
+        let lines: Vec<_> = changed
+            .map(|p| {
+                format!("  with {} = {} instead of {}\n", p.path(), p.get(&case), p.get(&original))
+            })
+            .collect();
+        lines.concat()
     }
 
     fn json(&self, folder: &str, files: &[&str]) -> Value {

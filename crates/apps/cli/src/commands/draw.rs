@@ -67,8 +67,9 @@ pub fn draw(arguments: &Arguments) -> anyhow::Result<u8> {
     check_places(arguments)?;
     check_sizes(&arguments.output)?;
     let designs = select(&arguments.definition, &arguments.selection)?;
-    let folder = || folder_within(&arguments.definition, &designs[0].sweep, "drawings");
-    let mut files = FigureFiles::new(&arguments.output, folder)?;
+    let mut files = FigureFiles::new(&arguments.output, || {
+        folder_within(&arguments.definition, &designs[0].sweep, "drawings")
+    })?;
     for design in &designs {
         let drawing = Drawing { design, case: design.case(), arguments };
         if arguments.flexure {

@@ -79,8 +79,9 @@ pub fn fit(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let path = arguments.path.display();
     let definition = FitDefinition::read(&arguments.path, &settings(&arguments.settings)?)?;
     print_notes(definition.sweep());
-    let default = || folder_of(definition.sweep(), None).join("fit");
-    let folder = ResultsFolder::new(arguments.out.clone().unwrap_or_else(default));
+    let folder = ResultsFolder::new(
+        arguments.out.clone().unwrap_or_else(|| folder_of(definition.sweep(), None).join("fit")),
+    );
     // Foreign files in the folder are rejected before the fit, not after it.
     Claim::check(&folder, Maker::Fit)?;
     interrupt.ask_first();
@@ -412,16 +413,13 @@ fn record(fitted: &Fitted) -> Value {
     let names = |group: &Vec<usize>| {
         group.iter().map(|&j| &fitted.estimates[j].unknown.name).collect::<Vec<_>>()
     };
-    let estimate = |e: &Estimate| json!({ "sought": e.unknown.name, "unit": e.unknown.unit, "value": e.value, "interval": e.interval, "at_end": e.at_end, "depends_on_range_of": names(&e.rests_on) });
-    let event = |e: &CurveEvent| json!({ "kind": kind_name(e.kind), "line": e.line, "left_out": e.left_out });
-    let curve = |c: &FittedCurve| json!({ "file": c.file, "points": c.points.len(), "left_out": c.left_out, "reversed": c.reversed, "events": c.events.iter().map(event).collect::<Vec<_>>(), "noise": c.noise, "trend": c.trend, "widening": c.widening, "beyond": c.beyond, "differenced": c.differenced });
     json!({
         "name": fitted.sweep.name(),
-        "estimates": fitted.estimates.iter().map(estimate).collect::<Vec<_>>(),
+        "estimates": fitted.estimates.iter().map(|e| json!({ "sought": e.unknown.name, "unit": e.unknown.unit, "value": e.value, "interval": e.interval, "at_end": e.at_end, "depends_on_range_of": names(&e.rests_on) })).collect::<Vec<_>>(),
         "scatter": fitted.scatter.iter().map(|s| scatter_record(s, fitted)).collect::<Vec<_>>(),
         "correlations": fitted.correlations,
         "not_told_apart": fitted.undetermined.iter().map(names).collect::<Vec<_>>(),
-        "curves": fitted.curves.iter().map(curve).collect::<Vec<_>>(),
+        "curves": fitted.curves.iter().map(|c| json!({ "file": c.file, "points": c.points.len(), "left_out": c.left_out, "reversed": c.reversed, "events": c.events.iter().map(|e| json!({ "kind": kind_name(e.kind), "line": e.line, "left_out": e.left_out })).collect::<Vec<_>>(), "noise": c.noise, "trend": c.trend, "widening": c.widening, "beyond": c.beyond, "differenced": c.differenced })).collect::<Vec<_>>(),
         "solutions": fitted.solutions,
         "restarts": fitted.restarts,
         "files": FILES,

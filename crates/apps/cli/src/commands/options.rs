@@ -80,8 +80,10 @@ pub struct Threads {
 impl Threads {
     /// Returns the requested number of threads, or the number of cores.
     pub fn count(self) -> usize {
-        let cores = || available_parallelism().map_or(1, usize::from);
-        self.number.map_or_else(cores, |number| number as usize)
+        self.number.map_or_else(
+            || available_parallelism().map_or(1, usize::from),
+            |number| number as usize,
+        )
     }
 
     /// Creates a pool with this number of threads.

@@ -240,8 +240,9 @@ fn plot_curves(arguments: &CurvesArguments) -> anyhow::Result<u8> {
         .collect();
     // `select` refuses to select none.
     let sweep = &designs[0].sweep;
-    let folder = || folder_within(&arguments.definition, sweep, "curves");
-    let mut files = FigureFiles::new(&arguments.output, folder)?;
+    let mut files = FigureFiles::new(&arguments.output, || {
+        folder_within(&arguments.definition, sweep, "curves")
+    })?;
     let names: Vec<_> = designs.iter().map(SelectedDesign::label).collect();
     let names = joined(&names, "designs");
     for figure in curves(sweep.name(), &shown, measured.as_ref(), arguments.output.paper()) {
@@ -280,7 +281,8 @@ fn measured(arguments: &CurvesArguments, cases: &[Case]) -> anyhow::Result<Optio
             first.file
         );
     }
-    let units = |case: &Case| {
+    // Dimensionless columns need no material.
+    cases.iter().filter(|_| first.is_physical).try_for_each(|case| {
         first.test.units(case).map(|_| ()).map_err(|missing| {
             let definition = arguments.definition.path.display();
             anyhow::anyhow!(
@@ -288,9 +290,7 @@ fn measured(arguments: &CurvesArguments, cases: &[Case]) -> anyhow::Result<Optio
                 first.file
             )
         })
-    };
-    // Dimensionless columns need no material.
-    cases.iter().filter(|_| first.is_physical).try_for_each(units)?;
+    })?;
     let (bending, is_physical) = (first.test == Test::Bending, first.is_physical);
     let axes = first.test.axes().map(|(name, _)| name);
     for curve in &read {

@@ -192,14 +192,15 @@ fn preferences(arguments: &Arguments, sweep: Option<&Sweep>) -> anyhow::Result<P
 /// Returns the requested criteria, or the usual ones.
 fn criteria(arguments: &Arguments, sweep: Option<&Sweep>) -> anyhow::Result<Vec<Criterion>> {
     let goals = [(Goal::Maximize, &arguments.maximize), (Goal::Minimize, &arguments.minimize)];
-    let of = |(goal, columns): (Goal, &Vec<String>)| -> Vec<Criterion> {
-        columns.iter().map(|column| Criterion::new(column.trim(), goal)).collect()
-    };
-    let own: Vec<_> = goals.into_iter().flat_map(of).collect();
+    let own: Vec<_> = goals
+        .into_iter()
+        .flat_map(|(goal, columns)| -> Vec<Criterion> {
+            columns.iter().map(|column| Criterion::new(column.trim(), goal)).collect()
+        })
+        .collect();
     match &arguments.criteria {
         Some(criteria) => {
-            let read = |text: &str| option::<Criterion>("--criteria", text);
-            criteria.split(',').map(read).collect()
+            criteria.split(',').map(|text| option::<Criterion>("--criteria", text)).collect()
         }
         None if own.is_empty() => Ok(Criterion::usual(sweep)),
         None => Ok(own),

@@ -210,12 +210,13 @@ fn solved(results: &FolderContents, rankings: &[Ranking<'_>]) -> Vec<PageDesign>
     rows.truncate(SOLVED);
     let rows: Vec<_> = rows.into_iter().enumerate().collect();
     let mut all: Vec<_> = with_bar(rows.len(), |work| {
-        let solve = |&(k, row): &(usize, usize)| {
-            let solved = solve(results, row, k < DRAWN);
-            work.count(1);
-            solved
-        };
-        rows.par_iter().filter_map(solve).collect()
+        rows.par_iter()
+            .filter_map(|&(k, row)| {
+                let solved = solve(results, row, k < DRAWN);
+                work.count(1);
+                solved
+            })
+            .collect()
     });
     let mut room = DRAWING_BYTES;
     for design in &mut all {
@@ -287,12 +288,14 @@ fn gap_factors(results: &FolderContents, row: usize) -> Vec<GapFactors> {
         columns.filter_map(|column| Some((column, designs.number(column, row)?))).collect();
     let change = GapChange::beside(sweep, designs.design(row), &measured, Patience::Milliseconds);
     let measures = change.map_or_else(Vec::new, |change| change.measures);
-    let factors = |MeasureChange { column, value, changed }| {
-        // A measure of zero has no factor.
-        let factor = |changed: f64| Some(changed / value).filter(|factor| factor.is_finite());
-        GapFactors { column, factors: changed.map(|changed| changed.and_then(factor)) }
-    };
-    measures.into_iter().map(factors).collect()
+    measures
+        .into_iter()
+        .map(|MeasureChange { column, value, changed }| {
+            // A measure of zero has no factor.
+            let factor = |changed: f64| Some(changed / value).filter(|factor| factor.is_finite());
+            GapFactors { column, factors: changed.map(|changed| changed.and_then(factor)) }
+        })
+        .collect()
 }
 
 /// Returns curvatures and moments along the path of bending; empty if it cannot be solved.

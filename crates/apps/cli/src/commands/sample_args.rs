@@ -45,8 +45,9 @@ impl<'a> SampleFolder<'a> {
         arguments: &'a SampleArgs,
         (name, maker): (&str, Maker),
     ) -> anyhow::Result<Self> {
-        let default = || folder_within(definition, sweep, name);
-        let folder = ResultsFolder::new(arguments.out.clone().unwrap_or_else(default));
+        let folder = ResultsFolder::new(
+            arguments.out.clone().unwrap_or_else(|| folder_within(definition, sweep, name)),
+        );
         Claim::check(&folder, maker)?;
         Ok(Self { definition, arguments, maker, folder })
     }

@@ -151,11 +151,13 @@ pub fn ranges(
     numbers: &[String],
     file: &Path,
 ) -> anyhow::Result<Vec<RangeInclusive<u64>>> {
-    let range = |text: &String| {
-        let range = grid.parse_numbers(text.trim());
-        range.with_context(|| format!("{}: --design {text}", file.display()))
-    };
-    numbers.iter().map(range).collect()
+    numbers
+        .iter()
+        .map(|text| {
+            let range = grid.parse_numbers(text.trim());
+            range.with_context(|| format!("{}: --design {text}", file.display()))
+        })
+        .collect()
 }
 
 /// Selects designs by their values.
@@ -181,8 +183,7 @@ fn by_values(
     let sweep = read(&settings)?;
     // Without `--set`, because design numbers refer to the definition as written.
     let whole = read(&[]).ok();
-    let selected = |index| located(sweep.only(index), whole.as_ref());
-    Ok((0..sweep.grid().len()).map(selected).collect())
+    Ok((0..sweep.grid().len()).map(|index| located(sweep.only(index), whole.as_ref())).collect())
 }
 
 /// Lists the options that select values, with their axes.
@@ -202,19 +203,22 @@ fn values(text: &str, axis: Option<&Axis>) -> anyhow::Result<String> {
             return Ok(text.to_owned());
         }
         // `.5` is not a number in TOML.
-        let number = |part: &str| {
-            let number = part.trim().parse::<f64>().ok().filter(|number| number.is_finite());
-            number.map_or_else(|| part.to_owned(), |number| number.to_string())
-        };
-        let all: Vec<_> = text.split(',').map(number).collect();
+        let all: Vec<_> = text
+            .split(',')
+            .map(|part| {
+                let number = part.trim().parse::<f64>().ok().filter(|number| number.is_finite());
+                number.map_or_else(|| part.to_owned(), |number| number.to_string())
+            })
+            .collect();
         return Ok(if all.len() > 1 { format!("[{}]", all.join(",")) } else { all.concat() });
     };
     let number = |text: &str| text.trim().parse::<f64>().ok();
     let bounds = number(low).zip(number(high));
     let (low, high) = bounds.context("not accepted, expected FROM..TO, e.g. 15..60")?;
-    let is_within = |n: f64| (low..=high).contains(&n) || same(n, low) || same(n, high);
     let axis = axis.map_or(Vec::new(), |axis| (0..axis.len()).map(|i| axis.value(i)).collect());
-    let within = axis.iter().filter(|value| value.number().is_some_and(is_within));
+    let within = axis.iter().filter(|value| {
+        value.number().is_some_and(|n| (low..=high).contains(&n) || same(n, low) || same(n, high))
+    });
     let values: Vec<_> = within.map(|value| value.to_toml()).collect();
     let all: Vec<_> = axis.iter().map(ToString::to_string).collect();
     ensure!(
@@ -262,7 +266,8 @@ impl SelectedDesign {
     /// Formats the values on all axes.
     pub fn values(&self, equals: &str, separator: &str) -> String {
         let axes = self.sweep.grid().axes().iter();
-        let value = |axis: &Axis| format!("{}{equals}{}", axis.parameter().key, axis.value(0));
-        axes.map(value).collect::<Vec<_>>().join(separator)
+        axes.map(|axis| format!("{}{equals}{}", axis.parameter().key, axis.value(0)))
+            .collect::<Vec<_>>()
+            .join(separator)
     }
 }

@@ -8,9 +8,7 @@ use clap::Args;
 use results::{MEASURE_TABLES, Maker, write_rows};
 use serde_json::{Value, json};
 use sweep::Sweep;
-use uncertainty::{
-    GlobalAnalysis, GlobalSensitivity, INDEX_COLUMNS, IndexEstimate, MeasureIndices, SobolIndices,
-};
+use uncertainty::{GlobalAnalysis, GlobalSensitivity, INDEX_COLUMNS, IndexEstimate, SobolIndices};
 
 use super::options::whole;
 use super::sample_args::{SampleArgs, SampleFolder};
@@ -101,8 +99,9 @@ fn report(sweep: &Sweep, found: &GlobalSensitivity, samples: usize) -> String {
     let samples = counted(samples as u64, "sample");
     let mut text = format!("{}: {samples}, {points} designs\n", sweep.name());
     // Prints only the main measures; the table has all.
-    let is_shown = |m: &&MeasureIndices| MEASURE_TABLES.iter().any(|(table, _)| *table == m.name);
-    for measure in found.measures.iter().filter(is_shown) {
+    for measure in
+        found.measures.iter().filter(|m| MEASURE_TABLES.iter().any(|(table, _)| *table == m.name))
+    {
         let failed = match measure.failed {
             0 => String::new(),
             failed => format!(", {} left out", counted(failed as u64, "sample")),
@@ -143,15 +142,16 @@ fn percent(estimate: IndexEstimate) -> String {
 
 fn record(sweep: &Sweep, found: &GlobalSensitivity, folder: &Path) -> Value {
     let estimate = |e: IndexEstimate| json!({ "value": e.value, "interval": e.interval() });
-    let variable = |(variable, indices): (&&str, &SobolIndices)| {
-        json!({
-            "variable": variable,
-            "first": estimate(indices.first),
-            "total": estimate(indices.total),
-        })
-    };
-    let measure = |measure: &MeasureIndices| {
-        let indices = found.variables.iter().zip(&measure.indices).map(variable);
+    json!({
+        "sweep": sweep.name(),
+        "measures": found.measures.iter().map(|measure| {
+        let indices = found.variables.iter().zip(&measure.indices).map(|(variable, indices)| {
+            json!({
+                "variable": variable,
+                "first": estimate(indices.first),
+                "total": estimate(indices.total),
+            })
+        });
         json!({
             "measure": measure.name,
             "spread": measure.spread,
@@ -159,10 +159,7 @@ fn record(sweep: &Sweep, found: &GlobalSensitivity, folder: &Path) -> Value {
             "failed": measure.failed,
             "indices": indices.collect::<Vec<_>>(),
         })
-    };
-    json!({
-        "sweep": sweep.name(),
-        "measures": found.measures.iter().map(measure).collect::<Vec<_>>(),
+    }).collect::<Vec<_>>(),
         "constant": found.constant,
         "folder": folder.to_string_lossy(),
         "files": [TABLE],

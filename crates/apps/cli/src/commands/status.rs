@@ -5,7 +5,6 @@ use std::time::Duration;
 
 use clap::Args;
 use optimisation::SearchStatus;
-use results::Derivation;
 use serde_json::{Value, json};
 use sweep::DesignNumber;
 
@@ -166,9 +165,6 @@ fn outdated(status: &run::RunStatus) -> String {
 
 fn as_json(status: &run::RunStatus) -> Value {
     let (archive, header) = (&status.archive, status.archive.header());
-    let reason = |((measure, reason), count): (&(&str, &str), &u64)| json!({ "measure": measure, "reason": reason, "designs": count });
-    let slow = |(seconds, number): &(f64, DesignNumber)| json!({ "design": number.to_string(), "seconds": seconds });
-    let outdated = |made: &Derivation| json!({ "product": made.product, "command": made.command });
     json!({
         "sweep": archive.sweep().name(),
         "is_running": status.in_use,
@@ -183,10 +179,10 @@ fn as_json(status: &run::RunStatus) -> Value {
         "sessions": archive.sessions().len(),
         "program": header.program(),
         "definition_sha256": header.definition_sha256(),
-        "failures": status.reasons.iter().map(reason).collect::<Vec<_>>(),
-        "slowest": status.slowest.iter().map(slow).collect::<Vec<_>>(),
+        "failures": status.reasons.iter().map(|((measure, reason), count)| json!({ "measure": measure, "reason": reason, "designs": count })).collect::<Vec<_>>(),
+        "slowest": status.slowest.iter().map(|(seconds, number)| json!({ "design": number.to_string(), "seconds": seconds })).collect::<Vec<_>>(),
         "problems": status.problems,
-        "out_of_date": status.outdated.iter().map(outdated).collect::<Vec<_>>(),
+        "out_of_date": status.outdated.iter().map(|made| json!({ "product": made.product, "command": made.command })).collect::<Vec<_>>(),
     })
 }
 

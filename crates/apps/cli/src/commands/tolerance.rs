@@ -147,16 +147,18 @@ fn analysed(
     designs: &[u64],
     store: &SampleStore,
 ) -> Result<Vec<DesignTolerance>, AnalysisError> {
-    let analyse = |&index: &u64| {
-        let mut design = analysis.design(index, store)?;
-        // Only the figures of a single design need the samples.
-        if designs.len() > 1 {
-            design.samples = Vec::new();
-        }
-        Ok(design)
-    };
     // Designs and their samples share the threads, so that no thread idles during the last design.
-    designs.par_iter().map(analyse).collect()
+    designs
+        .par_iter()
+        .map(|&index| {
+            let mut design = analysis.design(index, store)?;
+            // Only the figures of a single design need the samples.
+            if designs.len() > 1 {
+                design.samples = Vec::new();
+            }
+            Ok(design)
+        })
+        .collect()
 }
 
 /// Writes the tables and returns the names of the files.

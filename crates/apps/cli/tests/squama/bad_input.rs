@@ -4,12 +4,6 @@ use crate::{FEW, Place};
 
 #[test]
 fn bad_definitions_are_reported_with_their_location() {
-    let message = |lines: &str| {
-        let place = Place::with(&format!("name = 'x'\n{lines}"));
-        let message = place.refused("run x.toml");
-        assert_eq!(place.list("."), "x.toml", "nothing is written");
-        message
-    };
     insta::assert_snapshot!(
         [
             "contact.cc1 = 1.1",
@@ -19,7 +13,12 @@ fn bad_definitions_are_reported_with_their_location() {
             "contact.c2 = 0",
             "this is no toml",
         ]
-        .map(message)
+        .map(|lines| {
+            let place = Place::with(&format!("name = 'x'\n{lines}"));
+            let message = place.refused("run x.toml");
+            assert_eq!(place.list("."), "x.toml", "nothing is written");
+            message
+        })
         .concat()
     );
 }
@@ -28,7 +27,6 @@ fn bad_definitions_are_reported_with_their_location() {
 fn bad_options_are_reported_with_the_expected_value() {
     let place = Place::with(FEW);
     place.prints("run x.toml --out r");
-    let message = |arguments: &&str| place.refused(arguments);
     let messages: Vec<_> = [
         "run missing.toml",
         "run .",
@@ -62,7 +60,7 @@ fn bad_options_are_reported_with_the_expected_value() {
         "calibrate --gap 1 --length 1 --poisson-ratio 0.6",
     ]
     .iter()
-    .map(message)
+    .map(|arguments| place.refused(arguments))
     .collect();
     insta::assert_snapshot!(messages.concat());
     assert_eq!(place.list("."), "r x.toml", "nothing is written");

@@ -86,11 +86,10 @@ fn incomplete_unloading_is_explained() {
                   --set puncture.needle=guided --set puncture.needle_friction=0.3 --set puncture.load_inset_over_t=0.05";
     let output = place.squama(design).assert().code(1);
     let text = String::from_utf8_lossy(&output.get_output().stdout).into_owned();
-    let value = |name| {
+    let told = ["puncture_status", "loop_work", "unload_status"].map(|name| {
         let line = text.lines().find(|line| line.trim_start().starts_with(name));
         line.and_then(|line| line.split_whitespace().nth(1)).expect("a line").to_owned()
-    };
-    let told = ["puncture_status", "loop_work", "unload_status"].map(value);
+    });
     assert_eq!(told, ["complete", "none", "jumps"], "{text}");
 }
 
@@ -121,8 +120,10 @@ fn design_evaluates_load_positions() {
     assert!(weakest.expect("a status").contains(" complete "), "{text}");
     let table = place.read("results/few/designs/0004/places.csv");
     insta::assert_snapshot!(table.lines().next().expect("a header"), @"place,critical_force,critical_displacement,tilt_deg,critical_event,largest_force,status");
-    let status = |row: usize| table.lines().nth(row).and_then(|line| line.split(',').next_back());
-    assert_eq!([1, 2, 3].map(status), [Some("complete"); 3]);
+    assert_eq!(
+        [1, 2, 3].map(|row| table.lines().nth(row).and_then(|line| line.split(',').next_back())),
+        [Some("complete"); 3]
+    );
     place.prints(&format!("plot curves x.toml {design} --out c"));
     let figure = place.read("c/force-over-place-of-0004.svg");
     assert!(figure.contains("place: 0 left corner of the top"), "{figure}");
@@ -162,13 +163,12 @@ fn design_writes_its_paths() {
     place.squama("design x.toml --gap 0.1 --length 1 --slant 45").assert().code(0);
     let folder = "results/few/designs/0004";
     assert_eq!(place.list(folder), COURSE);
-    let header = |file: &str| {
+    let course = COURSE.split_whitespace().filter(|file| file.contains(".csv"));
+    insta::assert_snapshot!(course.map(|file| {
         let text = place.read(&format!("{folder}/{file}"));
         assert!(text.lines().count() > 1, "{file} is empty");
         format!("{file}: {}\n", text.lines().next().expect("a header"))
-    };
-    let course = COURSE.split_whitespace().filter(|file| file.contains(".csv"));
-    insta::assert_snapshot!(course.map(header).collect::<String>(), @r"
+    }).collect::<Vec<_>>().concat(), @r"
     events.csv: displacement,force,tilt_deg,left_scale,right_scale,kind,change,drop
     flexure_events.csv: curvature,moment,end_rotation_deg,gap,kind,change
     flexure_path.csv: curvature,moment,stiffness,end_rotation_deg,bending_energy,axial_energy,contact_energy,contacts,membrane_strain

@@ -81,9 +81,9 @@ impl Place {
     /// Returns the sorted names of the files in `folder`.
     fn list(&self, folder: &str) -> String {
         let entries = std::fs::read_dir(self.path(folder)).expect("a folder");
-        let name = |entry: std::io::Result<std::fs::DirEntry>| entry.expect("an entry").file_name();
-        let mut names: Vec<_> =
-            entries.map(|entry| name(entry).to_string_lossy().into_owned()).collect();
+        let mut names: Vec<_> = entries
+            .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
+            .collect();
         names.sort();
         names.join(" ")
     }

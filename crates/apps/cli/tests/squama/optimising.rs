@@ -168,7 +168,6 @@ fn a_rounded_design_states_its_loss() {
 
 #[test]
 fn bad_goals_are_reported_on_one_line() {
-    let message = |from: &str, to: &str| Place::refused_goal(GOAL, from, to);
     let messages = [
         (
             "[variables]\ngap_over_t = { from = 0.1, to = 1 }\nslant_deg = { from = 0, to = 60 }",
@@ -213,7 +212,7 @@ fn bad_goals_are_reported_on_one_line() {
             "maximize = 'fitness'\nweights = { coverage = 1 }\nrescale = { penetration = [1, 0.5] }",
         ),
     ];
-    let messages = messages.map(|(from, to)| message(from, to));
+    let messages = messages.map(|(from, to)| Place::refused_goal(GOAL, from, to));
     insta::assert_snapshot!(messages.concat());
 }
 

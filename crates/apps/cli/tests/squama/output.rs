@@ -123,11 +123,13 @@ fn designs_of_a_goal_are_selected_by_value() {
     let chosen = "--gap 0.5 --length 2 --set designs.thickness_mm=1.5 --out o";
     let text = place.prints(&format!("design x.toml {chosen}"));
     for value in ["gap_mm  0.5 ", "length_mm  2 ", "thickness_mm  1.5 ", "slant_deg  60 "] {
-        let is_there = |line: &str| {
-            line.split_whitespace()
-                .eq(value.split_whitespace().chain(line.split_whitespace().skip(2)))
-        };
-        assert!(text.lines().any(is_there), "{value} in {text}");
+        assert!(
+            text.lines().any(|line| {
+                line.split_whitespace()
+                    .eq(value.split_whitespace().chain(line.split_whitespace().skip(2)))
+            }),
+            "{value} in {text}"
+        );
     }
     for command in ["design x.toml", "design x.toml --design 1", "run x.toml", "draw x.toml"] {
         let text = place.refused(command);

@@ -51,8 +51,10 @@ fn designs_are_selected_by_ranges() {
 fn designs_are_selected_by_values() {
     let place = Place::with(FEW);
     place.prints("draw x.toml --gap 0.1 --length 0.2,1 --slant 20..60 --out d");
-    let file = |number| format!("design-000{number}-puncture-at-critical-tilt.svg");
-    assert_eq!(place.list("d"), [2, 4].map(file).join(" "));
+    assert_eq!(
+        place.list("d"),
+        [2, 4].map(|number| format!("design-000{number}-puncture-at-critical-tilt.svg")).join(" ")
+    );
     place.prints("draw x.toml --gap 0.15 --length 1 --slant 45 --out beside");
     let beside =
         "design-gap_over_t_0.15-length_over_t_1-slant_deg_45-puncture-at-critical-tilt.svg";

@@ -84,7 +84,6 @@ fn tables_of_skins_do_not_depend_on_threads_or_interruptions() {
 
 #[test]
 fn bad_goals_on_samples_are_reported_on_one_line() {
-    let message = |from: &str, to: &str| Place::refused_goal(GOAL, from, to);
     let deviations = "[tolerance]\ngap_over_t = { batch_sd = 0.02 }\n";
     let objective = "'areal_mass_kg_m2'";
     let messages = [
@@ -106,6 +105,6 @@ fn bad_goals_on_samples_are_reported_on_one_line() {
         ("samples = 64", "skins = 3"),
         ("'yield >= 0.9']\nsamples = 64", "'coverage <= 0.9']\nskins = 300"),
     ];
-    let messages = messages.map(|(from, to)| message(from, to));
+    let messages = messages.map(|(from, to)| Place::refused_goal(GOAL, from, to));
     insta::assert_snapshot!(messages.concat());
 }

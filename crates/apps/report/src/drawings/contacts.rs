@@ -15,20 +15,19 @@ const SHORTEST: f64 = 2.5;
 ///
 /// Nearly rigid scales overlap by a millionth of their thickness, so coordinates keep all digits.
 pub(super) fn overlaps(view: &View, polygons: &[(usize, Vec<[f64; 2]>)]) -> Element {
-    let polygon = |(left, points): &(usize, Vec<[f64; 2]>)| {
+    Element::group("overlaps").containing(polygons.iter().map(|(left, points)| {
         Element::new("path")
             .with("d", path_data(&view.all(points), true, |length| length.to_string()))
             .with("fill", RED)
             .with("data-left", left.to_string())
-    };
-    Element::group("overlaps").containing(polygons.iter().map(polygon))
+    }))
 }
 
 /// Draws a halo and a dot at each contact, which marks even very small overlaps.
 ///
 /// The halo of a slipping contact is a ring.
 pub(super) fn halos(view: &View, contacts: &[Contact], radius: f64) -> Element {
-    let halo = |contact: &Contact| {
+    Element::group("contacts").containing(contacts.iter().flat_map(|contact| {
         let center = view.place(contact.point);
         let halo = circle(center, radius);
         [
@@ -39,22 +38,20 @@ pub(super) fn halos(view: &View, contacts: &[Contact], radius: f64) -> Element {
             },
             circle(center, 0.3 * radius).with("fill", RED),
         ]
-    };
-    Element::group("contacts").containing(contacts.iter().flat_map(halo))
+    }))
 }
 
 /// Draws the forces on both scales of each contact as arrows from the contact point.
 ///
 /// A force of 1 has a length of `unit` px.
 pub(super) fn forces(view: &View, contacts: &[Contact], unit: f64) -> Element {
-    let pair = |contact: &Contact| {
+    Element::group("contact-forces").containing(contacts.iter().flat_map(|contact| {
         let from = view.place(contact.point);
         [1.0, -1.0]
             .map(|side| force(from, contact.force.map(|f| side * f), unit))
             .into_iter()
             .flatten()
-    };
-    Element::group("contact-forces").containing(contacts.iter().flat_map(pair))
+    }))
 }
 
 fn force(from: Spot, force: [f64; 2], unit: f64) -> Option<Element> {

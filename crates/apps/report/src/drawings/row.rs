@@ -172,12 +172,13 @@ impl<'a> RowSheet<'a> {
 
     /// Returns the height of the empty area at the top of the panel of a state, px.
     fn free(&self, state: &RowSnapshot) -> f64 {
-        let arrow = |contact: skin::Contact| {
-            self.place(contact.point)[1] - self.force * contact.force[1].abs()
-        };
         let load = self.load_arrow(state).map(|[from, _]| from[1] - 16.0);
-        let highest =
-            self.placed_contacts(state).into_iter().map(arrow).chain(load).fold(AIR, f64::min);
+        let highest = self
+            .placed_contacts(state)
+            .into_iter()
+            .map(|contact| self.place(contact.point)[1] - self.force * contact.force[1].abs())
+            .chain(load)
+            .fold(AIR, f64::min);
         (highest - 8.0).max(0.0)
     }
 
@@ -255,17 +256,16 @@ impl<'a> RowSheet<'a> {
     }
 
     fn scales(&self, poses: &[(i64, Pose)]) -> Element {
-        let scale = |(i, pose): &(i64, Pose)| {
-            let fill = if *i == 0 { "#8fb3cf" } else { "#d5dee6" };
-            polygon(&self.view.all(&corners(&self.row, self.body, *i as f64, pose)))
-                .with("fill", fill)
-                .with("fill-opacity", "0.92")
-        };
         Element::group("scales")
             .with("stroke", "#33414d")
             .at("stroke-width", self.outline())
             .with("stroke-linejoin", "round")
-            .containing(poses.iter().map(scale))
+            .containing(poses.iter().map(|(i, pose)| {
+                let fill = if *i == 0 { "#8fb3cf" } else { "#d5dee6" };
+                polygon(&self.view.all(&corners(&self.row, self.body, *i as f64, pose)))
+                    .with("fill", fill)
+                    .with("fill-opacity", "0.92")
+            }))
     }
 
     /// Returns the line width of outlines, px.
@@ -422,25 +422,24 @@ impl<'a> RowSheet<'a> {
         let unit = BARS / (high - low).max(1e-3);
         let zero = self.bars + BARS + unit * low;
         let width = (0.86 * 2.0 * self.row.scale().half_base() * self.view.scale).max(2.0);
-        let bar = |state: &&ScaleState| {
-            let node = self.body.frame(state.scale as f64 * self.row.pitch()).origin;
-            let x = self.place(node.into())[0];
-            let height = if load > 0.0 { unit * state.reaction / load } else { 0.0 };
-            rect([x - 0.5 * width, zero - height.max(0.0)], [width, height.abs()])
-        };
-        let bars = Element::group("bars").with("fill", "#4a7a52").containing(shown.iter().map(bar));
-        let tick = |value: f64| {
-            let y = zero - unit * value;
-            [
-                line([MARGIN + 40.0, y], [WIDTH - MARGIN, y], "#c9c9c9", 0.7),
-                label(&short(value), [MARGIN + 36.0, y + 4.0], 11.0, Anchor::End)
-                    .with("fill", FAINT),
-            ]
-        };
+        let bars =
+            Element::group("bars").with("fill", "#4a7a52").containing(shown.iter().map(|state| {
+                let node = self.body.frame(state.scale as f64 * self.row.pitch()).origin;
+                let x = self.place(node.into())[0];
+                let height = if load > 0.0 { unit * state.reaction / load } else { 0.0 };
+                rect([x - 0.5 * width, zero - height.max(0.0)], [width, height.abs()])
+            }));
         let name =
             label("$R/F$", [MARGIN, zero - BARS * 0.5], 11.0, Anchor::Start).with("fill", FAINT);
         Element::group("reactions")
-            .containing([0.0, high].into_iter().flat_map(tick))
+            .containing([0.0, high].into_iter().flat_map(|value| {
+                let y = zero - unit * value;
+                [
+                    line([MARGIN + 40.0, y], [WIDTH - MARGIN, y], "#c9c9c9", 0.7),
+                    label(&short(value), [MARGIN + 36.0, y + 4.0], 11.0, Anchor::End)
+                        .with("fill", FAINT),
+                ]
+            }))
             .containing([bars, name])
     }
 

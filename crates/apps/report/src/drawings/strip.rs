@@ -188,10 +188,9 @@ impl Shape {
         // A pair is measured from its left scale, a strip from its first scale.
         let along = left as f64 * row.pitch();
         let bodies = (0..2).map(|i| corners(row, Body::default(), (left + i) as f64, &pair[i]));
-        let shift = |points: Vec<[f64; 2]>| points.iter().map(|p| [p[0] + along, p[1]]).collect();
         let overlaps = overlaps(row, Body::default(), &pair)
             .into_iter()
-            .map(|(_, points)| (left, shift(points)));
+            .map(|(_, points)| (left, points.iter().map(|p| [p[0] + along, p[1]]).collect()));
         let contacts = state.contacts.iter().filter(|contact| contact.left == left);
         let turn = -0.5 * (pair[0].rotation + pair[1].rotation);
         let shape = Self {

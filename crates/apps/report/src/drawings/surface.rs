@@ -12,8 +12,9 @@ use crate::svg::{Element, line};
 ///
 /// Each strip runs from the right end of a base back to the left end of the next base.
 pub(super) fn folds(row: &Row, body: Body, view: &View, poses: &[(i64, Pose)]) -> Element {
-    let strip = |[from, to]: [[f64; 2]; 2]| line(view.place(from), view.place(to), RED, 2.6);
-    Element::group("folds").containing(folded(row, body, poses).map(strip))
+    Element::group("folds").containing(
+        folded(row, body, poses).map(|[from, to]| line(view.place(from), view.place(to), RED, 2.6)),
+    )
 }
 
 /// Formats the number of gaps with a fold; empty if there is none.

@@ -36,10 +36,9 @@ fn own(table: &str, name: &str) -> Option<Explanation> {
 
 /// Returns the explanation of columns with the same meaning in all tables.
 fn common(name: &str) -> Option<Explanation> {
-    let parameter = || parameter_of(name).map(|parameter| (parameter.unit, parameter.meaning));
     among(&[number(|(): &()| Cell::Empty)], name)
         .or_else(|| explain_value(name))
-        .or_else(parameter)
+        .or_else(|| parameter_of(name).map(|parameter| (parameter.unit, parameter.meaning)))
         .or_else(|| of_criterion(name))
 }
 

@@ -46,10 +46,12 @@ impl MeasureChart {
         let place = |name: &str| header.iter().position(|column| column == name);
         let name = physical_of(header, table).unwrap_or(table);
         let value = ColNum::try_from(place(name)?).ok()?;
-        let axis = |name: &'static str| {
-            Some(AxisColumn { name, place: place(name)?, first: None, varies: false })
-        };
-        let along: Vec<_> = ALONG.into_iter().filter_map(axis).collect();
+        let along: Vec<_> = ALONG
+            .into_iter()
+            .filter_map(|name| {
+                Some(AxisColumn { name, place: place(name)?, first: None, varies: false })
+            })
+            .collect();
         let apart = place(APART);
         (!along.is_empty()).then(|| Self {
             name: name.to_owned(),

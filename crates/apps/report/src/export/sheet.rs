@@ -130,8 +130,8 @@ impl Sheet {
             self.formats = Formats::new(digits.max(1));
         }
         self.rows += 1;
-        let pairs = || self.columns.iter().zip(cells);
-        let has_failed = pairs().any(|(column, cell)| column.says_failed(cell));
+        let has_failed =
+            self.columns.iter().zip(cells).any(|(column, cell)| column.says_failed(cell));
         for (column, cell) in self.columns.iter().zip(cells).filter(|(_, c)| !c.is_empty()) {
             let (page, place) = (&mut self.page, column.place);
             let formats = &self.formats;

@@ -99,15 +99,13 @@ mod tests {
         let ring = joined(contours([7, 7], &hill, -4.5));
         assert_eq!(ring.len(), 1);
         assert_eq!(ring[0].first(), ring[0].last());
-        let ramp = |i: usize, j: usize| Some(i as f64 + 0.1 * j as f64);
-        let lines = joined(contours([4, 6], &ramp, 1.7));
+        let lines = joined(contours([4, 6], &|i, j| Some(i as f64 + 0.1 * j as f64), 1.7));
         assert_eq!((lines.len(), lines[0].len()), (1, 6), "{lines:?}");
     }
 
     #[test]
     fn contours_of_a_plane_lie_at_their_level() {
-        let plane = |i: usize, j: usize| Some(i as f64 + 2.0 * j as f64);
-        let pieces = contours([5, 4], &plane, 3.3);
+        let pieces = contours([5, 4], &|i, j| Some(i as f64 + 2.0 * j as f64), 3.3);
         assert!(pieces.len() >= 4);
         for [x, y] in pieces.into_iter().flatten() {
             assert!((x + 2.0 * y - 3.3).abs() < 1e-12, "{x} {y}");
@@ -131,8 +129,7 @@ mod tests {
 
     #[test]
     fn squares_with_missing_values_have_no_contours() {
-        let holed = |i: usize, j: usize| (i != 1 || j != 1).then_some(i as f64);
-        assert!(contours([3, 3], &holed, 0.5).is_empty());
+        assert!(contours([3, 3], &|i, j| (i != 1 || j != 1).then_some(i as f64), 0.5).is_empty());
         assert!(contours([1, 3], &|_, j| Some(j as f64), 0.5).is_empty());
     }
 }

@@ -471,16 +471,6 @@ impl Map<'_> {
         if lengths.sum::<f64>() < 2.5 * across {
             return None;
         }
-        let is_free = |&[x, y]: &Spot| {
-            let area = &self.area;
-            let is_inside = (area.left + across..area.right() - across).contains(&x)
-                && (area.top + down..area.bottom() - down).contains(&y);
-            is_inside
-                && others.iter().all(|([left, top], other)| {
-                    let [wide, high] = half_size(other);
-                    (x - left).abs() > across + wide || (y - top).abs() > down + high
-                })
-        };
         // Middles of segments, starting at the middle of the line.
         let middle = line.len() as f64 / 2.0 - 1.0;
         let mut spots: Vec<(f64, Spot)> = line
@@ -491,7 +481,16 @@ impl Map<'_> {
             })
             .collect();
         spots.sort_by(|a, b| a.0.total_cmp(&b.0));
-        spots.into_iter().map(|(_, spot)| spot).find(is_free)
+        spots.into_iter().map(|(_, spot)| spot).find(|&[x, y]| {
+            let area = &self.area;
+            let is_inside = (area.left + across..area.right() - across).contains(&x)
+                && (area.top + down..area.bottom() - down).contains(&y);
+            is_inside
+                && others.iter().all(|([left, top], other)| {
+                    let [wide, high] = half_size(other);
+                    (x - left).abs() > across + wide || (y - top).abs() > down + high
+                })
+        })
     }
 
     fn frame(&self, title: &str, x_labels: bool, y_labels: bool) -> Element {

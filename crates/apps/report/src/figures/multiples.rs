@@ -170,13 +170,14 @@ impl PanelSeries<'_> {
         points: &[(f64, Spot, usize)],
         quantiles: &[String; 2],
     ) -> Element {
-        let edge = |column: &String| -> Vec<Spot> {
-            let spot = |&(along, _, row): &(f64, Spot, usize)| {
-                panel.place(along, self.designs.number(column, row)?)
-            };
-            points.iter().filter_map(spot).collect()
-        };
-        let [low, high] = quantiles.each_ref().map(edge);
+        let [low, high] = quantiles.each_ref().map(|column| -> Vec<Spot> {
+            points
+                .iter()
+                .filter_map(|&(along, _, row)| {
+                    panel.place(along, self.designs.number(column, row)?)
+                })
+                .collect()
+        });
         let around: Vec<Spot> = low.into_iter().chain(high.into_iter().rev()).collect();
         polygon(&around)
             .with("class", "band")

@@ -147,9 +147,9 @@ fn small_row(designs: &Designs, row: usize, [x, y]: Spot) -> Option<Element> {
     let place = |i: usize, corner: geometry::Vec2| {
         [x + size * (half + i as f64 * pitch + corner.x), y - size * corner.y]
     };
-    let body = |i| polygon(&scale.corners().map(|corner| place(i, corner)));
     // The count is a small integer.
-    let bodies = (0..count as usize).map(body);
+    let bodies =
+        (0..count as usize).map(|i| polygon(&scale.corners().map(|corner| place(i, corner))));
     Some(
         Element::group("row")
             .with("fill", "#d5dee6")

@@ -104,13 +104,16 @@ impl WeightSlices {
 
     fn dots(&self) -> Vec<Dot> {
         let slices = self.slices();
-        let dot = |(weights, row): &([f64; 4], usize)| {
-            let is_here = |steps: &u32| (self.weight(*steps) - weights[0]).abs() < 1e-9;
-            // Weightings between two slices of a fine grid are not drawn.
-            let slice = slices.iter().position(is_here)?;
-            Some(Dot { spot: self.spot(slice, *weights), row: *row, slice, weights: *weights })
-        };
-        self.winners.iter().filter_map(dot).collect()
+        self.winners
+            .iter()
+            .filter_map(|(weights, row)| {
+                // Weightings between two slices of a fine grid are not drawn.
+                let slice = slices
+                    .iter()
+                    .position(|steps| (self.weight(*steps) - weights[0]).abs() < 1e-9)?;
+                Some(Dot { spot: self.spot(slice, *weights), row: *row, slice, weights: *weights })
+            })
+            .collect()
     }
 
     fn radius(&self) -> f64 {
@@ -196,14 +199,13 @@ impl WeightSlices {
     /// Draws the letter of each listed design on its dot with the largest clearance from other
     /// designs.
     fn letters(&self, dots: &[Dot], looks: &[RegionLook]) -> Element {
-        let letter = |look: &RegionLook| {
+        Element::group("letters").containing(looks.iter().filter_map(|look| {
             let own = dots.iter().filter(|dot| dot.row == look.row);
             let clear = own.map(|dot| (dot.spot, clearance(dots, dot)));
             let (spot, clear) = clear.max_by(|a, b| a.1.total_cmp(&b.1))?;
             // Omit a letter that would cover dots of other designs; the list shows the colour.
             (clear > LETTER + 0.5 * self.radius()).then(|| letter_at(&look.letter, spot))
-        };
-        Element::group("letters").containing(looks.iter().filter_map(letter))
+        }))
     }
 }
 

@@ -91,17 +91,17 @@ fn panel(page: &Page, kind: &Kind, labels: [&str; 2], is_log: bool, area: Area) 
     let (x, y) = (&axis(0, 1.0), &own(1.0));
     let panel = ChartPanel::new(area, x, y);
     drawn.extend([area.border(), panel.x_name(), panel.y_name(56.0)]);
-    let curve = |design: &PageDesign| {
-        let [width, height] = if is_log { [size(design)[0], 1.0] } else { size(design) };
-        // Omit points that a logarithmic axis cannot show.
-        let points = (kind.points)(design).iter();
-        let places = points.filter_map(|&[x, y]| panel.place(x / width, y / height));
-        let spots: Vec<Spot> = simplified(&places.collect::<Vec<_>>());
-        let curve = polyline(&spots).with("class", "curve").with("data-x", width.to_string());
-        curve.with("data-y", height.to_string()).with("data-design", design.number.as_str())
-    };
     let origin = format!("{} {}", area.left, area.bottom());
-    let curves = Element::group("curves").at("stroke-width", 2.2).containing(solved().map(curve));
+    let curves =
+        Element::group("curves").at("stroke-width", 2.2).containing(solved().map(|design| {
+            let [width, height] = if is_log { [size(design)[0], 1.0] } else { size(design) };
+            // Omit points that a logarithmic axis cannot show.
+            let points = (kind.points)(design).iter();
+            let places = points.filter_map(|&[x, y]| panel.place(x / width, y / height));
+            let spots: Vec<Spot> = simplified(&places.collect::<Vec<_>>());
+            let curve = polyline(&spots).with("class", "curve").with("data-x", width.to_string());
+            curve.with("data-y", height.to_string()).with("data-design", design.number.as_str())
+        }));
     let whole = Element::group("panel").with("data-origin", origin);
     vec![whole.containing(drawn).containing([curves])]
 }

@@ -59,7 +59,6 @@ pub(super) fn of(page: &Page, figures: &[Value]) -> Value {
             .filter(|parameter| varied.contains(parameter))
             .collect()
     };
-    let column = |(name, (unit, meaning)): (&String, &(String, String))| json!({"name": name, "unit": unit, "meaning": meaning, "goal": plain_goal(name).map(Goal::key), "measuredBy": measured_by(name)});
     let last = [shown(Shown::Then), shown(Shown::Last)].concat();
     json!({
         "name": visible(&page.name),
@@ -79,7 +78,7 @@ pub(super) fn of(page: &Page, figures: &[Value]) -> Value {
         "mass": name::AREAL_MASS,
         "shown": {"first": shown(Shown::First), "last": last},
         "numeric": headers.iter().filter(|header| page.designs.has(header)).collect::<Vec<_>>(),
-        "columns": columns.map(column).collect::<Vec<_>>(),
+        "columns": columns.map(|(name, (unit, meaning))| json!({"name": name, "unit": unit, "meaning": meaning, "goal": plain_goal(name).map(Goal::key), "measuredBy": measured_by(name)})).collect::<Vec<_>>(),
         "count": page.designs.count(),
         "slants": slants(page.designs.values("slant_deg")),
         "run": page.run,
@@ -128,14 +127,16 @@ pub(super) fn cell(designs: &Designs, header: &str, row: usize) -> Value {
 /// Returns the colour and the mark of each slant.
 fn slants(values: Vec<f64>) -> Vec<Value> {
     let palette = SlantPalette::new(values.clone());
-    let slant = |degrees: f64| {
-        json!({
-            "degrees": degrees,
-            "color": palette.color(degrees),
-            "mark": palette.mark(degrees).name(),
+    values
+        .into_iter()
+        .map(|degrees| {
+            json!({
+                "degrees": degrees,
+                "color": palette.color(degrees),
+                "mark": palette.mark(degrees).name(),
+            })
         })
-    };
-    values.into_iter().map(slant).collect()
+        .collect()
 }
 
 fn solved(design: &PageDesign) -> Value {

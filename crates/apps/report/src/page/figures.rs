@@ -65,8 +65,7 @@ impl<W: Write> FigureWriter<'_, W> {
     ) -> io::Result<()> {
         let part: Map<_, _> =
             values.iter().map(|(axis, _)| ((*axis).to_owned(), cell(designs, axis, 0))).collect();
-        let is_there = |(measure, _): &(&str, _)| designs.has(measure);
-        for (measure, filled) in MULTIPLES.into_iter().filter(is_there) {
+        for (measure, filled) in MULTIPLES.into_iter().filter(|(measure, _)| designs.has(measure)) {
             let quantity = Quantity::of(designs, measure);
             let kind = if measure == name::CRITICAL_FORCE { "critical-force" } else { measure };
             self.add(kind, "", &part, &multiples::figure("", designs, &quantity, filled, PAGE))?;

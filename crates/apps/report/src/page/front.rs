@@ -116,14 +116,12 @@ impl PageFront {
 
     /// Returns the data of the front as the scripts of the page read them.
     pub(super) fn to_json(&self) -> Value {
-        let objective = |criterion: &Criterion| json!({"column": criterion.column, "goal": criterion.goal.key()});
-        let requirement = |requirement: &Requirement| json!({"column": requirement.column, "sign": requirement.relation.sign(), "limit": requirement.limit});
         let headers = self.designs.headers().iter();
         let values = headers.map(|header| (header.clone(), cells(&self.designs, header).into()));
         json!({
             "folder": visible(&self.folder),
-            "objectives": self.objectives.iter().map(objective).collect::<Vec<_>>(),
-            "requirements": self.requirements.iter().map(requirement).collect::<Vec<_>>(),
+            "objectives": self.objectives.iter().map(|criterion| json!({"column": criterion.column, "goal": criterion.goal.key()})).collect::<Vec<_>>(),
+            "requirements": self.requirements.iter().map(|requirement| json!({"column": requirement.column, "sign": requirement.relation.sign(), "limit": requirement.limit})).collect::<Vec<_>>(),
             "sound": self.sound,
             "made": self.made,
             "variables": self.variables,

@@ -158,13 +158,12 @@ fn a_guided_needle_stays_where_it_was_set_down() {
     let states: Vec<_> = solved.at.into_iter().map(|state| state.expect("reached")).collect();
     let text = svg(&design, &states);
     // The first number with that name after each group of a load.
-    let places = |name: &str| -> Vec<f64> {
+    let [needles, rings] = ["x1", "cx"].map(|name| -> Vec<f64> {
         let loads = text.split("class=\"load\"").skip(1);
-        let after = |load: &str| load.split(&format!(" {name}=\"")).nth(1).map(str::to_owned);
-        let numbers = loads.filter_map(after);
+        let numbers =
+            loads.filter_map(|load| load.split(&format!(" {name}=\"")).nth(1).map(str::to_owned));
         numbers.map(|rest| rest.split('"').next().expect("an end").parse().expect("px")).collect()
-    };
-    let [needles, rings] = ["x1", "cx"].map(places);
+    });
     assert_eq!((needles.len(), rings.len()), (2, 2), "{text}");
     assert_eq!(needles[0], needles[1]);
     assert!(rings[0] > needles[0] + 1.0 && rings[1] > rings[0], "{rings:?} {needles:?}");

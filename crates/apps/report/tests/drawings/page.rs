@@ -204,8 +204,10 @@ fn figures_of(html: &str) -> Vec<(String, String)> {
         let bits =
             packed.chars().flat_map(|c| (0..7).rev().map(move |k| (u32::from(c) >> k & 1) as u8));
         let bits: Vec<u8> = bits.collect();
-        let byte = |eight: &[u8]| eight.iter().fold(0, |byte, bit| byte << 1 | bit);
-        let packed: Vec<u8> = bits.chunks_exact(8).map(byte).collect();
+        let packed: Vec<u8> = bits
+            .chunks_exact(8)
+            .map(|eight| eight.iter().fold(0, |byte, bit| byte << 1 | bit))
+            .collect();
         let mut svg = String::new();
         flate2::read::DeflateDecoder::new(packed.as_slice()).read_to_string(&mut svg).ok()?;
         Some((format!("{} {}", figure["kind"].as_str()?, figure["choice"].as_str()?), svg))
@@ -279,8 +281,10 @@ fn marks(svg: &str) -> Vec<(&str, &str)> {
         let start = text.find(&format!("{name}=\""))? + name.len() + 2;
         Some(start..start + text[start..].find('"')?)
     };
-    let of = |text| Some((&text[attribute(text, "data-design")?], &text[attribute(text, "y")?]));
-    uses.filter_map(of).collect()
+    uses.filter_map(|text| {
+        Some((&text[attribute(text, "data-design")?], &text[attribute(text, "y")?]))
+    })
+    .collect()
 }
 
 fn figure<'a>(all: &'a [report::Figure], name: &str) -> &'a str {
@@ -330,16 +334,6 @@ fn only_measures_affected_by_folds_are_crossed_out() {
         ("fold_force", |k| f64::from(k)),
         ("bend_radius_mm", |k| f64::from(k)),
     ])));
-    let struck = |of: &str| {
-        let request = MapRequest {
-            x: "gap_over_t".into(),
-            y: "slant_deg".into(),
-            of: of.into(),
-            at: vec![],
-            paper: Paper::WIDE,
-        };
-        map("x", &designs, &request).expect("a map").svg.contains("struck through")
-    };
     assert_eq!(
         [
             "critical_force",
@@ -349,7 +343,16 @@ fn only_measures_affected_by_folds_are_crossed_out() {
             "bend_radius_mm",
             "coverage"
         ]
-        .map(struck),
+        .map(|of| {
+            let request = MapRequest {
+                x: "gap_over_t".into(),
+                y: "slant_deg".into(),
+                of: of.into(),
+                at: vec![],
+                paper: Paper::WIDE,
+            };
+            map("x", &designs, &request).expect("a map").svg.contains("struck through")
+        }),
         [true, true, true, false, false, false]
     );
     let all = figures("x", &designs, None, Paper::WIDE);

@@ -15,8 +15,7 @@ use results::columns::{
     flexure_path_columns, path_columns, tip_force_columns, value_columns,
 };
 use results::{
-    Column, DERIVATIVE_COLUMNS, DesignRow, MEASURE_COLUMNS, Outcome, RERUN_COLUMNS,
-    failure_detail_columns,
+    Column, DERIVATIVE_COLUMNS, MEASURE_COLUMNS, Outcome, RERUN_COLUMNS, failure_detail_columns,
 };
 use skin::puncture::Needle;
 use sweep::{PARAMETERS, Sweep};
@@ -95,8 +94,10 @@ fn the_guide_to_the_results_explains_every_column() {
     let with_imperfections = &imperfect[design_columns(&sweep("name = 'x'")).len()..];
     let physical =
         design_columns(&sweep(&format!("name = 'x'\nimperfection.gap_cv = 0.1\n{MATERIAL}")));
-    let is_added = |column: &Column<DesignRow>| !imperfect.iter().any(|of| of.name == column.name);
-    let in_physical_units: Vec<_> = physical.into_iter().filter(is_added).collect();
+    let in_physical_units: Vec<_> = physical
+        .into_iter()
+        .filter(|column| !imperfect.iter().any(|of| of.name == column.name))
+        .collect();
     let several = design_columns(&sweep("name = 'x'\npuncture.critical_tilt_deg = [5, 10]"));
     let at_tilts = &several[design_columns(&sweep("name = 'x'")).len()..];
     let fittest = goal(

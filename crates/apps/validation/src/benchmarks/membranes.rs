@@ -20,8 +20,8 @@ const MESHES: [usize; 3] = [8, 16, 64];
 
 /// Returns the displacement of the tip under a load; `None` if the path stops before.
 fn tip(elements: usize, load: f64) -> Option<Tip> {
-    let place = |i: usize| FrameNode::free([i as f64 / elements as f64, 0.0]);
-    let mut nodes: Vec<_> = (0..=elements).map(place).collect();
+    let mut nodes: Vec<_> =
+        (0..=elements).map(|i| FrameNode::free([i as f64 / elements as f64, 0.0])).collect();
     nodes[0].held = [true; 3];
     let end = PlaneFrame::new(nodes, AXIAL, elements, Drive::Load(load))?.path(0.02)?.pop()?;
     let [x, y, turn] = [0, 1, 2].map(|k| end.state.z[3 * elements + k]);
@@ -36,8 +36,9 @@ pub(super) fn benchmarks() -> anyhow::Result<Vec<Benchmark>> {
 
 /// Compares the displacements and rotation of the tip under a load.
 fn cantilever(load: f64, reference: &Tip) -> anyhow::Result<[Benchmark; 3]> {
-    let missing = || format!("no equilibrium of the cantilever at {load}");
-    let [coarse, medium, fine] = MESHES.map(|elements| tip(elements, load).with_context(missing));
+    let [coarse, medium, fine] = MESHES.map(|elements| {
+        tip(elements, load).with_context(|| format!("no equilibrium of the cantilever at {load}"))
+    });
     let (coarse, medium, fine) = (coarse?, medium?, fine?.values());
     let reference = reference.values();
     let error = |tip: &Tip| {

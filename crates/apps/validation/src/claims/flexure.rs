@@ -3,7 +3,6 @@
 use super::digits;
 use super::evidence::{BentStrip, BestDesigns, Evidence};
 use super::statement::Measured;
-use crate::study::MeasuredDesign;
 
 /// A strip softens if its slope falls below this fraction of its maximum.
 const SOFTENS: f64 = 0.9;
@@ -37,7 +36,9 @@ pub(super) fn axial_before_contact(evidence: &Evidence) -> Option<Measured> {
 }
 
 pub(super) fn loss_of_compliance(evidence: &Evidence) -> Option<Measured> {
-    let loss = |d: &MeasuredDesign| Some(d.initial_compliance? / d.compliance?);
-    let best = evidence.best(|d| d.is_in_figures() && d.bends_to_contact, loss)?;
+    let best = evidence.best(
+        |d| d.is_in_figures() && d.bends_to_contact,
+        |d| Some(d.initial_compliance? / d.compliance?),
+    )?;
     Some(Measured { value: best.value, shown: best.to_string() })
 }

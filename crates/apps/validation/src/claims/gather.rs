@@ -134,15 +134,15 @@ fn loaded(study: &Study) -> Option<[LoadedRow; 2]> {
 
 fn loaded_row(snapshot: &RowSnapshot) -> LoadedRow {
     let load: f64 = snapshot.scales.iter().map(|scale| scale.reaction).sum();
-    let carries = |scale: &&puncture::ScaleState| scale.reaction >= CARRIES * load;
-    let touches = |i: &usize| {
-        snapshot.contacts.iter().any(|contact| contact.left == *i || contact.right == *i)
-    };
     LoadedRow {
         force: snapshot.force,
         displacement: snapshot.displacement,
-        carrying: snapshot.scales.iter().filter(carries).count(),
-        touching: (0..snapshot.scales.len()).filter(touches).count(),
+        carrying: snapshot.scales.iter().filter(|scale| scale.reaction >= CARRIES * load).count(),
+        touching: (0..snapshot.scales.len())
+            .filter(|i| {
+                snapshot.contacts.iter().any(|contact| contact.left == *i || contact.right == *i)
+            })
+            .count(),
     }
 }
 
@@ -170,10 +170,9 @@ fn kink(puncture: &Puncture) -> Option<f64> {
 fn strips(study: &Study) -> Option<Vec<BentStrip>> {
     let whole = study.base.flexure.membrane_length;
     let lengths = (0..HALVINGS).map(|halvings| whole * 0.5_f64.powi(halvings));
-    let touches = |length: &f64| {
+    let length = lengths.into_iter().find(|length| {
         bent(study, 0.0, *length).is_some_and(|strip| strip.measures.contact == Some(true))
-    };
-    let length = lengths.into_iter().find(touches)?;
+    })?;
     let slants = [0.0, 15.0, 30.0, 45.0, 60.0, 75.0];
     slants.map(|slant| Some(bent_strip(slant, &bent(study, slant, length)?))).into_iter().collect()
 }

@@ -1,7 +1,7 @@
 //! Options and definitions for a design.
 
 use ranking::Requirement;
-use sweep::{Axis, Case, PARAMETERS, Parameter, Scalar, Setting, Sweep};
+use sweep::{Axis, Case, PARAMETERS, Scalar, Setting, Sweep};
 use text::toml_source::quoted;
 
 use super::Closest;
@@ -62,13 +62,15 @@ pub(crate) fn definition(own: &Sweep, requirements: &[Requirement]) -> String {
 /// Returns the settings that differ from the definition, except axes.
 fn others(sweep: &Sweep, base: &Case, case: &Case) -> impl Iterator<Item = String> {
     // Omit derived parameters, because a definition with both is rejected.
-    let differs = |one: &&Parameter| {
-        let is_axis =
-            sweep.grid().axis(one.key).is_some() || OPTIONS.iter().any(|(key, _)| one.key == *key);
-        let is_changed = one.get(case) != one.get(base) || one.supersedes(base, case);
-        !is_axis && one.is_given(case) && !one.follows(case) && is_changed
-    };
-    PARAMETERS.iter().filter(differs).map(|one| format!("{}={}", one.path(), one.get(case)))
+    PARAMETERS
+        .iter()
+        .filter(|one| {
+            let is_axis = sweep.grid().axis(one.key).is_some()
+                || OPTIONS.iter().any(|(key, _)| one.key == *key);
+            let is_changed = one.get(case) != one.get(base) || one.supersedes(base, case);
+            !is_axis && one.is_given(case) && !one.follows(case) && is_changed
+        })
+        .map(|one| format!("{}={}", one.path(), one.get(case)))
 }
 
 /// Returns the grid design nearest to `case` on every axis; `None` for a single design.

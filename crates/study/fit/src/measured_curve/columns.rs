@@ -89,8 +89,9 @@ fn translated(name: &str) -> String {
     let words: Vec<_> = words.iter().map(|word| word.to_lowercase()).collect();
     let quantity = quantity(&words);
     let translated = quantity.map(|quantity| format!("{quantity}_{unit}"));
-    let is_known = |name: &String| COLUMNS.iter().any(|column| column.0 == name);
-    translated.filter(is_known).unwrap_or_else(|| name.to_owned())
+    translated
+        .filter(|name| COLUMNS.iter().any(|column| column.0 == name))
+        .unwrap_or_else(|| name.to_owned())
 }
 
 /// Returns the quantity that the words of a name state.

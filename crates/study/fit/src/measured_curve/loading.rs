@@ -165,8 +165,10 @@ fn holds(points: &[[f64; 2]]) -> Vec<Range<usize>> {
     let mut start = 0;
     while start < points.len() {
         // Runs do not overlap, so that long recordings take linear time.
-        let moved = |point: &[f64; 2]| (point[0] - points[start][0]).abs() > tolerance;
-        let end = points[start..].iter().position(moved).map_or(points.len(), |n| start + n);
+        let end = points[start..]
+            .iter()
+            .position(|point| (point[0] - points[start][0]).abs() > tolerance)
+            .map_or(points.len(), |n| start + n);
         if end - start >= least && tolerance > 0.0 {
             holds.push(start..end);
         }

@@ -347,10 +347,11 @@ mod tests {
     fn lines(text: &str) -> Vec<(Vec<u64>, Vec<u64>)> {
         let rows = Rows::new(text).expect("rows");
         let tables = rows.tables(|row| rows.all[row].cells.iter().any(|cell| cell == "x"));
-        let line = |row: &usize| rows.all[*row].line;
         tables
             .into_iter()
-            .map(|table| (table.rows.iter().map(line).collect(), table.left_out))
+            .map(|table| {
+                (table.rows.iter().map(|row| rows.all[*row].line).collect(), table.left_out)
+            })
             .collect()
     }
 

@@ -69,8 +69,8 @@ fn open_shares(space: &DesignSpace) -> Option<(f64, f64)> {
     }
     let shares = (0..space.combinations()).flat_map(|combination| {
         (0..1_usize << intervals).filter_map(move |corner| {
-            let share = |j: usize| if corner >> j & 1 == 1 { 1.0 } else { 0.0 };
-            let shares = (0..intervals).map(share).collect();
+            let shares =
+                (0..intervals).map(|j| if corner >> j & 1 == 1 { 1.0 } else { 0.0 }).collect();
             open_share(&space.case(&SpacePoint { shares, chosen: space.combination(combination) }))
         })
     });

@@ -229,11 +229,13 @@ fn texts<'v>(entry: &'v KeyValue, what: &str) -> Result<Vec<&'v str>, InvalidDef
         Value::List(items) => items.as_slice(),
         value => std::slice::from_ref(value),
     };
-    let text = |item: &'v Value| match item {
-        Value::Text(text) => Ok(text.as_str()),
-        other => Err(wrong(entry, other, what)),
-    };
-    items.iter().map(text).collect()
+    items
+        .iter()
+        .map(|item| match item {
+            Value::Text(text) => Ok(text.as_str()),
+            other => Err(wrong(entry, other, what)),
+        })
+        .collect()
 }
 
 fn switch(entry: &KeyValue) -> Result<bool, InvalidDefinition> {

@@ -33,11 +33,13 @@ impl JudgeParts<'_> {
     fn judge(&self) -> Judge {
         let mut statistics = self.statistics();
         let source = |name: &str, large: bool, statistics: &[UsedStatistic]| {
-            let is_it = |used: &UsedStatistic| used.name == name && used.large == large;
-            let statistic = statistics.iter().position(is_it).map(Source::Statistic);
-            let margin = || (name == Statistic::MARGIN).then_some(Source::Margin);
-            let nominal = || self.column(name).map(Source::Nominal);
-            statistic.or_else(margin).or_else(nominal)
+            let statistic = statistics
+                .iter()
+                .position(|used| used.name == name && used.large == large)
+                .map(Source::Statistic);
+            statistic
+                .or_else(|| (name == Statistic::MARGIN).then_some(Source::Margin))
+                .or_else(|| self.column(name).map(Source::Nominal))
         };
         let objectives = self.goal.objectives.iter().filter_map(|objective| {
             let large = objective.goal == Goal::Maximize;
@@ -115,8 +117,7 @@ impl JudgeParts<'_> {
         let used =
             named.filter_map(|(name, large)| Some(self.used(name, goal.statistic(name)?, large)));
         let mut used: Vec<UsedStatistic> = used.collect();
-        let is_plain = |r: &Requirement| goal.statistic(&r.column).is_none();
-        let has_bounds = goal.requirements.iter().any(is_plain);
+        let has_bounds = goal.requirements.iter().any(|r| goal.statistic(&r.column).is_none());
         // The yield is reported in addition, because the samples are solved anyway.
         if !used.is_empty() && has_bounds && !used.iter().any(UsedStatistic::is_yield) {
             used.push(self.used(Statistic::YIELD, Statistic::Yield, true));

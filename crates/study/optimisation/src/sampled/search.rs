@@ -72,12 +72,13 @@ impl Searches<'_> {
         }
         let units = goal.realisations as u64;
         sampled.progress.begin(SearchPart::Samples, seeds.len(), seeds.len() as u64 * units);
-        let evaluate = |point: SpacePoint| {
-            let _task = sampled.progress.task(units);
-            Ok(sampled.evaluate(SearchStage::Tolerance, &point, false)?.0)
-        };
-        let evaluated: Vec<Candidate> =
-            seeds.into_par_iter().map(evaluate).collect::<Result<_, _>>()?;
+        let evaluated: Vec<Candidate> = seeds
+            .into_par_iter()
+            .map(|point| {
+                let _task = sampled.progress.task(units);
+                Ok(sampled.evaluate(SearchStage::Tolerance, &point, false)?.0)
+            })
+            .collect::<Result<_, _>>()?;
         history.extend(evaluated);
         let mut answer = answer(sampled, history, plan, goal.points)?;
         match &mut answer {
@@ -117,8 +118,9 @@ fn refine(
         // The search does not return its start, which may be the best design.
         evaluated.push(start);
     }
-    let is_met = |candidate| matches!(finer.merit(candidate, &best.target), Merit::Met(_));
-    let is_refined = evaluated.iter().any(is_met);
+    let is_refined = evaluated
+        .iter()
+        .any(|candidate| matches!(finer.merit(candidate, &best.target), Merit::Met(_)));
     if is_refined {
         // Among `evaluated` only, because all of these designs have more samples.
         let refined = best_design(finer, &evaluated, best.target.clone())?;

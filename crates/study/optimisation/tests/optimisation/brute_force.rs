@@ -69,8 +69,10 @@ fn best_of_sequence(goal: &DesignGoal, ranges: &[[f64; 2]], count: usize) -> Gri
         from + (to - from) * (0.137 + k as f64 * RATIO.powi(-(j as i32 + 1))).fract()
     };
     let solver = GoalSolver::new(goal);
-    let best = |k: usize| solver.best((0..ranges.len()).map(|j| share(j, k)).collect());
-    (0..count).into_par_iter().map(best).reduce(|| GridBest::NONE, GridBest::or)
+    (0..count)
+        .into_par_iter()
+        .map(|k| solver.best((0..ranges.len()).map(|j| share(j, k)).collect()))
+        .reduce(|| GridBest::NONE, GridBest::or)
 }
 
 /// Measures, with the requirements that depend on them alone.
@@ -113,10 +115,9 @@ impl<'g> GoalSolver<'g> {
         let number = self.goal.space.sweep().grid().number(0);
         for Stage { evaluator, bounds } in &self.stages {
             let row = evaluator.solve(number, &case).row;
-            let is_kept = |(requirement, column): &(Requirement, Column<DesignRow>)| {
+            if !bounds.iter().all(|(requirement, column)| {
                 column.cell(&row).number().is_some_and(|value| requirement.is_met(value))
-            };
-            if !bounds.iter().all(is_kept) {
+            }) {
                 return GridBest::NONE;
             }
         }

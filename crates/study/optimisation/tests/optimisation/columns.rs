@@ -59,10 +59,10 @@ fn columns_have_the_derivatives_of_solved_designs(text: &str, keys: &[&str]) {
     for key in keys {
         let parameter = Parameter::named(key).expect("a parameter");
         let step = 1e-4 * parameter.size(&case).expect("a size");
-        let near = |by: f64| solved(&plain, &sweep, &parameter.moved(&case, by).expect("a case"));
-        let [below, above] = [-step, step].map(near);
-        let moved = |by| row.extrapolated_by(parameter, by, SlopeSide::Right).expect("a number");
-        let [low, high] = [-step, step].map(moved);
+        let [below, above] = [-step, step]
+            .map(|by| solved(&plain, &sweep, &parameter.moved(&case, by).expect("a case")));
+        let [low, high] = [-step, step]
+            .map(|by| row.extrapolated_by(parameter, by, SlopeSide::Right).expect("a number"));
         for column in design_columns(&sweep) {
             let name = column.name.as_ref();
             let numbers = [&below, &above, &low, &high].map(|row| value(&column, row));

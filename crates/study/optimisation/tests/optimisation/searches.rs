@@ -240,8 +240,10 @@ fn points_of_a_front_match_the_closed_form() {
     assert_eq!(front.designs.len(), 9, "{} {}", front.same, front.beaten);
     let pairs: Vec<[f64; 2]> =
         front.designs.iter().map(|best| [objectives(best)[0], objectives(best)[1]]).collect();
-    let is_descending = |pair: &[[f64; 2]]| pair[0][0] > pair[1][0] && pair[0][1] > pair[1][1];
-    assert!(pairs.windows(2).all(is_descending), "{pairs:?}");
+    assert!(
+        pairs.windows(2).all(|pair| pair[0][0] > pair[1][0] && pair[0][1] > pair[1][1]),
+        "{pairs:?}"
+    );
     let best_coverage = 1.0 / 1.1;
     assert!((pairs[0][0] - best_coverage).abs() < 1e-6, "{pairs:?}");
     for [coverage, mass] in pairs {
@@ -421,8 +423,7 @@ fn points_of_a_front_over_decades_have_equal_ratios() {
 fn results_do_not_depend_on_threads_or_interruptions() {
     let goal = goal("maximize = 'coverage'\nminimize = 'areal_mass_kg_m2'\npoints = 4");
     let places = |found: &Found| {
-        let place = |c: &optimisation::Candidate| (c.stage.word(), c.point.clone());
-        found.history.iter().map(place).collect::<Vec<_>>()
+        found.history.iter().map(|c| (c.stage.word(), c.point.clone())).collect::<Vec<_>>()
     };
     let folder = tempfile::tempdir().expect("a folder");
     let whole = found_in(folder.path(), &goal, 1, Start::New);
@@ -524,7 +525,7 @@ fn links_in_place_of_the_journal_are_refused() {
 
 #[test]
 fn the_nearest_design_does_not_depend_on_the_seed() {
-    let shortfall = |seed: usize| {
+    let [one, other] = [0, 1].map(|seed| {
         let text = format!(
             "name = 'x'\nmeasures = ['coverage', 'puncture']\npuncture.scales = 15\n[variables]\ngap_over_t = {{ from = 0.1, to = 0.4 }}\n\
              length_over_t = {{ from = 0.1, to = 0.6 }}\nslant_deg = {{ from = 60, to = 75 }}\n[goal]\nmaximize = 'critical_force'\n\
@@ -534,8 +535,7 @@ fn the_nearest_design_does_not_depend_on_the_seed() {
         let Answer::Infeasible(Some(nearest)) = found.answer else { panic!("no design") };
         let Judgement::Judged(worth) = &found.history[nearest].verdict else { panic!("judged") };
         worth.shortfall()
-    };
-    let [one, other] = [0, 1].map(shortfall);
+    });
     // Critical force, soundness and the end of an interval meet at this design. Derivative-free
     // steps reached it within 5e-11, and within 3 % with the long rows that designs of this size
     // need.
@@ -559,12 +559,13 @@ fn a_search_beats_the_reference_grid() {
     let value = |row: usize, name: &str| {
         grid.number(row, grid.column(name).expect("a column")).expect("a number")
     };
-    let meets = |row: &usize| {
-        let is_sound = value(*row, "gap_stretch_min").is_none_or(|least| least > 0.0);
-        let at_least = |name, bound| value(*row, name).is_some_and(|value| value >= bound);
-        is_sound && at_least("coverage", 0.5) && at_least("compliance", 0.2)
-    };
-    let forces = (0..grid.len()).filter(meets).filter_map(|row| value(row, "critical_force"));
+    let forces = (0..grid.len())
+        .filter(|row| {
+            let is_sound = value(*row, "gap_stretch_min").is_none_or(|least| least > 0.0);
+            let at_least = |name, bound| value(*row, name).is_some_and(|value| value >= bound);
+            is_sound && at_least("coverage", 0.5) && at_least("compliance", 0.2)
+        })
+        .filter_map(|row| value(row, "critical_force"));
     let best = forces.fold(0.0, f64::max);
     assert!(best > 0.5 && found > 3.0 * best, "{found} between the points, {best} on them");
 }

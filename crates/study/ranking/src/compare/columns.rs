@@ -35,17 +35,16 @@ pub static COMPARISON_COLUMNS: &[Column<ColumnDifference>] = &columns! { ColumnD
 
 /// Returns the columns of `differences.csv`, with the columns of `parameters`.
 pub fn difference_columns<'a>(parameters: &[&'static Parameter]) -> Vec<Column<Difference<'a>>> {
-    let parameter = |parameter: &&'static Parameter| {
-        Column::parameter(parameter, |d: &Difference<'a>| {
-            d.parameter(parameter).into_owned().into()
-        })
-    };
     let mut columns = vec![number(|d: &Difference<'a>| d.designs()[0].to_owned().into())];
     columns.extend(columns! { Difference<'a>:
         "other_design", "-", |d| d.designs()[1].to_owned(),
             "the same design as the second run numbers it";
     });
-    columns.extend(parameters.iter().map(parameter));
+    columns.extend(parameters.iter().map(|parameter| {
+        Column::parameter(parameter, |d: &Difference<'a>| {
+            d.parameter(parameter).into_owned().into()
+        })
+    }));
     columns.extend(columns! { Difference<'a>:
         "column", "-", |d| d.column().to_owned(), "column of designs.csv";
         "first", "-", |d| d.texts()[0].to_string(), "value in the first run";

@@ -38,11 +38,11 @@ impl Matching {
             .map(|parameter| CommonParameter::new(parameter, [first, second]))
             .collect();
         let [first_keys, second_keys] = [keys(first, &common)?, keys(second, &common)?];
-        let pair = |row| Some([row, *second_keys.get(&key(first, &common, row))?]);
-        let pairs: Vec<[usize; 2]> = (0..first.len()).filter_map(pair).collect();
+        let pairs: Vec<[usize; 2]> = (0..first.len())
+            .filter_map(|row| Some([row, *second_keys.get(&key(first, &common, row))?]))
+            .collect();
         let without = |run: &Results, partners: &HashMap<Vec<u8>, usize>| {
-            let is_alone = |row: &usize| !partners.contains_key(&key(run, &common, *row));
-            (0..run.len()).filter(is_alone).collect()
+            (0..run.len()).filter(|row| !partners.contains_key(&key(run, &common, *row))).collect()
         };
         let alone = [without(first, &second_keys), without(second, &first_keys)];
         Ok(Self { pairs, alone, changes: changes(first, second) })
@@ -129,13 +129,15 @@ fn keys(
 }
 
 fn changes(first: &Results, second: &Results) -> Vec<ParameterChange> {
-    let change = |parameter: &'static Parameter| {
-        let change = ParameterChange {
-            parameter,
-            first: shared(first, parameter)?,
-            second: shared(second, parameter)?,
-        };
-        (!change.first.same(change.second)).then_some(change)
-    };
-    PARAMETERS.iter().filter_map(change).collect()
+    PARAMETERS
+        .iter()
+        .filter_map(|parameter| {
+            let change = ParameterChange {
+                parameter,
+                first: shared(first, parameter)?,
+                second: shared(second, parameter)?,
+            };
+            (!change.first.same(change.second)).then_some(change)
+        })
+        .collect()
 }

@@ -89,12 +89,11 @@ pub fn quaternary_columns<'a>(
 /// Returns the columns of the number and the parameters of a design.
 fn design<'a>(parameters: &[&'static Parameter]) -> RankedColumns<'a> {
     let mut columns = vec![number(|s: &RankedDesign<'a>| s.design().to_owned().into())];
-    let parameter = |parameter: &&'static Parameter| {
+    columns.extend(parameters.iter().map(|parameter| {
         Column::parameter(parameter, |s: &RankedDesign<'a>| {
             s.ranking.results.parameter(s.row(), parameter).into_owned().into()
         })
-    };
-    columns.extend(parameters.iter().map(parameter));
+    }));
     columns
 }
 

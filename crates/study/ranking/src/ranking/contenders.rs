@@ -171,10 +171,12 @@ pub(super) fn criterion(preferences: &Preferences, c: usize, value: f64) -> f64 
 pub(super) fn sums_of_rescaled(criteria: &[f64], count: usize) -> Vec<f64> {
     // Rescale on the front only: dominated designs must not move the knee.
     let spans = spans(criteria, count);
-    let sum = |criteria: &[f64]| {
-        criteria.iter().zip(spans).map(|(value, span)| rescaled(*value, span)).sum::<f64>()
-    };
-    criteria.chunks_exact(count).map(sum).collect()
+    criteria
+        .chunks_exact(count)
+        .map(|criteria| {
+            criteria.iter().zip(spans).map(|(value, span)| rescaled(*value, span)).sum::<f64>()
+        })
+        .collect()
 }
 
 /// Returns the smallest and the largest of each of `count` numbers per design.

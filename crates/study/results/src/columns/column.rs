@@ -98,8 +98,9 @@ fn header(parameter: &Parameter) -> &'static str {
 /// A length in mm does not count if the same length over the thickness is a column too.
 pub fn tells_apart(name: &str, headers: &[String]) -> bool {
     let over_t = parameter_of(name).map(Parameter::over_t);
-    let stands = |of: &Parameter| headers.iter().any(|header| header == of.key);
-    over_t.is_some_and(|over_t| !over_t.is_some_and(stands))
+    over_t.is_some_and(|over_t| {
+        !over_t.is_some_and(|of| headers.iter().any(|header| header == of.key))
+    })
 }
 
 /// Returns the `columns` that are measures and not parameters, without duplicates.

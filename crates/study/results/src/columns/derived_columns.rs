@@ -213,14 +213,13 @@ impl ValueColumn {
     /// `None` means in any table.
     pub(super) fn stands(&self, sweep: &Sweep, table: Option<&str>) -> bool {
         // The search for parameters by key is slow, so it comes last.
-        let is_given = || match self.value.value {
-            Value::ArealMass => MASS_NEEDS.iter().all(|key| sweep.gives(key)),
-            _ => self.quantity.is_none_or(|quantity| quantity.is_given(sweep)),
-        };
         table.is_none_or(|table| self.value.tables.contains(&table))
             && (sweep.is_imperfect() || !self.is_of_samples())
             && (sweep.is_guided() || !self.value.is_of_guided_needle)
-            && is_given()
+            && match self.value.value {
+                Value::ArealMass => MASS_NEEDS.iter().all(|key| sweep.gives(key)),
+                _ => self.quantity.is_none_or(|quantity| quantity.is_given(sweep)),
+            }
             && (self.value.needs.is_empty() || self.value.needs.iter().any(|key| sweep.sets(key)))
     }
 

@@ -101,8 +101,10 @@ mod tests {
             text = text.split("\"\"\"").step_by(2).collect();
         }
         let text = text.split("#[cfg(test)]").next().unwrap_or_default();
-        let is_code = |line: &&str| !line.trim_start().starts_with("//");
-        text.lines().filter(is_code).collect::<Vec<_>>().join("\n")
+        text.lines()
+            .filter(|line| !line.trim_start().starts_with("//"))
+            .collect::<Vec<_>>()
+            .join("\n")
     }
 
     /// A name occurs in one source file.

@@ -57,7 +57,7 @@ pub fn path_columns(is_guided: bool, rubs: bool) -> Vec<Column<StabilityPoint>> 
 pub fn tip_force_columns(forces: &[TipForces]) -> Vec<Column<usize>> {
     let scales = || forces.iter().flatten().map(|(scale, _)| *scale);
     let (Some(first), Some(last)) = (scales().min(), scales().max()) else { return Vec::new() };
-    let column = |scale: i64| {
+    (first..=last).map(|scale| {
         let on = |of: &TipForces| of.iter().find(|(touched, _)| *touched == scale).map(|of| of.1);
         // A scale without contact to the tip carries the known force 0, so its cell is not empty.
         let values: Vec<f64> = forces.iter().map(|of| on(of).unwrap_or(0.0)).collect();
@@ -67,8 +67,7 @@ pub fn tip_force_columns(forces: &[TipForces]) -> Vec<Column<usize>> {
             "normal force of a round tip on the scale in the name: 0 is the punctured one, -1 its left neighbour",
             move |&row: &usize| values[row].into(),
         )
-    };
-    (first..=last).map(column).collect()
+    }).collect()
 }
 
 /// One row of `events.csv`.

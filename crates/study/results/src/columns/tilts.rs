@@ -10,8 +10,8 @@ use crate::design::row::DesignRow;
 
 /// Returns the values measured at several tilts, grouped by table.
 fn tilt_values() -> Vec<(&'static MeasuredValue, &'static TiltValue)> {
-    let with_tilts = |value: &'static MeasuredValue| Some((value, value.at_tilts.as_ref()?));
-    let mut values: Vec<_> = VALUES.iter().filter_map(with_tilts).collect();
+    let mut values: Vec<_> =
+        VALUES.iter().filter_map(|value| Some((value, value.at_tilts.as_ref()?))).collect();
     values.sort_by_key(|(value, _)| value.first_table());
     values
 }
@@ -21,8 +21,9 @@ fn tilt_values() -> Vec<(&'static MeasuredValue, &'static TiltValue)> {
 /// They belong to one measure table or, for `None`, to all.
 pub(super) fn tilt_columns(sweep: &Sweep, table: Option<&str>) -> Vec<Column<DesignRow>> {
     let places = places(sweep);
-    let belongs = |value: &MeasuredValue| table.is_none_or(|table| value.tables.contains(&table));
-    let columns = tilt_values().into_iter().filter(|(value, _)| belongs(value));
+    let columns = tilt_values()
+        .into_iter()
+        .filter(|(value, _)| table.is_none_or(|table| value.tables.contains(&table)));
     let columns = columns.flat_map(|(value, at_tilts)| {
         places.iter().enumerate().map(move |(index, place)| {
             let name = format!("{}_at_{place}", value.name);
@@ -54,9 +55,8 @@ fn places(sweep: &Sweep) -> Vec<String> {
 
 /// Returns unit and meaning of a column at a tilt, by its name.
 pub(super) fn explain_tilt_value(name: &str) -> Option<(&'static str, &'static str)> {
-    let is_at = |value: &MeasuredValue| {
+    let found = tilt_values().into_iter().find(|(value, _)| {
         name.strip_prefix(value.name).is_some_and(|rest| rest.starts_with("_at_"))
-    };
-    let found = tilt_values().into_iter().find(|(value, _)| is_at(value));
+    });
     found.map(|(value, at_tilts)| (value.unit, at_tilts.meaning))
 }

@@ -259,12 +259,11 @@ impl VerifiedFolder {
     /// Returns the recorded SHA-256 of a file of the ranking.
     fn ranked(&self, name: &str, contents: &Contents) -> Result<String, InvalidFolder> {
         let ranking = self.derivation(ResultsFolder::RANKING_RECORD)?;
-        let unrecorded = || {
+        let ranking = ranking.ok_or_else(|| {
             let problem =
                 "no record in derived says that squama rank wrote it; move it out of the folder";
             InvalidFolder::new(self.folder.file(name), problem)
-        };
-        let ranking = ranking.ok_or_else(unrecorded)?;
+        })?;
         // The files may be intact and still rank designs that were solved again since.
         if ranking.from != contents.digest() {
             return Err(self.refusal(name, Maker::Ranking, "was made from other tables"));
@@ -379,12 +378,11 @@ fn read(folder: &ResultsFolder) -> Result<Option<Contents>, InvalidFolder> {
         // A file that cannot be opened may be intact.
         Err(error) => return Err(InvalidFolder::unreadable(&path, &reason(&error))),
     };
-    let changed = |problem| {
+    parsed.map(Some).map_err(|problem| {
         let problem =
             format!("was changed after squama wrote it ({problem}); {mend} writes it again");
         InvalidFolder::new(path, problem)
-    };
-    parsed.map(Some).map_err(changed)
+    })
 }
 
 /// Returns true if the journal in `folder` is longer than `extent`.

@@ -114,19 +114,20 @@ impl PunctureResult {
         };
         let finite_all = VALUES.iter().all(|value| value.is_finite_in_puncture(&mut measures));
         let (outcome, measures) = finite_or(finite_all, puncture.status.into(), measures, few);
-        let weakest = || match puncture::Weakest::from_positions(&puncture.places) {
-            // The omitted measures lack the weakest load position even if the search found it.
-            Ok(weakest) if weakest == measures.weakest => Outcome::Complete,
-            Ok(_) => Outcome::NotFinite,
-            Err(status) => status.into(),
-        };
         Self {
             outcome,
             measures,
             points: puncture.path.len(),
             iterations: puncture.history.len(),
             calibration_error: finite(calibration_error),
-            weakest: (!puncture.places.is_empty()).then(weakest),
+            weakest: (!puncture.places.is_empty()).then(
+                || match puncture::Weakest::from_positions(&puncture.places) {
+                    // The omitted measures lack the weakest load position even if the search found it.
+                    Ok(weakest) if weakest == measures.weakest => Outcome::Complete,
+                    Ok(_) => Outcome::NotFinite,
+                    Err(status) => status.into(),
+                },
+            ),
             across: None,
             between: None,
             way_back: puncture.unloading.as_ref().map(back_to_zero),

@@ -114,11 +114,13 @@ pub fn changed_parameters(from: &Case, to: &Case) -> Vec<&'static Parameter> {
 
 /// Returns the parameters that differ between two cases, with their differences.
 fn changes(from: &Case, to: &Case) -> Vec<MovedParameter<'static>> {
-    let change = |parameter: &'static Parameter| {
-        let by = parameter.get(to).number()? - parameter.get(from).number()?;
-        (by != 0.0).then_some(MovedParameter { parameter, by })
-    };
-    PARAMETERS.iter().filter_map(change).collect()
+    PARAMETERS
+        .iter()
+        .filter_map(|parameter| {
+            let by = parameter.get(to).number()? - parameter.get(from).number()?;
+            (by != 0.0).then_some(MovedParameter { parameter, by })
+        })
+        .collect()
 }
 
 /// Returns the extrapolated value of a measure with these derivatives.
@@ -127,11 +129,13 @@ fn extrapolated(
     changes: &[MovedParameter<'_>],
     side: SlopeSide,
 ) -> Option<f64> {
-    let part = |MovedParameter { parameter, by }: &MovedParameter<'_>| {
-        let derivative = derivatives.iter().find(|d| d.parameter == parameter.key);
-        derivative.map_or(Some(0.0), |derivative| Some(by * side.slope(derivative, *by)?))
-    };
-    let change: Option<f64> = changes.iter().map(part).sum();
+    let change: Option<f64> = changes
+        .iter()
+        .map(|MovedParameter { parameter, by }| {
+            let derivative = derivatives.iter().find(|d| d.parameter == parameter.key);
+            derivative.map_or(Some(0.0), |derivative| Some(by * side.slope(derivative, *by)?))
+        })
+        .sum();
     Some(derivatives[0].value + change?)
 }
 

@@ -25,17 +25,18 @@ pub struct DesignRow {
 impl DesignRow {
     /// Returns the rows of `failures.csv` for this design.
     pub fn failures(&self) -> impl Iterator<Item = FailureRow> {
-        let row = |failure: &Failure| FailureRow { design: self.clone(), failure: *failure };
-        self.result.failures.iter().map(row)
+        self.result
+            .failures
+            .iter()
+            .map(|failure| FailureRow { design: self.clone(), failure: *failure })
     }
 
     /// Returns the rows of `sensitivity.csv` for this design.
     pub fn derivatives(&self) -> impl Iterator<Item = DerivativeRow> {
-        let row = |derivative: &ParameterDerivative| DerivativeRow {
-            design: self.number,
-            derivative: derivative.clone(),
-        };
-        self.result.sensitivity.iter().map(row)
+        self.result
+            .sensitivity
+            .iter()
+            .map(|derivative| DerivativeRow { design: self.number, derivative: derivative.clone() })
     }
 }
 

@@ -31,7 +31,6 @@ fn every_parameter_may_be_an_axis_with_a_column_of_its_own() {
         _ if !p.is_given(&sweep::Case::default()) => "1".to_owned(),
         _ => p.default().to_toml(),
     };
-    let axis = |p: &sweep::Parameter| format!("{} = {}\n", p.key, value(p));
     // These parameters exclude each other: length and number of gaps, critical tilt and friction,
     // the two units of a depth, radius and curvature. A round tip needs a guided needle without
     // friction.
@@ -48,8 +47,8 @@ fn every_parameter_may_be_an_axis_with_a_column_of_its_own() {
             unit || is_modulus || is_ratio || p.key == "pitch_mm" || others.contains(&p.key)
         };
         let chosen = sweep::PARAMETERS.iter().filter(|p| !is_other(p));
-        let axes: String = chosen.map(axis).collect();
-        let sweep = sweep(&format!("name = 'x'\n{needle}[designs]\n{axes}"));
+        let axes: Vec<_> = chosen.map(|p| format!("{} = {}\n", p.key, value(p))).collect();
+        let sweep = sweep(&format!("name = 'x'\n{needle}[designs]\n{}", axes.concat()));
         results::columns::design_columns(&sweep)
             .into_iter()
             .map(|c| c.name.into_owned())

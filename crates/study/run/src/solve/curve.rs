@@ -25,9 +25,9 @@ impl Evaluator {
         displacements: &[f64],
     ) -> Result<CurvePoints, Outcome> {
         let slopes = self.slopes(case)?;
-        let varied = |parameter| Varied { case, parameter, slopes: Some(&slopes) };
-        let variation =
-            |&parameter: &&'static Parameter| varied(parameter).variation(Varied::punctured);
+        let variation = |&parameter: &&'static Parameter| {
+            Varied { case, parameter, slopes: Some(&slopes) }.variation(Varied::punctured)
+        };
         let (exists, variations) = existing(parameters.iter().map(variation));
         let input = punctured(case, slopes.stiffness.clone());
         let curve = solved(|| puncture::force_curve(&input, &variations, displacements))?;
@@ -80,9 +80,10 @@ impl Evaluator {
         parameters: &[&'static Parameter],
         curvatures: &[f64],
     ) -> Result<CurvePoints, Outcome> {
-        let varied = |parameter| Varied { case, parameter, slopes: None };
-        let variation = |&parameter: &&'static Parameter| varied(parameter).variation(Varied::bent);
-        let (exists, variations) = existing(parameters.iter().map(variation));
+        let (exists, variations) =
+            existing(parameters.iter().map(|&parameter| {
+                Varied { case, parameter, slopes: None }.variation(Varied::bent)
+            }));
         let curve = solved(|| flexure::moment_curve(&bent(case), &variations, curvatures))?;
         Ok(in_place(curve, &exists))
     }

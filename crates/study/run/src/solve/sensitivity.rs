@@ -69,18 +69,16 @@ fn variations<P>(
 /// Sorts the derivatives of each measure in the order of the list of parameters.
 fn with_prefactor(case: &Case, solved: &[ParameterDerivative]) -> Vec<ParameterDerivative> {
     let c1 = case.common.law.c1;
-    let by_prefactor = |by_modulus: &ParameterDerivative| {
-        let scaled = |derivative: Option<f64>| derivative.map(|d| d * by_modulus.at / c1);
-        let (left, right) = (scaled(by_modulus.left), scaled(by_modulus.right));
-        ParameterDerivative { parameter: PREFACTOR, at: c1, left, right, ..by_modulus.clone() }
-    };
-    let place = |of: &ParameterDerivative| PARAMETERS.iter().position(|p| p.key == of.parameter);
     let of_measure = |of: &[ParameterDerivative]| {
         let is_known = of.iter().any(|derivative| derivative.parameter == PREFACTOR);
         let by_modulus = of.iter().find(|derivative| MODULI.contains(&derivative.parameter));
         let mut all = of.to_vec();
-        all.extend(by_modulus.filter(|_| !is_known).map(by_prefactor));
-        all.sort_by_key(place);
+        all.extend(by_modulus.filter(|_| !is_known).map(|by_modulus| {
+            let scaled = |derivative: Option<f64>| derivative.map(|d| d * by_modulus.at / c1);
+            let (left, right) = (scaled(by_modulus.left), scaled(by_modulus.right));
+            ParameterDerivative { parameter: PREFACTOR, at: c1, left, right, ..by_modulus.clone() }
+        }));
+        all.sort_by_key(|of| PARAMETERS.iter().position(|p| p.key == of.parameter));
         all
     };
     solved.chunk_by(|one, next| one.measure == next.measure).flat_map(of_measure).collect()
@@ -242,9 +240,9 @@ pub(super) fn flexure(
     case: &Case,
     wanted: Wanted<'_>,
 ) -> Result<(Flexure, Vec<ParameterDerivative>), OutOfRange> {
-    let varied = |parameter| Varied { case, parameter, slopes: None };
-    let (parameters, variations) =
-        variations(case, wanted, Measure::Flexure, |p| varied(p).variation(Varied::bent));
+    let (parameters, variations) = variations(case, wanted, Measure::Flexure, |p| {
+        Varied { case, parameter: p, slopes: None }.variation(Varied::bent)
+    });
     let (flexure, derivatives) = flexure::differentiate(&bent(case), &variations)?;
     Ok((flexure, with_prefactor(case, &named(case, &parameters, derivatives))))
 }
@@ -326,12 +324,14 @@ pub(super) fn named(
     parameters: &[&'static Parameter],
     derivatives: Vec<Derivative>,
 ) -> Vec<ParameterDerivative> {
-    let named = |derivative: Derivative| {
-        let parameter = parameters[derivative.parameter];
-        let value = parameter.get(case).number()?;
-        Some(ParameterDerivative::new(parameter.key, value, derivative))
-    };
-    derivatives.into_iter().filter_map(named).collect()
+    derivatives
+        .into_iter()
+        .filter_map(|derivative| {
+            let parameter = parameters[derivative.parameter];
+            let value = parameter.get(case).number()?;
+            Some(ParameterDerivative::new(parameter.key, value, derivative))
+        })
+        .collect()
 }
 
 /// Returns the puncture problem of `case` on a substrate with this stiffness.

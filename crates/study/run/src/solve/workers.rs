@@ -150,13 +150,13 @@ mod tests {
         let stop = AtomicBool::new(false);
         let begun = AtomicU64::new(0);
         let mut done = 0;
-        let sink = |_| {
+        let begin = |_| begun.fetch_add(1, Ordering::Relaxed);
+        solve(2, &stop, groups(u64::MAX / 6), begin, |_| {
             done += 1;
             stop.store(done >= 10, Ordering::Relaxed);
             Ok(())
-        };
-        let begin = |_| begun.fetch_add(1, Ordering::Relaxed);
-        solve(2, &stop, groups(u64::MAX / 6), begin, sink).expect("no error");
+        })
+        .expect("no error");
         assert_eq!(done, begun.load(Ordering::Relaxed));
     }
 }

@@ -32,10 +32,10 @@ impl<'a> OpenTables<'a> {
         layouts: &'a [TableLayout],
         failures: &'a [Column<FailureRow>],
     ) -> Result<Self, OutputError> {
-        let create = |layout: &'a TableLayout| {
-            CsvFile::create(folder, &layout.file, format, &layout.columns)
-        };
-        let designs = layouts.iter().map(create).collect::<Result<_, _>>()?;
+        let designs = layouts
+            .iter()
+            .map(|layout| CsvFile::create(folder, &layout.file, format, &layout.columns))
+            .collect::<Result<_, _>>()?;
         let failures = CsvFile::create(folder, ResultsFolder::FAILURES, format, failures)?;
         let derivatives =
             || CsvFile::create(folder, ResultsFolder::SENSITIVITY, format, DERIVATIVE_COLUMNS);

@@ -113,17 +113,19 @@ impl Summary {
     /// Returns the best values that exist.
     pub fn best(&self) -> impl Iterator<Item = Best> {
         // Without folds, the force before a fold equals the critical force and would repeat it.
-        let is_told = |contest: &&Contest| {
-            self.folded > 0 || measure_name(contest.column.name()) != name::SOUND_FORCE
-        };
-        self.contests.iter().filter(is_told).filter_map(|contest| {
-            let (leader, unfolded) = (contest.best?, contest.unfolded);
-            let is_folded = unfolded.is_none_or(|unfolded| unfolded.first != leader.first);
-            let unfolded = unfolded.filter(|_| is_folded);
-            let Contest { label, column, apart, .. } = *contest;
-            let unit = column.physical_unit();
-            Some(Best { label, unit, leader, apart, is_folded, unfolded })
-        })
+        self.contests
+            .iter()
+            .filter(|contest| {
+                self.folded > 0 || measure_name(contest.column.name()) != name::SOUND_FORCE
+            })
+            .filter_map(|contest| {
+                let (leader, unfolded) = (contest.best?, contest.unfolded);
+                let is_folded = unfolded.is_none_or(|unfolded| unfolded.first != leader.first);
+                let unfolded = unfolded.filter(|_| is_folded);
+                let Contest { label, column, apart, .. } = *contest;
+                let unit = column.physical_unit();
+                Some(Best { label, unit, leader, apart, is_folded, unfolded })
+            })
     }
 }
 

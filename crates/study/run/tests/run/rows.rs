@@ -5,8 +5,8 @@ use std::iter;
 use std::sync::LazyLock;
 
 use proptest::prelude::*;
+use results::DesignRow;
 use results::columns::{Cell, design_columns, is_along_path, measure_of};
-use results::{Column, DesignRow};
 use run::{Evaluator, GapChange, Patience};
 use skin::Design;
 use sweep::{Case, Measure, Parameter, Sweep};
@@ -29,11 +29,12 @@ fn rows(axes: &[(&str, Vec<f64>)]) -> BTreeSet<Vec<String>> {
     let (evaluator, mut columns) = (Evaluator::new(sweep.measures()), design_columns(&sweep));
     columns.retain(|column| column.name != "design");
     columns.sort_by(|a, b| a.name.cmp(&b.name));
-    let row = |index| {
-        let row = evaluator.solve(sweep.grid().number(index), &sweep.grid().case(index)).row;
-        columns.iter().map(|column| column.cell(&row).to_string()).collect()
-    };
-    (0..sweep.grid().len()).map(row).collect()
+    (0..sweep.grid().len())
+        .map(|index| {
+            let row = evaluator.solve(sweep.grid().number(index), &sweep.grid().case(index)).row;
+            columns.iter().map(|column| column.cell(&row).to_string()).collect()
+        })
+        .collect()
 }
 
 proptest! {
@@ -43,8 +44,7 @@ proptest! {
     #[test]
     fn rows_do_not_depend_on_their_order(
         axes in Just(axes()).prop_shuffle().prop_flat_map(|axes| {
-            let shuffled = |(key, values)| (Just(key), Just(values).prop_shuffle());
-            axes.into_iter().map(shuffled).collect::<Vec<_>>()
+            axes.into_iter().map(|(key, values)| (Just(key), Just(values).prop_shuffle())).collect::<Vec<_>>()
         }),
     ) {
         static ROWS: LazyLock<BTreeSet<Vec<String>>> = LazyLock::new(|| rows(&self::axes()));
@@ -150,10 +150,10 @@ fn a_column_alone_has_the_value_that_it_has_among_all() {
             };
             assert_eq!(of_column(&alone), of_column(&whole), "{} of {skin}", column.name);
             compared += usize::from(!expected.is_empty());
-            let is_missing = |other: &&Column<DesignRow>| {
-                other.cell(&alone).number() != other.cell(&whole).number()
-            };
-            left_out += columns.iter().filter(is_missing).count();
+            left_out += columns
+                .iter()
+                .filter(|other| other.cell(&alone).number() != other.cell(&whole).number())
+                .count();
         }
     }
     assert!(compared > 100 && left_out > 500, "{compared} {left_out}");

@@ -97,8 +97,8 @@ fn is_long() -> bool {
 
 fn compare_designs(count: u64) {
     let begun = Instant::now();
-    let has_time = |number: &u64| *number < FEW || begun.elapsed() < LONGEST;
-    let numbers = (0..count).into_par_iter().filter(has_time);
+    let numbers =
+        (0..count).into_par_iter().filter(|number| *number < FEW || begun.elapsed() < LONGEST);
     let compared: Vec<_> = numbers.map(|number| compare(&random_case(number))).collect();
     assert!(compared.iter().sum::<usize>() > 100 * compared.len(), "{compared:?}");
 }
@@ -121,12 +121,14 @@ fn derivatives_match_differences_of_solutions() {
 fn derivatives_of_rows_with_friction_match_differences() {
     let begun = Instant::now();
     let count = if is_long() { 100 } else { 5 };
-    let has_time = |number: &u64| *number < 5 || begun.elapsed() < LONGEST;
-    let compared = (0..count).into_par_iter().filter(has_time).map(|number| {
-        let mut case = random_case(1000 + number);
-        case.common.friction = 0.05 + 0.4 * (number % 7) as f64 / 7.0;
-        compare(&case)
-    });
+    let compared = (0..count)
+        .into_par_iter()
+        .filter(|number| *number < 5 || begun.elapsed() < LONGEST)
+        .map(|number| {
+            let mut case = random_case(1000 + number);
+            case.common.friction = 0.05 + 0.4 * (number % 7) as f64 / 7.0;
+            compare(&case)
+        });
     let compared: Vec<_> = compared.collect();
     assert!(compared.iter().sum::<usize>() > 80 * compared.len(), "{compared:?}");
 }
@@ -139,9 +141,11 @@ fn the_position_of_a_smooth_peak_has_derivatives() {
                 load_position = 0.865\ncritical_tilt_deg = 16.63\ncontact_modulus_over_substrate = 114";
     let case = Sweep::parse(text, "smooth-peak.toml", &[]).unwrap().grid().case(0);
     let derivatives = derivatives(&case);
-    let gap = |d: &&ParameterDerivative| d.parameter == "gap_over_t";
     for measure in ["peak_force", "peak_displacement", "peak_tilt_deg", "load_stability_force"] {
-        let by_gap = derivatives.iter().filter(gap).find(|d| d.measure == measure);
+        let by_gap = derivatives
+            .iter()
+            .filter(|d| d.parameter == "gap_over_t")
+            .find(|d| d.measure == measure);
         let by_gap = by_gap.and_then(ParameterDerivative::derivative);
         assert!(by_gap.is_some_and(|slope| slope != 0.0), "{measure}: {by_gap:?}");
     }
@@ -155,8 +159,10 @@ fn upright_scales_have_derivatives_in_puncture_and_bending() {
     case.design.slant_deg = 0.0;
     let derivatives = derivatives(&case);
     for measure in ["critical_force", "compliance", "contact_curvature"] {
-        let of_gap = |d: &&ParameterDerivative| d.measure == measure && d.parameter == "gap_over_t";
-        let by_gap = derivatives.iter().find(of_gap).and_then(ParameterDerivative::derivative);
+        let by_gap = derivatives
+            .iter()
+            .find(|d| d.measure == measure && d.parameter == "gap_over_t")
+            .and_then(ParameterDerivative::derivative);
         assert!(by_gap.is_some_and(|slope| slope != 0.0), "{measure}: {by_gap:?}");
     }
 }

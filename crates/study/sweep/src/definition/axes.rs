@@ -8,7 +8,7 @@ use crate::decimal::{self, Decimal};
 use crate::grid::Axis;
 use crate::parameter::{Parameter, Scalar, WrongValue};
 use text::number;
-use text::toml_source::{self, KeyValue, KeyValues, Value};
+use text::toml_source::{self, KeyValues, Value};
 
 /// The axes of every grid, with the values of the paper as defaults.
 ///
@@ -108,8 +108,9 @@ fn range_values(entries: &KeyValues) -> Result<[&Value; 3], String> {
     }
     let value = |key: &str| {
         let entry = entries.iter().find(|entry| entry.key == key);
-        let missing = || format!("no `{key}`, expected from, to and step");
-        entry.map(|entry| &entry.value).ok_or_else(missing)
+        entry
+            .map(|entry| &entry.value)
+            .ok_or_else(|| format!("no `{key}`, expected from, to and step"))
     };
     Ok([value("from")?, value("to")?, value("step")?])
 }
@@ -130,8 +131,10 @@ pub(crate) fn ordered(mut written: Vec<Axis>, base: &Case) -> Vec<Axis> {
         let other = other.parameter();
         other == parameter || other.said_in(base) == Some(parameter)
     };
-    let is_missing = |axis: &Axis| !written.iter().any(|other| says(other, axis.parameter()));
-    let mut axes: Vec<Axis> = paper().into_iter().filter(is_missing).collect();
+    let mut axes: Vec<Axis> = paper()
+        .into_iter()
+        .filter(|axis| !written.iter().any(|other| says(other, axis.parameter())))
+        .collect();
     axes.append(&mut written);
     // Stable sort: all other axes keep their order.
     axes.sort_by_key(|axis| axis.parameter().key == FASTEST);
@@ -141,6 +144,8 @@ pub(crate) fn ordered(mut written: Vec<Axis>, base: &Case) -> Vec<Axis> {
 /// Returns the axes of the paper. A test checks that none is lost.
 fn paper() -> Vec<Axis> {
     let table = toml_source::parse(PAPER, "the paper sweep").unwrap_or_default();
-    let axis = |entry: KeyValue| read(Parameter::named(&entry.key)?, &entry.value).ok();
-    table.into_iter().filter_map(axis).collect()
+    table
+        .into_iter()
+        .filter_map(|entry| read(Parameter::named(&entry.key)?, &entry.value).ok())
+        .collect()
 }

@@ -4,7 +4,6 @@
 //! softer than the material below, and sharp needles between two scales.
 
 use super::invalid::Problem;
-use crate::case::Case;
 use crate::grid::{Axis, Grid};
 use crate::parameter::{Parameter, Scalar, WrongValue, key};
 use crate::variable::{Variable, VariableValues};
@@ -30,8 +29,7 @@ pub(super) fn check(given: &Parameter, grid: &Grid, variables: &[Variable]) -> R
 fn check_place(given: &Parameter, grid: &Grid, variables: &[Variable]) -> Result<(), Problem> {
     let axis = grid.axes().iter().find(|axis| axis.parameter() == given);
     let places = axis.map_or_else(|| vec![given.get(grid.base())], |axis| ends(axis, variables));
-    let stands = |place: &Scalar| given.put(&grid.case(0), *place).load_can_stand();
-    match places.iter().find(|place| !stands(place)) {
+    match places.iter().find(|place| !given.put(&grid.case(0), **place).load_can_stand()) {
         Some(place) => Err(Problem::Value(WrongValue::OutOfRange {
             found: place.to_string(),
             expected: "a number of at least 0 and at most 1; beyond, between two scales, only with puncture.needle_radius_over_t".to_owned(),
@@ -92,8 +90,10 @@ fn check_one(
     // Start from any design: all parameters that matter are overwritten.
     let mut corners = vec![grid.case(0)];
     for (parameter, ends) in &axes {
-        let at = |case: &Case| ends.iter().map(|end| parameter.put(case, *end)).collect::<Vec<_>>();
-        corners = corners.iter().flat_map(at).collect();
+        corners = corners
+            .iter()
+            .flat_map(|case| ends.iter().map(|end| parameter.put(case, *end)).collect::<Vec<_>>())
+            .collect();
     }
     let Some(wrong) = corners.iter().find(|case| !of.contains(of.get(case))) else { return Ok(()) };
     let mut beside: Vec<_> = axes.iter().map(|(parameter, _)| *parameter).collect();

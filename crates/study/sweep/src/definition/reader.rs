@@ -166,8 +166,9 @@ impl Reader {
             return self.read_name_of(name, entry);
         }
         // Any parameter may be an axis, whatever its section.
-        let belongs = |p: &&Parameter| section == "designs" || section == p.section;
-        let Some(parameter) = Parameter::named(&entry.key).filter(belongs) else {
+        let Some(parameter) =
+            Parameter::named(&entry.key).filter(|p| section == "designs" || section == p.section)
+        else {
             return Err(unknown(section, entry));
         };
         let wrong = |problem| refuse(&entry.place, &key, problem);
@@ -345,8 +346,9 @@ impl Reader {
 
     /// Refuses a needle radius without a guided needle.
     fn check_radius(&self) -> Result<(), InvalidDefinition> {
-        let is_radius = |of: &Parameter| of.is_or_says(key::NEEDLE_RADIUS) && !self.leaves_open(of);
-        let radius = self.written().find(|(_, parameter, _)| is_radius(parameter));
+        let radius = self.written().find(|(_, parameter, _)| {
+            parameter.is_or_says(key::NEEDLE_RADIUS) && !self.leaves_open(parameter)
+        });
         let Some((key, _, place)) = radius else { return Ok(()) };
         // If the needle is an axis, some designs have a free needle, which cannot have a radius.
         let varies = self.axes.iter().any(|written| written.axis.parameter().key == key::NEEDLE);
@@ -534,11 +536,10 @@ fn is_device(name: &str) -> bool {
 
 /// Returns a name that is a valid folder name on any system.
 fn name_of(value: &Value) -> Result<String, WrongValue> {
-    let allowed = |c: char| c.is_alphanumeric() || "-_.+ ".contains(c);
     match value {
         Value::Text(name)
             if name.chars().next().is_some_and(char::is_alphanumeric)
-                && name.chars().all(allowed)
+                && name.chars().all(|c| c.is_alphanumeric() || "-_.+ ".contains(c))
                 && !name.ends_with([' ', '.'])
                 && name.len() <= 100
                 && !is_device(name) =>

@@ -172,8 +172,10 @@ fn case_of(table: &KeyValues) -> Case {
     let mut written = Vec::new();
     for KeyValue { key: section, value, .. } in table {
         let Value::Table(entries) = value else { continue };
-        let is_own = |p: &&Parameter| ["designs", VARIABLES, p.section].contains(&&**section);
-        let named = |e: &KeyValue| Parameter::named(&e.key).filter(is_own);
+        let named = |e: &KeyValue| {
+            Parameter::named(&e.key)
+                .filter(|p| ["designs", VARIABLES, p.section].contains(&&**section))
+        };
         written.extend(entries.iter().filter_map(|e| Some((named(e)?, &e.value))));
     }
     let says = |key| written.iter().any(|(parameter, _)| parameter.is_or_says(key));
@@ -192,10 +194,9 @@ fn case_of(table: &KeyValues) -> Case {
 
 /// Removes a key of a section unless another setting wrote it.
 fn drop_from_file(table: &mut KeyValues, section: &str, key: &str) {
-    let is_file = |entry: &KeyValue| matches!(entry.place, Place::File { .. });
     for entry in table.iter_mut().filter(|entry| entry.key == section) {
         if let Value::Table(entries) = &mut entry.value {
-            entries.retain(|entry| entry.key != key || !is_file(entry));
+            entries.retain(|entry| entry.key != key || !matches!(entry.place, Place::File { .. }));
         }
     }
 }

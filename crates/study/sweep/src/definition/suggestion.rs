@@ -40,19 +40,18 @@ pub(crate) fn for_key(section: &str, key: &str) -> String {
         // In `[substrate]`, `thickness` means the tissue rather than the scales.
         let end = format!("_{key}");
         let twin = TWINS.iter().find(|twins| twins.contains(&key));
-        let is_twin = |own: &str| twin.is_some_and(|twins| twins.contains(&own));
         let mut known = known.iter().filter(|_| parameter.section != section);
-        let own = known.find(|own| own.ends_with(&end) || is_twin(own));
+        let own =
+            known.find(|own| own.ends_with(&end) || twin.is_some_and(|twins| twins.contains(own)));
         let path = own.map_or_else(|| parameter.path(), |own| format!("{section}.{own}"));
         return format!("did you mean {path}?");
     }
     // Suggest the length over the thickness for a key without a unit, although its name differs
     // more.
-    let over_t = |near: &'static str| {
+    match nearest(key, &known).map(|near| {
         let of = Parameter::named(near).filter(|_| !key.ends_with('m')).and_then(Parameter::over_t);
         of.map_or(near, |of| of.key)
-    };
-    match nearest(key, &known).map(over_t) {
+    }) {
         Some(near) if section.is_empty() => format!("did you mean {near}?"),
         Some(near) => format!("did you mean {section}.{near}?"),
         None => format!("expected one of {}", known.join(", ")),

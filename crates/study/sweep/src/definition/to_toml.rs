@@ -6,7 +6,6 @@ use super::measure::Measure;
 use super::suggestion::{TOLERANCE, VARIABLES, sections};
 use crate::definition::Sweep;
 use crate::grid::Axis;
-use crate::parameter::{Parameter, Scalar};
 use text::toml_source::quoted;
 
 impl Sweep {
@@ -62,11 +61,8 @@ impl Sweep {
     }
 
     fn shared_lines(&self, section: &str) -> String {
-        let belongs = |(parameter, _): &(&Parameter, Scalar)| parameter.section == section;
-        let line = |(parameter, value): (&Parameter, Scalar)| {
-            format!("{} = {}\n", parameter.key, value.to_toml())
-        };
-        self.shared().filter(belongs).map(line).collect()
+        let shared = self.shared().filter(|(parameter, _)| parameter.section == section);
+        entry_lines(shared.map(|(parameter, value)| (parameter.key.to_owned(), value.to_toml())))
     }
 }
 

@@ -50,8 +50,8 @@ impl Parameter {
 
     /// Returns true if it follows from a length in mm or from a modulus.
     pub fn follows(&self, case: &Case) -> bool {
-        let says = |in_mm: &Self| in_mm.said_in(case).is_some_and(|of| of == self);
-        given(case).any(|(in_mm, ..)| says(in_mm)) || self.follows_modulus(case)
+        given(case).any(|(in_mm, ..)| in_mm.said_in(case).is_some_and(|of| of == self))
+            || self.follows_modulus(case)
     }
 
     /// Returns the length of this parameter in mm.

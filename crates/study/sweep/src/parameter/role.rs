@@ -61,12 +61,11 @@ impl Parameter {
             let says_length = parameter.key == key::PITCH && case.in_mm.pitch_says_length;
             if says_length { key::LENGTH } else { parameter.origin() }
         };
-        let is_needle = || self.origin() == key::CRITICAL_TILT && case.puncture.needle.is_guided();
         // Alternatives are in one section. Comparing sections first saves most searches by key.
         let is_same = other.section == self.section
             && other.key != self.key
             && origin(other) == origin(self)
-            && !is_needle();
+            && !(self.origin() == key::CRITICAL_TILT && case.puncture.needle.is_guided());
         is_same || self.excludes(other)
     }
 

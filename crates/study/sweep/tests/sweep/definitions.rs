@@ -1,8 +1,13 @@
 //! Tests of valid definitions.
 
-use sweep::{Case, Parameter, Setting, Sweep};
+use sweep::{Case, InvalidDefinition, Parameter, Setting, Sweep};
 
 use crate::sweep;
+
+/// Parses a definition of the name `x` and `text`.
+fn read(text: &str) -> Result<Sweep, InvalidDefinition> {
+    Sweep::parse(&format!("name = 'x'\n{text}"), "x.toml", &[])
+}
 
 #[test]
 fn a_name_alone_is_the_paper_sweep() {
@@ -92,7 +97,6 @@ fn the_record_of_a_run_is_a_definition() {
 /// The definition is written back in the notation that was read.
 #[test]
 fn load_position_and_depth_are_written_back_in_their_notation() {
-    let read = |text: &str| Sweep::parse(&format!("name = 'x'\n{text}"), "x.toml", &[]);
     let text = "puncture = { load_inset_over_t = 0.05, depth_mm = 1 }\nmaterial.thickness_mm = 2\n\
         designs.length_over_t = [0.08, 0.5]";
     let sweep = read(text).unwrap();
@@ -153,7 +157,6 @@ fn the_inset_of_the_load_may_deviate_in_either_unit() {
 #[test]
 fn tilt_and_friction_of_a_guided_needle_are_independent() {
     use skin::puncture::Needle;
-    let read = |text: &str| Sweep::parse(&format!("name = 'x'\n{text}"), "x.toml", &[]);
     let puncture = |text: &str, index| read(text).unwrap().grid().case(index).punctured();
     let guided = "puncture = { needle_friction = 0.3, critical_tilt_deg = 8, needle = 'guided' }";
     assert_eq!(puncture(guided, 0).needle, Needle::Guided { friction: 0.3 });
@@ -207,7 +210,6 @@ fn tilt_and_friction_of_a_guided_needle_are_independent() {
 /// A needle radius needs a guided needle. It may vary, and may be given in mm.
 #[test]
 fn a_needle_radius_requires_a_guided_needle() {
-    let read = |text: &str| Sweep::parse(&format!("name = 'x'\n{text}"), "x.toml", &[]);
     let radius = |text: &str| read(text).unwrap().grid().case(0).puncture.needle_radius;
     assert_eq!(radius("puncture.needle = 'guided'"), None);
     assert_eq!(radius("puncture = { needle = 'guided', needle_radius_over_t = 0.5 }"), Some(0.5));
@@ -236,7 +238,6 @@ fn a_needle_radius_requires_a_guided_needle() {
 /// Its limit is the left corner of the next one.
 #[test]
 fn a_load_between_two_scales_requires_a_round_tip() {
-    let read = |text: &str| Sweep::parse(&format!("name = 'x'\n{text}"), "x.toml", &[]);
     let grid = "designs = { gap_over_t = [0.1, 0.5], length_over_t = 1 }\n";
     let round = "puncture = { needle = 'guided', needle_radius_over_t = 0.5, load_position = 1.3 }";
     let sweep = read(&format!("{grid}{round}")).unwrap();
@@ -257,24 +258,23 @@ fn a_load_between_two_scales_requires_a_round_tip() {
 /// Frictions give tilts by their arctangents.
 #[test]
 fn critical_tilts_are_given_in_degrees_or_by_friction() {
-    let read = |text: &str| Sweep::parse(&format!("name = 'x'\n{text}"), "x.toml", &[]).unwrap();
     let puncture = |sweep: &Sweep, index| sweep.grid().case(index).punctured();
     let all = |sweep: &Sweep| puncture(sweep, 0).tilts_deg().collect::<Vec<_>>();
-    let sweep = read("puncture.critical_tilt_deg = [5, 10, 15]");
+    let sweep = read("puncture.critical_tilt_deg = [5, 10, 15]").unwrap();
     assert_eq!(puncture(&sweep, 0).critical_tilt_deg, 15.0);
     assert_eq!(all(&sweep), [5.0, 10.0, 15.0]);
     assert!(
         sweep.to_toml().contains("\ncritical_tilt_deg = [5, 10, 15]\nneedle_friction = \"none\"\n")
     );
-    let by_friction = read("puncture.needle_friction = [0.1, 0.2]");
+    let by_friction = read("puncture.needle_friction = [0.1, 0.2]").unwrap();
     let tilts = [0.1_f64, 0.2].map(|friction| friction.atan().to_degrees());
     assert_eq!(all(&by_friction), tilts);
     assert_eq!(puncture(&by_friction, 0).critical_tilt_deg, tilts[1]);
     assert!(!by_friction.to_toml().contains("critical_tilt_deg"));
-    let alone = read("puncture.needle_friction = 0.2");
+    let alone = read("puncture.needle_friction = 0.2").unwrap();
     assert_eq!(puncture(&alone, 0).critical_tilt_deg, tilts[1]);
     assert!(all(&alone).is_empty());
-    let axis = read("designs.needle_friction = [0.1, 0.2]");
+    let axis = read("designs.needle_friction = [0.1, 0.2]").unwrap();
     let last = axis.grid().len() - 1;
     assert_eq!([0, last].map(|index| puncture(&axis, index).critical_tilt_deg), tilts);
     for sweep in [sweep, by_friction, alone, axis] {
@@ -385,10 +385,7 @@ fn the_size_of_a_parameter_that_may_be_zero_is_at_least_one() {
 /// The pitch is base plus gap.
 #[test]
 fn lengths_in_mm_and_over_the_thickness_give_the_same_case() {
-    let case = |text: &str| {
-        let text = format!("name = 'x'\n{text}");
-        Sweep::parse(&text, "x.toml", &[]).unwrap().grid().case(0)
-    };
+    let case = |text: &str| read(text).unwrap().grid().case(0);
     let in_mm = "designs = { gap_mm = 0.5, length_mm = 3, thickness_mm = 2, width_mm = 4 }\n\
         substrate.tissue_thickness_mm = 8\n\
         flexure = { membrane_thickness_mm = 0.25, membrane_length_mm = 100, membrane_axis_offset_mm = -0.5 }\n\

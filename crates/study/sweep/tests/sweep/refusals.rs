@@ -1,6 +1,6 @@
 //! Refusals: one line with file, key, value and the accepted values.
 
-use sweep::{PARAMETERS, Parameter, Setting, Sweep};
+use sweep::{PARAMETERS, Setting, Sweep};
 
 /// Returns the message, one line per error.
 fn errors(text: &str, settings: &[&str]) -> String {
@@ -38,14 +38,13 @@ fn keys() {
 /// Lengths and moduli of 1e-30 and 1e30 used to end in internal errors.
 #[test]
 fn extreme_lengths_and_moduli_are_refused() {
-    let spans = |parameter: &&Parameter| {
+    let mut count = 0;
+    for parameter in PARAMETERS.iter().filter(|parameter| {
         parameter.unit == "t"
             || parameter.unit.contains("mm")
             || parameter.key.contains("modulus")
             || ["c1", "c2"].contains(&parameter.key)
-    };
-    let mut count = 0;
-    for parameter in PARAMETERS.iter().filter(spans) {
+    }) {
         for value in ["1e-30", "1e30"] {
             let text = format!("name = 'x'\n{} = {value}", parameter.path());
             let message = Sweep::parse(&text, "x.toml", &[]).err().map(|error| error.to_string());

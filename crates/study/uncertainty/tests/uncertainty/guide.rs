@@ -4,8 +4,10 @@ use results::Column;
 use uncertainty::{INDEX_COLUMNS, SOURCE_COLUMNS, TOLERANCE_COLUMNS, YIELD_COLUMNS};
 
 fn table<R>(columns: &[Column<R>]) -> String {
-    let line = |c: &Column<R>| format!("| `{}` | {} | {} |\n", c.name, c.unit, c.meaning);
-    let lines: Vec<_> = columns.iter().map(line).collect();
+    let lines: Vec<_> = columns
+        .iter()
+        .map(|c| format!("| `{}` | {} | {} |\n", c.name, c.unit, c.meaning))
+        .collect();
     format!("| Column | Unit | Meaning |\n|---|---|---|\n{}\n", lines.concat())
 }
 

@@ -62,11 +62,13 @@ fn history(goal: &DesignGoal, found: &Found) -> Figure {
 fn front(goal: &DesignGoal, found: &Found, front: &[BestDesign]) -> Figure {
     let pair = |objectives: &[f64]| [objectives[0], objectives[1]];
     let designs = designs(found, |_, objectives| pair(objectives));
-    let place = |best: &BestDesign| match &best.candidate.verdict {
-        Judgement::Judged(worth) => Some(pair(&worth.objectives)),
-        _ => None,
-    };
-    let line: Vec<[f64; 2]> = front.iter().filter_map(place).collect();
+    let line: Vec<[f64; 2]> = front
+        .iter()
+        .filter_map(|best| match &best.candidate.verdict {
+            Judgement::Judged(worth) => Some(pair(&worth.objectives)),
+            _ => None,
+        })
+        .collect();
     let title = format!("{}: the front", goal.name());
     let figure = SearchFigure {
         title: &title,

@@ -61,19 +61,18 @@ fn design(goal: &DesignGoal, words: &BindingText<'_>, best: &BestDesign) -> Valu
     let columns = design_columns(goal.space.sweep());
     let measures = columns.iter().filter(|column| column.name != "design");
     let measures = measures.map(|c| (c.name.to_string(), json!(c.cell(&best.row))));
-    let binding = |binding: &optimisation::Binding| {
-        json!({
-            "limit": words.limit(&binding.limit, &best.target),
-            "multiplier": binding.price,
-            "price": words.price(binding, &best.target),
-        })
-    };
     let mut measures: Map<String, Value> = measures.collect();
     measures.extend(objectives(goal, best));
     let mut design = json!({
         "variables": variables(goal, &best.candidate),
         "values": measures,
-        "binding": best.bindings.iter().map(binding).collect::<Vec<_>>(),
+        "binding": best.bindings.iter().map(|binding| {
+        json!({
+            "limit": words.limit(&binding.limit, &best.target),
+            "multiplier": binding.price,
+            "price": words.price(binding, &best.target),
+        })
+    }).collect::<Vec<_>>(),
     });
     if let Some(modes) = judged_modes(goal, &best.candidate) {
         design["failure_modes"] = json::failure_modes(&modes);
@@ -108,19 +107,18 @@ fn infeasible(
 ) -> Value {
     let requirements: Vec<Requirement> = words.requirements().into_iter().cloned().collect();
     let unmet = unmet(goal, found, &requirements, nearest);
-    let requirement = |r: &ranking::UnmetRequirement| {
+    let nearest = nearest.map(|index| &found.history[index]);
+    let is_judged =
+        |c: &&Candidate| matches!(c.verdict, Judgement::Judged(_) | Judgement::Nominal(_));
+    json!({
+        "requirements": unmet.requirements.iter().map(|r| {
         json!({
             "requirement": r.requirement.to_string(),
             "met": r.met,
             "met_without": r.met_without,
             "nearest": r.nearest,
         })
-    };
-    let nearest = nearest.map(|index| &found.history[index]);
-    let is_judged =
-        |c: &&Candidate| matches!(c.verdict, Judgement::Judged(_) | Judgement::Nominal(_));
-    json!({
-        "requirements": unmet.requirements.iter().map(requirement).collect::<Vec<_>>(),
+    }).collect::<Vec<_>>(),
         "missed": found.missed,
         "nearest": nearest.filter(is_judged).map(|candidate| variables(goal, candidate)),
     })

@@ -8,7 +8,6 @@ use optimisation::{
     Rounding, described,
 };
 use ranking::{Goal, Requirement, Unmet};
-use results::Outcome;
 use results::columns::{Cell, design_columns, is_invalid_after_fold, mode_column};
 use run::{CouplingChange, WeakestPlace};
 use sweep::JudgedModes;
@@ -64,8 +63,9 @@ impl SearchReport<'_> {
         let left_out = &self.found.left_out;
         let mut rows: Vec<[String; 2]> = Vec::new();
         let row = |count: usize, why: String| [format!("{count} left out"), why];
-        let failed = |why: &Outcome| format!("{why}: {}", why.meaning());
-        rows.extend(left_out.failed.iter().map(|(why, n)| row(*n, failed(why))));
+        rows.extend(
+            left_out.failed.iter().map(|(why, n)| row(*n, format!("{why}: {}", why.meaning()))),
+        );
         rows.extend(
             left_out.missing.iter().map(|(column, n)| row(*n, format!("no value of {column}"))),
         );
@@ -93,11 +93,12 @@ impl SearchReport<'_> {
             text.push('\n');
         } else {
             let bindings = best.bindings.iter();
-            let row = |binding: &optimisation::Binding| {
-                let price = words.price(binding, &best.target);
-                [words.limit(&binding.limit, &best.target), price.unwrap_or_default()]
-            };
-            let rows: Vec<_> = bindings.map(row).collect();
+            let rows: Vec<_> = bindings
+                .map(|binding| {
+                    let price = words.price(binding, &best.target);
+                    [words.limit(&binding.limit, &best.target), price.unwrap_or_default()]
+                })
+                .collect();
             let is_rounded = self.found.rounding.as_ref().is_some_and(|of| of.rounded.is_some());
             let it = if is_rounded { "Before rounding, it" } else { "It" };
             let _ = write!(text, " {it} is limited by\n{}", aligned(&rows));
@@ -263,10 +264,11 @@ impl SearchReport<'_> {
                 (front.empty, "gave no design"),
                 (front.left_out(asked), "left out: the front has no wide gap"),
             ];
-            let of = |(count, why): &(usize, &str)| {
-                (*count > 0).then(|| format!("{} {why}", counted(*count as u64, "point")))
-            };
-            let reasons: Vec<String> = reasons.iter().filter_map(of).collect();
+            let reasons: Vec<String> = reasons
+                .iter()
+                .filter(|(count, _)| *count > 0)
+                .map(|(count, why)| format!("{} {why}", counted(*count as u64, "point")))
+                .collect();
             let _ = writeln!(title, "Fewer than the {asked} requested: {}", reasons.join("; "));
         }
         title
@@ -438,11 +440,13 @@ pub fn unmet(
             // A design without samples has values only for the nominal requirements, in their
             // order.
             let mut drawn = worth.required.iter().copied();
-            let value = |requirement: &Requirement| {
-                let is_drawn = goal.statistic(&requirement.column).is_none();
-                is_drawn.then(|| drawn.next()).flatten()
-            };
-            requirements.iter().map(value).collect()
+            requirements
+                .iter()
+                .map(|requirement| {
+                    let is_drawn = goal.statistic(&requirement.column).is_none();
+                    is_drawn.then(|| drawn.next()).flatten()
+                })
+                .collect()
         }
         _ => vec![None; requirements.len()],
     };

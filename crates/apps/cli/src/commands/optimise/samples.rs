@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use optimisation::{BestDesign, Confirmation, Estimate, MissedRequirement};
+use optimisation::{BestDesign, Confirmation, MissedRequirement};
 use ranking::{Requirement, Unmet};
 
 use super::super::rank::distance;
@@ -11,11 +11,13 @@ use crate::print::{aligned, counted, digits, rounded};
 /// Formats the statistics of the best design.
 pub fn text(made: &Confirmation) -> String {
     let header = ["", "search", "new samples", "95 % interval"].map(str::to_owned);
-    let row = |of: &Estimate| {
-        let [low, high] = of.interval.map(value);
-        [of.name.clone(), value(of.seen), value(of.value), format!("{low} to {high}")]
-    };
-    let rows: Vec<_> = [header].into_iter().chain(made.estimates.iter().map(row)).collect();
+    let rows: Vec<_> = [header]
+        .into_iter()
+        .chain(made.estimates.iter().map(|of| {
+            let [low, high] = of.interval.map(value);
+            [of.name.clone(), value(of.seen), value(of.value), format!("{low} to {high}")]
+        }))
+        .collect();
     let mut text = format!(
         "\nSamples of the best design: {} in the search, {} new\n{}",
         made.seen,

@@ -28,8 +28,9 @@ impl<'a> RankedAnswer<'a> {
     pub fn new(results: &'a Results, preferences: &'a Preferences, best: RankedDesign<'a>) -> Self {
         let sweep = results.definition();
         // One design is worth waiting for, also on a layer.
-        let solve = |sweep| solved_row(sweep, best.design(), Patience::Unlimited);
-        let solved = sweep.and_then(|sweep| Some((sweep, solve(sweep)?)));
+        let solved = sweep.and_then(|sweep| {
+            Some((sweep, solved_row(sweep, best.design(), Patience::Unlimited)?))
+        });
         Self { results, preferences, best, solved }
     }
 

@@ -1,6 +1,6 @@
 //! JSON output of `squama rank`.
 
-use ranking::{RankedDesign, Ranking, Unmet, UnmetRequirement, Weights};
+use ranking::{RankedDesign, Ranking, Unmet, Weights};
 use results::Results;
 use results::columns::mode_column;
 use serde_json::{Map, Value, json};
@@ -62,7 +62,11 @@ fn design(results: &Results, ranking: &Ranking<'_>, standing: &RankedDesign<'_>)
 
 /// Returns the requirements that no design meets, with the nearest design.
 pub fn unmet_record(results: &Results, unmet: &Unmet) -> Value {
-    let requirement = |unmet: &UnmetRequirement| {
+    json!({
+        "folder": results.folder().to_string_lossy(),
+        "designs": results.len(),
+        "ranked": 0,
+        "requirements": unmet.requirements.iter().map(|unmet| {
         json!({
             "requirement": unmet.requirement.to_string(),
             "met_by": unmet.met,
@@ -71,12 +75,7 @@ pub fn unmet_record(results: &Results, unmet: &Unmet) -> Value {
             "short_by": unmet.shortfall,
             "binds": unmet.binds(),
         })
-    };
-    json!({
-        "folder": results.folder().to_string_lossy(),
-        "designs": results.len(),
-        "ranked": 0,
-        "requirements": unmet.requirements.iter().map(requirement).collect::<Vec<_>>(),
+    }).collect::<Vec<_>>(),
         "nearest": unmet.nearest.map(|row| results.design(row).to_owned()),
     })
 }

@@ -91,15 +91,16 @@ fn tolerances_of(goal: &DesignGoal) -> Option<String> {
 
 /// Lists the fixed parameters that differ between the search and the grid, with both values.
 fn differences(goal: &DesignGoal, grid: &FolderContents) -> Vec<String> {
-    let is_variable = |key: &str| goal.space.parameters().any(|variable| variable.key == key);
-    let held = PARAMETERS.iter().filter(|parameter| !is_variable(parameter.key));
-    let difference = |parameter: &Parameter| {
+    let held = PARAMETERS
+        .iter()
+        .filter(|parameter| !goal.space.parameters().any(|variable| variable.key == parameter.key));
+    held.filter_map(|parameter| {
         let found = only_value(goal.space.sweep(), parameter)?;
         let expected = only_value(&grid.sweep, parameter)?;
         let path = parameter.path();
         (found != expected).then(|| format!("{path} {found} instead of {expected}"))
-    };
-    held.filter_map(difference).collect()
+    })
+    .collect()
 }
 
 /// Returns the value of a parameter that all designs of a sweep share; `None` if it varies.

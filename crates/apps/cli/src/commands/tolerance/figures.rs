@@ -3,7 +3,7 @@
 use ranking::Requirement;
 use report::{Histogram, Shares, share_bars};
 use sweep::Sweep;
-use uncertainty::{DesignTolerance, DeviationLevel, MeasureTolerance, SourceShare};
+use uncertainty::{DesignTolerance, DeviationLevel, MeasureTolerance};
 
 use super::report::is_shown;
 
@@ -21,8 +21,9 @@ pub fn figures(
     let shown = design.measures.iter().filter(|m| is_shown(&m.name, requirements));
     let shares: Vec<Shares> = shown.filter_map(shares).collect();
     let mut files = vec![(SOURCES.to_owned(), share_bars(&name, &shares))];
-    let required = |m: &&MeasureTolerance| requirements.iter().any(|r| r.column == m.name);
-    for measure in design.measures.iter().filter(required) {
+    for measure in
+        design.measures.iter().filter(|m| requirements.iter().any(|r| r.column == m.name))
+    {
         let Some(svg) = histogram(&name, requirements, design, measure) else { continue };
         let file = format!("histogram-{}.svg", measure.name.replace('_', "-"));
         files.push((file, svg));
@@ -31,11 +32,10 @@ pub fn figures(
 }
 
 fn shares(measure: &MeasureTolerance) -> Option<Shares> {
-    let source = |source: &SourceShare| {
+    let sources = measure.linear.as_ref()?.sources.iter().map(|source| {
         let level = if source.level == DeviationLevel::Scale { " from scale to scale" } else { "" };
         (format!("{}{level}", source.source), source.share)
-    };
-    let sources = measure.linear.as_ref()?.sources.iter().map(source);
+    });
     Some((measure.name.clone(), sources.collect()))
 }
 

@@ -155,14 +155,16 @@ fn list(sweep: &Sweep, requirements: &[Requirement], all: &[DesignTolerance]) ->
         let shown = design.measures.iter().filter(|m| is_shown(&m.name, requirements));
         // One line per measure, because a single line would be too wide.
         let titles = std::iter::once(first).chain(std::iter::repeat(Default::default()));
-        let measure = |(title, m): ([String; 2], &MeasureTolerance)| {
-            let spread =
-                m.sampled.as_ref().map(|s| s.spread).or(m.linear.as_ref().map(|l| l.spread));
-            let value = m.value.map_or("none".to_owned(), rounded);
-            let values = format!("{value} ± {}", spread.map_or("unknown".to_owned(), short));
-            title.into_iter().chain([m.name.clone(), values]).collect::<Vec<_>>()
-        };
-        titles.zip(shown).map(measure).collect::<Vec<_>>()
+        titles
+            .zip(shown)
+            .map(|(title, m)| {
+                let spread =
+                    m.sampled.as_ref().map(|s| s.spread).or(m.linear.as_ref().map(|l| l.spread));
+                let value = m.value.map_or("none".to_owned(), rounded);
+                let values = format!("{value} ± {}", spread.map_or("unknown".to_owned(), short));
+                title.into_iter().chain([m.name.clone(), values]).collect::<Vec<_>>()
+            })
+            .collect::<Vec<_>>()
     };
     let rows: Vec<_> = designs.iter().take(LISTED).flat_map(row).collect();
     text.push_str(&aligned(&rows));

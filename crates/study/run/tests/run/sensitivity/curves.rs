@@ -26,17 +26,16 @@ fn moments(e: &Evaluator, case: &Case, by: &[&'static Parameter], at: &[f64]) ->
 /// of comparisons.
 fn compare(case: &Case, keys: &[&str], places: &[f64], curve: CurveOf) -> usize {
     let evaluator = Evaluator::new(&[]);
-    let named = |key: &&str| Parameter::named(key).expect("a parameter");
-    let parameters: Vec<_> = keys.iter().map(named).collect();
+    let parameters: Vec<_> =
+        keys.iter().map(|key| Parameter::named(key).expect("a parameter")).collect();
     let points = curve(&evaluator, case, &parameters, places);
     let mut compared = 0;
     for (j, parameter) in parameters.iter().enumerate() {
         let Some(size) = parameter.size(case) else { continue };
-        let at = |by: f64| {
+        let around = [-2e-4, -1e-4, 1e-4, 2e-4].map(|by| {
             let moved = parameter.moved(case, by * size).expect("a number");
             curve(&evaluator, &moved, &[], places)
-        };
-        let around = [-2e-4, -1e-4, 1e-4, 2e-4].map(at);
+        });
         for (k, point) in points.iter().enumerate() {
             let Some((point, rate)) = point.as_ref().and_then(|p| Some((p, p.rates[j]?))) else {
                 continue;

@@ -55,10 +55,12 @@ fn one_sided_derivatives_at_a_closing_contact_with_friction_match_differences() 
                 length_over_t = 0.4446590509574837\nslant_deg = 41.18411012602079\n\
                 [contact]\nfriction = 0.2\n[puncture]\ncritical_tilt_deg = 3.832614316679949";
     let case = Sweep::parse(text, "x.toml", &[]).unwrap().grid().case(0);
-    let of_gap = |derivative: &ParameterDerivative| {
-        derivative.measure == "critical_force" && derivative.parameter == "gap_over_t"
-    };
-    let gap = derivatives(&case).into_iter().find(of_gap).unwrap();
+    let gap = derivatives(&case)
+        .into_iter()
+        .find(|derivative| {
+            derivative.measure == "critical_force" && derivative.parameter == "gap_over_t"
+        })
+        .unwrap();
     assert!((gap.left.unwrap() + 0.44307).abs() < 1e-4, "{gap:?}");
     assert!((gap.right.unwrap() + 0.12495).abs() < 1e-4, "{gap:?}");
 

@@ -15,9 +15,10 @@ const MEASURES: [&str; 4] =
 /// Returns whether load and depth first reverse at a change of contact.
 fn turns_at_events(case: &Case) -> [Option<bool>; 2] {
     let puncture = Evaluator::new(&Measure::USUAL).solve(designs::number(), case).puncture.unwrap();
-    let at_event = |force: f64| puncture.events.iter().any(|event| event.point.force == force);
     let measures = puncture.measures;
-    [measures.load_stability_force, measures.depth_stability_force].map(|force| force.map(at_event))
+    [measures.load_stability_force, measures.depth_stability_force].map(|force| {
+        force.map(|force| puncture.events.iter().any(|event| event.point.force == force))
+    })
 }
 
 /// Returns a steep design with soft contacts and another load position.
