@@ -1,18 +1,19 @@
 //! Measured curves: two columns of a text file, named by quantity and unit.
 
 mod columns;
+mod header;
 mod loading;
 mod mean;
 mod number_table;
 
-use std::ops::Range;
 use std::path::Path;
 
 use results::{Quantity, bending_units, puncture_units};
 use sweep::{Case, read_input_bytes};
 use text::reason;
 
-use self::columns::{CurveColumns, contradiction, curves, missing, quantities, spelled};
+use self::columns::CurveColumns;
+use self::header::Header;
 pub(crate) use self::loading::Branches;
 pub use self::loading::{CurveEvent, CurveEventKind};
 pub use self::mean::MeanCurve;
@@ -91,9 +92,6 @@ const MAX_BYTES: u64 = 1 << 28;
 const FARTHEST_OFFSET: f64 = 0.25;
 /// Fraction of the largest force that the noise before contact does not reach.
 const TOUCHING: f64 = 0.1;
-
-/// Number of rows above a table that are searched for a header.
-const LONGEST_PREAMBLE: usize = 100;
 
 /// Error in a file of measurements.
 #[derive(Debug, thiserror::Error)]
@@ -338,133 +336,6 @@ fn utf_16_without_mark(bytes: &[u8]) -> Option<&'static encoding_rs::Encoding> {
         [0, odd] if odd > most => Some(encoding_rs::UTF_16LE),
         [even, 0] if even > most => Some(encoding_rs::UTF_16BE),
         _ => None,
-    }
-}
-
-/// Column names above a table.
-struct Header {
-    names: Vec<String>,
-    /// Names in the file above the columns, if the definition names them.
-    in_file: Vec<String>,
-    /// True if the names come from the definition. It may name only the first columns.
-    is_given: bool,
-    /// True if the names and units of a test were found in the file.
-    is_known: bool,
-    /// Rows of the names and their units in the file.
-    rows: Range<usize>,
-}
-
-impl Header {
-    /// Finds the header of the table below `above`: the given names, or the nearest row of names.
-    ///
-    /// Units in the row below are appended to the names.
-    fn find(rows: &Rows, above: Range<usize>, given: Option<&[String]>) -> Self {
-        let start = above.start.max(above.end.saturating_sub(LONGEST_PREAMBLE));
-        if let Some(names) = given {
-            let Self { names: in_file, rows, .. } = Self::nearest(rows, above);
-            return Self { names: names.to_vec(), in_file, is_given: true, is_known: true, rows };
-        }
-        let known = (start..above.end).rev().find_map(|row| Self::known(rows, row));
-        // The error message shows the row that has most of the words of a header.
-        known.unwrap_or_else(|| {
-            let mut best = Self::nearest(rows, start..above.end);
-            for row in (start..above.end).filter(|row| rows.is_text(*row)) {
-                let has_units = row + 1 < above.end && rows.is_text(row + 1);
-                let other = Self::at(rows, row, usize::from(has_units));
-                if quantities(&other.names) > quantities(&best.names) {
-                    best = other;
-                }
-            }
-            best
-        })
-    }
-
-    /// Returns the rows of text just above the numbers, one or two of equal width.
-    fn nearest(rows: &Rows, above: Range<usize>) -> Self {
-        let last = above.end.checked_sub(1).filter(|row| above.contains(row) && rows.is_text(*row));
-        let Some(last) = last else {
-            return Self {
-                names: Vec::new(),
-                in_file: Vec::new(),
-                is_given: false,
-                is_known: false,
-                rows: above.end..above.end,
-            };
-        };
-        let has_units = last > above.start && rows.is_text(last - 1);
-        let same_width = has_units && rows.all[last - 1].cells.len() == rows.all[last].cells.len();
-        Self::at(rows, if same_width { last - 1 } else { last }, usize::from(same_width))
-    }
-
-    /// Returns the header in a row if it names two columns of a test.
-    fn known(rows: &Rows, row: usize) -> Option<Self> {
-        if !rows.is_text(row) {
-            return None;
-        }
-        let below = (row + 1..rows.all.len()).take(2).take_while(|row| rows.is_text(*row)).count();
-        // Units stand in the row below, or below a row of remarks.
-        let with_units = (1..=below).map(|units| Self::at(rows, row, units));
-        let header = with_units.into_iter().find(|header| curves(&header.names).is_ok());
-        let header = header.or_else(|| {
-            // A row of text below `force_N` is a remark. Below `force` it holds units, which must
-            // not be ignored.
-            let header = Self::at(rows, row, 0);
-            let curves = curves(&header.names).ok()?;
-            (below == 0 || curves[0].units.is_some()).then_some(header)
-        });
-        header.map(|header| Self { is_known: true, ..header })
-    }
-
-    /// Returns the header in a row, with units in the row `units` below it, or without for 0.
-    fn at(rows: &Rows, row: usize, units: usize) -> Self {
-        let mut names = Vec::new();
-        for (column, name) in rows.all[row].cells.iter().enumerate() {
-            let unit = if units > 0 { rows.all[row + units].cell(column) } else { "" };
-            names.push(spelled(&format!("{name} {unit}")));
-        }
-        let rows = row..row + units + 1;
-        Self { names, in_file: Vec::new(), is_given: false, is_known: false, rows }
-    }
-
-    fn curves(&self) -> Result<Vec<CurveColumns>, String> {
-        let curves = curves(&self.names)?;
-        for column in curves.iter().flat_map(|curve| curve.indices) {
-            let given = &self.names[column];
-            let in_file = self.in_file.get(column);
-            if let Some(stated) = in_file.and_then(|name| contradiction(given, name)) {
-                let column = column + 1;
-                return Err(format!(
-                    "the unit of column {column} makes it {stated}, but columns names it {given}; expected the same unit"
-                ));
-            }
-        }
-        if self.is_known { Ok(curves) } else { Err(missing(&self.names)) }
-    }
-
-    /// Returns the line of the names, if they are in the file.
-    fn line(&self, rows: &Rows) -> Option<u64> {
-        (!self.rows.is_empty()).then(|| rows.all[self.rows.start].line)
-    }
-
-    /// Returns the row above the header that may name specimens.
-    fn named(&self, rows: &Rows) -> Option<usize> {
-        let above = self.rows.start.checked_sub(1).filter(|_| !self.rows.is_empty());
-        above.filter(|row| rows.is_text(*row))
-    }
-
-    /// Returns the name of a specimen from the row above its columns; empty if there is none.
-    fn specimen(&self, rows: &Rows, columns: Range<usize>) -> String {
-        let mut cells =
-            columns.map(|column| self.named(rows).map(|row| rows.all[row].cell(column)));
-        let name = cells.find(|cell| cell.is_some_and(|cell| !cell.is_empty()));
-        name.flatten().unwrap_or_default().to_owned()
-    }
-
-    /// Lists the lines around a table that belong neither to it nor to its header.
-    fn left_out(&self, rows: &Rows, table: &NumberTable, name: Option<usize>) -> Vec<u64> {
-        let above = table.above.clone();
-        let above = above.filter(|row| !self.rows.contains(row) && Some(*row) != name);
-        above.map(|row| rows.all[row].line).chain(table.left_out.iter().copied()).collect()
     }
 }
 

@@ -1,0 +1,355 @@
+//! The `[[curve]]` tables of a fit: file, specimen, range and offsets of a measured curve.
+
+use std::fmt::Display;
+use std::path::{Path, PathBuf};
+
+use serde_json::{Map, Value as Json, json};
+use sweep::{Case, PARAMETERS, Parameter, Problem, Setting};
+use text::toml_source::{KeyValue, KeyValues, Place, Value};
+
+use super::{InvalidFit, Source, TestCurve, Unknown, not_accepted, refused, table};
+use crate::measured_curve::{Branches, CurveEventKind, MeasuredCurve, Test};
+
+/// Keys of a `[[curve]]` besides parameters.
+const KEYS: [&str; 8] = ["file", "kind", "columns", "specimen", "branch", "from", "to", "offsets"];
+
+/// Returns the JSON schema of the tables `[[curve]]`.
+pub fn curves_schema() -> Json {
+    let number = |about: &str| json!({ "type": "number", "description": about });
+    let texts = json!({ "type": "array", "items": { "type": "string" } });
+    let range = json!({
+        "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2,
+    });
+    let axes = ["displacement", "force", "curvature", "moment"];
+    let ranges = axes.map(|axis| (axis.to_owned(), range.clone()));
+    // In the order of `KEYS`. A key without a schema does not compile.
+    let about: [Json; KEYS.len()] = [
+        json!({ "type": "string", "description": "CSV file, relative to the definition" }),
+        json!({ "enum": [Test::Puncture.name(), Test::Bending.name()], "description": "kind of test" }),
+        json!({ "type": "array", "items": { "type": "string" }, "description": "names of the columns" }),
+        json!({ "type": ["string", "integer"], "description": "name or number of the specimen in the file" }),
+        json!({ "enum": ["loading", "unloading", "both"], "description": "branches that are fitted" }),
+        number("first value of the first column that is fitted"),
+        number("last value of the first column that is fitted"),
+        json!({
+            "anyOf": [texts, {
+                "type": "object", "additionalProperties": false,
+                "properties": ranges.into_iter().collect::<Map<_, _>>(),
+            }],
+            "description": "offsets of the axes that are fitted, or their ranges",
+        }),
+    ];
+    let mut keys: Map<_, _> = KEYS.into_iter().map(str::to_owned).zip(about).collect();
+    // A specimen may set any parameter.
+    keys.extend(PARAMETERS.iter().map(|p| (p.key.to_owned(), p.schema())));
+    json!({
+        "type": "array", "minItems": 1,
+        "description": "Measured curves of a fit",
+        "items": {
+            "type": "object", "properties": keys,
+            "required": ["file", "kind"], "additionalProperties": false,
+        },
+    })
+}
+
+/// Maximum number of points of a curve.
+///
+/// Longer curves are averaged over neighbouring points.
+const MOST_POINTS: usize = 200;
+
+/// Returns the `[[curve]]` tables, at least one.
+pub(super) fn tables<'e>(
+    entries: &'e KeyValues,
+    name: &str,
+) -> Result<Vec<CurveTable<'e>>, InvalidFit> {
+    let file = Place::File { name: name.into(), line: None };
+    let entry = entries.iter().find(|entry| entry.key == "curve");
+    let place = entry.map_or(&file, |entry| &entry.place);
+    let items = match entry.map(|entry| &entry.value) {
+        Some(Value::List(items)) => items.as_slice(),
+        _ => &[],
+    };
+    let keys = items.iter().map(|item| table(item).filter(|keys| !keys.is_empty()));
+    let keys = keys.collect::<Option<Vec<_>>>().filter(|keys| !keys.is_empty());
+    let keys = keys.ok_or_else(|| {
+        let expected = "at least one [[curve]] with a file and its kind";
+        refused(place, "curve", Problem::Missing(expected))
+    })?;
+    Ok(keys.into_iter().map(CurveTable).collect())
+}
+
+/// A `[[curve]]` table with at least one key.
+#[derive(Clone, Copy)]
+pub(super) struct CurveTable<'e>(&'e [KeyValue]);
+
+impl CurveTable<'_> {
+    /// Returns the place of the first key.
+    pub fn place(&self) -> &Place {
+        &self.0[0].place
+    }
+
+    fn entry(&self, key: &str) -> Option<&KeyValue> {
+        self.0.iter().find(|entry| entry.key == key)
+    }
+
+    /// Returns the error for a key with an unaccepted value, or without one.
+    fn wrong(&self, key: &str, expected: &'static str) -> InvalidFit {
+        let name = format!("curve.{key}");
+        match self.entry(key) {
+            Some(entry) => not_accepted(&entry.place, &name, &entry.value, expected),
+            None => refused(self.place(), &name, Problem::Missing(expected)),
+        }
+    }
+
+    fn text(&self, key: &str, expected: &'static str) -> Result<&str, InvalidFit> {
+        match self.entry(key).map(|entry| &entry.value) {
+            Some(Value::Text(text)) => Ok(text),
+            _ => Err(self.wrong(key, expected)),
+        }
+    }
+
+    /// Reads the value of an optional key.
+    fn optional<T>(
+        &self,
+        key: &str,
+        expected: &'static str,
+        read: impl Fn(&Value) -> Option<T>,
+    ) -> Result<Option<T>, InvalidFit> {
+        let Some(entry) = self.entry(key) else { return Ok(None) };
+        read(&entry.value).map(Some).ok_or_else(|| self.wrong(key, expected))
+    }
+
+    /// Returns the number of an optional key.
+    fn number(&self, key: &str) -> Result<Option<f64>, InvalidFit> {
+        self.optional(key, "a number, in the unit of the first column", |value| match value {
+            Value::Number(text) => text.parse().ok(),
+            _ => None,
+        })
+    }
+
+    /// Returns the texts of an optional key.
+    fn texts(&self, key: &str) -> Result<Option<Vec<String>>, InvalidFit> {
+        self.optional(key, "a list of names in quotes", |value| {
+            let Value::List(items) = value else { return None };
+            let texts = items.iter().map(|item| match item {
+                Value::Text(text) => Some(text.clone()),
+                _ => None,
+            });
+            texts.collect()
+        })
+    }
+
+    /// Returns the error for a key of this table with a value that is not accepted.
+    pub fn not_accepted(&self, key: &str, found: impl Display, expected: &str) -> InvalidFit {
+        let place = self.entry(key).map_or(self.place(), |entry| &entry.place);
+        not_accepted(place, &format!("curve.{key}"), found, expected)
+    }
+
+    /// Returns the path of the file, without links and `./` if it exists.
+    pub fn path(&self, folder: &Path) -> PathBuf {
+        let file = self.text("file", "").unwrap_or_default();
+        let path = folder.join(file);
+        path.canonicalize().unwrap_or(path)
+    }
+
+    /// Reads the measured curves of the chosen specimens.
+    pub fn measured(&self, folder: &Path) -> Result<Vec<MeasuredCurve>, InvalidFit> {
+        let file = self.text("file", "the name of a CSV file")?;
+        let kind = self.text("kind", "\"puncture\" or \"bending\"")?;
+        let columns = self.texts("columns")?;
+        let mut curves = MeasuredCurve::read(&folder.join(file), columns.as_deref())?;
+        if kind != curves[0].test.name() {
+            let expected = match curves[0].test {
+                Test::Puncture => "\"puncture\", as the columns of the file say",
+                Test::Bending => "\"bending\", as the columns of the file say",
+            };
+            return Err(self.wrong("kind", expected));
+        }
+        if let Some(entry) = self.entry("specimen") {
+            let index = self.specimen(entry, &curves)?;
+            curves = vec![curves.swap_remove(index)];
+        }
+        // Messages name the file as the definition does, without the folder.
+        for curve in &mut curves {
+            curve.set_file(file);
+        }
+        Ok(curves)
+    }
+
+    /// Returns the index of the specimen with the name or the number in `entry`.
+    fn specimen(&self, entry: &KeyValue, curves: &[MeasuredCurve]) -> Result<usize, InvalidFit> {
+        let chosen = match &entry.value {
+            Value::Text(text) | Value::Number(text) => text.as_str(),
+            _ => "",
+        };
+        let names: Vec<_> = curves.iter().filter_map(|curve| curve.specimen.as_deref()).collect();
+        let number = chosen.parse().ok().filter(|number| (1..=curves.len()).contains(number));
+        let named = names.iter().position(|name| *name == chosen);
+        named.or_else(|| number.map(|number| number - 1)).ok_or_else(|| {
+            let expected = match names.as_slice() {
+                [] => "no specimen: the file holds one".to_owned(),
+                names => format!("a number from 1 to {}, or {}", names.len(), names.join(", ")),
+            };
+            self.not_accepted("specimen", &entry.value, &expected)
+        })
+    }
+
+    /// Returns true for each branch that is fitted: loading and unloading.
+    fn fitted_branches(&self, test: Test, case: &Case) -> Result<[bool; 2], InvalidFit> {
+        let Some(entry) = self.entry("branch") else {
+            let unloads = match test {
+                Test::Puncture => case.puncture.unload,
+                Test::Bending => case.flexure.unload,
+            };
+            return Ok([true, unloads]);
+        };
+        let fitted = match &entry.value {
+            Value::Text(text) => match text.as_str() {
+                "loading" => Some([true, false]),
+                "unloading" => Some([false, true]),
+                "both" => Some([true, true]),
+                _ => None,
+            },
+            _ => None,
+        };
+        fitted.ok_or_else(|| self.wrong("branch", "\"loading\", \"unloading\" or \"both\""))
+    }
+
+    /// Selects the fitted branches of a curve from `from` to `to`, averaged if they are long.
+    pub fn branches(
+        &self,
+        mut curve: MeasuredCurve,
+        case: &Case,
+        own: &[&'static Parameter],
+    ) -> Result<TestCurve, InvalidFit> {
+        let Branches { mut loading, mut unloading, mut events } = curve.branches();
+        let turn = loading.last().map_or(0.0, |last| curve.points[*last][0]);
+        let [is_loading, is_unloading] = self.fitted_branches(curve.test, case)?;
+        if is_unloading && unloading.is_empty() && self.entry("branch").is_some() {
+            return Err(self.wrong("branch", "\"loading\": the curve does not turn back"));
+        }
+        let left_out = [(&mut loading, is_loading), (&mut unloading, is_unloading)]
+            .into_iter()
+            .filter(|(_, is_fitted)| !is_fitted)
+            .map(|(branch, _)| std::mem::take(branch).len());
+        let left_out: usize = left_out.sum();
+        for event in events.iter_mut().filter(|e| e.kind == CurveEventKind::TurnsBack) {
+            event.left_out = left_out;
+        }
+        let from = self.number("from")?.unwrap_or(f64::NEG_INFINITY) * curve.x_unit;
+        let to = self.number("to")?.unwrap_or(f64::INFINITY) * curve.x_unit;
+        // Select the range before averaging, so that no mean includes points outside of it.
+        let is_within = |index: &usize| (from..=to).contains(&curve.points[*index][0]);
+        loading.retain(is_within);
+        unloading.retain(is_within);
+        events.retain(|event| (from..=to).contains(&event.at));
+        let count = loading.len() + unloading.len();
+        if count == 0 {
+            let key = if self.entry("from").is_some() { "from" } else { "to" };
+            return Err(self.wrong(key, "a range with points of the file in it"));
+        }
+        // Machines record thousands of points, and the noise of neighbouring points is correlated.
+        let part = count.div_ceil(MOST_POINTS);
+        let mean = |indices: &[usize]| {
+            [0, 1].map(|axis| {
+                let sum: f64 = indices.iter().map(|index| curve.points[*index][axis]).sum();
+                sum / indices.len() as f64
+            })
+        };
+        let unloading: Vec<_> = unloading.chunks(part).map(mean).collect();
+        let loading = loading.chunks(part).map(mean);
+        curve.points = loading.chain(unloading.iter().copied()).collect();
+        self.require_load(&curve)?;
+        Ok(TestCurve {
+            measured: curve,
+            unloading: unloading.len(),
+            turn,
+            events,
+            case: *case,
+            own: own.to_vec(),
+        })
+    }
+
+    /// Refuses a constant force or moment, which determines no parameter.
+    fn require_load(&self, curve: &MeasuredCurve) -> Result<(), InvalidFit> {
+        let first = curve.points[0][1];
+        let is_constant = curve.points.iter().all(|point| point[1] == first);
+        if !is_constant || (curve.points.len() == 1 && first != 0.0) {
+            return Ok(());
+        }
+        let [_, (load, _)] = curve.test.axes();
+        let count = curve.points.len();
+        let expected = format!(
+            "a {load} that varies: it is {first} at all {count} points, so check the load cell, from and to"
+        );
+        Err(self.not_accepted("file", &curve.file, &expected))
+    }
+
+    /// Returns the parameters that this specimen sets itself, with their values.
+    pub fn own_values(&self) -> Result<Vec<(&'static Parameter, Setting)>, InvalidFit> {
+        self.0
+            .iter()
+            .filter(|entry| !KEYS.contains(&entry.key.as_str()))
+            .map(|entry| {
+                let name = format!("curve.{}", entry.key);
+                let parameter = Parameter::named(&entry.key).ok_or_else(|| {
+                    let keys = KEYS.join(", ");
+                    let hint =
+                        format!("expected {keys} or what this specimen has alone, e.g. gap_over_t");
+                    let value = entry.value.to_string();
+                    refused(&entry.place, &name, Problem::Unknown { value, hint })
+                })?;
+                let text = format!("designs.{}={}", entry.key, entry.value);
+                Ok((parameter, Setting::from_option(&format!("{}: {name}", entry.place), &text)?))
+            })
+            .collect()
+    }
+
+    /// Returns the offsets of this curve that are fitted.
+    ///
+    /// `offsets` lists the axes, or gives a range for each: `{ displacement = [-0.1, 3] }`.
+    pub fn offsets(
+        &self,
+        measured: &MeasuredCurve,
+        curve: usize,
+    ) -> Result<Vec<Unknown>, InvalidFit> {
+        let mut ranges: Vec<(String, Option<[f64; 2]>)> = Vec::new();
+        if let Some(KeyValue { value: Value::Table(entries), .. }) = self.entry("offsets") {
+            for entry in entries {
+                let range = range(&entry.value).ok_or_else(|| {
+                    self.wrong("offsets", "ranges, e.g. { displacement = [-0.1, 3] }")
+                })?;
+                ranges.push((entry.key.clone(), Some(range)));
+            }
+        } else {
+            let names = self.texts("offsets")?.unwrap_or_default();
+            ranges.extend(names.into_iter().map(|name| (name, None)));
+        }
+        let axes = measured.test.axes();
+        let mut offsets = Vec::new();
+        for (name, range) in ranges {
+            let expected = match measured.test {
+                Test::Puncture => "\"displacement\", \"force\" or both",
+                Test::Bending => "\"curvature\", \"moment\" or both",
+            };
+            let axis = axes.iter().position(|(axis, _)| *axis == name);
+            let axis = axis.ok_or_else(|| self.wrong("offsets", expected))?;
+            let [from, to] = range.unwrap_or_else(|| measured.offset_range(axis));
+            let unit = if measured.is_physical { axes[axis].1 } else { "-" };
+            let name = format!("{name} offset of {}", measured.file);
+            offsets.push(Unknown { name, unit, from, to, source: Source::Offset(curve, axis) });
+        }
+        Ok(offsets)
+    }
+}
+
+/// Returns the increasing bounds in a list of two numbers.
+fn range(value: &Value) -> Option<[f64; 2]> {
+    let Value::List(items) = value else { return None };
+    let mut numbers = items.iter().map(|item| match item {
+        Value::Number(text) => text.parse().ok().filter(|number: &f64| number.is_finite()),
+        _ => None,
+    });
+    let [from, to] = [numbers.next()??, numbers.next()??];
+    (numbers.next().is_none() && from < to).then_some([from, to])
+}
