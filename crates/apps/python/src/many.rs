@@ -42,15 +42,18 @@ fn solve(
     evaluator: &Evaluator,
     watch: &Watch,
 ) -> Option<Vec<DesignRow>> {
-    let solve = |(k, skin): (usize, &Py<Skin>)| {
-        let skin = skin.get();
-        let number = skin.sweep.grid().number((first + k) as u64);
-        let go_on = !watch.stop.load(Ordering::Relaxed);
-        let row = go_on.then(|| evaluator.row(number, &skin.case()));
-        watch.done.fetch_add(1, Ordering::Relaxed);
-        row
-    };
-    skins.par_iter().enumerate().map(solve).collect()
+    skins
+        .par_iter()
+        .enumerate()
+        .map(|(k, skin)| {
+            let skin = skin.get();
+            let number = skin.sweep.grid().number((first + k) as u64);
+            let go_on = !watch.stop.load(Ordering::Relaxed);
+            let row = go_on.then(|| evaluator.row(number, &skin.case()));
+            watch.done.fetch_add(1, Ordering::Relaxed);
+            row
+        })
+        .collect()
 }
 
 /// Solves skins batch by batch and returns their columns; skins may have different columns.

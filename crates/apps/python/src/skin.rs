@@ -118,21 +118,28 @@ pub fn asked(of: Option<&Bound<'_, PyAny>>) -> PyResult<Asked> {
         return Ok(whole(Measure::USUAL.to_vec()));
     };
     let names = of.extract().map(|name: String| vec![name]).or_else(|_| of.extract())?;
-    let known = |name: &String| match Measure::named(name).or_else(|| measure_of(name)) {
-        Some(measure) => Ok(vec![measure]),
-        None if name == "all" => Ok(Measure::USUAL.to_vec()),
-        None => {
-            let expected =
-                "all, coverage, puncture, flexure, sensitivity, a value of these, or a list";
-            Err(error::invalid_parameter(of.py(), "measures", Some(of.clone()), expected))
-        }
-    };
-    let mut measures = names.iter().map(known).collect::<PyResult<Vec<_>>>()?.concat();
+    let mut measures = names
+        .iter()
+        .map(|name| match Measure::named(name).or_else(|| measure_of(name)) {
+            Some(measure) => Ok(vec![measure]),
+            None if name == "all" => Ok(Measure::USUAL.to_vec()),
+            None => {
+                let expected =
+                    "all, coverage, puncture, flexure, sensitivity, a value of these, or a list";
+                Err(error::invalid_parameter(of.py(), "measures", Some(of.clone()), expected))
+            }
+        })
+        .collect::<PyResult<Vec<_>>>()?
+        .concat();
     // Sorted and without duplicates, because evaluators are cached by this list.
     measures.sort();
     measures.dedup();
-    let is_column = |name: &String| Measure::named(name).is_none() && measure_of(name).is_some();
-    let columns = if names.iter().all(is_column) { names } else { Vec::new() };
+    let columns =
+        if names.iter().all(|name| Measure::named(name).is_none() && measure_of(name).is_some()) {
+            names
+        } else {
+            Vec::new()
+        };
     Ok(Asked { columns, ..whole(measures) })
 }
 

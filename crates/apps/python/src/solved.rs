@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use pyo3::prelude::*;
 use ranking::{Criterion, Relation};
 use results::columns::{design_columns, measure_of, measures_among};
-use results::{Column, DesignRow, PathTable, SolvedDesign, path_tables};
+use results::{DesignRow, PathTable, SolvedDesign, path_tables};
 
 use run::{GapChange, Patience, design_warnings};
 
@@ -38,11 +38,14 @@ impl Solved {
     /// Returns every value of `designs.csv`.
     fn values(&self) -> Vec<Value> {
         let row = &self.design.row;
-        let value = |column: &Column<DesignRow>| {
-            let (name, cell) = (column.name.to_string(), column.cell(row).into());
-            (name, column.unit, column.meaning, cell, reason(row, &column.name))
-        };
-        design_columns(&self.skin.get().sweep).iter().skip(1).map(value).collect()
+        design_columns(&self.skin.get().sweep)
+            .iter()
+            .skip(1)
+            .map(|column| {
+                let (name, cell) = (column.name.to_string(), column.cell(row).into());
+                (name, column.unit, column.meaning, cell, reason(row, &column.name))
+            })
+            .collect()
     }
 
     /// Returns every warning about the design, in the words of the commands.

@@ -54,14 +54,18 @@ pub struct Keywords<'py> {
 
 impl Keywords<'_> {
     fn settings(&self) -> PyResult<Vec<Setting>> {
-        let setting = |(key, of): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
-            let key = text(&key)?;
-            let text = format!("{key}={}", value(&of)?);
-            let expected = "a dotted key with a value, such as {\"puncture.scales\": 41}";
-            Setting::parse(&text)
-                .map_err(|_| error::invalid_parameter(of.py(), &key, Some(of.clone()), expected))
-        };
-        self.set.iter().flatten().map(setting).collect()
+        self.set
+            .iter()
+            .flatten()
+            .map(|(key, of)| {
+                let key = text(&key)?;
+                let text = format!("{key}={}", value(&of)?);
+                let expected = "a dotted key with a value, such as {\"puncture.scales\": 41}";
+                Setting::parse(&text).map_err(|_| {
+                    error::invalid_parameter(of.py(), &key, Some(of.clone()), expected)
+                })
+            })
+            .collect()
     }
 
     /// Returns the results folder, with the same default as the command.

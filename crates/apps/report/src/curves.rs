@@ -559,13 +559,17 @@ fn panels(
     let palette = palette(designs);
     let curves = |(k, solved): (usize, &DesignCurves)| {
         let units = units.as_ref().map_or([1.0; 2], |units| units[k]);
-        let curve = |(dashes, points)| {
-            let mut values = CurveValues { points, ..CurveValues::default() };
-            values.in_units(units);
-            let color = palette.color(solved.case.design.slant_deg);
-            Curve { name: curve_name(solved), color, dashes, values }
-        };
-        Some(values(solved)?.into_iter().map(curve).collect())
+        Some(
+            values(solved)?
+                .into_iter()
+                .map(|(dashes, points)| {
+                    let mut values = CurveValues { points, ..CurveValues::default() };
+                    values.in_units(units);
+                    let color = palette.color(solved.case.design.slant_deg);
+                    Curve { name: curve_name(solved), color, dashes, values }
+                })
+                .collect(),
+        )
     };
     let solved: Vec<Vec<Curve>> = designs.iter().enumerate().filter_map(curves).collect();
     if solved.is_empty() {

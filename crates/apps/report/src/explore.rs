@@ -67,8 +67,11 @@ pub struct SolvedTable {
 
 /// Removes comment lines from a script to shorten the page.
 fn without_comments(script: &str) -> String {
-    let is_code = |line: &&str| !["//", "/**"].iter().any(|own| line.trim_start().starts_with(own));
-    script.lines().filter(is_code).flat_map(|line| [line, "\n"]).collect()
+    script
+        .lines()
+        .filter(|line| !["//", "/**"].iter().any(|own| line.trim_start().starts_with(own)))
+        .flat_map(|line| [line, "\n"])
+        .collect()
 }
 
 /// A control for a parameter.

@@ -179,15 +179,18 @@ fn properties() -> Result<DocProperties, XlsxError> {
     Ok(DocProperties::new().set_author("squama").set_creation_datetime(&epoch))
 }
 
+fn unreadable(path: &Path, reason: String) -> ExportError {
+    ExportError::Unreadable { file: path.to_owned(), reason }
+}
+
 /// Reads a table once: returns the profiles of its columns and its best values.
 fn look_over((path, file): (&Path, File)) -> Result<(TableProfile, BestValues), ExportError> {
-    let unreadable = |reason| ExportError::Unreadable { file: path.to_owned(), reason };
-    let (format, mut csv) = open(file).map_err(|error| unreadable(reason(&error)))?;
-    let header = csv.headers().map_err(|error| unreadable(words(error)))?.clone();
+    let (format, mut csv) = open(file).map_err(|error| unreadable(path, reason(&error)))?;
+    let header = csv.headers().map_err(|error| unreadable(path, words(error)))?.clone();
     let (mut columns, mut best) =
         (vec![ColumnProfile::default(); header.len()], BestValues::new(&header));
     let (mut row, mut rows) = (csv::StringRecord::new(), 0);
-    while csv.read_record(&mut row).map_err(|error| unreadable(words(error)))? {
+    while csv.read_record(&mut row).map_err(|error| unreadable(path, words(error)))? {
         rows += 1;
         // Fail early, because writing a sheet of this size takes a minute.
         if rows > ROWS {
@@ -213,11 +216,10 @@ fn copy(
     (guide, own): (&mut Guide, &[(String, &'static str, &'static str)]),
     failed: &dyn Fn(XlsxError) -> ExportError,
 ) -> Result<(Worksheet, u32), ExportError> {
-    let unreadable = |reason| ExportError::Unreadable { file: path.to_owned(), reason };
-    let (_, mut csv) = open(file).map_err(|error| unreadable(reason(&error)))?;
-    let header = csv.headers().map_err(|error| unreadable(words(error)))?.clone();
+    let (_, mut csv) = open(file).map_err(|error| unreadable(path, reason(&error)))?;
+    let header = csv.headers().map_err(|error| unreadable(path, words(error)))?.clone();
     let mut row = csv::StringRecord::new();
-    while csv.read_record(&mut row).map_err(|error| unreadable(words(error)))? {
+    while csv.read_record(&mut row).map_err(|error| unreadable(path, words(error)))? {
         sheet.add(&row).map_err(failed)?;
     }
     guide.explain(&sheet.table, own, &header).map_err(failed)?;

@@ -67,8 +67,11 @@ impl Histogram<'_> {
             let bar = ((value - low) / step) as usize;
             counts[bar.min(count - 1)] += 1.0;
         }
-        let bar = |(k, count)| (low + k as f64 * step, low + (k + 1) as f64 * step, count);
-        counts.into_iter().enumerate().map(bar).collect()
+        counts
+            .into_iter()
+            .enumerate()
+            .map(|(k, count)| (low + k as f64 * step, low + (k + 1) as f64 * step, count))
+            .collect()
     }
 
     fn bar(panel: &ChartPanel<'_>, (from, to, count): (f64, f64, f64)) -> Option<Element> {

@@ -161,13 +161,15 @@ pub fn resized(svg: &str, width: f64) -> String {
 ///
 /// `None` without text. Subscripts and superscripts do not count.
 pub fn smallest_letters(svg: &str, width: f64) -> Option<f64> {
-    let number = |text: &str, name: &str| -> Option<f64> {
-        text.split_once(name)?.1.split_once('"')?.0.parse().ok()
-    };
-    let per_unit = POINTS_PER_MM * width / number(svg, " width=\"")?;
+    let per_unit = POINTS_PER_MM * width / attribute(svg, " width=\"")?;
     let texts = svg.split("<text").skip(1).filter_map(|text| text.split_once('>'));
-    let sizes = texts.filter_map(|(text, _)| number(text, "font-size=\""));
+    let sizes = texts.filter_map(|(text, _)| attribute(text, "font-size=\""));
     sizes.map(|size| size * per_unit).min_by(f64::total_cmp)
+}
+
+/// Returns the number between `start`, such as `width="`, and the next quotation mark.
+fn attribute(text: &str, start: &str) -> Option<f64> {
+    text.split_once(start)?.1.split_once('"')?.0.parse().ok()
 }
 
 /// Typographic points per millimetre.

@@ -173,23 +173,26 @@ impl ChoiceEffect {
             (name::PENETRATION, |design| design.penetration),
             (name::COMPLIANCE, |design| design.compliance),
         ];
-        let effect = |(measure, value): (&'static str, DesignValue)| {
-            // All settings of a sweep have the same designs in the same order.
-            let pairs = first.designs.iter().zip(&other.designs);
-            let pairs: Vec<_> = pairs.map(|(a, b)| (value(a), value(b))).collect();
-            let mut changes: Vec<f64> =
-                pairs.iter().filter_map(|pair| Some(pair.1? / pair.0? - 1.0)).collect();
-            changes.sort_by(f64::total_cmp);
-            // Count only the losses, because the page reports failures caused by a choice.
-            let lost = pairs.iter().filter(|(a, b)| a.is_some() && b.is_none()).count();
-            let designs = changes.len();
-            let at = |place: usize| changes.get(place).copied().unwrap_or(f64::NAN);
-            let changes = [at(0), at(designs / 2), at(designs.saturating_sub(1))];
-            let both: Vec<_> = pairs.iter().filter_map(|pair| Some([pair.0?, pair.1?])).collect();
-            let (setting, ranks) = (setting.clone(), ranking::rank_correlation(&both));
-            Self { setting, measure, designs, lost, changes, ranks }
-        };
-        measures.into_iter().map(effect).collect()
+        measures
+            .into_iter()
+            .map(|(measure, value)| {
+                // All settings of a sweep have the same designs in the same order.
+                let pairs = first.designs.iter().zip(&other.designs);
+                let pairs: Vec<_> = pairs.map(|(a, b)| (value(a), value(b))).collect();
+                let mut changes: Vec<f64> =
+                    pairs.iter().filter_map(|pair| Some(pair.1? / pair.0? - 1.0)).collect();
+                changes.sort_by(f64::total_cmp);
+                // Count only the losses, because the page reports failures caused by a choice.
+                let lost = pairs.iter().filter(|(a, b)| a.is_some() && b.is_none()).count();
+                let designs = changes.len();
+                let at = |place: usize| changes.get(place).copied().unwrap_or(f64::NAN);
+                let changes = [at(0), at(designs / 2), at(designs.saturating_sub(1))];
+                let both: Vec<_> =
+                    pairs.iter().filter_map(|pair| Some([pair.0?, pair.1?])).collect();
+                let (setting, ranks) = (setting.clone(), ranking::rank_correlation(&both));
+                Self { setting, measure, designs, lost, changes, ranks }
+            })
+            .collect()
     }
 }
 

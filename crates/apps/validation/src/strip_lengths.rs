@@ -29,13 +29,17 @@ impl StripLength {
     /// If the temporary folder cannot be written.
     pub fn all() -> anyhow::Result<Vec<Self>> {
         let study = Study::run(Sweep::parse(STRIPS, "gaps", &[])?)?;
-        let count = |(setting, study): (String, Study)| {
-            let score = claims::score(&study)?;
-            let verdict = |id: &str| score.iter().find(|(known, _)| known == id).map(|(_, v)| *v);
-            let verdicts = CLAIMS.map(|id| verdict(id).map_or_else(String::new, marked));
-            Ok(Self { setting, verdicts })
-        };
-        study.settings().into_iter().map(count).collect()
+        study
+            .settings()
+            .into_iter()
+            .map(|(setting, study)| {
+                let score = claims::score(&study)?;
+                let verdict =
+                    |id: &str| score.iter().find(|(known, _)| known == id).map(|(_, v)| *v);
+                let verdicts = CLAIMS.map(|id| verdict(id).map_or_else(String::new, marked));
+                Ok(Self { setting, verdicts })
+            })
+            .collect()
     }
 
     /// Returns the row of the table in Markdown.

@@ -127,14 +127,17 @@ impl Required {
         let margins =
             requirements.iter().map(|one| one.counted_margin(Value::number(values, &one.column)));
         let least = margins.clone().fold(f64::INFINITY, f64::min);
-        let one = |(one, margin): (&Requirement, f64)| Self {
-            text: one.to_string(),
-            value: Value::number(values, &one.column),
-            margin: Some(margin).filter(|margin| margin.is_finite()),
-            met: margin >= 0.0,
-            limits: margin <= least,
-        };
-        requirements.iter().zip(margins).map(one).collect()
+        requirements
+            .iter()
+            .zip(margins)
+            .map(|(one, margin)| Self {
+                text: one.to_string(),
+                value: Value::number(values, &one.column),
+                margin: Some(margin).filter(|margin| margin.is_finite()),
+                met: margin >= 0.0,
+                limits: margin <= least,
+            })
+            .collect()
     }
 }
 

@@ -4,7 +4,6 @@
 
 use geometry::OutOfRange;
 use serde::Serialize;
-use skin::Contact;
 use skin::flexure::{Flexure, FlexurePoint, StripSnapshot};
 use skin::puncture::{At, Puncture, PuncturePoint, RowSnapshot, Snapshots};
 use sweep::Case;
@@ -114,11 +113,14 @@ fn scales(state: &RowSnapshot) -> impl Iterator<Item = [f64; 4]> {
 fn contacts(case: &Case, state: &RowSnapshot) -> Vec<PlacedContact> {
     let first = state.scales.first().map_or(0.0, |scale| scale.scale as f64);
     let frame = case.body().frame(first * case.pitch());
-    let placed = |contact: &Contact| {
-        let point = frame.origin + frame.outward(contact.point.into());
-        (rounded(point.x), rounded(point.y), contact.slips)
-    };
-    state.contacts.iter().map(placed).collect()
+    state
+        .contacts
+        .iter()
+        .map(|contact| {
+            let point = frame.origin + frame.outward(contact.point.into());
+            (rounded(point.x), rounded(point.y), contact.slips)
+        })
+        .collect()
 }
 
 impl BentStrip {

@@ -169,26 +169,24 @@ fn other_format<R: Records>(object: &[u8]) -> Option<(u64, String)> {
     let line: serde_json::Value = serde_json::from_slice(object).ok()?;
     let header = line.get(R::KEY)?;
     let found = header.as_u64().or_else(|| header.get("format")?.as_u64())?;
-    let text = |value: &serde_json::Value| Some(value.as_str()?.to_owned());
-    let by = text(&line["program"])
-        .or_else(|| Some(format!("{} ({})", text(&header["version"])?, text(&header["revision"])?)))
-        .unwrap_or_else(|| "unknown".to_owned());
-    (found != FORMAT).then_some((found, by))
+    let texts = [&line["program"], &header["version"], &header["revision"]];
+    let program = match texts.map(serde_json::Value::as_str) {
+        [Some(program), ..] => program.to_owned(),
+        [_, Some(version), Some(revision)] => format!("{version} ({revision})"),
+        _ => "unknown".to_owned(),
+    };
+    (found != FORMAT).then_some((found, program))
 }
 
 /// Lists the keys in which two definitions differ.
 fn changes(here: &str, there: &str) -> String {
     let (here, there) = (keys(here), keys(there));
     let names: BTreeSet<_> = here.keys().chain(there.keys()).collect();
-    let text = |keys: &BTreeMap<String, String>, name: &String| {
-        keys.get(name).cloned().unwrap_or_else(|| "not set".to_owned())
-    };
-    let change = |name: &String| {
-        let (old, new) = (text(&here, name), text(&there, name));
+    let changes = names.into_iter().filter_map(|name| {
+        let [old, new] = [&here, &there].map(|keys| keys.get(name).map_or("not set", |v| v));
         (old != new).then(|| format!("{name} is {old} in it and {new} now"))
-    };
-    let changes: Vec<_> = names.iter().filter_map(|name| change(name)).collect();
-    changes.join("; ")
+    });
+    changes.collect::<Vec<_>>().join("; ")
 }
 
 /// Returns the dotted keys of a definition with their values.

@@ -111,8 +111,9 @@ fn is_partial(path: &Path) -> bool {
     let parts = name.strip_prefix('.').and_then(|name| name.strip_suffix(".partial"));
     let numbers = parts.and_then(|parts| parts.rsplit_once(".squama-"));
     let numbers = numbers.and_then(|(_, numbers)| numbers.split_once('-'));
-    let is_number = |text: &str| text.parse::<u64>().is_ok();
-    numbers.is_some_and(|(process, count)| is_number(process) && is_number(count))
+    numbers.is_some_and(|(process, count)| {
+        [process, count].iter().all(|number| number.parse::<u64>().is_ok())
+    })
 }
 
 #[cfg(test)]

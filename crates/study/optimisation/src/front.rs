@@ -103,8 +103,8 @@ pub(crate) fn search(
 /// Each objective is maximised while the other keeps its value, within the smallest visible
 /// difference.
 fn ends(search: &Search<'_>, designs: &[BestDesign]) -> Option<[Target; 2]> {
-    let values = |design: &BestDesign| turned(search, &design.candidate);
-    let (first, last) = (values(designs.first()?)?, values(designs.last()?)?);
+    let first = turned(search, &designs.first()?.candidate)?;
+    let last = turned(search, &designs.last()?.candidate)?;
     let beyond = |k: usize, from: &[f64], to: &[f64]| Spacing::between(from[k], to[k]).at(-NARROW);
     let end = |objective, floor| Target { objective, floors: vec![(1 - objective, floor)] };
     let floors = [beyond(1, &first, &last), beyond(0, &last, &first)];
@@ -122,12 +122,13 @@ fn more_targets(
     points: usize,
 ) -> Vec<Target> {
     let more = points.saturating_sub(designs.len());
-    let values = |candidate| turned(search, candidate);
-    let front: Vec<Vec<f64>> = designs.iter().filter_map(|d| values(&d.candidate)).collect();
+    let front: Vec<Vec<f64>> =
+        designs.iter().filter_map(|design| turned(search, &design.candidate)).collect();
     if search.judge.objectives() == 2 {
         return between(&front, targets, more);
     }
-    let known: Vec<Vec<f64>> = history.iter().filter_map(values).collect();
+    let known: Vec<Vec<f64>> =
+        history.iter().filter_map(|candidate| turned(search, candidate)).collect();
     let floors = spread(&known, &front, more).into_iter().map(target);
     // A repeated lower bound leads to the same design.
     floors.filter(|target| !targets.contains(target)).collect()

@@ -60,12 +60,12 @@ impl UsedStatistic {
     ///
     /// It is as far out as the outermost quantile among `others`; `None` without quantiles.
     pub fn of_soundness(column: &str, others: &[Self]) -> Option<(String, Statistic)> {
-        let share = |used: &Self| match used.statistic {
+        let shares = others.iter().filter_map(|used| match used.statistic {
             Statistic::Quantile { share, .. } => Some(share.min(1.0 - share)),
             Statistic::Yield => None,
-        };
+        });
         // The outermost quantile: a goal about the worst 5 % needs their surfaces unfolded.
-        let least = others.iter().filter_map(share).reduce(f64::min)?;
+        let least = shares.reduce(f64::min)?;
         let (ending, share) = QUANTILES.into_iter().find(|(_, share)| *share >= least - 1e-9)?;
         let statistic = Statistic::Quantile { column: column.to_owned(), share };
         Some((format!("{column}_{ending}"), statistic))

@@ -261,22 +261,26 @@ fn refuse_edited(folder: &ResultsFolder, tables: &[FoundTable]) -> Result<(), Jo
 fn best_rows(goal: &DesignGoal, designs: &[BestDesign]) -> Vec<Cells> {
     let sweep = goal.space.sweep();
     let (words, known) = (BindingText::new(goal), design_columns(sweep));
-    let row = |(index, best): (usize, &BestDesign)| {
-        // Numbered by position in the front, so that `--design 3` selects a design of the folder.
-        let row = DesignRow { number: sweep.grid().number(index as u64), ..best.row.clone() };
-        let mut cells: Cells = known.iter().map(|column| column.cell(&row)).collect();
-        cells.extend(
-            goal.fitness.as_ref().map(|_| value(goal, &best.candidate, NumberColumn::FITNESS)),
-        );
-        cells.push(words.bindings(&best.bindings, &best.target).into());
-        cells.push(words.prices(&best.bindings, &best.target).into());
-        let failed = best.contradictions(goal);
-        let failed: Vec<String> = failed.iter().map(ToString::to_string).collect();
-        cells.push(failed.join("; ").into());
-        cells.extend(statistic_cells(goal, best));
-        cells
-    };
-    designs.iter().enumerate().map(row).collect()
+    designs
+        .iter()
+        .enumerate()
+        .map(|(index, best)| {
+            // Numbered by position in the front, so that `--design 3` selects a design of the
+            // folder.
+            let row = DesignRow { number: sweep.grid().number(index as u64), ..best.row.clone() };
+            let mut cells: Cells = known.iter().map(|column| column.cell(&row)).collect();
+            cells.extend(
+                goal.fitness.as_ref().map(|_| value(goal, &best.candidate, NumberColumn::FITNESS)),
+            );
+            cells.push(words.bindings(&best.bindings, &best.target).into());
+            cells.push(words.prices(&best.bindings, &best.target).into());
+            let failed = best.contradictions(goal);
+            let failed: Vec<String> = failed.iter().map(ToString::to_string).collect();
+            cells.push(failed.join("; ").into());
+            cells.extend(statistic_cells(goal, best));
+            cells
+        })
+        .collect()
 }
 
 /// Returns the rows of `history.csv`.

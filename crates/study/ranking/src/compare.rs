@@ -190,13 +190,17 @@ pub fn compare<'r>(
     tolerance: f64,
 ) -> Result<Comparison<'r>, InvalidComparison> {
     let matching = Matching::new(first, second)?;
-    let place = |(column, name): (usize, &String)| {
-        let other = second.column(name).ok()?;
-        // Skip the first column, the number of the design, and parameters, which identify the
-        // design.
-        (column > 0 && parameter_of(name).is_none()).then_some([column, other])
-    };
-    let places: Vec<_> = first.header().iter().enumerate().filter_map(place).collect();
+    let places: Vec<_> = first
+        .header()
+        .iter()
+        .enumerate()
+        .filter_map(|(column, name)| {
+            let other = second.column(name).ok()?;
+            // Skip the first column, the number of the design, and parameters, which identify the
+            // design.
+            (column > 0 && parameter_of(name).is_none()).then_some([column, other])
+        })
+        .collect();
     let mut comparison =
         Comparison { first, second, tolerance, matching, places: Vec::new(), columns: Vec::new() };
     // Needs the matching: sizes of columns are computed from matched designs.

@@ -40,10 +40,6 @@ pub static CRITERIA: [Criterion; 4] = [
 /// Parameters that define the units of dimensionless values.
 const UNITS: [&str; 3] = [key::THICKNESS, key::SUBSTRATE_MODULUS, key::MEMBRANE_MODULUS];
 
-fn units_vary(sweep: &Sweep) -> bool {
-    UNITS.iter().any(|key| sweep.grid().axis(key).is_some_and(|axis| axis.len() > 1))
-}
-
 /// Text that is not a criterion.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{found} is not accepted, expected max:COLUMN or min:COLUMN, e.g. max:{}", column(found))]
@@ -67,8 +63,12 @@ impl Criterion {
     ///
     /// If designs differ in thickness or moduli, the criteria are in physical units.
     pub fn usual(sweep: Option<&Sweep>) -> Vec<Self> {
-        let Some(sweep) = sweep.filter(|sweep| units_vary(sweep)) else { return CRITERIA.to_vec() };
         let mut criteria = CRITERIA.to_vec();
+        let Some(sweep) = sweep.filter(|sweep| {
+            UNITS.iter().any(|key| sweep.grid().axis(key).is_some_and(|axis| axis.len() > 1))
+        }) else {
+            return criteria;
+        };
         for criterion in &mut criteria {
             let column = ValueColumn::in_units_of(sweep, &criterion.column);
             let column = column.and_then(|column| Some((column.name(), column.good()?)));

@@ -43,8 +43,8 @@ fn sifted(points: &[&[f64]]) -> Vec<bool> {
 
 /// Returns true if `p` dominates `q`: nowhere worse, and better in one (R6).
 pub fn dominates(p: &[f64], q: &[f64]) -> bool {
-    let pairs = || p.iter().zip(q);
-    pairs().all(|(p, q)| p >= q || same(*p, *q)) && pairs().any(|(p, q)| p > q && !same(*p, *q))
+    let mut pairs = p.iter().zip(q);
+    pairs.clone().all(|(p, q)| p >= q || same(*p, *q)) && pairs.any(|(p, q)| p > q && !same(*p, *q))
 }
 
 /// Marks the points on the Pareto front. Coordinates are finite; larger is better.
@@ -205,7 +205,8 @@ mod tests {
             points in prop::collection::vec(prop::array::uniform8(-1_i32..3), 0..60),
             count in 5_usize..9,
         ) {
-            let points: Vec<f64> = points.iter().flat_map(|p| p.map(f64::from)[..count].to_vec()).collect();
+            let points = points.iter().flat_map(|p| p.map(f64::from)[..count].to_vec());
+            let points: Vec<f64> = points.collect();
             let points = || points.chunks_exact(count);
             let expected: Vec<bool> = points().map(|q| !points().any(|p| dominates(p, q))).collect();
             prop_assert_eq!(front_of(&points().collect::<Vec<_>>().concat(), count), expected);

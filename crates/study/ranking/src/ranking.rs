@@ -184,14 +184,13 @@ impl<'r> Ranking<'r> {
         folder: &VerifiedFolder,
         preferences: &Preferences,
     ) -> Result<Results, InvalidResults> {
-        let is_required = |own: &str| preferences.requirements.iter().any(|r| r.column == own);
         Results::with_columns(folder, |column| {
             // Parameters are printed, and are the conditions that decide on comparability.
             let is_always = column == name::FOLD_FORCE || parameter_of(column).is_some();
             // A failure mode is printed beside its force.
             is_always
                 || preferences.criteria.iter().any(|c| c.column == column)
-                || is_required(column)
+                || preferences.requirements.iter().any(|r| r.column == column)
                 || column == name::FIRST_FAILURE
         })
     }
@@ -270,9 +269,9 @@ impl<'r> Ranking<'r> {
 
     /// Counts the other designs with the best fitness for `weights`, up to round-off.
     pub fn equals(&self, weights: Weights) -> usize {
-        let scores = || self.contenders.terms().map(|terms| weights.score(terms));
-        let largest = scores().fold(f64::NEG_INFINITY, f64::max);
-        scores().filter(|score| is_as_good(*score, largest)).count() - 1
+        let scores = self.contenders.terms().map(|terms| weights.score(terms));
+        let largest = scores.clone().fold(f64::NEG_INFINITY, f64::max);
+        scores.filter(|score| is_as_good(*score, largest)).count() - 1
     }
 
     /// Returns the designs on the Pareto front, ordered by number.
@@ -366,9 +365,9 @@ fn is_as_good(score: f64, best: f64) -> bool {
 
 /// Returns the first contender with the largest fitness up to round-off.
 fn best(contenders: &Contenders, weights: Weights) -> usize {
-    let scores = || contenders.terms().map(|terms| weights.score(terms));
-    let largest = scores().fold(f64::NEG_INFINITY, f64::max);
-    scores().position(|score| is_as_good(score, largest)).unwrap_or(0)
+    let mut scores = contenders.terms().map(|terms| weights.score(terms));
+    let largest = scores.clone().fold(f64::NEG_INFINITY, f64::max);
+    scores.position(|score| is_as_good(score, largest)).unwrap_or(0)
 }
 
 /// Writes the tables and preferences of `ranking` to `folder`.

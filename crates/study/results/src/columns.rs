@@ -107,13 +107,16 @@ pub fn mode_column(name: &str) -> Option<&'static str> {
 ///
 /// The name may also be a derived one, such as a quantile.
 pub(crate) fn about(name: &str) -> Option<(&'static MeasuredValue, Option<Quantity>)> {
-    let is_made_from = |column: &&ValueColumn| {
-        name.strip_prefix(column.stem())
-            .is_some_and(|rest| rest.is_empty() || rest.starts_with('_'))
-    };
     // Take the longest stem: `critical_force_per_width` also begins with `critical_force`.
-    let column = ValueColumn::named(name)
-        .or_else(|| COLUMNS.iter().filter(is_made_from).max_by_key(|column| column.stem().len()))?;
+    let column = ValueColumn::named(name).or_else(|| {
+        COLUMNS
+            .iter()
+            .filter(|column| {
+                name.strip_prefix(column.stem())
+                    .is_some_and(|rest| rest.is_empty() || rest.starts_with('_'))
+            })
+            .max_by_key(|column| column.stem().len())
+    })?;
     Some((column.value, column.quantity))
 }
 

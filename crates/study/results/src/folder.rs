@@ -313,13 +313,12 @@ impl ResultsFolder {
     ///
     /// If there are such files.
     pub fn require_own(&self, maker: Maker, start: Start) -> Result<(), JournalError> {
-        let folder = || self.path.clone();
         // Test the link itself, because a dangling link would be replaced too.
         let is_there = |file: &&FileEntry| fs::symlink_metadata(self.file(file.name)).is_ok();
         let mut journals = FILES.iter().filter(|file| file.role == Role::Journal).filter(is_there);
         if let Some(other) = journals.clone().find(|file| file.maker != maker) {
             let what = if other.maker == Maker::Run { "a run" } else { "a search" };
-            return Err(JournalError::Holds { folder: folder(), what });
+            return Err(JournalError::Holds { folder: self.path.clone(), what });
         }
         // The records of other makers cover their files, see `Claim`.
         if maker != Maker::Run || start == Start::Fresh || journals.next().is_some() {
@@ -327,7 +326,8 @@ impl ResultsFolder {
         }
         let stray = FileEntry::products(maker).find(is_there);
         stray.map_or(Ok(()), |stray| {
-            Err(JournalError::NoJournal { folder: folder(), file: stray.name.to_owned() })
+            let (folder, file) = (self.path.clone(), stray.name.to_owned());
+            Err(JournalError::NoJournal { folder, file })
         })
     }
 

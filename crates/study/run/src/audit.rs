@@ -97,24 +97,29 @@ impl Audit {
         let mut audit = Self::default();
         let groups = Groups::new(sweep.grid(), chosen.into_iter());
         let auditor = Auditor::new(sweep);
-        let solve = |index| auditor.solve(index);
-        workers::solve(options.threads, options.stop, groups, solve, |audited: Audited| {
-            let position = archive.designs().position(audited.index);
-            let entry = position.map(|position| entries.last(position)).transpose()?.flatten();
-            // A design that was solved again with other settings differs from the sweep.
-            if let Some(entry) = entry.filter(|entry| entry.result.settings.is_empty()) {
-                audit.compare(
-                    &columns,
-                    [&archive.row(entry), &audited.finer],
-                    SecondWay::SmallerSteps,
-                );
-                audit.designs += 1;
-            }
-            if let Some([cell, chain]) = &audited.chain {
-                audit.compare(&columns, [cell, chain], SecondWay::Chain);
-            }
-            Ok(())
-        })?;
+        workers::solve(
+            options.threads,
+            options.stop,
+            groups,
+            |index| auditor.solve(index),
+            |audited: Audited| {
+                let position = archive.designs().position(audited.index);
+                let entry = position.map(|position| entries.last(position)).transpose()?.flatten();
+                // A design that was solved again with other settings differs from the sweep.
+                if let Some(entry) = entry.filter(|entry| entry.result.settings.is_empty()) {
+                    audit.compare(
+                        &columns,
+                        [&archive.row(entry), &audited.finer],
+                        SecondWay::SmallerSteps,
+                    );
+                    audit.designs += 1;
+                }
+                if let Some([cell, chain]) = &audited.chain {
+                    audit.compare(&columns, [cell, chain], SecondWay::Chain);
+                }
+                Ok(())
+            },
+        )?;
         audit.differences.sort_by(|a, b| b.relative.total_cmp(&a.relative));
         Ok(audit)
     }
@@ -192,12 +197,12 @@ fn whole(mut case: Case) -> Option<[Case; 2]> {
     // The unit cell cannot represent unequal gaps, so compare perfect strips only.
     case.imperfection = skin::Imperfection::default();
     case.flexure.gaps = Some(gaps);
-    let by = |method| {
-        let mut case = case;
-        case.flexure.method = method;
-        case
-    };
-    (gaps <= LONGEST_CHAIN).then(|| [by(Method::UnitCell), by(Method::Chain)])
+    (gaps <= LONGEST_CHAIN).then(|| {
+        [Method::UnitCell, Method::Chain].map(|method| {
+            case.flexure.method = method;
+            case
+        })
+    })
 }
 
 /// Selects a `share` of `designs`, spread evenly at every period of the grid.

@@ -3,7 +3,7 @@
 use results::columns::{design_columns, name};
 use serde::Serialize;
 use substrate::Coupling;
-use sweep::Sweep;
+use sweep::{Case, Sweep};
 
 use crate::gap_change::{Patience, case_to_solve, evaluator_of, value};
 

@@ -131,13 +131,13 @@ impl Sweep {
 
     /// Returns true if any design is also solved with imperfections.
     pub fn is_imperfect(&self) -> bool {
-        let largest = |key: &str| {
+        ["gap_cv", "slant_sd_deg"].into_iter().any(|key| {
             // The table has the columns if at least one design scatters.
-            let axis = self.grid.axis(key).map(|axis| axis.span().1);
-            axis.or_else(|| Parameter::named(key).and_then(|p| p.get(self.grid.base()).number()))
-                .unwrap_or(0.0)
-        };
-        largest("gap_cv") > 0.0 || largest("slant_sd_deg") > 0.0
+            let largest = self.grid.axis(key).map(|axis| axis.span().1);
+            largest
+                .or_else(|| Parameter::named(key)?.get(self.grid.base()).number())
+                .is_some_and(|largest| largest > 0.0)
+        })
     }
 
     /// Returns true if the needle of any design is guided.
@@ -186,9 +186,8 @@ impl Sweep {
     /// Returns a note on a convex body that is narrow for the pitch of the scales.
     fn narrow_body(&self) -> Option<String> {
         // Most sweeps are flat, and creating all their cases takes time.
-        let is_axis = |key| self.grid.axis_saying(key).is_some();
-        let is_flat = self.grid.base().body().is_flat();
-        if is_flat && !is_axis(key::CURVATURE) && !is_axis(key::RADIUS) {
+        let axis = self.grid.axis_saying(key::CURVATURE).or(self.grid.axis_saying(key::RADIUS));
+        if axis.is_none() && self.grid.base().body().is_flat() {
             return None;
         }
         let count = self.grid.len().min(MOST_CHECKED);
@@ -336,12 +335,16 @@ pub fn read_text(path: &Path) -> Result<String, InvalidDefinition> {
 ///
 /// Needs no memory.
 fn keys(text: &str) -> usize {
-    let is_section = |line: &&str| {
-        let name = line.trim_start().trim_start_matches('[');
-        name.len() < line.trim_start().len()
-            && name.starts_with(|start: char| start.is_alphabetic() || "\"'_".contains(start))
-    };
-    text.matches('=').count() + text.lines().filter(is_section).count()
+    text.matches('=').count()
+        + text
+            .lines()
+            .filter(|line| {
+                let name = line.trim_start().trim_start_matches('[');
+                name.len() < line.trim_start().len()
+                    && name
+                        .starts_with(|start: char| start.is_alphabetic() || "\"'_".contains(start))
+            })
+            .count()
 }
 
 /// Returns the definition in the record of a run, or the table itself.

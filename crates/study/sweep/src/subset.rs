@@ -54,9 +54,10 @@ impl FromStr for Shard {
     type Err = NoShard;
 
     fn from_str(text: &str) -> Result<Self, NoShard> {
-        let number = |text: &str| text.parse::<u64>().ok();
         text.split_once('/')
-            .and_then(|(index, count)| Some(Self { index: number(index)?, count: number(count)? }))
+            .and_then(|(index, count)| {
+                Some(Self { index: index.parse().ok()?, count: count.parse().ok()? })
+            })
             .filter(|shard| (1..=shard.count).contains(&shard.index))
             .ok_or_else(|| NoShard(text.to_owned()))
     }

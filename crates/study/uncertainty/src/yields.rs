@@ -36,12 +36,6 @@ pub(crate) fn yields(
         let met = (0..count).filter(|&n| holds(n)).count();
         (count > 0).then_some(Proportion { met, of: count })
     };
-    let one = |k: usize| RequirementYield {
-        requirement: Some(requirements[k].clone()),
-        proportion: of(&|n| meets(k, n)),
-        failed: values[k].iter().filter(|value| value.is_none()).count(),
-        linear: nominal[k].and_then(|(value, spread)| predicted(&requirements[k], value, spread)),
-    };
     let every = 0..requirements.len();
     let together = RequirementYield {
         requirement: None,
@@ -50,7 +44,17 @@ pub(crate) fn yields(
         // Columns of a sample are correlated, so single spreads do not predict this yield.
         linear: None,
     };
-    every.clone().map(one).chain((!requirements.is_empty()).then_some(together)).collect()
+    every
+        .clone()
+        .map(|k| RequirementYield {
+            requirement: Some(requirements[k].clone()),
+            proportion: of(&|n| meets(k, n)),
+            failed: values[k].iter().filter(|value| value.is_none()).count(),
+            linear: nominal[k]
+                .and_then(|(value, spread)| predicted(&requirements[k], value, spread)),
+        })
+        .chain((!requirements.is_empty()).then_some(together))
+        .collect()
 }
 
 /// Returns the probability that a normally distributed value meets a requirement.

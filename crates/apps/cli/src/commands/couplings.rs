@@ -46,7 +46,7 @@ fn moved(measure: &CoupledMeasure) -> Option<String> {
 /// Describes a requirement that is met only with the simplified coupling.
 fn missed(change: &CouplingChange, requirement: &Requirement) -> Option<String> {
     let measure = change.measures.iter().find(|m| m.column == requirement.column)?;
-    let is_met = |value: f64| requirement.is_met(value);
-    (is_met(measure.nearest) && !measure.full.is_some_and(is_met))
-        .then(|| format!("{requirement} is missed"))
+    let [nearest, full] = [Some(measure.nearest), measure.full]
+        .map(|value| value.is_some_and(|value| requirement.is_met(value)));
+    (nearest && !full).then(|| format!("{requirement} is missed"))
 }

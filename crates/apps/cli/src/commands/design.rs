@@ -76,8 +76,12 @@ pub fn design(arguments: &Arguments) -> anyhow::Result<u8> {
     files.push("design.toml");
     claim.state(&files)?;
     let place = folder.path();
-    let record = || chosen.json(&place.to_string_lossy(), &files);
-    json::answer(arguments.json, record, || chosen.report(), (place, &files))?;
+    json::answer(
+        arguments.json,
+        || chosen.json(&place.to_string_lossy(), &files),
+        || chosen.report(),
+        (place, &files),
+    )?;
     Ok(if chosen.solved.row.result.failed() { INCOMPLETE } else { DONE })
 }
 
@@ -273,20 +277,24 @@ const LISTED: usize = 3;
 /// Changes below this, in percent, would be printed as 0.
 const NEGLIGIBLE: f64 = 5e-4;
 
+/// Returns the size of the elasticity of a derivative; infinite at a kink.
+fn importance(derivative: &ParameterDerivative) -> f64 {
+    match derivative.kink {
+        Some(_) => f64::INFINITY,
+        None => derivative.elasticity().map_or(0.0, f64::abs),
+    }
+}
+
 /// Formats the largest elasticities of each measure, and its kinks.
 fn sensitivity(derivatives: &[ParameterDerivative]) -> String {
     if derivatives.is_empty() {
         return String::new();
     }
-    let size = |d: &ParameterDerivative| match d.kink {
-        Some(_) => f64::INFINITY,
-        None => d.elasticity().map_or(0.0, f64::abs),
-    };
     let mut lines = Vec::new();
     for of_measure in derivatives.chunk_by(|one, other| one.measure == other.measure) {
-        let mut known: Vec<_> = of_measure.iter().filter(|d| size(d) >= NEGLIGIBLE).collect();
+        let mut known: Vec<_> = of_measure.iter().filter(|d| importance(d) >= NEGLIGIBLE).collect();
         // Kinks come first: they have no elasticity.
-        known.sort_by(|one, other| size(other).total_cmp(&size(one)));
+        known.sort_by(|one, other| importance(other).total_cmp(&importance(one)));
         lines.extend(known.into_iter().take(LISTED).map(sensitivity_line));
     }
     let title = "Change for one per cent of a parameter, the three largest of each measure";

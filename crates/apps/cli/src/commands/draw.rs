@@ -159,11 +159,15 @@ impl Drawing<'_> {
 
     fn puncture_states(&self, at: &[puncture::At]) -> anyhow::Result<Vec<puncture::RowSnapshot>> {
         let solved = solve(&self.case, at)?;
-        let reached = |(at, state): (&puncture::At, Option<puncture::RowSnapshot>)| match state {
-            Some(state) => Ok(state),
-            None => bail!("design {}: the path does not reach {}", self.design.label(), place(*at)),
-        };
-        at.iter().zip(solved.at).map(reached).collect()
+        at.iter()
+            .zip(solved.at)
+            .map(|(at, state)| match state {
+                Some(state) => Ok(state),
+                None => {
+                    bail!("design {}: the path does not reach {}", self.design.label(), place(*at))
+                }
+            })
+            .collect()
     }
 
     fn flexure(&self, files: &mut FigureFiles<'_>) -> anyhow::Result<()> {
@@ -171,16 +175,19 @@ impl Drawing<'_> {
         let last = parameters.max_end_rotation_deg;
         let at = self.rotations_deg(last);
         let solved = flexure::snapshots(&self.case.design, &self.case.common, &parameters, &at)?;
-        let reached = |(at, state): (&f64, Option<flexure::StripSnapshot>)| match state {
-            Some(state) => Ok(state),
-            None => {
-                bail!(
-                    "design {}: the path of bending does not reach an end rotation of {at}°",
-                    self.design.label()
-                )
-            }
-        };
-        let states = at.iter().zip(solved).map(reached).collect::<anyhow::Result<Vec<_>>>()?;
+        let states = at
+            .iter()
+            .zip(solved)
+            .map(|(at, state)| match state {
+                Some(state) => Ok(state),
+                None => {
+                    bail!(
+                        "design {}: the path of bending does not reach an end rotation of {at}°",
+                        self.design.label()
+                    )
+                }
+            })
+            .collect::<anyhow::Result<Vec<_>>>()?;
         let name = self.design.title();
         let drawing = drawings::FlexureDrawing { name: &name, case: &self.case, states: &states };
         if self.arguments.animate {

@@ -415,11 +415,21 @@ fn record(fitted: &Fitted) -> Value {
     };
     json!({
         "name": fitted.sweep.name(),
-        "estimates": fitted.estimates.iter().map(|e| json!({ "sought": e.unknown.name, "unit": e.unknown.unit, "value": e.value, "interval": e.interval, "at_end": e.at_end, "depends_on_range_of": names(&e.rests_on) })).collect::<Vec<_>>(),
+        "estimates": fitted.estimates.iter().map(|e| json!({
+            "sought": e.unknown.name, "unit": e.unknown.unit, "value": e.value, "interval": e.interval,
+            "at_end": e.at_end, "depends_on_range_of": names(&e.rests_on),
+        })).collect::<Vec<_>>(),
         "scatter": fitted.scatter.iter().map(|s| scatter_record(s, fitted)).collect::<Vec<_>>(),
         "correlations": fitted.correlations,
         "not_told_apart": fitted.undetermined.iter().map(names).collect::<Vec<_>>(),
-        "curves": fitted.curves.iter().map(|c| json!({ "file": c.file, "points": c.points.len(), "left_out": c.left_out, "reversed": c.reversed, "events": c.events.iter().map(|e| json!({ "kind": kind_name(e.kind), "line": e.line, "left_out": e.left_out })).collect::<Vec<_>>(), "noise": c.noise, "trend": c.trend, "widening": c.widening, "beyond": c.beyond, "differenced": c.differenced })).collect::<Vec<_>>(),
+        "curves": fitted.curves.iter().map(|c| json!({
+            "file": c.file, "points": c.points.len(), "left_out": c.left_out, "reversed": c.reversed,
+            "events": c.events.iter().map(|e| json!({
+                "kind": kind_name(e.kind), "line": e.line, "left_out": e.left_out,
+            })).collect::<Vec<_>>(),
+            "noise": c.noise, "trend": c.trend, "widening": c.widening, "beyond": c.beyond,
+            "differenced": c.differenced,
+        })).collect::<Vec<_>>(),
         "solutions": fitted.solutions,
         "restarts": fitted.restarts,
         "files": FILES,

@@ -1,6 +1,5 @@
 //! `squama merge`.
 
-use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -67,11 +66,15 @@ fn missing(merged: &run::Merged) -> String {
     }
     // The ranges count from 1, the grid from 0.
     let number = |number: u64| merged.sweep.grid().number(number - 1);
-    let name = |range: &RangeInclusive<u64>| match (*range.start(), *range.end()) {
-        (first, last) if first == last => number(first).to_string(),
-        (first, last) => format!("{}-{}", number(first), number(last)),
-    };
-    let named: Vec<_> = merged.missing.iter().take(NAMED).map(name).collect();
+    let named: Vec<_> = merged
+        .missing
+        .iter()
+        .take(NAMED)
+        .map(|range| match (*range.start(), *range.end()) {
+            (first, last) if first == last => number(first).to_string(),
+            (first, last) => format!("{}-{}", number(first), number(last)),
+        })
+        .collect();
     let more = if merged.missing.len() > NAMED { " …" } else { "" };
     format!("missing designs: {}{more}\n", named.join(" "))
 }

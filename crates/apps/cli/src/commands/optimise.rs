@@ -127,8 +127,12 @@ pub fn optimise(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<
     let figures = figures.into_iter().map(|Figure { name, svg, .. }| (format!("{name}.svg"), svg));
     let files = write_found(&written, &goal, &found, &figures.collect::<Vec<_>>(), format)?;
     let report = SearchReport { goal: &goal, found: &found };
-    let text = || report.text(begun.elapsed(), arguments.solving.threads.count());
-    json::answer(arguments.solving.json, || record(&report), text, (&folder, &files))?;
+    json::answer(
+        arguments.solving.json,
+        || record(&report),
+        || report.text(begun.elapsed(), arguments.solving.threads.count()),
+        (&folder, &files),
+    )?;
     Ok(exit_code(&goal, &found))
 }
 

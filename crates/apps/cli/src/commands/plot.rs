@@ -267,14 +267,15 @@ fn measured(arguments: &CurvesArguments, cases: &[Case]) -> anyhow::Result<Optio
             bail!("{}: given twice with --measured, expected each file once", file.display());
         }
     }
-    let read = |file: &PathBuf| MeasuredCurve::read(file, arguments.measured_columns.as_deref());
-    let read = arguments.measured.iter().map(read).collect::<Result<Vec<_>, _>>()?;
-    // A file may hold several specimens.
-    let read: Vec<_> = read.into_iter().flatten().collect();
+    let mut read = Vec::new();
+    for file in &arguments.measured {
+        // A file may hold several specimens.
+        read.extend(MeasuredCurve::read(file, arguments.measured_columns.as_deref())?);
+    }
     let Some(first) = read.first() else { return Ok(None) };
-    let is_alike = |c: &&MeasuredCurve| (c.test, c.is_physical) == (first.test, first.is_physical);
     // All are drawn in one panel with one pair of axes.
-    if let Some(other) = read.iter().find(|curve| !is_alike(curve)) {
+    let kind = (first.test, first.is_physical);
+    if let Some(other) = read.iter().find(|curve| (curve.test, curve.is_physical) != kind) {
         bail!(
             "{}: differs from {} in its test or units; overlay curves of one test in the same units",
             other.file,

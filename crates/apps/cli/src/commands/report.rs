@@ -113,13 +113,6 @@ pub fn report(arguments: &Arguments) -> anyhow::Result<u8> {
 fn page(results: &FolderContents) -> anyhow::Result<Page> {
     let sweep = &results.sweep;
     let known = design_columns(sweep);
-    let column = |header: &String| {
-        let column = known.iter().find(|column| column.name == *header);
-        column.map_or_else(
-            || ("-".to_owned(), String::new()),
-            |column| (column.unit.to_owned(), column.meaning.to_owned()),
-        )
-    };
     let shared = sweep.shared().map(|(parameter, value)| {
         [parameter.path(), value.to_string(), parameter.meaning.to_owned()]
     });
@@ -141,7 +134,18 @@ fn page(results: &FolderContents) -> anyhow::Result<Page> {
         folder: results.folder.display().to_string(),
         criteria: Criterion::usual(Some(sweep)),
         axes: grid.axes().iter().map(|axis| axis.parameter().key.to_owned()).collect(),
-        columns: results.designs.headers().iter().map(column).collect(),
+        columns: results
+            .designs
+            .headers()
+            .iter()
+            .map(|header| {
+                let column = known.iter().find(|column| column.name == *header);
+                column.map_or_else(
+                    || ("-".to_owned(), String::new()),
+                    |column| (column.unit.to_owned(), column.meaning.to_owned()),
+                )
+            })
+            .collect(),
         run: [results.run.clone(), judged_modes(sweep)].concat(),
         notes: flat_body(sweep, &rankings).into_iter().collect(),
         shared: shared.collect(),
@@ -182,9 +186,9 @@ fn flat_body(sweep: &Sweep, rankings: &[Ranking<'_>]) -> Option<String> {
 
 /// Formats the preferences of the last ranking for the address of the page.
 fn opening(preferences: &Preferences) -> String {
-    let list = |texts: Vec<String>| texts.join(",");
-    let criteria = list(preferences.criteria.iter().map(ToString::to_string).collect());
-    let weights = list(preferences.weights.values().iter().map(ToString::to_string).collect());
+    let criteria: Vec<_> = preferences.criteria.iter().map(ToString::to_string).collect();
+    let weights: Vec<_> = preferences.weights.values().iter().map(ToString::to_string).collect();
+    let (criteria, weights) = (criteria.join(","), weights.join(","));
     let scale = preferences.scale;
     let required =
         preferences.requirements.iter().map(|requirement| format!("require={requirement}"));

@@ -131,18 +131,22 @@ fn by_numbers(
     settings: &[Setting],
     numbers: &[String],
 ) -> anyhow::Result<Vec<SelectedDesign>> {
-    let read = |settings: &[Setting]| Sweep::parse(text, &file.display().to_string(), settings);
-    let sweep = read(settings)?;
+    let name = file.display().to_string();
+    let sweep = Sweep::parse(text, &name, settings)?;
     let grid = sweep.grid();
     // Settings that change the grid leave no design for a comparison.
-    let original = read(&[]).ok().filter(|other| other.grid().len() == grid.len());
-    let selected = |index| SelectedDesign {
-        number: Some(grid.number(index)),
-        count: grid.len(),
-        original: original.as_ref().map(|original| original.grid().case(index)),
-        sweep: sweep.only(index),
-    };
-    Ok(ranges(grid, numbers, file)?.into_iter().flatten().map(selected).collect())
+    let original =
+        Sweep::parse(text, &name, &[]).ok().filter(|other| other.grid().len() == grid.len());
+    Ok(ranges(grid, numbers, file)?
+        .into_iter()
+        .flatten()
+        .map(|index| SelectedDesign {
+            number: Some(grid.number(index)),
+            count: grid.len(),
+            original: original.as_ref().map(|original| original.grid().case(index)),
+            sweep: sweep.only(index),
+        })
+        .collect())
 }
 
 /// Converts numbers of designs to ranges of indices in the grid of `file`.
@@ -166,8 +170,8 @@ fn by_values(
     mut settings: Vec<Setting>,
     selection: &Selection,
 ) -> anyhow::Result<Vec<SelectedDesign>> {
-    let read = |settings: &[Setting]| Sweep::parse(text, &file.display().to_string(), settings);
-    let written = read(&settings)?;
+    let name = file.display().to_string();
+    let written = Sweep::parse(text, &name, &settings)?;
     for (option, key, text) in options(selection) {
         let Some(text) = text else { continue };
         // `0,1` is probably a decimal comma, but is read as two values.
@@ -180,9 +184,9 @@ fn by_values(
         let values = values(text, axis).context(option.clone())?;
         settings.push(Setting::from_option(&option, &format!("designs.{key}={values}"))?);
     }
-    let sweep = read(&settings)?;
+    let sweep = Sweep::parse(text, &name, &settings)?;
     // Without `--set`, because design numbers refer to the definition as written.
-    let whole = read(&[]).ok();
+    let whole = Sweep::parse(text, &name, &[]).ok();
     Ok((0..sweep.grid().len()).map(|index| located(sweep.only(index), whole.as_ref())).collect())
 }
 
@@ -212,8 +216,8 @@ fn values(text: &str, axis: Option<&Axis>) -> anyhow::Result<String> {
             .collect();
         return Ok(if all.len() > 1 { format!("[{}]", all.join(",")) } else { all.concat() });
     };
-    let number = |text: &str| text.trim().parse::<f64>().ok();
-    let bounds = number(low).zip(number(high));
+    let [low, high] = [low, high].map(|end| end.trim().parse::<f64>().ok());
+    let bounds = low.zip(high);
     let (low, high) = bounds.context("not accepted, expected FROM..TO, e.g. 15..60")?;
     let axis = axis.map_or(Vec::new(), |axis| (0..axis.len()).map(|i| axis.value(i)).collect());
     let within = axis.iter().filter(|value| {

@@ -8,7 +8,7 @@ use clap::Args;
 use results::{MEASURE_TABLES, Maker, write_rows};
 use serde_json::{Value, json};
 use sweep::Sweep;
-use uncertainty::{GlobalAnalysis, GlobalSensitivity, INDEX_COLUMNS, IndexEstimate, SobolIndices};
+use uncertainty::{GlobalAnalysis, GlobalSensitivity, INDEX_COLUMNS, IndexEstimate};
 
 use super::options::whole;
 use super::sample_args::{SampleArgs, SampleFolder};
@@ -69,9 +69,12 @@ pub fn sensitivity(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Resu
     let rows = found.measures.iter().flat_map(|measure| measure.rows(&found.variables));
     write_rows(folder, TABLE, folder.csv_format(), INDEX_COLUMNS, rows)?;
     claim.state(&[TABLE])?;
-    let record = || record(&sweep, &found, folder.path());
-    let report = || report(&sweep, &found, samples);
-    json::answer(arguments.sampled.solving.json, record, report, (folder.path(), &[TABLE]))?;
+    json::answer(
+        arguments.sampled.solving.json,
+        || record(&sweep, &found, folder.path()),
+        || report(&sweep, &found, samples),
+        (folder.path(), &[TABLE]),
+    )?;
     Ok(DONE)
 }
 
@@ -107,11 +110,15 @@ fn report(sweep: &Sweep, found: &GlobalSensitivity, samples: usize) -> String {
             failed => format!(", {} left out", counted(failed as u64, "sample")),
         };
         let _ = writeln!(text, "\n{}{failed}", measure.name);
-        let row = |(variable, indices): (&&str, &SobolIndices)| {
-            let (first, total) = (percent(indices.first), percent(indices.total));
-            [(*variable).to_owned(), format!("alone {first}"), format!("with others {total}")]
-        };
-        let rows: Vec<_> = found.variables.iter().zip(&measure.indices).map(row).collect();
+        let rows: Vec<_> = found
+            .variables
+            .iter()
+            .zip(&measure.indices)
+            .map(|(variable, indices)| {
+                let (first, total) = (percent(indices.first), percent(indices.total));
+                [(*variable).to_owned(), format!("alone {first}"), format!("with others {total}")]
+            })
+            .collect();
         text.push_str(&aligned(&rows));
     }
     text + &constant(found)

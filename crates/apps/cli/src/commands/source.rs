@@ -149,14 +149,15 @@ pub fn results_folder(path: &Path) -> anyhow::Result<PathBuf> {
     Ok(folder)
 }
 
+/// Returns true if `folder` holds a finished run or a run in progress.
+fn is_run(folder: &Path) -> bool {
+    // A run in progress has a journal but no record.
+    let files = [ResultsFolder::RUN_INFO, ResultsFolder::JOURNAL];
+    files.iter().any(|file| folder.join(file).is_file())
+}
+
 /// Rejects a folder that contains runs but is not one, and names the runs.
 fn refuse_folder_of_runs(path: &Path) -> anyhow::Result<()> {
-    // A run in progress has a journal but no record.
-    let is_run = |folder: &Path| {
-        [ResultsFolder::RUN_INFO, ResultsFolder::JOURNAL]
-            .iter()
-            .any(|file| folder.join(file).is_file())
-    };
     if is_run(path) {
         return Ok(());
     }

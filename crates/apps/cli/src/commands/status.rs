@@ -179,10 +179,16 @@ fn as_json(status: &run::RunStatus) -> Value {
         "sessions": archive.sessions().len(),
         "program": header.program(),
         "definition_sha256": header.definition_sha256(),
-        "failures": status.reasons.iter().map(|((measure, reason), count)| json!({ "measure": measure, "reason": reason, "designs": count })).collect::<Vec<_>>(),
-        "slowest": status.slowest.iter().map(|(seconds, number)| json!({ "design": number.to_string(), "seconds": seconds })).collect::<Vec<_>>(),
+        "failures": status.reasons.iter().map(|((measure, reason), count)| json!({
+            "measure": measure, "reason": reason, "designs": count,
+        })).collect::<Vec<_>>(),
+        "slowest": status.slowest.iter().map(|(seconds, number)| json!({
+            "design": number.to_string(), "seconds": seconds,
+        })).collect::<Vec<_>>(),
         "problems": status.problems,
-        "out_of_date": status.outdated.iter().map(|made| json!({ "product": made.product, "command": made.command })).collect::<Vec<_>>(),
+        "out_of_date": status.outdated.iter().map(|made| json!({
+            "product": made.product, "command": made.command,
+        })).collect::<Vec<_>>(),
     })
 }
 

@@ -5,7 +5,6 @@ mod record;
 mod report;
 
 use std::collections::BTreeSet;
-use std::ops::RangeInclusive;
 
 use anyhow::ensure;
 use clap::Args;
@@ -95,9 +94,12 @@ pub fn tolerance(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result
         }
     }
     claim.state(&files)?;
-    let record = || record::record(&sweep, &all, folder.path(), &files);
-    let report = || report::report(&sweep, &requirements, &all);
-    json::answer(arguments.sampled.solving.json, record, report, (folder.path(), &files))?;
+    json::answer(
+        arguments.sampled.solving.json,
+        || record::record(&sweep, &all, folder.path(), &files),
+        || report::report(&sweep, &requirements, &all),
+        (folder.path(), &files),
+    )?;
     let failed = all.iter().any(|design| design.nominal.result.failed());
     Ok(if failed { INCOMPLETE } else { DONE })
 }
@@ -125,8 +127,9 @@ fn designs(arguments: &Arguments, sweep: &Sweep) -> anyhow::Result<Vec<u64>> {
         ranges.push(0..=grid.len().saturating_sub(1));
     }
     // Counted before listing: 10⁹ designs would exhaust the memory.
-    let count = |range: &RangeInclusive<u64>| (range.end() - range.start()).saturating_add(1);
-    let count = ranges.iter().map(count).fold(0, u64::saturating_add);
+    let count = ranges.iter().fold(0_u64, |count, range| {
+        count.saturating_add((range.end() - range.start()).saturating_add(1))
+    });
     ensure!(
         count <= MOST,
         "{}: {count} designs exceed the limit of {MOST}: choose some with --design",

@@ -37,8 +37,12 @@ fn definitions_are_accepted_as_folders() {
 fn designs_are_selected_by_ranges() {
     let place = Place::with(FEW);
     place.prints("draw x.toml --design 2-4,8 --out d");
-    let file = |number| format!("design-000{number}-puncture-at-critical-tilt.svg");
-    assert_eq!(place.list("d"), [2, 3, 4, 8].map(file).join(" "));
+    assert_eq!(
+        place.list("d"),
+        [2, 3, 4, 8]
+            .map(|number| format!("design-000{number}-puncture-at-critical-tilt.svg"))
+            .join(" ")
+    );
     insta::assert_snapshot!(place.refused("draw x.toml --design 4-2"), @"error: x.toml: --design 4-2: there is no design 4-2, expected a number from 1 to 8");
     insta::assert_snapshot!(place.refused("draw x.toml --design 7-9"), @"error: x.toml: --design 7-9: there is no design 9, expected a number from 1 to 8");
     insta::assert_snapshot!(place.refused("design x.toml --design 1-2"), @"error: x.toml: 2 designs are selected, expected one: give a value with --slant …");

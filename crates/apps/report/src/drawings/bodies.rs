@@ -18,16 +18,20 @@ pub(super) fn corners(row: &Row, body: Body, i: f64, pose: &Pose) -> [[f64; 2]; 
 /// The origin is the node of the first scale at rest.
 pub fn overlaps(row: &Row, body: Body, poses: &[Pose]) -> Vec<(usize, Vec<[f64; 2]>)> {
     let right = body.frame(row.pitch());
-    let pair = |(left, pair): (usize, &[Pose])| {
-        // The right scale in the tangent frame of the left one.
-        let beside = right.origin - Vec2::new(row.pitch(), 0.0);
-        let moved = beside + right.outward(pair[1].displacement);
-        let seen = Pose::new(moved.x, moved.y, pair[1].rotation - right.angle);
-        let polygon = overlap_polygon(row.scale(), row.pitch(), &pair[0], &seen);
-        let frame = body.frame(left as f64 * row.pitch());
-        let points: Vec<_> =
-            polygon.iter().map(|point| (frame.origin + frame.outward(*point)).into()).collect();
-        (left, points)
-    };
-    poses.windows(2).enumerate().map(pair).filter(|(_, points)| points.len() > 2).collect()
+    poses
+        .windows(2)
+        .enumerate()
+        .map(|(left, pair)| {
+            // The right scale in the tangent frame of the left one.
+            let beside = right.origin - Vec2::new(row.pitch(), 0.0);
+            let moved = beside + right.outward(pair[1].displacement);
+            let seen = Pose::new(moved.x, moved.y, pair[1].rotation - right.angle);
+            let polygon = overlap_polygon(row.scale(), row.pitch(), &pair[0], &seen);
+            let frame = body.frame(left as f64 * row.pitch());
+            let points: Vec<_> =
+                polygon.iter().map(|point| (frame.origin + frame.outward(*point)).into()).collect();
+            (left, points)
+        })
+        .filter(|(_, points)| points.len() > 2)
+        .collect()
 }

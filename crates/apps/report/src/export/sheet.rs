@@ -39,10 +39,10 @@ impl Formats {
     fn new(digits: usize) -> Self {
         let header = Format::new().set_bold().set_background_color(GREY);
         let header = header.set_border_bottom(FormatBorder::Thin).set_align(FormatAlign::Left);
-        let red = |format: Format| format.set_font_color(RED[0]).set_background_color(RED[1]);
         let number = Format::new().set_num_format("0".repeat(digits));
-        let failed_number = red(number.clone());
-        Self { header, failed: red(Format::new()), number, failed_number }
+        let [failed, failed_number] = [Format::new(), number.clone()]
+            .map(|format| format.set_font_color(RED[0]).set_background_color(RED[1]));
+        Self { header, failed, number, failed_number }
     }
 }
 

@@ -275,17 +275,21 @@ fn leading(folder: &VerifiedFolder) -> Result<Vec<[String; 3]>, ExportError> {
     let Ok((format, mut table)) = super::open(folder.file(ranking)?) else { return Ok(Vec::new()) };
     let Ok(header) = table.headers().cloned() else { return Ok(Vec::new()) };
     let places = ["rank", "design", "fitness"].map(|name| header.iter().position(|h| h == name));
-    let row = |row: csv::StringRecord| {
-        places.map(|place| {
-            let cell = place.and_then(|place| row.get(place)).unwrap_or_default();
-            // Only fitness has decimals. Ranks and design numbers stay as they are.
-            match format.number(cell).filter(|_| cell.contains(['.', ','])) {
-                Some(number) => format!("{number:.6}"),
-                None => cell.to_owned(),
-            }
+    Ok(table
+        .records()
+        .take(LISTED)
+        .filter_map(Result::ok)
+        .map(|row| {
+            places.map(|place| {
+                let cell = place.and_then(|place| row.get(place)).unwrap_or_default();
+                // Only fitness has decimals. Ranks and design numbers stay as they are.
+                match format.number(cell).filter(|_| cell.contains(['.', ','])) {
+                    Some(number) => format!("{number:.6}"),
+                    None => cell.to_owned(),
+                }
+            })
         })
-    };
-    Ok(table.records().take(LISTED).filter_map(Result::ok).map(row).collect())
+        .collect())
 }
 
 #[cfg(test)]

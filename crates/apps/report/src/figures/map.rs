@@ -395,13 +395,17 @@ impl Map<'_> {
         let position = |values: &DistinctNumbers, column, row| {
             values.position(self.designs.number(column, row)?)
         };
-        let cell = |row| {
-            Some((
-                [position(&self.x, self.subject.x, row)?, position(&self.y, self.subject.y, row)?],
-                row,
-            ))
-        };
-        (0..self.designs.count()).filter_map(cell).collect()
+        (0..self.designs.count())
+            .filter_map(|row| {
+                Some((
+                    [
+                        position(&self.x, self.subject.x, row)?,
+                        position(&self.y, self.subject.y, row)?,
+                    ],
+                    row,
+                ))
+            })
+            .collect()
     }
 
     fn cells(&self, at: &HashMap<[usize; 2], usize>) -> Element {

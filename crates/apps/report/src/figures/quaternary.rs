@@ -72,12 +72,15 @@ fn regions(designs: &Designs, winners: &[RankedDesign<'_>], listed: usize) -> Ve
     let rows = || winners.iter().map(RankedDesign::row).take(listed);
     let slant = |row: usize| designs.number("slant_deg", row).unwrap_or(90.0);
     let palette = designs.palette();
-    let region = |((k, row), letter): ((usize, usize), char)| {
-        let before = rows().take(k).filter(|other| slant(*other) == slant(row)).count();
-        let color = shaded(&palette.color(slant(row)), SHADES[before % SHADES.len()]);
-        RegionLook { row, color, letter: letter.to_string() }
-    };
-    rows().enumerate().zip('A'..).map(region).collect()
+    rows()
+        .enumerate()
+        .zip('A'..)
+        .map(|((k, row), letter)| {
+            let before = rows().take(k).filter(|other| slant(*other) == slant(row)).count();
+            let color = shaded(&palette.color(slant(row)), SHADES[before % SHADES.len()]);
+            RegionLook { row, color, letter: letter.to_string() }
+        })
+        .collect()
 }
 
 fn badge(text: &str, [x, y]: Spot) -> Element {

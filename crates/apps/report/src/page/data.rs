@@ -78,7 +78,10 @@ pub(super) fn of(page: &Page, figures: &[Value]) -> Value {
         "mass": name::AREAL_MASS,
         "shown": {"first": shown(Shown::First), "last": last},
         "numeric": headers.iter().filter(|header| page.designs.has(header)).collect::<Vec<_>>(),
-        "columns": columns.map(|(name, (unit, meaning))| json!({"name": name, "unit": unit, "meaning": meaning, "goal": plain_goal(name).map(Goal::key), "measuredBy": measured_by(name)})).collect::<Vec<_>>(),
+        "columns": columns.map(|(name, (unit, meaning))| json!({
+            "name": name, "unit": unit, "meaning": meaning, "goal": plain_goal(name).map(Goal::key),
+            "measuredBy": measured_by(name),
+        })).collect::<Vec<_>>(),
         "count": page.designs.count(),
         "slants": slants(page.designs.values("slant_deg")),
         "run": page.run,

@@ -120,8 +120,13 @@ impl PageFront {
         let values = headers.map(|header| (header.clone(), cells(&self.designs, header).into()));
         json!({
             "folder": visible(&self.folder),
-            "objectives": self.objectives.iter().map(|criterion| json!({"column": criterion.column, "goal": criterion.goal.key()})).collect::<Vec<_>>(),
-            "requirements": self.requirements.iter().map(|requirement| json!({"column": requirement.column, "sign": requirement.relation.sign(), "limit": requirement.limit})).collect::<Vec<_>>(),
+            "objectives": self.objectives.iter().map(|criterion| json!({
+                "column": criterion.column, "goal": criterion.goal.key(),
+            })).collect::<Vec<_>>(),
+            "requirements": self.requirements.iter().map(|requirement| json!({
+                "column": requirement.column, "sign": requirement.relation.sign(),
+                "limit": requirement.limit,
+            })).collect::<Vec<_>>(),
             "sound": self.sound,
             "made": self.made,
             "variables": self.variables,

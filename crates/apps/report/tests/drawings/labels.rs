@@ -20,28 +20,31 @@ fn attribute(element: &str, name: &str) -> Option<f64> {
 
 /// Returns the boxes of all texts, from the mean width of a letter.
 fn texts(svg: &str) -> Vec<TextBox> {
-    let text = |part: &str| {
-        let (opening, rest) = part.split_once('>')?;
-        let (body, _) = rest.split_once("</text>")?;
-        let inside = body.split('<').filter_map(|piece| piece.rsplit('>').next());
-        let words: String = inside.collect::<String>().replace("&lt;", "<").replace("&gt;", ">");
-        let [x, y, size] = ["x", "y", "font-size"].map(|name| attribute(opening, name));
-        let (x, y, size) = (x?, y?, size?);
-        let width = 0.5 * size * words.chars().count() as f64;
-        let before = match opening {
-            _ if opening.contains("\"middle\"") => 0.5 * width,
-            _ if opening.contains("\"end\"") => width,
-            _ => 0.0,
-        };
-        let is_upright = opening.contains("rotate(-90");
-        let area = if is_upright {
-            [x - 0.7 * size, y - width + before, x, y + before]
-        } else {
-            [x - before, y - 0.7 * size, x - before + width, y]
-        };
-        (!words.is_empty()).then_some((words, area))
-    };
-    svg.split("<text").skip(1).filter_map(text).collect()
+    svg.split("<text")
+        .skip(1)
+        .filter_map(|part| {
+            let (opening, rest) = part.split_once('>')?;
+            let (body, _) = rest.split_once("</text>")?;
+            let inside = body.split('<').filter_map(|piece| piece.rsplit('>').next());
+            let words: String =
+                inside.collect::<String>().replace("&lt;", "<").replace("&gt;", ">");
+            let [x, y, size] = ["x", "y", "font-size"].map(|name| attribute(opening, name));
+            let (x, y, size) = (x?, y?, size?);
+            let width = 0.5 * size * words.chars().count() as f64;
+            let before = match opening {
+                _ if opening.contains("\"middle\"") => 0.5 * width,
+                _ if opening.contains("\"end\"") => width,
+                _ => 0.0,
+            };
+            let is_upright = opening.contains("rotate(-90");
+            let area = if is_upright {
+                [x - 0.7 * size, y - width + before, x, y + before]
+            } else {
+                [x - before, y - 0.7 * size, x - before + width, y]
+            };
+            (!words.is_empty()).then_some((words, area))
+        })
+        .collect()
 }
 
 /// Checks that texts are inside the sheet and apart.

@@ -40,15 +40,19 @@ fn shared(a: &[Point; 4], b: &[Point; 4]) -> f64 {
 /// Returns the corners of every scale, with the origin at the first node.
 fn bodies(design: &Design, state: &RowSnapshot) -> Vec<[Point; 4]> {
     let row = design.row().expect("a row");
-    let body = |(i, scale): (usize, &skin::puncture::ScaleState)| {
-        let [x, y] = scale.displacement;
-        let pose = Pose::new(x, y, scale.rotation_deg.to_radians());
-        row.scale().corners().map(|corner| {
-            let turned = pose.turn(corner);
-            [i as f64 * row.pitch() + x + turned.x, y + turned.y]
+    state
+        .scales
+        .iter()
+        .enumerate()
+        .map(|(i, scale)| {
+            let [x, y] = scale.displacement;
+            let pose = Pose::new(x, y, scale.rotation_deg.to_radians());
+            row.scale().corners().map(|corner| {
+                let turned = pose.turn(corner);
+                [i as f64 * row.pitch() + x + turned.x, y + turned.y]
+            })
         })
-    };
-    state.scales.iter().enumerate().map(body).collect()
+        .collect()
 }
 
 /// Returns the left scale and the area (px²) of every red polygon in a drawing.

@@ -22,16 +22,23 @@ fn names(file: &Path) -> String {
 
 /// Returns the expected cells of a sheet: numbers as numbers, everything else as text.
 fn expected(table: &str, separator: char) -> Vec<Vec<Data>> {
-    let cell = |text: &str| {
-        let number = text.replace(',', ".").parse::<f64>().ok().filter(|n| n.is_finite());
-        match number {
-            _ if text.is_empty() => Data::Empty,
-            Some(number) => Data::Float(number),
-            None => Data::String(text.to_owned()),
-        }
-    };
     let table = table.trim_start_matches('\u{feff}');
-    table.lines().map(|line| line.split(separator).map(cell).collect()).collect()
+    table
+        .lines()
+        .map(|line| {
+            line.split(separator)
+                .map(|text| {
+                    let number =
+                        text.replace(',', ".").parse::<f64>().ok().filter(|n| n.is_finite());
+                    match number {
+                        _ if text.is_empty() => Data::Empty,
+                        Some(number) => Data::Float(number),
+                        None => Data::String(text.to_owned()),
+                    }
+                })
+                .collect()
+        })
+        .collect()
 }
 
 /// Opens complete results, verified against `contents.toml` if the file exists.

@@ -11,9 +11,12 @@ pub(super) const LARGEST_STIFFNESS: DesignValue = |design| design.max_stiffness;
 pub(super) const INITIAL_STIFFNESS: DesignValue = |design| design.initial_stiffness;
 
 pub(super) fn correlation(evidence: &Evidence, stiffness: DesignValue) -> Option<Measured> {
-    let pair = |d: &MeasuredDesign| Some([stiffness(d)?, FORCE(d)?]);
-    let pairs: Vec<_> =
-        evidence.designs.iter().filter(|d| d.is_in_figures()).filter_map(pair).collect();
+    let pairs: Vec<_> = evidence
+        .designs
+        .iter()
+        .filter(|d| d.is_in_figures())
+        .filter_map(|d| Some([stiffness(d)?, FORCE(d)?]))
+        .collect();
     Some(ranking::rank_correlation(&pairs)?.into())
 }
 
@@ -23,8 +26,12 @@ pub(super) fn shares(
     value: DesignValue,
 ) -> Option<Measured> {
     // Variance of the logarithm, because the largest of values over decades would dominate.
-    let valued = |d| Some((d, value(d)?.ln()));
-    let designs: Vec<_> = evidence.designs.iter().filter(|d| among(d)).filter_map(valued).collect();
+    let designs: Vec<_> = evidence
+        .designs
+        .iter()
+        .filter(|d| among(d))
+        .filter_map(|d| Some((d, value(d)?.ln())))
+        .collect();
     if designs.is_empty() {
         return None;
     }

@@ -16,11 +16,14 @@ pub(super) fn slanted_scales_soften(evidence: &Evidence) -> Option<Measured> {
     // A path that stops early has no final slope, and does not count as softening.
     let softens = slanted.iter().filter(|s| s.softening.is_some_and(|ratio| ratio < SOFTENS));
     let value = 100.0 * softens.count() as f64 / slanted.len() as f64;
-    let ratio = |strip: &&BentStrip| {
-        let ratio = strip.softening.map_or_else(|| "no value".to_owned(), digits);
-        format!("× {ratio} with {}°", strip.slant)
-    };
-    let shown = slanted.iter().map(ratio).collect::<Vec<_>>().join(", ");
+    let shown = slanted
+        .iter()
+        .map(|strip| {
+            let ratio = strip.softening.map_or_else(|| "no value".to_owned(), digits);
+            format!("× {ratio} with {}°", strip.slant)
+        })
+        .collect::<Vec<_>>()
+        .join(", ");
     (!slanted.is_empty()).then_some(Measured { value, shown })
 }
 

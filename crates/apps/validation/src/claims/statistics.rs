@@ -63,12 +63,15 @@ impl fmt::Display for TrendSteps {
     }
 }
 
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
 /// Returns the fraction of the variance of a value that a parameter explains alone.
 ///
 /// It is the variance of the means over designs with equal values of the parameter (first-order
 /// effect, Sobol 1993).
 pub(crate) fn explained(designs: &[(&MeasuredDesign, f64)], parameter: DesignParameter) -> f64 {
-    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
     // Keys are the bits of the numbers: equal grid values have equal bits.
     let mut groups = BTreeMap::<u64, Vec<f64>>::new();
     for (design, value) in designs {

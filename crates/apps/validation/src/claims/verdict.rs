@@ -50,11 +50,15 @@ fn within(range: Interval, number: f64) -> bool {
     range[0] <= number && number <= range[1]
 }
 
+/// Parses a number, with or without the sign of degrees.
+fn number(text: &str) -> Option<f64> {
+    text.trim_end_matches('°').parse().ok()
+}
+
 /// Parses a range: `≥ 1`, `≤ 1`, `1 to 2`, `1` or `any`.
 ///
 /// Degrees may have their sign.
 fn interval(text: &str) -> Option<Interval> {
-    let number = |text: &str| text.trim_end_matches('°').parse::<f64>().ok();
     if text == "any" {
         Some([f64::NEG_INFINITY, f64::INFINITY])
     } else if let Some(low) = text.strip_prefix("≥ ") {

@@ -16,31 +16,32 @@ use crate::space::{DesignSpace, SpacePoint};
 /// Maximum number of intervals for which all corners are evaluated.
 const CORNERED: usize = 12;
 
+/// Returns true for a lower bound of one of `columns`.
+fn is_lower_bound(requirement: &Requirement, columns: &[&str]) -> bool {
+    columns.contains(&requirement.column.as_str()) && requirement.direction() > 0.0
+}
+
 /// Returns errors for requirements on coverage and compliance that cannot be met.
 pub(super) fn out_of_bounds(goal: &GoalSection, space: &DesignSpace) -> Vec<InvalidDefinition> {
     let Some((least, most)) = open_shares(space) else { return Vec::new() };
     let mut refused = Vec::new();
-    let asked = |r: &Requirement, columns: &[&str]| {
-        columns.contains(&r.column.as_str()) && r.direction() > 0.0
-    };
-    let covering = |r: &Requirement| asked(r, &[name::COVERAGE]);
-    let bending = |r: &Requirement| asked(r, &COMPLIANCES);
     for (requirement, place) in &goal.requirements {
-        let (bound, why) = if covering(requirement) {
+        let is_on_coverage = is_lower_bound(requirement, &[name::COVERAGE]);
+        let (bound, why) = if is_on_coverage {
             (1.0 - least, "coverage is at most 1 - d/p, the part of the pitch that scales take")
-        } else if bending(requirement) {
+        } else if is_lower_bound(requirement, &COMPLIANCES) {
             (most, "compliance is at most d/p, the part of the pitch that gaps take")
         } else {
             continue;
         };
-        let beside =
-            goal.requirements.iter().map(|(other, _)| other).filter(|other| bending(other));
-        let mut beside = beside.filter(|other| requirement.limit + other.limit > 1.0);
+        let mut beside = goal.requirements.iter().map(|(other, _)| other).filter(|other| {
+            is_lower_bound(other, &COMPLIANCES) && requirement.limit + other.limit > 1.0
+        });
         let expected = if !requirement.is_met(bound) {
             format!("at most {} between these ends of the variables: {why}", number::text(bound))
-        } else if let Some(other) = beside
-            .next()
-            .filter(|other| covering(requirement) && !requirement.is_met(1.0 - other.limit))
+        } else if let Some(other) = beside.next()
+            && is_on_coverage
+            && !requirement.is_met(1.0 - other.limit)
         {
             let room = number::text(rounded(1.0 - other.limit));
             format!(

@@ -58,22 +58,12 @@ impl FitnessSection {
 
     /// Reads the key `rescale`.
     pub fn rescale(&mut self, entry: &KeyValue) -> Result<(), InvalidDefinition> {
-        let number = |value: &Value| match value {
-            Value::Number(text) => text.parse::<f64>().ok().filter(|number| number.is_finite()),
-            _ => None,
-        };
-        let ends = |inner: &KeyValue| match &inner.value {
-            Value::List(items) => match items.as_slice() {
-                [worst, best] => {
-                    let (worst, best) = (number(worst)?, number(best)?);
-                    Some((
-                        CriterionEnds { column: inner.key.clone(), worst, best },
-                        inner.place.clone(),
-                    ))
-                }
-                _ => None,
-            },
-            _ => None,
+        let ends = |inner: &KeyValue| {
+            let Value::List(items) = &inner.value else { return None };
+            let [Value::Number(worst), Value::Number(best)] = items.as_slice() else { return None };
+            let [worst, best] = [worst.parse::<f64>().ok()?, best.parse().ok()?];
+            let ends = CriterionEnds { column: inner.key.clone(), worst, best };
+            (worst.is_finite() && best.is_finite()).then(|| (ends, inner.place.clone()))
         };
         let read = table(&entry.value).map(|inner| inner.iter().map(ends).collect());
         let read: Option<Vec<_>> = read.flatten();

@@ -7,7 +7,7 @@ use ranking::{FitnessGoal, Relation, Requirement};
 use results::columns::{design_columns, measure_of};
 use results::measurement_conditions;
 use sweep::{
-    Axis, InvalidDefinition, Problem, Role, Setting, Sweep, Variable, VariableValues, entries, key,
+    Axis, InvalidDefinition, Problem, Role, Setting, Sweep, VariableValues, entries, key,
     read_entries, refuse,
 };
 use text::nearest;
@@ -196,17 +196,20 @@ fn unsearchable(entries: &KeyValues, sweep: &Sweep, file: &Place) -> Vec<Invalid
         let entry = section(entries, section_name).iter().find(|entry| entry.key == key);
         entry.map_or(file, |entry| &entry.place)
     };
-    let is_vague = |variable: &&Variable| {
-        let parameter = variable.parameter();
-        let describes = parameter.has(Role::Continuous) || parameter.has(Role::Made);
-        matches!(variable.values(), VariableValues::Between(..)) && !describes
-    };
-    let vague = sweep.variables().iter().filter(is_vague).map(|variable| {
-        let key = variable.parameter().key;
-        let expected = "a list of its values: it is no number that describes the skin";
-        let place = place("variables", key);
-        not_accepted(place, &format!("variables.{key}"), variable.to_toml(), expected)
-    });
+    let vague = sweep
+        .variables()
+        .iter()
+        .filter(|variable| {
+            let parameter = variable.parameter();
+            let describes = parameter.has(Role::Continuous) || parameter.has(Role::Made);
+            matches!(variable.values(), VariableValues::Between(..)) && !describes
+        })
+        .map(|variable| {
+            let key = variable.parameter().key;
+            let expected = "a list of its values: it is no number that describes the skin";
+            let place = place("variables", key);
+            not_accepted(place, &format!("variables.{key}"), variable.to_toml(), expected)
+        });
     let open = sweep.grid().axes().iter().filter(|axis| axis.len() > 1).map(|axis: &Axis| {
         let key = axis.parameter().key;
         let expected = format!("one value, or {key} among [variables]");
@@ -235,13 +238,16 @@ fn senseless(
     // Requirements compare no designs, so the least tilt under a given force is a valid goal.
     let objectives = named.iter().filter(|named| named.key != "goal.require");
     let incomparable = objectives.flat_map(|Written { column, key, place }| {
-        let fails = |v: &&Variable| {
-            measurement_conditions(Statistic::base(column)).contains(&v.parameter().key)
-        };
-        sweep.variables().iter().filter(fails).map(|variable| {
-            let found = format!("an objective with {} as a variable", variable.parameter().key);
-            not_accepted(place, key, found, "values that can be compared between designs")
-        })
+        sweep
+            .variables()
+            .iter()
+            .filter(|v| {
+                measurement_conditions(Statistic::base(column)).contains(&v.parameter().key)
+            })
+            .map(|variable| {
+                let found = format!("an objective with {} as a variable", variable.parameter().key);
+                not_accepted(place, key, found, "values that can be compared between designs")
+            })
     });
     let found = columns.chain(incomparable).chain(contradictions(goal));
     found.chain(out_of_reach(goal, sweep)).chain(statistics::senseless(goal)).collect()

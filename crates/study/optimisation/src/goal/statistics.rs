@@ -79,30 +79,28 @@ pub(super) fn nearly(column: &str, known: &[&str]) -> Option<String> {
 
 /// Returns errors for meaningless yields and for an unused number of samples.
 pub(super) fn senseless(goal: &GoalSection) -> Vec<InvalidDefinition> {
-    let is_yield = |column: &str| column == Statistic::YIELD;
     let mut refused = Vec::new();
     for (requirement, place) in &goal.requirements {
         let is_bound = matches!(requirement.relation, Relation::AtLeast | Relation::Above);
         let is_share = requirement.limit > 0.0 && requirement.limit <= 1.0;
         let is_strict = requirement.relation == Relation::Above && requirement.limit >= 1.0;
-        if is_yield(&requirement.column) && (!is_bound || !is_share || is_strict) {
+        if requirement.column == Statistic::YIELD && (!is_bound || !is_share || is_strict) {
             let expected = "the least share of samples, at most 1, e.g. yield >= 0.9";
             refused.push(not_accepted(place, "goal.require", requirement, expected));
         }
     }
     for (criterion, place) in &goal.objectives {
-        if is_yield(&criterion.column) && criterion.goal == Goal::Minimize {
+        if criterion.column == Statistic::YIELD && criterion.goal == Goal::Minimize {
             refused.push(not_accepted(place, "goal.minimize", "yield", "it in maximize"));
         }
     }
-    let plain = |column: &str| Statistic::named(column).is_none();
-    let has_bounds = goal.requirements.iter().any(|(requirement, _)| plain(&requirement.column));
-    let mut yields = goal.columns().filter(|named| is_yield(named.column) && !has_bounds);
+    let has_bounds = goal.requirements.iter().any(|(r, _)| Statistic::named(&r.column).is_none());
+    let mut yields = goal.columns().filter(|named| named.column == Statistic::YIELD && !has_bounds);
     refused.extend(yields.next().map(|Written { column, key, place }| {
         let expected = "a requirement that samples are to meet beside it, e.g. \"coverage >= 0.5\"";
         not_accepted(place, key, column, expected)
     }));
-    let is_sampled = goal.columns().any(|named| !plain(named.column));
+    let is_sampled = goal.columns().any(|named| Statistic::named(named.column).is_some());
     if let Some(place) = goal.skins_place.as_ref().filter(|_| !is_sampled) {
         let reason = "the goal names no yield or quantile";
         refused.push(no_effect(place, "goal.skins", reason));

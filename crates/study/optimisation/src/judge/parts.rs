@@ -46,12 +46,16 @@ impl JudgeParts<'_> {
             Some((objective.goal, source(&objective.column, large, &statistics)?))
         });
         let objectives = objectives.collect();
-        let required = |requirement: &Requirement| {
-            let large = requirement.direction() > 0.0;
-            let column = source(&requirement.column, large, &statistics)?;
-            Some(Bound { requirement: requirement.clone(), column })
-        };
-        let mut requirements: Vec<_> = self.goal.requirements.iter().filter_map(required).collect();
+        let mut requirements: Vec<_> = self
+            .goal
+            .requirements
+            .iter()
+            .filter_map(|requirement| {
+                let large = requirement.direction() > 0.0;
+                let column = source(&requirement.column, large, &statistics)?;
+                Some(Bound { requirement: requirement.clone(), column })
+            })
+            .collect();
         let open = self.open(&mut statistics);
         let soundness = open.as_ref().map(|_| requirements.len());
         requirements.extend(open);

@@ -50,15 +50,18 @@ fn best_of_grid(goal: &DesignGoal, ranges: &[[f64; 2]], points: usize) -> GridBe
         from + (to - from) * k as f64 / (points - 1) as f64
     };
     // Designs with equal gap and length share springs, which an evaluator caches.
-    let of_gap = |gap: usize| {
-        let solver = GoalSolver::new(goal);
-        let pairs = (0..points).flat_map(|length| (0..points).map(move |slant| [length, slant]));
-        let found = pairs.map(|[length, slant]| {
-            solver.best(vec![share(0, gap), share(1, length), share(2, slant)])
-        });
-        found.fold(GridBest::NONE, GridBest::or)
-    };
-    (0..points).into_par_iter().map(of_gap).reduce(|| GridBest::NONE, GridBest::or)
+    (0..points)
+        .into_par_iter()
+        .map(|gap| {
+            let solver = GoalSolver::new(goal);
+            let pairs =
+                (0..points).flat_map(|length| (0..points).map(move |slant| [length, slant]));
+            let found = pairs.map(|[length, slant]| {
+                solver.best(vec![share(0, gap), share(1, length), share(2, slant)])
+            });
+            found.fold(GridBest::NONE, GridBest::or)
+        })
+        .reduce(|| GridBest::NONE, GridBest::or)
 }
 
 /// Returns the best of `count` points of a low-discrepancy sequence in `ranges`.

@@ -106,10 +106,14 @@ fn upright_scales_have_derivatives_of_bending() {
         .expect("a sweep");
     let row = solved(&Evaluator::new(&Measure::ALL), &sweep, &sweep.grid().case(0));
     assert!(row.result.failures.is_empty(), "{:?}", row.result.failures);
-    let of = |derivative: &&results::ParameterDerivative| {
-        derivative.measure == "compliance" && derivative.parameter == "gap_over_t"
-    };
-    let derivative = row.result.sensitivity.iter().find(of).expect("a derivative");
+    let derivative = row
+        .result
+        .sensitivity
+        .iter()
+        .find(|derivative| {
+            derivative.measure == "compliance" && derivative.parameter == "gap_over_t"
+        })
+        .expect("a derivative");
     // C = d/p
     let (gap, length) = (0.37_f64, 0.81);
     let expected = length / (gap + length).powi(2);

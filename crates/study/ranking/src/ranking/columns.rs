@@ -5,7 +5,6 @@ use results::columns::{explain_value, number};
 use sweep::Parameter;
 
 use super::{FOUR, RankedDesign};
-use crate::criterion::Criterion;
 use crate::preferences::Preferences;
 
 type RankedColumns<'a> = Vec<Column<RankedDesign<'a>>>;
@@ -69,17 +68,20 @@ pub fn quaternary_columns<'a>(
     parameters: &[&'static Parameter],
     preferences: &Preferences,
 ) -> RankedColumns<'a> {
-    let weight = |(c, criterion): (usize, &Criterion)| {
-        let name = format!("{}_weight", criterion.column);
-        Column::computed(
-            name.into(),
-            "-",
-            "weight of the criterion",
-            move |s: &RankedDesign<'a>| s.weights.values()[c].into(),
-        )
-    };
-    let mut columns: RankedColumns<'a> =
-        preferences.criteria.iter().enumerate().map(weight).collect();
+    let mut columns: RankedColumns<'a> = preferences
+        .criteria
+        .iter()
+        .enumerate()
+        .map(|(c, criterion)| {
+            let name = format!("{}_weight", criterion.column);
+            Column::computed(
+                name.into(),
+                "-",
+                "weight of the criterion",
+                move |s: &RankedDesign<'a>| s.weights.values()[c].into(),
+            )
+        })
+        .collect();
     columns.extend(design(parameters));
     columns.push(fitness("fitness of the best design by these weights"));
     columns.push(share("part of all weights for which the same design is the best"));
@@ -109,25 +111,33 @@ fn share<'a>(meaning: &'static str) -> Column<RankedDesign<'a>> {
 ///
 /// The columns of the design already contain the parameters.
 fn criteria<'a>(preferences: &Preferences) -> RankedColumns<'a> {
-    let is_measured = |(_, criterion): &(usize, &Criterion)| {
-        results::columns::parameter_of(&criterion.column).is_none()
-    };
-    let column = |(c, criterion): (usize, &Criterion)| {
-        let (unit, meaning) = explain_value(&criterion.column).unwrap_or(("-", ""));
-        let name = criterion.column.clone().into_owned();
-        Column::computed(name.into(), unit, meaning, move |s: &RankedDesign<'a>| s.value(c).into())
-    };
-    preferences.criteria.iter().enumerate().filter(is_measured).map(column).collect()
+    preferences
+        .criteria
+        .iter()
+        .enumerate()
+        .filter(|(_, criterion)| results::columns::parameter_of(&criterion.column).is_none())
+        .map(|(c, criterion)| {
+            let (unit, meaning) = explain_value(&criterion.column).unwrap_or(("-", ""));
+            let name = criterion.column.clone().into_owned();
+            Column::computed(name.into(), unit, meaning, move |s: &RankedDesign<'a>| {
+                s.value(c).into()
+            })
+        })
+        .collect()
 }
 
 fn rescaled<'a>(preferences: &Preferences) -> RankedColumns<'a> {
-    let column = |(c, criterion): (usize, &Criterion)| {
-        // Named by `key`: penetration is a column, but the resistance to it is rescaled.
-        let name = format!("{}_rescaled", criterion.key());
-        let meaning = "criterion from 0, the worst of all ranked designs, to 1, the best";
-        Column::computed(name.into(), "-", meaning, move |s: &RankedDesign<'a>| {
-            s.rescaled(c).into()
+    preferences
+        .criteria
+        .iter()
+        .enumerate()
+        .map(|(c, criterion)| {
+            // Named by `key`: penetration is a column, but the resistance to it is rescaled.
+            let name = format!("{}_rescaled", criterion.key());
+            let meaning = "criterion from 0, the worst of all ranked designs, to 1, the best";
+            Column::computed(name.into(), "-", meaning, move |s: &RankedDesign<'a>| {
+                s.rescaled(c).into()
+            })
         })
-    };
-    preferences.criteria.iter().enumerate().map(column).collect()
+        .collect()
 }

@@ -1,6 +1,7 @@
 //! Selects the designs that can be ranked, and counts reasons to exclude others.
 
 use std::collections::BTreeMap;
+use std::slice::ChunksExact;
 
 use results::columns::name;
 use results::round_off::merge_equal;
@@ -55,12 +56,11 @@ impl LeftOut {
 
     /// Describes the reason, for messages.
     pub fn in_words(self, preferences: &Preferences) -> String {
-        let column = |c: usize| &preferences.criteria[c].column;
         match self {
             Self::Unmet(place) => format!("not {}", preferences.requirements[place]),
             Self::Exposed => "coverage is 0".to_owned(),
-            Self::Missing(c) => format!("no {}", column(c)),
-            Self::NotPositive(c) => format!("{} is not above 0", column(c)),
+            Self::Missing(c) => format!("no {}", preferences.criteria[c].column),
+            Self::NotPositive(c) => format!("{} is not above 0", preferences.criteria[c].column),
         }
     }
 }
@@ -148,7 +148,7 @@ impl Contenders {
     }
 
     /// Returns the terms of the score of each design, one per criterion.
-    pub fn terms(&self) -> impl ExactSizeIterator<Item = &[f64]> {
+    pub fn terms(&self) -> ChunksExact<'_, f64> {
         self.terms.chunks_exact(self.columns.len())
     }
 

@@ -1,6 +1,7 @@
 //! Rankings of the designs of a run.
 
 use std::collections::BTreeSet;
+use std::fmt::Write as _;
 
 use proptest::prelude::*;
 use ranking::{
@@ -18,9 +19,11 @@ const HEADER: &str =
 /// Returns results with these values of the four criteria.
 fn results(rows: &[&str]) -> Results {
     let folder = TempDir::new().expect("a folder");
-    let row = |(i, values): (usize, &&str)| format!("\n{:04},0.1,{},45,{values}", i + 1, i + 1);
-    let rows: String = rows.iter().enumerate().map(row).collect();
-    std::fs::write(folder.path().join("designs.csv"), format!("{HEADER}{rows}")).expect("writable");
+    let mut table = HEADER.to_owned();
+    for (i, values) in rows.iter().enumerate() {
+        let _ = write!(table, "\n{:04},0.1,{},45,{values}", i + 1, i + 1);
+    }
+    std::fs::write(folder.path().join("designs.csv"), table).expect("writable");
     Results::read(folder.path()).expect("results")
 }
 

@@ -55,8 +55,8 @@ pub fn path_columns(is_guided: bool, rubs: bool) -> Vec<Column<StabilityPoint>> 
 ///
 /// There is one for each scale from the first to the last touched scale.
 pub fn tip_force_columns(forces: &[TipForces]) -> Vec<Column<usize>> {
-    let scales = || forces.iter().flatten().map(|(scale, _)| *scale);
-    let (Some(first), Some(last)) = (scales().min(), scales().max()) else { return Vec::new() };
+    let scales = forces.iter().flatten().map(|(scale, _)| *scale);
+    let (Some(first), Some(last)) = (scales.clone().min(), scales.max()) else { return Vec::new() };
     (first..=last).map(|scale| {
         let on = |of: &TipForces| of.iter().find(|(touched, _)| *touched == scale).map(|of| of.1);
         // A scale without contact to the tip carries the known force 0, so its cell is not empty.

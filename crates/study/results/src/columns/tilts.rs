@@ -43,14 +43,13 @@ fn places(sweep: &Sweep) -> Vec<String> {
         Scalar::List(list) if sweep.grid().axis(key).is_none() => Some(list),
         _ => None,
     };
-    let text = |&number: &f64| number::text(number);
     // Name the columns after the requested frictions, not after the tilts computed from them.
     if let Some(frictions) = list(key::NEEDLE_FRICTION) {
-        let names = frictions.as_slice().iter().map(text);
-        return names.map(|friction| format!("friction_{friction}")).collect();
+        let frictions = frictions.as_slice().iter();
+        return frictions.map(|&f| format!("friction_{}", number::text(f))).collect();
     }
     let tilts = list(key::CRITICAL_TILT).unwrap_or_default();
-    tilts.as_slice().iter().map(text).map(|tilt| format!("{tilt}deg")).collect()
+    tilts.as_slice().iter().map(|&tilt| format!("{}deg", number::text(tilt))).collect()
 }
 
 /// Returns unit and meaning of a column at a tilt, by its name.

@@ -112,13 +112,13 @@ impl VerifiedFolder {
 
     /// Returns the message for a journal that is longer than the tables.
     pub fn behind(&self) -> Option<InvalidFolder> {
-        let problem = || {
-            format!(
+        self.behind.then(|| {
+            let problem = format!(
                 "the journal has more designs than the tables, because a run is going on or was ended before it wrote them; {} writes them, --partial uses the designs of the tables",
                 mend(self.path())
-            )
-        };
-        self.behind.then(|| InvalidFolder::new(self.path(), problem()))
+            );
+            InvalidFolder::new(self.path(), problem)
+        })
     }
 
     /// Returns the path of the folder.

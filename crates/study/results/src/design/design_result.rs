@@ -122,7 +122,8 @@ impl PunctureResult {
             calibration_error: finite(calibration_error),
             weakest: (!puncture.places.is_empty()).then(
                 || match puncture::Weakest::from_positions(&puncture.places) {
-                    // The omitted measures lack the weakest load position even if the search found it.
+                    // The omitted measures lack the weakest load position even if the search found
+                    // it.
                     Ok(weakest) if weakest == measures.weakest => Outcome::Complete,
                     Ok(_) => Outcome::NotFinite,
                     Err(status) => status.into(),

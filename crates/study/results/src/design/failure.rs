@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 use skin::Iteration;
-use skin::flexure::{Flexure, FlexurePoint};
-use skin::puncture::{Puncture, PuncturePoint};
+use skin::flexure::Flexure;
+use skin::puncture::Puncture;
 use sweep::Measure;
 
 use super::outcome::Outcome;
@@ -43,18 +43,24 @@ pub struct PathEnd {
 impl PathEnd {
     /// Returns the end of the path of a puncture.
     pub fn of_puncture(puncture: &Puncture) -> Self {
-        let end = |point: &PuncturePoint| {
-            Self::at([point.tilt_deg, point.force, point.displacement], point.contacts)
-        };
-        puncture.path.last().map_or_else(Self::default, end).after(&puncture.history)
+        puncture
+            .path
+            .last()
+            .map_or_else(Self::default, |point| {
+                Self::at([point.tilt_deg, point.force, point.displacement], point.contacts)
+            })
+            .after(&puncture.history)
     }
 
     /// Returns the end of the path of bending.
     pub fn of_flexure(flexure: &Flexure) -> Self {
-        let end = |point: &FlexurePoint| {
-            Self::at([point.end_rotation_deg, point.moment, point.curvature], point.contacts)
-        };
-        flexure.path.last().map_or_else(Self::default, end).after(&flexure.history)
+        flexure
+            .path
+            .last()
+            .map_or_else(Self::default, |point| {
+                Self::at([point.end_rotation_deg, point.moment, point.curvature], point.contacts)
+            })
+            .after(&flexure.history)
     }
 
     fn at([angle_deg, load, displacement]: [f64; 3], contacts: usize) -> Self {

@@ -107,13 +107,16 @@ impl Table {
     ///
     /// The first column holds the names of the rows.
     pub fn new(header: Vec<String>, is_read: impl Fn(&str) -> bool) -> Self {
-        let column = |(place, name): (usize, &String)| match place {
-            // Names stay texts: `7` and `007` are names of two rows.
-            0 => Column::Texts(Texts::default()),
-            _ if is_read(name) => Column::Numbers(Vec::new()),
-            _ => Column::Unread,
-        };
-        let columns = header.iter().enumerate().map(column).collect();
+        let columns = header
+            .iter()
+            .enumerate()
+            .map(|(place, name)| match place {
+                // Names stay texts: `7` and `007` are names of two rows.
+                0 => Column::Texts(Texts::default()),
+                _ if is_read(name) => Column::Numbers(Vec::new()),
+                _ => Column::Unread,
+            })
+            .collect();
         Self { header, columns, length: 0 }
     }
 

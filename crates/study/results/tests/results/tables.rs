@@ -6,11 +6,14 @@ use crate::sweep;
 
 fn headers(text: &str) -> String {
     let sweep = sweep(text);
-    let line = |table: results::columns::TableLayout| {
-        let names: Vec<_> = table.columns.iter().map(|column| column.name.as_ref()).collect();
-        format!("{}: {}", table.file, names.join(","))
-    };
-    tables(&sweep).into_iter().map(line).collect::<Vec<_>>().join("\n")
+    tables(&sweep)
+        .into_iter()
+        .map(|table| {
+            let names: Vec<_> = table.columns.iter().map(|column| column.name.as_ref()).collect();
+            format!("{}: {}", table.file, names.join(","))
+        })
+        .collect::<Vec<_>>()
+        .join("\n")
 }
 
 #[test]

@@ -252,7 +252,9 @@ pub(super) fn coverage(case: &Case, wanted: Wanted<'_>) -> Vec<ParameterDerivati
     let Ok(row) = case.design.row() else { return Vec::new() };
     let parameters = wanted.parameters(case, Measure::Coverage);
     if !case.body().is_flat() {
-        return coverage_on_body(case, &parameters);
+        let derivatives = parameters.iter().enumerate();
+        let derivatives = derivatives.map(|(index, of)| coverage_difference(case, index, of));
+        return named(case, &parameters, derivatives.collect());
     }
     let half_base = case.design.half_base() / case.design.length;
     let shift = row.scale().slant().cos().powi(-2) * 1.0_f64.to_radians();
@@ -280,13 +282,6 @@ pub(super) fn coverage(case: &Case, wanted: Wanted<'_>) -> Vec<ParameterDerivati
     };
     let keys = parameters.iter().map(|parameter| parameter.key).enumerate();
     named(case, &parameters, keys.map(derivative).collect())
-}
-
-/// Returns the derivatives of the coverage on a curved body.
-fn coverage_on_body(case: &Case, parameters: &[&'static Parameter]) -> Vec<ParameterDerivative> {
-    let derivatives = parameters.iter().enumerate();
-    let derivatives = derivatives.map(|(index, of)| coverage_difference(case, index, of));
-    named(case, parameters, derivatives.collect())
 }
 
 /// Differentiates the coverage on a curved body by one-sided differences of second order.

@@ -23,22 +23,25 @@ fn root() -> PathBuf {
 /// Numbers may differ by 1e-9, relative to the larger.
 fn differences(ours: &[(&str, String)], reference: &Results, row: usize) -> Vec<String> {
     assert_eq!(ours.iter().map(|(name, _)| *name).collect::<Vec<_>>(), reference.header());
-    let differs = |(column, (name, ours)): (usize, &(&str, String))| {
-        let theirs = reference.text(row, column);
-        let same = match (ours.parse::<f64>(), theirs.parse::<f64>()) {
-            (Ok(a), Ok(b)) => (a - b).abs() <= 1e-9 * a.abs().max(b.abs()),
-            _ => *ours == theirs,
-        };
-        // The number of steps may differ, but not the result.
-        let path = name.ends_with("_points") || name.ends_with("_iterations");
-        // A value that vanishes except for round-off has no significant digits.
-        let nothing = *name == "axial_energy_share" && theirs.parse().is_ok_and(|x: f64| x < 1e-20);
-        // A difference of nearly equal values has few significant digits.
-        let difference = *name == "flexure_error";
-        (!same && !path && !nothing && !difference)
-            .then(|| format!("{name}: {ours} instead of {theirs}"))
-    };
-    ours.iter().enumerate().filter_map(differs).collect()
+    ours.iter()
+        .enumerate()
+        .filter_map(|(column, (name, ours))| {
+            let theirs = reference.text(row, column);
+            let same = match (ours.parse::<f64>(), theirs.parse::<f64>()) {
+                (Ok(a), Ok(b)) => (a - b).abs() <= 1e-9 * a.abs().max(b.abs()),
+                _ => *ours == theirs,
+            };
+            // The number of steps may differ, but not the result.
+            let path = name.ends_with("_points") || name.ends_with("_iterations");
+            // A value that vanishes except for round-off has no significant digits.
+            let nothing =
+                *name == "axial_energy_share" && theirs.parse().is_ok_and(|x: f64| x < 1e-20);
+            // A difference of nearly equal values has few significant digits.
+            let difference = *name == "flexure_error";
+            (!same && !path && !nothing && !difference)
+                .then(|| format!("{name}: {ours} instead of {theirs}"))
+        })
+        .collect()
 }
 
 #[test]

@@ -44,7 +44,9 @@ proptest! {
     #[test]
     fn rows_do_not_depend_on_their_order(
         axes in Just(axes()).prop_shuffle().prop_flat_map(|axes| {
-            axes.into_iter().map(|(key, values)| (Just(key), Just(values).prop_shuffle())).collect::<Vec<_>>()
+            axes.into_iter()
+                .map(|(key, values)| (Just(key), Just(values).prop_shuffle()))
+                .collect::<Vec<_>>()
         }),
     ) {
         static ROWS: LazyLock<BTreeSet<Vec<String>>> = LazyLock::new(|| rows(&self::axes()));

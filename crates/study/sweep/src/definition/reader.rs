@@ -54,7 +54,7 @@ impl Reader {
             "measures" => self.read_measures(entry),
             suggestion::VARIABLES => self.entries(entry, Self::read_variable),
             suggestion::TOLERANCE => self.entries(entry, Self::read_deviation),
-            section if suggestion::is_section(section) => match short_name_key(section) {
+            section if suggestion::sections().contains(&section) => match short_name_key(section) {
                 // `material = "PLA"` names the material of the scales, `body = "finger"` the body.
                 Some(key) if matches!(entry.value, Value::Text(_)) => self.read_name_of(key, entry),
                 _ => self.section(section, entry),
@@ -523,15 +523,10 @@ fn missing_name(file: &Place) -> InvalidDefinition {
 /// Returns true if Windows reserves the name for a device, also with an extension.
 fn is_device(name: &str) -> bool {
     let stem = name.split('.').next().unwrap_or_default().trim_end().to_ascii_lowercase();
-    let numbered = |device| {
-        let number = stem.strip_prefix(device).and_then(|rest: &str| {
-            let mut digits = rest.chars();
-            digits.next().filter(|_| digits.next().is_none())
-        });
-        // Windows treats these three superscripts as digits.
-        number.is_some_and(|digit| "123456789¹²³".contains(digit))
-    };
-    ["con", "prn", "aux", "nul"].contains(&stem.as_str()) || numbered("com") || numbered("lpt")
+    let number = stem.strip_prefix("com").or_else(|| stem.strip_prefix("lpt"));
+    // Windows treats these three superscripts as digits.
+    ["con", "prn", "aux", "nul"].contains(&stem.as_str())
+        || number.is_some_and(|n| n.chars().count() == 1 && "123456789¹²³".contains(n))
 }
 
 /// Returns a name that is a valid folder name on any system.

@@ -6,7 +6,7 @@ use crate::named::NAME_KEYS;
 use crate::parameter::{PARAMETERS, Parameter, key};
 
 /// Section of the axes.
-const DESIGNS: &str = "designs";
+pub(crate) const DESIGNS: &str = "designs";
 
 /// Section of the parameters that are not fixed by any design.
 pub(crate) const VARIABLES: &str = "variables";
@@ -19,11 +19,6 @@ const TOP: [&str; 4] = ["name", "measures", VARIABLES, TOLERANCE];
 
 /// Keys with the same meaning for puncture and bending.
 const TWINS: [[&str; 2]; 1] = [[key::UNLOAD, key::UNBEND]];
-
-/// Returns true if a definition has a section with this name.
-pub(crate) fn is_section(key: &str) -> bool {
-    sections().contains(&key)
-}
 
 /// Returns the sections, each once, in the order of the parameters.
 pub(crate) fn sections() -> Vec<&'static str> {
@@ -62,11 +57,15 @@ fn keys_of(section: &str) -> Vec<&'static str> {
     if section.is_empty() {
         return TOP.into_iter().chain(sections()).collect();
     }
-    let belongs = |parameter: &&Parameter| {
-        section == DESIGNS || section == VARIABLES || section == parameter.section
-    };
     let names = NAME_KEYS.iter().filter(|name| name.section == section).map(|name| name.key);
-    PARAMETERS.iter().filter(belongs).map(|parameter| parameter.key).chain(names).collect()
+    PARAMETERS
+        .iter()
+        .filter(|parameter| {
+            section == DESIGNS || section == VARIABLES || section == parameter.section
+        })
+        .map(|parameter| parameter.key)
+        .chain(names)
+        .collect()
 }
 
 #[cfg(test)]

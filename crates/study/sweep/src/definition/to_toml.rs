@@ -3,9 +3,8 @@
 use std::fmt::Write as _;
 
 use super::measure::Measure;
-use super::suggestion::{TOLERANCE, VARIABLES, sections};
+use super::suggestion::{DESIGNS, TOLERANCE, VARIABLES, sections};
 use crate::definition::Sweep;
-use crate::grid::Axis;
 use text::toml_source::quoted;
 
 impl Sweep {
@@ -36,38 +35,28 @@ impl Sweep {
 
     /// Returns the lines of every section that is not empty.
     fn sections(&self) -> Vec<(&'static str, String)> {
-        let lines = |section: &&'static str| {
-            let lines = match *section {
-                "designs" => self.fixed_axes().map(axis_line).collect(),
-                section => self.shared_lines(section),
-            };
-            (*section, lines)
-        };
         let variables = self.variables.iter().map(|v| (v.parameter().key.to_owned(), v.to_toml()));
         let deviations = self.deviations.iter().map(|d| (d.key(), d.to_toml()));
-        let others =
-            [(VARIABLES, entry_lines(variables)), (TOLERANCE, entry_lines(deviations))].into_iter();
-        let all = sections().into_iter().map(|section| lines(&section)).chain(others);
-        all.filter(|(_, lines): &(_, String)| !lines.is_empty()).collect()
+        let others = [(VARIABLES, entry_lines(variables)), (TOLERANCE, entry_lines(deviations))];
+        let all = sections().into_iter().map(|section| (section, self.lines(section)));
+        all.chain(others).filter(|(_, lines)| !lines.is_empty()).collect()
     }
 
-    /// Returns the axes without the axes of variables.
-    fn fixed_axes(&self) -> impl Iterator<Item = &Axis> {
+    /// Returns the lines of the axes in `designs`, or of the shared values in another section.
+    fn lines(&self, section: &str) -> String {
+        if section != DESIGNS {
+            let shared = self.shared().filter(|(parameter, _)| parameter.section == section);
+            return entry_lines(shared.map(|(p, value)| (p.key.to_owned(), value.to_toml())));
+        }
         // A variable adds an axis with one value, its middle, which the definition does not
         // contain.
-        let is_variable =
-            |axis: &Axis| self.variables.iter().any(|v| v.parameter() == axis.parameter());
-        self.grid().axes().iter().filter(move |axis| !is_variable(axis))
+        let fixed = self
+            .grid()
+            .axes()
+            .iter()
+            .filter(|axis| self.variables.iter().all(|v| v.parameter() != axis.parameter()));
+        entry_lines(fixed.map(|axis| (axis.parameter().key.to_owned(), axis.to_toml())))
     }
-
-    fn shared_lines(&self, section: &str) -> String {
-        let shared = self.shared().filter(|(parameter, _)| parameter.section == section);
-        entry_lines(shared.map(|(parameter, value)| (parameter.key.to_owned(), value.to_toml())))
-    }
-}
-
-fn axis_line(axis: &Axis) -> String {
-    format!("{} = {}\n", axis.parameter().key, axis.to_toml())
 }
 
 fn entry_lines(entries: impl Iterator<Item = (String, String)>) -> String {

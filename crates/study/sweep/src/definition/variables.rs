@@ -2,7 +2,7 @@
 
 use super::axes;
 use super::invalid::Problem;
-use crate::parameter::{Parameter, Scalar, WrongValue};
+use crate::parameter::{Parameter, WrongValue};
 use crate::variable::{Variable, VariableValues};
 use text::toml_source::{KeyValues, Value};
 
@@ -10,9 +10,13 @@ use text::toml_source::{KeyValues, Value};
 pub(crate) fn read(parameter: &'static Parameter, value: &Value) -> Result<Variable, Problem> {
     let values = match value {
         Value::Table(entries) => between(parameter, entries, value)?,
-        Value::List(items) => one_of(axes::read_list(parameter, items)?, value)?,
-        single => return Err(fixed(single)),
+        Value::List(items) => VariableValues::OneOf(axes::read_list(parameter, items)?),
+        _ => VariableValues::OneOf(Vec::new()),
     };
+    if matches!(&values, VariableValues::OneOf(values) if values.len() < 2) {
+        let expected = "bounds or several values, e.g. { from = 0.1, to = 1 } or [0.5, 1]";
+        return Err(WrongValue::not_accepted(value, expected).into());
+    }
     Ok(Variable { parameter, values })
 }
 
@@ -44,13 +48,4 @@ fn between(
     } else {
         Err(wrong("`from` must be below `to`".to_owned()))
     }
-}
-
-fn one_of(values: Vec<Scalar>, written: &Value) -> Result<VariableValues, Problem> {
-    if values.len() > 1 { Ok(VariableValues::OneOf(values)) } else { Err(fixed(written)) }
-}
-
-fn fixed(written: &Value) -> Problem {
-    let expected = "bounds or several values, e.g. { from = 0.1, to = 1 } or [0.5, 1]";
-    WrongValue::not_accepted(written, expected).into()
 }

@@ -20,10 +20,8 @@ const RATIOS: [[&str; 3]; 5] = [
 impl Parameter {
     /// Returns true for a pair of a ratio and its numerator.
     pub(super) fn excludes(&self, other: &Self) -> bool {
-        let is_pair = |one: &Self, two: &Self| {
-            RATIOS.iter().any(|[ratio, above, _]| one.key == *ratio && two.key == *above)
-        };
-        is_pair(self, other) || is_pair(other, self)
+        let keys = [self.key, other.key];
+        RATIOS.iter().any(|&[ratio, above, _]| keys == [ratio, above] || keys == [above, ratio])
     }
 
     /// Returns true for a ratio with its numerator given in `MPa` or N.

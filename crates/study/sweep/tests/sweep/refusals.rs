@@ -16,8 +16,11 @@ fn refused(text: &str, settings: &[&str]) -> String {
 
 /// Returns the messages for definitions with a name and `lines`.
 fn all(lines: &[&str]) -> String {
-    let message = |line: &&str| refused(&format!("name = 'x'\n{line}"), &[]);
-    lines.iter().map(message).collect::<Vec<_>>().join("\n")
+    lines
+        .iter()
+        .map(|line| refused(&format!("name = 'x'\n{line}"), &[]))
+        .collect::<Vec<_>>()
+        .join("\n")
 }
 
 #[test]

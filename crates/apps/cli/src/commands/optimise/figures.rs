@@ -28,13 +28,17 @@ fn optimum(goal: &DesignGoal, best: &BestDesign) -> anyhow::Result<Figure> {
 
 /// Lists the evaluated designs with their position in a figure.
 fn designs(found: &Found, place: impl Fn(usize, &[f64]) -> [f64; 2]) -> Vec<SearchedDesign> {
-    let design = |(index, candidate): (usize, &optimisation::Candidate)| match &candidate.verdict {
-        Judgement::Judged(worth) => {
-            Some(SearchedDesign { place: place(index, &worth.objectives), met: worth.met })
-        }
-        _ => None,
-    };
-    found.history.iter().enumerate().filter_map(design).collect()
+    found
+        .history
+        .iter()
+        .enumerate()
+        .filter_map(|(index, candidate)| match &candidate.verdict {
+            Judgement::Judged(worth) => {
+                Some(SearchedDesign { place: place(index, &worth.objectives), met: worth.met })
+            }
+            _ => None,
+        })
+        .collect()
 }
 
 /// Draws the first objective of every design, and the best so far.
@@ -60,12 +64,11 @@ fn history(goal: &DesignGoal, found: &Found) -> Figure {
 
 /// Draws the first two objectives of every design, and the front.
 fn front(goal: &DesignGoal, found: &Found, front: &[BestDesign]) -> Figure {
-    let pair = |objectives: &[f64]| [objectives[0], objectives[1]];
-    let designs = designs(found, |_, objectives| pair(objectives));
+    let designs = designs(found, |_, objectives| [objectives[0], objectives[1]]);
     let line: Vec<[f64; 2]> = front
         .iter()
         .filter_map(|best| match &best.candidate.verdict {
-            Judgement::Judged(worth) => Some(pair(&worth.objectives)),
+            Judgement::Judged(worth) => Some([worth.objectives[0], worth.objectives[1]]),
             _ => None,
         })
         .collect();

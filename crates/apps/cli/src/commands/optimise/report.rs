@@ -432,8 +432,11 @@ pub fn unmet(
     nearest: Option<usize>,
 ) -> Unmet {
     let has_skins = has_samples(goal, found);
-    let is_told = |r: &&Requirement| has_skins || goal.statistic(&r.column).is_none();
-    let requirements: Vec<Requirement> = requirements.iter().filter(is_told).cloned().collect();
+    let requirements: Vec<Requirement> = requirements
+        .iter()
+        .filter(|r| has_skins || goal.statistic(&r.column).is_none())
+        .cloned()
+        .collect();
     let values = |candidate: &Candidate| match &candidate.verdict {
         Judgement::Judged(worth) => worth.required.iter().copied().map(Some).collect(),
         Judgement::Nominal(worth) => {

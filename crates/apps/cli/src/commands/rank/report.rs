@@ -241,20 +241,24 @@ pub fn is_folded(results: &Results, row: usize) -> bool {
 fn shown_cells(results: &Results, preferences: &Preferences, row: usize) -> Vec<String> {
     let columns = shown_columns(results, preferences);
     let is_doubtful = columns.iter().any(|column| is_invalid_after_fold(column));
-    let cell = |column: &String| {
-        let text = results.column(column).map_or_else(|_| "".into(), |of| results.text(row, of));
-        match text.parse::<f64>() {
-            _ if column == "design" && is_doubtful && is_folded(results, row) => {
-                format!("{text}{FOLDED}")
+    columns
+        .iter()
+        .map(|column| {
+            let text =
+                results.column(column).map_or_else(|_| "".into(), |of| results.text(row, of));
+            match text.parse::<f64>() {
+                _ if column == "design" && is_doubtful && is_folded(results, row) => {
+                    format!("{text}{FOLDED}")
+                }
+                Ok(_) if column == "design" => text.into_owned(),
+                // 12 digits identify the design and hide the round-off of a division by the
+                // thickness.
+                Ok(number) if parameter_of(column).is_some() => text::number::rounded(number, 12),
+                Ok(number) => digits(number),
+                _ => text.into_owned(),
             }
-            Ok(_) if column == "design" => text.into_owned(),
-            // 12 digits identify the design and hide the round-off of a division by the thickness.
-            Ok(number) if parameter_of(column).is_some() => text::number::rounded(number, 12),
-            Ok(number) => digits(number),
-            _ => text.into_owned(),
-        }
-    };
-    columns.iter().map(cell).collect()
+        })
+        .collect()
 }
 
 /// Formats the result if no design meets the requirements.

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use anyhow::{Context as _, ensure};
 use optimisation::{DesignGoal, FRONT, GOAL, OPTIMUM, Statistic};
-use ranking::{Criterion, Goal, Relation, Requirement};
+use ranking::{Criterion, Goal, Relation};
 use report::{Designs, PageFront};
 use results::{Completeness, Results, VerifiedFolder};
 use sweep::{PARAMETERS, Parameter, Scalar, Sweep};
@@ -56,18 +56,26 @@ pub fn front(folder: &Path, grid: &FolderContents) -> anyhow::Result<(PageFront,
 
 /// Returns the nominal objectives; for a goal on yield only, the column of the first requirement.
 fn objectives(nominal: &DesignGoal) -> Vec<Criterion> {
-    let of_grid = |objective: &&Criterion| objective.column != Statistic::MARGIN;
-    let objectives: Vec<Criterion> = nominal.objectives.iter().filter(of_grid).cloned().collect();
+    let objectives: Vec<Criterion> = nominal
+        .objectives
+        .iter()
+        .filter(|objective| objective.column != Statistic::MARGIN)
+        .cloned()
+        .collect();
     if !objectives.is_empty() {
         return objectives;
     }
-    let criterion = |requirement: &Requirement| {
-        let is_upper = matches!(requirement.relation, Relation::AtMost | Relation::Below);
-        let goal = if is_upper { Goal::Minimize } else { Goal::Maximize };
-        Criterion::new(&requirement.column, goal)
-    };
     // One is enough: the second axis comes from other requirements or the variables.
-    nominal.requirements.iter().take(1).map(criterion).collect()
+    nominal
+        .requirements
+        .iter()
+        .take(1)
+        .map(|requirement| {
+            let is_upper = matches!(requirement.relation, Relation::AtMost | Relation::Below);
+            let goal = if is_upper { Goal::Minimize } else { Goal::Maximize };
+            Criterion::new(&requirement.column, goal)
+        })
+        .collect()
 }
 
 /// Returns the statistics over samples that a goal names, without duplicates.

@@ -138,19 +138,23 @@ fn short(value: f64) -> String {
     text::number::rounded(value, 3)
 }
 
+/// Returns the yield of all requirements together.
+fn whole_yield(design: &DesignTolerance) -> Option<Proportion> {
+    design.yields.last().and_then(|of| of.proportion)
+}
+
 /// Lists the designs with the highest yield, or in their order without requirements.
 fn list(sweep: &Sweep, requirements: &[Requirement], all: &[DesignTolerance]) -> String {
     let count = counted(all.len() as u64, "design");
     let mut text = format!("{}: {count} of {}\n", sweep.name(), sweep.grid().len());
-    let share = |design: &&DesignTolerance| {
-        let last = design.yields.last().and_then(|of| of.proportion);
-        last.map_or(-1.0, Proportion::share)
-    };
     let mut designs: Vec<&DesignTolerance> = all.iter().collect();
     // A stable sort: ties keep their order.
-    designs.sort_by(|one, other| share(other).total_cmp(&share(one)));
+    designs.sort_by(|one, other| {
+        let [one, other] = [one, other].map(|d| whole_yield(d).map_or(-1.0, Proportion::share));
+        other.total_cmp(&one)
+    });
     let row = |design: &&DesignTolerance| {
-        let yielded = design.yields.last().and_then(|of| of.proportion).map(proportion);
+        let yielded = whole_yield(design).map(proportion);
         let first = [design.nominal.number.to_string(), yielded.unwrap_or_default()];
         let shown = design.measures.iter().filter(|m| is_shown(&m.name, requirements));
         // One line per measure, because a single line would be too wide.
