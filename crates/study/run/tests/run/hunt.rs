@@ -155,7 +155,7 @@ fn paths_pass_rare_events() {
     }
 }
 
-/// Returns the outcome of the puncture, and forces of one with this largest step.
+/// Punctures a design with this largest step; returns the outcome and the forces.
 fn forces(case: &Case, max_step: f64) -> (Outcome, [Option<f64>; 3]) {
     let mut case = *case;
     case.common.solver.max_step = max_step;
@@ -165,9 +165,9 @@ fn forces(case: &Case, max_step: f64) -> (Outcome, [Option<f64>; 3]) {
     (punctured.outcome, [measures.critical_force, measures.fold_force, measures.failure.force])
 }
 
-/// Compares the forces of a design with those of small steps.
+/// Solves a design with the default step and with small steps, and asserts that the forces agree.
 ///
-/// Returns false if a path ended for a numeric reason.
+/// Returns false, without a comparison, if a path ended for a numeric reason.
 fn compare_with_small_steps(seed: u64) -> bool {
     let mut case = mixed_case(seed);
     // Friction has a history, which depends slightly on the step.
