@@ -15,6 +15,8 @@ pub type Direction = [(&'static Parameter, f64)];
 /// Differences of the solutions of designs near a design.
 pub struct Differences<'a> {
     case: &'a Case,
+    /// Shares the calibration of footprints that several designs have.
+    evaluator: Evaluator,
     /// Results by direction and step.
     solved: RefCell<HashMap<(String, i32), DesignResult>>,
 }
@@ -42,7 +44,13 @@ const SEARCHED: f64 = 2e-10;
 
 impl<'a> Differences<'a> {
     pub fn of(case: &'a Case) -> Self {
-        Self { case, solved: RefCell::default() }
+        Self::of_measures(case, &Measure::USUAL)
+    }
+
+    /// Creates the differences of some kinds of measures; the others have no values.
+    pub fn of_measures(case: &'a Case, measures: &[Measure]) -> Self {
+        let evaluator = Evaluator::new(measures);
+        Self { case, evaluator, solved: RefCell::default() }
     }
 
     /// Returns the relative error of a directional derivative.
@@ -102,58 +110,54 @@ impl<'a> Differences<'a> {
             let moved = along.iter().try_fold(*self.case, |case, (parameter, rate)| {
                 parameter.moved(&case, f64::from(steps) * STEP * rate)
             });
-            solve(&moved.unwrap())
+            self.evaluator.solve(super::designs::number(), &moved.unwrap()).row.result
         });
         value(result, measure)
     }
 }
 
-fn solve(case: &Case) -> DesignResult {
-    Evaluator::new(&Measure::USUAL).solve(super::designs::number(), case).row.result
-}
-
 /// Returns the measure with this name.
 pub fn value(result: &DesignResult, name: &str) -> Option<f64> {
-    let puncture = result.puncture.map(|puncture| puncture.measures)?;
-    let flexure = result.flexure.map(|flexure| flexure.measures)?;
+    let puncture = result.puncture.map(|puncture| puncture.measures);
+    let flexure = result.flexure.map(|flexure| flexure.measures);
     match name {
         "coverage" => result.coverage,
-        "critical_force" => puncture.critical_force,
-        "peak_force" => puncture.peak_force,
-        "critical_displacement" => puncture.critical_displacement,
-        "penetration" => puncture.penetration,
-        "sink" => puncture.sink,
-        "first_contact_displacement" => puncture.first_contact_displacement,
-        "initial_stiffness" => puncture.initial_stiffness,
-        "max_stiffness" => puncture.max_stiffness,
-        "secant_stiffness" => puncture.secant_stiffness,
-        "gap_stretch_min" => puncture.gap_stretch_min,
-        "gap_stretch_max" => puncture.gap_stretch_max,
-        "fold_force" => puncture.fold_force,
-        "fold_displacement" => puncture.fold_displacement,
-        "fold_tilt_deg" => puncture.fold_tilt_deg,
-        "sound_force" => puncture.sound_force,
-        "peak_displacement" => puncture.peak_displacement,
-        "peak_tilt_deg" => puncture.peak_tilt_deg,
-        "load_stability_force" => puncture.load_stability_force,
-        "depth_stability_force" => puncture.depth_stability_force,
-        "weakest_force" => puncture.weakest.force,
-        "failure_force" => puncture.failure.force,
-        "force_across" => puncture.across.force,
-        "force_any_direction" => puncture.across.any_direction,
-        "scale_stress_max" => puncture.failure.scale_stress,
-        "scale_deflection_max" => puncture.failure.scale_deflection,
-        "bond_stress_max" => puncture.failure.bond_stress,
-        "tissue_pressure_max" => puncture.failure.tissue_pressure,
-        "tissue_pressure_at_force" => puncture.tissue_pressure_at_force,
-        "clearance" => puncture.failure.clearance,
-        "compliance" => flexure.compliance,
-        "initial_compliance" => flexure.initial_compliance,
-        "first_contact_curvature" => flexure.first_contact_curvature,
-        "contact_curvature" => flexure.contact_curvature,
-        "max_moment" => flexure.max_moment,
-        "axial_energy_share" => flexure.axial_energy_share,
-        "membrane_strain_max" => flexure.membrane_strain_max,
+        "critical_force" => puncture?.critical_force,
+        "peak_force" => puncture?.peak_force,
+        "critical_displacement" => puncture?.critical_displacement,
+        "penetration" => puncture?.penetration,
+        "sink" => puncture?.sink,
+        "first_contact_displacement" => puncture?.first_contact_displacement,
+        "initial_stiffness" => puncture?.initial_stiffness,
+        "max_stiffness" => puncture?.max_stiffness,
+        "secant_stiffness" => puncture?.secant_stiffness,
+        "gap_stretch_min" => puncture?.gap_stretch_min,
+        "gap_stretch_max" => puncture?.gap_stretch_max,
+        "fold_force" => puncture?.fold_force,
+        "fold_displacement" => puncture?.fold_displacement,
+        "fold_tilt_deg" => puncture?.fold_tilt_deg,
+        "sound_force" => puncture?.sound_force,
+        "peak_displacement" => puncture?.peak_displacement,
+        "peak_tilt_deg" => puncture?.peak_tilt_deg,
+        "load_stability_force" => puncture?.load_stability_force,
+        "depth_stability_force" => puncture?.depth_stability_force,
+        "weakest_force" => puncture?.weakest.force,
+        "failure_force" => puncture?.failure.force,
+        "force_across" => puncture?.across.force,
+        "force_any_direction" => puncture?.across.any_direction,
+        "scale_stress_max" => puncture?.failure.scale_stress,
+        "scale_deflection_max" => puncture?.failure.scale_deflection,
+        "bond_stress_max" => puncture?.failure.bond_stress,
+        "tissue_pressure_max" => puncture?.failure.tissue_pressure,
+        "tissue_pressure_at_force" => puncture?.tissue_pressure_at_force,
+        "clearance" => puncture?.failure.clearance,
+        "compliance" => flexure?.compliance,
+        "initial_compliance" => flexure?.initial_compliance,
+        "first_contact_curvature" => flexure?.first_contact_curvature,
+        "contact_curvature" => flexure?.contact_curvature,
+        "max_moment" => flexure?.max_moment,
+        "axial_energy_share" => flexure?.axial_energy_share,
+        "membrane_strain_max" => flexure?.membrane_strain_max,
         other => panic!("{other}"),
     }
 }
