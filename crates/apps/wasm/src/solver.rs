@@ -6,7 +6,7 @@ use results::{DesignRow, SolvedDesign};
 use run::{Evaluator, GapChange, Patience, validity_warnings};
 use skin::Imperfection;
 use skin::flexure::{self, Flexure};
-use skin::puncture::{self};
+use skin::puncture::{self, PunctureParameters};
 use sweep::{Case, Measure, Sweep};
 
 use crate::answer::{Answer, Required, Slope, Units, Value, written};
@@ -73,12 +73,13 @@ impl Solver {
         }
         let puncture = solved.puncture.as_ref().and_then(|path| {
             let substrate = evaluator.substrate(&case).ok()?;
+            let parameters = PunctureParameters { unload: false, ..smooth.punctured() };
             PuncturedRow::new(&case, path, drawn[0], |at| {
                 puncture::snapshots_to_end(
                     &smooth.design,
                     &*substrate,
                     &smooth.common,
-                    &smooth.punctured(),
+                    &parameters,
                     at,
                 )
             })

@@ -368,11 +368,12 @@ struct Followed {
 impl Followed {
     /// Returns true if the path ended where it began.
     fn is_back_at_rest(&self) -> bool {
-        let ends =
-            matches!(self.status, Status::Stopped(Termination::Unloaded | Termination::Jumps));
-        let depths = || self.watch.record.path.iter().map(|point| point.displacement.abs());
-        let farthest = depths().fold(0.0, f64::max);
-        ends && depths().next_back().is_some_and(|last| last <= NEAR_REST * farthest)
+        if !matches!(self.status, Status::Stopped(Termination::Unloaded | Termination::Jumps)) {
+            return false;
+        }
+        let path = &self.watch.record.path;
+        let farthest = path.iter().map(|point| point.displacement.abs()).fold(0.0, f64::max);
+        path.last().is_some_and(|last| last.displacement.abs() <= NEAR_REST * farthest)
     }
 
     /// Builds the result of the puncture.
@@ -594,8 +595,8 @@ impl<'a> Problem<'a> {
 
     /// Follows the path of the puncture, with smaller steps if it turns around.
     ///
-    /// Only one branch leaves the state at rest, so a path that returns there has turned around at an
-    /// event: round-off decided on its direction.
+    /// Only one branch leaves the state at rest, so a path that returns there has turned around at
+    /// an event, where round-off decided on its direction.
     fn follow(
         &self,
         functions: &[PathFunction<Chain>],

@@ -340,10 +340,6 @@ fn solve(case: &Case, to: Option<f64>) -> anyhow::Result<(Puncture, Flexure, Vec
             puncture::snapshots(&case.design, &substrate, &common, &alone, &at)?
         }
     };
-    if alone.unload && to.is_none() {
-        // Snapshots belong to the loading path.
-        puncture.unloading = puncture::solve(&case.design, &substrate, &common, &alone)?.unloading;
-    }
     let reached = judged.into_iter().chain([FailureMode::Tilt]).zip(&found);
     let reached = reached.filter_map(|(mode, row)| Some((mode, row.as_ref()?)));
     let reached: Vec<_> =

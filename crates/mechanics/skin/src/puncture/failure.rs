@@ -431,6 +431,12 @@ impl Chain {
         self.row_values(state).fractions
     }
 
+    /// Computes the largest fraction of the limit of a mode; 0 if it is no limit of a scale.
+    pub(super) fn fraction(&self, state: &SkinState, mode: FailureMode) -> f64 {
+        let limit = LIMITS.iter().position(|limit| *limit == mode);
+        limit.map_or(0.0, |limit| self.fractions(state)[limit])
+    }
+
     /// Computes the largest values of any scale.
     fn row_values(&self, state: &SkinState) -> ScaleValues {
         let mut largest = ScaleValues::default();

@@ -50,10 +50,18 @@ impl At {
             Self::Displacement(_) => |chain, state| chain.depth(&state.z),
             Self::Force(_) => |chain, state| chain.force(state),
             Self::Tilt(_) => |chain, state| chain.angle_deg(state).abs(),
-            Self::Limit(FailureMode::Break) => |chain, state| chain.fractions(state)[0],
-            Self::Limit(FailureMode::Bend) => |chain, state| chain.fractions(state)[1],
-            Self::Limit(FailureMode::Debond) => |chain, state| chain.fractions(state)[2],
-            Self::Limit(FailureMode::Perforate) => |chain, state| chain.fractions(state)[3],
+            Self::Limit(FailureMode::Break) => {
+                |chain, state| chain.fraction(state, FailureMode::Break)
+            }
+            Self::Limit(FailureMode::Bend) => {
+                |chain, state| chain.fraction(state, FailureMode::Bend)
+            }
+            Self::Limit(FailureMode::Debond) => {
+                |chain, state| chain.fraction(state, FailureMode::Debond)
+            }
+            Self::Limit(FailureMode::Perforate) => {
+                |chain, state| chain.fraction(state, FailureMode::Perforate)
+            }
             Self::Limit(_) => |_, _| 0.0,
         };
         let value = match self {
@@ -112,7 +120,8 @@ pub fn snapshots(
     at: &[At],
 ) -> Result<Snapshots, OutOfRange> {
     let stiffness = substrate.into();
-    let mut parameters = *parameters;
+    // Only the loading path has snapshots.
+    let mut parameters = PunctureParameters { unload: false, ..*parameters };
     loop {
         let solved = snapshots_to_end(design, stiffness.clone(), common, &parameters, at)?;
         let mut found = at.iter().zip(&solved.at);
@@ -125,7 +134,7 @@ pub fn snapshots(
 
 /// Solves the puncture with snapshots, ending where [`solve`](super::solve) does.
 ///
-/// Points beyond that end are `None`.
+/// Points beyond that end are `None`. With `unload` the puncture has its unloading path, too.
 ///
 /// # Errors
 /// As [`snapshots`].
@@ -146,7 +155,7 @@ pub fn snapshots_to_end(
     let end = snapshot(&followed.path.point().state);
     let is_critical = followed.path.termination() == Some(Termination::Reached)
         && followed.status != Status::Untilted;
-    Ok(Snapshots { puncture: followed.puncture(false), at, end, is_critical })
+    Ok(Snapshots { puncture: followed.puncture(parameters.unload), at, end, is_critical })
 }
 
 fn snapshot(chain: &Chain, pitch: f64, state: &SkinState) -> RowSnapshot {
