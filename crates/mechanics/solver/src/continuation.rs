@@ -570,7 +570,9 @@ impl<S: System> Continuation<S> {
         // Prescribe the control parameter even if the arc length measured the step, so that the
         // target is met to the last bit.
         let (target, control) = (end.signum() * self.system.target(), self.control_parameter());
-        let state = from.state.interpolated(&beyond.state, (target - start) / (end - start));
+        // A path continued with another system may start at its target up to round-off.
+        let fraction = if end == start { 0.0 } else { (target - start) / (end - start) };
+        let state = from.state.interpolated(&beyond.state, fraction);
         let condition = Condition::new(vec![(control.index, 1.0 / control.scale)], target);
         self.correct(state, &condition)
     }

@@ -22,6 +22,12 @@ use crate::{Design, PathDetail, Status};
 /// A gap that almost folds and opens again may fold on the path of a neighbour.
 const LEAST_STRETCH: f64 = 0.05;
 
+/// Least load position of a puncture with a usable end.
+///
+/// A scale under a load farther to the left is near its balance at some slant. There it may tilt
+/// either way, and only the path tells which.
+const LEAST_POSITION: f64 = 0.6;
+
 /// Numbers of steps from a similar design to the wanted one, tried in turn.
 const STEPS: [u8; 2] = [1, 8];
 
@@ -61,8 +67,10 @@ impl PunctureEnd {
     pub(super) fn new(problem: &Problem, followed: &Followed) -> Option<Self> {
         let Followed { watch, path, status, .. } = followed;
         let folds_for_good = watch.folds.least_dip >= LEAST_STRETCH;
-        let is_usable = problem.has_end() && *status == Status::Complete && folds_for_good;
-        if !is_usable {
+        // A tilt that reverses may reach its critical value on another branch of a neighbour.
+        let tilts_on = watch.record.path.is_sorted_by_key(|point| point.tilt_deg);
+        let is_complete = problem.has_end() && *status == Status::Complete;
+        if !(is_complete && folds_for_good && tilts_on) {
             return None;
         }
         Some(Self::at(problem, path.system().layout, TargetPoint::of_path(path)?))
@@ -131,13 +139,14 @@ impl PunctureInput {
 
 impl PunctureParameters {
     /// Returns true if every measure of [`PathDetail::Critical`] belongs to the end of the path or
-    /// to a fold of the surface.
+    /// to a fold of the surface, and similar designs tilt the same way.
     ///
     /// Without friction, only such punctures have a [`PunctureEnd`].
     pub fn depend_on_end_only(&self) -> bool {
         self.needle == Needle::Free
             && self.bending == Bending::Rigid
             && !self.unload
+            && self.load_position >= LEAST_POSITION
             && self.failure.is_none()
             && self.places.is_none()
             && self.depth.is_none()

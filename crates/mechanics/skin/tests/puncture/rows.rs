@@ -1,8 +1,10 @@
 //! Rows of any length.
 
 use approx::assert_relative_eq;
-use skin::puncture::{PunctureParameters, RowLength};
-use skin::{Base, Common, Design};
+use contact::Law;
+use skin::puncture::{self, PunctureParameters, RowLength};
+use skin::{Base, Common, Design, PathDetail};
+use solver::Settings;
 use substrate::{Calibrations, Coupling, RowStiffness};
 
 use crate::samples::{
@@ -45,6 +47,35 @@ fn automatic_rows_grow_where_scales_touch() {
     // The domino effect runs to the right.
     let [left, right] = row(&domino());
     assert!(right >= 4 * left, "{left} {right}");
+}
+
+/// The step to the critical tilt ends beyond it by round-off, and the contact there reaches more
+/// scales.
+#[test]
+fn a_row_that_grows_at_the_critical_tilt_is_completed() {
+    let known = Calibrations::default();
+    let design = design(
+        0.501_236_456_022_181_6,
+        0.450_867_931_000_371_87,
+        65.229_831_378_204_57,
+        Base::TwoL,
+    );
+    let parameters = PunctureParameters {
+        contact_modulus_over_substrate: 138.209_603_399_707_1,
+        load_position: 0.767_237_383_621_880_3,
+        critical_tilt_deg: 16.012_588_191_662_68,
+        ..automatic()
+    };
+    let footprint = design.footprint(parameters.poisson_ratio).unwrap();
+    let stiffness = known.row(&footprint, Coupling::Full).unwrap().as_ref().clone();
+    let common = Common { law: Law::EXCHANGED, detail: PathDetail::Critical, ..Common::default() };
+    let [usual, finer] = [0.2, 0.05].map(|max_step| {
+        let solver = Settings { max_step, ..Settings::default() };
+        let common = Common { solver, ..common };
+        let puncture = puncture::solve(&design, stiffness.clone(), &common, &parameters).unwrap();
+        complete(&puncture).critical_force.unwrap()
+    });
+    assert_relative_eq!(usual, finer, max_relative = 1e-9);
 }
 
 /// The end scales touch nothing, so displacements decay as in an endless row.
